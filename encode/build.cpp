@@ -47,9 +47,8 @@ std::optional<std::int32_t> foot_of(const Rig& rig) {
 Status read_all_pictures(const CaptureSet& set, RaySpaceObject& object, Progress* progress) {
     const int count = static_cast<int>(set.upright.views.size());
     return for_each_in_parallel(count, "pictures", progress, [&](int i) -> Status {
-        const Result<Image<Rgba8>> picture = read_upright_picture(set, i);
-        if (!picture) return picture.error();
-        object.pictures[static_cast<std::size_t>(i)] = planar_from_rgba(*picture);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, read_upright_picture(set, i));
+        object.pictures[static_cast<std::size_t>(i)] = planar_from_rgba(picture);
         return {};
     });
 }
@@ -75,7 +74,7 @@ PlaneMapOptions usual_plane_map(MapKind kind) {
 
 Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& options, Progress* progress) {
     const std::vector<ViewRing> rings = find_rings(set.upright);
-    if (const Status status = check_options(options.map, rings.size()); !status) return status.error();
+    RS_TRY(check_options(options.map, rings.size()));
 
     BuiltObject built;
     RaySpaceObject& object = built.object;
@@ -114,15 +113,14 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
     object.pictures.resize(object.views.size());
     const bool has_shape = options.raymap == MapKind::kShape;
     if (options.raw_pictures && !has_shape) {
-        if (const Status status = read_all_pictures(set, object, progress); !status) return status.error();
+        RS_TRY(read_all_pictures(set, object, progress));
     }
     if (has_shape) {
-        Result<FoundShapes> shapes =
-            add_shape_maps(set, rig, rings, options.shape, options.raw_pictures, object, progress);
-        if (!shapes) return shapes.error();
-        built.warnings.insert(built.warnings.end(), shapes->warnings.begin(), shapes->warnings.end());
-        built.depths = std::move(shapes->samples);
-        built.completed = std::move(shapes->completed);
+        RS_ASSIGN_OR_RETURN(FoundShapes shapes,
+                            add_shape_maps(set, rig, rings, options.shape, options.raw_pictures, object, progress));
+        built.warnings.insert(built.warnings.end(), shapes.warnings.begin(), shapes.warnings.end());
+        built.depths = std::move(shapes.samples);
+        built.completed = std::move(shapes.completed);
     }
     return built;
 }

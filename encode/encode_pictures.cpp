@@ -172,14 +172,11 @@ std::uint64_t coded_bytes(const codec::CodedPictures& coded) {
 Result<EncodedPictures> encode_pictures(const CaptureSet& set, const RaySpaceObject& object, const PictureGoal& goal,
                                         std::optional<int> alpha_bits, Progress* progress) {
     std::vector<SourcePicture> sources(object.views.size());
-    const Status read =
-        for_each_in_parallel(static_cast<int>(sources.size()), "pictures", progress, [&](int view) -> Status {
-            const Result<Image<Rgba8>> picture = read_upright_picture(set, view);
-            if (!picture) return picture.error();
-            sources[static_cast<std::size_t>(view)] = source_picture(*picture, alpha_bits.value_or(2));
-            return {};
-        });
-    if (!read) return read.error();
+    RS_TRY(for_each_in_parallel(static_cast<int>(sources.size()), "pictures", progress, [&](int view) -> Status {
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, read_upright_picture(set, view));
+        sources[static_cast<std::size_t>(view)] = source_picture(picture, alpha_bits.value_or(2));
+        return {};
+    }));
     if (!alpha_bits && goal.profile == codec::Profile::kDense && soft_share(sources) >= kSoftShare) {
         alpha_bits = kSoftAlphaBits;
     }

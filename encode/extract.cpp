@@ -11,27 +11,25 @@ Status extract_pictures(const RaySpaceObject& object, const std::filesystem::pat
     if (object.rig_json.empty()) {
         return Error{object.name + ": holds no rig, so its pictures make no capture set; encode it again"};
     }
-    Result<Rig> rig = rig_from_json(object.rig_json, object.name + " (its rig)");
-    if (!rig) return rig.error();
-    if (rig->views.size() != object.pictures.size()) {
-        return Error{object.name + ": its rig has " + std::to_string(rig->views.size()) + " views for " +
+    RS_ASSIGN_OR_RETURN(Rig rig, rig_from_json(object.rig_json, object.name + " (its rig)"));
+    if (rig.views.size() != object.pictures.size()) {
+        return Error{object.name + ": its rig has " + std::to_string(rig.views.size()) + " views for " +
                      std::to_string(object.pictures.size()) + " pictures; the object is damaged, encode it again"};
     }
-    Result<StagedFolder> staged = StagedFolder::create(folder, "pictures out of an object");
-    if (!staged) return staged.error();
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, "pictures out of an object"));
 
     const int count = static_cast<int>(object.pictures.size());
     for (int i = 0; i < count; ++i) {
-        rig->views[static_cast<std::size_t>(i)].file_path = numbered_picture_name(static_cast<std::size_t>(i));
-        rig->views[static_cast<std::size_t>(i)].depth_file_path.clear();
+        rig.views[static_cast<std::size_t>(i)].file_path = numbered_picture_name(static_cast<std::size_t>(i));
+        rig.views[static_cast<std::size_t>(i)].depth_file_path.clear();
     }
     Status written = for_each_in_parallel(count, "pictures", progress, [&](int i) {
         const auto n = static_cast<std::size_t>(i);
-        return write_png(staged->temporary_path() / rig->views[n].file_path, rgba_from_planar(object.pictures[n]));
+        return write_png(staged.temporary_path() / rig.views[n].file_path, rgba_from_planar(object.pictures[n]));
     });
     if (!written) return written;
-    if (Status status = write_rig(staged->temporary_path() / kRigFileName, *rig); !status) return status;
-    return staged->commit();
+    if (Status status = write_rig(staged.temporary_path() / kRigFileName, rig); !status) return status;
+    return staged.commit();
 }
 
 }  // namespace rs::encode

@@ -140,56 +140,51 @@ Status check_count(const PhotoFolder& folder, const ImportOptions& options) {
 }
 
 Result<ImportReport> import_checked(const ImportOptions& options, Progress* progress) {
-    if (Status status = check_places(options); !status) return status.error();
-    Result<PhotoFolder> folder = open_photos(photo_request(options), progress);
-    if (!folder) return folder.error();
-    if (!options.segmentation.masks.empty() && folder->turns_unnoticed()) {
-        return turned_beside(*folder, "--masks " + options.segmentation.masks.string());
+    RS_TRY(check_places(options));
+    RS_ASSIGN_OR_RETURN(PhotoFolder folder, open_photos(photo_request(options), progress));
+    if (!options.segmentation.masks.empty() && folder.turns_unnoticed()) {
+        return turned_beside(folder, "--masks " + options.segmentation.masks.string());
     }
-    if (Status status = check_count(*folder, options); !status) return status.error();
-    Result<StagedFolder> staged = StagedFolder::create(options.output, "imported photographs");
-    if (!staged) return staged.error();
-    const fs::path set = staged->temporary_path();
+    RS_TRY(check_count(folder, options));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(options.output, "imported photographs"));
+    const fs::path set = staged.temporary_path();
     const fs::path cut = set / "cut";
     for (const fs::path& inner : {cut, set / "images"}) {
-        if (Status status = make_folder(inner, options.output); !status) return status.error();
+        RS_TRY(make_folder(inner, options.output));
     }
 
-    Result<Intake> intake = take_in(std::move(*folder), progress);
-    if (!intake) return intake.error();
+    RS_ASSIGN_OR_RETURN(Intake intake, take_in(std::move(folder), progress));
 
-    Result<ChosenSegmenter> chosen = choose_segmenter(options.segmentation, *intake, options.photos.string(), progress);
-    if (!chosen) return chosen.error();
-    intake->survey = Survey{};  // frees memory; the survey is not needed any more
+    RS_ASSIGN_OR_RETURN(ChosenSegmenter chosen,
+                        choose_segmenter(options.segmentation, intake, options.photos.string(), progress));
+    intake.survey = Survey{};  // frees memory; the survey is not needed any more
 
-    const CutoutCache cutouts(cut, intake->folder.width, intake->folder.height);
-    Result<SegmentedTurn> turn =
-        segment_turn(intake->folder, *chosen->segmenter, cutouts, progress, options.segmentation.parameters.foreground);
-    if (!turn) return turn.error();
-    chosen->segmenter.reset();
+    const CutoutCache cutouts(cut, intake.folder.width, intake.folder.height);
+    RS_ASSIGN_OR_RETURN(SegmentedTurn turn, segment_turn(intake.folder, chosen->segmenter, cutouts, progress,
+                                                         options.segmentation.parameters.foreground));
+    chosen.segmenter.reset();
     SegmentationFindings findings =
-        check_segmentation(intake->folder, *turn, chosen->kind, options.segmentation.parameters.checks);
-    chosen->notes.insert(chosen->notes.end(), findings.notes.begin(), findings.notes.end());
-    if (Status status = settle(options, findings.problems, chosen->notes); !status) return status.error();
+        check_segmentation(intake.folder, turn, chosen.kind, options.segmentation.parameters.checks);
+    chosen.notes.insert(chosen.notes.end(), findings.notes.begin(), findings.notes.end());
+    RS_TRY(settle(options, findings.problems, chosen.notes));
 
-    Result<FoundRig> rig = find_rig(options, intake->folder, *turn, cutouts, progress);
-    if (!rig) return rig.error();
-    if (Status status = settle(options, calibration_problems(*rig), rig->notes); !status) return status.error();
+    RS_ASSIGN_OR_RETURN(FoundRig rig, find_rig(options, intake.folder, turn, cutouts, progress));
+    RS_TRY(settle(options, calibration_problems(rig), rig.notes));
 
-    Result<ImportReport> report = write_import_set(
-        set, intake->folder, *turn, cutouts, report_of(options, *intake, *chosen, *turn, std::move(*rig)), progress);
-    if (!report) return report.error();
+    RS_ASSIGN_OR_RETURN(ImportReport report,
+                        write_import_set(set, intake.folder, turn, cutouts,
+                                         report_of(options, intake, chosen, turn, std::move(rig)), progress));
     std::error_code failure;
     fs::remove_all(cut, failure);
     if (failure) return Error{options.output.string() + ": cannot be written (" + failure.message() + ")"};
-    if (Status status = staged->commit(); !status) return status.error();
+    RS_TRY(staged.commit());
     return report;
 }
 
 }  // namespace
 
 Result<ImportReport> import_photos(const ImportOptions& options, Progress* progress) {
-    if (Status status = check(options); !status) return status.error();
+    RS_TRY(check(options));
     // Many photos are processed in parallel; OpenCV's own threads would only compete for the same cores.
     cv::setNumThreads(1);
     try {

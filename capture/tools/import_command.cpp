@@ -196,15 +196,13 @@ Status check_frames_usage(const ImportCommandLine& given) {
 Status run_import(const ImportCommandLine& given) {
     ImportOptions options = given.import;
     if (Status status = check_frames_usage(given); !status) return status;
-    const Result<BackgroundRequest> backdrop = parse_background(given.backdrop);
-    if (!backdrop) return backdrop.error();
-    options.segmentation.background = *backdrop;
+    RS_ASSIGN_OR_RETURN(const BackgroundRequest backdrop, parse_background(given.backdrop));
+    options.segmentation.background = backdrop;
     options.segmentation.kind = kSegmenters.at(given.segmenter);
     options.segmentation.shadow = given.shadow == "keep" ? ShadowHandling::kKeep : ShadowHandling::kRemove;
     if (!given.parameters.empty()) {
-        const Result<SegmentationParameters> parameters = read_segmentation_parameters(given.parameters);
-        if (!parameters) return parameters.error();
-        options.segmentation.parameters = *parameters;
+        RS_ASSIGN_OR_RETURN(const SegmentationParameters parameters, read_segmentation_parameters(given.parameters));
+        options.segmentation.parameters = parameters;
     }
     const bool takes_network =
         options.segmentation.kind == SegmenterKind::kAuto || options.segmentation.kind == SegmenterKind::kModel;
@@ -221,44 +219,38 @@ Status run_import(const ImportCommandLine& given) {
     if (given.counter_clockwise) options.turning = Turning::kCounterClockwise;
     std::optional<StagedFile> page;  // created before the import, so that an unusable path is reported at once
     if (!given.report.empty()) {
-        Result<StagedFile> created = StagedFile::create(given.report);
-        if (!created) return created.error();
-        page = std::move(*created);
+        RS_ASSIGN_OR_RETURN(StagedFile created, StagedFile::create(given.report));
+        page = std::move(created);
     }
     if (!given.board.empty()) {
-        const Result<BoardDesign> board = parse_board_design(given.board);
-        if (!board) return board.error();
-        options.board = *board;
+        RS_ASSIGN_OR_RETURN(const BoardDesign board, parse_board_design(given.board));
+        options.board = board;
     }
     if (!given.known.empty()) {
-        const Result<PhotoFolder> folder = open_photo_folder(options.photos);
-        if (!folder) return folder.error();
-        if (folder->orientation != 1 || folder->states_several()) {
-            return turned_beside(*folder, "--known " + given.known);
+        RS_ASSIGN_OR_RETURN(const PhotoFolder folder, open_photo_folder(options.photos));
+        if (folder.orientation != 1 || folder.states_several()) {
+            return turned_beside(folder, "--known " + given.known);
         }
-        Result<KnownFile> known = read_known_file(given.known, {folder->shown_width, folder->shown_height});
-        if (!known) return known.error();
-        options.known = std::move(*known);
+        RS_ASSIGN_OR_RETURN(KnownFile known, read_known_file(given.known, {folder.shown_width, folder.shown_height}));
+        options.known = std::move(known);
     }
     options.known.known.equal_steps = given.equal_steps;
     options.known.known.estimate_principal_point = given.principal_point;
     ProgressBar bar(given.quiet);
-    const Result<ImportReport> report = import_photos(options, &bar);
-    if (!report) return report.error();
+    RS_ASSIGN_OR_RETURN(const ImportReport report, import_photos(options, &bar));
     if (page) {
-        const Result<std::string> text = import_page(options.photos, *report);
-        if (!text) return text.error();
-        if (Status status = page->write(std::as_bytes(std::span(*text))); !status) return status;
+        RS_ASSIGN_OR_RETURN(const std::string text, import_page(options.photos, report));
+        if (Status status = page->write(std::as_bytes(std::span(text))); !status) return status;
         if (Status status = page->commit(); !status) return status;
     }
-    for (const std::string& note : report->notes) {
+    for (const std::string& note : report.notes) {
         if (!given.quiet) std::fprintf(stderr, "rs-capture: %s\n", printable(note).c_str());
     }
     const std::string output = options.output.string();
     if (given.json) {
-        print_json(output, *report);
+        print_json(output, report);
     } else {
-        print_summary(output, *report);
+        print_summary(output, report);
     }
     return {};
 }

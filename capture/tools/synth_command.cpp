@@ -142,10 +142,9 @@ Status check_usage(const Options& options) {
 
 Result<Rig> choose_rig(const Options& options, const SceneFile& file) {
     if (!options.poses.empty()) {
-        Result<Rig> posed = read_rig(options.poses);
-        if (!posed) return posed.error();
+        RS_ASSIGN_OR_RETURN(Rig posed, read_rig(options.poses));
         Rig rig;  // keys of the other set, such as its generator's, are not ours
-        for (const RigView& view : posed->views) {
+        for (const RigView& view : posed.views) {
             if (view.camera.width == 0 || view.camera.height == 0) {
                 return Error{options.poses.string() + ": has no picture sizes; add \"w\" and \"h\""};
             }
@@ -199,10 +198,9 @@ void print_summary(const Options& options, const std::string& scene_name, const 
 }
 
 Result<Made> make_set(const Options& options, SceneFile file, Progress& progress) {
-    Result<Rig> rig = choose_rig(options, file);
-    if (!rig) return rig.error();
-    rig->object_radius = file.object_radius;
-    rig->foot_height = file.ground_height;
+    RS_ASSIGN_OR_RETURN(Rig rig, choose_rig(options, file));
+    rig.object_radius = file.object_radius;
+    rig.foot_height = file.ground_height;
 
     CaptureSetOptions set;
     set.render.samples_per_pixel = options.samples_per_pixel.value_or(file.camera.samples_per_pixel);
@@ -214,18 +212,17 @@ Result<Made> make_set(const Options& options, SceneFile file, Progress& progress
         set.render.method = RenderMethod::kToon;
         set.render.toon = *file.toon;
     }
-    const Camera& first = rig->views.front().camera;
+    const Camera& first = rig.views.front().camera;
     set.render.lens.aperture = file.camera.aperture_radii;
     set.render.lens.focus =
         file.camera.focus_radii > 0 ? file.camera.focus_radii : glm::dot(-first.centre(), first.forward());
     set.format = options.format == "exr" ? PictureFormat::exr : PictureFormat::png;
 
-    const Result<Tracer> tracer = Tracer::create(std::move(file.scene));
-    if (!tracer) return tracer.error();
-    const Result<CaptureSetSummary> summary = write_capture_set(*tracer, *rig, set, options.output, &progress);
-    if (!summary) return summary.error();
-    const Camera& camera = rig->views.front().camera;
-    return Made{*summary, {camera.width, camera.height}, file.object_radius, set.render.samples_per_pixel};
+    RS_ASSIGN_OR_RETURN(const Tracer tracer, Tracer::create(std::move(file.scene)));
+    RS_ASSIGN_OR_RETURN(const CaptureSetSummary summary,
+                        write_capture_set(tracer, rig, set, options.output, &progress));
+    const Camera& camera = rig.views.front().camera;
+    return Made{summary, {camera.width, camera.height}, file.object_radius, set.render.samples_per_pixel};
 }
 
 Result<Made> make_photos(const Options& options, const SceneFile& file, Progress& progress) {
@@ -246,10 +243,9 @@ Result<Made> make_photos(const Options& options, const SceneFile& file, Progress
     photos.samples_per_pixel = options.samples_per_pixel.value_or(file.camera.samples_per_pixel);
     photos.filtered = !options.unfiltered;
     photos.threads = options.threads;
-    const Result<CaptureSetSummary> summary =
-        write_photo_session(file.scene, file.object_radius, photos, options.output, &progress);
-    if (!summary) return summary.error();
-    return Made{*summary, size, file.object_radius, photos.samples_per_pixel};
+    RS_ASSIGN_OR_RETURN(const CaptureSetSummary summary,
+                        write_photo_session(file.scene, file.object_radius, photos, options.output, &progress));
+    return Made{summary, size, file.object_radius, photos.samples_per_pixel};
 }
 
 Status synthesise(const Options& options) {
@@ -262,27 +258,25 @@ Status synthesise(const Options& options) {
     for (const std::filesystem::path& input : inputs) {
         if (Status kept = check_output_keeps(options.output, input); !kept) return kept;
     }
-    Result<SceneFile> file = load_scene_file(options.scene, synthetic::generate);
-    if (!file) return file.error();
-    if (options.as_photos.asked && file->scene.has_surroundings()) {
+    RS_ASSIGN_OR_RETURN(SceneFile file, load_scene_file(options.scene, synthetic::generate));
+    if (options.as_photos.asked && file.scene.has_surroundings()) {
         return Error{
             options.scene.string() +
             ": photographs are taken in a studio of their own; leave out the recipe's \"room\", or --as-photos"};
     }
-    const std::string scene_name = file->scene.name;
+    const std::string scene_name = file.scene.name;
     ProgressBar progress(options.quiet);
-    const Result<Made> made = options.as_photos.asked ? make_photos(options, *file, progress)
-                                                      : make_set(options, std::move(file).value(), progress);
-    if (!made) return made.error();
+    RS_ASSIGN_OR_RETURN(const Made made, options.as_photos.asked ? make_photos(options, file, progress)
+                                                                 : make_set(options, std::move(file), progress));
     progress.finish();
-    if (made->summary.clipped_views > 0 && !options.quiet) {
+    if (made.summary.clipped_views > 0 && !options.quiet) {
         std::fprintf(
             stderr,
             "rs-capture: warning: the object touches the picture's edge in %d of %d views; use a larger --distance or "
             "a smaller --focal-widths\n",
-            made->summary.clipped_views, made->summary.views);
+            made.summary.clipped_views, made.summary.views);
     }
-    print_summary(options, scene_name, *made, std::chrono::duration<double>(Clock::now() - begun).count());
+    print_summary(options, scene_name, made, std::chrono::duration<double>(Clock::now() - begun).count());
     return {};
 }
 

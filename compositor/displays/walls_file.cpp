@@ -155,9 +155,8 @@ Result<WallDisplay> walls_from_json(const std::string& text, const std::filesyst
 }
 
 Result<WallDisplay> read_walls(const std::filesystem::path& path) {
-    const auto bytes = read_file(path, kMostWalls_bytes);
-    if (!bytes) return bytes.error();
-    return walls_from_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path);
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMostWalls_bytes));
+    return walls_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 
 Result<std::vector<Head>> heads_from_json(const std::string& text, const std::filesystem::path& path) {
@@ -171,9 +170,8 @@ Result<std::vector<Head>> heads_from_json(const std::string& text, const std::fi
 }
 
 Result<std::vector<Head>> read_heads(const std::filesystem::path& path) {
-    const auto bytes = read_file(path, kMostHeads_bytes);
-    if (!bytes) return bytes.error();
-    return heads_from_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path);
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMostHeads_bytes));
+    return heads_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 
 Status keep_walls(WallDisplay& display, const std::string& names) {

@@ -49,10 +49,10 @@ Result<SequencePlayer> SequencePlayer::create(std::shared_ptr<const Sequence> se
     const Scene scene = weather ? in_weather(sequence->scene, *weather) : sequence->scene;
     auto showroom =
         std::make_unique<Showroom>(scene, ShowroomOptions{.memory_bytes = options.memory_bytes, .waits = true});
-    if (const Status status = showroom->wait_for_all({0, 0, 0}); !status) return status.error();
-    auto compositor = FrameCompositor::create(scene, showroom->engine(), showroom->nodes(), options.frame);
-    if (!compositor) return compositor.error();
-    SequencePlayer player(std::move(sequence), std::move(showroom), std::move(*compositor), options);
+    RS_TRY(showroom->wait_for_all({0, 0, 0}));
+    RS_ASSIGN_OR_RETURN(auto compositor,
+                        FrameCompositor::create(scene, showroom->engine(), showroom->nodes(), options.frame));
+    SequencePlayer player(std::move(sequence), std::move(showroom), std::move(compositor), options);
     player.nowhere_ = nowhere_in(scene);
     player.scene_ = scene;
     return player;
@@ -89,12 +89,11 @@ Status SequencePlayer::make_tracer() {
     for (const ShownNode& node : *showroom_->nodes()) {
         if (node.object && !node.hidden) objects.push_back(*node.object);
     }
-    auto tracer = TracedRenderer::create(scene_, objects, *options_.tracing);
-    if (!tracer) return tracer.error();
+    RS_ASSIGN_OR_RETURN(auto tracer, TracedRenderer::create(scene_, objects, *options_.tracing));
     if (tracers_made_++ == 0) {
-        for (const std::string& warning : tracer->warnings()) warnings_.push_back(warning);
+        for (const std::string& warning : tracer.warnings()) warnings_.push_back(warning);
     }
-    tracer_.emplace(std::move(*tracer));
+    tracer_.emplace(std::move(tracer));
     return {};
 }
 
@@ -119,7 +118,7 @@ Status SequencePlayer::trace(std::size_t number, const Camera& camera) {
 
 Result<Image<Rgba8>> SequencePlayer::frame(std::size_t number) {
     const Camera camera = camera_of(*sequence_, number, compositor_.width(), compositor_.height());
-    if (Status status = draw(number, camera); !status) return status.error();
+    RS_TRY(draw(number, camera));
     return compositor_.picture();
 }
 

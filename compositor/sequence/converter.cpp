@@ -85,13 +85,11 @@ Result<std::vector<std::string>> converter_words(const std::string& command, con
 Result<Converted> convert_scene(const std::string& command, const std::filesystem::path& in) {
     const std::filesystem::path place =
         std::filesystem::temp_directory_path() / ("rayspace-converted-" + std::to_string(getpid()));
-    Result<StagedFolder> folder = StagedFolder::create(place, "converted files");
-    if (!folder) return folder.error();
-    std::filesystem::path out = folder->temporary_path() / "scene";
-    const auto words = converter_words(command, in, out);
-    if (!words) return words.error();
-    const int status = run_words(*words);
-    const std::string name = printable(words->front());
+    RS_ASSIGN_OR_RETURN(StagedFolder folder, StagedFolder::create(place, "converted files"));
+    std::filesystem::path out = folder.temporary_path() / "scene";
+    RS_ASSIGN_OR_RETURN(const auto words, converter_words(command, in, out));
+    const int status = run_words(words);
+    const std::string name = printable(words.front());
     if (status < 0) {
         return Error{"--convert: " + name + " cannot be run (" + std::strerror(errno) + "); mend the command's name"};
     }
@@ -104,7 +102,7 @@ Result<Converted> convert_scene(const std::string& command, const std::filesyste
         return Error{printable(in.string()) + ": the converter " + name +
                      " has written nothing to {out}; it must make a folder with a frames.json, or an OBJ, there"};
     }
-    return Converted{std::move(*folder), std::move(out)};
+    return Converted{std::move(folder), std::move(out)};
 }
 
 }  // namespace rs::compositor

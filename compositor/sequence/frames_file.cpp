@@ -103,18 +103,16 @@ Result<SequenceFiles> find_sequence(const fs::path& folder) {
         if (!file && fs::exists(folder / place, error)) file = folder / place;
     }
     if (!file) {
-        Result<std::optional<fs::path>> map = only_map(folder);
-        if (!map) return map.error();
-        file = std::move(*map);
+        RS_ASSIGN_OR_RETURN(std::optional<fs::path> map, only_map(folder));
+        file = std::move(map);
     }
     if (!file) {
         return Error{printable(folder.string()) +
                      ": holds no frames.json, neither here nor in anim/out/; give a map's folder "
                      "(compositor/sequence/README.md)"};
     }
-    const Result<std::vector<std::byte>> bytes = read_file(*file, kMaxFramesFile_bytes);
-    if (!bytes) return bytes.error();
-    return frames_from_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, *file);
+    RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(*file, kMaxFramesFile_bytes));
+    return frames_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, *file);
 }
 
 }  // namespace rs::compositor

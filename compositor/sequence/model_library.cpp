@@ -40,9 +40,8 @@ const Material* Model::material(const std::string& id) const {
 }
 
 Result<ExtendedObj> read_extended_obj(const std::filesystem::path& path) {
-    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxExtendedObj_bytes);
-    if (!bytes) return bytes.error();
-    return parse_extended_obj({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+    RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(path, kMaxExtendedObj_bytes));
+    return parse_extended_obj({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 
 Result<Model> read_model_objects(const std::filesystem::path& path, const ExtendedObj& parsed) {
@@ -52,27 +51,26 @@ Result<Model> read_model_objects(const std::filesystem::path& path, const Extend
         return Error{printable(path.string() + ":" + std::to_string(library.line) + ": the material library '" +
                                library.name + "' is not beside the file; put it there or take out the line")};
     }
-    Result<ModelParts> parts = read_model_parts(path);
-    if (!parts) return parts.error();
+    RS_ASSIGN_OR_RETURN(ModelParts parts, read_model_parts(path));
     Model model;
-    model.warnings = std::move(parts->scene.warnings);
+    model.warnings = std::move(parts.scene.warnings);
     // The first is the reader's own.
-    for (std::size_t i = 1; i < parts->materials.size(); ++i) {
-        model.materials.push_back({parts->materials[i].name, parts->materials[i].material});
+    for (std::size_t i = 1; i < parts.materials.size(); ++i) {
+        model.materials.push_back({parts.materials[i].name, parts.materials[i].material});
     }
     std::map<std::string_view, std::size_t> object_of_node;
     for (const ObjObject& object : parsed.objects) {
         for (const std::string& node : object.nodes) object_of_node.emplace(node, model.objects.size());
         model.objects.push_back({object.name, {}, {}});
     }
-    for (std::size_t i = 0; i < parts->scene.geometry.size(); ++i) {
-        const auto owner = object_of_node.find(parts->nodes[i]);
+    for (std::size_t i = 0; i < parts.scene.geometry.size(); ++i) {
+        const auto owner = object_of_node.find(parts.nodes[i]);
         if (owner == object_of_node.end()) {
-            return Error{printable(path.string() + ": the object '" + parts->nodes[i] +
+            return Error{printable(path.string() + ": the object '" + parts.nodes[i] +
                                    "' is not named by a line of its own; export the file again")};
         }
         ModelObject& object = model.objects[owner->second];
-        GeometryNode& part = parts->scene.geometry[i];
+        GeometryNode& part = parts.scene.geometry[i];
         const BoundingBox box = bounds_of(*part.mesh).moved(part.world_from_node);
         if (!box.empty()) {
             object.box.include(box.lowest);

@@ -41,16 +41,14 @@ public:
         sequence_.frames_per_second = files_.frames_per_second;
         sequence_.weather = files_.weather;
         for (const fs::path& path : files_.models) {
-            const Result<ExtendedObj> parsed = read_extended_obj(path);
-            if (!parsed) return parsed.error();
-            const Result<const Model*> model = model_of(path, *parsed);
-            if (!model) return model.error();
-            models_.push_back(*model);
+            RS_ASSIGN_OR_RETURN(const ExtendedObj parsed, read_extended_obj(path));
+            RS_ASSIGN_OR_RETURN(const const Model* model, model_of(path, parsed));
+            models_.push_back(model);
         }
-        if (Status status = read_base(); !status) return status.error();
-        if (Status status = read_surroundings(); !status) return status.error();
+        RS_TRY(read_base());
+        RS_TRY(read_surroundings());
         for (const fs::path& path : files_.frames) {
-            if (Status status = read_frame(path); !status) return status.error();
+            RS_TRY(read_frame(path));
         }
         add_static_objects();
         return std::move(sequence_);
@@ -93,24 +91,20 @@ private:
         if (!files_.base) {
             sequence_.scene.floor = Floor{};
         } else if (lower_case_extension(*files_.base) != ".obj") {
-            Result<Scene> scene = read_scene(*files_.base);
-            if (!scene) return scene.error();
-            scene->warnings.insert(scene->warnings.end(), sequence_.scene.warnings.begin(),
-                                   sequence_.scene.warnings.end());
-            sequence_.scene = std::move(*scene);
+            RS_ASSIGN_OR_RETURN(Scene scene, read_scene(*files_.base));
+            scene.warnings.insert(scene.warnings.end(), sequence_.scene.warnings.begin(),
+                                  sequence_.scene.warnings.end());
+            sequence_.scene = std::move(scene);
         } else {
-            const Result<ExtendedObj> parsed = read_extended_obj(*files_.base);
-            if (!parsed) return parsed.error();
-            if (!parsed->objects.empty()) {
-                const Result<const Model*> model = model_of(*files_.base, *parsed);
-                if (!model) return model.error();
-                base_ = *model;
+            RS_ASSIGN_OR_RETURN(const ExtendedObj parsed, read_extended_obj(*files_.base));
+            if (!parsed.objects.empty()) {
+                RS_ASSIGN_OR_RETURN(const const Model* model, model_of(*files_.base, parsed));
+                base_ = model;
             }
-            sequence_.camera = parsed->camera;
-            for (const InstanceLine& line : parsed->instances) {
-                const Result<Named> named = find(*files_.base, line, base_);
-                if (!named) return named.error();
-                add_still(*named, line.pose);
+            sequence_.camera = parsed.camera;
+            for (const InstanceLine& line : parsed.instances) {
+                RS_ASSIGN_OR_RETURN(const Named named, find(*files_.base, line, base_));
+                add_still(named, line.pose);
             }
         }
         sequence_.scene.shading = Shading::kPhong;
@@ -120,39 +114,35 @@ private:
     Status read_surroundings() {
         if (files_.background) sequence_.scene.background = *files_.background;
         if (!files_.lights) return {};
-        Result<LightList> list = read_light_list(*files_.lights);
-        if (!list) return list.error();
+        RS_ASSIGN_OR_RETURN(LightList list, read_light_list(*files_.lights));
         Scene& scene = sequence_.scene;
         // A list stands in the place of the light that there is where nobody gives one.
-        if (list->replace || !files_.base || lower_case_extension(*files_.base) == ".obj") scene.lights.clear();
-        scene.lights.insert(scene.lights.end(), list->lights.begin(), list->lights.end());
-        if (list->environment) scene.environment = std::move(list->environment);
+        if (list.replace || !files_.base || lower_case_extension(*files_.base) == ".obj") scene.lights.clear();
+        scene.lights.insert(scene.lights.end(), list.lights.begin(), list.lights.end());
+        if (list.environment) scene.environment = std::move(list.environment);
         return {};
     }
 
     Status read_frame(const fs::path& path) {
-        const Result<ExtendedObj> parsed = read_extended_obj(path);
-        if (!parsed) return parsed.error();
+        RS_ASSIGN_OR_RETURN(const ExtendedObj parsed, read_extended_obj(path));
         const Model* own = nullptr;
-        if (!parsed->objects.empty()) {
-            const Result<const Model*> model = model_of(path, *parsed);
-            if (!model) return model.error();
-            own = *model;
+        if (!parsed.objects.empty()) {
+            RS_ASSIGN_OR_RETURN(const const Model* model, model_of(path, parsed));
+            own = model;
         }
-        poses_ += parsed->instances.size();
+        poses_ += parsed.instances.size();
         if (poses_ > kMaxPoses) {
             return Error{printable(path.string()) + ": is one frame too many; a sequence may have " +
                          std::to_string(kMaxPoses) + " instances in all"};
         }
         SequenceFrame frame;
-        frame.camera = parsed->camera;
+        frame.camera = parsed.camera;
         taken_.clear();
         std::set<const ModelObject*> instanced;
-        for (const InstanceLine& line : parsed->instances) {
-            const Result<Named> named = find(path, line, own);
-            if (!named) return named.error();
-            instanced.insert(named->object);
-            const std::optional<std::uint32_t> slot = slot_of(*named, line.material, line.pose);
+        for (const InstanceLine& line : parsed.instances) {
+            RS_ASSIGN_OR_RETURN(const Named named, find(path, line, own));
+            instanced.insert(named.object);
+            const std::optional<std::uint32_t> slot = slot_of(named, line.material, line.pose);
             if (!slot) return too_many(path);
             frame.poses.push_back({*slot, false, line.pose});
         }
@@ -317,9 +307,8 @@ private:
 }  // namespace
 
 Result<Sequence> read_sequence(const fs::path& folder) {
-    Result<SequenceFiles> files = find_sequence(folder);
-    if (!files) return files.error();
-    return SequenceReader(std::move(*files)).read();
+    RS_ASSIGN_OR_RETURN(SequenceFiles files, find_sequence(folder));
+    return SequenceReader(std::move(files)).read();
 }
 
 }  // namespace rs::compositor

@@ -54,9 +54,8 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
     std::vector<Light> lights = room.scene.lights;
     const bool glows = std::ranges::any_of(room.scene.materials,
                                            [](const auto& material) { return material.emission != glm::vec3(0); });
-    auto tracer = capture::Tracer::create(std::move(room.scene));
-    if (!tracer) return tracer.error();
-    TracedRenderer renderer(std::move(*tracer), options);
+    RS_ASSIGN_OR_RETURN(auto tracer, capture::Tracer::create(std::move(room.scene)));
+    TracedRenderer renderer(std::move(tracer), options);
     renderer.background_ = scene.background;
     renderer.render_.method = options.method;
     renderer.render_.max_bounces = options.max_bounces;

@@ -175,14 +175,13 @@ void LightDesk::add(LightKind kind, const DeskView& view) {
 }
 
 Status LightDesk::load() {
-    Result<LightList> list = read_light_list(profile);
-    if (!list) return list.error();
+    RS_ASSIGN_OR_RETURN(LightList list, read_light_list(profile));
     Scene tried = *base_;
-    LightList whole = *list;
+    LightList whole = list;
     whole.replace = true;
     if (Status added = add_lights(tried, std::move(whole), profile); !added) return added;
-    LightingState state = state_of(*list, edits_.state().exposure_ev);
-    if (!list->replace) {
+    LightingState state = state_of(list, edits_.state().exposure_ev);
+    if (!list.replace) {
         const LightingState& now = edits_.state();
         state.entries.insert(state.entries.begin(), now.entries.begin(), now.entries.end());
         state.headlight = state.headlight || now.headlight;
@@ -190,7 +189,7 @@ Status LightDesk::load() {
     }
     edits_.set(std::move(state));
     const std::vector<std::string> warnings = light_warnings(tried);
-    report(warnings.empty() ? profile + ": " + std::to_string(list->entries.size()) + " lights" : warnings.front());
+    report(warnings.empty() ? profile + ": " + std::to_string(list.entries.size()) + " lights" : warnings.front());
     return {};
 }
 
@@ -215,11 +214,10 @@ void LightDesk::look_for_files(const std::filesystem::path& folder) {
 Status LightDesk::use_file(const std::filesystem::path& file) {
     const auto selected = edits_.selected();
     if (!selected || !model_of(edits_.state().entries[*selected]).words.has_file) return {};
-    Result<Luminaire> read = read_luminaire(file);
-    if (!read) return read.error();
+    RS_ASSIGN_OR_RETURN(Luminaire read, read_luminaire(file));
     LightEntry entry = edits_.state().entries[*selected];
     entry.file = file;
-    entry.luminaire = std::make_shared<const Luminaire>(std::move(*read));
+    entry.luminaire = std::make_shared<const Luminaire>(std::move(read));
     edits_.set_light(*selected, std::move(entry));
     return {};
 }

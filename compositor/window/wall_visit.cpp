@@ -60,23 +60,22 @@ Result<std::unique_ptr<WallVisit>> WallVisit::create(const Scene& scene, std::un
         window.height = wall.height * (options.stereo == StereoForm::kTopBottom ? 2 : 1);
         // Only one of them waits for the screen.
         window.wait_for_screen = options.window.wait_for_screen && windows.size() + 1 == options.display.walls.size();
-        Result<Window> opened = Window::create(window);
-        if (!opened) return opened.error();
-        windows.push_back(std::move(*opened));
+        RS_ASSIGN_OR_RETURN(Window opened, Window::create(window));
+        windows.push_back(std::move(opened));
     }
     windows.front().make_current();
     const Wall& first = options.display.walls.front();
-    Result<FrameCompositor> compositor = FrameCompositor::create(scene, showroom->engine(), showroom->nodes(),
-                                                                 {.width = first.width,
-                                                                  .height = first.height,
-                                                                  .samples = options.samples,
-                                                                  .exposure_ev = options.exposure_ev,
-                                                                  .object_depth = options.object_depth,
-                                                                  .object_samples = options.object_samples,
-                                                                  .upright_pictures = true});
-    if (!compositor) return compositor.error();
+    RS_ASSIGN_OR_RETURN(FrameCompositor compositor,
+                        FrameCompositor::create(scene, showroom->engine(), showroom->nodes(),
+                                                {.width = first.width,
+                                                 .height = first.height,
+                                                 .samples = options.samples,
+                                                 .exposure_ev = options.exposure_ev,
+                                                 .object_depth = options.object_depth,
+                                                 .object_samples = options.object_samples,
+                                                 .upright_pictures = true}));
     std::unique_ptr<WallVisit> visit(new WallVisit(std::move(windows), std::move(showroom), scene, options));
-    visit->compositor_.emplace(std::move(*compositor));
+    visit->compositor_.emplace(std::move(compositor));
     return visit;
 }
 
@@ -149,22 +148,19 @@ void WallVisit::move(double seconds) {
 }
 
 Result<Image<Rgba8>> WallVisit::drawn(const Wall& wall, double offset_m) {
-    const Result<Camera> camera = wall_camera(wall, head_.eye(offset_m), place_);
-    if (!camera) return camera.error();
-    return compositor_->compose(*camera);
+    RS_ASSIGN_OR_RETURN(const Camera camera, wall_camera(wall, head_.eye(offset_m), place_));
+    return compositor_->compose(camera);
 }
 
 Result<Image<Rgba8>> WallVisit::picture_of(const Wall& wall) {
     if (wall.width != compositor_->width() || wall.height != compositor_->height()) {
-        if (const Status status = compositor_->resize(wall.width, wall.height); !status) return status.error();
+        RS_TRY(compositor_->resize(wall.width, wall.height));
     }
     if (!options_.stereo) return drawn(wall, 0);
     const double half = options_.display.eye_distance_m / 2;
-    const Result<Image<Rgba8>> left = drawn(wall, -half);
-    if (!left) return left.error();
-    const Result<Image<Rgba8>> right = drawn(wall, half);
-    if (!right) return right.error();
-    return stereo_picture(*options_.stereo, *left, *right);
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> left, drawn(wall, -half));
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> right, drawn(wall, half));
+    return stereo_picture(*options_.stereo, left, right);
 }
 
 Result<bool> WallVisit::step(std::optional<double> seconds) {
@@ -178,18 +174,15 @@ Result<bool> WallVisit::step(std::optional<double> seconds) {
     for (const Key command : input_.commands()) obey(command);
     if (leaves_) return false;
     move(passed);
-    if (const Status status = showroom_->update(place_.in_scene(head_.position), passed); !status) {
-        return status.error();
-    }
+    RS_TRY(showroom_->update(place_.in_scene(head_.position), passed));
     if (const std::vector<std::string> warnings = showroom_->take_warnings(); !warnings.empty() && options_.warn) {
         options_.warn(warnings);
     }
     windows_.front().make_current();
     pictures_.clear();
     for (const Wall& wall : options_.display.walls) {
-        Result<Image<Rgba8>> picture = picture_of(wall);
-        if (!picture) return picture.error();
-        pictures_.push_back(std::move(*picture));
+        RS_ASSIGN_OR_RETURN(Image<Rgba8> picture, picture_of(wall));
+        pictures_.push_back(std::move(picture));
     }
     for (std::size_t i = 0; i < windows_.size(); ++i) {
         const glm::ivec2 size = windows_[i].framebuffer_px();
@@ -204,19 +197,17 @@ Result<bool> WallVisit::step(std::optional<double> seconds) {
             int number = shots_;
             const std::string prefix = "wall-" + options_.display.walls[i].name;
             const auto path = free_name(options_.pictures, prefix.c_str(), ".png", number);
-            if (const Status status = write_png(path, pictures_[i]); !status) return status.error();
+            RS_TRY(write_png(path, pictures_[i]));
         }
     }
     return true;
 }
 
 Status visit_walls(const Scene& scene, std::unique_ptr<Showroom> showroom, const WallVisitOptions& options) {
-    const auto visit = WallVisit::create(scene, std::move(showroom), options);
-    if (!visit) return visit.error();
+    RS_ASSIGN_OR_RETURN(const auto visit, WallVisit::create(scene, std::move(showroom), options));
     for (;;) {
-        const Result<bool> goes_on = (*visit)->step();
-        if (!goes_on) return goes_on.error();
-        if (!*goes_on) return {};
+        RS_ASSIGN_OR_RETURN(const bool goes_on, visit->step());
+        if (!goes_on) return {};
     }
 }
 

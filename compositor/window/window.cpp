@@ -160,9 +160,8 @@ Result<Window> Window::create(const WindowOptions& options) {
     if (state->window == nullptr) return no_window("no window with OpenGL 4.5 core can be had");
     glfwMakeContextCurrent(state->window);
     glfwSwapInterval(options.wait_for_screen ? 1 : 0);
-    Result<gl::Context> context = gl::Context::adopt_current(options.context);
-    if (!context) return context.error();
-    state->context.emplace(std::move(*context));
+    RS_ASSIGN_OR_RETURN(gl::Context context, gl::Context::adopt_current(options.context));
+    state->context.emplace(std::move(context));
     state->listen();
     return Window(std::move(state));
 }

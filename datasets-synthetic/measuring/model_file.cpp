@@ -127,9 +127,8 @@ OrderedJson gltf_of(const Model& model, const std::string& name, Buffer& buffer)
 }  // namespace
 
 Status write_model(const Model& model, const std::filesystem::path& output, const std::string& name) {
-    Result<StagedFolder> staged = StagedFolder::create(output, "parts of a model");
-    if (!staged) return staged.error();
-    const std::filesystem::path& folder = staged->temporary_path();
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "parts of a model"));
+    const std::filesystem::path& folder = staged.temporary_path();
     Buffer buffer;
     const std::string text = gltf_of(model, name, buffer).dump(1) + "\n";
     if (Status status = write_file(folder / (name + ".gltf"), text); !status) return status;
@@ -141,7 +140,7 @@ Status write_model(const Model& model, const std::filesystem::path& output, cons
     for (const auto& [file, picture] : model.pictures) {
         if (Status status = write_png(folder / file, picture); !status) return status;
     }
-    return staged->commit();
+    return staged.commit();
 }
 
 }  // namespace rs::synthetic

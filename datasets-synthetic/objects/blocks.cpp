@@ -260,7 +260,7 @@ Result<capture::Scene> generate_blocks(const nlohmann::json& parameters, std::ui
     const float bevel = in.number("bevel", 0.09F, 0.03F, 0.25F);
     const float untidiness = in.number("untidiness", 0.6F, 0.0F, 1.0F);
     const float gloss = in.number("gloss", 0.25F, 0.05F, 0.6F);
-    if (const Status read = in.finish(); !read) return read.error();
+    RS_TRY(in.finish());
 
     ObjectAssembly assembly("blocks");
     const int texture = assembly.add_texture(paint_blocks(kBlocks, text, seed));

@@ -141,7 +141,7 @@ Result<capture::Scene> generate_doll(const nlohmann::json& parameters, std::uint
     fur.hair_length = in.number("hair_length", 0.085F, 0.03F, 0.16F);
     fur.curl = in.number("curl", 0.55F, 0.0F, 1.5F);
     fur.hue = in.number("hue", 0.075F, 0.0F, 1.0F);
-    if (const Status read = in.finish(); !read) return read.error();
+    RS_TRY(in.finish());
 
     ObjectAssembly assembly("doll");
     Mesh coat;

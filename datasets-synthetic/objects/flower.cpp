@@ -328,7 +328,7 @@ Result<capture::Scene> generate_flower(const nlohmann::json& parameters, std::ui
     flower.leaves = in.whole_number("leaves", 40, 0, 60);
     flower.spread = in.number("spread", 0.62F, 0.2F, 0.9F);
     flower.hue = in.number("hue", 0.93F, 0.0F, 1.0F);
-    if (const Status read = in.finish(); !read) return read.error();
+    RS_TRY(in.finish());
     return FlowerBuilder(flower, seed).build();
 }
 

@@ -180,7 +180,7 @@ Result<capture::Scene> generate_lamp(const nlohmann::json& parameters, std::uint
     const float fill = in.number("fill", 0.62F, 0.1F, 0.9F);
     const float flame_radiance = in.number("flame", 5.0F, 0.0F, 20.0F);
     const float polish = in.number("polish", 0.8F, 0.0F, 1.0F);
-    if (const Status read = in.finish(); !read) return read.error();
+    RS_TRY(in.finish());
 
     Mesh glass;
     Mesh oil;

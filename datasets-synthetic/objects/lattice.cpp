@@ -200,7 +200,7 @@ Result<capture::Scene> generate_lattice(const nlohmann::json& parameters, std::u
     const float core = in.number("core", 0.30F, 0.15F, 0.4F);
     const int windings = in.whole_number("windings", 3, 2, 5);
     const float hue = in.number("hue", 0.0F, 0.0F, 1.0F);
-    if (const Status read = in.finish(); !read) return read.error();
+    RS_TRY(in.finish());
     ObjectAssembly assembly("lattice");
     LatticeBuilder builder(strut, hue, seed);
     builder.append_cages(assembly);

@@ -148,7 +148,7 @@ Result<capture::Scene> generate_phone(const nlohmann::json& parameters, std::uin
     const std::string text = in.letters("text", "RAYSPACE", 8);
     const float lean_rad = in.number("lean", 0.2F, 0.0F, 0.35F);
     const float gloss = in.number("gloss", 0.3F, 0.05F, 0.6F);
-    if (const Status read = in.finish(); !read) return read.error();
+    RS_TRY(in.finish());
 
     ObjectAssembly assembly("phone");
     const int logo = assembly.add_texture(paint_logo(text, seed));

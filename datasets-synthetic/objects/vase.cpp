@@ -281,7 +281,7 @@ Result<capture::Scene> generate_vase(const nlohmann::json& parameters, std::uint
     shape.neck = in.number("neck", 0.22F, 0.15F, 0.32F);
     const int flowers = in.whole_number("flowers", 5, 3, 8);
     const float roughness = in.number("roughness", 0.12F, 0.02F, 0.6F);
-    if (const Status read = in.finish(); !read) return read.error();
+    RS_TRY(in.finish());
 
     const std::vector<vec2> outside = shape.outside();
     ObjectAssembly assembly("vase");

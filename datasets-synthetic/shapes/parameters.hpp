@@ -4,7 +4,7 @@
 //
 //     Parameters in("vase", json);
 //     const float height = in.number("height", 2.1F, 1.6F, 2.6F);
-//     if (Status read = in.finish(); !read) return read.error();
+//     RS_TRY(in.finish());
 
 #include "rayspace/base/result.hpp"
 

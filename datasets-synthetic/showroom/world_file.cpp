@@ -183,19 +183,18 @@ std::string walk_text(const World& world) {
 
 Status write_world(const World& world, const std::filesystem::path& output, const std::string& name,
                    const std::string& objects) {
-    Result<StagedFolder> staged = StagedFolder::create(output, "rooms of a showroom");
-    if (!staged) return staged.error();
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "rooms of a showroom"));
     const auto write_text = [&](const std::string& file, const std::string& text) -> Status {
-        return write_file(staged->temporary_path() / file, text);
+        return write_file(staged.temporary_path() / file, text);
     };
     for (const auto& [file, picture] : world.textures) {
-        if (Status status = write_png(staged->temporary_path() / file, picture); !status) return status;
+        if (Status status = write_png(staged.temporary_path() / file, picture); !status) return status;
     }
     if (Status status = write_text(name + ".wrl", vrml_text(world, objects)); !status) return status;
     if (Status status = write_text(name + "-walk.json", walk_text(world)); !status) return status;
     if (Status status = write_text("evening.json", evening_lights(world)); !status) return status;
     if (Status status = write_text(kDownlightFile, downlight_ies()); !status) return status;
-    return staged->commit();
+    return staged.commit();
 }
 
 }  // namespace rs::synthetic

@@ -126,9 +126,8 @@ Result<Scenario> scenario_from_json(const std::string& text, const std::string& 
 }
 
 Result<Scenario> read_scenario(const std::filesystem::path& path) {
-    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxScenario_bytes);
-    if (!bytes) return bytes.error();
-    return scenario_from_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+    RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(path, kMaxScenario_bytes));
+    return scenario_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 
 }  // namespace rs::synthetic

@@ -301,10 +301,9 @@ std::size_t triangles_of(const World& world, const std::string& object) {
 }  // namespace
 
 Result<StreetFigures> write_street(const StreetOptions& options, const fs::path& output) {
-    Result<StagedFolder> staged = StagedFolder::create(output, "files of a street");
-    if (!staged) return staged.error();
-    const fs::path map = staged->temporary_path() / "maps" / options.name / "anim";
-    const fs::path models = staged->temporary_path() / "models";
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "files of a street"));
+    const fs::path map = staged.temporary_path() / "maps" / options.name / "anim";
+    const fs::path models = staged.temporary_path() / "models";
     std::error_code error;
     for (const fs::path& folder : {map / "configs", map / "out", models / "source" / "cars"}) {
         fs::create_directories(folder, error);
@@ -334,13 +333,10 @@ Result<StreetFigures> write_street(const StreetOptions& options, const fs::path&
         }
     }
     still += "camera -44 1.9 5.6 -10 2 -1 65\n";
-    if (Status status = write_model(street.world, street.unlit, models, "street", still); !status)
-        return status.error();
+    RS_TRY(write_model(street.world, street.unlit, models, "street", still));
     std::set<std::string> unlit;
     const World vehicles = make_vehicles(options.scenario.night, unlit);
-    if (Status status = write_model(vehicles, unlit, models / "source" / "cars", "cars", ""); !status) {
-        return status.error();
-    }
+    RS_TRY(write_model(vehicles, unlit, models / "source" / "cars", "cars", ""));
     const std::map<std::string, Box> vehicle_boxes = boxes_of(vehicles);
     const std::vector<TrafficFrame> frames = simulate_traffic(options.scenario);
     const auto write_out = [&](const std::string& name, const std::string& text) {
@@ -348,19 +344,19 @@ Result<StreetFigures> write_street(const StreetOptions& options, const fs::path&
     };
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const std::string text = frame_text(frames[i], vehicle_boxes, options.scenario.fov_degrees);
-        if (Status status = write_out(frame_name(i), text); !status) return status.error();
+        RS_TRY(write_out(frame_name(i), text));
         figures.vehicles = std::max(figures.vehicles, frames[i].vehicles.size());
     }
     figures.frames = frames.size();
     const bool night = options.scenario.night;
     const fs::path scenario = map / "configs" / "scenario.json";
-    if (Status status = write_file(scenario, scenario_json(options.scenario)); !status) return status.error();
-    if (Status status = write_png(map / "out" / "sky.png", sky_picture(night)); !status) return status.error();
+    RS_TRY(write_file(scenario, scenario_json(options.scenario)));
+    RS_TRY(write_png(map / "out" / "sky.png", sky_picture(night)));
     const std::string lights = lights_of_street(street, night).dump(1) + "\n";
-    if (Status status = write_out("lights.json", lights); !status) return status.error();
+    RS_TRY(write_out("lights.json", lights));
     const std::string json = frames_json(frames.size(), options.scenario).dump(1) + "\n";
-    if (Status status = write_out("frames.json", json); !status) return status.error();
-    if (Status status = staged->commit(); !status) return status.error();
+    RS_TRY(write_out("frames.json", json));
+    RS_TRY(staged.commit());
     return figures;
 }
 

@@ -30,22 +30,20 @@ rs::Status run_street(const Options& options) {
     street.scenario = rs::synthetic::usual_scenario();
     if (options.small) street.texture_scale = 0.25F;
     if (!options.scenario.empty()) {
-        const auto scenario = rs::synthetic::read_scenario(options.scenario);
-        if (!scenario) return scenario.error();
-        street.scenario = *scenario;
+        RS_ASSIGN_OR_RETURN(const auto scenario, rs::synthetic::read_scenario(options.scenario));
+        street.scenario = scenario;
     }
     if (!options.time.empty()) street.scenario.night = options.time == "night";
     if (options.seconds > 0) street.scenario.seconds = options.seconds;
-    const auto figures = rs::synthetic::write_street(street, options.output);
-    if (!figures) return figures.error();
+    RS_ASSIGN_OR_RETURN(const auto figures, rs::synthetic::write_street(street, options.output));
     std::printf("%s: %zu frames, up to %zu vehicles, %zu static triangles\n",
-                (options.output / "maps" / options.name).string().c_str(), figures->frames, figures->vehicles,
-                figures->static_triangles);
-    if (!figures->missing.empty()) {
+                (options.output / "maps" / options.name).string().c_str(), figures.frames, figures.vehicles,
+                figures.static_triangles);
+    if (!figures.missing.empty()) {
         std::fprintf(stderr,
                      "rs-street: its shops show %s, which are not in %s as seen from there; make them with rs-encode "
                      "build, or leave --objects out\n",
-                     rs::listed(std::vector(figures->missing.begin(), figures->missing.end()), 3).c_str(),
+                     rs::listed(std::vector(figures.missing.begin(), figures.missing.end()), 3).c_str(),
                      options.objects.c_str());
     }
     return {};

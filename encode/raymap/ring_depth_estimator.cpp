@@ -93,10 +93,9 @@ void RingDepthEstimator::set_photo(std::size_t n, const Image<Rgba8>& picture) {
 Status RingDepthEstimator::read_photos(Progress* progress, const PhotoSink& sink) {
     return for_each_in_parallel(count(), "photos for depth", progress, [&](int n) -> Status {
         const int v = ring_.views[static_cast<std::size_t>(n)];
-        const Result<Image<Rgba8>> picture = read_upright_picture(set_, v);
-        if (!picture) return picture.error();
-        sink(v, *picture);
-        set_photo(static_cast<std::size_t>(n), *picture);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, read_upright_picture(set_, v));
+        sink(v, picture);
+        set_photo(static_cast<std::size_t>(n), picture);
         return {};
     });
 }
@@ -114,9 +113,8 @@ Status RingDepthEstimator::complete_masks(Progress* progress, const PhotoSink& s
     RingDepthEstimator half(set_, rig_, ring_, options_);
     half.reduction_ = 2 * reduction_;
     for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halved(views_[n].view);
-    Result<std::vector<Image<float>>> missing = half.find_missing(*this, progress);
-    if (!missing) return missing.error();
-    missing_ = std::move(*missing);
+    RS_ASSIGN_OR_RETURN(std::vector<Image<float>> missing, half.find_missing(*this, progress));
+    missing_ = std::move(missing);
 
     std::vector<Image<float>> parts(views_.size());
     for_each_index(views_.size(), [&](std::size_t n) { parts[n] = lost_part(half.views_[n].view, missing_[n]); });
@@ -126,11 +124,10 @@ Status RingDepthEstimator::complete_masks(Progress* progress, const PhotoSink& s
     }
     if (static_cast<double>(lacking.size()) > kMaxLackingShare * static_cast<double>(views_.size())) return {};
     for (const std::size_t n : lacking) {
-        const Result<std::optional<Image<Rgba8>>> picture = paint_part(n, half, parts[n]);
-        if (!picture) return picture.error();
-        if (!*picture) continue;
-        sink(ring_.views[n], **picture);
-        set_photo(n, **picture);
+        RS_ASSIGN_OR_RETURN(const std::optional<Image<Rgba8>> picture, paint_part(n, half, parts[n]));
+        if (!picture) continue;
+        sink(ring_.views[n], *picture);
+        set_photo(n, *picture);
     }
     return {};
 }
@@ -151,7 +148,7 @@ Result<std::vector<Image<float>>> RingDepthEstimator::find_missing(const RingDep
     const int narrow_px = (std::min(whole.margin_px_, kMaxRepairMargin_px) + 1) / 2;
     const int searched_px = whole.silhouettes_agree_ ? std::max(kRepairMargin_px, whole.margin_px_) : narrow_px;
     sampled_hull_ = sampled(VisualHull(masks, searched_px, tolerated), kRepairSpacing_px);
-    if (Status status = estimate_depths("depth at half size", progress, false); !status) return status.error();
+    RS_TRY(estimate_depths("depth at half size", progress, false));
     const auto hull = sampled(VisualHull(masks, narrow_px), kHullSpacing_px);
     std::vector<std::vector<RuledOutPoint>> points(views_.size());
     for_each_index(count(), [&](int n) {
@@ -169,9 +166,8 @@ Result<std::vector<Image<float>>> RingDepthEstimator::find_missing(const RingDep
 Result<std::optional<Image<Rgba8>>> RingDepthEstimator::paint_part(std::size_t n, const RingDepthEstimator& half,
                                                                    const Image<float>& part) const {
     constexpr int kFarthestPainter = 3;  // photos away
-    Result<Image<Rgba8>> picture = read_upright_picture(set_, ring_.views[n]);
-    if (!picture) return picture.error();
-    LostPartPainter painter(half.views_[n].view, part, half.reduction_, std::move(*picture));
+    RS_ASSIGN_OR_RETURN(Image<Rgba8> picture, read_upright_picture(set_, ring_.views[n]));
+    LostPartPainter painter(half.views_[n].view, part, half.reduction_, std::move(picture));
     for (int away = 1; away <= std::min(kFarthestPainter, count() / 2) && !painter.done(); ++away) {
         std::vector<Image<Rgba8>> pictures;
         pictures.reserve(2);
@@ -179,9 +175,8 @@ Result<std::optional<Image<Rgba8>>> RingDepthEstimator::paint_part(std::size_t n
         for (const int sense : {-away, away}) {
             const auto from = static_cast<std::size_t>((static_cast<int>(n) + sense + count()) % count());
             if (degrees(angle_between(views_[n].view, views_[from].view)) > options_.lines.widest_gap_deg) continue;
-            Result<Image<Rgba8>> other = read_upright_picture(set_, ring_.views[from]);
-            if (!other) return other.error();
-            pictures.push_back(std::move(*other));
+            RS_ASSIGN_OR_RETURN(Image<Rgba8> other, read_upright_picture(set_, ring_.views[from]));
+            pictures.push_back(std::move(other));
             painters.push_back({&half.views_[from], &pictures.back()});
         }
         if (painters.size() == 2 && painter.shown_by(painters[0]) < painter.shown_by(painters[1])) {

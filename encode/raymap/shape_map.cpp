@@ -32,7 +32,7 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
     estimators.reserve(rings.size());
     for (const ViewRing& ring : rings) {
         estimators.emplace_back(set, rig, ring, options);
-        if (const Status status = estimators.back().read_photos(progress, keep); !status) return status.error();
+        RS_TRY(estimators.back().read_photos(progress, keep));
     }
     const auto choose_hulls = [&] {
         for (std::size_t r = 0; r < rings.size(); ++r) {
@@ -49,7 +49,7 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
         whole.completed.insert_or_assign(v, picture);
     };
     for (RingDepthEstimator& estimator : estimators) {
-        if (const Status status = estimator.complete_masks(progress, keep_completed); !status) return status.error();
+        RS_TRY(estimator.complete_masks(progress, keep_completed));
     }
     if (!whole.completed.empty()) {
         found.warnings.push_back(lost_parts_text(whole.completed, rig));
@@ -57,21 +57,19 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
     }
     for (RingDepthEstimator& estimator : estimators) estimator.repair_silhouettes();
     for (RingDepthEstimator& estimator : estimators) {
-        if (const Status status = estimator.match_colors(progress); !status) return status.error();
+        RS_TRY(estimator.match_colors(progress));
     }
     for (std::size_t r = 0; r < rings.size(); ++r) {
-        if (const Status status = estimators[r].enforce_consistency(progress, found.samples); !status)
-            return status.error();
+        RS_TRY(estimators[r].enforce_consistency(progress, found.samples));
         Ring& ring = object.rings[r];
         std::vector<SurfaceLayer> layers = {estimators[r].surfaces()};
         RingDepthEstimator soft(whole, rig, rings[r], options, Layer::kSoft);
         if (estimators[r].has_soft_pixels()) {
             std::vector<FoundDepth> unused;
-            if (const Status status = soft.read_photos(progress, [](int, const Image<Rgba8>&) {}); !status)
-                return status.error();
+            RS_TRY(soft.read_photos(progress, [](int, const Image<Rgba8>&) {}));
             soft.choose_hull({});
-            if (const Status status = soft.match_colors(progress); !status) return status.error();
-            if (const Status status = soft.enforce_consistency(progress, unused); !status) return status.error();
+            RS_TRY(soft.match_colors(progress));
+            RS_TRY(soft.enforce_consistency(progress, unused));
             layers.push_back(soft.surfaces());
         }
         ring.shape = estimators[r].make_shape(layers, ring.planes);

@@ -145,11 +145,11 @@ void add_accounts(HtmlPage& page, const BuildReport& report) {
 Result<std::string> build_report_page(const BuildReport& report) {
     HtmlPage page(report.name);
     add_what_was_built(page, report);
-    if (Status status = add_captured(page, report); !status) return status.error();
+    RS_TRY(add_captured(page, report));
     add_rings(page, report);
-    if (Status status = add_scores(page, report); !status) return status.error();
-    if (Status status = add_found(page, "Visual hull", report.hull_pictures); !status) return status.error();
-    if (Status status = add_found(page, "Depth found", report.depth_pictures); !status) return status.error();
+    RS_TRY(add_scores(page, report));
+    RS_TRY(add_found(page, "Visual hull", report.hull_pictures));
+    RS_TRY(add_found(page, "Depth found", report.depth_pictures));
     add_accounts(page, report);
     return page.text();
 }

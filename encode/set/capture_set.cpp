@@ -85,13 +85,12 @@ void turn_upright(Rig& rig) {
 Result<std::vector<PixelBox>> measure_pictures(const CaptureSet& set, Progress* progress) {
     std::vector<PixelBox> occupied(set.captured.views.size());
     const int count = static_cast<int>(occupied.size());
-    const Status measured = for_each_in_parallel(count, "measuring", progress, [&](int i) -> Status {
+    RS_TRY(for_each_in_parallel(count, "measuring", progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
-        const Result<Image<Rgba8>> picture = read_captured_picture(set, i);
-        if (!picture) return picture.error();
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, read_captured_picture(set, i));
         const Camera& captured = set.captured.views[n].camera;
-        const auto box = set.resampled ? occupied_box_seen_by(set.upright.views[n].camera, captured, *picture)
-                                       : occupied_box(*picture);
+        const auto box = set.resampled ? occupied_box_seen_by(set.upright.views[n].camera, captured, picture)
+                                       : occupied_box(picture);
         if (!box) {
             return Error{
                 picture_path(set.folder, set.captured.views[n]).string() +
@@ -99,8 +98,7 @@ Result<std::vector<PixelBox>> measure_pictures(const CaptureSet& set, Progress* 
         }
         occupied[n] = *box;
         return {};
-    });
-    if (!measured) return measured.error();
+    }));
     return occupied;
 }
 
@@ -176,11 +174,10 @@ Status check_distances(const CaptureSet& set) {
 Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress* progress) {
     CaptureSet set;
     set.folder = std::filesystem::is_directory(path) ? path : path.parent_path();
-    Result<Rig> rig = read_rig(path);
-    if (!rig) return rig.error();
-    set.captured = std::move(*rig);
+    RS_ASSIGN_OR_RETURN(Rig rig, read_rig(path));
+    set.captured = std::move(rig);
     set.upright = set.captured;
-    if (const Status status = check_views(set); !status) return status.error();
+    RS_TRY(check_views(set));
     set.width = set.captured.views.front().camera.width;
     set.height = set.captured.views.front().camera.height;
     set.resampled = !std::all_of(set.captured.views.begin(), set.captured.views.end(),
@@ -188,23 +185,22 @@ Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress*
 
     if (set.resampled) turn_upright(set.upright);
     if (set.resampled || set.captured.object_radius <= 0) {
-        Result<std::vector<PixelBox>> occupied = measure_pictures(set, progress);
-        if (!occupied) return occupied.error();
+        RS_ASSIGN_OR_RETURN(std::vector<PixelBox> occupied, measure_pictures(set, progress));
         if (set.resampled) {
-            if (const Status framed = frame_upright_cameras(set, *occupied); !framed) return framed.error();
+            RS_TRY(frame_upright_cameras(set, occupied));
         }
         if (set.upright.object_radius <= 0) {
-            set.upright.object_radius = radius_from_silhouettes(set.upright, *occupied);
+            set.upright.object_radius = radius_from_silhouettes(set.upright, occupied);
             if (set.upright.object_radius <= 0) {
                 return Error{path.string() +
                              ": every picture is transparent; is the backdrop setting of the import right?"};
             }
         }
     }
-    if (const Status status = check_distances(set); !status) return status.error();
+    RS_TRY(check_distances(set));
     const auto memory_bytes =
         static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::int64_t>(::sysconf(_SC_PAGE_SIZE));
-    if (const Status status = check_memory(set, memory_bytes); !status) return status.error();
+    RS_TRY(check_memory(set, memory_bytes));
     return set;
 }
 

@@ -131,59 +131,52 @@ Status run_build(const BuildArguments& arguments) {
     const auto begun = std::chrono::steady_clock::now();
     ProgressBar bar(arguments.quiet);
     StageClock progress(bar);
-    Result<BuildOptions> options = options_of(arguments);
-    if (!options) return options.error();
+    RS_ASSIGN_OR_RETURN(BuildOptions options, options_of(arguments));
 
-    Result<CaptureSet> set = open_capture_set(arguments.set, &progress);
-    if (!set) return set.error();
+    RS_ASSIGN_OR_RETURN(CaptureSet set, open_capture_set(arguments.set, &progress));
     // The places of object and page are tried before the work is done.
-    if (const Result<StagedFile> object = StagedFile::create(arguments.output); !object) return object.error();
+    RS_TRY(StagedFile::create(arguments.output));
     std::optional<StagedFile> page;
     if (!arguments.report.empty()) {
-        Result<StagedFile> created = StagedFile::create(arguments.report);
-        if (!created) return created.error();
-        page = std::move(*created);
+        RS_ASSIGN_OR_RETURN(StagedFile created, StagedFile::create(arguments.report));
+        page = std::move(created);
     }
-    if (options->name.empty()) options->name = name_of(*set);
-    const Result<std::optional<PictureGoal>> goal = goal_of(arguments.profile);
-    if (!goal) return goal.error();
-    options->raw_pictures = !goal->has_value();
-    if (set->resampled) std::cerr << "rs-encode: the cameras look up or down; their pictures are made upright\n";
-    Result<BuiltObject> built = build_object(*set, *options, &progress);
-    if (!built) return built.error();
+    if (options.name.empty()) options.name = name_of(set);
+    RS_ASSIGN_OR_RETURN(const std::optional<PictureGoal> goal, goal_of(arguments.profile));
+    options.raw_pictures = !goal.has_value();
+    if (set.resampled) std::cerr << "rs-encode: the cameras look up or down; their pictures are made upright\n";
+    RS_ASSIGN_OR_RETURN(BuiltObject built, build_object(set, options, &progress));
     BuildSummary summary;
-    if (*goal) {
-        set->completed = std::move(built->completed);
-        Result<EncodedPictures> encoded =
-            encode_pictures(*set, built->object, **goal, arguments.profile.alpha_bits, &progress);
-        if (!encoded) return encoded.error();
-        set->completed.clear();  // what is scored is compared with the photographs
-        summary.psnr_db = encoded->psnr_db;
-        built->object.coded = std::make_shared<codec::CodedPictures>(std::move(encoded->coded));
+    if (goal) {
+        set.completed = std::move(built.completed);
+        RS_ASSIGN_OR_RETURN(EncodedPictures encoded,
+                            encode_pictures(set, built.object, *goal, arguments.profile.alpha_bits, &progress));
+        set.completed.clear();  // what is scored is compared with the photographs
+        summary.psnr_db = encoded.psnr_db;
+        built.object.coded = std::make_shared<codec::CodedPictures>(std::move(encoded.coded));
     }
-    if (Status status = write_object(arguments.output, built->object, &progress); !status) return status;
-    for (const std::string& warning : built->warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
+    if (Status status = write_object(arguments.output, built.object, &progress); !status) return status;
+    for (const std::string& warning : built.warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
 
     summary.bytes = std::filesystem::file_size(arguments.output);
     summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     summary.peak_memory_bytes = peak_memory_bytes();
     if (page) {
-        const Result<ContainerReader> container = ContainerReader::open(arguments.output);
-        if (!container) return container.error();
+        RS_ASSIGN_OR_RETURN(const ContainerReader container, ContainerReader::open(arguments.output));
         BuildReport report;
-        report.name = options->name;
-        report.facts = facts_of(arguments, *options, *set, built->object, summary);
+        report.name = options.name;
+        report.facts = facts_of(arguments, options, set, built.object, summary);
         report.stages = progress.stages();
-        report.chunks = summarise_chunks(*container);
-        report.warnings = built->warnings;
-        report.rig = set->upright;
-        built->object.pictures.clear();  // their memory is wanted for the objects that are scored
-        if (Status status = add_captured_pictures(*set, report); !status) return status;
-        add_depths(*set, built->depths, report);
-        if (Status status = add_held_out_views(*set, options->map.planes, report, &bar); !status) return status;
+        report.chunks = summarise_chunks(container);
+        report.warnings = built.warnings;
+        report.rig = set.upright;
+        built.object.pictures.clear();  // their memory is wanted for the objects that are scored
+        if (Status status = add_captured_pictures(set, report); !status) return status;
+        add_depths(set, built.depths, report);
+        if (Status status = add_held_out_views(set, options.map.planes, report, &bar); !status) return status;
         if (Status status = write_report(*page, report); !status) return status;
     }
-    print_summary(arguments, *options, built->object, summary);
+    print_summary(arguments, options, built.object, summary);
     return {};
 }
 

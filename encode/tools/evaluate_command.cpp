@@ -37,9 +37,8 @@ struct EvaluateArguments {
 class AnswerFolder {
 public:
     static Result<AnswerFolder> create(const std::string& path, const std::vector<Method>& methods) {
-        Result<StagedFolder> folder = StagedFolder::create(path, "answers of methods");
-        if (!folder) return folder.error();
-        AnswerFolder made(std::move(*folder), methods.front());
+        RS_ASSIGN_OR_RETURN(StagedFolder folder, StagedFolder::create(path, "answers of methods"));
+        AnswerFolder made(std::move(folder), methods.front());
         std::vector<std::string> names{"truth"};
         for (const Method method : methods) {
             names.push_back(to_string(method));
@@ -132,52 +131,45 @@ Status write_page(const EvaluateArguments& arguments, const CaptureSet& set, con
 }
 
 Status run_evaluate(const EvaluateArguments& arguments) {
-    const Result<int> every = parse_hold_out(arguments.hold_out);
-    if (!every) return every.error();
+    RS_ASSIGN_OR_RETURN(const int every, parse_hold_out(arguments.hold_out));
     EvaluationOptions options;
     options.planes = arguments.planes;
-    Result<std::vector<Method>> methods = parse_methods(arguments.methods);
-    if (!methods) return methods.error();
-    options.methods = std::move(*methods);
+    RS_ASSIGN_OR_RETURN(std::vector<Method> methods, parse_methods(arguments.methods));
+    options.methods = std::move(methods);
 
     ProgressBar progress(arguments.quiet);
-    const Result<CaptureSet> set = open_capture_set(arguments.set, &progress);
-    if (!set) return set.error();
-    const Result<HoldOut> hold_out = choose_hold_out(set->upright, *every, arguments.set);
-    if (!hold_out) return hold_out.error();
+    RS_ASSIGN_OR_RETURN(const CaptureSet set, open_capture_set(arguments.set, &progress));
+    RS_ASSIGN_OR_RETURN(const HoldOut hold_out, choose_hold_out(set.upright, every, arguments.set));
     std::optional<AnswerFolder> folder;
     if (!arguments.output.empty()) {
-        Result<AnswerFolder> created = AnswerFolder::create(arguments.output, options.methods);
-        if (!created) return created.error();
-        folder = std::move(*created);
+        RS_ASSIGN_OR_RETURN(AnswerFolder created, AnswerFolder::create(arguments.output, options.methods));
+        folder = std::move(created);
     }
     std::optional<StagedFile> page;
     if (!arguments.report.empty()) {
-        Result<StagedFile> created = StagedFile::create(arguments.report);
-        if (!created) return created.error();
-        page = std::move(*created);
+        RS_ASSIGN_OR_RETURN(StagedFile created, StagedFile::create(arguments.report));
+        page = std::move(created);
     }
-    KeptAnswers answers(*hold_out, options.methods);
+    KeptAnswers answers(hold_out, options.methods);
     const LookAtAnswer look = [&](const AnsweredView& answered) -> Status {
         if (page) {
             if (Status status = answers.keep(answered); !status) return status;
         }
         return folder ? folder->write(answered) : Status{};
     };
-    const Result<std::vector<MethodScores>> scores = evaluate(*set, *hold_out, options, look, &progress);
-    if (!scores) return scores.error();
+    RS_ASSIGN_OR_RETURN(const std::vector<MethodScores> scores, evaluate(set, hold_out, options, look, &progress));
     if (folder) {
         if (Status status = folder->commit(); !status) return status;
     }
     if (page) {
-        if (Status status = write_page(arguments, *set, *hold_out, *scores, std::move(answers), *page); !status) {
+        if (Status status = write_page(arguments, set, hold_out, scores, std::move(answers), *page); !status) {
             return status;
         }
     }
     if (arguments.json) {
-        print_json(arguments, *hold_out, *scores);
+        print_json(arguments, hold_out, scores);
     } else {
-        print_table(arguments, *hold_out, *scores);
+        print_table(arguments, hold_out, scores);
     }
     return {};
 }

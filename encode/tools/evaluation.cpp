@@ -26,11 +26,10 @@ Result<engine::Renderer> renderer_of_kept(const CaptureSet& set, const HoldOut& 
     options.map.planes = planes;
     options.raymap = kind;
     options.name = "kept views";
-    Result<BuiltObject> built = build_object(with_views(set, hold_out.kept), options, progress);
-    if (!built) return built.error();
+    RS_ASSIGN_OR_RETURN(BuiltObject built, build_object(with_views(set, hold_out.kept), options, progress));
     // The renderer relies on what a reader checks.
-    if (const Status status = validate_object(built->object, set.folder.string()); !status) return status.error();
-    return engine::Renderer::create(std::move(built->object));
+    RS_TRY(validate_object(built.object, set.folder.string()));
+    return engine::Renderer::create(std::move(built.object));
 }
 
 Result<Image<Rgba8>> rendered(const engine::Renderer& renderer, const CaptureSet& set, int view) {
@@ -49,19 +48,16 @@ Result<MethodScores> score(const CaptureSet& set, const HoldOut& hold_out, Metho
     scores.views.resize(hold_out.held.size());
     std::vector<PictureDifference> differences(hold_out.held.size());
     const int count = static_cast<int>(hold_out.held.size());
-    const Status scored = for_each_in_parallel(count, "scoring " + scores.method, progress, [&](int i) -> Status {
+    RS_TRY(for_each_in_parallel(count, "scoring " + scores.method, progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
         const int view = hold_out.held[n];
-        const Result<Image<Rgba8>> truth = read_upright_picture(set, view);
-        if (!truth) return truth.error();
-        const Result<Image<Rgba8>> given = answer(view);
-        if (!given) return given.error();
-        differences[n] = compare_pictures(*truth, *given);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> truth, read_upright_picture(set, view));
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> given, answer(view));
+        differences[n] = compare_pictures(truth, given);
         scores.views[n] = {view, set.upright.views[static_cast<std::size_t>(view)].file_path, differences[n].psnr_db(),
                            differences[n].ssim};
-        return look ? look({method, n, view, *truth, *given, scores.views[n].psnr_db}) : Status{};
-    });
-    if (!scored) return scored.error();
+        return look ? look({method, n, view, truth, given, scores.views[n].psnr_db}) : Status{};
+    }));
     const DifferenceSummary summary = summarise(differences);
     scores.mean_psnr_db = summary.mean_psnr_db;
     scores.pooled_psnr_db = summary.pooled_psnr_db;
@@ -81,10 +77,9 @@ Result<MethodScores> score_object(const CaptureSet& set, const HoldOut& hold_out
                                   const LookAtAnswer& look, Progress* progress) {
     const auto begun = std::chrono::steady_clock::now();
     const MapKind kind = method == Method::kPlane ? MapKind::kPlane : MapKind::kShape;
-    const Result<engine::Renderer> renderer = renderer_of_kept(set, hold_out, kind, planes, progress);
-    if (!renderer) return renderer.error();
+    RS_ASSIGN_OR_RETURN(const engine::Renderer renderer, renderer_of_kept(set, hold_out, kind, planes, progress));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    const Answer render = [&](int view) { return rendered(*renderer, set, view); };
+    const Answer render = [&](int view) { return rendered(renderer, set, view); };
     Result<MethodScores> scores = score(set, hold_out, method, render, look, progress);
     if (scores) scores->build_seconds = seconds;
     return scores;
@@ -129,11 +124,11 @@ Result<std::vector<MethodScores>> evaluate(const CaptureSet& set, const HoldOut&
                                            Progress* progress) {
     std::vector<MethodScores> all;
     for (const Method method : options.methods) {
-        Result<MethodScores> scores = method == Method::kPhoto
-                                          ? score_photo(set, hold_out, look, progress)
-                                          : score_object(set, hold_out, method, options.planes, look, progress);
-        if (!scores) return scores.error();
-        all.push_back(std::move(*scores));
+        RS_ASSIGN_OR_RETURN(MethodScores scores,
+                            method == Method::kPhoto
+                                ? score_photo(set, hold_out, look, progress)
+                                : score_object(set, hold_out, method, options.planes, look, progress));
+        all.push_back(std::move(scores));
     }
     return all;
 }

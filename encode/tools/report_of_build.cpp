@@ -78,9 +78,8 @@ void add_scores(const CaptureSet& set, const HoldOut& hold_out, const std::strin
 
 Status add_captured_pictures(const CaptureSet& set, BuildReport& report) {
     for (const int view : evenly_spread(static_cast<int>(set.upright.views.size()), kCapturedShown)) {
-        const Result<Image<Rgba8>> picture = read_upright_picture(set, view);
-        if (!picture) return picture.error();
-        report.captured.push_back({scaled_down(*picture, kKept_px), caption_of(set, view)});
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, read_upright_picture(set, view));
+        report.captured.push_back({scaled_down(picture, kKept_px), caption_of(set, view)});
     }
     return {};
 }
@@ -94,10 +93,11 @@ Status add_held_out_views(const CaptureSet& set, int planes, BuildReport& report
     EvaluationOptions options;
     options.planes = planes;
     KeptAnswers answers(*hold_out, options.methods);
-    Result<std::vector<MethodScores>> scores = evaluate(
-        set, *hold_out, options, [&](const AnsweredView& answered) { return answers.keep(answered); }, progress);
-    if (!scores) return scores.error();
-    add_scores(set, *hold_out, "every 2nd", std::move(*scores), std::move(answers), report);
+    RS_ASSIGN_OR_RETURN(
+        std::vector<MethodScores> scores,
+        evaluate(
+            set, *hold_out, options, [&](const AnsweredView& answered) { return answers.keep(answered); }, progress));
+    add_scores(set, *hold_out, "every 2nd", std::move(scores), std::move(answers), report);
     return {};
 }
 
@@ -113,9 +113,8 @@ void add_depths(const CaptureSet& set, const std::vector<FoundDepth>& depths, Bu
 }
 
 Status write_report(StagedFile& file, const BuildReport& report) {
-    const Result<std::string> page = build_report_page(report);
-    if (!page) return page.error();
-    if (Status status = file.write(std::as_bytes(std::span(*page))); !status) return status;
+    RS_ASSIGN_OR_RETURN(const std::string page, build_report_page(report));
+    if (Status status = file.write(std::as_bytes(std::span(page))); !status) return status;
     return file.commit();
 }
 

@@ -98,21 +98,19 @@ bool DataModule::has_board() const {
 }
 
 Result<ObjectHandle> DataModule::load(const std::filesystem::path& path) {
-    Result<RaySpaceObject> object = read_object(path);
-    if (!object) return object.error();
-    return load_checked(std::move(*object));
+    RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path));
+    return load_checked(std::move(object));
 }
 
 Result<ObjectHandle> DataModule::load(RaySpaceObject object) {
-    if (const Status status = validate_object(object, object.name); !status) return status.error();
+    RS_TRY(validate_object(object, object.name));
     return load_checked(std::move(object));
 }
 
 Result<ObjectHandle> DataModule::load_checked(RaySpaceObject object) {
     const std::shared_ptr<const RaySpaceObject> for_board = as_board_draws(object);
-    Result<Renderer> renderer = Renderer::create(std::move(object));
-    if (!renderer) return renderer.error();
-    return load({std::make_shared<const Renderer>(std::move(*renderer)), for_board});
+    RS_ASSIGN_OR_RETURN(Renderer renderer, Renderer::create(std::move(object)));
+    return load({std::make_shared<const Renderer>(std::move(renderer)), for_board});
 }
 
 std::shared_ptr<const RaySpaceObject> DataModule::as_board_draws(RaySpaceObject& object) const {
@@ -210,10 +208,9 @@ Result<std::vector<DrawnView>> DataModule::retrieve_views(CycleHandle handle) {
 }
 
 Result<std::vector<Image<Rgba8>>> DataModule::retrieve(CycleHandle handle) {
-    Result<std::vector<DrawnView>> views = retrieve_views(handle);
-    if (!views) return views.error();
+    RS_ASSIGN_OR_RETURN(std::vector<DrawnView> views, retrieve_views(handle));
     std::vector<Image<Rgba8>> pictures;
-    for (DrawnView& view : *views) pictures.push_back(std::move(view.picture));
+    for (DrawnView& view : views) pictures.push_back(std::move(view.picture));
     return pictures;
 }
 

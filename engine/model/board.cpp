@@ -32,15 +32,14 @@ Board::Board(const BoardConfig& config, std::uint64_t shuffle_seed)
       slots_(static_cast<std::size_t>(config.limits.objects)) {}
 
 Result<int> Board::take_slot(const RaySpaceObject& object) {
-    if (Status status = layout_.drawable(object, top_->config.limits); !status) return status.error();
+    RS_TRY(layout_.drawable(object, top_->config.limits));
     const auto free = std::find_if(slots_.begin(), slots_.end(), [](const Slot& s) { return !s.used; });
     if (free == slots_.end()) {
         return Error{object.name + ": all " + std::to_string(slots_.size()) +
                      " object slots of the board are taken; evict an object first"};
     }
-    const Result<Placement> placement = map_.take(layout_.words(object), object.name);
-    if (!placement) return placement.error();
-    *free = {true, *placement};
+    RS_ASSIGN_OR_RETURN(const Placement placement, map_.take(layout_.words(object), object.name));
+    *free = {true, placement};
     return static_cast<int>(free - slots_.begin());
 }
 
@@ -51,9 +50,8 @@ ObjectImage Board::image_of(const RaySpaceObject& object, int slot) {
 }
 
 Result<int> Board::place(const RaySpaceObject& object) {
-    const Result<int> slot = take_slot(object);
-    if (!slot) return slot.error();
-    ObjectImage image = image_of(object, *slot);
+    RS_ASSIGN_OR_RETURN(const int slot, take_slot(object));
+    ObjectImage image = image_of(object, slot);
     for (int channel = 0; channel < top_->channels(); ++channel) {
         Sdram& sdram = top_->sdram(channel);
         for (const MemorySegment& segment : image.segments) {
@@ -63,17 +61,16 @@ Result<int> Board::place(const RaySpaceObject& object) {
         }
     }
     image.registers.valid = true;
-    top_->registers.objects[static_cast<std::size_t>(*slot)] = image.registers;
-    return *slot;
+    top_->registers.objects[static_cast<std::size_t>(slot)] = image.registers;
+    return slot;
 }
 
 Result<int> Board::start_load(const RaySpaceObject& object) {
-    const Result<int> slot = take_slot(object);
-    if (!slot) return slot.error();
-    ObjectImage image = image_of(object, *slot);
+    RS_ASSIGN_OR_RETURN(const int slot, take_slot(object));
+    ObjectImage image = image_of(object, slot);
     top_->disk_controller.load(
-        {*slot, image.registers, std::make_shared<const std::vector<MemorySegment>>(std::move(image.segments))});
-    return *slot;
+        {slot, image.registers, std::make_shared<const std::vector<MemorySegment>>(std::move(image.segments))});
+    return slot;
 }
 
 Status Board::finish_loads() {
@@ -173,7 +170,7 @@ Result<BoardRun> Board::render(const std::vector<std::vector<BoardView>>& cycles
         const auto event = [&] {
             return rendered() != was || top_->render_control.refusals().size() != refused || arrived();
         };
-        if (Status status = top_->simulator.run_until(event, kMostCycles); !status) return status.error();
+        RS_TRY(top_->simulator.run_until(event, kMostCycles));
         if (top_->render_control.refusals().size() != refused) {
             return Error{"the board refused a rendering cycle: " + top_->render_control.refusals().back().reason};
         }
@@ -186,7 +183,7 @@ Result<BoardRun> Board::render(const std::vector<std::vector<BoardView>>& cycles
     const auto quiet = [&] {
         return top_->host_dma.last_activity() == Activity::idle && top_->buffer_free.count() == 0;
     };
-    if (Status status = top_->simulator.run_until(quiet, kMostCycles); !status) return status.error();
+    RS_TRY(top_->simulator.run_until(quiet, kMostCycles));
     return run;
 }
 

@@ -78,41 +78,37 @@ void print_json(const VectorSet& set, const ConformanceMatrix& matrix) {
 }
 
 Status run_set(const ConformanceArguments& arguments) {
-    const Result<VectorSet> set = read_vectors(arguments.target);
-    if (!set) return set.error();
+    RS_ASSIGN_OR_RETURN(const VectorSet set, read_vectors(arguments.target));
     std::vector<Implementation> implementations;
     for (const std::string& name :
          arguments.executors.empty() ? std::vector<std::string>{"scalar", "core"} : arguments.executors) {
-        Result<Implementation> implementation = implementation_from(name);
-        if (!implementation) return implementation.error();
-        implementations.push_back(std::move(*implementation));
+        RS_ASSIGN_OR_RETURN(Implementation implementation, implementation_from(name));
+        implementations.push_back(std::move(implementation));
     }
     ProgressBar progress(arguments.quiet);
-    const Result<ConformanceMatrix> matrix = run_vectors(*set, implementations, arguments.write_folder, &progress);
-    if (!matrix) return matrix.error();
+    RS_ASSIGN_OR_RETURN(const ConformanceMatrix matrix,
+                        run_vectors(set, implementations, arguments.write_folder, &progress));
     if (arguments.json) {
-        print_json(*set, *matrix);
+        print_json(set, matrix);
     } else {
-        print_matrix(*set, *matrix);
+        print_matrix(set, matrix);
     }
-    if (matrix->passed()) return {};
+    if (matrix.passed()) return {};
     return Error{arguments.target + ": not everything is as the definition says; see the table"};
 }
 
 Status run_random_views(const ConformanceArguments& arguments) {
-    Result<RaySpaceObject> object = read_object(arguments.target, {.decode = false});
-    if (!object) return object.error();
+    RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(arguments.target, {.decode = false}));
     ProgressBar progress(arguments.quiet);
-    const Result<ConformanceReport> report =
-        check_conformance(std::move(*object), arguments.views, arguments.seed, &progress);
-    if (!report) return report.error();
+    RS_ASSIGN_OR_RETURN(const ConformanceReport report,
+                        check_conformance(std::move(object), arguments.views, arguments.seed, &progress));
     std::printf(
         "%s: %d views (%d upright, %d of them on a ring), %lld pixels, %lld of the object: %lld differ from the "
         "definition\n",
-        arguments.target.c_str(), report->views, report->upright_views, report->on_ring_views,
-        static_cast<long long>(report->pixels), static_cast<long long>(report->object_pixels),
-        static_cast<long long>(report->different_pixels));
-    if (report->different_pixels != 0) {
+        arguments.target.c_str(), report.views, report.upright_views, report.on_ring_views,
+        static_cast<long long>(report.pixels), static_cast<long long>(report.object_pixels),
+        static_cast<long long>(report.different_pixels));
+    if (report.different_pixels != 0) {
         return Error{arguments.target +
                      ": the core's pictures are not those of the definition; this is a defect of the renderer"};
     }

@@ -24,33 +24,30 @@ struct CompareArguments {
 };
 
 Result<Renderer> open_renderer(const std::string& path) {
-    Result<RaySpaceObject> object = read_object(path, {.decode = false});
-    if (!object) return object.error();
-    return Renderer::create(std::move(*object));
+    RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path, {.decode = false}));
+    return Renderer::create(std::move(object));
 }
 
 Status run_compare(const CompareArguments& arguments) {
-    const Result<Renderer> renderer = open_renderer(arguments.object);
-    if (!renderer) return renderer.error();
+    RS_ASSIGN_OR_RETURN(const Renderer renderer, open_renderer(arguments.object));
     ProgressBar progress(arguments.quiet);
-    const Result<Comparison> comparison = compare_with_set(*renderer, arguments.set, &progress);
-    if (!comparison) return comparison.error();
+    RS_ASSIGN_OR_RETURN(const Comparison comparison, compare_with_set(renderer, arguments.set, &progress));
     if (arguments.json) {
         nlohmann::json json{{"views", nlohmann::json::array()},
-                            {"mean_psnr_db", comparison->mean_psnr_db},
-                            {"pooled_psnr_db", comparison->pooled_psnr_db},
-                            {"mean_ssim", comparison->mean_ssim}};
-        for (const ComparedView& view : comparison->views) {
+                            {"mean_psnr_db", comparison.mean_psnr_db},
+                            {"pooled_psnr_db", comparison.pooled_psnr_db},
+                            {"mean_ssim", comparison.mean_ssim}};
+        for (const ComparedView& view : comparison.views) {
             json["views"].push_back({{"picture", view.picture}, {"psnr_db", view.psnr_db}, {"ssim", view.ssim}});
         }
         std::cout << json.dump(2) << '\n';
         return {};
     }
-    for (const ComparedView& view : comparison->views) {
+    for (const ComparedView& view : comparison.views) {
         std::printf("%-24s %6.2f dB  SSIM %.4f\n", printable(view.picture).c_str(), view.psnr_db, view.ssim);
     }
-    std::printf("%-24s %6.2f dB  SSIM %.4f  (all pixels together %.2f dB)\n", "mean", comparison->mean_psnr_db,
-                comparison->mean_ssim, comparison->pooled_psnr_db);
+    std::printf("%-24s %6.2f dB  SSIM %.4f  (all pixels together %.2f dB)\n", "mean", comparison.mean_psnr_db,
+                comparison.mean_ssim, comparison.pooled_psnr_db);
     return {};
 }
 
@@ -60,14 +57,13 @@ Status run_board(const std::vector<std::string>& paths) {
     std::vector<RaySpaceObject> objects;
     std::printf("%-28s %9s %9s %9s %9s %9s  MB\n", "object", "luma", "chroma", "alpha", "RS map", "total");
     for (const std::string& path : paths) {
-        Result<RaySpaceObject> object = read_object(path, {.max_level = -1});
-        if (!object) return object.error();
-        const model::BoardFootprint f = layout.footprint(*object);
+        RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path, {.max_level = -1}));
+        const model::BoardFootprint f = layout.footprint(object);
         const auto megabytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) / 1e6; };
-        std::printf("%-28s %9.2f %9.2f %9.2f %9.2f %9.2f\n", printable(object->name).c_str(), megabytes(f.luma_bytes),
+        std::printf("%-28s %9.2f %9.2f %9.2f %9.2f %9.2f\n", printable(object.name).c_str(), megabytes(f.luma_bytes),
                     megabytes(f.chroma_bytes), megabytes(f.alpha_bytes), megabytes(f.map_bytes),
                     megabytes(f.total_bytes()));
-        objects.push_back(std::move(*object));
+        objects.push_back(std::move(object));
     }
     std::printf("%-28s %49.2f\n", "image buffer", static_cast<double>(image_buffer_bytes(limits)) / 1e6);
     for (const RaySpaceObject& object : objects) {

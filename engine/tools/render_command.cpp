@@ -59,9 +59,8 @@ struct RenderArguments {
 };
 
 Result<Renderer> open_renderer(const std::string& path, int level) {
-    Result<RaySpaceObject> object = read_object(path, {.max_level = level, .decode = false});
-    if (!object) return object.error();
-    return Renderer::create(std::move(*object));
+    RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path, {.max_level = level, .decode = false}));
+    return Renderer::create(std::move(object));
 }
 
 // Counts views that show nothing of the object; from several threads.
@@ -89,10 +88,9 @@ private:
 
 Result<Image<Rgba8>> render_camera(const Renderer& renderer, const Camera& camera, std::optional<TexelFilter> filter,
                                    EmptyViews& empty) {
-    const Result<ViewRegisters> registers = prepare_view(renderer.object(), camera, filter);
-    if (!registers) return registers.error();
+    RS_ASSIGN_OR_RETURN(const ViewRegisters registers, prepare_view(renderer.object(), camera, filter));
     Image<Rgba8> picture(camera.width, camera.height);
-    renderer.render(*registers, picture);
+    renderer.render(registers, picture);
     empty.look_at(picture);
     return picture;
 }
@@ -105,11 +103,10 @@ std::filesystem::path depth_name(std::filesystem::path picture) {
 // The view as PNG and, beside it, its depth.
 Status write_view_with_depth(const Renderer& renderer, const Camera& camera, std::optional<TexelFilter> filter,
                              const std::filesystem::path& path, EmptyViews& empty) {
-    const Result<ViewRegisters> registers = prepare_view(renderer.object(), camera, filter);
-    if (!registers) return registers.error();
+    RS_ASSIGN_OR_RETURN(const ViewRegisters registers, prepare_view(renderer.object(), camera, filter));
     Image<Rgba8> picture(camera.width, camera.height);
     Image<std::int32_t> lambda_q20(camera.width, camera.height);
-    renderer.render(*registers, picture, lambda_q20);
+    renderer.render(registers, picture, lambda_q20);
     empty.look_at(picture);
     if (Status status = write_png(path, picture); !status) return status;
     return write_exr_channel(depth_name(path), depth_picture(renderer.object(), camera, lambda_q20));
@@ -117,8 +114,7 @@ Status write_view_with_depth(const Renderer& renderer, const Camera& camera, std
 
 Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
                     EmptyViews& empty, Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(arguments.output, "rendered views");
-    if (!staged) return staged.error();
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(arguments.output, "rendered views"));
     Rig rig = rig_of_views(cameras);
     rig.object_radius = renderer.object().units_per_radius;
     for (RigView& view : rig.views) {
@@ -127,15 +123,14 @@ Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras
     const int count = static_cast<int>(cameras.size());
     Status written = for_each_in_parallel(count, "rendering", &progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
-        const std::filesystem::path path = staged->temporary_path() / rig.views[n].file_path;
+        const std::filesystem::path path = staged.temporary_path() / rig.views[n].file_path;
         if (arguments.depth) return write_view_with_depth(renderer, cameras[n], arguments.filter, path, empty);
-        const Result<Image<Rgba8>> picture = render_camera(renderer, cameras[n], arguments.filter, empty);
-        if (!picture) return picture.error();
-        return write_png(path, *picture);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, render_camera(renderer, cameras[n], arguments.filter, empty));
+        return write_png(path, picture);
     });
     if (!written) return written;
-    if (Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
-    return staged->commit();
+    if (Status status = write_rig(staged.temporary_path() / kRigFileName, rig); !status) return status;
+    return staged.commit();
 }
 
 // Views as captured may be as large as photographs are; a sheet of them is to be looked at.
@@ -183,9 +178,8 @@ Status write_picture(const Renderer& renderer, const std::vector<Camera>& camera
         return write_view_with_depth(renderer, cameras.front(), arguments.filter, arguments.output, empty);
     std::vector<Image<Rgba8>> pictures;
     for (const Camera& camera : cameras) {
-        Result<Image<Rgba8>> picture = render_camera(renderer, camera, arguments.filter, empty);
-        if (!picture) return picture.error();
-        pictures.push_back(std::move(*picture));
+        RS_ASSIGN_OR_RETURN(Image<Rgba8> picture, render_camera(renderer, camera, arguments.filter, empty));
+        pictures.push_back(std::move(picture));
     }
     if (arguments.sheet_columns == 0) return write_png(arguments.output, pictures.front());
     constexpr Rgba8 kBackdrop{96, 98, 102, 255};
@@ -210,27 +204,24 @@ Status write_views(OutputKind kind, const Renderer& renderer, const std::vector<
 }
 
 Status run_render(const RenderArguments& arguments) {
-    const Result<OutputKind> kind = output_kind(arguments.output);
-    if (!kind) return kind.error();
-    if (arguments.sheet_columns > 0 && *kind != OutputKind::picture) {
+    RS_ASSIGN_OR_RETURN(const OutputKind kind, output_kind(arguments.output));
+    if (arguments.sheet_columns > 0 && kind != OutputKind::picture) {
         return Error{arguments.output + ": --sheet makes one picture; give a name that ends in .png to -o"};
     }
-    if (arguments.depth && (*kind == OutputKind::video || arguments.sheet_columns > 0)) {
+    if (arguments.depth && (kind == OutputKind::video || arguments.sheet_columns > 0)) {
         return Error{arguments.output +
                      ": a video or a sheet has no depth; give a folder or one view's FILE.png to -o, "
                      "or leave out --depth"};
     }
-    const Result<Renderer> renderer = open_renderer(arguments.object, arguments.level);
-    if (!renderer) return renderer.error();
-    Result<std::vector<Camera>> cameras = requested_cameras(renderer->object(), arguments.views);
-    if (!cameras) return cameras.error();
+    RS_ASSIGN_OR_RETURN(const Renderer renderer, open_renderer(arguments.object, arguments.level));
+    RS_ASSIGN_OR_RETURN(std::vector<Camera> cameras, requested_cameras(renderer.object(), arguments.views));
     if (arguments.sheet_columns > 0 && arguments.views.size.empty()) {
-        fit_on_sheet(*cameras, static_cast<std::size_t>(arguments.sheet_columns));
+        fit_on_sheet(cameras, static_cast<std::size_t>(arguments.sheet_columns));
     }
 
     ProgressBar progress(arguments.quiet);
     EmptyViews empty;
-    Status status = write_views(*kind, *renderer, *cameras, arguments, empty, progress);
+    Status status = write_views(kind, renderer, cameras, arguments, empty, progress);
     progress.finish();
     if (status) empty.warn();
     return status;

@@ -57,17 +57,16 @@ Result<std::vector<Drawing>> requested_drawings(const std::vector<RaySpaceObject
                                                 const SimulateArguments& arguments) {
     std::vector<std::vector<Camera>> cameras;
     for (const RaySpaceObject& object : objects) {
-        Result<std::vector<Camera>> asked = requested_cameras(object, arguments.views);
-        if (!asked) return asked.error();
-        cameras.push_back(std::move(*asked));
+        RS_ASSIGN_OR_RETURN(std::vector<Camera> asked, requested_cameras(object, arguments.views));
+        cameras.push_back(std::move(asked));
     }
     std::vector<Drawing> drawings;
     for (std::size_t v = 0; v < cameras.front().size(); ++v) {
         for (std::size_t n = 0; n < objects.size(); ++n) {
             const Camera camera = arguments.upright ? stood_upright(cameras[n][v]) : cameras[n][v];
-            const Result<ViewRegisters> registers = prepare_view(objects[n], camera, TexelFilter::kBilinear);
-            if (!registers) return registers.error();
-            drawings.push_back({n, camera, *registers});
+            RS_ASSIGN_OR_RETURN(const ViewRegisters registers,
+                                prepare_view(objects[n], camera, TexelFilter::kBilinear));
+            drawings.push_back({n, camera, registers});
         }
     }
     return drawings;
@@ -89,12 +88,11 @@ void print_footprint(const RaySpaceObject& object, const model::Board& board) {
 Result<std::vector<int>> put_on_board(model::Board& board, const std::vector<RaySpaceObject>& objects, bool load) {
     std::vector<int> slots;
     for (const RaySpaceObject& object : objects) {
-        const Result<int> slot = load ? board.start_load(object) : board.place(object);
-        if (!slot) return slot.error();
-        slots.push_back(*slot);
+        RS_ASSIGN_OR_RETURN(const int slot, load ? board.start_load(object) : board.place(object));
+        slots.push_back(slot);
     }
     if (!load) return slots;
-    if (Status status = board.finish_loads(); !status) return status.error();
+    RS_TRY(board.finish_loads());
     const double hz = 1e6 * board.top().config.clock_mhz;
     for (const auto& done : board.top().disk_controller.loads()) {
         const double seconds = double(done.finished - done.started) / hz;
@@ -180,9 +178,8 @@ Status use_pictures(const model::BoardRun& run, const std::vector<Drawing>& draw
     Rig rig = rig_of_views(cameras);
     std::optional<StagedFolder> folder;
     if (!output.empty()) {
-        Result<StagedFolder> staged = StagedFolder::create(output, "rendered views");
-        if (!staged) return staged.error();
-        folder.emplace(std::move(*staged));
+        RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "rendered views"));
+        folder.emplace(std::move(staged));
     }
     std::size_t n = 0;
     std::size_t equal = 0;
@@ -206,46 +203,39 @@ Status use_pictures(const model::BoardRun& run, const std::vector<Drawing>& draw
 }
 
 Status run_simulate(const SimulateArguments& arguments) {
-    const Result<model::BoardConfig> config = model::read_board_config(arguments.config);
-    if (!config) return config.error();
+    RS_ASSIGN_OR_RETURN(const model::BoardConfig config, model::read_board_config(arguments.config));
     if (arguments.print_config) {
-        std::printf("%s\n", model::board_config_json(*config).c_str());
+        std::printf("%s\n", model::board_config_jsonconfig.c_str());
         return {};
     }
-    model::Board board(*config);
+    model::Board board(config);
     if (arguments.diagram) {
         std::printf("%s", model::diagram_tables(board.top()).c_str());
         return {};
     }
     std::vector<RaySpaceObject> objects;
     for (const std::string& path : arguments.objects) {
-        Result<RaySpaceObject> object = read_object(path);
-        if (!object) return object.error();
-        objects.push_back(model::layout_of(config->limits.kind).as_drawn(std::move(*object)));
+        RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path));
+        objects.push_back(model::layout_of(config.limits.kind).as_drawn(std::move(object)));
     }
     for (const RaySpaceObject& object : objects) print_footprint(object, board);
-    const Result<std::vector<int>> slots = put_on_board(board, objects, arguments.load);
-    if (!slots) return slots.error();
-    const Result<std::vector<Drawing>> drawings = requested_drawings(objects, arguments);
-    if (!drawings) return drawings.error();
-    const int per_cycle = arguments.per_cycle > 0 ? arguments.per_cycle : config->limits.views_per_cycle;
-    const auto cycles = rendering_cycles(board, *drawings, *slots, per_cycle);
-    if (!cycles) return cycles.error();
+    RS_ASSIGN_OR_RETURN(const std::vector<int> slots, put_on_board(board, objects, arguments.load));
+    RS_ASSIGN_OR_RETURN(const std::vector<Drawing> drawings, requested_drawings(objects, arguments));
+    const int per_cycle = arguments.per_cycle > 0 ? arguments.per_cycle : config.limits.views_per_cycle;
+    RS_ASSIGN_OR_RETURN(const auto cycles, rendering_cycles(board, drawings, slots, per_cycle));
 
     std::unique_ptr<model::Waveform> waveform;
     if (!arguments.trace.empty()) {
-        auto opened = model::Waveform::open(arguments.trace, board.top(), arguments.trace_cycles);
-        if (!opened) return opened.error();
-        waveform = std::move(*opened);
+        RS_ASSIGN_OR_RETURN(auto opened, model::Waveform::open(arguments.trace, board.top(), arguments.trace_cycles));
+        waveform = std::move(opened);
     }
     const auto begin = std::chrono::steady_clock::now();
-    const Result<model::BoardRun> run = board.render(*cycles);
-    if (!run) return run.error();
+    RS_ASSIGN_OR_RETURN(const model::BoardRun run, board.render(cycles));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (waveform) {
         if (Status status = waveform->finish(); !status) return status;
     }
-    const model::BoardReport report = model::make_report(board, *run);
+    const model::BoardReport report = model::make_report(board, run);
     print_report(report);
     std::printf("simulated at %.2f million board cycles a second\n", double(report.board_cycles) / seconds / 1e6);
     if (!arguments.stats.empty()) {
@@ -255,7 +245,7 @@ Status run_simulate(const SimulateArguments& arguments) {
         const std::string title = report.config + ", " + std::to_string(report.pictures) + " pictures";
         if (Status status = write_file(arguments.chart, model::report_chart_svg(report, title)); !status) return status;
     }
-    return use_pictures(*run, *drawings, objects, arguments.output);
+    return use_pictures(run, drawings, objects, arguments.output);
 }
 
 }  // namespace

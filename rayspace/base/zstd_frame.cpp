@@ -63,9 +63,9 @@ Status expand_zstd_frame(std::span<const std::byte> frame, std::uint64_t size_by
 
 Result<std::vector<std::uint8_t>> zstd_content(std::span<const std::byte> frame, std::uint64_t size_bytes,
                                                const char* what) {
-    if (Status status = check_zstd_frame(frame, size_bytes, what); !status) return status.error();
+    RS_TRY(check_zstd_frame(frame, size_bytes, what));
     std::vector<std::uint8_t> bytes;
-    if (Status status = expand_zstd_frame(frame, size_bytes, what, bytes); !status) return status.error();
+    RS_TRY(expand_zstd_frame(frame, size_bytes, what, bytes));
     return bytes;
 }
 

@@ -13,11 +13,10 @@ using namespace container_layout;
 
 Result<ContainerWriter> ContainerWriter::create(const std::filesystem::path& path, std::uint32_t chunk_count) {
     RS_CHECK(chunk_count >= 1 && chunk_count <= kMaxChunks);
-    auto file = StagedFile::create(path);
-    if (!file) return file.error();
+    RS_ASSIGN_OR_RETURN(auto file, StagedFile::create(path));
     const std::vector<std::byte> reserved(kHeader_bytes + chunk_count * kEntry_bytes);
-    if (Status status = file->write(reserved); !status) return status.error();
-    return ContainerWriter(std::move(file).value(), chunk_count);
+    RS_TRY(file.write(reserved));
+    return ContainerWriter(std::move(file), chunk_count);
 }
 
 ContainerWriter::ContainerWriter(StagedFile file, std::uint32_t chunk_count)

@@ -22,11 +22,11 @@ public:
 
     Result<RaySpaceObject> read() {
         for (const ReadStage stage : {ReadStage::geometry, ReadStage::maps, ReadStage::pictures}) {
-            if (const Status status = read_stage(stage); !status) return status.error();
+            RS_TRY(read_stage(stage));
             if (stage != ReadStage::geometry) continue;
-            if (const Status status = check_geometry(); !status) return status.error();
+            RS_TRY(check_geometry());
         }
-        if (const Status status = validate_object(unread_.object, container_.where()); !status) return status.error();
+        RS_TRY(validate_object(unread_.object, container_.where()));
         if (unread_.coded && options_.decode) codec::decode_pictures(unread_.object);
         return std::move(unread_.object);
     }
@@ -36,8 +36,8 @@ public:
     Result<ReadingMemory> measure() {
         constexpr std::uint64_t kParsedOverText = 24;
         constexpr std::uint64_t kSmallThings_bytes = 1U << 20;
-        if (const Status status = read_stage(ReadStage::geometry); !status) return status.error();
-        if (const Status status = check_geometry(); !status) return status.error();
+        RS_TRY(read_stage(ReadStage::geometry));
+        RS_TRY(check_geometry());
         std::uint64_t kept = kSmallThings_bytes + memory_of_geometry();
         std::uint64_t kept_by_maps = 0;
         std::uint64_t largest_passing = 0;
@@ -47,9 +47,8 @@ public:
             if (unread_.coded && entry.name == kPicture) kept += entry.size_bytes;
             const auto kind = std::ranges::find(chunk_table(), entry.name, &ChunkKind::name);
             if (kind == chunk_table().end() || kind->memory == nullptr) continue;
-            const auto payload = read_payload(entry);
-            if (!payload) return payload.error();
-            const Result<ChunkMemory> takes = kind->memory(*payload, unread_, entry.index);
+            RS_ASSIGN_OR_RETURN(const auto payload, read_payload(entry));
+            const Result<ChunkMemory> takes = kind->memory(payload, unread_, entry.index);
             if (!takes) return in_chunk({entry.name, entry.index}, takes.error());
             kept_by_maps += takes->kept_bytes;
             largest_passing = std::max(largest_passing, takes->passing_bytes);
@@ -92,16 +91,15 @@ private:
             if (kind.is_there != nullptr) return {};
             return Error{container_.where() + ": has no chunk " + to_string(kind.name) + " " + std::to_string(index)};
         }
-        const auto payload = read_payload(*entry);
-        if (!payload) return payload.error();
+        RS_ASSIGN_OR_RETURN(const auto payload, read_payload(*entry));
         if (kind.memory != nullptr) {
-            const Result<ChunkMemory> takes = kind.memory(*payload, unread_, index);
+            const Result<ChunkMemory> takes = kind.memory(payload, unread_, index);
             if (!takes) return in_chunk({kind.name, index}, takes.error());
             needed_bytes_ += takes->kept_bytes;
             const std::uint64_t most_bytes = needed_bytes_ + takes->passing_bytes;
             if (most_bytes > options_.memory_cap_bytes) return too_large(most_bytes);
         }
-        const Status parsed = kind.parse(*payload, unread_, index);
+        const Status parsed = kind.parse(payload, unread_, index);
         return parsed ? Status{} : in_chunk({kind.name, index}, parsed.error());
     }
 
@@ -226,14 +224,13 @@ Status write_object(const std::filesystem::path& path, const RaySpaceObject& obj
         }
     }
     const std::vector<ChunkKey> order = chunk_order(object);
-    auto writer = ContainerWriter::create(path, static_cast<std::uint32_t>(order.size()));
-    if (!writer) return writer.error();
+    RS_ASSIGN_OR_RETURN(auto writer, ContainerWriter::create(path, static_cast<std::uint32_t>(order.size())));
     if (progress != nullptr) progress->start("writing", static_cast<std::int64_t>(order.size()));
     for (const ChunkKey key : order) {
-        if (Status status = writer->add(key.name, key.index, chunk_payload(object, key)); !status) return status;
+        if (Status status = writer.add(key.name, key.index, chunk_payload(object, key)); !status) return status;
         if (progress != nullptr) progress->advance();
     }
-    Status status = writer->commit();
+    Status status = writer.commit();
     if (progress != nullptr) progress->finish();
     return status;
 }
@@ -243,9 +240,8 @@ Result<RaySpaceObject> read_object(const ContainerReader& container, const ReadO
 }
 
 Result<RaySpaceObject> read_object(const std::filesystem::path& path, const ReadObjectOptions& options) {
-    const auto container = ContainerReader::open(path);
-    if (!container) return container.error();
-    return read_object(*container, options);
+    RS_ASSIGN_OR_RETURN(const auto container, ContainerReader::open(path));
+    return read_object(container, options);
 }
 
 Result<ReadingMemory> memory_to_read(const ContainerReader& container, const ReadObjectOptions& options) {

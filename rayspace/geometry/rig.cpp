@@ -42,13 +42,11 @@ Result<Rig> read_rig(const fs::path& path) {
     if (!fs::exists(file, ignored)) {
         return Error{file.string() + ": does not exist; give a capture set's folder or its " + kRigFileName};
     }
-    const auto bytes = read_file(file, kMaxRigFile_bytes);
-    if (!bytes) return bytes.error();
-    const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(file, kMaxRigFile_bytes));
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     return parse_rig(text, file.string(), [&](const RigView& first) -> Result<PictureSize> {
-        const auto info = read_picture_info(picture_path(file.parent_path(), first));
-        if (!info) return info.error();
-        return PictureSize{info->width, info->height};
+        RS_ASSIGN_OR_RETURN(const auto info, read_picture_info(picture_path(file.parent_path(), first)));
+        return PictureSize{info.width, info.height};
     });
 }
 

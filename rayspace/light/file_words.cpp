@@ -105,21 +105,19 @@ Result<double> NumberStream::next(const std::string& what) {
 Result<std::vector<double>> NumberStream::next(std::size_t count, const std::string& what) {
     std::vector<double> numbers;
     while (numbers.size() < count) {
-        const Result<double> number = next(what + " " + std::to_string(numbers.size() + 1));
-        if (!number) return number.error();
-        numbers.push_back(*number);
+        RS_ASSIGN_OR_RETURN(const double number, next(what + " " + std::to_string(numbers.size() + 1)));
+        numbers.push_back(number);
     }
     return numbers;
 }
 
 Result<int> NumberStream::next_whole(const std::string& what, int least, int most) {
-    const Result<double> number = next(what);
-    if (!number) return number.error();
-    if (*number != std::floor(*number) || *number < least || *number > most) {
-        return error(what + " is " + std::to_string(*number) + "; it must be a whole number, " + std::to_string(least) +
+    RS_ASSIGN_OR_RETURN(const double number, next(what));
+    if (number != std::floor(number) || number < least || number > most) {
+        return error(what + " is " + std::to_string(number) + "; it must be a whole number, " + std::to_string(least) +
                      ".." + std::to_string(most));
     }
-    return static_cast<int>(*number);
+    return static_cast<int>(number);
 }
 
 }  // namespace rs

@@ -87,21 +87,17 @@ LuminousOpening opening_of(double across, double along, double height, Edition e
 
 Result<TiltTable> read_tilt(NumberStream& numbers) {
     TiltTable tilt;
-    const Result<int> geometry = numbers.next_whole("the lamp-to-luminaire geometry of TILT", 1, 3);
-    if (!geometry) return geometry.error();
-    tilt.lamp_to_luminaire = *geometry;
-    const Result<int> count = numbers.next_whole("the number of tilt angles", 1, kMostTiltAngles);
-    if (!count) return count.error();
-    Result<std::vector<double>> angles = numbers.next(static_cast<std::size_t>(*count), "tilt angle");
-    if (!angles) return angles.error();
-    if (!std::is_sorted(angles->begin(), angles->end())) return numbers.error("tilt angles must ascend");
-    Result<std::vector<double>> factors = numbers.next(static_cast<std::size_t>(*count), "tilt factor");
-    if (!factors) return factors.error();
-    if (std::ranges::any_of(*factors, [](double f) { return f < 0; })) {
+    RS_ASSIGN_OR_RETURN(const int geometry, numbers.next_whole("the lamp-to-luminaire geometry of TILT", 1, 3));
+    tilt.lamp_to_luminaire = geometry;
+    RS_ASSIGN_OR_RETURN(const int count, numbers.next_whole("the number of tilt angles", 1, kMostTiltAngles));
+    RS_ASSIGN_OR_RETURN(std::vector<double> angles, numbers.next(static_cast<std::size_t>(count), "tilt angle"));
+    if (!std::is_sorted(angles.begin(), angles.end())) return numbers.error("tilt angles must ascend");
+    RS_ASSIGN_OR_RETURN(std::vector<double> factors, numbers.next(static_cast<std::size_t>(count), "tilt factor"));
+    if (std::ranges::any_of(factors, [](double f) { return f < 0; })) {
         return numbers.error("a tilt factor is negative");
     }
-    tilt.angles_deg = std::move(*angles);
-    tilt.factors = std::move(*factors);
+    tilt.angles_deg = std::move(angles);
+    tilt.factors = std::move(factors);
     return tilt;
 }
 
@@ -178,30 +174,28 @@ Result<Luminaire> parse_ies(std::string_view text, const std::string& name) {
     NumberStream numbers(name, lines, *tilt_at + 1);
     const std::string tilt = tilt_word(lines[*tilt_at]);
     if (tilt == "INCLUDE") {
-        Result<TiltTable> table = read_tilt(numbers);
-        if (!table) return table.error();
-        luminaire.tilt = std::move(*table);
+        RS_ASSIGN_OR_RETURN(TiltTable table, read_tilt(numbers));
+        luminaire.tilt = std::move(table);
     } else if (tilt != "NONE") {
         return line_error(
             name, *tilt_at,
             "TILT= names another file, '" + tilt + "', which is not beside this one; put it there, or write TILT=NONE");
     }
-    const Result<Header> header = read_header(numbers);
-    if (!header) return header.error();
-    luminaire.type = header->type;
-    luminaire.lamps = header->lamps;
-    luminaire.lumens_per_lamp = header->lumens_per_lamp < 0 ? -1 : header->lumens_per_lamp;
-    luminaire.multiplier = header->multiplier;
-    luminaire.ballast_factor = header->ballast_factor;
-    luminaire.input_w = header->input_w;
+    RS_ASSIGN_OR_RETURN(const Header header, read_header(numbers));
+    luminaire.type = header.type;
+    luminaire.lamps = header.lamps;
+    luminaire.lumens_per_lamp = header.lumens_per_lamp < 0 ? -1 : header.lumens_per_lamp;
+    luminaire.multiplier = header.multiplier;
+    luminaire.ballast_factor = header.ballast_factor;
+    luminaire.input_w = header.input_w;
     // Until 1991 the number behind it was a second factor, of the lamp on this ballast.
-    if (edition.edition <= Edition::k1991 && header->last_factor > 0) luminaire.ballast_factor *= header->last_factor;
-    const double unit = header->metres_per_unit;
-    luminaire.opening = opening_of(header->across * unit, header->along * unit, header->height * unit, edition.edition);
+    if (edition.edition <= Edition::k1991 && header.last_factor > 0) luminaire.ballast_factor *= header.last_factor;
+    const double unit = header.metres_per_unit;
+    luminaire.opening = opening_of(header.across * unit, header.along * unit, header.height * unit, edition.edition);
 
-    PhotometricTable table{header->type, {}, {}, {}};
-    const auto rows = static_cast<std::size_t>(header->vertical);
-    const auto planes = static_cast<std::size_t>(header->horizontal);
+    PhotometricTable table{header.type, {}, {}, {}};
+    const auto rows = static_cast<std::size_t>(header.vertical);
+    const auto planes = static_cast<std::size_t>(header.horizontal);
     if (rows * planes > PhotometricWeb::kMostValues) {
         return numbers.error(std::to_string(planes) + " planes of " + std::to_string(rows) +
                              " intensities are too many; " + std::to_string(PhotometricWeb::kMostValues) +
@@ -210,9 +204,8 @@ Result<Luminaire> parse_ies(std::string_view text, const std::string& name) {
     for (auto [into, count, what] : {std::tuple{&table.vertical_deg, rows, "vertical angle"},
                                      std::tuple{&table.horizontal_deg, planes, "horizontal angle"},
                                      std::tuple{&table.candela, rows * planes, "intensity"}}) {
-        Result<std::vector<double>> read = numbers.next(count, what);
-        if (!read) return read.error();
-        *into = std::move(*read);
+        RS_ASSIGN_OR_RETURN(std::vector<double> read, numbers.next(count, what));
+        *into = std::move(read);
     }
     for (double& value : table.candela) value *= luminaire.multiplier * luminaire.ballast_factor;
     Result<PhotometricWeb> web = PhotometricWeb::create(table);
@@ -223,14 +216,12 @@ Result<Luminaire> parse_ies(std::string_view text, const std::string& name) {
 
 Result<Luminaire> read_luminaire(const std::filesystem::path& path) {
     const auto read_text = [](const std::filesystem::path& from) -> Result<std::string> {
-        const auto bytes = read_file(from, kMostLuminaireBytes);
-        if (!bytes) return bytes.error();
-        return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+        RS_ASSIGN_OR_RETURN(const auto bytes, read_file(from, kMostLuminaireBytes));
+        return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     };
-    Result<std::string> text = read_text(path);
-    if (!text) return text.error();
-    if (lower_case_extension(path) == ".ldt") return parse_eulumdat(*text, path.string());
-    const std::vector<std::string_view> lines = split_lines(*text);
+    RS_ASSIGN_OR_RETURN(std::string text, read_text(path));
+    if (lower_case_extension(path) == ".ldt") return parse_eulumdat(text, path.string());
+    const std::vector<std::string_view> lines = split_lines(text);
     if (const auto at = tilt_line(lines)) {
         const std::string named = tilt_word(lines[*at]);
         const std::filesystem::path beside = path.parent_path() / named;
@@ -239,13 +230,12 @@ Result<Luminaire> read_luminaire(const std::filesystem::path& path) {
             named != "NONE" && named != "INCLUDE" && !named.empty() && named.find('/') == std::string::npos;
         std::error_code none;
         if (plain && std::filesystem::exists(beside, none)) {
-            const Result<std::string> tilt = read_text(beside);
-            if (!tilt) return tilt.error();
-            const auto offset = static_cast<std::size_t>(lines[*at].data() - text->data());
-            text->replace(offset, lines[*at].size(), "TILT=INCLUDE\n" + *tilt);
+            RS_ASSIGN_OR_RETURN(const std::string tilt, read_text(beside));
+            const auto offset = static_cast<std::size_t>(lines[*at].data() - text.data());
+            text.replace(offset, lines[*at].size(), "TILT=INCLUDE\n" + tilt);
         }
     }
-    return parse_ies(*text, path.string());
+    return parse_ies(text, path.string());
 }
 
 }  // namespace rs

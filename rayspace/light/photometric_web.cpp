@@ -142,7 +142,7 @@ double invert(const Integral& integral, double wanted, double low, double high) 
 }  // namespace
 
 Result<PhotometricWeb> PhotometricWeb::create(const PhotometricTable& table) {
-    if (Status fine = check_table(table); !fine) return fine.error();
+    RS_TRY(check_table(table));
     PhotometricWeb web;
     const std::size_t rows = table.vertical_deg.size();
     std::vector<Plane> azimuths, polars;

@@ -180,7 +180,7 @@ std::string shown_error(const char* words) {
 Result<const aiScene*> post_processed(Assimp::Importer& importer, unsigned steps, const std::string& file) {
     const aiScene* const model = importer.GetScene();
     if (model == nullptr) return model;
-    if (Status finite = check_finite(*model, file); !finite) return finite.error();
+    RS_TRY(check_finite(*model, file));
     note_lines(*model);
     return importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | steps);
 }

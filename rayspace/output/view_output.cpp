@@ -44,18 +44,16 @@ Status write_view_video(const std::string& output, double frames_per_second, con
     // H.264 at 4:2:0 needs even sizes: the last odd row or column is dropped.
     const int width = cameras.front().width & ~1;
     const int height = cameras.front().height & ~1;
-    Result<VideoWriter> video = VideoWriter::open(output, width, height, frames_per_second);
-    if (!video) return video.error();
+    RS_ASSIGN_OR_RETURN(VideoWriter video, VideoWriter::open(output, width, height, frames_per_second));
     for (const Camera& camera : cameras) {
-        const Result<Image<Rgba8>> frame = render(camera);
-        if (!frame) return frame.error();
-        if ((frame->width() & ~1) != width || (frame->height() & ~1) != height) {
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> frame, render(camera));
+        if ((frame.width() & ~1) != width || (frame.height() & ~1) != height) {
             return Error{output + ": a video needs views of one size; give --size"};
         }
-        if (Status status = video->add(frame->view().crop(0, 0, width, height)); !status) return status;
+        if (Status status = video.add(frame.view().crop(0, 0, width, height)); !status) return status;
         progress.advance();
     }
-    return video->finish();
+    return video.finish();
 }
 
 }  // namespace rs

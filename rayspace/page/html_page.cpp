@@ -138,11 +138,10 @@ Status HtmlPage::pictures(std::span<const CaptionedPicture> row, int longest_sid
         layout == PictureLayout::kLine ? "<div class=\"pictures line\">\n" : "<div class=\"pictures\">\n";
     for (const CaptionedPicture& captioned : row) {
         const Image<Rgba8> small = scaled_down(captioned.picture, longest_side_px);
-        const auto png = encode_png(small, captioned.caption);
-        if (!png) return png.error();
+        RS_ASSIGN_OR_RETURN(const auto png, encode_png(small, captioned.caption));
         const std::string caption = escaped(captioned.caption);
         markup += "<figure><img alt=\"" + caption + "\" width=\"" + std::to_string(small.width()) + "\" height=\"" +
-                  std::to_string(small.height()) + "\" src=\"data:image/png;base64," + base64(*png) +
+                  std::to_string(small.height()) + "\" src=\"data:image/png;base64," + base64(png) +
                   "\"/><figcaption>" + caption + "</figcaption></figure>\n";
     }
     body_ += markup + "</div>\n";

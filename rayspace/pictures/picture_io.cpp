@@ -79,33 +79,30 @@ Status check_size(const std::string& shown, int width, int height) {
 template <class Pixel, class Encode>
 Status write_encoded(const fs::path& path, ConstImageView<Pixel> picture, const Encode& encode) {
     if (Status status = check_size(path.string(), picture.width(), picture.height()); !status) return status;
-    const auto backend = backend_for(path);
-    if (!backend) return backend.error();
+    RS_ASSIGN_OR_RETURN(const auto backend, backend_for(path));
     // The place is tried before the work is done.
-    auto file = StagedFile::create(path);
-    if (!file) return file.error();
-    const Result<std::vector<std::byte>> bytes = encode(**backend);
-    if (!bytes) return bytes.error();
-    if (Status status = file->write(*bytes); !status) return status;
-    return file->commit();
+    RS_ASSIGN_OR_RETURN(auto file, StagedFile::create(path));
+    RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, encode(*backend));
+    if (Status status = file.write(bytes); !status) return status;
+    return file.commit();
 }
 
 }  // namespace
 
 Result<PictureInfo> read_picture_info(const fs::path& path, int max_side_px) {
-    if (Status regular = check_input(path); !regular) return regular.error();
+    RS_TRY(check_input(path));
     const auto backend = backend_for(path);
     return backend ? (*backend)->read_info(path.string(), max_side_px) : backend.error();
 }
 
 Result<Image<Rgba8>> read_picture(const fs::path& path, int max_side_px) {
-    if (Status regular = check_input(path); !regular) return regular.error();
+    RS_TRY(check_input(path));
     const auto backend = backend_for(path);
     return backend ? (*backend)->read_picture(path.string(), max_side_px) : backend.error();
 }
 
 Result<Image<RgbaF>> read_picture_linear(const fs::path& path) {
-    if (Status regular = check_input(path); !regular) return regular.error();
+    RS_TRY(check_input(path));
     const auto backend = backend_for(path);
     return backend ? (*backend)->read_picture_linear(path.string()) : backend.error();
 }
@@ -123,7 +120,7 @@ Result<Image<RgbaF>> read_radiance(const fs::path& path) {
 }
 
 Result<Image<float>> read_channel(const fs::path& path) {
-    if (Status regular = check_input(path); !regular) return regular.error();
+    RS_TRY(check_input(path));
     const auto backend = backend_for(path);
     return backend ? (*backend)->read_channel(path.string()) : backend.error();
 }
@@ -141,7 +138,7 @@ Status write_jpeg(const fs::path& path, ConstImageView<Rgba8> picture, int quali
 }
 
 Result<std::vector<std::byte>> encode_png(ConstImageView<Rgba8> picture, const std::string& shown) {
-    if (const Status status = check_size(shown, picture.width(), picture.height()); !status) return status.error();
+    RS_TRY(check_size(shown, picture.width(), picture.height()));
     const auto backend = backend_for(shown);
     return backend ? (*backend)->encode_png(picture, shown) : backend.error();
 }
@@ -182,15 +179,11 @@ Result<VideoWriter> VideoWriter::open(const fs::path& path, int width, int heigh
     if (!(std::isfinite(frames_per_second) && frames_per_second > 0 && frames_per_second <= 1000)) {
         return Error{shown + ": the frame rate must lie between 0 and 1000 frames per second"};
     }
-    const auto backend = backend_for(path);
-    if (!backend) return backend.error();
-    auto file = StagedFile::create(path);
-    if (!file) return file.error();
+    RS_ASSIGN_OR_RETURN(const auto backend, backend_for(path));
+    RS_ASSIGN_OR_RETURN(auto file, StagedFile::create(path));
     const pictures::VideoOptions options{width, height, frames_per_second, backdrop};
-    auto encoder = (*backend)->open_video(file->temporary_path().string(), shown, options);
-    if (!encoder) return encoder.error();
-    return VideoWriter(
-        std::unique_ptr<Backend>(new Backend{std::move(file).value(), std::move(encoder).value(), options, shown}));
+    RS_ASSIGN_OR_RETURN(auto encoder, backend->open_video(file.temporary_path().string(), shown, options));
+    return VideoWriter(std::unique_ptr<Backend>(new Backend{std::move(file), std::move(encoder), options, shown}));
 }
 
 Status VideoWriter::add(ConstImageView<Rgba8> frame) {
@@ -216,12 +209,10 @@ VideoReader& VideoReader::operator=(VideoReader&&) noexcept = default;
 VideoReader::~VideoReader() = default;
 
 Result<VideoReader> VideoReader::open(const fs::path& path) {
-    if (Status regular = check_input(path); !regular) return regular.error();
-    const auto backend = backend_for(path);
-    if (!backend) return backend.error();
-    auto decoder = (*backend)->read_video(path.string());
-    if (!decoder) return decoder.error();
-    return VideoReader(std::move(decoder).value());
+    RS_TRY(check_input(path));
+    RS_ASSIGN_OR_RETURN(const auto backend, backend_for(path));
+    RS_ASSIGN_OR_RETURN(auto decoder, backend->read_video(path.string()));
+    return VideoReader(std::move(decoder));
 }
 
 const VideoInfo& VideoReader::info() const {

@@ -69,9 +69,8 @@ bool take(std::string_view& text, char expected) {
 Status list_inputs() {
     const char* const list = std::getenv(kInputListVariable);
     if (list == nullptr) return {};
-    const Result<std::vector<InputStamp>> stamps = input_stamps();
-    if (!stamps) return stamps.error();
-    return write_file(list, input_list_text(*stamps));
+    RS_ASSIGN_OR_RETURN(const std::vector<InputStamp> stamps, input_stamps());
+    return write_file(list, input_list_text(stamps));
 }
 
 }  // namespace

@@ -241,17 +241,16 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
     BundleFreedom& free = task.options.free;
     free = freedom_beside(known);
     free.k1 = free.k2 = !known.distortion;
-    if (Status usable = check(task); !usable) return usable.error();
+    RS_TRY(check(task));
     collect(task);
-    Result<BoardTurn> turn = best_start(task);
-    if (!turn) return turn.error();
+    RS_ASSIGN_OR_RETURN(BoardTurn turn, best_start(task));
 
     std::vector<BoardObservation> used = task.used;
     for (int round = 0; round < 4; ++round) {
-        task.options.noise_px = robust_noise_px(*turn, used);
+        task.options.noise_px = robust_noise_px(turn, used);
         // Observations lost to a poor start get another chance.
-        used = within(*turn, task.used, kCornerOutlierDeviations * task.options.noise_px);
-        if (!adjust(*turn, used, task.options)) {
+        used = within(turn, task.used, kCornerOutlierDeviations * task.options.noise_px);
+        if (!adjust(turn, used, task.options)) {
             return Error{"board: the adjustment fails; check that the pictures are of one turn and in order"};
         }
     }
@@ -270,37 +269,37 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
     std::set<int> shown, corners;
     for (const BoardObservation& one : used) shown.insert(one.view);
     const double unknowns = 13 + (free.angles == AngleFreedom::kEach ? static_cast<double>(shown.size()) - 1 : 1);
-    const double fitted = rms_px(*turn, used);
+    const double fitted = rms_px(turn, used);
     const double count = 2 * static_cast<double>(used.size());
     task.options.noise_px = std::max(kLeastNoise_px, fitted * std::sqrt(0.5 * count / std::max(1.0, count - unknowns)));
 
     BoardCalibration result;
     Calibration& c = result.calibration;
     c.method = CalibrationMethod::kBoard;
-    c.model = turn->model;
-    c.deviations = board_deviations(*turn, used, task.options);
+    c.model = turn.model;
+    c.deviations = board_deviations(turn, used, task.options);
     for (const BoardCorners& view : views) {
         for (const SeenCorner& seen : view.corners) corners.insert(seen.corner);
     }
     c.points = static_cast<int>(corners.size());
     c.observations = static_cast<int>(used.size());
     c.rms_px = fitted;
-    const auto held_out = within(*turn, task.held_out, kCornerOutlierDeviations * task.options.noise_px);
-    c.held_out_rms_px = rms_px(*turn, held_out);
+    const auto held_out = within(turn, task.held_out, kCornerOutlierDeviations * task.options.noise_px);
+    c.held_out_rms_px = rms_px(turn, held_out);
     c.step_rad = median_step(c.model.angles_rad);
     for (std::size_t i = 0; i < views.size(); ++i) {
         std::vector<BoardObservation> here;
         for (const BoardObservation& one : used) {
             if (one.view == static_cast<int>(i)) here.push_back(one);
         }
-        c.views.push_back({static_cast<int>(here.size()), rms_px(*turn, here)});
+        c.views.push_back({static_cast<int>(here.size()), rms_px(turn, here)});
     }
     c.warnings = warnings_about(task, c);
-    result.object_from_board = turn->board.object_from_board;
-    result.middle = turn->board.middle;
-    result.units_per_mm = turn->board.units_per_mm;
-    result.mm_per_unit = 1 / turn->board.units_per_mm;
-    result.plane_normal = turn->board.object_from_board[1];
+    result.object_from_board = turn.board.object_from_board;
+    result.middle = turn.board.middle;
+    result.units_per_mm = turn.board.units_per_mm;
+    result.mm_per_unit = 1 / turn.board.units_per_mm;
+    result.plane_normal = turn.board.object_from_board[1];
     result.plane_offset = glm::dot(result.plane_normal, result.middle);
     result.outliers = static_cast<int>(task.used.size() + task.held_out.size() - used.size() - held_out.size());
     return result;

@@ -261,7 +261,7 @@ BoardCorners corners_in(const cv::Mat1b& grey, const BoardDesign& design) {
 }  // namespace
 
 Result<BoardCorners> detect_board(ConstImageView<std::uint8_t> grey, const BoardDesign& design) {
-    if (Status valid = check_board_design(design); !valid) return valid.error();
+    RS_TRY(check_board_design(design));
     if (grey.width() < 8 || grey.height() < 8) return BoardCorners{};
     try {
         return corners_in(mat_over(grey), design);
@@ -285,15 +285,13 @@ Result<BoardCorners> detect_board(ConstImageView<Rgba8> picture, const BoardDesi
 Result<std::vector<BoardCorners>> detect_boards(int views, const std::function<Result<Image<Rgba8>>(int)>& load,
                                                 const BoardDesign& design, Progress* progress) {
     std::vector<BoardCorners> seen(static_cast<std::size_t>(std::max(0, views)));
-    const Status done = for_each_in_parallel(views, "looking for the board", progress, [&](int view) -> Status {
-        const Result<Image<Rgba8>> picture = load(view);
-        if (!picture) return picture.error();
-        Result<BoardCorners> found = detect_board(picture->view(), design);
+    RS_TRY(for_each_in_parallel(views, "looking for the board", progress, [&](int view) -> Status {
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, load(view));
+        Result<BoardCorners> found = detect_board(picture.view(), design);
         if (!found) return Error{"view " + std::to_string(view) + ": " + found.error().message};
         seen[static_cast<std::size_t>(view)] = std::move(*found);
         return {};
-    });
-    if (!done) return done.error();
+    }));
     return seen;
 }
 

@@ -132,10 +132,9 @@ std::string pdf_file(double width_mm, double height_mm, const std::string& conte
 }
 
 Status write_text(const std::filesystem::path& path, const std::string& text) {
-    Result<StagedFile> file = StagedFile::create(path);
-    if (!file) return file.error();
-    if (Status written = file->write(std::as_bytes(std::span(text))); !written) return written;
-    return file->commit();
+    RS_ASSIGN_OR_RETURN(StagedFile file, StagedFile::create(path));
+    if (Status written = file.write(std::as_bytes(std::span(text))); !written) return written;
+    return file.commit();
 }
 
 }  // namespace
@@ -147,7 +146,7 @@ std::vector<std::string> paper_names() {
 }
 
 Result<std::string> board_pdf(const BoardDesign& design, const std::string& paper_name) {
-    if (Status valid = check_board_design(design); !valid) return valid.error();
+    RS_TRY(check_board_design(design));
     const auto paper =
         std::find_if(kPapers.begin(), kPapers.end(), [&](const Paper& p) { return paper_name == p.name; });
     if (paper == kPapers.end()) {
@@ -175,7 +174,7 @@ Result<std::string> board_pdf(const BoardDesign& design, const std::string& pape
 }
 
 Result<std::string> board_svg(const BoardDesign& design) {
-    if (Status valid = check_board_design(design); !valid) return valid.error();
+    RS_TRY(check_board_design(design));
     const double border = design.square_mm;
     const double width = board_width_mm(design) + 2 * border;
     const double height = board_height_mm(design) + 2 * border;
@@ -194,7 +193,7 @@ Result<std::string> board_svg(const BoardDesign& design) {
 }
 
 Result<Image<Rgba8>> board_picture(const BoardDesign& design, double dpi) {
-    if (Status valid = check_board_design(design); !valid) return valid.error();
+    RS_TRY(check_board_design(design));
     const double px_per_mm = dpi / 25.4;
     const double border = design.square_mm;
     const double width_px = std::round((board_width_mm(design) + 2 * border) * px_per_mm);
@@ -242,17 +241,15 @@ Result<Image<Rgba8>> board_picture(const BoardDesign& design, double dpi) {
 Status write_board(const std::filesystem::path& path, const SheetOptions& options) {
     const std::string ending = path.extension().string();
     if (ending == ".png") {
-        const Result<Image<Rgba8>> picture = board_picture(options.design, options.dpi);
-        if (!picture) return picture.error();
-        return write_png(path, picture->view());
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, board_picture(options.design, options.dpi));
+        return write_png(path, picture.view());
     }
     if (ending != ".pdf" && ending != ".svg") {
         return Error{path.string() + ": a board is written as .pdf, .svg or .png; give a name that ends so"};
     }
-    const Result<std::string> text =
-        ending == ".pdf" ? board_pdf(options.design, options.paper) : board_svg(options.design);
-    if (!text) return text.error();
-    return write_text(path, *text);
+    RS_ASSIGN_OR_RETURN(const std::string text,
+                        ending == ".pdf" ? board_pdf(options.design, options.paper) : board_svg(options.design));
+    return write_text(path, text);
 }
 
 }  // namespace rs::capture

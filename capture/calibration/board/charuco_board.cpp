@@ -82,7 +82,7 @@ Result<BoardDesign> parse_board_design(const std::string& text) {
         if (!good)
             return Error{"board: '" + word + "' has no valid number; write for example " + to_string(BoardDesign{})};
     }
-    if (Status valid = check_board_design(design); !valid) return valid.error();
+    RS_TRY(check_board_design(design));
     return design;
 }
 

@@ -31,11 +31,10 @@ Result<double> common_focal_length(double fx_px, double fy_px, const std::string
 }
 
 Status set_turn(KnownInputs& known, std::span<const glm::dmat4> world_from_camera, const std::string& where) {
-    const auto turn = turn_of_cameras(world_from_camera, where);
-    if (!turn) return turn.error();
-    known.pose = turn->pose;
-    known.angles_rad = turn->angles_rad;
-    known.counter_clockwise = median_step(turn->angles_rad) > 0;
+    RS_ASSIGN_OR_RETURN(const auto turn, turn_of_cameras(world_from_camera, where));
+    known.pose = turn.pose;
+    known.angles_rad = turn.angles_rad;
+    known.counter_clockwise = median_step(turn.angles_rad) > 0;
     return {};
 }
 
@@ -130,10 +129,9 @@ Status set_lens(KnownInputs& known, const MiddleburyView& first, const std::stri
     if (std::abs(k[8] - 1) > 1e-9 || k[3] != 0 || k[6] != 0 || k[7] != 0) {
         return Error{where + ": K is not of the form fx s cx, 0 fy cy, 0 0 1"};
     }
-    const auto f_px = common_focal_length(k[0], k[4], where);
-    if (!f_px) return f_px.error();
-    if (std::abs(k[1]) > 1e-3 * *f_px) return Error{where + ": K has skew, which no camera here has"};
-    known.f_px = *f_px;
+    RS_ASSIGN_OR_RETURN(const auto f_px, common_focal_length(k[0], k[4], where));
+    if (std::abs(k[1]) > 1e-3 * f_px) return Error{where + ": K has skew, which no camera here has"};
+    known.f_px = f_px;
     known.principal_point = glm::dvec2(k[2] + 0.5, k[5] + 0.5);
     known.distortion = glm::dvec2(0);
     return {};
@@ -147,10 +145,9 @@ Result<glm::dvec2> distortion_of(const nlohmann::json& extras, const std::string
         return extras[key].get<double>();
     };
     for (const char* key : {"k3", "k4", "k5", "k6", "p1", "p2"}) {
-        const auto value = coefficient(key);
-        if (!value) return value.error();
-        if (*value != 0) {
-            return Error{where + ": distortion " + key + " = " + std::to_string(*value) +
+        RS_ASSIGN_OR_RETURN(const auto value, coefficient(key));
+        if (value != 0) {
+            return Error{where + ": distortion " + key + " = " + std::to_string(value) +
                          " is not supported, only k1 and k2; calibrate with those alone or undistort the pictures"};
         }
     }
@@ -172,9 +169,8 @@ Result<KnownFile> middlebury_parameters_from(const std::string& text, const std:
     }
     std::vector<MiddleburyView> views;
     for (int i = 0; i < static_cast<int>(*count); ++i) {
-        auto view = view_from(take_line(rest), where + ": line " + std::to_string(i + 2));
-        if (!view) return view.error();
-        views.push_back(std::move(*view));
+        RS_ASSIGN_OR_RETURN(auto view, view_from(take_line(rest), where + ": line " + std::to_string(i + 2)));
+        views.push_back(std::move(view));
         for (std::size_t k = 0; k < 9; ++k) {
             if (std::abs(views.back().k[k] - views[0].k[k]) > kSameIntrinsics * std::abs(views[0].k[0])) {
                 return Error{where + ": line " + std::to_string(i + 2) +
@@ -186,60 +182,55 @@ Result<KnownFile> middlebury_parameters_from(const std::string& text, const std:
         return Error{where + ": has more lines than the " + std::to_string(views.size()) + " views that line 1 says"};
     }
     KnownFile file;
-    if (Status status = set_lens(file.known, views[0], where); !status) return status.error();
+    RS_TRY(set_lens(file.known, views[0], where));
     std::vector<glm::dmat4> cameras;
     for (MiddleburyView& view : views) {
         cameras.push_back(view.world_from_camera);
         file.pictures.push_back(std::move(view.name));
     }
-    if (Status status = set_turn(file.known, cameras, where); !status) return status.error();
+    RS_TRY(set_turn(file.known, cameras, where));
     return file;
 }
 
 Result<KnownFile> read_middlebury_parameters(const std::filesystem::path& path) {
-    const auto bytes = read_file(path, kMaxMiddlebury_bytes);
-    if (!bytes) return bytes.error();
-    return middlebury_parameters_from({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMaxMiddlebury_bytes));
+    return middlebury_parameters_from({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 
 Result<KnownFile> read_known_rig(const std::filesystem::path& path, PicturePixels pictures) {
-    const auto rig = read_rig(path);
-    if (!rig) return rig.error();
+    RS_ASSIGN_OR_RETURN(const auto rig, read_rig(path));
     const std::string where = path.string();
-    if (rig->views.empty()) return Error{where + ": has no views"};
-    const Camera& first = rig->views[0].camera;
-    const auto f_px = common_focal_length(first.fl_x, first.fl_y, where);
-    if (!f_px) return f_px.error();
+    if (rig.views.empty()) return Error{where + ": has no views"};
+    const Camera& first = rig.views[0].camera;
+    RS_ASSIGN_OR_RETURN(const auto f_px, common_focal_length(first.fl_x, first.fl_y, where));
     if (pictures.width > 0 && (first.width != pictures.width || first.height != pictures.height)) {
         return Error{where + ": is of pictures of " + std::to_string(first.width) + " x " +
                      std::to_string(first.height) + " pixels, these have " + std::to_string(pictures.width) + " x " +
                      std::to_string(pictures.height) + "; use pictures of the size it was made for"};
     }
-    const auto distortion = distortion_of(rig->extras, where);
-    if (!distortion) return distortion.error();
+    RS_ASSIGN_OR_RETURN(const auto distortion, distortion_of(rig.extras, where));
 
     KnownFile file;
     std::vector<glm::dmat4> cameras;
-    for (std::size_t i = 0; i < rig->views.size(); ++i) {
-        const RigView& view = rig->views[i];
+    for (std::size_t i = 0; i < rig.views.size(); ++i) {
+        const RigView& view = rig.views[i];
         const Camera& camera = view.camera;
-        const double limit = kSameIntrinsics * *f_px;
+        const double limit = kSameIntrinsics * f_px;
         const bool same = camera.width == first.width && camera.height == first.height &&
                           std::abs(camera.fl_x - first.fl_x) <= limit && std::abs(camera.fl_y - first.fl_y) <= limit &&
                           std::abs(camera.cx - first.cx) <= limit && std::abs(camera.cy - first.cy) <= limit;
-        const auto own = distortion_of(view.extras, where);
-        if (!own) return own.error();
-        if (!same || *own != glm::dvec2(0)) {
+        RS_ASSIGN_OR_RETURN(const auto own, distortion_of(view.extras, where));
+        if (!same || own != glm::dvec2(0)) {
             return Error{where + ": view " + std::to_string(i + 1) +
                          " has a lens of its own; a turn is taken with one lens"};
         }
         cameras.push_back(camera.world_from_camera);
         file.pictures.push_back(view.file_path);
     }
-    file.known.f_px = *f_px;
+    file.known.f_px = f_px;
     file.known.principal_point = glm::dvec2(first.cx, first.cy);
-    file.known.distortion = *distortion;
-    if (Status status = set_turn(file.known, cameras, where); !status) return status.error();
+    file.known.distortion = distortion;
+    RS_TRY(set_turn(file.known, cameras, where));
     return file;
 }
 

@@ -97,12 +97,11 @@ Status check_size(const cv::FileStorage& file, const std::string& where, Picture
 
 Result<glm::dvec2> distortion_from(const cv::FileNode& node, const std::string& where) {
     if (node.empty()) return glm::dvec2(0);
-    const auto matrix = matrix_from(node, where + ": " + node.name());
-    if (!matrix) return matrix.error();
+    RS_ASSIGN_OR_RETURN(const auto matrix, matrix_from(node, where + ": " + node.name()));
     static constexpr std::array<const char*, 14> kNames = {"k1", "k2", "p1", "p2", "k3", "k4",    "k5",
                                                            "k6", "s1", "s2", "s3", "s4", "tau_x", "tau_y"};
-    const std::vector<double>& k = matrix->elements;
-    if ((matrix->rows != 1 && matrix->columns != 1) || k.size() > kNames.size()) {
+    const std::vector<double>& k = matrix.elements;
+    if ((matrix.rows != 1 && matrix.columns != 1) || k.size() > kNames.size()) {
         return Error{where + ": " + node.name() + " must be a row or column of at most 14 coefficients"};
     }
     for (std::size_t i = 2; i < k.size(); ++i) {
@@ -121,23 +120,20 @@ Result<KnownFile> known_from(const cv::FileStorage& file, const std::string& whe
         return Error{where + ": has no camera_matrix (or cameraMatrix); check that it holds OpenCV's intrinsics"};
     }
     const std::string place = where + ": " + node.name();
-    const auto matrix = matrix_from(node, place);
-    if (!matrix) return matrix.error();
-    const std::vector<double>& k = matrix->elements;
-    if (matrix->rows != 3 || matrix->columns != 3) return Error{place + " must be 3 x 3"};
+    RS_ASSIGN_OR_RETURN(const auto matrix, matrix_from(node, place));
+    const std::vector<double>& k = matrix.elements;
+    if (matrix.rows != 3 || matrix.columns != 3) return Error{place + " must be 3 x 3"};
     if (k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1) return Error{place + " is not fx 0 cx, 0 fy cy, 0 0 1"};
-    const auto f_px = common_focal_length(k[0], k[4], place);
-    if (!f_px) return f_px.error();
-    if (std::abs(k[1]) > 1e-3 * *f_px) return Error{place + " has skew, which no camera here has"};
+    RS_ASSIGN_OR_RETURN(const auto f_px, common_focal_length(k[0], k[4], place));
+    if (std::abs(k[1]) > 1e-3 * f_px) return Error{place + " has skew, which no camera here has"};
     if (!(std::abs(k[2]) < 1e6 && std::abs(k[5]) < 1e6)) return Error{place + ": its principal point is out of range"};
-    if (Status status = check_size(file, where, pictures); !status) return status.error();
-    const auto distortion = distortion_from(first_of(file, kCoefficientNames), where);
-    if (!distortion) return distortion.error();
+    RS_TRY(check_size(file, where, pictures));
+    RS_ASSIGN_OR_RETURN(const auto distortion, distortion_from(first_of(file, kCoefficientNames), where));
 
     KnownFile result;
-    result.known.f_px = *f_px;
+    result.known.f_px = f_px;
     result.known.principal_point = glm::dvec2(k[2] + 0.5, k[5] + 0.5);
-    result.known.distortion = *distortion;
+    result.known.distortion = distortion;
     return result;
 }
 
@@ -166,10 +162,8 @@ Result<KnownFile> opencv_intrinsics_from(const std::string& text, const std::str
 }
 
 Result<KnownFile> read_opencv_intrinsics(const std::filesystem::path& path, PicturePixels pictures) {
-    const auto bytes = read_file(path, kMaxFile_bytes);
-    if (!bytes) return bytes.error();
-    return opencv_intrinsics_from({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string(),
-                                  pictures);
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMaxFile_bytes));
+    return opencv_intrinsics_from({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string(), pictures);
 }
 
 }  // namespace rs::capture

@@ -219,15 +219,14 @@ bool seems_to_look_up(const Calibration& found) {
 
 Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_t>> masks, const TurntableModel& start,
                                                const KnownInputs& known) {
-    auto turn = SilhouetteTurn::of(masks);
-    if (!turn) return turn.error();
+    RS_ASSIGN_OR_RETURN(auto turn, SilhouetteTurn::of(masks));
     const TurntableModel held = with_known(start, known);
-    if (Status status = check_start(masks, held); !status) return status.error();
+    RS_TRY(check_start(masks, held));
 
     // Photograph px per px of the turn.
-    const double picture_px = turn->reduction() * static_cast<double>(start.lens.width) / masks[0].width();
+    const double picture_px = turn.reduction() * static_cast<double>(start.lens.width) / masks[0].width();
     SilhouetteProblem problem;
-    problem.turn = &*turn;
+    problem.turn = &turn;
     problem.start = held;
     problem.start.lens = scaled(held.lens, 1 / picture_px);
     const bool pose_free = !known.pose;
@@ -238,14 +237,14 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
                      " pixels with every single turn; check the steps, the sense of turning and the cut-outs"};
     };
     const SilhouetteFit best = search(problem);
-    const double start_rms = rms_px(consistency_residuals_px(*turn, problem.start, {}));
+    const double start_rms = rms_px(consistency_residuals_px(turn, problem.start, {}));
     if (start_rms > kGoodEnough_px && !(best.cost < kImprovement * silhouette_cost(problem, {}, {}))) {
         return Error{
             "silhouettes: no axis, tilt, roll or focal length near the assumed ones makes the outlines agree "
             "better; check the steps, the sense of turning and the cut-outs"};
     }
     // What follows finds out how sure this is; it mends no outlines that disagree so much.
-    const double best_rms = rms_px(consistency_residuals_px(*turn, changed(problem.start, best.at), {}));
+    const double best_rms = rms_px(consistency_residuals_px(turn, changed(problem.start, best.at), {}));
     if (best_rms > kDisagree_px) return disagreement(best_rms);
     const RaySelection half{2, {}};
     const double best_cost = silhouette_cost(problem, best.at, half);
@@ -254,7 +253,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     Calibration calibration;
     calibration.method = CalibrationMethod::kSilhouettes;
     TurntableModel of_turn = changed(problem.start, fit.at);
-    std::vector<double> residuals = consistency_residuals_px(*turn, of_turn, {});
+    std::vector<double> residuals = consistency_residuals_px(turn, of_turn, {});
     calibration.model = of_turn;
     calibration.model.lens = scaled(calibration.model.lens, picture_px);
     std::array<double, Parameters::kCount> spread = jackknife(problem, fit);
@@ -271,15 +270,15 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
         calibration.deviations = std::move(found->deviations);
         of_turn = calibration.model;
         of_turn.lens = scaled(of_turn.lens, 1 / picture_px);
-        residuals = consistency_residuals_px(*turn, of_turn, {});
+        residuals = consistency_residuals_px(turn, of_turn, {});
     }
     const double fit_rms = rms_px(residuals);
     if (fit_rms > kDisagree_px) return disagreement(fit_rms);
     calibration.observations = static_cast<int>(residuals.size());
     calibration.rms_px = fit_rms * picture_px;
-    calibration.views = fits_by_view(*turn, residuals, picture_px);
+    calibration.views = fits_by_view(turn, residuals, picture_px);
     calibration.step_rad = median_step(calibration.model.angles_rad);
-    warn(calibration, *turn);
+    warn(calibration, turn);
     return calibration;
 }
 

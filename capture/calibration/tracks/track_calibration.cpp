@@ -207,12 +207,11 @@ Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownIn
                      std::to_string(kFewestViews) + ", better 36"};
     }
     if (progress != nullptr) progress->start("following points", 2 * static_cast<std::int64_t>(views));
-    const Result<PointFollower> follower = PointFollower::look_at(turn.pictures, turn.reduction, {}, progress);
-    if (!follower) return follower.error();
-    Result<FollowedPoints> followed = follower->follow(progress);
-    if (!followed) return followed.error();
+    RS_ASSIGN_OR_RETURN(const PointFollower follower,
+                        PointFollower::look_at(turn.pictures, turn.reduction, {}, progress));
+    RS_ASSIGN_OR_RETURN(FollowedPoints followed, follower.follow(progress));
     TrackCalibration result;
-    result.followed = std::move(*followed);
+    result.followed = std::move(followed);
     const std::vector<Track>& tracks = result.followed.tracks;
     if (tracks.size() < kFewestTracks) {
         return Error{"only " + std::to_string(tracks.size()) +
@@ -245,12 +244,11 @@ Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownIn
     const Bundle settled = bundle;
     const BundleOptions as_settled = options;
     // Now that it is known where a point can be, more of them are found.
-    const Result<std::vector<Track>> guided =
-        follower->follow_guided(bundle.model, kRoom * farthest_radius(bundle), 2.0 * turn.reduction);
-    if (!guided) return guided.error();
+    RS_ASSIGN_OR_RETURN(const std::vector<Track> guided,
+                        follower.follow_guided(bundle.model, kRoom * farthest_radius(bundle), 2.0 * turn.reduction));
     part.clear();
     held_out.clear();
-    split(*guided, part, held_out);
+    split(guided, part, held_out);
     bundle = make_agreeing_bundle(bundle.model, part, outlier_limit(bundle, turn.reduction));
     if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
     const Bundle unseen = make_agreeing_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));

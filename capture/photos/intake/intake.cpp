@@ -16,9 +16,8 @@ void note_aside(const std::vector<std::string>& names, const std::string& why, s
 }  // namespace
 
 Result<Intake> take_in(PhotoFolder folder, Progress* progress) {
-    Result<Survey> survey = survey_photos(folder, progress);
-    if (!survey) return survey.error();
-    Intake taken{std::move(folder), std::move(*survey), {}, {}};
+    RS_ASSIGN_OR_RETURN(Survey survey, survey_photos(folder, progress));
+    Intake taken{std::move(folder), std::move(survey), {}, {}};
     const PhotoFolder& of = taken.folder;
     taken.notes = of.selection_notes;
     note_aside(of.ignored, "not a picture", taken.notes);

@@ -110,9 +110,8 @@ Status choose_orientations(PhotoFolder& found, const std::vector<PictureInfo>& i
 Status read_headers(PhotoFolder& found) {
     std::vector<PictureInfo> infos;
     for (const std::filesystem::path& photo : found.photos) {
-        const Result<PictureInfo> info = read_picture_info(photo, kMaxPhotographSide_px);
-        if (!info) return info.error();
-        infos.push_back(*info);
+        RS_ASSIGN_OR_RETURN(const PictureInfo info, read_picture_info(photo, kMaxPhotographSide_px));
+        infos.push_back(info);
     }
     const auto all = [&](const auto& holds) { return std::ranges::all_of(infos, holds); };
     const int focal_35mm = infos.front().focal_35mm;
@@ -212,7 +211,7 @@ Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int m
                      std::to_string(kMaxViews) + " can be imported"};
     }
     std::sort(found.ignored.begin(), found.ignored.end());
-    if (Status status = read_headers(found); !status) return status.error();
+    RS_TRY(read_headers(found));
     set_reduction(found, max_side_px);
     return found;
 }

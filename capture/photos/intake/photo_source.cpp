@@ -20,16 +20,15 @@ FrameRequest frame_request(const std::optional<int>& frames, int by_default) {
 }
 
 Result<PhotoFolder> open_film(const PhotoRequest& request, Progress* progress) {
-    Result<StagedFolder> staged = StagedFolder::create(request.output, "imported photographs");
-    if (!staged) return staged.error();
-    const auto frames = std::make_shared<const StagedFolder>(std::move(*staged));
-    Result<FilmFrames> film = write_film_frames(request.photos, frames->temporary_path(),
-                                                frame_request(request.frames, kDefaultSelectedFrames), progress);
-    if (!film) return film.error();
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(request.output, "imported photographs"));
+    const auto frames = std::make_shared<const StagedFolder>(std::move(staged));
+    RS_ASSIGN_OR_RETURN(FilmFrames film,
+                        write_film_frames(request.photos, frames->temporary_path(),
+                                          frame_request(request.frames, kDefaultSelectedFrames), progress));
     Result<PhotoFolder> folder = open_photo_folder(frames->temporary_path(), request.max_side_px);
     if (!folder) return folder;
     folder->temporary = frames;
-    folder->selection_notes = std::move(film->notes);
+    folder->selection_notes = std::move(film.notes);
     return folder;
 }
 
@@ -47,9 +46,8 @@ void keep_only(PhotoFolder& folder, const std::vector<std::size_t>& chosen) {
 Status select_photos(PhotoFolder& folder, const std::string& name, const FrameRequest& request, Progress* progress) {
     std::vector<FrameCopy> copies(folder.photos.size());
     const auto copy = [&](std::size_t i) -> Status {
-        const Result<Image<Rgba8>> photo = read_photograph(folder, i);
-        if (!photo) return photo.error();
-        copies[i] = make_frame_copy(*photo);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photograph(folder, i));
+        copies[i] = make_frame_copy(photo);
         return {};
     };
     if (Status status = for_each_photo(folder, kReadBytesPerPixel, "comparing the photos", progress, copy); !status) {
@@ -86,9 +84,7 @@ Result<PhotoFolder> open_photos(const PhotoRequest& request, Progress* progress)
     }
     if (is_fewer_requested || (is_large && !request.frames)) {
         const FrameRequest frames = frame_request(request.frames, kMaxSelectedFrames);
-        if (Status status = select_photos(*folder, request.photos.string(), frames, progress); !status) {
-            return status.error();
-        }
+        RS_TRY(select_photos(*folder, request.photos.string(), frames, progress));
     }
     return folder;
 }

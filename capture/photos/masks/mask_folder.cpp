@@ -79,13 +79,12 @@ struct MaskFolder::Survey {
 };
 
 Status MaskFolder::find_files(const std::filesystem::path& folder, const PhotoFolder& photos) {
-    const Result<MaskNames> names = MaskNames::list(folder);
-    if (!names) return names.error();
+    RS_ASSIGN_OR_RETURN(const MaskNames names, MaskNames::list(folder));
     std::vector<std::string> missing;
     std::size_t ambiguous = 0;
     std::string first_choice;
     for (const std::filesystem::path& photo : photos.photos) {
-        const std::vector<std::filesystem::path> masks = names->masks_of(photo);
+        const std::vector<std::filesystem::path> masks = names.masks_of(photo);
         if (masks.empty()) {
             missing.push_back(photo.filename().string());
             continue;
@@ -111,12 +110,11 @@ Status MaskFolder::find_files(const std::filesystem::path& folder, const PhotoFo
 
 Status MaskFolder::check_sizes(const std::filesystem::path& folder, const PhotoFolder& photos) {
     for (std::size_t i = 0; i < files_.size(); ++i) {
-        const Result<PictureInfo> info = read_picture_info(files_[i], kMaxPhotographSide_px);
-        if (!info) return info.error();
-        sizes_.push_back({info->width, info->height});
-        if (is_scaled_photo(info->width, info->height, shown_.width, shown_.height)) continue;
-        const bool is_turned = info->width == shown_.height && info->height == shown_.width;
-        return Error{printable(files_[i].string() + ": is " + size_text(info->width, info->height) + ", its photo " +
+        RS_ASSIGN_OR_RETURN(const PictureInfo info, read_picture_info(files_[i], kMaxPhotographSide_px));
+        sizes_.push_back({info.width, info.height});
+        if (is_scaled_photo(info.width, info.height, shown_.width, shown_.height)) continue;
+        const bool is_turned = info.width == shown_.height && info.height == shown_.width;
+        return Error{printable(files_[i].string() + ": is " + size_text(info.width, info.height) + ", its photo " +
                                photos.photos[i].filename().string() + " is shown in " +
                                size_text(shown_.width, shown_.height) + "; " +
                                (is_turned ? "turn the masks by 90 degrees, as EXIF states for the photos"
@@ -218,40 +216,37 @@ Result<MaskFolder> MaskFolder::open(const std::filesystem::path& folder, const P
     MaskFolder masks;
     masks.kind_ = kind;
     masks.shown_ = {photos.shown_width, photos.shown_height};
-    if (Status status = masks.find_files(folder, photos); !status) return status.error();
-    if (Status status = masks.check_sizes(folder, photos); !status) return status.error();
+    RS_TRY(masks.find_files(folder, photos));
+    RS_TRY(masks.check_sizes(folder, photos));
 
     Survey survey{std::vector<MaskStatistics>(masks.files_.size())};
     // for_each_photo() counts pixels of the size that photos are worked on in; masks are read in their own size.
     double most_pixels = 0;
     for (const Size& size : masks.sizes_) most_pixels = std::max(most_pixels, 1.0 * size.width * size.height);
     const double bytes_per_px = std::ceil(kReadBytesPerPixel * most_pixels / (1.0 * photos.width * photos.height));
-    const Status read = for_each_photo(photos, static_cast<int>(std::min(bytes_per_px, 1e9)), "reading masks", progress,
-                                       [&](std::size_t i) -> Status {
-                                           const auto mask = read_picture(masks.files_[i], kMaxPhotographSide_px);
-                                           if (!mask) return mask.error();
-                                           survey.masks[i] = mask_statistics(*mask);
-                                           return {};
-                                       });
-    if (!read) return read.error();
-    if (Status status = masks.choose_channel(folder, survey); !status) return status.error();
+    RS_TRY(for_each_photo(
+        photos, static_cast<int>(std::min(bytes_per_px, 1e9)), "reading masks", progress, [&](std::size_t i) -> Status {
+            RS_ASSIGN_OR_RETURN(const auto mask, read_picture(masks.files_[i], kMaxPhotographSide_px));
+            survey.masks[i] = mask_statistics(mask);
+            return {};
+        }));
+    RS_TRY(masks.choose_channel(folder, survey));
     masks.choose_codes(folder, survey);
-    if (Status status = masks.check_content(folder, survey); !status) return status.error();
+    RS_TRY(masks.check_content(folder, survey));
     masks.note_grey(folder, survey);
     return masks;
 }
 
 Result<Image<std::uint8_t>> MaskFolder::read(std::size_t i) const {
     RS_CHECK(i < files_.size());
-    const Result<Image<Rgba8>> stored = read_picture(files_[i], kMaxPhotographSide_px);
-    if (!stored) return stored.error();
-    if (stored->width() != sizes_[i].width || stored->height() != sizes_[i].height) {
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> stored, read_picture(files_[i], kMaxPhotographSide_px));
+    if (stored.width() != sizes_[i].width || stored.height() != sizes_[i].height) {
         return Error{printable(files_[i].string() + ": has changed its size to " +
-                               size_text(stored->width(), stored->height()) + " while it was in use; run again")};
+                               size_text(stored.width(), stored.height()) + " while it was in use; run again")};
     }
-    Image<std::uint8_t> mask(stored->width(), stored->height());
+    Image<std::uint8_t> mask(stored.width(), stored.height());
     for (std::size_t p = 0; p < mask.pixels().size(); ++p) {
-        const Rgba8& pixel = stored->pixels()[p];
+        const Rgba8& pixel = stored.pixels()[p];
         mask.pixels()[p] = mask_by_code_[reads_alpha_ ? pixel.a : mask_grey(pixel)];
     }
     if (sizes_[i] != shown_) {

@@ -210,9 +210,8 @@ Status add_photographs(HtmlPage& page, const ImportReport& report) {
     std::vector<CaptionedPicture> row;
     for (const int view : evenly_spread(static_cast<int>(report.folder.photos.size()), kAnnotated)) {
         const auto i = static_cast<std::size_t>(view);
-        const Result<Image<Rgba8>> photo = read_photograph(report.folder, i);
-        if (!photo) return photo.error();
-        row.push_back({annotated_photo(*photo, report, view), source_name(report, i)});
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photograph(report.folder, i));
+        row.push_back({annotated_photo(photo, report, view), source_name(report, i)});
     }
     page.heading("The axis and the points");
     page.paragraph(
@@ -243,8 +242,8 @@ Result<std::string> import_page(const std::filesystem::path& photos, const Impor
         add_estimates(page, *report.calibration.calibration);
         add_plots(page, *report.calibration.calibration);
     }
-    if (Status status = add_photographs(page, report); !status) return status.error();
-    if (Status status = add_mattes(page, report); !status) return status.error();
+    RS_TRY(add_photographs(page, report));
+    RS_TRY(add_mattes(page, report));
     return page.text();
 }
 

@@ -37,9 +37,8 @@ Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFold
     std::mutex mutex;
     const auto work = [&](std::size_t i) -> Status {
         if (is_left_out(report, i)) return {};
-        const Result<Image<Rgba8>> picture = cuts.get(i);
-        if (!picture) return picture.error();
-        const Image<Rgba8> upright = rectified(calibration.model, report.frame, *picture,
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, cuts.get(i));
+        const Image<Rgba8> upright = rectified(calibration.model, report.frame, picture,
                                                calibration.places.empty() ? PicturePlace{} : calibration.places[i]);
         if (Status status = write_png(set / set_image_name(number[i]), upright); !status) return status;
         TurnSilhouette own(upright.width(), upright.height());
@@ -49,9 +48,7 @@ Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFold
         return {};
     };
     constexpr int kRectifyBytesPerPixel = kReadBytesPerPixel + 40;
-    if (Status status = for_each_photo(folder, kRectifyBytesPerPixel, "rectifying", progress, work); !status) {
-        return status.error();
-    }
+    RS_TRY(for_each_photo(folder, kRectifyBytesPerPixel, "rectifying", progress, work));
     return outline.visible();
 }
 
@@ -70,20 +67,18 @@ Result<ImportReport> write_import_set(const fs::path& set, const PhotoFolder& fo
     report.views = static_cast<int>(report.folder.photos.size() - report.left_out.size());
     Rig rig;
     if (const auto& calibration = report.calibration.calibration) {
-        const Result<UprightFrame> frame =
-            plan_upright_frame(calibration->model, boxes_put_back(turn.boxes, *calibration));
-        if (!frame) return frame.error();
-        report.frame = *frame;
-        const Result<TurnSilhouette::Box> visible = write_rectified(set, folder, cuts, report, progress);
-        if (!visible) return visible.error();
-        rig = calibrated_import_rig(report, *visible);
+        RS_ASSIGN_OR_RETURN(const UprightFrame frame,
+                            plan_upright_frame(calibration->model, boxes_put_back(turn.boxes, *calibration)));
+        report.frame = frame;
+        RS_ASSIGN_OR_RETURN(const TurnSilhouette::Box visible, write_rectified(set, folder, cuts, report, progress));
+        rig = calibrated_import_rig(report, visible);
     } else {
-        if (Status status = write_as_they_are(set, folder, cuts, progress); !status) return status.error();
+        RS_TRY(write_as_they_are(set, folder, cuts, progress));
         rig = nominal_import_rig(report, turn.silhouette.visible());
     }
     report.fl_px = rig.views.front().camera.fl_x;
     report.distance = glm::length(rig.views.front().camera.centre());
-    if (Status status = write_rig(set / kRigFileName, rig); !status) return status.error();
+    RS_TRY(write_rig(set / kRigFileName, rig));
     return report;
 }
 

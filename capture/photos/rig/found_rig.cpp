@@ -99,14 +99,13 @@ Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, co
         if (rig.nominal.turning_from.empty()) find_sense(request, folder, turn, rig.nominal);
         return rig.nominal;
     };
-    const Result<KnownInputs> known = known_inputs(request, nominal, folder);
-    if (!known) return known.error();
-    Result<PhotoCalibration> calibration = calibrate_photos(
-        folder, cuts,
-        {request.calibration, *known, request.board, [&] { return nominal_model(*known, nominal(), folder); }},
-        progress);
-    if (!calibration) return calibration.error();
-    rig.calibration = std::move(*calibration);
+    RS_ASSIGN_OR_RETURN(const KnownInputs known, known_inputs(request, nominal, folder));
+    RS_ASSIGN_OR_RETURN(PhotoCalibration calibration,
+                        calibrate_photos(folder, cuts,
+                                         {request.calibration, known, request.board,
+                                          [&] { return nominal_model(known, nominal(), folder); }},
+                                         progress));
+    rig.calibration = std::move(calibration);
     add_notes(rig, rig.calibration.notes);
     if (rig.calibration.calibration) {
         take_calibrated(rig, folder);

@@ -29,24 +29,20 @@ Result<TurnPictures> read_turn(const PhotoFolder& folder, const CutoutCache& cut
     turn.pictures.resize(folder.photos.size());
     for (const fs::path& photo : folder.photos) turn.names.push_back(photo.filename().string());
     const auto read = [&](std::size_t i) -> Status {
-        const Result<Image<Rgba8>> cut = cuts.get(i);
-        if (!cut) return cut.error();
-        turn.pictures[i] = calibration_picture(*cut, turn.reduction);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> cut, cuts.get(i));
+        turn.pictures[i] = calibration_picture(cut, turn.reduction);
         return {};
     };
-    if (Status status = for_each_photo(folder, kReadBytesPerPixel, "reading the cut-outs", progress, read); !status) {
-        return status.error();
-    }
+    RS_TRY(for_each_photo(folder, kReadBytesPerPixel, "reading the cut-outs", progress, read));
     return turn;
 }
 
 Result<BoardCalibration> from_board(const PhotoFolder& folder, const CalibrationRequest& request,
                                     const std::vector<std::string>& names, Progress* progress) {
     const auto load = [&](int i) { return read_photograph(folder, static_cast<std::size_t>(i)); };
-    const Result<std::vector<BoardCorners>> views =
-        detect_boards(static_cast<int>(folder.photos.size()), load, *request.board, progress);
-    if (!views) return views.error();
-    return calibrate_with_board(*views, *request.board, folder.width, folder.height, request.known, names);
+    RS_ASSIGN_OR_RETURN(const std::vector<BoardCorners> views,
+                        detect_boards(static_cast<int>(folder.photos.size()), load, *request.board, progress));
+    return calibrate_with_board(views, *request.board, folder.width, folder.height, request.known, names);
 }
 
 // Silhouettes with a longer side of at most kSilhouetteSide_px.
@@ -159,15 +155,14 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const Cutou
         return Error{"the given rig has " + std::to_string(request.known.angles_rad->size()) + " views, the folder " +
                      std::to_string(views) + " photographs; give a rig of these photographs"};
     }
-    Result<TurnPictures> turn = read_turn(folder, cuts, progress);
-    if (!turn) return turn.error();
+    RS_ASSIGN_OR_RETURN(TurnPictures turn, read_turn(folder, cuts, progress));
     if (choice == CalibrationChoice::kBoard && !request.board) {
         return Error{
             "calibration by a board was asked for, but the board is not described; say --board default for "
             "what rs-capture board prints"};
     }
     if (request.board && (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kBoard)) {
-        Result<BoardCalibration> board = from_board(folder, request, turn->names, progress);
+        Result<BoardCalibration> board = from_board(folder, request, turn.names, progress);
         if (board) {
             result.calibration = board->calibration;
             result.board = std::move(*board);
@@ -183,7 +178,7 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const Cutou
         }
     }
     if (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kTracks) {
-        Result<TrackCalibration> tracks = calibrate_with_tracks(*turn, request.known, progress);
+        Result<TrackCalibration> tracks = calibrate_with_tracks(turn, request.known, progress);
         if (tracks) {
             result.calibration = tracks->calibration;
             result.tracks = std::move(*tracks);
@@ -194,7 +189,7 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const Cutou
     }
     if (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kSilhouettes) {
         if (progress != nullptr) progress->start("fitting the silhouettes", 1);
-        Result<Calibration> outlines = from_silhouettes(*turn, request);
+        Result<Calibration> outlines = from_silhouettes(turn, request);
         if (progress != nullptr) progress->advance();
         if (outlines) {
             result.calibration = std::move(*outlines);

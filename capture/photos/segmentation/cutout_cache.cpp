@@ -46,10 +46,9 @@ Status CutoutCache::put(std::size_t view, ConstImageView<Rgba8> image) const {
 Result<Image<Rgba8>> CutoutCache::get(std::size_t view) const {
     const std::filesystem::path path = path_of(view);
     const std::uint64_t size = size_bytes(width_, height_);
-    const Result<std::vector<std::byte>> frame = read_file(path, 2 * size + 1024);
-    if (!frame) return frame.error();
+    RS_ASSIGN_OR_RETURN(const std::vector<std::byte> frame, read_file(path, 2 * size + 1024));
     Image<Rgba8> image(width_, height_);
-    if (ZSTD_decompress(image.data(), size, frame->data(), frame->size()) != size) {
+    if (ZSTD_decompress(image.data(), size, frame.data(), frame.size()) != size) {
         return Error{path.string() + ": cannot be read back; check the disk, and import again"};
     }
     return image;

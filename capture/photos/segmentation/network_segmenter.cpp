@@ -49,12 +49,10 @@ Result<NetworkMasks> NetworkMasks::compute(const SegmentationNetwork& network, c
     std::vector<Image<std::uint8_t>> probabilities;
     if (progress != nullptr) progress->start("running the network", std::ssize(folder.photos));
     for (std::size_t i = 0; i < folder.photos.size(); ++i) {
-        const Result<Image<Rgba8>> photo = read_photograph(folder, i);
-        if (!photo) return photo.error();
-        const Result<Image<float>> found = network.foreground_probability(reduced(*photo, kSampleSide_px));
-        if (!found) return found.error();
-        Image<std::uint8_t>& codes = probabilities.emplace_back(found->width(), found->height());
-        std::ranges::transform(found->pixels(), codes.pixels().begin(),
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photograph(folder, i));
+        RS_ASSIGN_OR_RETURN(const Image<float> found, network.foreground_probability(reduced(photo, kSampleSide_px)));
+        Image<std::uint8_t>& codes = probabilities.emplace_back(found.width(), found.height());
+        std::ranges::transform(found.pixels(), codes.pixels().begin(),
                                [](float p) { return static_cast<std::uint8_t>(std::lround(255 * p)); });
         if (progress != nullptr) progress->advance();
     }

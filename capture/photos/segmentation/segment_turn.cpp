@@ -58,15 +58,13 @@ Result<SegmentedTurn> segment_turn(const PhotoFolder& folder, const Segmenter& s
                        std::vector<Image<Rgba8>>(folder.photos.size())};
     std::mutex mutex;
     const auto segment_photo = [&](std::size_t i) -> Status {
-        const Result<Image<Rgba8>> photo = read_photograph(folder, i);
-        if (!photo) return photo.error();
-        const Result<Segmentation> segmentation = segmenter.segment({i, photo->view()});
-        if (!segmentation) return segmentation.error();
-        const Image<Rgba8> cutout = make_cutout(*photo, *segmentation, parameters);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photograph(folder, i));
+        RS_ASSIGN_OR_RETURN(const Segmentation segmentation, segmenter.segment({i, photo.view()}));
+        const Image<Rgba8> cutout = make_cutout(photo, segmentation, parameters);
         turn.coverage[i] = coverage(cutout);
         turn.at_border[i] = reaches_border(cutout) ? 1 : 0;
         if (Status status =
-                check_coverage(turn.coverage[i], folder.photos[i].string(), segmenter, segmentation->is_alpha);
+                check_coverage(turn.coverage[i], folder.photos[i].string(), segmenter, segmentation.is_alpha);
             !status) {
             return status;
         }
@@ -79,9 +77,7 @@ Result<SegmentedTurn> segment_turn(const PhotoFolder& folder, const Segmenter& s
         turn.silhouette.merge(silhouette);
         return {};
     };
-    if (Status status = for_each_photo(folder, kSegmentBytesPerPixel, "segmenting", progress, segment_photo); !status) {
-        return status.error();
-    }
+    RS_TRY(for_each_photo(folder, kSegmentBytesPerPixel, "segmenting", progress, segment_photo));
     return turn;
 }
 

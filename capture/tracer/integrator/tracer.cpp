@@ -324,12 +324,11 @@ void Tracer::set_environment(float scale, float turn_rad) {
 }
 
 Result<Tracer> Tracer::create(Scene scene) {
-    if (Status checked = check_scene(scene); !checked) return checked.error();
+    RS_TRY(check_scene(scene));
     auto state = std::make_unique<State>();
     state->scene = std::move(scene);
-    Result<RayScene> rays = RayScene::create(state->scene);
-    if (!rays) return rays.error();
-    state->rays = std::move(rays).value();
+    RS_ASSIGN_OR_RETURN(RayScene rays, RayScene::create(state->scene));
+    state->rays = std::move(rays);
     Environment environment = std::exchange(state->scene.environment, Environment{});
     state->lights.emplace(state->scene, std::move(environment), extent_of(*state->rays));
     state->models = make_surface_models(state->scene.materials);

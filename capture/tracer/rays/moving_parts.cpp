@@ -21,9 +21,8 @@ Result<MovingParts> MovingParts::build(RTCDeviceTy* device, const Scene& scene) 
     MovingParts moving;
     moving.scene_ = &scene;
     for (const Part& part : scene.parts) {
-        Result<MeshTree> tree = MeshTree::build(device, part.meshes, scene);
-        if (!tree) return tree.error();
-        moving.trees_.push_back(std::move(*tree));
+        RS_ASSIGN_OR_RETURN(MeshTree tree, MeshTree::build(device, part.meshes, scene));
+        moving.trees_.push_back(std::move(tree));
     }
     moving.top_.reset(rtcNewScene(device));
     rtcSetSceneFlags(moving.top_.get(), RTC_SCENE_FLAG_ROBUST);

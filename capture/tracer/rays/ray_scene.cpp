@@ -115,13 +115,11 @@ Result<RayScene> RayScene::build(const Scene& scene) {
                          ? "ray tracing: Embree cannot start on this processor"
                          : "ray tracing: Embree cannot start; is there enough memory (ulimit -v)?"};
     }
-    Result<MeshTree> still = MeshTree::build(result.device_.get(), scene.meshes, scene);
-    if (!still) return still.error();
-    result.still_ = std::move(*still);
+    RS_ASSIGN_OR_RETURN(MeshTree still, MeshTree::build(result.device_.get(), scene.meshes, scene));
+    result.still_ = std::move(still);
     if (!scene.instances.empty()) {
-        Result<MovingParts> moving = MovingParts::build(result.device_.get(), scene);
-        if (!moving) return moving.error();
-        result.moving_ = std::move(*moving);
+        RS_ASSIGN_OR_RETURN(MovingParts moving, MovingParts::build(result.device_.get(), scene));
+        result.moving_ = std::move(moving);
     }
     result.add_primitives();
     if (rtcGetDeviceError(result.device_.get()) != RTC_ERROR_NONE) {

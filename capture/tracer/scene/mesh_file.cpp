@@ -86,7 +86,7 @@ Mesh convert_mesh(const aiMesh& source) {
 Result<Scene> convert_scene(const aiScene& source, const std::filesystem::path& path) {
     Scene scene;
     scene.name = path.stem().string();
-    if (Status converted = convert_materials(source, path, scene); !converted) return converted.error();
+    RS_TRY(convert_materials(source, path, scene));
     for (unsigned i = 0; i < source.mNumMeshes; ++i) {
         if ((source.mMeshes[i]->mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) continue;
         Mesh mesh = convert_mesh(*source.mMeshes[i]);
@@ -113,9 +113,8 @@ Result<Texture> read_texture(const std::filesystem::path& path, const std::files
     if (!std::filesystem::is_regular_file(path, ignored)) {
         return missing_texture(path, asked_by);
     }
-    Result<Image<RgbaF>> pixels = read_picture_linear(path);
-    if (!pixels) return pixels.error();
-    return Texture{path.filename().string(), std::move(pixels).value()};
+    RS_ASSIGN_OR_RETURN(Image<RgbaF> pixels, read_picture_linear(path));
+    return Texture{path.filename().string(), std::move(pixels)};
 }
 
 Result<Scene> read_mesh_file(const std::filesystem::path& path) {
@@ -129,20 +128,18 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
         const ModelFiles& files = read_models_only(importer, kMaxModelFile_bytes);
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         if (lower_case_extension(path) == ".ply") {
-            Result<std::unique_ptr<aiScene>> ply = read_ply_file(path);
-            if (!ply) return ply.error();
-            importer.RegisterLoader(new PlyLoader(std::move(*ply)));  // the importer takes it over
+            RS_ASSIGN_OR_RETURN(std::unique_ptr<aiScene> ply, read_ply_file(path));
+            importer.RegisterLoader(new PlyLoader(std::move(ply)));  // the importer takes it over
             importer.ReadFileFromMemory("ply", 3, 0, "ply");
         } else {
             importer.ReadFile(path.string(), 0);
         }
-        const Result<const aiScene*> read =
-            post_processed(importer,
-                           aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
-                               aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices,
-                           path.string());
-        if (!read) return read.error();
-        const aiScene* const source = *read;
+        RS_ASSIGN_OR_RETURN(const const aiScene* read,
+                            post_processed(importer,
+                                           aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
+                                               aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices,
+                                           path.string()));
+        const aiScene* const source = read;
         if (!files.refusal().empty()) return Error{files.refusal()};
         if (source == nullptr) {
             return Error{path.string() + ": cannot be read as a mesh: " + shown_error(importer.GetErrorString())};

@@ -310,12 +310,11 @@ private:
 }  // namespace
 
 Result<std::unique_ptr<aiScene>> read_ply_file(const std::filesystem::path& path) {
-    const auto bytes = read_file(path, kMaxPly_bytes);
-    if (!bytes) return bytes.error();
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMaxPly_bytes));
     const auto wrong = [&](const std::string& problem) {
         return Error{path.string() + ": cannot be read as a mesh: " + problem};
     };
-    const std::string_view file(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     PlyHeader header;
     if (const Problem problem = parse_ply_header(file, header)) return wrong(*problem);
     PlyReader reader(header, file.substr(header.size_bytes));

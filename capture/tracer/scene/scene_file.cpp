@@ -186,12 +186,11 @@ Recipe read_recipe(JsonObject& top, const std::filesystem::path& path, const Gen
 }
 
 Result<SceneFile> load_recipe(const std::filesystem::path& path, const Generator& generator) {
-    const auto bytes = read_file(path, kMaxRecipe_bytes);
-    if (!bytes) return bytes.error();
-    Result<Recipe> recipe = read_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string(),
-                                      [&](JsonObject& top) { return read_recipe(top, path, generator); });
-    if (!recipe) return recipe.error();
-    return finish_scene(std::move(recipe->file), path, recipe->centre, std::move(recipe->room));
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMaxRecipe_bytes));
+    RS_ASSIGN_OR_RETURN(Recipe recipe,
+                        read_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string(),
+                                  [&](JsonObject& top) { return read_recipe(top, path, generator); }));
+    return finish_scene(std::move(recipe.file), path, recipe.centre, std::move(recipe.room));
 }
 
 }  // namespace
@@ -202,10 +201,9 @@ Result<SceneFile> load_scene_file(const std::filesystem::path& path, const Gener
         return Error{path.string() +
                      ": not a scene by its name; give a recipe (.json) or a mesh (.obj, .ply, .gltf, .glb)"};
     }
-    Result<Scene> scene = read_mesh_file(path);
-    if (!scene) return scene.error();
+    RS_ASSIGN_OR_RETURN(Scene scene, read_mesh_file(path));
     SceneFile file;
-    file.scene = std::move(scene).value();
+    file.scene = std::move(scene);
     return finish_scene(std::move(file), path, ObjectCentre::bounding_box);
 }
 

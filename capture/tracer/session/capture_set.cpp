@@ -35,8 +35,7 @@ bool touches_edge(ConstImageView<RgbaF> picture) {
 Result<CaptureSetSummary> write_capture_set(const Tracer& tracer, Rig rig, const CaptureSetOptions& options,
                                             const std::filesystem::path& folder, Progress* progress) {
     using Clock = std::chrono::steady_clock;
-    Result<StagedFolder> staged = StagedFolder::create(folder, "traced pictures");
-    if (!staged) return staged.error();
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, "traced pictures"));
     if (progress != nullptr) {
         std::int64_t steps = 0;
         for (const RigView& view : rig.views) steps += Tracer::step_count(view.camera);
@@ -55,7 +54,7 @@ Result<CaptureSetSummary> write_capture_set(const Tracer& tracer, Rig rig, const
 
         view.file_path = view_number(i) + (options.format == PictureFormat::png ? ".png" : ".exr");
         view.depth_file_path = options.render.depth ? view_number(i) + ".depth.exr" : "";
-        const std::filesystem::path& where = staged->temporary_path();
+        const std::filesystem::path& where = staged.temporary_path();
         Status written = options.format == PictureFormat::png
                              ? write_png(where / view.file_path, to_srgb8(rendering.picture).view())
                              : write_exr(where / view.file_path, rendering.picture);
@@ -67,8 +66,8 @@ Result<CaptureSetSummary> write_capture_set(const Tracer& tracer, Rig rig, const
     if (!(summary.mean_coverage > 0.0)) {
         return Error{folder.string() + ": no view shows the object; check the poses or the mesh"};
     }
-    if (Status written = write_rig(staged->temporary_path() / kRigFileName, rig); !written) return written.error();
-    if (Status committed = staged->commit(); !committed) return committed.error();
+    RS_TRY(write_rig(staged.temporary_path() / kRigFileName, rig));
+    RS_TRY(staged.commit());
     if (progress != nullptr) progress->finish();
     return summary;
 }

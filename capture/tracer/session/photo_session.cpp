@@ -121,9 +121,8 @@ Result<Image<RgbaF>> make_backdrop(const PhotoOptions& options, const SessionPla
     if (options.backdrop == "wall") return wall_backdrop(plan, turntable, options.session.seed);
     if (options.backdrop == "blue") return even_backdrop(lens, {0.04F, 0.12F, 0.45F});
     if (options.backdrop == "white") return even_backdrop(lens, glm::vec3(0.88F));
-    Result<Image<RgbaF>> picture = read_picture_linear(options.backdrop);
-    if (!picture) return picture.error();
-    return picture_backdrop(lens, std::move(picture).value());
+    RS_ASSIGN_OR_RETURN(Image<RgbaF> picture, read_picture_linear(options.backdrop));
+    return picture_backdrop(lens, std::move(picture));
 }
 
 // What the lights must be dimmed by so that bright parts of object and disc are not clipped: a photographer's meter,
@@ -241,38 +240,32 @@ bool is_made_backdrop(const std::string& name) {
 Result<CaptureSetSummary> write_photo_session(const Scene& object, double object_radius, const PhotoOptions& options,
                                               const fs::path& folder, Progress* progress) {
     using Clock = std::chrono::steady_clock;
-    Result<StagedFolder> staged = StagedFolder::create(folder, "traced photographs");
-    if (!staged) return staged.error();
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, "traced photographs"));
 
     Turntable turntable = fit_turntable(object, object_radius, options.disc, options.session.seed);
     if (!options.board.empty()) {
-        Result<Image<RgbaF>> picture = read_picture_linear(options.board);
-        if (!picture) return picture.error();
-        lay_board(turntable, std::move(picture).value(), options.board_width * object_radius);
+        RS_ASSIGN_OR_RETURN(Image<RgbaF> picture, read_picture_linear(options.board));
+        lay_board(turntable, std::move(picture), options.board_width * object_radius);
     }
-    Result<SessionPlan> plan = plan_session(options.session, shown_circles(object, turntable));
-    if (!plan) return plan.error();
-    Result<Image<RgbaF>> backdrop = make_backdrop(options, *plan, turntable);
-    if (!backdrop) return backdrop.error();
+    RS_ASSIGN_OR_RETURN(SessionPlan plan, plan_session(options.session, shown_circles(object, turntable)));
+    RS_ASSIGN_OR_RETURN(Image<RgbaF> backdrop, make_backdrop(options, plan, turntable));
     Scene whole = object;
     add_turntable(whole, turntable);
-    Result<Tracer> tracer = Tracer::create(std::move(whole));
-    if (!tracer) return tracer.error();
-    Result<RayScene> outlines = RayScene::create(object);
-    if (!outlines) return outlines.error();
-    const double dimming = metered_dimming(*tracer, *plan, options);
-    Session session{std::move(plan).value(),   std::move(turntable),        std::move(backdrop).value(),
-                    std::move(tracer).value(), std::move(outlines).value(), dimming};
+    RS_ASSIGN_OR_RETURN(Tracer tracer, Tracer::create(std::move(whole)));
+    RS_ASSIGN_OR_RETURN(RayScene outlines, RayScene::create(object));
+    const double dimming = metered_dimming(tracer, plan, options);
+    Session session{std::move(plan),   std::move(turntable), std::move(backdrop),
+                    std::move(tracer), std::move(outlines),  dimming};
 
     const auto views = session.plan.model.angles_rad.size();
     if (progress != nullptr) {
         progress->start("photographing " + std::to_string(views) + " views",
                         static_cast<std::int64_t>(views) * Tracer::step_count(lens_rays_of(session.plan, 0)));
     }
-    const fs::path photos = staged->temporary_path() / "photos";
-    const fs::path truth = staged->temporary_path() / "truth";
+    const fs::path photos = staged.temporary_path() / "photos";
+    const fs::path truth = staged.temporary_path() / "truth";
     for (const fs::path& inner : {photos, truth / "alpha"}) {
-        if (Status made = make_folder(inner); !made) return made.error();
+        RS_TRY(make_folder(inner));
     }
 
     CaptureSetSummary summary;
@@ -298,8 +291,8 @@ Result<CaptureSetSummary> write_photo_session(const Scene& object, double object
         return Error{folder.string() + ": no view shows the object; check the distance or the mesh"};
     }
     const Rig rig = truth_rig(session.plan, session.turntable, object_radius, options, session.dimming, names, places);
-    if (Status written = write_rig(truth / kRigFileName, rig); !written) return written.error();
-    if (Status committed = staged->commit(); !committed) return committed.error();
+    RS_TRY(write_rig(truth / kRigFileName, rig));
+    RS_TRY(staged.commit());
     if (progress != nullptr) progress->finish();
     return summary;
 }

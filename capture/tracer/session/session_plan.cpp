@@ -86,7 +86,7 @@ Result<SessionPlan> plan_session(const SessionOptions& options, const std::vecto
     lens = {options.width,       options.height,       options.focal_widths * options.width,
             options.width / 2.0, options.height / 2.0, options.k1,
             options.k2};
-    if (Status usable = check_lens(lens); !usable) return usable.error();
+    RS_TRY(check_lens(lens));
 
     SeededDraws draws(options.seed, kAim);
     const auto aim_error = [&] { return radians(options.aim_error_deg) * draws.uniform(-1, 1); };

@@ -115,9 +115,8 @@ Result<std::string> light_list_to_json(const LightList& list, const std::filesys
 }
 
 Status write_light_list(const LightList& list, const std::filesystem::path& path) {
-    const Result<std::string> text = light_list_to_json(list, path);
-    if (!text) return text.error();
-    return write_file(path, *text);
+    RS_ASSIGN_OR_RETURN(const std::string text, light_list_to_json(list, path));
+    return write_file(path, text);
 }
 
 }  // namespace rs::compositor

@@ -172,9 +172,8 @@ Result<LightList> light_list_from_json(const std::string& text, const std::files
 }
 
 Result<LightList> read_light_list(const std::filesystem::path& path) {
-    const auto bytes = read_file(path, kMostListBytes);
-    if (!bytes) return bytes.error();
-    return light_list_from_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path);
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMostListBytes));
+    return light_list_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 
 }  // namespace rs::compositor

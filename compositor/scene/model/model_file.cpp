@@ -107,14 +107,12 @@ private:
 }  // namespace
 
 Result<Scene> read_model(const std::filesystem::path& path) {
-    Result<ModelParts> parts = read_model_parts(path);
-    if (!parts) return parts.error();
-    return std::move(parts->scene);
+    RS_ASSIGN_OR_RETURN(ModelParts parts, read_model_parts(path));
+    return std::move(parts.scene);
 }
 
 Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
-    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxModel_bytes);
-    if (!bytes) return bytes.error();
+    RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(path, kMaxModel_bytes));
     ModelParts parts;
     Scene& scene = parts.scene;
     scene.lights.clear();
@@ -122,9 +120,8 @@ Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
     const bool is_gltf = extension.size() > 1 && (extension[1] == 'g' || extension[1] == 'G');
     bool has_meshes = true;
     if (is_gltf) {
-        const Result<model::GltfContents> contents = model::read_gltf_nodes(*bytes, path, scene);
-        if (!contents) return contents.error();
-        has_meshes = contents->has_meshes;
+        RS_ASSIGN_OR_RETURN(const model::GltfContents contents, model::read_gltf_nodes(bytes, path, scene));
+        has_meshes = contents.has_meshes;
     }
     scene.navigation.headlight = scene.lights.empty();
     try {
@@ -132,12 +129,12 @@ Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
         const ModelFiles& files = read_models_only(importer, kMaxModel_bytes);
         importer.ReadFile(path.string(), 0);
         if (!files.refusal().empty()) return Error{files.refusal()};
-        const Result<const aiScene*> read = post_processed(importer,
-                                                           aiProcess_Triangulate | aiProcess_GenSmoothNormals |
-                                                               aiProcess_JoinIdenticalVertices | aiProcess_SortByPType,
-                                                           path.string());
-        if (!read) return read.error();
-        const aiScene* const model = *read;
+        RS_ASSIGN_OR_RETURN(const const aiScene* read,
+                            post_processed(importer,
+                                           aiProcess_Triangulate | aiProcess_GenSmoothNormals |
+                                               aiProcess_JoinIdenticalVertices | aiProcess_SortByPType,
+                                           path.string()));
+        const aiScene* const model = read;
         if (model == nullptr || model->mRootNode == nullptr) {
             const std::string message =
                 path.string() + ": cannot be read: " + shown_error(importer.GetErrorString()) + "; export it again";

@@ -197,9 +197,8 @@ Result<Scene> read_scene(const std::filesystem::path& path) {
         return Error{path.string() +
                      ": is no scene by its name; give a .wrl, .wrl.gz, .x3d, .x3dv, .gltf, .glb, .obj or .json"};
     }
-    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxScene_bytes);
-    if (!bytes) return bytes.error();
-    return scene_from_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path);
+    RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(path, kMaxScene_bytes));
+    return scene_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 
 }  // namespace rs::compositor

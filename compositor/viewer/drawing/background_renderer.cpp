@@ -36,10 +36,9 @@ Result<BackgroundRenderer> BackgroundRenderer::create(const Background& backgrou
     const std::string constants = "#version 450 core\n" + shaders::shader_constant("kSkyStops", sky_stops) +
                                   shaders::shader_constant("kGroundStops", ground_stops) +
                                   shaders::shader_constant("kShownPictures", shown_pictures);
-    auto program =
-        gl::Program::create("background", shaders::kWholeFrameVertex, constants + shaders::kBackgroundFragment);
-    if (!program) return program.error();
-    BackgroundRenderer renderer(std::move(*program));
+    RS_ASSIGN_OR_RETURN(auto program, gl::Program::create("background", shaders::kWholeFrameVertex,
+                                                          constants + shaders::kBackgroundFragment));
+    BackgroundRenderer renderer(std::move(program));
     renderer.stops_.emplace(std::as_bytes(std::span(stops)));
     for (std::size_t i = 0; i < background.pictures.size(); ++i) {
         if (!background.pictures[i]) continue;

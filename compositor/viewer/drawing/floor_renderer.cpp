@@ -28,12 +28,13 @@ Result<FloorRenderer> FloorRenderer::create(const Scene& scene, const ShadowPlan
         shadowed.emplace_back(light.colour * facing, 0);
         shadowed.emplace_back(light.towards, 0);
     }
-    auto program = gl::Program::create(
-        "floor", shaders::kFloorVertex,
-        "#version 450 core\n" + shaders::shader_constant("kShadows", static_cast<int>(with_maps.size())) +
-            "const float kNear = " + std::to_string(kNear) + ";\n" + shaders::kShadowLookUp + shaders::kFloorFragment);
-    if (!program) return program.error();
-    FloorRenderer renderer(std::move(*program), *scene.floor);
+    RS_ASSIGN_OR_RETURN(
+        auto program, gl::Program::create("floor", shaders::kFloorVertex,
+                                          "#version 450 core\n" +
+                                              shaders::shader_constant("kShadows", static_cast<int>(with_maps.size())) +
+                                              "const float kNear = " + std::to_string(kNear) + ";\n" +
+                                              shaders::kShadowLookUp + shaders::kFloorFragment));
+    FloorRenderer renderer(std::move(program), *scene.floor);
     renderer.light_ = always;
     renderer.background_ = background_colour(scene.background, {0, 0, -1});
     renderer.shadowed_ = std::move(shadowed);

@@ -47,44 +47,35 @@ private:
 }  // namespace
 
 Result<FrameCompositor::Frame> FrameCompositor::Frame::create(int width, int height, int samples) {
-    auto drawn = gl::Framebuffer::create(width, height, samples);
-    if (!drawn) return drawn.error();
-    if (drawn->samples() == 1) return Frame{std::move(*drawn), std::nullopt};
-    auto resolved = gl::Framebuffer::create(width, height, 1);
-    if (!resolved) return resolved.error();
-    return Frame{std::move(*drawn), std::move(*resolved)};
+    RS_ASSIGN_OR_RETURN(auto drawn, gl::Framebuffer::create(width, height, samples));
+    if (drawn.samples() == 1) return Frame{std::move(drawn), std::nullopt};
+    RS_ASSIGN_OR_RETURN(auto resolved, gl::Framebuffer::create(width, height, 1));
+    return Frame{std::move(drawn), std::move(resolved)};
 }
 
 Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::shared_ptr<engine::DataModule> engine,
                                                 std::shared_ptr<const ShownNodes> nodes, const FrameOptions& options) {
     Scene scene = lit_scene;
     scene.lights = raster_lights(lit_scene, options.exposure_ev);
-    auto background = BackgroundRenderer::create(scene.background);
-    if (!background) return background.error();
-    auto lit = LitGeometry::create(scene, *nodes, options.shadows);
-    if (!lit) return lit.error();
-    auto weather = WeatherRenderer::create(scene);
-    if (!weather) return weather.error();
-    auto traced = gl::Program::create("traced picture", shaders::kWholeFrameVertex, shaders::kPictureFragment);
-    if (!traced) return traced.error();
-    auto objects = ObjectRenderer::create(nodes->size(), options.object_depth);
-    if (!objects) return objects.error();
-    auto placeholders = PlaceholderRenderer::create();
-    if (!placeholders) return placeholders.error();
-    auto frame = Frame::create(options.width, options.height, options.samples);
-    if (!frame) return frame.error();
+    RS_ASSIGN_OR_RETURN(auto background, BackgroundRenderer::create(scene.background));
+    RS_ASSIGN_OR_RETURN(auto lit, LitGeometry::create(scene, *nodes, options.shadows));
+    RS_ASSIGN_OR_RETURN(auto weather, WeatherRenderer::create(scene));
+    RS_ASSIGN_OR_RETURN(auto traced,
+                        gl::Program::create("traced picture", shaders::kWholeFrameVertex, shaders::kPictureFragment));
+    RS_ASSIGN_OR_RETURN(auto objects, ObjectRenderer::create(nodes->size(), options.object_depth));
+    RS_ASSIGN_OR_RETURN(auto placeholders, PlaceholderRenderer::create());
+    RS_ASSIGN_OR_RETURN(auto frame, Frame::create(options.width, options.height, options.samples));
     return FrameCompositor(scene, std::move(engine), std::move(nodes),
-                           {std::move(*traced), std::move(*objects), std::move(*placeholders), std::move(*background),
-                            std::move(*lit), std::move(*weather), std::move(*frame)},
+                           {std::move(traced), std::move(objects), std::move(placeholders), std::move(background),
+                            std::move(lit), std::move(weather), std::move(frame)},
                            options);
 }
 
 Result<FrameCompositor> FrameCompositor::create(const Scene& scene, const std::vector<PlacedObject>& objects,
                                                 const FrameOptions& options) {
     const auto engine = std::make_shared<engine::DataModule>(limits_of_viewer());
-    Result<std::shared_ptr<const ShownNodes>> nodes = show_all(objects, *engine);
-    if (!nodes) return nodes.error();
-    return create(scene, engine, std::move(*nodes), options);
+    RS_ASSIGN_OR_RETURN(std::shared_ptr<const ShownNodes> nodes, show_all(objects, *engine));
+    return create(scene, engine, std::move(nodes), options);
 }
 
 FrameCompositor::FrameCompositor(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
@@ -110,7 +101,7 @@ Status FrameCompositor::set_lights(const Scene& scene, double exposure_ev) {
 }
 
 Result<Image<Rgba8>> FrameCompositor::compose(const Camera& camera) {
-    if (Status status = draw(camera); !status) return status.error();
+    RS_TRY(draw(camera));
     return picture();
 }
 
@@ -166,7 +157,7 @@ Status FrameCompositor::draw(const Camera& camera, TracedDepths depths) {
         requests.push_back({(*nodes_)[node.index].handle, node.view.camera, object_depth_ == ObjectDepth::kPixel});
     }
     EngineViews views(*engine_);
-    if (const Status status = views.submit(std::move(requests)); !status) return status.error();
+    RS_TRY(views.submit(std::move(requests)));
 
     // Under a traced picture only what is blended is lit here.
     const bool lights_something = !traced_ || renderers_.lit.surfaces().has_transparent();
@@ -193,11 +184,10 @@ Status FrameCompositor::draw(const Camera& camera, TracedDepths depths) {
     gl::flush();
     statistics_.geometry_s = clock.lap();
 
-    Result<std::vector<engine::DrawnView>> drawn = views.retrieve();
-    if (!drawn) return drawn.error();
+    RS_ASSIGN_OR_RETURN(std::vector<engine::DrawnView> drawn, views.retrieve());
     statistics_.engine_wait_s = clock.lap();
     for (std::size_t n = 0; n < seen.size(); ++n) {
-        seen[n].drawn = std::move((*drawn)[n]);
+        seen[n].drawn = std::move(drawn[n]);
         upload(seen[n]);
     }
     statistics_.upload_s = clock.lap();
@@ -245,9 +235,8 @@ void FrameCompositor::draw_blended(const std::vector<SurfaceRenderer::Transparen
 }
 
 Status FrameCompositor::resize(int width, int height) {
-    auto frame = Frame::create(width, height, samples_);
-    if (!frame) return frame.error();
-    renderers_.frame = std::move(*frame);
+    RS_ASSIGN_OR_RETURN(auto frame, Frame::create(width, height, samples_));
+    renderers_.frame = std::move(frame);
     camera_.reset();
     depth_from_.reset();
     return {};
@@ -261,9 +250,8 @@ Status FrameCompositor::draw_handles(const std::vector<HandleStroke>& strokes) {
     RS_CHECK(camera_.has_value());
     if (Status there = ensure_depths(); !there) return there;
     if (!handles_) {
-        auto made = HandleRenderer::create();
-        if (!made) return made.error();
-        handles_ = std::move(*made);
+        RS_ASSIGN_OR_RETURN(auto made, HandleRenderer::create());
+        handles_ = std::move(made);
     }
     return handles_->draw(strokes, *camera_, renderers_.frame.shown(), renderers_.frame.drawn);
 }

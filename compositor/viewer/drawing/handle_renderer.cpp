@@ -96,17 +96,15 @@ void add_quad(const HandleStroke& stroke, const Camera& camera, std::vector<Stro
 }  // namespace
 
 Result<HandleRenderer> HandleRenderer::create() {
-    auto program = gl::Program::create("handles", kStrokeVertex, kStrokeFragment);
-    if (!program) return program.error();
-    return HandleRenderer(std::move(*program));
+    RS_ASSIGN_OR_RETURN(auto program, gl::Program::create("handles", kStrokeVertex, kStrokeFragment));
+    return HandleRenderer(std::move(program));
 }
 
 Status HandleRenderer::draw(const std::vector<HandleStroke>& strokes, const Camera& camera,
                             const gl::Framebuffer& picture, const gl::Framebuffer& depths) {
     if (!copy_ || copy_->width() != picture.width() || copy_->height() != picture.height()) {
-        auto made = gl::Framebuffer::create(picture.width(), picture.height(), 1);
-        if (!made) return made.error();
-        copy_ = std::move(*made);
+        RS_ASSIGN_OR_RETURN(auto made, gl::Framebuffer::create(picture.width(), picture.height(), 1));
+        copy_ = std::move(made);
     }
     copy_->begin(glm::vec3(0));
     picture.resolve_to(*copy_);

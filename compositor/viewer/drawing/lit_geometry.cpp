@@ -21,9 +21,8 @@ BoundingBox bounds_with_objects(const Scene& scene, const ShownNodes& nodes) {
 // Nothing without shadows.
 Result<std::optional<ShadowMaps>> make_maps(const Scene& scene, const ShownNodes& nodes, bool shadows) {
     if (!shadows) return std::optional<ShadowMaps>();
-    auto made = ShadowMaps::create(plan_shadows(scene, bounds_with_objects(scene, nodes)));
-    if (!made) return made.error();
-    return std::optional<ShadowMaps>(std::move(*made));
+    RS_ASSIGN_OR_RETURN(auto made, ShadowMaps::create(plan_shadows(scene, bounds_with_objects(scene, nodes))));
+    return std::optional<ShadowMaps>(std::move(made));
 }
 
 ShadowPlan plan_of(const std::optional<ShadowMaps>& maps) {
@@ -33,33 +32,29 @@ ShadowPlan plan_of(const std::optional<ShadowMaps>& maps) {
 }  // namespace
 
 Result<LitGeometry> LitGeometry::create(const Scene& scene, const ShownNodes& nodes, bool shadows) {
-    auto maps = make_maps(scene, nodes, shadows);
-    if (!maps) return maps.error();
-    auto surfaces = SurfaceRenderer::create(scene, plan_of(*maps));
-    if (!surfaces) return surfaces.error();
-    LitGeometry lit(scene, std::move(*surfaces));
-    if (Status status = lit.make_floor(plan_of(*maps)); !status) return status.error();
-    lit.shadows_ = std::move(*maps);
+    RS_ASSIGN_OR_RETURN(auto maps, make_maps(scene, nodes, shadows));
+    RS_ASSIGN_OR_RETURN(auto surfaces, SurfaceRenderer::create(scene, plan_of(maps)));
+    LitGeometry lit(scene, std::move(surfaces));
+    RS_TRY(lit.make_floor(plan_of(maps)));
+    lit.shadows_ = std::move(maps);
     return lit;
 }
 
 Status LitGeometry::make_floor(const ShadowPlan& plan) {
     if (!scene_.floor) return {};
-    auto floor = FloorRenderer::create(scene_, plan);
-    if (!floor) return floor.error();
-    floor_.emplace(std::move(*floor));
+    RS_ASSIGN_OR_RETURN(auto floor, FloorRenderer::create(scene_, plan));
+    floor_.emplace(std::move(floor));
     return {};
 }
 
 // As scene_ has it, with or without shadows.
 Status LitGeometry::light_anew(bool shadows, const ShownNodes& nodes) {
-    auto maps = make_maps(scene_, nodes, shadows);
-    if (!maps) return maps.error();
-    const ShadowPlan plan = plan_of(*maps);
+    RS_ASSIGN_OR_RETURN(auto maps, make_maps(scene_, nodes, shadows));
+    const ShadowPlan plan = plan_of(maps);
     if (Status status = surfaces_.set_lights(scene_, plan); !status) return status;
     if (Status status = make_floor(plan); !status) return status;
-    if (*maps && shadows_) (*maps)->take_shells(*shadows_);
-    shadows_ = std::move(*maps);
+    if (maps && shadows_) maps->take_shells(*shadows_);
+    shadows_ = std::move(maps);
     return {};
 }
 

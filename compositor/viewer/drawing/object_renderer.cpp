@@ -64,9 +64,9 @@ Result<ObjectRenderer> ObjectRenderer::create(std::size_t nodes, ObjectDepth dep
                                           shaders::shader_constant("kOpaque", opaque) +
                                           shaders::shader_constant("kSamplesAcross", std::max(samples, 1)) +
                                           shaders::shader_constant("kSmooth", samples == 0);
-            auto program = gl::Program::create("object", shaders::kObjectVertex, constants + shaders::kObjectFragment);
-            if (!program) return program.error();
-            (opaque ? programs.opaque : programs.blended).push_back(std::move(*program));
+            RS_ASSIGN_OR_RETURN(auto program, gl::Program::create("object", shaders::kObjectVertex,
+                                                                  constants + shaders::kObjectFragment));
+            (opaque ? programs.opaque : programs.blended).push_back(std::move(program));
         }
     }
     return ObjectRenderer(std::move(programs), nodes, depth);

@@ -36,9 +36,8 @@ void main() {
 }  // namespace
 
 Result<PlaceholderRenderer> PlaceholderRenderer::create() {
-    auto program = gl::Program::create("placeholder", kVertex, kFragment);
-    if (!program) return program.error();
-    return PlaceholderRenderer(std::move(*program));
+    RS_ASSIGN_OR_RETURN(auto program, gl::Program::create("placeholder", kVertex, kFragment));
+    return PlaceholderRenderer(std::move(program));
 }
 
 void PlaceholderRenderer::draw(const Placeholder& placeholder, const FrameView& view) const {

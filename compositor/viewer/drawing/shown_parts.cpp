@@ -20,9 +20,8 @@ Result<std::shared_ptr<const ShownNodes>> show_all(const std::vector<PlacedObjec
     for (const PlacedObject& placed : objects) {
         const auto [known, is_new] = loaded.try_emplace(placed.object.get());
         if (is_new) {
-            const Result<engine::ObjectHandle> handle = engine.load(prepared(placed.object));
-            if (!handle) return handle.error();
-            known->second = *handle;
+            RS_ASSIGN_OR_RETURN(const engine::ObjectHandle handle, engine.load(prepared(placed.object)));
+            known->second = handle;
         }
         nodes->push_back({.object = placed, .handle = known->second, .placeholder = std::nullopt});
     }

@@ -83,10 +83,10 @@ private:
 Result<std::shared_ptr<const gl::Program>> SurfaceRenderer::program(const SurfaceKind& kind) {
     const auto known = programs_.find(kind);
     if (known != programs_.end()) return known->second;
-    auto made = gl::Program::create("surface", shaders::kSurfaceVertex,
-                                    constants_of(kind) + shaders::kShadowLookUp + shaders::kSurfaceFragment);
-    if (!made) return made.error();
-    return programs_.emplace(kind, std::make_shared<const gl::Program>(std::move(*made))).first->second;
+    RS_ASSIGN_OR_RETURN(auto made,
+                        gl::Program::create("surface", shaders::kSurfaceVertex,
+                                            constants_of(kind) + shaders::kShadowLookUp + shaders::kSurfaceFragment));
+    return programs_.emplace(kind, std::make_shared<const gl::Program>(std::move(made))).first->second;
 }
 
 // Of lights with a place, which are others from piece to piece and from frame to frame.
@@ -127,17 +127,15 @@ Status SurfaceRenderer::put(Item& item) {
     item.lights = rows_of(scene_, ordered);
     item.shadows = rows_of(shadows_, ordered);
     if ((kind.phong || node.moving) && kind.points + kind.spots > 0) count_lights(kind, item);
-    auto made = program(kind);
-    if (!made) return made.error();
-    item.program = std::move(*made);
+    RS_ASSIGN_OR_RETURN(auto made, program(kind));
+    item.program = std::move(made);
     SurfaceKind veil{.fog = kind.fog, .veil = true};
     if (kind.picture_alpha == AlphaUse::kMask) {
         veil.picture = kind.picture;
         veil.picture_alpha = kind.picture_alpha;
     }
-    auto veiled = program(veil);
-    if (!veiled) return veiled.error();
-    item.veil = std::move(*veiled);
+    RS_ASSIGN_OR_RETURN(auto veiled, program(veil));
+    item.veil = std::move(veiled);
     const glm::vec3 reflected = kind.phong ? phong_terms(node.material).ambient * lights.ambient : lights.ambient;
     item.material.ambient_light = glm::vec4(reflected, 0);
     item.mirrored = glm::determinant(glm::dmat3(item.world_from_node)) < 0;
@@ -162,18 +160,17 @@ void SurfaceRenderer::survey_lights() {
 
 Status SurfaceRenderer::make_casters() {
     if (shadows_.faces.empty() || caster_) return {};
-    auto caster = gl::Program::create("shadow", shaders::kCasterVertex, shaders::kCasterFragment);
-    if (!caster) return caster.error();
-    auto masked = gl::Program::create("shadow with holes", shaders::kCasterVertex, shaders::kMaskedCasterFragment);
-    if (!masked) return masked.error();
-    caster_.emplace(std::move(*caster));
-    masked_caster_.emplace(std::move(*masked));
+    RS_ASSIGN_OR_RETURN(auto caster, gl::Program::create("shadow", shaders::kCasterVertex, shaders::kCasterFragment));
+    RS_ASSIGN_OR_RETURN(
+        auto masked, gl::Program::create("shadow with holes", shaders::kCasterVertex, shaders::kMaskedCasterFragment));
+    caster_.emplace(std::move(caster));
+    masked_caster_.emplace(std::move(masked));
     return {};
 }
 
 Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const ShadowPlan& shadows) {
     SurfaceRenderer renderer(scene, shadows);
-    if (const Status status = renderer.make_casters(); !status) return status.error();
+    RS_TRY(renderer.make_casters());
     renderer.survey_lights();
     Uploads uploads;
     renderer.item_of_node_.resize(scene.geometry.size());
@@ -192,7 +189,7 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const Shadow
         if (node.material.lit && node.material.normals) item.relief = uploads.relief(*node.material.normals);
         item.throws_shadows = throws_shadows(node);
         item.material = row_of(node.material, scene.shading);
-        if (const Status status = renderer.put(item); !status) return status.error();
+        RS_TRY(renderer.put(item));
         item.texture_transform = node.material.texture_transform;
         item.transparent = node.material.opacity < 1 || item.alpha == AlphaUse::kBlend;
         item.two_sided = node.mesh->two_sided;

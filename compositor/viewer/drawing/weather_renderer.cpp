@@ -39,9 +39,9 @@ WeatherRenderer::WeatherRenderer(gl::Program program)
     : program_(std::move(program)), drops_(6 * kDrops.count), flakes_(6 * kFlakes.count) {}
 
 Result<WeatherRenderer> WeatherRenderer::create(const Scene& scene) {
-    auto program = gl::Program::create("weather", shaders::kWeatherVertex, shaders::kWeatherFragment);
-    if (!program) return program.error();
-    WeatherRenderer renderer(std::move(*program));
+    RS_ASSIGN_OR_RETURN(auto program,
+                        gl::Program::create("weather", shaders::kWeatherVertex, shaders::kWeatherFragment));
+    WeatherRenderer renderer(std::move(program));
     for (const Light& light : scene.lights) {
         if (!light.everywhere) continue;
         if (light.kind == LightKind::kDirectional) {

@@ -28,15 +28,13 @@ public:
         : engine_(std::move(engine)), background_(background), arena_(background ? 1 : tbb::task_arena::automatic) {}
 
     Result<std::int64_t> most_bytes(const std::filesystem::path& file) override {
-        const auto container = ContainerReader::open(file);
-        if (!container) return container.error();
-        const Result<ReadingMemory> reading = memory_to_read(*container);
-        if (!reading) return reading.error();
+        RS_ASSIGN_OR_RETURN(const auto container, ContainerReader::open(file));
+        RS_ASSIGN_OR_RETURN(const ReadingMemory reading, memory_to_read(container));
         const std::int64_t texels =
-            engine::TexelStore::bytes_of_pictures(reading->width, reading->height, reading->pictures);
+            engine::TexelStore::bytes_of_pictures(reading.width, reading.height, reading.pictures);
         // A board that takes it gets a copy of its own, made of what may be a changed one.
         const int copies = engine_->has_board() ? 3 : 1;
-        return std::max(reading->most_bytes, copies * reading->object_bytes + texels);
+        return std::max(reading.most_bytes, copies * reading.object_bytes + texels);
     }
 
     Result<ViewableObject> read(const std::filesystem::path& file, std::int64_t most_bytes, const Tell& tell) override {
@@ -55,18 +53,15 @@ private:
     Result<ViewableObject> read_in_arena(const std::filesystem::path& file, std::int64_t most_bytes,
                                          const Tell& tell) const {
         tell(kBegun);
-        const auto container = ContainerReader::open(file);
-        if (!container) return container.error();
+        RS_ASSIGN_OR_RETURN(const auto container, ContainerReader::open(file));
         // The file may have changed since it was measured.
-        Result<RaySpaceObject> object =
-            read_object(*container, {.memory_cap_bytes = static_cast<std::uint64_t>(most_bytes)});
-        if (!object) return object.error();
+        RS_ASSIGN_OR_RETURN(RaySpaceObject object,
+                            read_object(container, {.memory_cap_bytes = static_cast<std::uint64_t>(most_bytes)}));
         tell(kRead);
-        std::shared_ptr<const RaySpaceObject> for_board = engine_->as_board_draws(*object);
-        object->coded.reset();  // unpacked by now
-        Result<ViewableObject> viewable = make_viewable(std::move(*object));
-        if (!viewable) return viewable.error();
-        viewable->for_board = std::move(for_board);
+        std::shared_ptr<const RaySpaceObject> for_board = engine_->as_board_draws(object);
+        object.coded.reset();  // unpacked by now
+        RS_ASSIGN_OR_RETURN(ViewableObject viewable, make_viewable(std::move(object)));
+        viewable.for_board = std::move(for_board);
         tell(1);
         return viewable;
     }

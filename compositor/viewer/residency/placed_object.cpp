@@ -217,9 +217,8 @@ std::int64_t ViewableObject::memory_bytes() const {
 Result<ViewableObject> make_viewable(RaySpaceObject object) {
     const BoundingCylinder bounds = bounding_cylinder(object);
     const UprightExtent extent = estimated_extent(object);
-    Result<engine::Renderer> renderer = engine::Renderer::create(std::move(object));
-    if (!renderer) return renderer.error();
-    return ViewableObject{std::move(*renderer), bounds, extent};
+    RS_ASSIGN_OR_RETURN(engine::Renderer renderer, engine::Renderer::create(std::move(object)));
+    return ViewableObject{std::move(renderer), bounds, extent};
 }
 
 PlacedObject place(std::shared_ptr<const ViewableObject> object, const RaySpaceNode& node) {

@@ -97,16 +97,15 @@ glm::dmat4 area_from_world(const ShadowFace& face, const gl::TexelArea& area, in
 }  // namespace
 
 Result<ShadowMaps> ShadowMaps::create(ShadowPlan plan) {
-    auto program = gl::Program::create("shadow of an object", shaders::kCasterVertex, shaders::kCasterFragment);
-    if (!program) return program.error();
-    ShadowMaps maps(std::move(plan), std::move(*program));
+    RS_ASSIGN_OR_RETURN(auto program,
+                        gl::Program::create("shadow of an object", shaders::kCasterVertex, shaders::kCasterFragment));
+    ShadowMaps maps(std::move(plan), std::move(program));
     const ShadowPlan& planned = maps.plan_;
     for (const auto& [side, layers, array] : {std::tuple{planned.plane_side, planned.plane_layers, &maps.planes_.all},
                                               std::tuple{planned.cube_side, planned.cube_layers, &maps.cubes_.all}}) {
         if (layers == 0) continue;
-        auto made = gl::DepthArray::create(side, layers);
-        if (!made) return made.error();
-        array->emplace(std::move(*made));
+        RS_ASSIGN_OR_RETURN(auto made, gl::DepthArray::create(side, layers));
+        array->emplace(std::move(made));
     }
     maps.still_drawn_.resize(planned.faces.size());
     return maps;

@@ -21,9 +21,9 @@ Status EngineViews::submit_more() {
         const std::size_t count =
             std::min(views_.size() - submitted_, static_cast<std::size_t>(limits.views_per_cycle));
         const auto first = views_.begin() + static_cast<std::ptrdiff_t>(submitted_);
-        const Result<engine::CycleHandle> cycle = engine_.submit({first, first + static_cast<std::ptrdiff_t>(count)});
-        if (!cycle) return cycle.error();
-        under_way_.push_back(*cycle);
+        RS_ASSIGN_OR_RETURN(const engine::CycleHandle cycle,
+                            engine_.submit({first, first + static_cast<std::ptrdiff_t>(count)}));
+        under_way_.push_back(cycle);
         submitted_ += count;
     }
     return {};
@@ -36,7 +36,7 @@ Result<std::vector<engine::DrawnView>> EngineViews::retrieve() {
         under_way_.pop_front();
         if (!drawn) return drawn.error();
         std::move(drawn->begin(), drawn->end(), std::back_inserter(all));
-        if (const Status status = submit_more(); !status) return status.error();
+        RS_TRY(submit_more());
     }
     return all;
 }

@@ -29,15 +29,12 @@ Result<std::unique_ptr<CodedTexels>> CodedTexels::create(std::shared_ptr<const c
         if (picture.loaded()) size += per_picture;
         if (size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) return too_many_texels(name);
     }
-    Result<ReservedMemory> memory = ReservedMemory::create(size * sizeof(Rgba8), name);
-    if (!memory) return memory.error();
-    Result<ReservedMemory> details =
-        ReservedMemory::create(ReservedMemory::whole_pages(size + TexelLayout::kLeastColumn), name);
-    if (!details) return details.error();
-    Result<std::unique_ptr<SampleStore>> samples = SampleStore::create(std::move(coded), name);
-    if (!samples) return samples.error();
+    RS_ASSIGN_OR_RETURN(ReservedMemory memory, ReservedMemory::create(size * sizeof(Rgba8), name));
+    RS_ASSIGN_OR_RETURN(ReservedMemory details,
+                        ReservedMemory::create(ReservedMemory::whole_pages(size + TexelLayout::kLeastColumn), name));
+    RS_ASSIGN_OR_RETURN(std::unique_ptr<SampleStore> samples, SampleStore::create(std::move(coded), name));
     return std::unique_ptr<CodedTexels>(
-        new CodedTexels(std::move(*samples), std::move(layout), std::move(*memory), std::move(*details), budget_bytes));
+        new CodedTexels(std::move(samples), std::move(layout), std::move(memory), std::move(details), budget_bytes));
 }
 
 CodedTexels::CodedTexels(std::unique_ptr<SampleStore> samples, TexelLayout layout, ReservedMemory memory,

@@ -10,9 +10,8 @@ int CoreExecutor::hold(std::shared_ptr<const Renderer> renderer) {
 }
 
 Result<std::optional<int>> CoreExecutor::load(const RaySpaceObject& object) {
-    Result<Renderer> renderer = Renderer::create(object);
-    if (!renderer) return renderer.error();
-    return std::optional<int>(hold(std::make_shared<const Renderer>(std::move(*renderer))));
+    RS_ASSIGN_OR_RETURN(Renderer renderer, Renderer::create(object));
+    return std::optional<int>(hold(std::make_shared<const Renderer>(std::move(renderer))));
 }
 
 Status CoreExecutor::evict(int slot) {

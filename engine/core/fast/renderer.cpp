@@ -133,12 +133,11 @@ Status substitute_missing_pictures(RaySpaceObject& object) {
 Renderer::Renderer(RaySpaceObject object, TexelStore texels) : object_(std::move(object)), texels_(std::move(texels)) {}
 
 Result<Renderer> Renderer::create(RaySpaceObject object, const RendererOptions& options) {
-    if (const Status status = substitute_missing_pictures(object); !status) return status.error();
-    Result<TexelStore> texels = TexelStore::create(object, options.decoded_budget_bytes);
-    if (!texels) return texels.error();
+    RS_TRY(substitute_missing_pictures(object));
+    RS_ASSIGN_OR_RETURN(TexelStore texels, TexelStore::create(object, options.decoded_budget_bytes));
     object.pictures.clear();
     object.pictures.shrink_to_fit();
-    return Renderer(std::move(object), std::move(*texels));
+    return Renderer(std::move(object), std::move(texels));
 }
 
 std::int64_t Renderer::memory_bytes() const {

@@ -61,9 +61,9 @@ Result<std::unique_ptr<SampleStore>> SampleStore::create(std::shared_ptr<const C
                          " is predicted from pictures that are not loaded, or has wrong tiles; read the object again"};
         }
     }
-    Result<ReservedMemory> memory = ReservedMemory::create(coded->pictures.size() * picture_bytes(*coded), name);
-    if (!memory) return memory.error();
-    return std::unique_ptr<SampleStore>(new SampleStore(std::move(coded), std::move(*memory)));
+    RS_ASSIGN_OR_RETURN(ReservedMemory memory,
+                        ReservedMemory::create(coded->pictures.size() * picture_bytes(*coded), name));
+    return std::unique_ptr<SampleStore>(new SampleStore(std::move(coded), std::move(memory)));
 }
 
 SampleStore::SampleStore(std::shared_ptr<const CodedPictures> coded, ReservedMemory memory)

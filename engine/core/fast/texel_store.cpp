@@ -18,10 +18,9 @@ bool shows_coded_pictures(const RaySpaceObject& object) {
 Result<TexelStore> TexelStore::create(const RaySpaceObject& object, std::int64_t decoded_budget_bytes) {
     TexelStore store;
     if (shows_coded_pictures(object)) {
-        Result<std::unique_ptr<CodedTexels>> coded =
-            CodedTexels::create(object.coded, object.name, decoded_budget_bytes);
-        if (!coded) return coded.error();
-        store.coded_ = std::move(*coded);
+        RS_ASSIGN_OR_RETURN(std::unique_ptr<CodedTexels> coded,
+                            CodedTexels::create(object.coded, object.name, decoded_budget_bytes));
+        store.coded_ = std::move(coded);
         store.layout_ = store.coded_->layout();
         return store;
     }

@@ -258,9 +258,8 @@ Result<BoardConfig> read_board_config(const std::string& name_or_path) {
     if (!std::filesystem::exists(name_or_path)) {
         return Error{name_or_path + ": neither a built-in configuration (" + listed_built_ins() + ") nor a file"};
     }
-    const Result<std::vector<std::byte>> bytes = read_file(name_or_path, kCap_bytes);
-    if (!bytes) return bytes.error();
-    return parse_board_config(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()), name_or_path);
+    RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(name_or_path, kCap_bytes));
+    return parse_board_config(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name_or_path);
 }
 
 std::string board_config_json(const BoardConfig& config) {

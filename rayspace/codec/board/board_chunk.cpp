@@ -89,11 +89,10 @@ Status take_board_code(ByteReader& in, BoardCode& code) {
     if (!in.ok()) return Error{"is too short"};
     std::size_t size = 0;
     for_books(code, [&](const auto&, std::size_t bytes) { size += bytes; });
-    const Result<std::vector<std::uint8_t>> bytes = zstd_content(in.take(in.left()), size, kBooksName);
-    if (!bytes) return bytes.error();
+    RS_ASSIGN_OR_RETURN(const std::vector<std::uint8_t> bytes, zstd_content(in.take(in.left()), size, kBooksName));
     code.books = {};
     code.alpha.clear();
-    auto next = bytes->begin();
+    auto next = bytes.begin();
     for_books(code, [&](auto& book, std::size_t book_bytes) {
         book.resize(book_bytes);
         for (auto& number : book) number = static_cast<typename std::decay_t<decltype(book)>::value_type>(*next++);

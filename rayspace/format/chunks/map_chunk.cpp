@@ -39,25 +39,22 @@ Result<CodedMap> parse_map_head(Bytes payload, const Ring& ring) {
     }
     coded.content_bytes = map_coding::residual_bytes(coded.rows, coded.runs);
     coded.frame = in.take(in.left());
-    if (Status status = check_zstd_frame(coded.frame, coded.content_bytes, "its runs"); !status) return status.error();
+    RS_TRY(check_zstd_frame(coded.frame, coded.content_bytes, "its runs"));
     return coded;
 }
 
 Result<ChunkMemory> map_memory(Bytes payload, UnreadObject& unread, std::uint32_t index) {
-    const auto coded = parse_map_head(payload, unread.object.rings[index]);
-    if (!coded) return coded.error();
-    return ChunkMemory{.passing_bytes = kRunsOverContent * coded->content_bytes};
+    RS_ASSIGN_OR_RETURN(const auto coded, parse_map_head(payload, unread.object.rings[index]));
+    return ChunkMemory{.passing_bytes = kRunsOverContent * coded.content_bytes};
 }
 
 Status parse_map(Bytes payload, UnreadObject& unread, std::uint32_t index) {
     Ring& ring = unread.object.rings[index];
-    const auto coded = parse_map_head(payload, ring);
-    if (!coded) return coded.error();
+    RS_ASSIGN_OR_RETURN(const auto coded, parse_map_head(payload, ring));
     std::vector<std::uint8_t> plane;
-    if (Status s = expand_zstd_frame(coded->frame, coded->content_bytes, "its runs", plane); !s) return s;
-    ring.cells.resize(coded->rows * static_cast<std::size_t>(ring.u_cells));
-    return map_coding::put_runs(map_coding::runs_of_residuals(plane, coded->rows, coded->runs), ring.u_cells,
-                                ring.cells);
+    if (Status s = expand_zstd_frame(coded.frame, coded.content_bytes, "its runs", plane); !s) return s;
+    ring.cells.resize(coded.rows * static_cast<std::size_t>(ring.u_cells));
+    return map_coding::put_runs(map_coding::runs_of_residuals(plane, coded.rows, coded.runs), ring.u_cells, ring.cells);
 }
 
 // Depth of `line` at the ends of column xi of the map, the larger of the two, q50.

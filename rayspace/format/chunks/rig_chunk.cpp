@@ -26,18 +26,17 @@ Status parse_rig_text(Bytes payload, UnreadObject& unread, std::uint32_t) {
     if (*expanded_bytes > kMaxRigJson_bytes) {
         return out_of_range("the rig's length, expanded,", *expanded_bytes, 0, kMaxRigJson_bytes);
     }
-    const Result<std::vector<std::uint8_t>> text = zstd_content(payload, *expanded_bytes, "the words of its rig");
-    if (!text) return text.error();
-    unread.object.rig_json.assign(text->begin(), text->end());
+    RS_ASSIGN_OR_RETURN(const std::vector<std::uint8_t> text,
+                        zstd_content(payload, *expanded_bytes, "the words of its rig"));
+    unread.object.rig_json.assign(text.begin(), text.end());
     return {};
 }
 
 Status check_rig(const RaySpaceObject& object, std::uint32_t) {
     if (object.rig_json.empty()) return {};
     if (object.rig_json.size() > kMaxRigJson_bytes) return Error{"its rig is larger than 16 MiB"};
-    const Result<Rig> rig = rig_from_json(object.rig_json, "rig");
-    if (!rig) return rig.error();
-    if (rig->views.size() != object.views.size()) return Error{"its rig does not have as many frames as views"};
+    RS_ASSIGN_OR_RETURN(const Rig rig, rig_from_json(object.rig_json, "rig"));
+    if (rig.views.size() != object.views.size()) return Error{"its rig does not have as many frames as views"};
     return {};
 }
 

@@ -50,9 +50,9 @@ Result<std::vector<CapturedLine>> parse_lines(ByteReader& in, std::size_t views,
     if (coding != static_cast<std::uint8_t>(LineCoding::kResiduals)) {
         return Error{"has line coding " + std::to_string(coding) + ", which is not known here; update these tools"};
     }
-    const Result<std::vector<std::uint8_t>> plane = zstd_content(in.take(in.left()), plain_bytes, "its lines");
-    if (!plane) return plane.error();
-    line_coding::put_residuals(*plane, planes, lines);
+    RS_ASSIGN_OR_RETURN(const std::vector<std::uint8_t> plane,
+                        zstd_content(in.take(in.left()), plain_bytes, "its lines"));
+    line_coding::put_residuals(plane, planes, lines);
     return lines;
 }
 
@@ -165,9 +165,8 @@ Status parse_ring(std::span<const std::byte> payload, RaySpaceObject& object, st
         }
         object.views[view].lines.resize(planes);
     }
-    const Result<std::vector<CapturedLine>> lines = parse_lines(in, view_count, planes, coding);
-    if (!lines) return lines.error();
-    auto next = lines->begin();
+    RS_ASSIGN_OR_RETURN(const std::vector<CapturedLine> lines, parse_lines(in, view_count, planes, coding));
+    auto next = lines.begin();
     for (const std::uint16_t view : ring.views) {
         std::copy_n(next, planes, object.views[view].lines.begin());
         next += planes;

@@ -158,9 +158,8 @@ Status check_cell(const ShapeCell& cell) {
 }
 
 Result<ChunkMemory> shape_memory(Bytes payload, UnreadObject& unread, std::uint32_t index) {
-    const auto coded = parse_shape_head(payload, unread.object.rings[index]);
-    if (!coded) return coded.error();
-    return ChunkMemory{.kept_bytes = coded->cells * sizeof(ShapeCell)};
+    RS_ASSIGN_OR_RETURN(const auto coded, parse_shape_head(payload, unread.object.rings[index]));
+    return ChunkMemory{.kept_bytes = coded.cells * sizeof(ShapeCell)};
 }
 
 Status parse_shape(Bytes payload, UnreadObject& unread, std::uint32_t index) {
@@ -236,8 +235,7 @@ Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Rin
         return wrong_size(payload.size(), expected_bytes);
     }
     shape.gaps.resize(ring.views.size());
-    const auto lines = get_gaps(in, shape);
-    if (!lines) return lines.error();
+    RS_ASSIGN_OR_RETURN(const auto lines, get_gaps(in, shape));
     shape.normal_lines.resize(normal_lines);
     for (NormalLine& line : shape.normal_lines) {
         line.l2_q30 = in.get<std::int32_t>();
@@ -245,8 +243,8 @@ Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Rin
         line.a_q20 = in.get<std::int32_t>();
         line.c_q20 = in.get<std::int32_t>();
     }
-    coded.cells = *lines * static_cast<std::uint64_t>(shape.p_cells) * static_cast<std::uint64_t>(shape.bands);
-    if (Status status = check_counts(coded); !status) return status.error();
+    coded.cells = lines * static_cast<std::uint64_t>(shape.p_cells) * static_cast<std::uint64_t>(shape.bands);
+    RS_TRY(check_counts(coded));
     coded.bytes = in.take(cell_bytes);
     return coded;
 }

@@ -56,10 +56,10 @@ Result<OpenedPicture> open_picture(const std::string& path, Need need, int max_s
     if (!std::filesystem::exists(path, error)) return Error{path + ": does not exist; check the name"};
     if (std::filesystem::is_directory(path, error)) return Error{path + ": is a folder, not a picture"};
     if (need == Need::kWholeFile) {
-        if (const Status status = check_png_integrity(path); !status) return status.error();
+        RS_TRY(check_png_integrity(path));
     }
-    if (const Status status = check_exr_header(path, max_side_px); !status) return status.error();
-    if (const Status status = check_profile_integrity(path); !status) return status.error();
+    RS_TRY(check_exr_header(path, max_side_px));
+    RS_TRY(check_profile_integrity(path));
     OIIO::ImageSpec hints;
     hints.attribute("oiio:UnassociatedAlpha", 1);  // colours under alpha 0 must survive
     // What OpenImageIO 2.4 takes out of a profile passes through tables of its own that grow without a lock.
@@ -161,12 +161,11 @@ std::optional<ColourProfile> profile_of(const OpenedPicture& picture) {
 
 Result<PictureInfo> read_info(const std::string& path, int max_side_px) {
     return guarded(path, [&]() -> Result<PictureInfo> {
-        const auto picture = open_picture(path, Need::kHeader, max_side_px);
-        if (!picture) return picture.error();
-        const OIIO::ImageSpec& spec = picture->input->spec();
+        RS_ASSIGN_OR_RETURN(const auto picture, open_picture(path, Need::kHeader, max_side_px));
+        const OIIO::ImageSpec& spec = picture.input->spec();
         const int orientation = spec.get_int_attribute("Orientation", 1);
-        return PictureInfo{picture->width,
-                           picture->height,
+        return PictureInfo{picture.width,
+                           picture.height,
                            spec.nchannels,
                            choose_channels(spec).alpha,
                            orientation >= 1 && orientation <= 8 ? orientation : 1,
@@ -176,12 +175,11 @@ Result<PictureInfo> read_info(const std::string& path, int max_side_px) {
 
 // 8-bit files with straight alpha: nothing is computed, every value comes through as it is.
 Result<Image<Rgba8>> read_bytes(OpenedPicture& picture, const std::string& path, const Channels& channels) {
-    const auto samples = read_samples<std::uint8_t>(picture, path, 0, channels.count);
-    if (!samples) return samples.error();
+    RS_ASSIGN_OR_RETURN(const auto samples, read_samples<std::uint8_t>(picture, path, 0, channels.count));
     Image<Rgba8> image(picture.width, picture.height);
     const int green = channels.colours == 3 ? 1 : 0;
     const int blue = channels.colours == 3 ? 2 : 0;
-    for_each_visible(picture, *samples, channels.count, [&](int x, int y, const std::uint8_t* s) {
+    for_each_visible(picture, samples, channels.count, [&](int x, int y, const std::uint8_t* s) {
         const std::uint8_t alpha = channels.alpha ? s[channels.colours] : std::uint8_t{255};
         image(x, y) = {s[0], s[green], s[blue], alpha};
     });
@@ -190,24 +188,22 @@ Result<Image<Rgba8>> read_bytes(OpenedPicture& picture, const std::string& path,
 
 Result<Image<Rgba8>> read_picture(const std::string& path, int max_side_px) {
     return guarded(path, [&]() -> Result<Image<Rgba8>> {
-        auto picture = open_picture(path, Need::kWholeFile, max_side_px);
-        if (!picture) return picture.error();
-        const Channels channels = choose_channels(picture->input->spec());
-        const bool is_float = picture->input->spec().format.is_floating_point();
-        const std::optional<ColourProfile> profile = profile_of(*picture);
-        if (picture->input->spec().format == OIIO::TypeUInt8 && (channels.straight || !channels.alpha)) {
-            Result<Image<Rgba8>> image = read_bytes(*picture, path, channels);
+        RS_ASSIGN_OR_RETURN(auto picture, open_picture(path, Need::kWholeFile, max_side_px));
+        const Channels channels = choose_channels(picture.input->spec());
+        const bool is_float = picture.input->spec().format.is_floating_point();
+        const std::optional<ColourProfile> profile = profile_of(picture);
+        if (picture.input->spec().format == OIIO::TypeUInt8 && (channels.straight || !channels.alpha)) {
+            Result<Image<Rgba8>> image = read_bytes(picture, path, channels);
             if (image && profile) profile->to_srgb(std::span(image->pixels()));
             return image;
         }
-        Image<Rgba8> image(picture->width, picture->height);
+        Image<Rgba8> image(picture.width, picture.height);
         const auto store = [&](int x, int y, RgbaF p) {
             if (is_float) p = {srgb_from_linear(p.r), srgb_from_linear(p.g), srgb_from_linear(p.b), p.a};
             image(x, y) = {byte_from_unit(p.r), byte_from_unit(p.g), byte_from_unit(p.b), byte_from_unit(p.a)};
         };
-        const auto samples = read_samples<float>(*picture, path, 0, channels.count);
-        if (!samples) return samples.error();
-        for_each_visible(*picture, *samples, channels.count,
+        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(picture, path, 0, channels.count));
+        for_each_visible(picture, samples, channels.count,
                          [&](int x, int y, const float* s) { store(x, y, pixel_of(s, channels)); });
         if (profile && !is_float) profile->to_srgb(std::span(image.pixels()));
         return image;
@@ -216,17 +212,15 @@ Result<Image<Rgba8>> read_picture(const std::string& path, int max_side_px) {
 
 Result<Image<RgbaF>> read_picture_linear(const std::string& path) {
     return guarded(path, [&]() -> Result<Image<RgbaF>> {
-        auto picture = open_picture(path, Need::kWholeFile);
-        if (!picture) return picture.error();
-        const Channels channels = choose_channels(picture->input->spec());
-        const bool is_float = picture->input->spec().format.is_floating_point();
-        const auto samples = read_samples<float>(*picture, path, 0, channels.count);
-        if (!samples) return samples.error();
-        Image<RgbaF> image(picture->width, picture->height);
-        for_each_visible(*picture, *samples, channels.count,
+        RS_ASSIGN_OR_RETURN(auto picture, open_picture(path, Need::kWholeFile));
+        const Channels channels = choose_channels(picture.input->spec());
+        const bool is_float = picture.input->spec().format.is_floating_point();
+        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(picture, path, 0, channels.count));
+        Image<RgbaF> image(picture.width, picture.height);
+        for_each_visible(picture, samples, channels.count,
                          [&](int x, int y, const float* s) { image(x, y) = pixel_of(s, channels); });
         if (is_float) return image;
-        if (const auto profile = profile_of(*picture)) profile->to_srgb(std::span(image.pixels()));
+        if (const auto profile = profile_of(picture)) profile->to_srgb(std::span(image.pixels()));
         for (RgbaF& p : image.pixels()) {
             p = {linear_from_srgb(p.r), linear_from_srgb(p.g), linear_from_srgb(p.b), p.a};
         }
@@ -236,15 +230,13 @@ Result<Image<RgbaF>> read_picture_linear(const std::string& path) {
 
 Result<Image<float>> read_channel(const std::string& path) {
     return guarded(path, [&]() -> Result<Image<float>> {
-        auto picture = open_picture(path, Need::kWholeFile);
-        if (!picture) return picture.error();
-        const std::vector<std::string>& names = picture->input->spec().channelnames;
+        RS_ASSIGN_OR_RETURN(auto picture, open_picture(path, Need::kWholeFile));
+        const std::vector<std::string>& names = picture.input->spec().channelnames;
         const auto z = std::find(names.begin(), names.end(), "Z");
         const int channel = z == names.end() ? 0 : static_cast<int>(z - names.begin());
-        const auto samples = read_samples<float>(*picture, path, channel, 1);
-        if (!samples) return samples.error();
-        Image<float> image(picture->width, picture->height);
-        for_each_visible(*picture, *samples, 1, [&](int x, int y, const float* s) { image(x, y) = *s; });
+        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(picture, path, channel, 1));
+        Image<float> image(picture.width, picture.height);
+        for_each_visible(picture, samples, 1, [&](int x, int y, const float* s) { image(x, y) = *s; });
         return image;
     });
 }

@@ -177,7 +177,7 @@ Result<std::unique_ptr<VideoEncoder>> open_video(const std::string& path, const 
     // Errors are reported once, by us: FFmpeg shall not write to stderr on its own.
     av_log_set_level(AV_LOG_QUIET);
     auto encoder = std::make_unique<LibavEncoder>(shown, options);
-    if (Status status = encoder->open(path); !status) return status.error();
+    RS_TRY(encoder->open(path));
     return std::unique_ptr<VideoEncoder>(std::move(encoder));
 }
 

@@ -106,18 +106,17 @@ public:
                 }
                 last_pts_ = std::max(last_pts_, frame_->best_effort_timestamp);
                 ++decoded_;
-                if (Status status = convert(frame); !status) return status.error();
+                RS_TRY(convert(frame));
                 return true;
             }
             if (got == AVERROR_EOF) {
                 is_finished_ = true;
-                if (Status status = check_end(); !status) return status.error();
+                RS_TRY(check_end());
             } else if (got != AVERROR(EAGAIN)) {
                 ++damaged_;
                 if (damaged_ > kMaxFailures) return Error{path_ + damage_message()};
-            } else if (Status status = send_packet(); !status) {
-                return status.error();
-            }
+            } else
+                RS_TRY(send_packet());
         }
         return false;
     }
@@ -314,7 +313,7 @@ Result<std::unique_ptr<VideoDecoder>> read_video(const std::string& path) {
     // Errors are returned; FFmpeg must not write them to stderr as well.
     av_log_set_level(AV_LOG_QUIET);
     auto decoder = std::make_unique<LibavDecoder>(path);
-    if (Status status = decoder->open(); !status) return status.error();
+    RS_TRY(decoder->open());
     return std::unique_ptr<VideoDecoder>(std::move(decoder));
 }
 

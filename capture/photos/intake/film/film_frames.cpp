@@ -49,19 +49,17 @@ struct FilmCopies {
 };
 
 Result<FilmCopies> copy_frames(const fs::path& film, Progress* progress) {
-    Result<VideoReader> reader = VideoReader::open(film);
-    if (!reader) return reader.error();
+    RS_ASSIGN_OR_RETURN(VideoReader reader, VideoReader::open(film));
     FilmCopies result;
-    result.info = reader->info();
+    result.info = reader.info();
     constexpr std::int64_t kUnknownLength = 300;
     const std::int64_t estimate = result.info.frame_estimate;
     if (progress != nullptr) progress->start("reading the film", estimate > 0 ? estimate : kUnknownLength);
     MeanFrame mean;
     Image<Rgba8> frame;
     for (;;) {
-        const Result<bool> has_frame = reader->read(frame);
-        if (!has_frame) return has_frame.error();
-        if (!*has_frame) break;
+        RS_ASSIGN_OR_RETURN(const bool has_frame, reader.read(frame));
+        if (!has_frame) break;
         if (result.copies.size() == static_cast<std::size_t>(kMaxFilmFrames)) {
             return Error{film.string() + ": has more than " + std::to_string(kMaxFilmFrames) +
                          " frames; cut it to one or two turns, e.g. with ffmpeg -ss START -t SECONDS"};
@@ -73,7 +71,7 @@ Result<FilmCopies> copy_frames(const fs::path& film, Progress* progress) {
     }
     if (progress != nullptr) progress->finish();
     result.mean = mean.image();
-    result.damaged = reader->damaged_frames();
+    result.damaged = reader.damaged_frames();
     return result;
 }
 
@@ -120,19 +118,17 @@ std::string frame_name(std::size_t frame) {
 
 Status write_selected(const fs::path& film, const fs::path& folder, const std::vector<std::size_t>& selected,
                       ExposureNormalizer& normalizer, Progress* progress) {
-    Result<VideoReader> reader = VideoReader::open(film);
-    if (!reader) return reader.error();
+    RS_ASSIGN_OR_RETURN(VideoReader reader, VideoReader::open(film));
     if (progress != nullptr) progress->start("extracting frames", static_cast<std::int64_t>(selected.size()));
     Image<Rgba8> frame;
     std::size_t next = 0;
     for (std::size_t i = 0; next < selected.size(); ++i) {
-        const Result<bool> has_frame = reader->read(frame);
-        if (!has_frame) return has_frame.error();
-        if (!*has_frame) return Error{film.string() + ": changed while it was imported; import again"};
+        RS_ASSIGN_OR_RETURN(const bool has_frame, reader.read(frame));
+        if (!has_frame) return Error{film.string() + ": changed while it was imported; import again"};
         if (i != selected[next]) continue;
         normalizer.apply(frame);
-        const Image<Rgba8> upright = apply_orientation(std::move(frame), reader->info().orientation);
-        if (Status status = write_png(folder / frame_name(i), upright); !status) return status.error();
+        const Image<Rgba8> upright = apply_orientation(std::move(frame), reader.info().orientation);
+        RS_TRY(write_png(folder / frame_name(i), upright));
         frame = {};
         ++next;
         if (progress != nullptr) progress->advance();
@@ -171,9 +167,7 @@ Result<FilmFrames> write_film_frames(const fs::path& film, const fs::path& folde
         return Error{film.string() + ": nothing moves in it; give a film of an object that turns"};
     }
     ExposureNormalizer normalizer(copies->mean, result.selection.moving);
-    if (Status status = write_selected(film, folder, result.selection.frames, normalizer, progress); !status) {
-        return status.error();
-    }
+    RS_TRY(write_selected(film, folder, result.selection.frames, normalizer, progress));
     const std::string name = film.filename().string();
     result.notes = make_notes(name, *copies, normalizer.largest_change());
     result.notes.insert(result.notes.begin(), selection_note(name, "frames", frame_count, result.selection));
