@@ -44,11 +44,11 @@ std::optional<std::int32_t> foot_of(const Rig& rig) {
     return static_cast<std::int32_t>(std::lround(std::ldexp(foot, 20)));
 }
 
-Status read_all_pictures(const CaptureSet& set, RaySpaceObject& object, Progress* progress) {
+Status read_all_images(const CaptureSet& set, RaySpaceObject& object, Progress* progress) {
     const int count = static_cast<int>(set.upright.views.size());
     return for_each_in_parallel(count, "pictures", progress, [&](int i) -> Status {
-        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, read_upright_picture(set, i));
-        object.pictures[static_cast<std::size_t>(i)] = planar_from_rgba(picture);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, read_upright_image(set, i));
+        object.images[static_cast<std::size_t>(i)] = planar_from_rgba(image);
         return {};
     });
 }
@@ -110,14 +110,14 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
         built.warnings.push_back("the cameras form " + std::to_string(rings.size()) +
                                  " rings of different elevation; the nearest ring answers a view");
     }
-    object.pictures.resize(object.views.size());
+    object.images.resize(object.views.size());
     const bool has_shape = options.raymap == MapKind::kShape;
-    if (options.raw_pictures && !has_shape) {
-        RS_TRY(read_all_pictures(set, object, progress));
+    if (options.raw_images && !has_shape) {
+        RS_TRY(read_all_images(set, object, progress));
     }
     if (has_shape) {
         RS_ASSIGN_OR_RETURN(FoundShapes shapes,
-                            add_shape_maps(set, rig, rings, options.shape, options.raw_pictures, object, progress));
+                            add_shape_maps(set, rig, rings, options.shape, options.raw_images, object, progress));
         built.warnings.insert(built.warnings.end(), shapes.warnings.begin(), shapes.warnings.end());
         built.depths = std::move(shapes.samples);
         built.completed = std::move(shapes.completed);

@@ -16,7 +16,7 @@ namespace rs::encode {
 
 enum class MapKind {
     kPlane,  // the paper's: the object is taken to lie on the reference planes, the nearest ray answers
-    kShape,  // with a depth for every ray, found from the pictures; two neighbouring pictures are blended
+    kShape,  // with a depth for every ray, found from the images; two neighbouring images are blended
 };
 
 // What `--raymap` calls them: "plane" and "shape".
@@ -32,21 +32,20 @@ struct BuildOptions {
     std::string name;  // of the object; the set's folder name where empty
     MapKind raymap = MapKind::kShape;
     ShapeOptions shape = {};
-    bool raw_pictures = true;  // else the object's pictures stay empty: encode/codec makes coded ones
+    bool raw_images = true;  // else the object's images stay empty: encode/codec makes coded ones
 };
 
 struct BuiltObject {
     RaySpaceObject object;
     std::vector<std::string> warnings;  // one line each: what a user may change
     std::vector<FoundDepth> depths;     // of a few views, where there is a shape map
-    CompletedPictures completed;        // for CaptureSet::completed before encode_pictures()
+    CompletedImages completed;          // for CaptureSet::completed before encode_images()
 };
 
-// Memory: the stored pictures (2.5 bytes a pixel), the map (2 bytes a cell), and one decoded picture per thread.
+// Memory: the stored images (2.5 bytes a pixel), the map (2 bytes a cell), and one decoded image per thread.
 Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& options, Progress* progress = nullptr);
 
-// The stored pictures and their rig, as a capture set under `folder`: what the object knows, bit for bit.
-Status extract_pictures(const RaySpaceObject& object, const std::filesystem::path& folder,
-                        Progress* progress = nullptr);
+// The stored images and their rig, as a capture set under `folder`: what the object knows, bit for bit.
+Status extract_images(const RaySpaceObject& object, const std::filesystem::path& folder, Progress* progress = nullptr);
 
 }  // namespace rs::encode

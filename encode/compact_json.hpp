@@ -1,6 +1,6 @@
 #pragma once
 // The text of a rig as an object holds it: what it states to nine digits, in few bytes. A millionth of a pixel is far
-// below what a calibration knows, and the text weighs as much as a picture.
+// below what a calibration knows, and the text weighs as much as an image.
 
 #include <string>
 

@@ -9,12 +9,12 @@
 
 namespace rs::encode {
 
-// How near the answers to held-out views came to the true pictures, for one way of answering.
+// How near the answers to held-out views came to the true images, for one way of answering.
 
 struct HeldOutScore {
-    int view = 0;         // index in the rig of the whole set
-    std::string picture;  // its file_path
-    double psnr_db = 0;   // picture_metrics.hpp
+    int view = 0;        // index in the rig of the whole set
+    std::string image;   // its file_path
+    double psnr_db = 0;  // image_metrics.hpp
     double ssim = 0;
 };
 
@@ -24,7 +24,7 @@ struct MethodScores {
     double mean_psnr_db = 0;    // mean over views of the views' dB
     double pooled_psnr_db = 0;  // dB of all views' object pixels taken together
     double mean_ssim = 0;
-    double build_seconds = 0;  // making the object from the kept views, reading their pictures included
+    double build_seconds = 0;  // making the object from the kept views, reading their images included
 };
 
 struct HoldOut {

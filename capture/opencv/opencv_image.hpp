@@ -1,5 +1,5 @@
 #pragma once
-// Between the project's pictures and OpenCV matrices. Only for .cpp files: no header that others include may need
+// Between the project's images and OpenCV matrices. Only for .cpp files: no header that others include may need
 // OpenCV.
 
 #include "rayspace/image/image.hpp"
@@ -15,19 +15,19 @@
 
 namespace rs::capture {
 
-// The picture's own pixels as CV_8UC4 in the order R, G, B, A; nothing is copied, and nothing may be written.
-inline cv::Mat mat_over(ConstImageView<Rgba8> picture) {
-    return {picture.height(), picture.width(), CV_8UC4,
-            const_cast<Rgba8*>(picture.data()),  // cv::Mat knows no constant pixels
-            static_cast<std::size_t>(picture.stride()) * sizeof(Rgba8)};
+// The image's own pixels as CV_8UC4 in the order R, G, B, A; nothing is copied, and nothing may be written.
+inline cv::Mat mat_over(ConstImageView<Rgba8> image) {
+    return {image.height(), image.width(), CV_8UC4,
+            const_cast<Rgba8*>(image.data()),  // cv::Mat knows no constant pixels
+            static_cast<std::size_t>(image.stride()) * sizeof(Rgba8)};
 }
 
 // The same to be written to.
-inline cv::Mat writable_mat_over(ImageView<Rgba8> picture) {
-    return mat_over(ConstImageView<Rgba8>(picture));
+inline cv::Mat writable_mat_over(ImageView<Rgba8> image) {
+    return mat_over(ConstImageView<Rgba8>(image));
 }
 
-// A mask's or a grey picture's own bytes as CV_8UC1; likewise.
+// A mask's or a grey image's own bytes as CV_8UC1; likewise.
 inline cv::Mat1b mat_over(ConstImageView<std::uint8_t> mask) {
     return {mask.height(), mask.width(), const_cast<std::uint8_t*>(mask.data()),
             static_cast<std::size_t>(mask.stride())};
@@ -53,12 +53,12 @@ inline cv::Rect box_around(const cv::Mat1b& mask, int beside_px) {
 }
 
 // Linear-light RGB, CV_32FC3.
-inline cv::Mat3f linear_mat(ConstImageView<Rgba8> picture) {
-    cv::Mat3f linear(picture.height(), picture.width());
-    for (int y = 0; y < picture.height(); ++y) {
-        const Rgba8* from = picture.row(y);
+inline cv::Mat3f linear_mat(ConstImageView<Rgba8> image) {
+    cv::Mat3f linear(image.height(), image.width());
+    for (int y = 0; y < image.height(); ++y) {
+        const Rgba8* from = image.row(y);
         cv::Vec3f* to = linear[y];
-        for (int x = 0; x < picture.width(); ++x)
+        for (int x = 0; x < image.width(); ++x)
             to[x] = {linear_from_srgb8(from[x].r), linear_from_srgb8(from[x].g), linear_from_srgb8(from[x].b)};
     }
     return linear;

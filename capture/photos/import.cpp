@@ -33,12 +33,12 @@ Status check(const ImportOptions& options) {
     if (options.degrees_per_view && !(*options.degrees_per_view >= 0.01 && *options.degrees_per_view <= 180)) {
         return Error{"--degrees-per-view " + std::to_string(*options.degrees_per_view) + ": give 0.01 to 180 degrees"};
     }
-    if (options.axis_x_px && !(std::abs(*options.axis_x_px) <= 10.0 * kMaxPictureSide_px)) {
-        return Error{"--axis-x " + std::to_string(*options.axis_x_px) + ": give a column of the pictures in px"};
+    if (options.axis_x_px && !(std::abs(*options.axis_x_px) <= 10.0 * kMaxImageSide_px)) {
+        return Error{"--axis-x " + std::to_string(*options.axis_x_px) + ": give a column of the images in px"};
     }
-    if (options.max_side_px < kMinSide_px || options.max_side_px > kMaxPictureSide_px) {
+    if (options.max_side_px < kMinSide_px || options.max_side_px > kMaxImageSide_px) {
         return Error{"--max-side " + std::to_string(options.max_side_px) + ": give " + std::to_string(kMinSide_px) +
-                     " to " + std::to_string(kMaxPictureSide_px) + " px"};
+                     " to " + std::to_string(kMaxImageSide_px) + " px"};
     }
     if (options.frames && (*options.frames < kMinSelectedFrames || *options.frames > kMaxSelectedFrames)) {
         return Error{"--frames " + std::to_string(*options.frames) + ": give " + std::to_string(kMinSelectedFrames) +
@@ -49,7 +49,7 @@ Status check(const ImportOptions& options) {
 
 PhotoRequest photo_request(const ImportOptions& options) {
     const KnownInputs& known = options.known.known;
-    const bool are_described = !options.segmentation.masks.empty() || !options.known.pictures.empty() ||
+    const bool are_described = !options.segmentation.masks.empty() || !options.known.images.empty() ||
                                known.angles_rad || known.step_rad || known.equal_steps || options.degrees_per_view;
     return {options.photos, options.output, options.max_side_px, options.frames, are_described};
 }
@@ -134,8 +134,7 @@ Status check_count(const PhotoFolder& folder, const ImportOptions& options) {
     const bool is_told = options.calibration == CalibrationChoice::kNominal ||
                          (options.known.known.pose && options.known.known.angles_rad);
     if (count >= kFewest || is_told) return {};
-    return Error{options.photos.string() + ": holds " + std::to_string(count) +
-                 (count == 1 ? " picture" : " pictures") +
+    return Error{options.photos.string() + ": holds " + std::to_string(count) + (count == 1 ? " image" : " images") +
                  "; a turn has 5 and more, better 36. With --calibration nominal what is there is taken for one"};
 }
 
@@ -192,7 +191,7 @@ Result<ImportReport> import_photos(const ImportOptions& options, Progress* progr
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& escaped) {  // thrown by OpenCV
-        return Error{options.photos.string() + ": the pictures cannot be processed (" + escaped.what() + ")"};
+        return Error{options.photos.string() + ": the images cannot be processed (" + escaped.what() + ")"};
     }
 }
 

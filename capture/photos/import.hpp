@@ -15,7 +15,7 @@
 #include "capture/photos/segmentation/segmenter_choice.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
-#include "rayspace/pictures/photograph_size.hpp"
+#include "rayspace/image_io/photograph_size.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -28,7 +28,7 @@ struct ImportOptions : RigRequest {
         output;  ///< folder; see StagedFolder for what may stand there already, which is replaced whole
     SegmenterRequest segmentation;
     bool force = false;  ///< write a set whose checks failed; their findings become notes
-    /// Larger photos are reduced first (open_photo_folder()); kMinSide_px .. kMaxPictureSide_px.
+    /// Larger photos are reduced first (open_photo_folder()); kMinSide_px .. kMaxImageSide_px.
     int max_side_px = kDefaultMaxSide_px;
     // Number of frames of a film, or of photos of a larger folder, to select: kMinSelectedFrames .. kMaxSelectedFrames
     // (intake/film/frame_selection.hpp). Empty: see intake/photo_source.hpp.

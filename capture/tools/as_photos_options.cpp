@@ -70,7 +70,7 @@ void add_as_photos_options(CLI::App& synth, AsPhotosOptions& options) {
         ->needs(as_photos);
     CLI::Option* board = synth
                              .add_option("--board", photos.board,
-                                         "Photos: a picture laid on the disc, off its middle, that turns with it")
+                                         "Photos: an image laid on the disc, off its middle, that turns with it")
                              ->type_name("FILE")
                              ->needs(as_photos);
     number("--board-width", photos.board_width, "Width of --board in object radii", 0.01, 100)
@@ -78,7 +78,7 @@ void add_as_photos_options(CLI::App& synth, AsPhotosOptions& options) {
         ->needs(board);
     synth
         .add_option("--photo-backdrop", photos.backdrop,
-                    "Photos: wall, blue, white, or a picture that is stretched over the frame")
+                    "Photos: wall, blue, white, or an image that is stretched over the frame")
         ->capture_default_str()
         ->type_name("FILE|wall|blue|white")
         ->needs(as_photos);

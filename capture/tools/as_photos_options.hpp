@@ -23,7 +23,7 @@ struct AsPhotosOptions {
 // Every option but --as-photos itself is wrong usage without it. `options` must outlive `synth`.
 void add_as_photos_options(CLI::App& synth, AsPhotosOptions& options);
 
-// The pictures that the options name.
+// The images that the options name.
 std::vector<std::filesystem::path> input_files(const AsPhotosOptions& options);
 
 // For the end of `synth --help`.

@@ -268,10 +268,9 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
     command->add_option("-o,--output", given->import.output, "Folder to write: transforms.json and images/")
         ->required();
     command
-        ->add_option(
-            "--backdrop", given->backdrop,
-            "auto, white, black, alpha (the pictures' own) or R,G,B; auto looks for alpha, then at the pictures' "
-            "borders")
+        ->add_option("--backdrop", given->backdrop,
+                     "auto, white, black, alpha (the images' own) or R,G,B; auto looks for alpha, then at the images' "
+                     "borders")
         ->capture_default_str()
         ->check([](const std::string& text) {
             const Result<BackgroundRequest> parsed = parse_background(text);
@@ -282,7 +281,7 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
                      "Photographs of more than 1.25 times as many pixels a side are made as large as this first; other "
                      "options count the photographs' own pixels")
         ->capture_default_str()
-        ->check(CLI::Range(kMinSide_px, kMaxPictureSide_px));
+        ->check(CLI::Range(kMinSide_px, kMaxImageSide_px));
     command
         ->add_option(
             "--frames", given->import.frames,
@@ -341,7 +340,7 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
         ->check(CLI::ExistingPath);
     command->add_flag("--equal-steps", given->equal_steps, "All steps are the same; only their common size is found");
     command->add_flag("--principal-point", given->principal_point,
-                      "Find the principal point too (default: the picture's middle)");
+                      "Find the principal point too (default: the image's middle)");
     command
         ->add_option(
             "--fov", given->import.fov_deg,
@@ -350,15 +349,15 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
         ->check(CLI::Range(1.0, 120.0));
     command
         ->add_option("--degrees-per-view", given->import.degrees_per_view,
-                     "Step from picture to picture, held (default: every angle is found; in a nominal rig 360 / number "
-                     "of pictures)")
+                     "Step from image to image, held (default: every angle is found; in a nominal rig 360 / number "
+                     "of images)")
         ->check(CLI::Range(0.01, 180.0));
     command->add_option("--axis-x", given->import.axis_x_px,
-                        "Picture column of the turntable's axis in px, for a nominal rig (default: from the "
+                        "Image column of the turntable's axis in px, for a nominal rig (default: from the "
                         "silhouettes of the full turn)");
     CLI::Option* clockwise = command->add_flag("--clockwise", given->clockwise,
                                                "The object turns clockwise seen from above: its front goes to the left "
-                                               "(default: read from the pictures, this where they do not tell)");
+                                               "(default: read from the images, this where they do not tell)");
     command
         ->add_flag("--counter-clockwise", given->counter_clockwise,
                    "The object turns the other way: its front goes to the right")

@@ -146,7 +146,7 @@ Result<Rig> choose_rig(const Options& options, const SceneFile& file) {
         Rig rig;  // keys of the other set, such as its generator's, are not ours
         for (const RigView& view : posed.views) {
             if (view.camera.width == 0 || view.camera.height == 0) {
-                return Error{options.poses.string() + ": has no picture sizes; add \"w\" and \"h\""};
+                return Error{options.poses.string() + ": has no image sizes; add \"w\" and \"h\""};
             }
             RigView same;
             same.camera = view.camera;
@@ -216,7 +216,7 @@ Result<Made> make_set(const Options& options, SceneFile file, Progress& progress
     set.render.lens.aperture = file.camera.aperture_radii;
     set.render.lens.focus =
         file.camera.focus_radii > 0 ? file.camera.focus_radii : glm::dot(-first.centre(), first.forward());
-    set.format = options.format == "exr" ? PictureFormat::exr : PictureFormat::png;
+    set.format = options.format == "exr" ? ImageFormat::exr : ImageFormat::png;
 
     RS_ASSIGN_OR_RETURN(const Tracer tracer, Tracer::create(std::move(file.scene)));
     RS_ASSIGN_OR_RETURN(const CaptureSetSummary summary,
@@ -272,7 +272,7 @@ Status synthesise(const Options& options) {
     if (made.summary.clipped_views > 0 && !options.quiet) {
         std::fprintf(
             stderr,
-            "rs-capture: warning: the object touches the picture's edge in %d of %d views; use a larger --distance or "
+            "rs-capture: warning: the object touches the image's edge in %d of %d views; use a larger --distance or "
             "a smaller --focal-widths\n",
             made.summary.clipped_views, made.summary.views);
     }
@@ -284,7 +284,7 @@ Status synthesise(const Options& options) {
 
 void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     const auto options = std::make_shared<Options>();
-    CLI::App* synth = app.add_subcommand("synth", "Trace pictures of a synthetic object on a turntable");
+    CLI::App* synth = app.add_subcommand("synth", "Trace images of a synthetic object on a turntable");
     synth->footer(std::string(kExamples) + kAsPhotosExamples);
     synth->add_option("SCENE", options->scene, "Mesh or recipe");
     synth->add_option("-o,--output", options->output, "Capture set to write: a folder")->type_name("SET");
@@ -294,7 +294,7 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     synth
         ->add_option_function<std::string>(
             "--size", [options](const std::string& text) { options->size = parsed("--size", parse_size(text)); },
-            "Picture size in pixels (recipe, or 512x512; photos: 640x512)")
+            "Image size in pixels (recipe, or 512x512; photos: 640x512)")
         ->type_name("WxH");
     synth->add_option("--spp", options->samples_per_pixel, "Samples per pixel; best a power of two (recipe, or 64)")
         ->check(CLI::Range(1, 65536))
@@ -312,24 +312,24 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     synth
         ->add_option_function<std::string>(
             "--seed", [options](const std::string& text) { options->seed = parsed("--seed", parse_seed(text)); },
-            "Seed of the pictures' noise; the object keeps the recipe's")
+            "Seed of the images' noise; the object keeps the recipe's")
         ->type_name("N");
     synth
         ->add_option("--distance", options->distance_radii,
                      "Distance to the axis in bounding radii (recipe, or 3.5; photos: to fit)")
         ->check(within(1.001, 1000.0))
         ->type_name("R");
-    synth->add_option("--focal-widths", options->focal_widths, "Focal length in picture widths (recipe, or 1.4)")
+    synth->add_option("--focal-widths", options->focal_widths, "Focal length in image widths (recipe, or 1.4)")
         ->check(within(0.1, 100.0))
         ->type_name("F");
     synth->add_option("--format", options->format, "png: 8-bit sRGB; exr: linear float")
         ->check(CLI::IsMember({"png", "exr"}))
         ->capture_default_str();
     synth->add_flag("--no-filter", options->unfiltered,
-                    "Leave the samples' noise in the pictures; else it is smoothed where surfaces are alike,\n"
+                    "Leave the samples' noise in the images; else it is smoothed where surfaces are alike,\n"
                     "the less the more samples there are (cartoons never are)");
-    synth->add_flag("--depth", options->depth, "Write true axial depth beside each picture (EXR)");
-    synth->add_option("--threads", options->threads, "Threads; the pictures do not depend on it (0 = all)")
+    synth->add_flag("--depth", options->depth, "Write true axial depth beside each image (EXR)");
+    synth->add_option("--threads", options->threads, "Threads; the images do not depend on it (0 = all)")
         ->check(CLI::Range(0, 1024))
         ->type_name("N");
     synth->add_flag("--list", options->list, "List the procedural objects and stop");

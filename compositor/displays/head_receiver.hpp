@@ -1,5 +1,5 @@
 #pragma once
-// Heads that come over UDP (head_datagram.hpp): the newest one counts, for a picture shows where the head is now.
+// Heads that come over UDP (head_datagram.hpp): the newest one counts, for an image shows where the head is now.
 //
 //     tracker ──► socket ──► datagrams that wait ──► the newest that is a head
 //

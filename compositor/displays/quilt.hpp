@@ -1,5 +1,5 @@
 #pragma once
-// Quilts: rows and columns of views of one scene in one picture, the input of displays with horizontal parallax. The
+// Quilts: rows and columns of views of one scene in one image, the input of displays with horizontal parallax. The
 // eyes stand on a line to the right of each other, their frusta are sheared and share the plane of focus, which the
 // display shows at its own depth. Pure; thread-safe.
 //
@@ -28,10 +28,10 @@ struct QuiltLayout {
     [[nodiscard]] int height() const { return rows * tile_height; }
 };
 
-// "5x9". Refuses quilts of less than two views, and of sides beyond kMaxPictureSide_px; `option` names it in errors.
+// "5x9". Refuses quilts of less than two views, and of sides beyond kMaxImageSide_px; `option` names it in errors.
 Result<QuiltLayout> parse_quilt(const std::string& text, int tile_width, int tile_height, const std::string& option);
 
-// One camera for each view. The middle one's picture has the size of a tile. The eyes spread over `cone_rad` (0..pi
+// One camera for each view. The middle one's image has the size of a tile. The eyes spread over `cone_rad` (0..pi
 // without its ends) as seen from the point at the axial depth `focus` > 0 straight ahead of the middle one, and at that
 // depth every point has the same pixel in all views.
 std::vector<Camera> quilt_cameras(const Camera& middle, const QuiltLayout& layout, double cone_rad, double focus);

@@ -52,8 +52,8 @@ Wall take_wall(JsonObject object) {
     wall.upper_left = corner(object, "upper_left");
     const JsonValue pixels = object.take("pixels");
     pixels.list_size(2, 2);
-    wall.width = pixels.item(0).whole_number(1, kMaxPictureSide_px);
-    wall.height = pixels.item(1).whole_number(1, kMaxPictureSide_px);
+    wall.width = pixels.item(0).whole_number(1, kMaxImageSide_px);
+    wall.height = pixels.item(1).whole_number(1, kMaxImageSide_px);
     object.expect_all_taken();
     if (const Status fine = check_wall(wall); !fine) throw object.wrong(fine.error().message);
     return wall;

@@ -3,7 +3,7 @@
 // is EGL's on the first GPU that has one; else Mesa's surfaceless platform, which draws on the CPU where there is no
 // GPU, and always where the environment has LIBGL_ALWAYS_SOFTWARE=1.
 //
-// Everything below compositor/ draws with the same conventions, set at creation: the picture's first row is its top
+// Everything below compositor/ draws with the same conventions, set at creation: the image's first row is its top
 // (glClipControl GL_UPPER_LEFT), and depth runs from 1 at the near plane to 0 at infinity (reversed; nearer is
 // greater).
 

@@ -1,5 +1,5 @@
 #pragma once
-// Depth pictures of one size that are drawn into one by one and read by comparison: shadow maps.
+// Depth images of one size that are drawn into one by one and read by comparison: shadow maps.
 
 #include "compositor/gl/handle.hpp"
 #include "rayspace/base/result.hpp"
@@ -7,7 +7,7 @@
 
 namespace rs::gl {
 
-// Texels [x, x + width) x [y, y + height) of a picture, rows as it is read.
+// Texels [x, x + width) x [y, y + height) of an image, rows as it is read.
 struct TexelArea {
     int x = 0;
     int y = 0;

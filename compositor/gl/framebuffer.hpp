@@ -13,7 +13,7 @@ namespace rs::gl {
 
 class Framebuffer {
 public:
-    // Sides 1..kMaxPictureSide_px. `samples` per pixel (1 = no multisampling) is lowered to what the driver has. Fails
+    // Sides 1..kMaxImageSide_px. `samples` per pixel (1 = no multisampling) is lowered to what the driver has. Fails
     // where the driver cannot make one of this size.
     static Result<Framebuffer> create(int width, int height, int samples);
     [[nodiscard]] int width() const { return width_; }
@@ -32,11 +32,11 @@ public:
                                                const Framebuffer& scratch) const;
     // In place of the depths of `target`, which has the same size and one sample and is another.
     void copy_depths_to(const Framebuffer& target) const;
-    // Puts the picture into the current window, stretched to width x height pixels, which then is what is drawn into
+    // Puts the image into the current window, stretched to width x height pixels, which then is what is drawn into
     // (for an overlay). One sample only.
     void show_in_window(int width, int height) const;
     // Waits for all drawing. One sample only.
-    [[nodiscard]] Image<Rgba8> read_picture() const;
+    [[nodiscard]] Image<Rgba8> read_image() const;
 
 private:
     Framebuffer() = default;
@@ -48,7 +48,7 @@ private:
     int samples_ = 1;
 };
 
-// Puts a picture into the current window, stretched to width x height pixels.
-void show_in_window(ConstImageView<Rgba8> picture, int width, int height);
+// Puts an image into the current window, stretched to width x height pixels.
+void show_in_window(ConstImageView<Rgba8> image, int width, int height);
 
 }  // namespace rs::gl

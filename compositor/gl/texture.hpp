@@ -1,12 +1,12 @@
 #pragma once
-// A picture on the GPU, with straight alpha: read by shaders as linear light, or as one float per pixel.
+// An image on the GPU, with straight alpha: read by shaders as linear light, or as one float per pixel.
 
 #include "compositor/gl/handle.hpp"
 #include "rayspace/image/image.hpp"
 
 namespace rs::gl {
 
-// How a picture is read between and beyond its texels.
+// How an image is read between and beyond its texels.
 struct TextureWrap {
     bool repeat_s = true;  // else the border texels go on
     bool repeat_t = true;
@@ -21,19 +21,19 @@ enum class TexelKind {
 
 class Texture {
 public:
-    // Content undefined; read without interpolation. Sides 1..kMaxPictureSide_px.
+    // Content undefined; read without interpolation. Sides 1..kMaxImageSide_px.
     Texture(int width, int height, TexelKind kind = TexelKind::kColour);
-    // A picture that does not change, for surfaces: kLinear, read with linear interpolation from levels of half the
+    // An image that does not change, for surfaces: kLinear, read with linear interpolation from levels of half the
     // size each.
-    Texture(ConstImageView<Rgba8> picture, const TextureWrap& wrap);
+    Texture(ConstImageView<Rgba8> image, const TextureWrap& wrap);
     // Directions that do not change (r, g, b), as half floats; read in the same way.
     Texture(ConstImageView<RgbaF> directions, const TextureWrap& wrap);
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
 
-    // Overwrites the top left corner; the picture must fit. Its first row becomes texel row 0.
-    void upload(ConstImageView<Rgba8> picture) const;
-    void upload(ConstImageView<float> picture) const;  // into kFloat
+    // Overwrites the top left corner; the image must fit. Its first row becomes texel row 0.
+    void upload(ConstImageView<Rgba8> image) const;
+    void upload(ConstImageView<float> image) const;  // into kFloat
     // As the colours of a framebuffer that is read from.
     void attach_to(unsigned framebuffer) const;
     // To `uniform sampler2D` with layout(binding = unit).

@@ -2,7 +2,7 @@
 // What a pointer that drags a handle makes of a light. Pure; thread-safe.
 //
 //     an axis   the light goes along it: to the place nearest to the pointer's ray, less where it was grasped
-//     the body  the light goes over what the picture shows, onto the surface, and turns to its normal; where there is
+//     the body  the light goes over what the image shows, onto the surface, and turns to its normal; where there is
 //               no surface it goes at its distance from the camera. Directional lights turn about the dome's middle
 //     the aim   the light is turned to what is under the pointer
 

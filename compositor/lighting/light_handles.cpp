@@ -145,7 +145,7 @@ std::optional<HandlePart> part_at(const LightEntry& entry, const Camera& camera,
 
 Dome dome_of(const Camera& camera) {
     constexpr double kDistance = 0.05;  // before all that is seen
-    constexpr double kPlace = 0.16;     // of the picture's height, from its top
+    constexpr double kPlace = 0.16;     // of the image's height, from its top
     constexpr double kSize = 0.09;
     return {camera.centre() + kDistance * camera.ray(0.5 * camera.width, kPlace * camera.height),
             kDistance * kSize * camera.height / camera.fl_y};

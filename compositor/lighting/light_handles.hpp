@@ -1,11 +1,11 @@
 #pragma once
-// Lights as they are seen and grasped in a picture: an icon for each, by kind, and on the selected one three axes to
+// Lights as they are seen and grasped in an image: an icon for each, by kind, and on the selected one three axes to
 // drag it along and a point to aim it by. Icons have the same size on the screen however far the light is; the outlines
 // of areas are their own.
 //
 //     points       a dot with its outline (LightModel::outline), or with rays
 //     areas        their outlines, and an arrow to where they shine
-//     directional  an arrow to the middle of a dome that stands in the picture's upper part, wherever one looks
+//     directional  an arrow to the middle of a dome that stands in the image's upper part, wherever one looks
 // Pure; thread-safe.
 
 #include "compositor/lighting/light_edits.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// A place on what a picture shows, found by the depths around a pixel. Pure; thread-safe.
+// A place on what an image shows, found by the depths around a pixel. Pure; thread-safe.
 //
 // On a plane 1 / depth is linear in the pixel's position: with n . P = 1 in camera coordinates, 1 / depth =
 // n . ((x - cx) / fl_x, (cy - y) / fl_y, 1), so two differences between neighbours give the normal exactly.

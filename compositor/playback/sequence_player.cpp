@@ -112,14 +112,14 @@ Status SequencePlayer::trace(std::size_t number, const Camera& camera) {
     tracer_->look(camera);
     commit_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     for (int pass = 0; pass < options_.passes; ++pass) tracer_->add_pass();
-    compositor_.set_traced(std::make_shared<const Image<Rgba8>>(tracer_->picture()));
+    compositor_.set_traced(std::make_shared<const Image<Rgba8>>(tracer_->image()));
     return {};
 }
 
 Result<Image<Rgba8>> SequencePlayer::frame(std::size_t number) {
     const Camera camera = camera_of(*sequence_, number, compositor_.width(), compositor_.height());
     RS_TRY(draw(number, camera));
-    return compositor_.picture();
+    return compositor_.image();
 }
 
 std::vector<std::string> SequencePlayer::take_warnings() {

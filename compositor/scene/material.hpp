@@ -11,17 +11,17 @@
 namespace rs::compositor {
 
 struct SceneTexture {
-    Image<Rgba8> picture;  // sRGB, straight alpha; the first row is the top
+    Image<Rgba8> image;  // sRGB, straight alpha; the first row is the top
     bool has_alpha = false;
     bool repeat_s = true;  // else the border goes on
     bool repeat_t = true;
-    bool modulates = false;  // multiplies the diffuse colour (grey pictures, glTF); else it replaces it
+    bool modulates = false;  // multiplies the diffuse colour (grey images, glTF); else it replaces it
 };
 
 struct NormalMap;  // normal_map.hpp
 
 enum class AlphaUse { kNone = 0, kMask = 1, kBlend = 2 };
-// A picture whose alpha is nearly everywhere 0 or 255 cuts holes, with sharp edges and no order of drawing.
+// An image whose alpha is nearly everywhere 0 or 255 cuts holes, with sharp edges and no order of drawing.
 AlphaUse alpha_use(const SceneTexture& texture);
 
 // What Phong's formula needs of a material beyond the rest (Shading::kPhong).

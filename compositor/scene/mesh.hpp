@@ -12,7 +12,7 @@ namespace rs::compositor {
 struct MeshVertex {
     glm::vec3 position{0};
     glm::vec3 normal{0};    // unit length; 0 where there is no surface (lines, points): drawn unlit
-    glm::vec2 texture{0};   // s to the right, t up: (0, 0) is the picture's lower left corner
+    glm::vec2 texture{0};   // s to the right, t up: (0, 0) is the image's lower left corner
     glm::vec4 colour{1.0};  // linear light; replaces the material's diffuse colour where Mesh::has_colours
 };
 static_assert(sizeof(MeshVertex) == 48);

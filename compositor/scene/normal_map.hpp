@@ -16,11 +16,11 @@ struct NormalMap {
     bool repeat_t = true;
 };
 
-// Of a picture of directions as glTF 2.0 has them (3.9.3): bytes 1, 128, 255 are -1, 0, 1. `scale` is that of r and g.
-std::shared_ptr<const NormalMap> normal_map(const SceneTexture& picture, float scale);
+// Of an image of directions as glTF 2.0 has them (3.9.3): bytes 1, 128, 255 are -1, 0, 1. `scale` is that of r and g.
+std::shared_ptr<const NormalMap> normal_map(const SceneTexture& image, float scale);
 
-// Of a picture of heights (its luminance; MTL's bump map): slopes by I. Sobel's operator, as picture tools have them,
+// Of an image of heights (its luminance; MTL's bump map): slopes by I. Sobel's operator, as image tools have them,
 // times `multiplier` (-bm): a step from black to white between columns is a slope of 4 on both of them.
-std::shared_ptr<const NormalMap> normal_map_of_heights(const SceneTexture& picture, float multiplier);
+std::shared_ptr<const NormalMap> normal_map_of_heights(const SceneTexture& image, float multiplier);
 
 }  // namespace rs::compositor

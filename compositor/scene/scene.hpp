@@ -39,7 +39,7 @@ struct GeometryNode {
     std::optional<std::uint32_t> moving = {};
 };
 
-// An object made of pictures. In the node's coordinates the unit is the object radius and Y the turntable's axis.
+// An object made of images. In the node's coordinates the unit is the object radius and Y the turntable's axis.
 struct RaySpaceNode {
     std::filesystem::path file;  // .rso
     TransformChain chain;
@@ -59,7 +59,7 @@ struct Room {
 enum class Shading {
     // ISO/IEC 14772-1, 4.14.4: the highlight about the half vector, ambient light from each light.
     kVrml,
-    // B. T. Phong, Illumination for Computer Generated Pictures, 1975, with one ambient light A, the sum of that of all
+    // B. T. Phong, Illumination for Computer Generated Images, 1975, with one ambient light A, the sum of that of all
     // directional lights: emissive + kd sum f E (N.I) + ks sum f E (I.Os)^g + ka A, where Os is the direction towards
     // the viewer reflected by the surface and f = min(1 / (c0 + c1 r + c2 r^2), 1).
     kPhong

@@ -17,14 +17,14 @@
 namespace rs::compositor {
 
 // Seen at infinity (ISO/IEC 14772-1, 6.5): the sky's colours from the zenith down, over them the ground's from the
-// nadir up, over them pictures on a cube.
+// nadir up, over them images on a cube.
 struct Background {
     std::vector<glm::vec3> sky{{0.62F, 0.68F, 0.74F}};  // at least one: the zenith's; then one for each angle
     std::vector<double> sky_angles_rad;                 // from the zenith, not decreasing; beyond the last, its colour
     std::vector<glm::vec3> ground;                      // none, or the nadir's and one for each angle
     std::vector<double> ground_angles_rad;              // from the nadir
     // Front (seen along -Z), back, left, right, top, bottom; null where there is none.
-    std::array<std::shared_ptr<const SceneTexture>, 6> pictures;
+    std::array<std::shared_ptr<const SceneTexture>, 6> images;
     glm::dmat3 world_from_background{1.0};  // rotation
 };
 // Of sky and ground, looking along `direction` in scene coordinates, of any length but 0.
@@ -60,7 +60,7 @@ struct Fog {
 struct Viewpoint {
     std::string description;
     glm::dmat4 world_from_camera{1.0};    // rigid; columns are right, up, back, centre
-    double field_of_view_rad = 0.785398;  // full angle along the picture's shorter side
+    double field_of_view_rad = 0.785398;  // full angle along the image's shorter side
 };
 
 struct Navigation {

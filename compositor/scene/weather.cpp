@@ -49,7 +49,7 @@ Scene in_weather(Scene scene, const Weather& weather) {
     const float veil = weather.fog ? 1.0F : weather.snow ? 0.95F : 0.75F;
     for (glm::vec3& colour : scene.background.sky) colour = glm::mix(colour, air, veil);
     for (glm::vec3& colour : scene.background.ground) colour = glm::mix(colour, air, veil);
-    if (weather.fog) scene.background.pictures = {};
+    if (weather.fog) scene.background.images = {};
     const double visibility = weather.fog    ? weather.visibility
                               : weather.snow ? kVisibilityInSnow_m
                                              : kVisibilityInRain_m;

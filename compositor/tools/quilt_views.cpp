@@ -2,7 +2,7 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <filesystem>
 
@@ -21,7 +21,7 @@ Result<Image<Rgba8>> drawn_quilt(const QuiltLayout& layout, const std::vector<Ca
     return quilt;
 }
 
-// The depth of the object that is largest in the picture; 0 where none is in it.
+// The depth of the object that is largest in the image; 0 where none is in it.
 double depth_of_largest(const Scene& scene, const Camera& middle) {
     double depth = 0;
     double largest = 0;
@@ -85,7 +85,7 @@ Status write_quilts(const QuiltViews& views, const ViewArguments& arguments, con
     for (std::size_t frame = 0; frame < views.frames.size(); ++frame) {
         const Result<Image<Rgba8>> quilt = drawn_quilt(views.layout, views.frames[frame], render, progress);
         if (!quilt) return quilt.error();
-        const std::filesystem::path path = staged->temporary_path() / numbered_picture_name(frame);
+        const std::filesystem::path path = staged->temporary_path() / numbered_image_name(frame);
         if (Status status = write_png(quilt_path(path, views.layout), *quilt); !status) return status;
     }
     return staged->commit();

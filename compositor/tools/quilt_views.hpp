@@ -1,5 +1,5 @@
 #pragma once
-// What `rs-view --quilt` draws: the cameras of the tiles, and the one picture that they make.
+// What `rs-view --quilt` draws: the cameras of the tiles, and the one image that they make.
 
 #include "compositor/displays/quilt.hpp"
 #include "compositor/scene/scene.hpp"
@@ -27,7 +27,7 @@ Result<PixelSize> requested_tile(const ViewArguments& arguments);
 Result<QuiltViews> requested_quilt(const ViewArguments& arguments, const Scene& scene,
                                    const std::vector<Camera>& middle);
 
-// Into arguments.output with the layout in its name; of several frames into a folder of such pictures. `progress` is
+// Into arguments.output with the layout in its name; of several frames into a folder of such images. `progress` is
 // advanced for each view.
 Status write_quilts(const QuiltViews& views, const ViewArguments& arguments, const RenderView& render,
                     Progress& progress);

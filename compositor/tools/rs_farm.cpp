@@ -214,7 +214,7 @@ void add_common_options(CLI::App& command, FarmArguments& arguments) {
         ->type_name("MIB");
     command
         .add_option("--item-memory", arguments.item_memory_mib,
-                    "MiB that an item takes (by its pictures and their pixels)")
+                    "MiB that an item takes (by its images and their pixels)")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 30))
         ->type_name("MIB");
     command

@@ -21,8 +21,8 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/geometry/rig.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/output/view_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <algorithm>
@@ -35,7 +35,7 @@
 namespace rs::compositor {
 namespace {
 
-// The frames with the cameras that saw them, as a set of pictures that other tools can open.
+// The frames with the cameras that saw them, as a set of images that other tools can open.
 Status write_folder(const std::function<Result<Image<Rgba8>>(const Camera&)>& compose,
                     const std::vector<Camera>& cameras, const ViewArguments& arguments, Progress& progress) {
     Result<StagedFolder> staged = StagedFolder::create(arguments.output, "composited views");
@@ -90,7 +90,7 @@ Status run_view(ViewArguments arguments) {
     }
     const bool plans = !arguments.plan.empty();
     const bool in_window = window.has_value() || (on_walls && arguments.output.empty());
-    const Result<OutputKind> kind = in_window || plans ? OutputKind::picture : output_kind(arguments.output);
+    const Result<OutputKind> kind = in_window || plans ? OutputKind::image : output_kind(arguments.output);
     if (!kind) return kind.error();
     Result<std::unique_ptr<engine::Executor>> board = requested_executor(arguments);
     if (!board) return board.error();
@@ -135,9 +135,9 @@ Status run_view(ViewArguments arguments) {
         return run_visit(std::move(*window), arguments, *scene, std::move(showroom), drawer.name, cameras->front());
     }
     if (!arguments.tile.empty()) return run_tile(arguments, *scene, *showroom, *cameras);
-    if (*kind == OutputKind::picture && moments != 1) {
+    if (*kind == OutputKind::image && moments != 1) {
         return Error{arguments.output + ": " + std::to_string(moments) +
-                     " frames do not fit one picture; give a folder or an .mp4 to -o"};
+                     " frames do not fit one image; give a folder or an .mp4 to -o"};
     }
 
     Result<std::unique_ptr<TracedRenderer>> tracer = requested_tracer(arguments, *scene, *showroom);
@@ -155,7 +155,7 @@ Status run_view(ViewArguments arguments) {
                                                                   .exposure_ev = arguments.exposure_ev,
                                                                   .object_depth = requested_depth(arguments),
                                                                   .object_samples = arguments.object_samples,
-                                                                  .upright_pictures = upright,
+                                                                  .upright_images = upright,
                                                                   .time_parts = !arguments.stats.empty()});
     if (!compositor) return compositor.error();
     ProgressBar progress(arguments.quiet);
@@ -185,7 +185,7 @@ Status run_view(ViewArguments arguments) {
         if (Status status = times.draw(*showroom, *compositor, camera, frame_s); !status) return status.error();
         print_warnings(showroom->take_warnings());
         missing = std::max(missing, compositor->statistics().nodes_missing);
-        return compositor->picture();
+        return compositor->image();
     };
     if (!*tracer || cameras->size() > 1) {
         progress.start("compositing", static_cast<std::int64_t>(cameras->size()));
@@ -207,7 +207,7 @@ Status run_view(ViewArguments arguments) {
 
 int main(int argc, char** argv) {
     using namespace rs::compositor;
-    CLI::App app("Composites ray-space objects and geometry: in a window to walk through, or into pictures or a video.",
+    CLI::App app("Composites ray-space objects and geometry: in a window to walk through, or into images or a video.",
                  "rs-view");
     ViewArguments arguments;
     bool headless = false;
@@ -231,7 +231,7 @@ int main(int argc, char** argv) {
             throw CLI::ValidationError("--streaming is for -o; in a window objects always come while you walk");
         }
         if (headless && arguments.output.empty()) {
-            throw CLI::ValidationError("--headless needs -o: the picture, video or folder to write");
+            throw CLI::ValidationError("--headless needs -o: the image, video or folder to write");
         }
         if (!arguments.probe.empty() && rs::lower_case_extension(arguments.output) != ".exr") {
             throw CLI::ValidationError("--probe needs -o FILE.exr, the map to write");
@@ -244,7 +244,7 @@ int main(int argc, char** argv) {
             throw CLI::ValidationError("--tile and --tiles are of a --renderer that traces, by --passes");
         }
         if (arguments.renderer == "raster" && !arguments.output.empty() && !arguments.lens.empty()) {
-            throw CLI::ValidationError("--lens is for traced pictures; add --renderer path, or another that traces");
+            throw CLI::ValidationError("--lens is for traced images; add --renderer path, or another that traces");
         }
         run = [&] { return arguments.probe.empty() ? run_view(arguments) : run_probe(arguments); };
     });

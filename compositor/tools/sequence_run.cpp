@@ -10,8 +10,8 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/geometry/rig.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/output/view_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <algorithm>
@@ -30,12 +30,12 @@ namespace fs = std::filesystem;
 constexpr int kJpegQuality = 92;
 constexpr int kUsualPassesOfAFrame = 16;
 
-enum class Kind { kVideo, kPicture, kFolder };
+enum class Kind { kVideo, kImage, kFolder };
 
 Result<Kind> kind_of_output(const std::string& output) {
     const std::string ending = lower_case_extension(output);
     if (ending == ".mp4") return Kind::kVideo;
-    if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") return Kind::kPicture;
+    if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") return Kind::kImage;
     const Result<OutputKind> kind = output_kind(output);
     if (!kind) return Error{output + ": sequences are written as .mp4, .jpg or .png; give such a name, or a folder"};
     return Kind::kFolder;
@@ -53,7 +53,7 @@ Result<PlayerOptions> player_options(const ViewArguments& arguments) {
                      .exposure_ev = arguments.exposure_ev,
                      .object_depth = arguments.object_depth == "pixel" ? ObjectDepth::kPixel : ObjectDepth::kPlane,
                      .object_samples = arguments.object_samples,
-                     .upright_pictures = arguments.upright};
+                     .upright_images = arguments.upright};
     const Result<TracedOptions> tracing = requested_tracing(arguments);
     if (!tracing) return tracing.error();
     if (requested_method(arguments)) options.tracing = *tracing;
@@ -127,7 +127,7 @@ Status write_video(const ViewArguments& arguments, Playing& playing, const std::
     return status;
 }
 
-Status write_pictures(Playing& playing, const std::string& output, Progress& progress) {
+Status write_images(Playing& playing, const std::string& output, Progress& progress) {
     Result<StagedFolder> staged = StagedFolder::create(output, "frames of a sequence");
     if (!staged) return staged.error();
     const Rig rig = rig_of_views(cameras_of(playing));
@@ -169,7 +169,7 @@ Status run_one(const ViewArguments& arguments) {
     if (Status status = start_player(arguments, *playing); !status) return status;
     ProgressBar progress(arguments.quiet);
     Status status = *kind == Kind::kVideo    ? write_video(arguments, *playing, arguments.output, progress)
-                    : *kind == Kind::kFolder ? write_pictures(*playing, arguments.output, progress)
+                    : *kind == Kind::kFolder ? write_images(*playing, arguments.output, progress)
                                              : write_frame(*playing, arguments.frame, arguments.output);
     print_warnings(playing->player->take_warnings());
     playing->player.reset();

@@ -1,12 +1,12 @@
 #pragma once
-// rs-view --sequence: sequences into videos, pictures or folders of pictures.
+// rs-view --sequence: sequences into videos, images or folders of images.
 
 #include "compositor/tools/view_options.hpp"
 #include "rayspace/base/result.hpp"
 
 namespace rs::compositor {
 
-// One sequence to -o FILE.mp4, FILE.jpg, FILE.png or a folder of pictures; several into a folder, each to
+// One sequence to -o FILE.mp4, FILE.jpg, FILE.png or a folder of images; several into a folder, each to
 // NAME/sequence.mp4 and NAME/snapshot.jpg, with a line on stdout for each and an error at the end where some failed.
 Status run_sequences(const ViewArguments& arguments);
 

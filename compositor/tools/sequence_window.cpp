@@ -19,7 +19,7 @@ namespace {
 Status visit_sequence(const ViewArguments& arguments, PixelSize size, const std::shared_ptr<const Sequence>& sequence,
                       std::string& next) {
     auto window = Window::create({.title = sequence->name, .width = size.width, .height = size.height});
-    if (!window) return Error{window.error().message + "; give -o to write a picture or a video"};
+    if (!window) return Error{window.error().message + "; give -o to write an image or a video"};
     VisitOptions options;
     options.sequence = sequence;
     options.weather = sequence->weather;

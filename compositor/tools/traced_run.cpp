@@ -3,7 +3,7 @@
 #include "compositor/tools/requested_scene.hpp"
 #include "compositor/tools/requested_tracing.hpp"
 #include "compositor/tools/view_tiles.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <chrono>
@@ -39,7 +39,7 @@ std::shared_ptr<const Image<Rgba8>> trace(TracedRenderer& tracer, const ViewArgu
         if (passes > 0) progress.advance();
     } while ((passes == 0 || tracer.passes() < passes) && !late());
     if (passes > 0) progress.finish();
-    return std::make_shared<const Image<Rgba8>>(tracer.picture());
+    return std::make_shared<const Image<Rgba8>>(tracer.image());
 }
 
 Status run_tile(const ViewArguments& arguments, const Scene& scene, Showroom& showroom,

@@ -1,5 +1,5 @@
 #pragma once
-// rs-view by traced light: pictures, pieces of them, and probes.
+// rs-view by traced light: images, pieces of them, and probes.
 
 #include "compositor/scene/scene.hpp"
 #include "compositor/tools/view_options.hpp"
@@ -15,7 +15,7 @@
 
 namespace rs::compositor {
 
-// Null for the raster renderer, and where the picture comes in pieces that were traced before.
+// Null for the raster renderer, and where the image comes in pieces that were traced before.
 Result<std::unique_ptr<TracedRenderer>> requested_tracer(const ViewArguments& arguments, const Scene& scene,
                                                          Showroom& showroom);
 
@@ -23,7 +23,7 @@ Result<std::unique_ptr<TracedRenderer>> requested_tracer(const ViewArguments& ar
 std::shared_ptr<const Image<Rgba8>> trace(TracedRenderer& tracer, const ViewArguments& arguments, const Camera& camera,
                                           Progress& progress);
 
-// A piece of one frame's traced picture.
+// A piece of one frame's traced image.
 Status run_tile(const ViewArguments& arguments, const Scene& scene, Showroom& showroom,
                 const std::vector<Camera>& cameras);
 

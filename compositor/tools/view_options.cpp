@@ -1,6 +1,6 @@
 #include "compositor/tools/view_options.hpp"
 
-#include "compositor/displays/stereo_picture.hpp"
+#include "compositor/displays/stereo_image.hpp"
 #include "engine/executors/executor_table.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
@@ -13,7 +13,7 @@ void add_sequence_options(CLI::App& app, ViewArguments& arguments) {
                "--sequence", arguments.sequences,
                "in place of SCENE: maps whose anim/out/frames.json names a base scene and an extended OBJ for "
                "each frame (compositor/sequence/README.md), drawn by Phong's formula; -o takes .mp4, .jpg, .png or a "
-               "folder of pictures. Several go into a folder, each as NAME/sequence.mp4 and NAME/snapshot.jpg")
+               "folder of images. Several go into a folder, each as NAME/sequence.mp4 and NAME/snapshot.jpg")
             ->type_name("FOLDER")
             ->expected(1, 100000);
     app.add_option("--weather", arguments.weather,
@@ -43,7 +43,7 @@ void add_display_options(CLI::App& app, ViewArguments& arguments) {
         app.add_option(
                "--walls", arguments.walls,
                "in place of one view, those of one who stands before walls: cave, power-wall, tabletop, or a "
-               "file of corners in metres (compositor/displays/README.md). With -o FOLDER a picture a wall, else "
+               "file of corners in metres (compositor/displays/README.md). With -o FOLDER an image a wall, else "
                "a window a wall. The scene's view says where the room stands; --size: of all walls")
             ->type_name("PRESET|FILE.json");
     app.add_option("--wall", arguments.wall_names, "only these, such as front,left: a machine for each wall")
@@ -52,7 +52,7 @@ void add_display_options(CLI::App& app, ViewArguments& arguments) {
     std::vector<std::string> forms;
     for (const NamedStereoForm& named : kStereoForms) forms.emplace_back(named.name);
     app.add_option("--stereo", arguments.stereo,
-                   "both eyes' pictures of each wall: folders left and right, side by side, one above the other, or an "
+                   "both eyes' images of each wall: folders left and right, side by side, one above the other, or an "
                    "anaglyph for red and cyan glasses")
         ->type_name("[folders|side-by-side|top-bottom|anaglyph]")
         ->expected(0, 1)
@@ -72,7 +72,7 @@ void add_display_options(CLI::App& app, ViewArguments& arguments) {
         ->needs(walls);
     CLI::Option* quilt =
         app.add_option("--quilt", arguments.quilt,
-                       "views from left to right as the tiles of one picture, for displays with horizontal parallax; "
+                       "views from left to right as the tiles of one image, for displays with horizontal parallax; "
                        "-o FILE.png gets the layout into its name")
             ->type_name("COLSxROWS")
             ->excludes(walls);
@@ -123,7 +123,7 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
            "too; "
            "whitted: traced direct light with hard shadows and mirrors; radiosity: and what walls reflect, by virtual "
            "lights, smooth early; path: all light, grainy at first, true at last. In a "
-           "window T changes between raster and traced. Objects and blended surfaces are put into the traced picture "
+           "window T changes between raster and traced. Objects and blended surfaces are put into the traced image "
            "by depth")
         ->type_name("raster|toon|whitted|radiosity|path")
         ->check(CLI::IsMember({"raster", "toon", "whitted", "radiosity", "path"}))
@@ -140,16 +140,16 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
                    "\"environment\" of a recipe of rs-capture synth as it will stand there")
         ->type_name("X,Y,Z");
     app.add_option("--tile", arguments.tile,
-                   "in place of a view: of frame F of the traced picture W x H pixels from (X, Y), as a .png, for "
+                   "in place of a view: of frame F of the traced image W x H pixels from (X, Y), as a .png, for "
                    "--tiles (rs-farm render does all of it)")
         ->type_name("F:X,Y,WxH");
-    app.add_option("--tiles", arguments.tiles, "take the traced pictures from this folder of tiles F-X-Y.png")
+    app.add_option("--tiles", arguments.tiles, "take the traced images from this folder of tiles F-X-Y.png")
         ->type_name("FOLDER")
         ->check(CLI::ExistingDirectory);
     app.add_option("--plan", arguments.plan, "in place of a view: how many frames of which size it would be, as JSON")
         ->type_name("FILE.json");
     CLI::Option* passes =
-        app.add_option("--passes", arguments.passes, "of a traced picture: rays through each pixel of a frame (64)")
+        app.add_option("--passes", arguments.passes, "of a traced image: rays through each pixel of a frame (64)")
             ->check(CLI::Range(1, 65536));
     app.add_option("--seconds", arguments.seconds, "in place of --passes: as many as fit, for each frame")
         ->check(CLI::Range(0.01, 86400.0))
@@ -165,13 +165,13 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         ->check(CLI::Range(0.0, 1e6))
         ->type_name("LENGTH");
     app.add_option("--lens", arguments.lens,
-                   "traced pictures: the opening of the lens in mm (the scene counting metres), or "
+                   "traced images: the opening of the lens in mm (the scene counting metres), or "
                    "f/N of a focal length on 36 mm film; all else than what --focus says is blurred. "
-                   "Objects that are put into the picture stay sharp")
+                   "Objects that are put into the image stay sharp")
         ->type_name("MM|f/N");
     app.add_option("--focus", arguments.focus,
                    "distance of what is sharp, along the line of sight: with --lens; with --quilt, of what all "
-                   "views agree on (of the largest object in the picture, or the middle of the scene)")
+                   "views agree on (of the largest object in the image, or the middle of the scene)")
         ->check(CLI::Range(1e-6, 1e9))
         ->type_name("DISTANCE");
     app.add_option("--shadows", arguments.shadows,

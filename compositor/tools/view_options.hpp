@@ -65,7 +65,7 @@ struct ViewArguments {
     std::string weather;
     std::uint32_t seed = 1;
     double visibility = Weather{}.visibility;
-    std::size_t frame = 0;  // of a picture
+    std::size_t frame = 0;  // of an image
     std::string convert;
     bool frames_per_second_given = false;
 };

@@ -1,7 +1,7 @@
 #include "compositor/tools/view_tiles.hpp"
 
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -67,15 +67,15 @@ Status write_plan(const ViewArguments& arguments, const std::vector<Camera>& cam
 
 Status write_tile(const ViewArguments& arguments, const TileRequest& tile, const Image<Rgba8>& traced) {
     const auto& [x0, y0, x1, y1] = tile.place;
-    Image<Rgba8> picture(x1 - x0, y1 - y0);
+    Image<Rgba8> image(x1 - x0, y1 - y0);
     for (int y = y0; y < y1; ++y) {
-        for (int x = x0; x < x1; ++x) picture(x - x0, y - y0) = traced(x, y);
+        for (int x = x0; x < x1; ++x) image(x - x0, y - y0) = traced(x, y);
     }
-    return write_png(arguments.output, picture);
+    return write_png(arguments.output, image);
 }
 
 Result<Image<Rgba8>> read_tiles(const ViewArguments& arguments, std::size_t frame, const Camera& camera) {
-    Image<Rgba8> picture(camera.width, camera.height);
+    Image<Rgba8> image(camera.width, camera.height);
     Image<std::uint8_t> covered(camera.width, camera.height);
     const std::string begin = std::to_string(frame) + "-";
     std::vector<fs::path> tiles;
@@ -89,7 +89,7 @@ Result<Image<Rgba8>> read_tiles(const ViewArguments& arguments, std::size_t fram
     for (const fs::path& path : tiles) {
         const auto place = numbers_between<3>(path.stem().string(), "--");
         if (!place) return Error{path.string() + ": is no tile's name, such as 0-256-0.png; remove it"};
-        const Result<Image<Rgba8>> tile = read_picture(path);
+        const Result<Image<Rgba8>> tile = read_image(path);
         if (!tile) return tile.error();
         const auto [number, x0, y0] = *place;
         if (x0 > camera.width - tile->width() || y0 > camera.height - tile->height()) {
@@ -98,14 +98,14 @@ Result<Image<Rgba8>> read_tiles(const ViewArguments& arguments, std::size_t fram
         for (int y = 0; y < tile->height(); ++y) {
             for (int x = 0; x < tile->width(); ++x) {
                 if (++covered(x0 + x, y0 + y) > 1) return Error{path.string() + ": lies over another; remove one"};
-                picture(x0 + x, y0 + y) = (*tile)(x, y);
+                image(x0 + x, y0 + y) = (*tile)(x, y);
             }
         }
     }
     if (std::ranges::count(covered.pixels(), std::uint8_t{0}) > 0) {
         return Error{arguments.tiles + ": lacks tiles of frame " + std::to_string(frame) + "; trace them with --tile"};
     }
-    return picture;
+    return image;
 }
 
 }  // namespace rs::compositor

@@ -1,6 +1,6 @@
 #pragma once
-// A traced picture in pieces, each made by a process of its own: what rs-farm render hands out. Tiles are the traced
-// picture's own pixels, before objects and what is blended are drawn over and under it.
+// A traced image in pieces, each made by a process of its own: what rs-farm render hands out. Tiles are the traced
+// image's own pixels, before objects and what is blended are drawn over and under it.
 
 #include "compositor/tools/view_options.hpp"
 #include "compositor/traced/traced_renderer.hpp"
@@ -27,10 +27,10 @@ std::string tile_name(const TileRequest& tile);
 // {"frames": 4, "width": 1280, "height": 720, "traced": true}: what the arguments would draw.
 Status write_plan(const ViewArguments& arguments, const std::vector<Camera>& cameras);
 
-// The tile's traced picture, which has had its passes, as arguments.output.
+// The tile's traced image, which has had its passes, as arguments.output.
 Status write_tile(const ViewArguments& arguments, const TileRequest& tile, const Image<Rgba8>& traced);
 
-// A frame's traced picture from the tiles of arguments.tiles; they must cover it, each pixel once.
+// A frame's traced image from the tiles of arguments.tiles; they must cover it, each pixel once.
 Result<Image<Rgba8>> read_tiles(const ViewArguments& arguments, std::size_t frame, const Camera& camera);
 
 }  // namespace rs::compositor

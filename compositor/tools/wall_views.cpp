@@ -3,7 +3,7 @@
 #include "compositor/displays/head_datagram.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ Head in_room(const WallViews& views, const Head& tracked) {
     return tracked_in_room(tracked, views.display.tracker.value_or(views.display.head));
 }
 
-// A tracker's head for all frames of pictures; windows read it anew for each.
+// A tracker's head for all frames of images; windows read it anew for each.
 Status add_tracked_head(const ViewArguments& arguments, WallViews& views) {
     const Result<UdpPlace> place = udp_place_from(arguments.heads);
     if (!place) return place.error();
@@ -74,7 +74,7 @@ Status add_tracked_head(const ViewArguments& arguments, WallViews& views) {
 }
 
 std::string numbered(const std::string& name, std::size_t frame, std::size_t frames) {
-    return frames == 1 ? name + ".png" : name + "/" + numbered_picture_name(frame);
+    return frames == 1 ? name + ".png" : name + "/" + numbered_image_name(frame);
 }
 
 }  // namespace
@@ -144,42 +144,41 @@ Result<WallViews> requested_walls(const ViewArguments& arguments, const Scene& s
 
 Status write_walls(const WallViews& views, const ViewArguments& arguments, const RenderView& render,
                    Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(arguments.output, "pictures of walls");
+    Result<StagedFolder> staged = StagedFolder::create(arguments.output, "images of walls");
     if (!staged) return staged.error();
     const auto cameras = wall_cameras(views);
     if (!cameras) return cameras.error();
     const bool apart = !views.stereo || *views.stereo == StereoForm::kFolders;
     const std::size_t eyes = views.stereo ? 2 : 1;
     Rig rig;
-    const auto write = [&](const std::string& name, const Image<Rgba8>& picture) -> Status {
+    const auto write = [&](const std::string& name, const Image<Rgba8>& image) -> Status {
         const fs::path path = staged->temporary_path() / name;
         std::error_code failed;
         fs::create_directories(path.parent_path(), failed);
         if (failed) return Error{path.parent_path().string() + ": cannot be made: " + failed.message()};
-        return write_png(path, picture);
+        return write_png(path, image);
     };
     for (std::size_t at = 0; at < cameras->size();) {
         const std::size_t wall = at / eyes % views.display.walls.size();
         const std::size_t frame = at / eyes / views.display.walls.size();
         const std::string name = numbered(views.display.walls[wall].name, frame, views.frames());
-        std::vector<Image<Rgba8>> pictures;
+        std::vector<Image<Rgba8>> images;
         for (std::size_t eye = 0; eye < eyes; ++eye, ++at) {
-            Result<Image<Rgba8>> picture = render((*cameras)[at]);
-            if (!picture) return picture.error();
+            Result<Image<Rgba8>> image = render((*cameras)[at]);
+            if (!image) return image.error();
             progress.advance();
             if (!apart) {
-                pictures.push_back(std::move(*picture));
+                images.push_back(std::move(*image));
                 continue;
             }
             RigView view;
             view.file_path = eyes == 1 ? name : (eye == 0 ? "left/" : "right/") + name;
             view.camera = (*cameras)[at];
-            if (Status status = write(view.file_path, *picture); !status) return status;
+            if (Status status = write(view.file_path, *image); !status) return status;
             rig.views.push_back(std::move(view));
         }
         if (apart) continue;
-        if (Status status = write(name, stereo_picture(*views.stereo, pictures[0], pictures[1])); !status)
-            return status;
+        if (Status status = write(name, stereo_image(*views.stereo, images[0], images[1])); !status) return status;
     }
     if (apart) {
         if (Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;

@@ -1,8 +1,8 @@
 #pragma once
-// What `rs-view --walls` draws: which cameras, and how their pictures become files.
+// What `rs-view --walls` draws: which cameras, and how their images become files.
 
 #include "compositor/displays/head_receiver.hpp"
-#include "compositor/displays/stereo_picture.hpp"
+#include "compositor/displays/stereo_image.hpp"
 #include "compositor/displays/walls_file.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/tools/view_options.hpp"
@@ -30,7 +30,7 @@ struct WallViews {
 };
 
 // `visitor`: the cameras of a visitor without a display (requested_cameras.hpp), which show where the room stands where
-// the walls' file does not. Every eye of every frame is checked: fails where one is behind a wall, naming it. Pictures
+// the walls' file does not. Every eye of every frame is checked: fails where one is behind a wall, naming it. Images
 // of a head that is tracked wait for it, and fail where none comes.
 Result<WallViews> requested_walls(const ViewArguments& arguments, const Scene& scene,
                                   const std::vector<Camera>& visitor);
@@ -42,7 +42,7 @@ std::optional<Head> newest_head(const WallViews& views);
 Result<std::vector<Camera>> wall_cameras(const WallViews& views);
 
 // Into the folder arguments.output: WALL.png, or WALL/0000.png, ... of several frames; of stereo in two folders
-// left/... and right/.... Where each picture is that of one eye, transforms.json has their cameras. `render` is called
+// left/... and right/.... Where each image is that of one eye, transforms.json has their cameras. `render` is called
 // for the cameras of wall_cameras() in their order; `progress` is advanced for each.
 Status write_walls(const WallViews& views, const ViewArguments& arguments, const RenderView& render,
                    Progress& progress);

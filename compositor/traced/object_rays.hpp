@@ -1,7 +1,7 @@
 #pragma once
 // A ray-space object as the tracer meets it: one look-up of the engine answers one ray.
 //
-// The engine sees a picture of one pixel, from a viewpoint on the ray before the object, so that the first that the
+// The engine sees an image of one pixel, from a viewpoint on the ray before the object, so that the first that the
 // whole line meets is found. Where that lies behind the ray's origin the ray meets nothing: rays that begin inside of
 // an object, or between its parts, pass what lies before them.
 
@@ -12,7 +12,7 @@ namespace rs::compositor {
 
 class ObjectRays : public capture::RayPrimitive {
 public:
-    // Shines with its pictures' colours times `brightness`; what is less than half opaque is not there.
+    // Shines with its images' colours times `brightness`; what is less than half opaque is not there.
     ObjectRays(PlacedObject placed, float brightness);
     // Not while rays are traced.
     void set_brightness(float brightness) { brightness_ = brightness; }

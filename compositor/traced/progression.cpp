@@ -54,13 +54,13 @@ void FirstGrid::took(TracedMethod method, int width, int height, int side, doubl
 }
 
 void refine(TracedRenderer& renderer, const Camera& camera, FirstGrid& grid, const Clock& clock,
-            const std::atomic<bool>& stop, const std::function<void(Image<Rgba8> picture, int passes)>& publish) {
+            const std::atomic<bool>& stop, const std::function<void(Image<Rgba8> image, int passes)>& publish) {
     const TracedMethod method = renderer.method();
     double begin = 0;
     const auto measured = [&](int side) { grid.took(method, camera.width, camera.height, side, clock() - begin); };
     for (int side = grid.side(method, camera.width, camera.height); side > 1; side /= 2) {
         begin = clock();
-        std::optional<Image<Rgba8>> coarse = renderer.coarse_picture(camera, side, &stop);
+        std::optional<Image<Rgba8>> coarse = renderer.coarse_image(camera, side, &stop);
         if (!coarse) return;
         measured(side);
         publish(std::move(*coarse), 0);
@@ -70,9 +70,9 @@ void refine(TracedRenderer& renderer, const Camera& camera, FirstGrid& grid, con
     while (renderer.passes() < kMostPasses) {
         begin = clock();
         if (!renderer.add_pass(nullptr, &stop)) return;
-        Image<Rgba8> picture = renderer.picture();
+        Image<Rgba8> image = renderer.image();
         measured(1);
-        publish(std::move(picture), renderer.passes());
+        publish(std::move(image), renderer.passes());
     }
 }
 

@@ -1,11 +1,11 @@
 #pragma once
-// The pictures of a view that is refined: a grid that is there in time, then grids each twice as fine as the one
+// The images of a view that is refined: a grid that is there in time, then grids each twice as fine as the one
 // before, then a sample of each pixel at a time into a mean (L. Bergman, H. Fuchs, E. Grant, S. Spach, "Image Rendering
 // by Adaptive Refinement", SIGGRAPH 1986).
 //
 //     first grid (32x32 cells and up) -> twice as fine -> ... -> pass 1 -> pass 2 -> ...
 //
-// Only where this begins hangs on the time that pictures take. What they show does not: pass k is the mean of the
+// Only where this begins hangs on the time that images take. What they show does not: pass k is the mean of the
 // samples 1..k (of radiosity: filtered), whatever was shown before it.
 
 #include "compositor/traced/traced_renderer.hpp"
@@ -22,21 +22,21 @@ namespace rs::compositor {
 // Seconds since any moment.
 using Clock = std::function<double()>;
 
-// Chooses the first grid by what pictures took so far.
+// Chooses the first grid by what images took so far.
 class FirstGrid {
 public:
-    // What a visitor who moves waits for a picture; what comes besides (taking it into the frame) fits into a tenth of
+    // What a visitor who moves waits for an image; what comes besides (taking it into the frame) fits into a tenth of
     // a second with it.
     static constexpr double kInTime_s = 0.07;
-    static constexpr int kLeastCells = 32;  // along the longer side of a picture, if it has as many pixels
+    static constexpr int kLeastCells = 32;  // along the longer side of an image, if it has as many pixels
 
     explicit FirstGrid(double in_time_s = kInTime_s) : in_time_s_(in_time_s) {}
 
     // Pixels along a cell, a power of two: the finest grid that is expected in time; the coarsest where none is, or
-    // nothing is known yet. 1: pictures are quick enough to begin with pass 1.
+    // nothing is known yet. 1: images are quick enough to begin with pass 1.
     [[nodiscard]] int side(TracedMethod method, int width, int height) const;
     [[nodiscard]] static int coarsest_side(int width, int height);
-    // A picture of this size, of cells of this side, took so long. Where it took longer than the last of its kind, so
+    // An image of this size, of cells of this side, took so long. Where it took longer than the last of its kind, so
     // will the others.
     void took(TracedMethod method, int width, int height, int side, double seconds);
 
@@ -49,8 +49,8 @@ private:
     std::map<TracedMethod, Costs> costs_;
 };
 
-// Publishes one picture after the other until `stop` becomes true. `passes` is 0 for grids.
+// Publishes one image after the other until `stop` becomes true. `passes` is 0 for grids.
 void refine(TracedRenderer& renderer, const Camera& camera, FirstGrid& grid, const Clock& clock,
-            const std::atomic<bool>& stop, const std::function<void(Image<Rgba8> picture, int passes)>& publish);
+            const std::atomic<bool>& stop, const std::function<void(Image<Rgba8> image, int passes)>& publish);
 
 }  // namespace rs::compositor

@@ -23,7 +23,7 @@ double Refinement::steady_clock_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// What is under way ends, after its first picture.
+// What is under way ends, after its first image.
 void Refinement::drop_view() {
     if (newest_) newest_->passes = 0;
     if (first_ != First::kNotThere) stop_ = true;
@@ -77,8 +77,8 @@ std::optional<Error> Refinement::failure() {
     return failure_;
 }
 
-void Refinement::publish(Image<Rgba8> picture, const Camera& camera, int passes) {
-    auto shared = std::make_shared<const Image<Rgba8>>(std::move(picture));
+void Refinement::publish(Image<Rgba8> image, const Camera& camera, int passes) {
+    auto shared = std::make_shared<const Image<Rgba8>>(std::move(image));
     std::unique_lock lock(mutex_);
     const bool outdated = requested_ || lighting_;
     if (!stop_) newest_ = Step{std::move(shared), camera, outdated ? 0 : passes};
@@ -111,7 +111,7 @@ void Refinement::work(const std::function<Result<TracedRenderer>()>& make) {
             if (lighting) made->set_lights(*lighting->scene, lighting->exposure_ev);
             made->set_method(view.method);
             refine(*made, view.camera, grid_, clock_, stop_,
-                   [&](Image<Rgba8> picture, int passes) { publish(std::move(picture), view.camera, passes); });
+                   [&](Image<Rgba8> image, int passes) { publish(std::move(image), view.camera, passes); });
         }
     } catch (const std::exception& thrown) {
         const std::lock_guard lock(mutex_);

@@ -1,9 +1,9 @@
 #pragma once
-// A traced picture that is there at once and gets better while nobody moves (progression.hpp), in a thread of its own.
+// A traced image that is there at once and gets better while nobody moves (progression.hpp), in a thread of its own.
 //
 //     begin(camera) -> first grid -> finer grids -> pass 1 -> pass 2 -> ... until end()
 //
-// The first picture of a view is always finished, so that somebody who moves all the time sees where he goes.
+// The first image of a view is always finished, so that somebody who moves all the time sees where he goes.
 
 #include "compositor/traced/progression.hpp"
 #include "compositor/traced/traced_renderer.hpp"
@@ -28,7 +28,7 @@ public:
     Refinement& operator=(const Refinement&) = delete;
     ~Refinement();  // waits for what is under way: the making, a tile or two, a pass's virtual lights
 
-    // Drops what was begun before, but for its first picture.
+    // Drops what was begun before, but for its first image.
     void begin(const Camera& camera, TracedMethod method = TracedMethod::kPath);
     // Other light from now on (TracedRenderer::set_lights); begin() must follow.
     struct Lighting {
@@ -39,19 +39,19 @@ public:
     void end();
 
     struct Step {
-        std::shared_ptr<const Image<Rgba8>> picture;  // of the camera's size
+        std::shared_ptr<const Image<Rgba8>> image;  // of the camera's size
         Camera camera;
-        int passes = 0;  // 0: of a coarse grid, or the first picture of a view that was begun before the last
+        int passes = 0;  // 0: of a coarse grid, or the first image of a view that was begun before the last
     };
-    // The newest picture; nothing where there is none since the last call. After the first picture of a view tracing
+    // The newest image; nothing where there is none since the last call. After the first image of a view tracing
     // goes on with the call after that which has taken it, so that the processors are free to draw it.
     std::optional<Step> take();
-    // Why there will be no pictures; nothing where there will.
+    // Why there will be no images; nothing where there will.
     [[nodiscard]] std::optional<Error> failure();
 
 private:
     void work(const std::function<Result<TracedRenderer>()>& make);
-    void publish(Image<Rgba8> picture, const Camera& camera, int passes);
+    void publish(Image<Rgba8> image, const Camera& camera, int passes);
     static double steady_clock_s();
     void drop_view();
 
@@ -66,7 +66,7 @@ private:
     std::optional<Step> newest_;
     std::optional<Error> failure_;
     bool leaving_ = false;
-    // How far the first picture of what is under way has come.
+    // How far the first image of what is under way has come.
     enum class First { kNotThere, kThere, kTaken, kDrawn };
     First first_ = First::kDrawn;
     Clock clock_;

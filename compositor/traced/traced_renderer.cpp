@@ -1,7 +1,7 @@
 #include "compositor/traced/traced_renderer.hpp"
 
+#include "capture/tracer/image/discontinuity_filter.hpp"
 #include "capture/tracer/integrator/light_probe.hpp"
-#include "capture/tracer/picture/discontinuity_filter.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
 #include "compositor/scene/light/raster_lights.hpp"
 #include "compositor/traced/object_rays.hpp"
@@ -140,8 +140,8 @@ bool TracedRenderer::add_pass(Progress* progress, const std::atomic<bool>* stop)
     return tracer_.accumulate(camera_, render_options(camera_), 1, sum_, progress, stop);
 }
 
-std::optional<Image<Rgba8>> TracedRenderer::coarse_picture(const Camera& camera, int side,
-                                                           const std::atomic<bool>* stop) {
+std::optional<Image<Rgba8>> TracedRenderer::coarse_image(const Camera& camera, int side,
+                                                         const std::atomic<bool>* stop) {
     begin(camera);
     Camera coarse = camera;
     coarse.width = (camera.width + side - 1) / side;
@@ -153,16 +153,16 @@ std::optional<Image<Rgba8>> TracedRenderer::coarse_picture(const Camera& camera,
     capture::Accumulation sum;
     if (!tracer_.accumulate(coarse, render_options(coarse), 1, sum, nullptr, stop)) return std::nullopt;
     const Image<Rgba8> small = shown(sum.mean());
-    Image<Rgba8> picture(camera.width, camera.height);
+    Image<Rgba8> image(camera.width, camera.height);
     for (int y = 0; y < small.height(); ++y) {
         const int top = y * side, bottom = std::min(top + side, camera.height);
         for (int x = 0; x < small.width(); ++x) {
             const int right = std::min((x + 1) * side, camera.width);
             for (int row = top; row < bottom; ++row)
-                std::fill(&picture(x * side, row), &picture(right - 1, row) + 1, small(x, y));
+                std::fill(&image(x * side, row), &image(right - 1, row) + 1, small(x, y));
         }
     }
-    return picture;
+    return image;
 }
 
 Image<RgbaF> TracedRenderer::probe(const glm::dvec3& place, int samples, Progress& progress) const {
@@ -181,7 +181,7 @@ Image<RgbaF> TracedRenderer::probe(const glm::dvec3& place, int samples, Progres
     return map;
 }
 
-Image<Rgba8> TracedRenderer::picture() const {
+Image<Rgba8> TracedRenderer::image() const {
     return shown(render_.part ? capture::filtered_mean(sum_, *render_.part) : capture::filtered_mean(sum_));
 }
 

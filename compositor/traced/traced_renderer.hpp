@@ -46,7 +46,7 @@ class ObjectRays;
 
 struct TracedOptions {
     TracedMethod method = TracedMethod::kPath;
-    double exposure_ev = 0;  // pictures are 2^_ times as bright
+    double exposure_ev = 0;  // images are 2^_ times as bright
     int max_bounces = 16;
     bool soft_shadows = false;            // whitted, toon; the others have no others
     std::optional<double> line_radius{};  // toon: how far from an edge its line reaches; a share of the scene if empty
@@ -62,29 +62,29 @@ public:
                                          const TracedOptions& options);
 
     // Takes the nodes of this number (GeometryNode::moving) from where the scene has them to `moved` times there; with
-    // `at_close`, they move on to that while the shutter is open, and pictures show it. Seen in pictures that begin
+    // `at_close`, they move on to that while the shutter is open, and images show it. Seen in images that begin
     // after this. False, with nothing changed, where no node has the number, or a matrix has no inverse or is not
     // finite.
     bool move(std::uint32_t id, const glm::dmat4& moved, const std::optional<glm::dmat4>& at_close = {});
 
-    // For pictures that begin after this.
+    // For images that begin after this.
     void set_method(TracedMethod method) { render_.method = method; }
     [[nodiscard]] TracedMethod method() const { return render_.method; }
-    // Only these pixels of pictures that begin after this are traced; they have the bytes that they have in whole ones.
+    // Only these pixels of images that begin after this are traced; they have the bytes that they have in whole ones.
     void set_part(const capture::PixelRectangle& part) { render_.part = part; }
     // The lights, environment and headlight of `scene`, whose geometry is that of the scene that this was made of, and
     // another exposure. What is traced then is what a renderer made of `scene` would trace, bit for bit.
     void set_lights(const Scene& scene, double exposure_ev);
-    // Begins a picture anew.
+    // Begins an image anew.
     void look(const Camera& camera);
     // One more sample of each pixel. False, with nothing changed, where `stop` became true before it was there.
     bool add_pass(Progress* progress = nullptr, const std::atomic<bool>* stop = nullptr);
     [[nodiscard]] std::int64_t steps_of_pass() const { return capture::Tracer::step_count(camera_); }
     [[nodiscard]] int passes() const { return sum_.samples; }
 
-    // The camera's picture with one sample for each side x side pixels, without which look() goes on. Nothing where
+    // The camera's image with one sample for each side x side pixels, without which look() goes on. Nothing where
     // `stop` became true.
-    std::optional<Image<Rgba8>> coarse_picture(const Camera& camera, int side, const std::atomic<bool>* stop = nullptr);
+    std::optional<Image<Rgba8>> coarse_image(const Camera& camera, int side, const std::atomic<bool>* stop = nullptr);
 
     // What reaches a place, as capture::light_probe() has it, with the scene's background behind all.
     [[nodiscard]] Image<RgbaF> probe(const glm::dvec3& place, int samples, Progress& progress) const;
@@ -92,7 +92,7 @@ public:
     // The mean of all passes: linear light without exposure, straight alpha. There must have been a pass.
     [[nodiscard]] Image<RgbaF> radiance() const { return sum_.mean(); }
     // What a screen shows of it; of radiosity, filtered (discontinuity_filter.hpp).
-    [[nodiscard]] Image<Rgba8> picture() const;
+    [[nodiscard]] Image<Rgba8> image() const;
 
     // What could not be taken along, for people.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }

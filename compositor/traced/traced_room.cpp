@@ -20,13 +20,13 @@ constexpr int kFloorTexels = 64;  // of two squares
 
 capture::Texture linear_texture(const SceneTexture& from) {
     capture::Texture texture;
-    texture.pixels = Image<RgbaF>(from.picture.width(), from.picture.height());
+    texture.pixels = Image<RgbaF>(from.image.width(), from.image.height());
     texture.repeat_u = from.repeat_s;
     texture.repeat_v = from.repeat_t;
-    for_each_index(from.picture.height(), 0, [&](std::int64_t row) {
+    for_each_index(from.image.height(), 0, [&](std::int64_t row) {
         const int y = static_cast<int>(row);
-        for (int x = 0; x < from.picture.width(); ++x) {
-            const Rgba8 p = from.picture(x, y);
+        for (int x = 0; x < from.image.width(); ++x) {
+            const Rgba8 p = from.image(x, y);
             texture.pixels(x, y) = {linear_from_srgb8(p.r), linear_from_srgb8(p.g), linear_from_srgb8(p.b),
                                     from.has_alpha ? static_cast<float>(p.a) / 255.0F : 1.0F};
         }

@@ -24,7 +24,7 @@ Showroom::Showroom(const Scene& scene, const ShowroomOptions& options, std::uniq
                    std::unique_ptr<ObjectSource> source)
     : plan_(scene),
       waits_(options.waits),
-      engine_(std::make_shared<engine::DataModule>(limits_of_viewer(), std::move(board))),
+      engine_(std::make_shared<engine::RenderSession>(limits_of_viewer(), std::move(board))),
       nodes_(std::make_shared<ShownNodes>(scene.objects.size())),
       handles_(plan_.files().size()),
       cache_(plan_.files(), source ? std::move(source) : object_files(engine_, !options.waits), options.memory_bytes) {

@@ -48,7 +48,7 @@ public:
 
     [[nodiscard]] std::vector<HandleStroke> strokes(const Camera& camera) const;
 
-    // At what is seen in the picture's middle, selected. Luminaires take the first of files().
+    // At what is seen in the image's middle, selected. Luminaires take the first of files().
     void add(LightKind kind, const DeskView& view);
 
     // In place of all lights, or beside them where the list does not have "replace"; a step. Fails with nothing

@@ -1,5 +1,5 @@
 #pragma once
-// What lies over the picture in a window: a panel of figures and switches, help, and a line of news. Dear ImGui.
+// What lies over the image in a window: a panel of figures and switches, help, and a line of news. Dear ImGui.
 
 #include "compositor/traced/traced_renderer.hpp"
 #include "compositor/viewer/views/navigation.hpp"
@@ -15,7 +15,7 @@ namespace rs::compositor {
 struct ObjectLine {
     std::string name;
     bool in_view = false;
-    int width = 0;  // of the picture that the engine drew, px
+    int width = 0;  // of the image that the engine drew, px
     int height = 0;
     double milliseconds = 0;  // of the engine
     std::string absence;      // why it is not there; empty where it is
@@ -28,7 +28,7 @@ struct PanelState {
     bool wire_frame = false;
     bool shadows = true;
     bool traced = false;   // the view stands still and refines,
-    bool walk_on = false;  // but for walking by coarse pictures
+    bool walk_on = false;  // but for walking by coarse images
     TracedMethod method = TracedMethod::kPath;
     int passes = 0;  // of it
     bool recording = false;
@@ -66,7 +66,7 @@ public:
     [[nodiscard]] bool takes_mouse() const;
     [[nodiscard]] bool takes_keys() const;
 
-    // Draws into the window; after the picture, before swap(). `more` draws other panels.
+    // Draws into the window; after the image, before swap(). `more` draws other panels.
     void draw(PanelState& state, const std::function<void()>& more = nullptr);
 };
 

@@ -73,7 +73,7 @@ Result<std::unique_ptr<Visit>> Visit::create(Window window, const Scene& scene, 
                                                  .exposure_ev = options.exposure_ev,
                                                  .object_depth = options.object_depth,
                                                  .object_samples = options.object_samples,
-                                                 .upright_pictures = true}));
+                                                 .upright_images = true}));
     return std::unique_ptr<Visit>(
         new Visit(std::move(window), std::move(showroom), std::move(compositor), scene, options));
 }
@@ -194,17 +194,17 @@ Result<bool> Visit::play(double seconds) {
     return true;
 }
 
-Status Visit::take_pictures() {
+Status Visit::take_images() {
     if (playback_ && playback_->take_jpeg()) {
         constexpr int kQuality = 92;
-        const std::filesystem::path path = free_name(options_.pictures, "screenshot", ".jpg", shots_);
-        const Status written = write_jpeg(path, compositor_.picture(), kQuality);
+        const std::filesystem::path path = free_name(options_.images, "screenshot", ".jpg", shots_);
+        const Status written = write_jpeg(path, compositor_.image(), kQuality);
         report(written ? path.string() : written.error().message);
     }
     if (!panel_.take_screenshot) return {};
     panel_.take_screenshot = false;
-    const std::filesystem::path path = free_name(options_.pictures, "screenshot", ".png", shots_);
-    const Status written = write_png(path, compositor_.picture());
+    const std::filesystem::path path = free_name(options_.images, "screenshot", ".png", shots_);
+    const Status written = write_png(path, compositor_.image());
     report(written ? path.string() : written.error().message);
     return {};
 }
@@ -212,7 +212,7 @@ Status Visit::take_pictures() {
 Status Visit::record() {
     if (panel_.recording && !video_) {
         int number = 0;
-        const std::filesystem::path path = free_name(options_.pictures, "recording", ".mp4", number);
+        const std::filesystem::path path = free_name(options_.images, "recording", ".mp4", number);
         const double rate = playback_ && playback_->saving() ? playback_->frames_per_second() : kRecordedFrames_per_s;
         Result<VideoWriter> video = VideoWriter::open(path, compositor_.width(), compositor_.height(), rate);
         if (!video) {
@@ -224,7 +224,7 @@ Status Visit::record() {
         report("recording " + path.string());
     }
     if (!video_) return {};
-    Status status = panel_.recording ? video_->add(compositor_.picture()) : video_->finish();
+    Status status = panel_.recording ? video_->add(compositor_.image()) : video_->finish();
     if (!panel_.recording || !status) {
         video_.reset();
         panel_.recording = false;
@@ -334,7 +334,7 @@ Result<bool> Visit::step(std::optional<double> seconds) {
         std::this_thread::sleep_for(kPauseWhileTracing);
     }
     if (const auto click = input_.click()) pick(*click);
-    RS_TRY(take_pictures());
+    RS_TRY(take_images());
     RS_TRY(record());
     refresh_panel(passed);
     RS_TRY(show(size));

@@ -1,7 +1,7 @@
 #include "compositor/window/wall_visit.hpp"
 
 #include "compositor/window/visit.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -73,7 +73,7 @@ Result<std::unique_ptr<WallVisit>> WallVisit::create(const Scene& scene, std::un
                                                  .exposure_ev = options.exposure_ev,
                                                  .object_depth = options.object_depth,
                                                  .object_samples = options.object_samples,
-                                                 .upright_pictures = true}));
+                                                 .upright_images = true}));
     std::unique_ptr<WallVisit> visit(new WallVisit(std::move(windows), std::move(showroom), scene, options));
     visit->compositor_.emplace(std::move(compositor));
     return visit;
@@ -106,7 +106,7 @@ void WallVisit::obey(Key command) {
             place_ = options_.place;
             break;
         case Key::kScreenshot:
-            takes_pictures_ = true;
+            takes_images_ = true;
             break;
         case Key::kQuit:
             leaves_ = true;
@@ -152,7 +152,7 @@ Result<Image<Rgba8>> WallVisit::drawn(const Wall& wall, double offset_m) {
     return compositor_->compose(camera);
 }
 
-Result<Image<Rgba8>> WallVisit::picture_of(const Wall& wall) {
+Result<Image<Rgba8>> WallVisit::image_of(const Wall& wall) {
     if (wall.width != compositor_->width() || wall.height != compositor_->height()) {
         RS_TRY(compositor_->resize(wall.width, wall.height));
     }
@@ -160,7 +160,7 @@ Result<Image<Rgba8>> WallVisit::picture_of(const Wall& wall) {
     const double half = options_.display.eye_distance_m / 2;
     RS_ASSIGN_OR_RETURN(const Image<Rgba8> left, drawn(wall, -half));
     RS_ASSIGN_OR_RETURN(const Image<Rgba8> right, drawn(wall, half));
-    return stereo_picture(*options_.stereo, left, right);
+    return stereo_image(*options_.stereo, left, right);
 }
 
 Result<bool> WallVisit::step(std::optional<double> seconds) {
@@ -179,25 +179,25 @@ Result<bool> WallVisit::step(std::optional<double> seconds) {
         options_.warn(warnings);
     }
     windows_.front().make_current();
-    pictures_.clear();
+    images_.clear();
     for (const Wall& wall : options_.display.walls) {
-        RS_ASSIGN_OR_RETURN(Image<Rgba8> picture, picture_of(wall));
-        pictures_.push_back(std::move(picture));
+        RS_ASSIGN_OR_RETURN(Image<Rgba8> image, image_of(wall));
+        images_.push_back(std::move(image));
     }
     for (std::size_t i = 0; i < windows_.size(); ++i) {
         const glm::ivec2 size = windows_[i].framebuffer_px();
         if (size.x < 1 || size.y < 1) continue;  // an icon
         windows_[i].make_current();
-        gl::show_in_window(pictures_[i].view(), size.x, size.y);
+        gl::show_in_window(images_[i].view(), size.x, size.y);
         windows_[i].swap();
     }
     windows_.front().make_current();
-    if (std::exchange(takes_pictures_, false)) {
-        for (std::size_t i = 0; i < pictures_.size(); ++i) {
+    if (std::exchange(takes_images_, false)) {
+        for (std::size_t i = 0; i < images_.size(); ++i) {
             int number = shots_;
             const std::string prefix = "wall-" + options_.display.walls[i].name;
-            const auto path = free_name(options_.pictures, prefix.c_str(), ".png", number);
-            RS_TRY(write_png(path, pictures_[i]));
+            const auto path = free_name(options_.images, prefix.c_str(), ".png", number);
+            RS_TRY(write_png(path, images_[i]));
         }
     }
     return true;

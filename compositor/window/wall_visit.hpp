@@ -2,12 +2,12 @@
 // A visit with a window for each wall of a display: the room is driven through the scene, and the head moves in the
 // room, by keys, by a list or by a tracker.
 //
-//     scene -> one compositor, wall by wall and eye by eye -> pictures -> the windows, each with a context of its own
+//     scene -> one compositor, wall by wall and eye by eye -> images -> the windows, each with a context of its own
 //
 // Keys: 1 drives the room along the ground, 2 also up and down, 3 moves the head in the room; page up and down, home:
 // the scene's viewpoints; P writes what the windows show; escape leaves. For the main thread only.
 
-#include "compositor/displays/stereo_picture.hpp"
+#include "compositor/displays/stereo_image.hpp"
 #include "compositor/displays/walls_file.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
@@ -39,7 +39,7 @@ struct WallVisitOptions {
     double exposure_ev = 0;
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples = FrameOptions{}.object_samples;
-    std::filesystem::path pictures = ".";                                 // where P writes to
+    std::filesystem::path images = ".";                                   // where P writes to
     std::function<void(const std::vector<std::string>&)> warn = nullptr;  // of objects that cannot be shown
     WindowOptions window = {};                                            // but for title and size
 };
@@ -59,7 +59,7 @@ public:
     [[nodiscard]] const Head& head() const { return head_; }
     [[nodiscard]] const RoomPlace& place() const { return place_; }
     // Of the last frame, by wall, as the windows show them.
-    [[nodiscard]] const std::vector<Image<Rgba8>>& pictures() const { return pictures_; }
+    [[nodiscard]] const std::vector<Image<Rgba8>>& images() const { return images_; }
 
 private:
     WallVisit(std::vector<Window> windows, std::unique_ptr<Showroom> showroom, const Scene& scene,
@@ -69,7 +69,7 @@ private:
     void move(double seconds);
     [[nodiscard]] bool sees_all_walls(const Head& head) const;
     Result<Image<Rgba8>> drawn(const Wall& wall, double offset_m);
-    Result<Image<Rgba8>> picture_of(const Wall& wall);
+    Result<Image<Rgba8>> image_of(const Wall& wall);
 
     std::vector<Window> windows_;  // the first one's context draws
     std::unique_ptr<Showroom> showroom_;
@@ -84,8 +84,8 @@ private:
     Head head_;
     std::size_t next_head_ = 0;
     RoomPlace place_;
-    std::vector<Image<Rgba8>> pictures_;
-    bool takes_pictures_ = false;
+    std::vector<Image<Rgba8>> images_;
+    bool takes_images_ = false;
     bool leaves_ = false;
     int shots_ = 0;
     std::chrono::steady_clock::time_point last_;

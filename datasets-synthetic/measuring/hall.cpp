@@ -241,7 +241,7 @@ Model make(const HallPlan& plan) {
     Model model;
     model.name = plan.name;
     model.looks = hall_looks();
-    model.pictures = hall_pictures();
+    model.images = hall_images();
     const float length = length_of(plan);
     const std::size_t columns = add_group(model, fluted_column(plan.flutes, plan.shaft_rows));
     for (int bay = 1; bay < plan.bays; ++bay) {

@@ -16,9 +16,9 @@ using glm::vec3;
 constexpr HallLooks kLooks;
 
 // Veins where layered noise passes zero. It repeats at its edges: the noise is laid on a torus.
-Image<Rgba8> stone_picture(vec3 ground, vec3 vein, std::uint32_t seed) {
+Image<Rgba8> stone_image(vec3 ground, vec3 vein, std::uint32_t seed) {
     constexpr int kSide = 256;
-    Image<Rgba8> picture(kSide, kSide);
+    Image<Rgba8> image(kSide, kSide);
     for (int y = 0; y < kSide; ++y) {
         for (int x = 0; x < kSide; ++x) {
             const float s = portable::kTwoPiF * static_cast<float>(x) / kSide;
@@ -30,11 +30,10 @@ Image<Rgba8> stone_picture(vec3 ground, vec3 vein, std::uint32_t seed) {
             const float share = std::clamp(1.0F - 7.0F * streak, 0.0F, 1.0F);
             const float cloud = 0.92F + 0.12F * layered_noise(place * 0.7F + vec3(5.0F), 3, seed + 1);
             const vec3 colour = glm::mix(ground, vein, 0.6F * share) * cloud;
-            picture(x, y) = {srgb8_from_linear(colour.r), srgb8_from_linear(colour.g), srgb8_from_linear(colour.b),
-                             255};
+            image(x, y) = {srgb8_from_linear(colour.r), srgb8_from_linear(colour.g), srgb8_from_linear(colour.b), 255};
         }
     }
-    return picture;
+    return image;
 }
 
 void legs(GroupBuilder& piece, vec2 half, float height) {
@@ -70,9 +69,9 @@ std::vector<ModelLook> hall_looks() {
             {"carpet", {0.35F, 0.06F, 0.07F}}};
 }
 
-std::map<std::string, Image<Rgba8>> hall_pictures() {
-    return {{"marble.png", stone_picture({0.78F, 0.75F, 0.7F}, {0.42F, 0.4F, 0.38F}, 71)},
-            {"dark.png", stone_picture({0.12F, 0.14F, 0.13F}, {0.5F, 0.5F, 0.46F}, 72)}};
+std::map<std::string, Image<Rgba8>> hall_images() {
+    return {{"marble.png", stone_image({0.78F, 0.75F, 0.7F}, {0.42F, 0.4F, 0.38F}, 71)},
+            {"dark.png", stone_image({0.12F, 0.14F, 0.13F}, {0.5F, 0.5F, 0.46F}, 72)}};
 }
 
 ModelGroup fluted_column(int flutes, int rows) {

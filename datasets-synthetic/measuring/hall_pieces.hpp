@@ -12,7 +12,7 @@ struct HallLooks {
 };
 std::vector<ModelLook> hall_looks();
 // marble.png and dark.png, which the looks name.
-std::map<std::string, Image<Rgba8>> hall_pictures();
+std::map<std::string, Image<Rgba8>> hall_images();
 
 inline constexpr float kColumnHeight_m = 5.0F;
 

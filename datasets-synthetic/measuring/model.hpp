@@ -18,7 +18,7 @@ struct ModelLook {
     std::string name;
     glm::vec3 colour{0.8F};  // linear
     float roughness = 0.9F;
-    std::string picture = {};  // of Model::pictures; multiplies the colour, which it repeats over
+    std::string image = {};  // of Model::images; multiplies the colour, which it repeats over
 };
 
 // Meshes name their look as their material.
@@ -41,7 +41,7 @@ struct ModelView {
 struct Model {
     std::string name;
     std::vector<ModelLook> looks;
-    std::map<std::string, Image<Rgba8>> pictures;  // file name -> picture
+    std::map<std::string, Image<Rgba8>> images;  // file name -> image
     std::vector<ModelGroup> groups;
     std::vector<ModelNode> nodes;
     std::vector<ModelView> views;                   // the first is where a visit begins

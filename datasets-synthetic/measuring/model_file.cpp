@@ -2,7 +2,7 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
@@ -59,14 +59,14 @@ public:
     std::vector<std::byte> bytes_;
 };
 
-OrderedJson materials_of(const Model& model, const std::vector<std::string>& pictures) {
+OrderedJson materials_of(const Model& model, const std::vector<std::string>& images) {
     OrderedJson materials = OrderedJson::array();
     for (const ModelLook& look : model.looks) {
         OrderedJson surface{{"baseColorFactor", {look.colour.r, look.colour.g, look.colour.b, 1.0}},
                             {"metallicFactor", 0},
                             {"roughnessFactor", look.roughness}};
-        for (std::size_t i = 0; i < pictures.size(); ++i) {
-            if (pictures[i] == look.picture) surface["baseColorTexture"] = {{"index", i}};
+        for (std::size_t i = 0; i < images.size(); ++i) {
+            if (images[i] == look.image) surface["baseColorTexture"] = {{"index", i}};
         }
         materials.push_back({{"name", look.name}, {"pbrMetallicRoughness", surface}, {"doubleSided", true}});
     }
@@ -79,8 +79,8 @@ glm::mat4 camera_matrix(const ModelView& view) {
 }
 
 OrderedJson gltf_of(const Model& model, const std::string& name, Buffer& buffer) {
-    std::vector<std::string> pictures;
-    for (const auto& [file, picture] : model.pictures) pictures.push_back(file);
+    std::vector<std::string> images;
+    for (const auto& [file, image] : model.images) images.push_back(file);
     OrderedJson gltf{{"asset", {{"version", "2.0"}, {"generator", "rs-showroom"}}}, {"scene", 0}};
     OrderedJson meshes = OrderedJson::array();
     for (const ModelGroup& group : model.groups) {
@@ -88,7 +88,7 @@ OrderedJson gltf_of(const Model& model, const std::string& name, Buffer& buffer)
         for (const capture::Mesh& mesh : group.meshes) {
             OrderedJson attributes{{"POSITION", buffer.add_positions(mesh.positions)},
                                    {"NORMAL", buffer.add(mesh.normals, "VEC3", kFloat, kOfVertices)}};
-            if (!model.looks[static_cast<std::size_t>(mesh.material)].picture.empty()) {
+            if (!model.looks[static_cast<std::size_t>(mesh.material)].image.empty()) {
                 attributes["TEXCOORD_0"] = buffer.add(mesh.uvs, "VEC2", kFloat, kOfVertices);
             }
             const int indices = buffer.add(mesh.triangles, "SCALAR", kUnsigned, kOfIndices);
@@ -110,11 +110,11 @@ OrderedJson gltf_of(const Model& model, const std::string& name, Buffer& buffer)
     gltf["nodes"] = nodes;
     gltf["meshes"] = meshes;
     gltf["cameras"] = cameras;
-    gltf["materials"] = materials_of(model, pictures);
-    if (!pictures.empty()) {
+    gltf["materials"] = materials_of(model, images);
+    if (!images.empty()) {
         gltf["images"] = gltf["textures"] = OrderedJson::array();
-        for (std::size_t i = 0; i < pictures.size(); ++i) {
-            gltf["images"].push_back({{"uri", pictures[i]}});
+        for (std::size_t i = 0; i < images.size(); ++i) {
+            gltf["images"].push_back({{"uri", images[i]}});
             gltf["textures"].push_back({{"source", i}});
         }
     }
@@ -137,8 +137,8 @@ Status write_model(const Model& model, const std::filesystem::path& output, cons
     for (const auto& [file, ies] : model.luminaires) {
         if (Status status = write_file(folder / file, ies); !status) return status;
     }
-    for (const auto& [file, picture] : model.pictures) {
-        if (Status status = write_png(folder / file, picture); !status) return status;
+    for (const auto& [file, image] : model.images) {
+        if (Status status = write_png(folder / file, image); !status) return status;
     }
     return staged.commit();
 }

@@ -88,7 +88,7 @@ public:
     }
 
     // Star, heart, sun, fish-scale ring or checkers.
-    void picture(vec2 corner_px, int which, vec3 colour) {
+    void image(vec2 corner_px, int which, vec3 colour) {
         const vec2 centre = corner_px + 0.5F * kTile;
         const Ink ink{colour, 0.96F, 0.18F, 0.2F, random_.next()};
         switch (which % 5) {
@@ -170,11 +170,11 @@ capture::Texture paint_blocks(int blocks, const std::string& text, std::uint64_t
             painter.wood(corner_px, static_cast<std::uint32_t>(block * kBlockFaces + face));
             painter.frame(corner_px, toy_colour(block + face));
             const vec3 colour = toy_colour(block + face + 1 + face / 2);
-            // Letters on three sides, a picture on the fourth and at the ends: no two neighbours alike.
+            // Letters on three sides, an image on the fourth and at the ends: no two neighbours alike.
             if (face < 3)
                 painter.letter(corner_px, text[static_cast<std::size_t>(block + face * 3) % text.size()], colour);
             else
-                painter.picture(corner_px, block + 2 * face, colour);
+                painter.image(corner_px, block + 2 * face, colour);
         }
     }
     return std::move(canvas).texture("block faces");

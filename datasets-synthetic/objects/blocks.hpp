@@ -19,7 +19,7 @@
 
 namespace rs::synthetic {
 
-// The faces of the toy blocks: wood, a coloured frame, a letter or a picture.
+// The faces of the toy blocks: wood, a coloured frame, a letter or an image.
 
 inline constexpr int kBlockFaces = 6;
 

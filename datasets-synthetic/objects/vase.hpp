@@ -30,7 +30,7 @@ struct VasePainting {
     std::uint64_t seed = 1;
 };
 
-// `outer_profile`: (radius, height) from foot to lip; texture v is arc length along it. The picture's height is
+// `outer_profile`: (radius, height) from foot to lip; texture v is arc length along it. The image's height is
 // chosen so that pixels are square where the vase is widest; where it is narrower, motifs are drawn wider to make up
 // for it.
 capture::Texture paint_vase(std::span<const glm::vec2> outer_profile, const VasePainting& painting);

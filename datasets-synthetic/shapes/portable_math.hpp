@@ -2,7 +2,7 @@
 // Elementary functions with the same bits on every machine.
 //
 // The C library's sin, cos and atan2 may differ in the last place between versions, and a synthetic object must not:
-// tests compare the hash of every generated mesh and picture. These use only + - * / sqrt and floor, which IEEE 754
+// tests compare the hash of every generated mesh and image. These use only + - * / sqrt and floor, which IEEE 754
 // rounds exactly (the project is compiled with -ffp-contract=off). Absolute error below 1e-13 for |x| < 300 (tested).
 // Thread-safe; no errors.
 

@@ -105,7 +105,7 @@ void framed_painting(RoomBuilder& room, const std::string& name, vec3 middle, ve
     room.painted_sheet(name, {corner + vec3{0, 0, 0.015F}, {size_m.x, 0, 0}, {0, size_m.y, 0}}, 300, painter);
     const vec2 profile[] = {
         {0.0F, 0.0F}, {0.0F, 0.035F}, {0.02F, 0.045F}, {0.06F, 0.028F}, {kFrame_m + 0.004F, 0.014F}};
-    room.picture_frame(
+    room.image_frame(
         "gilt",
         {corner - vec3{kFrame_m, kFrame_m, 0}, {size_m.x + 2 * kFrame_m, 0, 0}, {0, size_m.y + 2 * kFrame_m, 0}},
         profile);

@@ -14,7 +14,7 @@ namespace rs::synthetic {
 // Woods, metals, ceramics, cloth. To be called once for a world.
 void furniture_looks(RoomBuilder& room);
 
-// Something on a shelf: an object made of pictures, or goods.
+// Something on a shelf: an object made of images, or goods.
 struct ShelfPlace {
     int board = 0;          // of ShelfUnit::heights_m
     float x_m = 0.0F;       // of its middle

@@ -4,7 +4,7 @@
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/showroom/furniture.hpp"
-#include "datasets-synthetic/showroom/picture_painting.hpp"
+#include "datasets-synthetic/showroom/image_painting.hpp"
 #include "datasets-synthetic/showroom/room_shell.hpp"
 #include "datasets-synthetic/showroom/shop.hpp"
 #include "datasets-synthetic/showroom/surface_painting.hpp"
@@ -105,12 +105,12 @@ void skylight(RoomBuilder& room) {
                  {kSkyHigh.x - 0.01F, kGlass_m - 0.004F, z + 0.05F});
     }
     const vec2 profile[] = {{0.0F, 0.0F}, {0.02F, 0.05F}, {0.09F, 0.07F}, {0.13F, 0.02F}, {0.14F, 0.0F}};
-    room.picture_frame("white_paint",
-                       {{kSkyLow.x - 0.14F, h, kSkyLow.y - 0.14F}, {size.x + 0.28F, 0, 0}, {0, 0, size.y + 0.28F}},
-                       profile);
+    room.image_frame("white_paint",
+                     {{kSkyLow.x - 0.14F, h, kSkyLow.y - 0.14F}, {size.x + 0.28F, 0, 0}, {0, 0, size.y + 0.28F}},
+                     profile);
 }
 
-// Light that a skylight and picture lamps leave on a wall: brighter at the height of the pictures.
+// Light that a skylight and image lamps leave on a wall: brighter at the height of the images.
 Painter museum_wall(vec2 size_m, std::uint32_t seed) {
     const Painter plain = plastered(size_m, srgb(0x93A79F), seed);
     return [=](vec2 p) {
@@ -126,7 +126,7 @@ void panels(RoomBuilder& room, float from_m, float to_m) {
     for (int k = 0; k < count; ++k) {
         const float left = from_m + pitch * static_cast<float>(k) + 0.08F;
         const vec2 profile[] = {{0.0F, 0.0F}, {0.012F, 0.018F}, {0.045F, 0.0F}};
-        room.picture_frame("dado", {{left, 0.24F, 0}, {pitch - 0.16F, 0, 0}, {0, kDado_m - 0.36F, 0}}, profile);
+        room.image_frame("dado", {{left, 0.24F, 0}, {pitch - 0.16F, 0, 0}, {0, kDado_m - 0.36F, 0}}, profile);
     }
 }
 
@@ -188,7 +188,7 @@ void museum_walls(RoomBuilder& room) {
     moulding(room, "white_paint", {kLow.x, kHigh.y - 0.25F, kLow.z}, {kHigh.x, kHigh.y - 0.2F, kHigh.z}, 0.04F);
 }
 
-void pictures(RoomBuilder& room) {
+void images(RoomBuilder& room) {
     struct Hung {
         const char* name;
         Painting painting;
@@ -234,7 +234,7 @@ void build_museum(World& world, float texture_scale) {
     museum_floor_and_ceiling(room);
     skylight(room);
     museum_walls(room);
-    pictures(room);
+    images(room);
     int number = 0;
     for (const Plinth& stand : kStands) {
         room.stand_at({stand.place.x, 0, stand.place.y}, stand.facing_deg);

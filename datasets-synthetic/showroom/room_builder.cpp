@@ -117,19 +117,18 @@ void RoomBuilder::painted_look(const std::string& name, vec2 size_m, float px_pe
     const auto pixels = [&](float side_m) {
         return std::clamp(static_cast<int>(std::ceil(side_m * px_per_m * texture_scale_)), 4, 2048);
     };
-    Image<Rgba8> picture(pixels(size_m.x), pixels(size_m.y));
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            const vec2 share{(static_cast<float>(x) + 0.5F) / static_cast<float>(picture.width()),
-                             1.0F - (static_cast<float>(y) + 0.5F) / static_cast<float>(picture.height())};
+    Image<Rgba8> image(pixels(size_m.x), pixels(size_m.y));
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            const vec2 share{(static_cast<float>(x) + 0.5F) / static_cast<float>(image.width()),
+                             1.0F - (static_cast<float>(y) + 0.5F) / static_cast<float>(image.height())};
             const vec3 colour = painter(share * size_m);
-            picture(x, y) = {srgb8_from_linear(colour.x), srgb8_from_linear(colour.y), srgb8_from_linear(colour.z),
-                             255};
+            image(x, y) = {srgb8_from_linear(colour.x), srgb8_from_linear(colour.y), srgb8_from_linear(colour.z), 255};
         }
     }
     look.texture = name + ".png";
     RS_CHECK(!world_.textures.contains(look.texture));
-    world_.textures[look.texture] = std::move(picture);
+    world_.textures[look.texture] = std::move(image);
     world_.looks[name] = std::move(look);
 }
 
@@ -232,7 +231,7 @@ void RoomBuilder::tube(const std::string& look, std::span<const vec3> path, floa
     into_room(mesh, 0);
 }
 
-void RoomBuilder::picture_frame(const std::string& look, const SheetPlace& outer, std::span<const vec2> profile) {
+void RoomBuilder::image_frame(const std::string& look, const SheetPlace& outer, std::span<const vec2> profile) {
     RS_CHECK(profile.size() >= 2);
     capture::Mesh& mesh = add(look, -1);
     const vec3 right = glm::normalize(outer.right);

@@ -14,7 +14,7 @@
 
 namespace rs::synthetic {
 
-// How large the procedural objects are as pictures show them, so that they can be placed by their height. In object
+// How large the procedural objects are as images show them, so that they can be placed by their height. In object
 // radii: the radius of the upright cylinder around the object (rayspace/base/conventions.hpp).
 
 struct ObjectShape {
@@ -50,7 +50,7 @@ public:
     void stand_at(glm::vec3 origin, float turn_deg = 0.0F);
 
     void look(const std::string& name, Look look) { world_.looks[name] = std::move(look); }
-    // A look with a picture of its own, painted as a rectangle of this size.
+    // A look with an image of its own, painted as a rectangle of this size.
     void painted_look(const std::string& name, glm::vec2 size_m, float px_per_m, const Painter& painter,
                       Look look = {});
 
@@ -73,7 +73,7 @@ public:
     void tube(const std::string& look, std::span<const glm::vec3> path, float radius, int sides = 6);
     // A moulding around a rectangle that hangs on a wall, mitred at its corners: `profile` is (inwards from the outer
     // edge, away from the wall), from the outer edge at the wall to the inner edge at the wall.
-    void picture_frame(const std::string& look, const SheetPlace& outer, std::span<const glm::vec2> profile);
+    void image_frame(const std::string& look, const SheetPlace& outer, std::span<const glm::vec2> profile);
 
     // `name`: of a recipe. Made as large as to be so high.
     void object(const std::string& name, glm::vec3 foot, float turn_deg, float height_m);

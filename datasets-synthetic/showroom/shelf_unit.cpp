@@ -1,6 +1,6 @@
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/showroom/furniture.hpp"
-#include "datasets-synthetic/showroom/picture_painting.hpp"
+#include "datasets-synthetic/showroom/image_painting.hpp"
 #include "datasets-synthetic/showroom/surface_painting.hpp"
 
 #include <algorithm>
@@ -62,9 +62,9 @@ void cupboards(RoomBuilder& room, const ShelfUnit& unit) {
             const float front = unit.depth_m - 0.006F;
             room.box("green_paint", {from, 0.085F, front - 0.02F}, {to, top, front});
             const vec2 profile[] = {{0.0F, 0.0F}, {0.01F, 0.009F}, {0.03F, 0.0F}};
-            room.picture_frame("green_paint",
-                               {{from + 0.06F, 0.15F, front}, {to - from - 0.12F, 0, 0}, {0, top - 0.15F - 0.06F, 0}},
-                               profile);
+            room.image_frame("green_paint",
+                             {{from + 0.06F, 0.15F, front}, {to - from - 0.12F, 0, 0}, {0, top - 0.15F - 0.06F, 0}},
+                             profile);
             const float knob = middle + side * 0.04F;
             room.box("brass", {knob - 0.01F, 0.34F, front}, {knob + 0.01F, 0.46F, front + 0.018F});
         }

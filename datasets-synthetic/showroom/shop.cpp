@@ -3,7 +3,7 @@
 #include "datasets-synthetic/shapes/curve.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/showroom/furniture.hpp"
-#include "datasets-synthetic/showroom/picture_painting.hpp"
+#include "datasets-synthetic/showroom/image_painting.hpp"
 #include "datasets-synthetic/showroom/room_shell.hpp"
 #include "datasets-synthetic/showroom/surface_painting.hpp"
 
@@ -220,7 +220,7 @@ void counter(RoomBuilder& room) {
     const float pitch = length / panels;
     for (int k = 0; k < panels; ++k) {
         const vec2 profile[] = {{0.0F, 0.0F}, {0.012F, 0.016F}, {0.045F, 0.0F}};
-        room.picture_frame(
+        room.image_frame(
             "green_paint",
             {{pitch * static_cast<float>(k) + 0.05F, 0.18F, depth - 0.02F}, {pitch - 0.1F, 0, 0}, {0, 0.62F, 0}},
             profile);

@@ -1,6 +1,6 @@
 #pragma once
 // A furnished world as data, before it is written as a file: parts with their looks, textures, places for objects made
-// of pictures, lights and viewpoints.
+// of images, lights and viewpoints.
 //
 // Metres, Y up, the visitor's floor at y = 0. Colours of looks and lights are sRGB, 0xRRGGBB, as VRML97 has them.
 
@@ -70,7 +70,7 @@ struct World {
     std::vector<WorldPart> parts;
     std::vector<WorldObject> objects;
     std::map<std::string, Look> looks;
-    std::map<std::string, Image<Rgba8>> textures;  // file name -> picture
+    std::map<std::string, Image<Rgba8>> textures;  // file name -> image
     std::vector<WorldView> viewpoints;             // the first is where a visit begins
     std::vector<WorldView> walk;                   // the keys of a smooth way through all rooms
     int walk_frames = 1;                           // of the whole way, at 30 a second

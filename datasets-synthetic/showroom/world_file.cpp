@@ -4,7 +4,7 @@
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -187,8 +187,8 @@ Status write_world(const World& world, const std::filesystem::path& output, cons
     const auto write_text = [&](const std::string& file, const std::string& text) -> Status {
         return write_file(staged.temporary_path() / file, text);
     };
-    for (const auto& [file, picture] : world.textures) {
-        if (Status status = write_png(staged.temporary_path() / file, picture); !status) return status;
+    for (const auto& [file, image] : world.textures) {
+        if (Status status = write_png(staged.temporary_path() / file, image); !status) return status;
     }
     if (Status status = write_text(name + ".wrl", vrml_text(world, objects)); !status) return status;
     if (Status status = write_text(name + "-walk.json", walk_text(world)); !status) return status;

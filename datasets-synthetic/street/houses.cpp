@@ -18,7 +18,7 @@ using glm::vec3;
 
 constexpr float kFloor_m = 3.1F;
 constexpr float kGround_m = 3.7F;
-constexpr float kTile_m = 2;  // of the walls' pictures
+constexpr float kTile_m = 2;  // of the walls' images
 constexpr float kShopDepth_m = 1.6F;
 constexpr float kLedge_m = 0.75F;
 
@@ -44,7 +44,7 @@ vec3 plaster_wall(vec2 p, vec3 colour, std::uint32_t seed) {
 }
 
 // A frame with a cross, and behind it a room or the sky's reflection.
-vec3 window_picture(vec2 share, bool lit, int kind) {
+vec3 window_image(vec2 share, bool lit, int kind) {
     const float frame = 0.05F;
     const bool in_frame = share.x < frame || share.x > 1 - frame || share.y < 0.6F * frame ||
                           share.y > 1 - 0.6F * frame || std::abs(share.x - 0.5F) < 0.5F * frame ||
@@ -61,7 +61,7 @@ vec3 window_picture(vec2 share, bool lit, int kind) {
 }
 
 // Letters on a board, as high as most of it.
-vec3 sign_picture(vec2 p, vec2 size, const std::string& text, vec3 board, vec3 ink) {
+vec3 sign_image(vec2 p, vec2 size, const std::string& text, vec3 board, vec3 ink) {
     const float height = 0.56F * size.y;
     float width = 0;
     for (const char c : text) width += (pen_letter(c).width + 0.22F) * height;
@@ -195,7 +195,7 @@ void shop(World& world, Pen& pen, RoomBuilder& builder, const HouseStyle& style)
     const vec2 size{w - 0.6F, 0.62F};
     const std::string look = "sign_" + style.shop;
     builder.painted_look(look, size, 90,
-                         [&](vec2 p) { return sign_picture(p, size, style.shop, srgb(0x1F3A34), srgb(0xE8D9A8)); });
+                         [&](vec2 p) { return sign_image(p, size, style.shop, srgb(0x1F3A34), srgb(0xE8D9A8)); });
     pen.box("shop_front", {0.3F, head + 0.06F, 0}, {w - 0.3F, head + 0.68F, 0.08F});
     pen.quad(look, {vec3{0.3F, head + 0.06F, 0.09F},
                     {w - 0.3F, head + 0.06F, 0.09F},
@@ -235,7 +235,7 @@ void house_looks(RoomBuilder& builder, bool night, std::set<std::string>& unlit)
             builder.painted_look(
                 name, {1, 1.5F}, 80,
                 [&](vec2 p) {
-                    return window_picture(p / vec2{1, 1.5F}, lit, kind);
+                    return window_image(p / vec2{1, 1.5F}, lit, kind);
                 },
                 look);
             if (lit) unlit.insert(name);

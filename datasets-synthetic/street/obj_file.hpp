@@ -13,7 +13,7 @@ struct ObjTexts {
     std::string mtl;
 };
 
-// Looks in `unlit` show their colour or picture as it is (illum 0); "shop_glass" lets most through. Colours are written
+// Looks in `unlit` show their colour or image as it is (illum 0); "shop_glass" lets most through. Colours are written
 // as linear light; ambient reflectances are the diffuse ones.
 ObjTexts obj_texts(const World& world, const std::string& library, const std::set<std::string>& unlit);
 

@@ -29,7 +29,7 @@ vec3 with_paint(vec3 ground, vec2 p) {
 }
 
 // A piece across the road: a dashed line in the middle, whole ones at the edges.
-vec3 road_picture(vec2 p) {
+vec3 road_image(vec2 p) {
     const vec3 ground = asphalt(p, 21);
     const float from_middle = std::abs(p.y - kHalfRoad_m);
     const bool dash = from_middle < 0.07F && std::fmod(p.x, 6.0F) < 3.0F;
@@ -38,12 +38,12 @@ vec3 road_picture(vec2 p) {
 }
 
 // From the edge of the crossing on: the stop line for the lane that comes here, and a zebra crossing.
-vec3 approach_picture(vec2 p, bool right_lane) {
+vec3 approach_image(vec2 p, bool right_lane) {
     const vec3 ground = asphalt(p, 21);
     const bool zebra = p.x > 0.8F && p.x < 3.8F && std::fmod(p.y + 0.25F, 1.0F) < 0.5F;
     const bool in_lane = right_lane ? p.y < kHalfRoad_m : p.y > kHalfRoad_m;
     const bool stop = p.x > 4.6F && p.x < 5.0F && in_lane && std::abs(p.y - kHalfRoad_m) < 3.6F;
-    return zebra || stop ? with_paint(ground, p) : p.x > 5.2F ? road_picture(p) : ground;
+    return zebra || stop ? with_paint(ground, p) : p.x > 5.2F ? road_image(p) : ground;
 }
 
 vec3 paving(vec2 p) {
@@ -94,9 +94,9 @@ void arm(World& world, const std::string& name, float turn_deg, float reach) {
 
 void road_looks(RoomBuilder& builder, bool night, std::set<std::string>& unlit) {
     const vec2 piece{kPiece_m, 2 * kHalfRoad_m};
-    builder.painted_look("road", piece, 40, road_picture, {.specular = 0x181818, .shininess = 0.08F});
+    builder.painted_look("road", piece, 40, road_image, {.specular = 0x181818, .shininess = 0.08F});
     // Seen along the pen's X, vehicles come towards the crossing in the lane on the left.
-    builder.painted_look("road_approach", piece, 40, [](vec2 p) { return approach_picture(p, false); },
+    builder.painted_look("road_approach", piece, 40, [](vec2 p) { return approach_image(p, false); },
                          {.specular = 0x181818, .shininess = 0.08F});
     builder.painted_look("crossing", {14, 14}, 24, [](vec2 p) { return asphalt(p, 22); },
                          {.specular = 0x181818, .shininess = 0.08F});

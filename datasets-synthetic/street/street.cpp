@@ -8,7 +8,7 @@
 #include "datasets-synthetic/street/vehicles.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -251,17 +251,17 @@ Sky sky_of(bool night) {
 }
 
 // Latitude and longitude; sRGB. At night of its own brightness by the list's scale.
-Image<Rgba8> sky_picture(bool night) {
+Image<Rgba8> sky_image(bool night) {
     const Sky sky = night ? Sky{{0.45F, 0.55F, 1.0F}, {0.8F, 0.85F, 1.0F}} : sky_of(false);
-    Image<Rgba8> picture(64, 32);
+    Image<Rgba8> image(64, 32);
     for (int y = 0; y < 32; ++y) {
         const float up = std::max(1 - (static_cast<float>(y) + 0.5F) / 16, 0.0F);
         vec3 colour = glm::mix(sky.horizon, sky.zenith, std::sqrt(up));
         if (y >= 16) colour = vec3(0.36F, 0.36F, 0.34F);
         const auto byte = [](float v) { return static_cast<std::uint8_t>(std::lround(255 * v)); };
-        for (int x = 0; x < 64; ++x) picture(x, y) = {byte(colour.x), byte(colour.y), byte(colour.z), 255};
+        for (int x = 0; x < 64; ++x) image(x, y) = {byte(colour.x), byte(colour.y), byte(colour.z), 255};
     }
-    return picture;
+    return image;
 }
 
 std::string frame_name(std::size_t number) {
@@ -285,8 +285,8 @@ ordered_json frames_json(std::size_t count, const Scenario& scenario) {
 Status write_model(const World& world, const std::set<std::string>& unlit, const fs::path& folder,
                    const std::string& name, const std::string& more) {
     const ObjTexts texts = obj_texts(world, name + ".mtl", unlit);
-    for (const auto& [file, picture] : world.textures) {
-        if (Status status = write_png(folder / file, picture); !status) return status;
+    for (const auto& [file, image] : world.textures) {
+        if (Status status = write_png(folder / file, image); !status) return status;
     }
     if (Status status = write_file(folder / (name + ".mtl"), texts.mtl); !status) return status;
     return write_file(folder / (name + ".obj"), texts.obj + more);
@@ -351,7 +351,7 @@ Result<StreetFigures> write_street(const StreetOptions& options, const fs::path&
     const bool night = options.scenario.night;
     const fs::path scenario = map / "configs" / "scenario.json";
     RS_TRY(write_file(scenario, scenario_json(options.scenario)));
-    RS_TRY(write_png(map / "out" / "sky.png", sky_picture(night)));
+    RS_TRY(write_png(map / "out" / "sky.png", sky_image(night)));
     const std::string lights = lights_of_street(street, night).dump(1) + "\n";
     RS_TRY(write_out("lights.json", lights));
     const std::string json = frames_json(frames.size(), options.scenario).dump(1) + "\n";

@@ -1,13 +1,13 @@
 #pragma once
-// The encoder of the `dense` profile: pictures of a ring are coded level by level, each predicted from its nearest
+// The encoder of the `dense` profile: images of a ring are coded level by level, each predicted from its nearest
 // coded neighbours on the ring; every tile chooses by rate and distortion, and the probabilities are those of the
 // object.
 
-#include "encode/codec/encoded_pictures.hpp"
+#include "encode/codec/encoded_images.hpp"
 #include "encode/codec/search_effort.hpp"
-#include "encode/codec/source_picture.hpp"
+#include "encode/codec/source_image.hpp"
 #include "rayspace/base/progress.hpp"
-#include "rayspace/codec/code/coded_pictures.hpp"
+#include "rayspace/codec/code/coded_images.hpp"
 #include "rayspace/image/image.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
@@ -29,7 +29,7 @@ struct DenseSettings {
 };
 
 // The alpha bits that are worth their cost at a step: one, of which the decoder makes soft edges, from a step of 20 on.
-// Not where pictures of 31 dB and more are requested (wanted_db; 0: no fidelity is), however coarse the step that
+// Not where images of 31 dB and more are requested (wanted_db; 0: no fidelity is), however coarse the step that
 // reaches them: what one bit costs at the edges is more than all else together.
 constexpr int dense_alpha_bits(double step, double wanted_db) {
     return step >= 20 && wanted_db < 31 ? 1 : 2;
@@ -38,11 +38,11 @@ constexpr int dense_alpha_bits(double step, double wanted_db) {
 // `sources`: one per view, of settings.alpha_bits. The object gives rings and sizes. The same input gives the same
 // bytes on any number of threads. Memory: 4 bytes a sample of the coded size, and some two bytes for each bit of the
 // result.
-EncodedPictures encode_dense(const RaySpaceObject& object, const std::vector<SourcePicture>& sources,
-                             const DenseSettings& settings, Progress* progress = nullptr);
+EncodedImages encode_dense(const RaySpaceObject& object, const std::vector<SourceImage>& sources,
+                           const DenseSettings& settings, Progress* progress = nullptr);
 
-// The same of RGBA pictures; `picture(view)` is called once per view, from several threads.
-codec::CodedPictures encode_dense(const RaySpaceObject& object, const std::function<Image<Rgba8>(int)>& picture,
-                                  const DenseSettings& settings, Progress* progress = nullptr);
+// The same of RGBA images; `image(view)` is called once per view, from several threads.
+codec::CodedImages encode_dense(const RaySpaceObject& object, const std::function<Image<Rgba8>(int)>& image,
+                                const DenseSettings& settings, Progress* progress = nullptr);
 
 }  // namespace rs::encode

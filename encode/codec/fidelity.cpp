@@ -11,12 +11,12 @@
 
 namespace rs::encode {
 
-double coded_psnr(const std::vector<SourcePicture>& sources, int width, int height, int alpha_bits,
+double coded_psnr(const std::vector<SourceImage>& sources, int width, int height, int alpha_bits,
                   const std::function<codec::ConstPlaneViews(std::size_t view)>& reconstruction) {
     // Integer sums: the same on any number of threads.
     std::vector<std::array<std::int64_t, 2>> sums(sources.size());  // squared error, samples
     for_each_index(sources.size(), [&](std::size_t v) {
-        const SourcePicture& source = sources[v];
+        const SourceImage& source = sources[v];
         const codec::ConstPlaneViews planes = reconstruction(v);
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {

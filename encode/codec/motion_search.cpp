@@ -38,8 +38,7 @@ public:
     void try_exact(MotionVector vector) {
         if (std::abs(vector.x) > codec::kMaxMotion_q2 || std::abs(vector.y) > codec::kMaxMotion_q2) return;
         std::uint8_t samples[kLargestBlock * kLargestBlock];
-        codec::predict_from_picture(search_.reference, search_.x, search_.y, vector, search_.size, samples,
-                                    search_.size);
+        codec::predict_from_image(search_.reference, search_.x, search_.y, vector, search_.size, samples, search_.size);
         take(vector, samples, search_.size);
     }
 

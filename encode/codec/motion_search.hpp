@@ -1,7 +1,7 @@
 #pragma once
-// Where in another picture a unit is best predicted from.
+// Where in another image a unit is best predicted from.
 
-#include "encode/codec/source_picture.hpp"
+#include "encode/codec/source_image.hpp"
 #include "rayspace/codec/kernels/prediction.hpp"
 
 #include <span>
@@ -9,14 +9,14 @@
 namespace rs::encode {
 
 struct MotionSearch {
-    const SourcePicture* source = nullptr;
+    const SourceImage* source = nullptr;
     ConstImageView<std::uint8_t> reference;  // its Y
     int x = 0;                               // the unit
     int y = 0;
     int size = 16;
     int reach_x = 16;  // whole samples around each start
     int reach_y = 2;
-    bool fractions = true;  // halves and quarters too, and what lies partly outside of the picture
+    bool fractions = true;  // halves and quarters too, and what lies partly outside of the image
     int step = 1;           // whole samples between those that are looked at first; all neighbours of the best follow
     int neighbours = 8;     // in halves and quarters of a sample that are looked at: 8, or 4
     float bit_cost = 0;     // sum of absolute differences that a bit of a vector is worth

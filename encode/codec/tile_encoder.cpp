@@ -1,6 +1,6 @@
 #include "encode/codec/tile_encoder.hpp"
 
-#include "encode/codec/unit_search.hpp"
+#include "encode/codec/mode_decision.hpp"
 #include "rayspace/codec/alpha_mask.hpp"
 #include "rayspace/codec/deblocking.hpp"
 #include "rayspace/codec/prediction_unit.hpp"
@@ -20,7 +20,7 @@ using codec::UnitChoice;
 
 class TileEncoder {
 public:
-    TileEncoder(const PictureTask& task, const CostTable& costs, const codec::TilePlace& place,
+    TileEncoder(const ImageTask& task, const CostTable& costs, const codec::TilePlace& place,
                 std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>& motions)
         : task_(task),
           costs_(costs),
@@ -79,7 +79,7 @@ private:
             codec::clear_tile({left_ + bx * kBlock, top_ + by * kBlock, kMacroblock, kMacroblock}, task_.out);
             return;
         }
-        const UnitSearch search(task_, costs_, state_, left_, top_);
+        const ModeDecision search(task_, costs_, state_, left_, top_);
 
         Estimator whole_bits(costs_);
         codec::syntax::split(whole_bits, state_.grid, bx, by, false);
@@ -121,7 +121,7 @@ private:
         }
     }
 
-    void put(const UnitSearch& search, const PredictionUnit& unit, UnitChoice& choice) {
+    void put(const ModeDecision& search, const PredictionUnit& unit, UnitChoice& choice) {
         search.write(unit, choice, recorder_);
         search.commit(unit, choice);
         for (std::size_t r = 0; r < 2; ++r) {
@@ -129,7 +129,7 @@ private:
         }
     }
 
-    const PictureTask& task_;
+    const ImageTask& task_;
     const CostTable& costs_;
     codec::TilePlace place_;
     int left_;
@@ -146,7 +146,7 @@ private:
 
 }  // namespace
 
-void encode_tile(const PictureTask& task, const CostTable& costs, const codec::TilePlace& place,
+void encode_tile(const ImageTask& task, const CostTable& costs, const codec::TilePlace& place,
                  std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>& motions) {
     TileEncoder(task, costs, place, decisions, motions).encode();
 }

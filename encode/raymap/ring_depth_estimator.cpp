@@ -80,10 +80,10 @@ RingDepthEstimator::RingDepthEstimator(const CaptureSet& set, const Rig& rig, co
     reduction_ = (longest + options.working_size_px - 1) / options.working_size_px;
 }
 
-void RingDepthEstimator::set_photo(std::size_t n, const Image<Rgba8>& picture) {
+void RingDepthEstimator::set_photo(std::size_t n, const Image<Rgba8>& image) {
     const Camera& camera = rig_.views[static_cast<std::size_t>(ring_.views[n])].camera;
     WorkView& view = views_[n].view;
-    view = make_work_view(camera, picture, reduction_);
+    view = make_work_view(camera, image, reduction_);
     soft_[n] = soft_pixels(view);
     if (layer_ == Layer::kSoft) cover_soft(view, soft_[n]);
     weaken_shading(view);
@@ -93,9 +93,9 @@ void RingDepthEstimator::set_photo(std::size_t n, const Image<Rgba8>& picture) {
 Status RingDepthEstimator::read_photos(Progress* progress, const PhotoSink& sink) {
     return for_each_in_parallel(count(), "photos for depth", progress, [&](int n) -> Status {
         const int v = ring_.views[static_cast<std::size_t>(n)];
-        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, read_upright_picture(set_, v));
-        sink(v, picture);
-        set_photo(static_cast<std::size_t>(n), picture);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, read_upright_image(set_, v));
+        sink(v, image);
+        set_photo(static_cast<std::size_t>(n), image);
         return {};
     });
 }
@@ -124,10 +124,10 @@ Status RingDepthEstimator::complete_masks(Progress* progress, const PhotoSink& s
     }
     if (static_cast<double>(lacking.size()) > kMaxLackingShare * static_cast<double>(views_.size())) return {};
     for (const std::size_t n : lacking) {
-        RS_ASSIGN_OR_RETURN(const std::optional<Image<Rgba8>> picture, paint_part(n, half, parts[n]));
-        if (!picture) continue;
-        sink(ring_.views[n], *picture);
-        set_photo(n, *picture);
+        RS_ASSIGN_OR_RETURN(const std::optional<Image<Rgba8>> image, paint_part(n, half, parts[n]));
+        if (!image) continue;
+        sink(ring_.views[n], *image);
+        set_photo(n, *image);
     }
     return {};
 }
@@ -166,18 +166,18 @@ Result<std::vector<Image<float>>> RingDepthEstimator::find_missing(const RingDep
 Result<std::optional<Image<Rgba8>>> RingDepthEstimator::paint_part(std::size_t n, const RingDepthEstimator& half,
                                                                    const Image<float>& part) const {
     constexpr int kFarthestPainter = 3;  // photos away
-    RS_ASSIGN_OR_RETURN(Image<Rgba8> picture, read_upright_picture(set_, ring_.views[n]));
-    LostPartPainter painter(half.views_[n].view, part, half.reduction_, std::move(picture));
+    RS_ASSIGN_OR_RETURN(Image<Rgba8> image, read_upright_image(set_, ring_.views[n]));
+    LostPartPainter painter(half.views_[n].view, part, half.reduction_, std::move(image));
     for (int away = 1; away <= std::min(kFarthestPainter, count() / 2) && !painter.done(); ++away) {
-        std::vector<Image<Rgba8>> pictures;
-        pictures.reserve(2);
+        std::vector<Image<Rgba8>> images;
+        images.reserve(2);
         std::vector<LostPartPainter::Painter> painters;
         for (const int sense : {-away, away}) {
             const auto from = static_cast<std::size_t>((static_cast<int>(n) + sense + count()) % count());
             if (degrees(angle_between(views_[n].view, views_[from].view)) > options_.lines.widest_gap_deg) continue;
-            RS_ASSIGN_OR_RETURN(Image<Rgba8> other, read_upright_picture(set_, ring_.views[from]));
-            pictures.push_back(std::move(other));
-            painters.push_back({&half.views_[from], &pictures.back()});
+            RS_ASSIGN_OR_RETURN(Image<Rgba8> other, read_upright_image(set_, ring_.views[from]));
+            images.push_back(std::move(other));
+            painters.push_back({&half.views_[from], &images.back()});
         }
         if (painters.size() == 2 && painter.shown_by(painters[0]) < painter.shown_by(painters[1])) {
             std::swap(painters[0], painters[1]);
@@ -185,7 +185,7 @@ Result<std::optional<Image<Rgba8>>> RingDepthEstimator::paint_part(std::size_t n
         for (const LostPartPainter::Painter& from : painters) painter.paint_from(from);
     }
     if (!painter.half_done()) return std::optional<Image<Rgba8>>();
-    return std::optional(std::move(painter).picture());
+    return std::optional(std::move(painter).image());
 }
 
 Status RingDepthEstimator::match_colors(Progress* progress) {
@@ -260,10 +260,10 @@ void RingDepthEstimator::append_warnings(const ShapeMap& shape, std::vector<std:
         missing += (missing.empty() ? "" : ", ") + sector_text(view, views_[(n + 1) % views_.size()]);
     }
     if (views_.size() == 1) {
-        warnings.push_back("there is one picture; it is shown as it is from everywhere");
+        warnings.push_back("there is one image; it is shown as it is from everywhere");
     } else if (!missing.empty()) {
-        warnings.push_back("there are no pictures between " + missing +
-                           "; from there the nearest picture is shown as it is");
+        warnings.push_back("there are no images between " + missing +
+                           "; from there the nearest image is shown as it is");
     }
 }
 

@@ -9,11 +9,11 @@
 namespace rs::encode {
 namespace {
 
-std::string lost_parts_text(const CompletedPictures& completed, const Rig& rig) {
+std::string lost_parts_text(const CompletedImages& completed, const Rig& rig) {
     const std::string first = rig.views[static_cast<std::size_t>(completed.begin()->first)].file_path;
     const std::string count = std::to_string(completed.size());
     return (completed.size() == 1 ? "the cut-out of " + first + " lacks" : count + " cut-outs lack") +
-           " a large part that the pictures beside show" +
+           " a large part that the images beside show" +
            (completed.size() == 1 ? "" : " (" + first + " is the first)") +
            "; it is painted from those. Cut out whole it would be the photograph's own";
 }
@@ -21,12 +21,12 @@ std::string lost_parts_text(const CompletedPictures& completed, const Rig& rig) 
 }  // namespace
 
 Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
-                                   const ShapeOptions& options, bool keep_pictures, RaySpaceObject& object,
+                                   const ShapeOptions& options, bool keep_images, RaySpaceObject& object,
                                    Progress* progress) {
     RS_CHECK(set.completed.empty());
     FoundShapes found;
-    const auto keep = [&](int v, const Image<Rgba8>& picture) {
-        if (keep_pictures) object.pictures[static_cast<std::size_t>(v)] = planar_from_rgba(picture);
+    const auto keep = [&](int v, const Image<Rgba8>& image) {
+        if (keep_images) object.images[static_cast<std::size_t>(v)] = planar_from_rgba(image);
     };
     std::vector<RingDepthEstimator> estimators;
     estimators.reserve(rings.size());
@@ -44,9 +44,9 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
     };
     choose_hulls();
     CaptureSet whole = set;  // with completed masks
-    const auto keep_completed = [&](int v, const Image<Rgba8>& picture) {
-        keep(v, picture);
-        whole.completed.insert_or_assign(v, picture);
+    const auto keep_completed = [&](int v, const Image<Rgba8>& image) {
+        keep(v, image);
+        whole.completed.insert_or_assign(v, image);
     };
     for (RingDepthEstimator& estimator : estimators) {
         RS_TRY(estimator.complete_masks(progress, keep_completed));

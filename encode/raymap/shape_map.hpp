@@ -43,7 +43,7 @@ struct FoundDepth {
 
 struct FoundShapes {
     std::vector<FoundDepth> samples;    // of a few views
-    CompletedPictures completed;        // photos whose masks were completed
+    CompletedImages completed;          // photos whose masks were completed
     std::vector<std::string> warnings;  // one line each
 };
 
@@ -51,13 +51,13 @@ struct FoundShapes {
 /// \param set            read photo by photo; has no completed photos yet.
 /// \param rig            set.upright, in object radii.
 /// \param rings          from find_rings().
-/// \param keep_pictures  whether to store the photos, with completed masks, in the object.
+/// \param keep_images  whether to store the photos, with completed masks, in the object.
 /// \param object         has its views and rings, but not their shapes.
 /// \return warnings and depth maps for display; errors of reading.
 /// Memory: at the working size 10 bytes per pixel and photo, 4 bytes per full-size pixel of `completed`, and for each
 /// thread about 3 bytes per object pixel and depth level.
 Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
-                                   const ShapeOptions& options, bool keep_pictures, RaySpaceObject& object,
+                                   const ShapeOptions& options, bool keep_images, RaySpaceObject& object,
                                    Progress* progress = nullptr);
 
 }  // namespace rs::encode

@@ -25,8 +25,8 @@ void add_what_was_built(HtmlPage& page, const BuildReport& report) {
 
 Status add_captured(HtmlPage& page, const BuildReport& report) {
     if (report.captured.empty()) return {};
-    page.heading("Captured pictures");
-    return page.pictures(report.captured, kThumbnail_px);
+    page.heading("Captured images");
+    return page.images(report.captured, kThumbnail_px);
 }
 
 void add_rings(HtmlPage& page, const BuildReport& report) {
@@ -75,7 +75,7 @@ void add_score_tables(HtmlPage& page, const std::vector<MethodScores>& scores) {
     std::vector<std::vector<std::string>> rows;
     for (std::size_t n = 0; n < scores.front().views.size(); ++n) {
         const HeldOutScore& first = scores.front().views[n];
-        std::vector<std::string> row{std::to_string(first.view), first.picture};
+        std::vector<std::string> row{std::to_string(first.view), first.image};
         for (const MethodScores& method : scores) row.push_back(two_decimals(method.views[n].psnr_db));
         rows.push_back(std::move(row));
     }
@@ -93,9 +93,9 @@ Status add_scores(HtmlPage& page, const BuildReport& report) {
     }
     page.paragraph(
         "For these figures alone objects were built without the views that they are scored on. " + report.hold_out +
-        " \"photo\" shows the nearest picture that was kept, \"plane\" takes the object to lie on the reference "
+        " \"photo\" shows the nearest image that was kept, \"plane\" takes the object to lie on the reference "
         "planes, "
-        "\"shape\" uses the depth found from the pictures. The steps between the kept views are wider than those of "
+        "\"shape\" uses the depth found from the images. The steps between the kept views are wider than those of "
         "the "
         "object in the file, which is better than these figures. PSNR and SSIM over the object's pixels, colours "
         "premultiplied by alpha.");
@@ -104,17 +104,17 @@ Status add_scores(HtmlPage& page, const BuildReport& report) {
         page.paragraph("Beside each answer its error: black is right, white is " + std::to_string(kErrorFullScale) +
                        " of 255 or more off in the worst of R, G and B.");
     }
-    for (const PictureRow& row : report.held_out) {
+    for (const ImageRow& row : report.held_out) {
         page.paragraph(row.caption);
-        if (Status status = page.pictures(row.pictures, kCompared_px, PictureLayout::kLine); !status) return status;
+        if (Status status = page.images(row.images, kCompared_px, ImageLayout::kLine); !status) return status;
     }
     return {};
 }
 
-Status add_found(HtmlPage& page, const char* heading, const std::vector<CaptionedPicture>& pictures) {
-    if (pictures.empty()) return {};
+Status add_found(HtmlPage& page, const char* heading, const std::vector<CaptionedImage>& images) {
+    if (images.empty()) return {};
     page.heading(heading);
-    return page.pictures(pictures, kCompared_px);
+    return page.images(images, kCompared_px);
 }
 
 void add_accounts(HtmlPage& page, const BuildReport& report) {
@@ -148,8 +148,8 @@ Result<std::string> build_report_page(const BuildReport& report) {
     RS_TRY(add_captured(page, report));
     add_rings(page, report);
     RS_TRY(add_scores(page, report));
-    RS_TRY(add_found(page, "Visual hull", report.hull_pictures));
-    RS_TRY(add_found(page, "Depth found", report.depth_pictures));
+    RS_TRY(add_found(page, "Visual hull", report.hull_images));
+    RS_TRY(add_found(page, "Depth found", report.depth_images));
     add_accounts(page, report);
     return page.text();
 }

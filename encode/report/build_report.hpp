@@ -6,7 +6,7 @@
 #include "rayspace/base/result.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/page/page_pictures.hpp"
+#include "rayspace/page/page_images.hpp"
 
 #include <string>
 #include <vector>
@@ -18,29 +18,29 @@ struct ReportFact {
     std::string value;
 };
 
-struct PictureRow {
+struct ImageRow {
     std::string caption;
-    std::vector<CaptionedPicture> pictures;
+    std::vector<CaptionedImage> images;
 };
 
 // What is empty is not shown.
 struct BuildReport {
-    std::string name;                              // of the object
-    std::vector<ReportFact> facts;                 // views, sizes, options
-    std::vector<StageTime> stages;                 // of the build
-    std::vector<ChunkSummary> chunks;              // of the file
-    std::vector<std::string> warnings;             // one line each
-    Rig rig;                                       // the upright cameras; the plan of the rings is drawn of them
-    std::vector<CaptionedPicture> captured;        // some of the pictures
-    std::string hold_out;                          // which views were held out, in words
-    std::vector<MethodScores> scores;              // all of the same views, in the same order
-    std::string why_no_scores;                     // where there are none
-    std::vector<PictureRow> held_out;              // of some views: truth, answers, error maps
-    std::vector<CaptionedPicture> hull_pictures;   // of the visual hull
-    std::vector<CaptionedPicture> depth_pictures;  // depth found, as depth_picture() colours it
+    std::string name;                          // of the object
+    std::vector<ReportFact> facts;             // views, sizes, options
+    std::vector<StageTime> stages;             // of the build
+    std::vector<ChunkSummary> chunks;          // of the file
+    std::vector<std::string> warnings;         // one line each
+    Rig rig;                                   // the upright cameras; the plan of the rings is drawn of them
+    std::vector<CaptionedImage> captured;      // some of the images
+    std::string hold_out;                      // which views were held out, in words
+    std::vector<MethodScores> scores;          // all of the same views, in the same order
+    std::string why_no_scores;                 // where there are none
+    std::vector<ImageRow> held_out;            // of some views: truth, answers, error maps
+    std::vector<CaptionedImage> hull_images;   // of the visual hull
+    std::vector<CaptionedImage> depth_images;  // depth found, as depth_image() colours it
 };
 
-// The text of the page. Fails only where a picture cannot be encoded.
+// The text of the page. Fails only where an image cannot be encoded.
 Result<std::string> build_report_page(const BuildReport& report);
 
 }  // namespace rs::encode

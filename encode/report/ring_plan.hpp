@@ -15,7 +15,7 @@ struct MissingSector {
 };
 
 // Steps between neighbouring views of one ring (`azimuths_rad` in turning order, 0 <= a < 2 pi) that are more than 1.75
-// times their median, so that one picture missing from an even turn is seen. Nothing for fewer than three views.
+// times their median, so that one image missing from an even turn is seen. Nothing for fewer than three views.
 std::vector<MissingSector> missing_sectors(const std::vector<double>& azimuths_rad);
 
 // +Z, where a turn begins, is at the bottom, +X to the right: what one sees who looks down on the turntable from behind

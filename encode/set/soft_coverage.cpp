@@ -21,7 +21,7 @@ public:
             }
         }
     }
-    // Of left <= x < right, top <= y < bottom, cut to the picture.
+    // Of left <= x < right, top <= y < bottom, cut to the image.
     [[nodiscard]] int within(int left, int top, int right, int bottom) const {
         left = std::max(left, 0);
         top = std::max(top, 0);

@@ -13,7 +13,7 @@ namespace rs::encode {
 inline constexpr int kFaintest = 8;
 
 // 255 where a sample belongs to a patch of 2 radius + 1 by 2 radius + 1 samples which all have alpha from kFaintest to
-// 255 - kFaintest, else 0. Patches lie within the picture.
+// 255 - kFaintest, else 0. Patches lie within the image.
 Image<std::uint8_t> soft_patches(ConstImageView<std::uint8_t> alpha, int radius);
 
 // 255 where a sample at most `radius` away along x and along y is not 0, else 0.

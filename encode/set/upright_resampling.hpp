@@ -1,5 +1,5 @@
 #pragma once
-// Resampling a picture to another camera at the same centre.
+// Resampling an image to another camera at the same centre.
 
 #include "rayspace/geometry/camera.hpp"
 #include "rayspace/image/image.hpp"
@@ -18,14 +18,14 @@ struct PixelBox {  // [x0, x1) x [y0, y1) in continuous pixel positions; empty w
 };
 
 // The bounding box of pixels with alpha above 0.
-PixelBox occupied_box(ConstImageView<Rgba8> picture);
+PixelBox occupied_box(ConstImageView<Rgba8> image);
 
-// The bounding box of what the picture of `from` shows, in pixels of another camera at the same centre. Nothing where
+// The bounding box of what the image of `from` shows, in pixels of another camera at the same centre. Nothing where
 // part of it lies behind that camera.
-std::optional<PixelBox> occupied_box_seen_by(const Camera& to, const Camera& from, ConstImageView<Rgba8> picture);
+std::optional<PixelBox> occupied_box_seen_by(const Camera& to, const Camera& from, ConstImageView<Rgba8> image);
 
-// The picture of `from` as `to` sees it (same centre): Catmull-Rom on premultiplied linear light, transparent outside
+// The image of `from` as `to` sees it (same centre): Catmull-Rom on premultiplied linear light, transparent outside
 // of the frame. Meant for scales near 1: it does not prefilter.
-Image<Rgba8> resampled_picture(const Camera& to, const Camera& from, ConstImageView<Rgba8> picture);
+Image<Rgba8> resampled_image(const Camera& to, const Camera& from, ConstImageView<Rgba8> image);
 
 }  // namespace rs::encode

@@ -43,7 +43,7 @@ struct BuildSummary {
     std::uint64_t bytes = 0;
     double seconds = 0;
     long long peak_memory_bytes = 0;
-    std::optional<double> psnr_db;  // of compressed pictures
+    std::optional<double> psnr_db;  // of compressed images
 };
 
 // The most memory that this process has held, as the system counts it.
@@ -96,11 +96,11 @@ void print_summary(const BuildArguments& arguments, const BuildOptions& options,
         if (!arguments.report.empty()) json["report"] = arguments.report;
         std::cout << json.dump(2) << '\n';
     } else {
-        const std::string pictures =
-            arguments.profile.profile + " pictures" + (summary.psnr_db ? text_of(" of %.2f dB", *summary.psnr_db) : "");
+        const std::string images =
+            arguments.profile.profile + " images" + (summary.psnr_db ? text_of(" of %.2f dB", *summary.psnr_db) : "");
         std::printf("%s: %zu views of %dx%d, %s map, %d planes, %s, %.2f MB, %.1f s, peak memory %.0f MB\n",
                     arguments.output.c_str(), object.views.size(), object.width, object.height,
-                    to_string(options.raymap).c_str(), options.map.planes, pictures.c_str(),
+                    to_string(options.raymap).c_str(), options.map.planes, images.c_str(),
                     static_cast<double>(summary.bytes) / 1e6, summary.seconds,
                     static_cast<double>(summary.peak_memory_bytes) / 1e6);
     }
@@ -142,18 +142,18 @@ Status run_build(const BuildArguments& arguments) {
         page = std::move(created);
     }
     if (options.name.empty()) options.name = name_of(set);
-    RS_ASSIGN_OR_RETURN(const std::optional<PictureGoal> goal, goal_of(arguments.profile));
-    options.raw_pictures = !goal.has_value();
-    if (set.resampled) std::cerr << "rs-encode: the cameras look up or down; their pictures are made upright\n";
+    RS_ASSIGN_OR_RETURN(const std::optional<ImageGoal> goal, goal_of(arguments.profile));
+    options.raw_images = !goal.has_value();
+    if (set.resampled) std::cerr << "rs-encode: the cameras look up or down; their images are made upright\n";
     RS_ASSIGN_OR_RETURN(BuiltObject built, build_object(set, options, &progress));
     BuildSummary summary;
     if (goal) {
         set.completed = std::move(built.completed);
-        RS_ASSIGN_OR_RETURN(EncodedPictures encoded,
-                            encode_pictures(set, built.object, *goal, arguments.profile.alpha_bits, &progress));
+        RS_ASSIGN_OR_RETURN(EncodedImages encoded,
+                            encode_images(set, built.object, *goal, arguments.profile.alpha_bits, &progress));
         set.completed.clear();  // what is scored is compared with the photographs
         summary.psnr_db = encoded.psnr_db;
-        built.object.coded = std::make_shared<codec::CodedPictures>(std::move(encoded.coded));
+        built.object.coded = std::make_shared<codec::CodedImages>(std::move(encoded.coded));
     }
     if (Status status = write_object(arguments.output, built.object, &progress); !status) return status;
     for (const std::string& warning : built.warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
@@ -170,8 +170,8 @@ Status run_build(const BuildArguments& arguments) {
         report.chunks = summarise_chunks(container);
         report.warnings = built.warnings;
         report.rig = set.upright;
-        built.object.pictures.clear();  // their memory is wanted for the objects that are scored
-        if (Status status = add_captured_pictures(set, report); !status) return status;
+        built.object.images.clear();  // their memory is wanted for the objects that are scored
+        if (Status status = add_captured_images(set, report); !status) return status;
         add_depths(set, built.depths, report);
         if (Status status = add_held_out_views(set, options.map.planes, report, &bar); !status) return status;
         if (Status status = write_report(*page, report); !status) return status;
@@ -185,15 +185,13 @@ Status run_build(const BuildArguments& arguments) {
 void add_build_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<BuildArguments>();
     CLI::App* command = app.add_subcommand("build", "Build a ray-space object from a capture set");
-    command->add_option("SET", arguments->set, "capture set: a folder with transforms.json and its pictures")
-        ->required();
+    command->add_option("SET", arguments->set, "capture set: a folder with transforms.json and its images")->required();
     command->add_option("-o,--output", arguments->output, "the object to write, OBJECT.rso")
         ->required()
         ->check(ends_in({".rso"}));
     command
-        ->add_option(
-            "--raymap", arguments->raymap,
-            "shape: depth of every ray, found from the pictures; plane: the object lies on the reference planes")
+        ->add_option("--raymap", arguments->raymap,
+                     "shape: depth of every ray, found from the images; plane: the object lies on the reference planes")
         ->capture_default_str();
     command->add_option("--cells", arguments->cells,
                         "cells of the RS map of a plane, X x U; 512x512 for plane and 128x128 for shape if not given");

@@ -5,9 +5,9 @@
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/output/view_output.hpp"
-#include "rayspace/page/page_pictures.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/page/page_images.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -54,7 +54,7 @@ public:
     }
 
     [[nodiscard]] Status write(const AnsweredView& answered) const {
-        const std::string name = numbered_picture_name(static_cast<std::size_t>(answered.view));
+        const std::string name = numbered_image_name(static_cast<std::size_t>(answered.view));
         const std::string method = to_string(answered.method);
         const std::filesystem::path& root = folder_.temporary_path();
         if (answered.method == first_) {
@@ -62,7 +62,7 @@ public:
         }
         if (Status status = write_png(root / method / name, answered.answer); !status) return status;
         return write_png(root / (method + "-error") / name,
-                         error_picture(answered.truth, answered.answer, kErrorFullScale));
+                         error_image(answered.truth, answered.answer, kErrorFullScale));
     }
 
     Status commit() { return folder_.commit(); }
@@ -81,7 +81,7 @@ void print_json(const EvaluateArguments& arguments, const HoldOut& hold_out, con
         nlohmann::json views = nlohmann::json::array();
         for (const HeldOutScore& view : method.views) {
             views.push_back(
-                {{"view", view.view}, {"picture", view.picture}, {"psnr_db", view.psnr_db}, {"ssim", view.ssim}});
+                {{"view", view.view}, {"picture", view.image}, {"psnr_db", view.psnr_db}, {"ssim", view.ssim}});
         }
         json["methods"].push_back({{"method", method.method},
                                    {"mean_psnr_db", method.mean_psnr_db},
@@ -100,7 +100,7 @@ void print_table(const EvaluateArguments& arguments, const HoldOut& hold_out, co
         std::printf("\n");
         for (std::size_t n = 0; n < hold_out.held.size(); ++n) {
             const HeldOutScore& first = scores.front().views[n];
-            std::printf("%5d  %-24s", first.view, printable(first.picture).c_str());
+            std::printf("%5d  %-24s", first.view, printable(first.image).c_str());
             for (const MethodScores& method : scores) std::printf("  %11.2f", method.views[n].psnr_db);
             std::printf("\n");
         }
@@ -123,7 +123,7 @@ Status write_page(const EvaluateArguments& arguments, const CaptureSet& set, con
                     {"pictures", std::to_string(set.upright.views.size()) + (set.resampled ? ", made upright" : "")},
                     {"reference planes", std::to_string(arguments.planes)}};
     report.rig = set.upright;
-    if (Status status = add_captured_pictures(set, report); !status) return status;
+    if (Status status = add_captured_images(set, report); !status) return status;
     std::string which = arguments.hold_out;  // every-3rd
     std::ranges::replace(which, '-', ' ');
     add_scores(set, hold_out, which, scores, std::move(answers), report);
@@ -181,21 +181,20 @@ void add_evaluate_command(CLI::App& app, std::function<Status()>& run) {
     CLI::App* command =
         app.add_subcommand("evaluate",
                            "Build objects from some views of a set, render the others, and print PSNR and SSIM against "
-                           "their pictures.\nRGB premultiplied by alpha, 8 bit, over pixels where either picture's "
+                           "their images.\nRGB premultiplied by alpha, 8 bit, over pixels where either image's "
                            "alpha is above 0. A view that an object was built from is never scored");
-    command->add_option("SET", arguments->set, "capture set: a folder with transforms.json and its pictures")
-        ->required();
+    command->add_option("SET", arguments->set, "capture set: a folder with transforms.json and its images")->required();
     command
         ->add_option("--hold-out", arguments->hold_out,
                      "every-Nth: of each N neighbouring views of a ring the middle one is held out")
         ->capture_default_str();
     command
         ->add_option("--methods", arguments->methods,
-                     "who answers: photo (the nearest kept picture, as it is), plane and shape (as --raymap of build)")
+                     "who answers: photo (the nearest kept image, as it is), plane and shape (as --raymap of build)")
         ->capture_default_str();
     command->add_option("--planes", arguments->planes, "reference planes about the axis, 3..64")->capture_default_str();
     command->add_option("-o,--output", arguments->output,
-                        "folder for the true pictures of the views held out, the answers and their errors, as PNG");
+                        "folder for the true images of the views held out, the answers and their errors, as PNG");
     command
         ->add_option("--report", arguments->report,
                      "also write a page of it, PAGE.html: scores, some answers beside the truth, the cameras")

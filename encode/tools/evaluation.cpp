@@ -4,7 +4,7 @@
 #include "engine/core/fast/renderer.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/format/object_file.hpp"
-#include "rayspace/image/picture_metrics.hpp"
+#include "rayspace/image/image_metrics.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr Method kMethods[] = {Method::kPhoto, Method::kPlane, Method::kShape};
 
-// The picture that a method gives for a view of the rig.
+// The image that a method gives for a view of the rig.
 using Answer = std::function<Result<Image<Rgba8>>(int view)>;
 
 Result<engine::Renderer> renderer_of_kept(const CaptureSet& set, const HoldOut& hold_out, MapKind kind, int planes,
@@ -35,10 +35,10 @@ Result<engine::Renderer> renderer_of_kept(const CaptureSet& set, const HoldOut& 
 Result<Image<Rgba8>> rendered(const engine::Renderer& renderer, const CaptureSet& set, int view) {
     const RigView& wanted = set.upright.views[static_cast<std::size_t>(view)];
     const Result<engine::ViewRegisters> registers = engine::prepare_view(renderer.object(), wanted.camera);
-    if (!registers) return Error{picture_path(set.folder, wanted).string() + ": " + registers.error().message};
-    Image<Rgba8> picture(wanted.camera.width, wanted.camera.height);
-    renderer.render(*registers, picture);
-    return picture;
+    if (!registers) return Error{image_path(set.folder, wanted).string() + ": " + registers.error().message};
+    Image<Rgba8> image(wanted.camera.width, wanted.camera.height);
+    renderer.render(*registers, image);
+    return image;
 }
 
 Result<MethodScores> score(const CaptureSet& set, const HoldOut& hold_out, Method method, const Answer& answer,
@@ -46,14 +46,14 @@ Result<MethodScores> score(const CaptureSet& set, const HoldOut& hold_out, Metho
     MethodScores scores;
     scores.method = to_string(method);
     scores.views.resize(hold_out.held.size());
-    std::vector<PictureDifference> differences(hold_out.held.size());
+    std::vector<ImageDifference> differences(hold_out.held.size());
     const int count = static_cast<int>(hold_out.held.size());
     RS_TRY(for_each_in_parallel(count, "scoring " + scores.method, progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
         const int view = hold_out.held[n];
-        RS_ASSIGN_OR_RETURN(const Image<Rgba8> truth, read_upright_picture(set, view));
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> truth, read_upright_image(set, view));
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> given, answer(view));
-        differences[n] = compare_pictures(truth, given);
+        differences[n] = compare_images(truth, given);
         scores.views[n] = {view, set.upright.views[static_cast<std::size_t>(view)].file_path, differences[n].psnr_db(),
                            differences[n].ssim};
         return look ? look({method, n, view, truth, given, scores.views[n].psnr_db}) : Status{};
@@ -68,7 +68,7 @@ Result<MethodScores> score(const CaptureSet& set, const HoldOut& hold_out, Metho
 Result<MethodScores> score_photo(const CaptureSet& set, const HoldOut& hold_out, const LookAtAnswer& look,
                                  Progress* progress) {
     const Answer nearest = [&](int view) {
-        return read_upright_picture(set, nearest_kept_view(set.upright, hold_out, view));
+        return read_upright_image(set, nearest_kept_view(set.upright, hold_out, view));
     };
     return score(set, hold_out, Method::kPhoto, nearest, look, progress);
 }

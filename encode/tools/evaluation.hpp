@@ -1,7 +1,7 @@
 #pragma once
 // Objects built from a part of a capture set, scored on the rest: `rs-encode evaluate` and the page of a build.
 //
-// A view that was encoded is never scored. What is scored against is the upright picture, before its colours are
+// A view that was encoded is never scored. What is scored against is the upright image, before its colours are
 // stored as Y, U and V.
 
 #include "encode/build.hpp"
@@ -18,7 +18,7 @@
 namespace rs::encode {
 
 enum class Method {
-    kPhoto,  // the nearest kept picture, shown as it is: what spin viewers do
+    kPhoto,  // the nearest kept image, shown as it is: what spin viewers do
     kPlane,  // an object of MapKind::kPlane, rendered
     kShape,  // an object of MapKind::kShape, rendered
 };
@@ -45,7 +45,7 @@ struct AnsweredView {
 using LookAtAnswer = std::function<Status(const AnsweredView&)>;
 
 // One entry for each method, with the views of hold_out.held in their order. `hold_out` is of the set's rig; `look` may
-// be empty. Fails as build_object, read_upright_picture and `look` do.
+// be empty. Fails as build_object, read_upright_image and `look` do.
 Result<std::vector<MethodScores>> evaluate(const CaptureSet& set, const HoldOut& hold_out,
                                            const EvaluationOptions& options, const LookAtAnswer& look = {},
                                            Progress* progress = nullptr);

@@ -65,8 +65,8 @@ Status run_info(const ObjectArguments& arguments) {
         return {};
     }
     std::printf("%s: \"%s\"\n", arguments.object.c_str(), printable(object->name).c_str());
-    std::printf("  pictures   %zu of %dx%d, Y U V %sand alpha, %s\n", object->views.size(), object->width,
-                object->height, object->coded ? "" : "at 4:2:0 ", stored_as(*object).c_str());
+    std::printf("  images   %zu of %dx%d, Y U V %sand alpha, %s\n", object->views.size(), object->width, object->height,
+                object->coded ? "" : "at 4:2:0 ", stored_as(*object).c_str());
     for (const Ring& ring : object->rings) {
         std::printf("  ring       %zu views at elevation %.2f degrees; %d planes, RS map %dx%d (x, u)\n",
                     ring.views.size(), ring.elevation_udeg * 1e-6, ring.planes, ring.x_cells, ring.u_cells);
@@ -79,7 +79,7 @@ Status run_info(const ObjectArguments& arguments) {
                     static_cast<unsigned long long>(chunk.count), static_cast<unsigned long long>(chunk.size_bytes),
                     100.0 * static_cast<double>(chunk.size_bytes) / static_cast<double>(container.size_bytes()));
     }
-    if (!account.empty()) std::printf("  in the pictures:\n");
+    if (!account.empty()) std::printf("  in the images:\n");
     for (const codec::AccountEntry& entry : account) {
         std::printf("    %-34s %12.0f bytes  %5.1f %%\n", entry.name.c_str(), entry.bytes,
                     100.0 * entry.bytes / static_cast<double>(container.size_bytes()));
@@ -94,7 +94,7 @@ Status run_verify(const ObjectArguments& arguments) {
         RS_TRY(container.read(entry));
     }
     RS_ASSIGN_OR_RETURN(const RaySpaceObject object, read_object(container));
-    std::printf("%s: sound (%zu pictures, %zu rings)\n", arguments.object.c_str(), object.pictures.size(),
+    std::printf("%s: sound (%zu images, %zu rings)\n", arguments.object.c_str(), object.images.size(),
                 object.rings.size());
     return {};
 }
@@ -102,8 +102,8 @@ Status run_verify(const ObjectArguments& arguments) {
 Status run_extract(const ObjectArguments& arguments) {
     RS_ASSIGN_OR_RETURN(const RaySpaceObject object, read_object(arguments.object));
     ProgressBar progress(arguments.quiet);
-    if (Status status = extract_pictures(object, arguments.output, &progress); !status) return status;
-    std::printf("%s: %zu pictures\n", arguments.output.c_str(), object.pictures.size());
+    if (Status status = extract_images(object, arguments.output, &progress); !status) return status;
+    std::printf("%s: %zu images\n", arguments.output.c_str(), object.images.size());
     return {};
 }
 
@@ -136,10 +136,10 @@ void add_verify_command(CLI::App& app, std::function<Status()>& run) {
 void add_extract_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<ObjectArguments>();
     CLI::App* command = add_object_command(
-        app, run, "extract", "Write the stored pictures and their rig as a capture set", arguments, run_extract);
+        app, run, "extract", "Write the stored images and their rig as a capture set", arguments, run_extract);
     command->add_option("-o,--output", arguments->output, "capture set to write")->required();
     command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
-    command->footer("Example:\n  rs-encode extract vase.rso -o vase-pictures");
+    command->footer("Example:\n  rs-encode extract vase.rso -o vase-images");
 }
 
 }  // namespace rs::encode

@@ -34,20 +34,19 @@ std::optional<std::uint64_t> bytes_of(const std::string& text) {
 
 void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
     command
-        .add_option(
-            "--profile", arguments.profile,
-            "how pictures are stored. dense: compressed, any tile of them reachable; board: in records of fixed "
-            "sizes that hardware unpacks by look-ups, larger for the same quality; raw: uncompressed, with "
-            "colour at half width and height")
+        .add_option("--profile", arguments.profile,
+                    "how images are stored. dense: compressed, any tile of them reachable; board: in records of fixed "
+                    "sizes that hardware unpacks by look-ups, larger for the same quality; raw: uncompressed, with "
+                    "colour at half width and height")
         ->capture_default_str();
     CLI::Option* quality = command
                                .add_option("--quality", arguments.quality,
-                                           "of compressed pictures, 1..100; 14 more halve a dense object's error")
+                                           "of compressed images, 1..100; 14 more halve a dense object's error")
                                ->capture_default_str();
     CLI::Option* psnr = command.add_option("--psnr", arguments.psnr_db,
-                                           "or: the smallest pictures of at least so many dB over the object's pixels");
+                                           "or: the smallest images of at least so many dB over the object's pixels");
     CLI::Option* size = command.add_option(
-        "--size", arguments.size, "or: the best pictures that take at most so many bytes together, such as 800k or 2M");
+        "--size", arguments.size, "or: the best images that take at most so many bytes together, such as 800k or 2M");
     quality->excludes(psnr)->excludes(size);
     psnr->excludes(size);
     command
@@ -56,12 +55,12 @@ void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
         ->capture_default_str();
     command.add_option(
         "--alpha-bits", arguments.alpha_bits,
-        "bits of compressed pictures' alpha, 1..6; without it 2, or for dense pictures 6 where something is soft over "
+        "bits of compressed images' alpha, 1..6; without it 2, or for dense images 6 where something is soft over "
         "an area, such as a shadow, else 1 for a --psnr below 31 or a quality below 54");
 }
 
-Result<std::optional<PictureGoal>> goal_of(const ProfileArguments& arguments) {
-    if (arguments.profile == "raw") return std::optional<PictureGoal>();
+Result<std::optional<ImageGoal>> goal_of(const ProfileArguments& arguments) {
+    if (arguments.profile == "raw") return std::optional<ImageGoal>();
     if (arguments.profile != "dense" && arguments.profile != "board") {
         return Error{"--profile " + arguments.profile + ": there is no such profile; give dense, board or raw"};
     }
@@ -72,7 +71,7 @@ Result<std::optional<PictureGoal>> goal_of(const ProfileArguments& arguments) {
     if (arguments.effort < kLeastEffort || arguments.effort > kMostEffort) {
         return Error{"--effort " + std::to_string(arguments.effort) + ": must be 1..9"};
     }
-    PictureGoal goal;
+    ImageGoal goal;
     goal.effort = arguments.effort;
     goal.profile = arguments.profile == "board" ? codec::Profile::kBoard : codec::Profile::kDense;
     goal.quality = arguments.quality;
@@ -82,10 +81,10 @@ Result<std::optional<PictureGoal>> goal_of(const ProfileArguments& arguments) {
     }
     if (goal.psnr_db && !(*goal.psnr_db >= 10 && *goal.psnr_db <= 60)) return Error{"--psnr: must be 10..60 dB"};
     if (!arguments.size.empty()) {
-        goal.pictures_bytes = bytes_of(arguments.size);
-        if (!goal.pictures_bytes) return Error{"--size " + arguments.size + ": give bytes, such as 750000, 800k or 2M"};
+        goal.images_bytes = bytes_of(arguments.size);
+        if (!goal.images_bytes) return Error{"--size " + arguments.size + ": give bytes, such as 750000, 800k or 2M"};
     }
-    return std::optional<PictureGoal>(goal);
+    return std::optional<ImageGoal>(goal);
 }
 
 }  // namespace rs::encode

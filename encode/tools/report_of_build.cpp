@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kCapturedShown = 8;
 constexpr int kHeldOutShown = 5;
-constexpr int kKept_px = 400;  // what is kept of a picture until the page is written
+constexpr int kKept_px = 400;  // what is kept of an image until the page is written
 
 std::string caption_of(const CaptureSet& set, int view) {
     return "view " + std::to_string(view) + ", " + set.upright.views[static_cast<std::size_t>(view)].file_path;
@@ -24,13 +24,13 @@ std::string with_db(const std::string& text, double psnr_db) {
     return text + ", " + number.data();
 }
 
-// What was found column by column, as a picture.
+// What was found column by column, as an image.
 Image<float> transposed(const Image<float>& columns) {
-    Image<float> picture(columns.height(), columns.width());
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) picture(x, y) = columns(y, x);
+    Image<float> image(columns.height(), columns.width());
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) image(x, y) = columns(y, x);
     }
-    return picture;
+    return image;
 }
 
 }  // namespace
@@ -48,22 +48,22 @@ Status KeptAnswers::keep(const AnsweredView& answered) {
     place->second.view = answered.view;
     place->second.truth = scaled_down(answered.truth, kKept_px);
     place->second.answer = {scaled_down(answered.answer, kKept_px), with_db(name, answered.psnr_db)};
-    place->second.error = {scaled_down(error_picture(answered.truth, answered.answer, kErrorFullScale), kKept_px),
+    place->second.error = {scaled_down(error_image(answered.truth, answered.answer, kErrorFullScale), kKept_px),
                            "error of " + name};
     return {};
 }
 
-std::vector<PictureRow> KeptAnswers::rows(const CaptureSet& set) && {
-    std::vector<PictureRow> rows;
+std::vector<ImageRow> KeptAnswers::rows(const CaptureSet& set) && {
+    std::vector<ImageRow> rows;
     std::size_t row_of = 0;
     for (auto& [key, kept] : kept_) {
         if (rows.empty() || key.first != row_of) {
             row_of = key.first;
             rows.push_back({caption_of(set, kept.view), {}});
-            rows.back().pictures.push_back({std::move(kept.truth), "truth"});
+            rows.back().images.push_back({std::move(kept.truth), "truth"});
         }
-        rows.back().pictures.push_back(std::move(kept.answer));
-        rows.back().pictures.push_back(std::move(kept.error));
+        rows.back().images.push_back(std::move(kept.answer));
+        rows.back().images.push_back(std::move(kept.error));
     }
     return rows;
 }
@@ -76,10 +76,10 @@ void add_scores(const CaptureSet& set, const HoldOut& hold_out, const std::strin
     report.held_out = std::move(answers).rows(set);
 }
 
-Status add_captured_pictures(const CaptureSet& set, BuildReport& report) {
+Status add_captured_images(const CaptureSet& set, BuildReport& report) {
     for (const int view : evenly_spread(static_cast<int>(set.upright.views.size()), kCapturedShown)) {
-        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, read_upright_picture(set, view));
-        report.captured.push_back({scaled_down(picture, kKept_px), caption_of(set, view)});
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, read_upright_image(set, view));
+        report.captured.push_back({scaled_down(image, kKept_px), caption_of(set, view)});
     }
     return {};
 }
@@ -105,10 +105,10 @@ void add_depths(const CaptureSet& set, const std::vector<FoundDepth>& depths, Bu
     constexpr float kShown = 1;  // object radii to either side of the foot
     for (const FoundDepth& found : depths) {
         const std::string caption = caption_of(set, found.view);
-        report.hull_pictures.push_back(
-            {scaled_down(depth_picture(transposed(found.hull), -kShown, kShown), kKept_px), caption});
-        report.depth_pictures.push_back(
-            {scaled_down(depth_picture(transposed(found.depth), -kShown, kShown), kKept_px), caption});
+        report.hull_images.push_back(
+            {scaled_down(depth_image(transposed(found.hull), -kShown, kShown), kKept_px), caption});
+        report.depth_images.push_back(
+            {scaled_down(depth_image(transposed(found.depth), -kShown, kShown), kKept_px), caption});
     }
 }
 

@@ -15,8 +15,8 @@
 
 namespace rs::encode {
 
-// Some of the set's pictures, small. Fails as read_upright_picture does.
-Status add_captured_pictures(const CaptureSet& set, BuildReport& report);
+// Some of the set's images, small. Fails as read_upright_image does.
+Status add_captured_images(const CaptureSet& set, BuildReport& report);
 
 // Of some views held out: the truth, each method's answer and its error, small.
 class KeptAnswers {
@@ -27,14 +27,14 @@ public:
     Status keep(const AnsweredView& answered);
 
     // One row for each view.
-    [[nodiscard]] std::vector<PictureRow> rows(const CaptureSet& set) &&;
+    [[nodiscard]] std::vector<ImageRow> rows(const CaptureSet& set) &&;
 
 private:
     struct Kept {
         int view = 0;
         Image<Rgba8> truth;
-        CaptionedPicture answer;
-        CaptionedPicture error;
+        CaptionedImage answer;
+        CaptionedImage error;
     };
     std::map<std::pair<std::size_t, Method>, Kept> kept_;  // each has its place before answers come
 };

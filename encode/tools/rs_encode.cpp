@@ -9,7 +9,7 @@ int main(int argc, char** argv) {
                  "rs-encode");
     app.footer(
         "Examples:\n  rs-encode build vase-set -o vase.rso --report vase.html\n  rs-encode evaluate vase-set\n"
-        "  rs-encode info vase.rso\n  rs-encode verify vase.rso\n  rs-encode extract vase.rso -o vase-pictures");
+        "  rs-encode info vase.rso\n  rs-encode verify vase.rso\n  rs-encode extract vase.rso -o vase-images");
     std::function<rs::Status()> run;
     add_build_command(app, run);
     add_evaluate_command(app, run);

@@ -13,12 +13,11 @@ namespace {
 // What differs from the expected view; "" for nothing.
 std::string difference(const ConformanceView& expected, const ExecutedView& found) {
     const ViewRegisters& r = expected.registers;
-    if (found.picture.width() != r.width || found.picture.height() != r.height) {
-        return "the picture is " + std::to_string(found.picture.width()) + "x" +
-               std::to_string(found.picture.height()) + " instead of " + std::to_string(r.width) + "x" +
-               std::to_string(r.height);
+    if (found.image.width() != r.width || found.image.height() != r.height) {
+        return "the image is " + std::to_string(found.image.width()) + "x" + std::to_string(found.image.height()) +
+               " instead of " + std::to_string(r.width) + "x" + std::to_string(r.height);
     }
-    if (const std::uint64_t hash = hash_of(found.picture.view()); hash != expected.rgba_hash) {
+    if (const std::uint64_t hash = hash_of(found.image.view()); hash != expected.rgba_hash) {
         return "colours hash to " + hash_text(hash) + " instead of " + hash_text(expected.rgba_hash);
     }
     if (found.depth_q20.empty()) return "";
@@ -73,7 +72,7 @@ Implementation implementation_of(std::shared_ptr<Executor> executor) {
             [executor = std::move(executor)](const ConformanceCase& of_case,
                                              const RaySpaceObject& object) -> Result<ExecuteView> {
                 RS_TRY(executor->takes(object));
-                if (executor->as_drawn(object).pictures != object.pictures) {
+                if (executor->as_drawn(object).images != object.images) {
                     return Error{"its alpha has values that " + executor->traits().name + " does not hold"};
                 }
                 RS_ASSIGN_OR_RETURN(const std::optional<int> slot, executor->load(object));

@@ -35,7 +35,7 @@ Status write_view_files(const std::filesystem::path& folder, const std::string& 
     std::filesystem::create_directories(folder / of_case, error);
     if (error) return Error{(folder / of_case).string() + ": cannot be made: " + error.message()};
     ByteWriter colours;
-    for (const Rgba8 p : executed.picture.pixels()) {
+    for (const Rgba8 p : executed.image.pixels()) {
         for (const std::uint8_t channel : {p.r, p.g, p.b, p.a}) colours.put(channel);
     }
     Status written = write_file(file_of(folder, of_case, view, ".rgba"), colours.bytes());
@@ -49,9 +49,9 @@ Result<ExecutedView> read_view_files(const std::filesystem::path& folder, const 
                                      int width, int height) {
     ExecutedView executed;
     RS_ASSIGN_OR_RETURN(const auto colours, read_sized(file_of(folder, of_case, view, ".rgba"), width, height));
-    executed.picture = Image<Rgba8>(width, height);
+    executed.image = Image<Rgba8>(width, height);
     ByteReader in(colours);
-    for (Rgba8& p : executed.picture.pixels()) {
+    for (Rgba8& p : executed.image.pixels()) {
         for (std::uint8_t* const channel : {&p.r, &p.g, &p.b, &p.a}) *channel = in.get<std::uint8_t>();
     }
     const std::filesystem::path depth_file = file_of(folder, of_case, view, ".depth");

@@ -8,8 +8,8 @@ namespace {
 constexpr std::uint64_t kMostCycles = std::uint64_t{1} << 40;
 
 // Pixel (i, j) is half (j & 1) of word i * ceil(height / 2) + (j >> 1).
-Image<Rgba8> picture_of(const HostPicture& words, const BoardView& view) {
-    Image<Rgba8> picture(view.width, view.height);
+Image<Rgba8> image_of(const HostImage& words, const BoardView& view) {
+    Image<Rgba8> image(view.width, view.height);
     const auto pitch = static_cast<std::size_t>(view.words_per_column());
     for (int j = 0; j < view.height; ++j) {
         for (int i = 0; i < view.width; ++i) {
@@ -17,10 +17,10 @@ Image<Rgba8> picture_of(const HostPicture& words, const BoardView& view) {
                 words.words[static_cast<std::size_t>(i) * pitch + static_cast<std::size_t>(j / 2)];
             const auto pixel = static_cast<std::uint32_t>(word >> (32 * (j % 2)));
             const auto byte = [&](unsigned n) { return static_cast<std::uint8_t>(pixel >> (8 * n)); };
-            picture(i, j) = {byte(0), byte(1), byte(2), byte(3)};
+            image(i, j) = {byte(0), byte(1), byte(2), byte(3)};
         }
     }
-    return picture;
+    return image;
 }
 
 }  // namespace
@@ -131,10 +131,10 @@ void Board::submit(std::vector<BoardView> views) {
 RenderedCycle Board::collect(std::uint64_t cycle) {
     const RenderControl::Cycle& done = top_->render_control.cycle(cycle);
     RenderedCycle result{done.started, done.rendered, 0, {}};
-    std::deque<HostPicture>& arrived = top_->host_bus.pictures();
+    std::deque<HostImage>& arrived = top_->host_bus.images();
     for (const BoardView& view : top_->programs[done.program].bank.views) {
         RS_CHECK(!arrived.empty() && arrived.front().words.size() == static_cast<std::size_t>(view.words()));
-        result.pictures.push_back(picture_of(arrived.front(), view));
+        result.images.push_back(image_of(arrived.front(), view));
         result.arrived = (arrived.front().arrived + 1) * static_cast<std::uint64_t>(top_->config.pci.period) /
                          static_cast<std::uint64_t>(top_->config.clock_period);
         arrived.pop_front();
@@ -153,9 +153,9 @@ Result<BoardRun> Board::render(const std::vector<std::vector<BoardView>>& cycles
         const bool is_drawing = !control.cycles().empty() && control.cycles().back().rendered == 0;
         return static_cast<std::size_t>(control.cycles_begun() - first) - static_cast<std::size_t>(is_drawing);
     };
-    // The pictures of a cycle are collected when its last has come, so what stands last is of the cycle being
+    // The images of a cycle are collected when its last has come, so what stands last is of the cycle being
     // delivered.
-    const std::deque<HostPicture>& at_host = top_->host_bus.pictures();
+    const std::deque<HostImage>& at_host = top_->host_bus.images();
     const auto arrived = [&] {
         return !at_host.empty() && at_host.back().last_view &&
                at_host.back().words.size() == at_host.back().expected_words;

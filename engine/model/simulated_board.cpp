@@ -56,7 +56,7 @@ public:
         }
         RS_ASSIGN_OR_RETURN(BoardRun run, board_.render({cycle}));
         std::vector<ExecutedView> drawn;
-        for (Image<Rgba8>& picture : run.cycles.front().pictures) drawn.push_back({std::move(picture), {}});
+        for (Image<Rgba8>& image : run.cycles.front().images) drawn.push_back({std::move(image), {}});
         return drawn;
     }
 

@@ -110,7 +110,7 @@ Status run_random_views(const ConformanceArguments& arguments) {
         static_cast<long long>(report.different_pixels));
     if (report.different_pixels != 0) {
         return Error{arguments.target +
-                     ": the core's pictures are not those of the definition; this is a defect of the renderer"};
+                     ": the core's images are not those of the definition; this is a defect of the renderer"};
     }
     return {};
 }
@@ -125,12 +125,11 @@ void add_conformance_command(CLI::App& app, std::function<Status()>& run) {
         "vectors.json), or, given an object, the core on random views of it");
     command->add_option("TARGET", arguments->target, "the folder of the conformance set, or an object, .rso")
         ->required();
-    command->add_option(
-        "--executor", arguments->executors,
-        "of the set: " + executor_names() +
-            " (a configuration of `simulate`), or files:FOLDER, "
-            "pictures that another implementation wrote; may be given several times; scalar and core if "
-            "not given");
+    command->add_option("--executor", arguments->executors,
+                        "of the set: " + executor_names() +
+                            " (a configuration of `simulate`), or files:FOLDER, "
+                            "images that another implementation wrote; may be given several times; scalar and core if "
+                            "not given");
     command->add_option("--write", arguments->write_folder,
                         "of the set: also write what the first executor renders, as files:FOLDER would be read");
     command->add_option("--views", arguments->views, "of an object: how many views")
@@ -142,7 +141,7 @@ void add_conformance_command(CLI::App& app, std::function<Status()>& run) {
     command->footer(
         "Examples:\n  rs-engine conformance engine/conformance/vectors --executor core --executor "
         "board:prototype-2000\n"
-        "  rs-engine conformance engine/conformance/vectors --executor files:my-pictures\n"
+        "  rs-engine conformance engine/conformance/vectors --executor files:my-images\n"
         "  rs-engine conformance vase.rso --views 100");
     command->callback([arguments, &run] {
         run = [arguments] {

@@ -38,13 +38,13 @@ Status run_compare(const CompareArguments& arguments) {
                             {"pooled_psnr_db", comparison.pooled_psnr_db},
                             {"mean_ssim", comparison.mean_ssim}};
         for (const ComparedView& view : comparison.views) {
-            json["views"].push_back({{"picture", view.picture}, {"psnr_db", view.psnr_db}, {"ssim", view.ssim}});
+            json["views"].push_back({{"picture", view.image}, {"psnr_db", view.psnr_db}, {"ssim", view.ssim}});
         }
         std::cout << json.dump(2) << '\n';
         return {};
     }
     for (const ComparedView& view : comparison.views) {
-        std::printf("%-24s %6.2f dB  SSIM %.4f\n", printable(view.picture).c_str(), view.psnr_db, view.ssim);
+        std::printf("%-24s %6.2f dB  SSIM %.4f\n", printable(view.image).c_str(), view.psnr_db, view.ssim);
     }
     std::printf("%-24s %6.2f dB  SSIM %.4f  (all pixels together %.2f dB)\n", "mean", comparison.mean_psnr_db,
                 comparison.mean_ssim, comparison.pooled_psnr_db);
@@ -75,11 +75,10 @@ Status run_board(const std::vector<std::string>& paths) {
         const bool has_shape =
             std::ranges::any_of(objects[i].rings, [](const Ring& ring) { return !ring.shape.empty(); });
         if (objects[i].coded == nullptr && !has_shape) continue;
-        std::fprintf(
-            stderr,
-            "rs-engine: %s: the board draws raw pictures on planes alone; encode it with --profile raw --raymap "
-            "plane, and it takes what is stated here\n",
-            printable(paths[i]).c_str());
+        std::fprintf(stderr,
+                     "rs-engine: %s: the board draws raw images on planes alone; encode it with --profile raw --raymap "
+                     "plane, and it takes what is stated here\n",
+                     printable(paths[i]).c_str());
     }
     return {};
 }
@@ -90,10 +89,10 @@ void add_compare_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<CompareArguments>();
     CLI::App* command =
         app.add_subcommand("compare",
-                           "Render every pose of a capture set and print PSNR and SSIM against its pictures.\n"
-                           "RGB premultiplied by alpha, 8 bit, over pixels where either picture's alpha is above 0");
+                           "Render every pose of a capture set and print PSNR and SSIM against its images.\n"
+                           "RGB premultiplied by alpha, 8 bit, over pixels where either image's alpha is above 0");
     command->add_option("OBJECT", arguments->object, "ray-space object, .rso")->required();
-    command->add_option("SET", arguments->set, "capture set with the true pictures")->required();
+    command->add_option("SET", arguments->set, "capture set with the true images")->required();
     command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
     command->add_flag("--json", arguments->json, "as JSON");
     command->footer("Example:\n  rs-engine compare vase.rso vase-held-out --json");

@@ -10,8 +10,8 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/ray_space.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/output/view_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <chrono>
@@ -44,7 +44,7 @@ struct Drawing {
     ViewRegisters registers;
 };
 
-// The upright camera in whose picture the object's centre keeps its row.
+// The upright camera in whose image the object's centre keeps its row.
 Camera stood_upright(const Camera& camera) {
     Camera upright = upright_camera(camera);
     const auto row = [](const Camera& c) { return c.project({0, 0, 0}).y; };
@@ -153,8 +153,8 @@ void print_channels(const model::BoardReport& report) {
 }
 
 void print_report(const model::BoardReport& report) {
-    std::printf("%s: %d rendering cycles, %d pictures, %lld pixels\n", report.config.c_str(), report.cycles,
-                report.pictures, static_cast<long long>(report.pixels));
+    std::printf("%s: %d rendering cycles, %d images, %lld pixels\n", report.config.c_str(), report.cycles,
+                report.images, static_cast<long long>(report.pixels));
     std::printf("drawing: %.2f Mpixel/s, %.2f rendering cycles/s (%llu board cycles)\n", report.pixels_per_second / 1e6,
                 report.cycles_per_second, static_cast<unsigned long long>(report.render_cycles));
     if (report.arrivals_per_second > 0) {
@@ -163,15 +163,15 @@ void print_report(const model::BoardReport& report) {
     print_interval("while rendering", report.rendering);
     print_interval("while delivering to the host's memory", report.delivering);
     print_channels(report);
-    std::printf("host bus: %llu bytes of pictures in %llu bursts, %llu retries, %llu register writes\n",
+    std::printf("host bus: %llu bytes of images in %llu bursts, %llu retries, %llu register writes\n",
                 static_cast<unsigned long long>(report.bus.image_bytes),
                 static_cast<unsigned long long>(report.bus.bursts), static_cast<unsigned long long>(report.bus.retries),
                 static_cast<unsigned long long>(report.bus.register_writes));
 }
 
-// All pictures against the definition, and into a folder where one is given.
-Status use_pictures(const model::BoardRun& run, const std::vector<Drawing>& drawings,
-                    const std::vector<RaySpaceObject>& stored, const std::string& output) {
+// All images against the definition, and into a folder where one is given.
+Status use_images(const model::BoardRun& run, const std::vector<Drawing>& drawings,
+                  const std::vector<RaySpaceObject>& stored, const std::string& output) {
     std::vector<Camera> cameras;
     cameras.reserve(drawings.size());
     for (const Drawing& drawing : drawings) cameras.push_back(drawing.camera);
@@ -184,19 +184,19 @@ Status use_pictures(const model::BoardRun& run, const std::vector<Drawing>& draw
     std::size_t n = 0;
     std::size_t equal = 0;
     for (const model::RenderedCycle& cycle : run.cycles) {
-        for (const Image<Rgba8>& picture : cycle.pictures) {
-            Image<Rgba8> defined(picture.width(), picture.height());
+        for (const Image<Rgba8>& image : cycle.images) {
+            Image<Rgba8> defined(image.width(), image.height());
             reconstruct_scalar(stored[drawings[n].object], drawings[n].registers, defined);
-            equal += static_cast<std::size_t>(picture == defined);
+            equal += static_cast<std::size_t>(image == defined);
             if (folder) {
-                Status status = write_png(folder->temporary_path() / rig.views[n].file_path, picture);
+                Status status = write_png(folder->temporary_path() / rig.views[n].file_path, image);
                 if (!status) return status;
             }
             ++n;
         }
     }
-    std::printf("%zu of %zu pictures equal the definition bit for bit\n", equal, n);
-    if (equal != n) return Error{"the board's pictures are not those of the definition; this is a defect of the model"};
+    std::printf("%zu of %zu images equal the definition bit for bit\n", equal, n);
+    if (equal != n) return Error{"the board's images are not those of the definition; this is a defect of the model"};
     if (!folder) return {};
     if (Status status = write_rig(folder->temporary_path() / kRigFileName, rig); !status) return status;
     return folder->commit();
@@ -242,10 +242,10 @@ Status run_simulate(const SimulateArguments& arguments) {
         if (Status status = write_file(arguments.stats, model::report_json(report)); !status) return status;
     }
     if (!arguments.chart.empty()) {
-        const std::string title = report.config + ", " + std::to_string(report.pictures) + " pictures";
+        const std::string title = report.config + ", " + std::to_string(report.images) + " images";
         if (Status status = write_file(arguments.chart, model::report_chart_svg(report, title)); !status) return status;
     }
-    return use_pictures(run, drawings, objects, arguments.output);
+    return use_images(run, drawings, objects, arguments.output);
 }
 
 }  // namespace
@@ -267,7 +267,7 @@ void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
                      "views of a rendering cycle; as many as it takes if not given")
         ->check(CLI::Range(1, 15));
     command->add_flag("--load", arguments->load, "have the board load the objects from its disk first");
-    command->add_option("-o,--output", arguments->output, "a folder for the pictures");
+    command->add_option("-o,--output", arguments->output, "a folder for the images");
     command->add_option("--stats", arguments->stats, "a JSON file for the cycles of every block")
         ->check(ends_in({".json"}));
     command->add_option("--chart", arguments->chart, "an SVG file: where the cycles went")->check(ends_in({".svg"}));

@@ -7,8 +7,8 @@
 // Camera frame      OpenGL axes: +X right, +Y up, the camera looks along -Z. `world_from_camera` takes camera
 //                   coordinates to object coordinates; it is the `transform_matrix` of a NeRF transforms.json.
 // Pixels            Origin at the top left, x to the right, y down, pixel *centres* at +0.5. A principal point of
-//                   (w/2, h/2) is the middle of the picture.
-// Colour            8-bit pictures are sRGB with straight (unassociated) alpha. Float pictures are linear-light with
+//                   (w/2, h/2) is the middle of the image.
+// Colour            8-bit images are sRGB with straight (unassociated) alpha. Float images are linear-light with
 //                   the sRGB primaries. Alpha is linear coverage. Where colours are averaged they are weighted by
 //                   alpha.
 // YUV               BT.601 full range ("JPEG"), U and V centred on 128. Integer formulas: engine/RECONSTRUCTION.md.
@@ -31,7 +31,7 @@ constexpr double degrees(double radians) {
 }
 
 // Largest sizes that any reader of this project accepts; what is larger is refused with a message that states it.
-inline constexpr int kMaxPictureSide_px = 8192;
+inline constexpr int kMaxImageSide_px = 8192;
 inline constexpr int kMaxViews = 4096;
 inline constexpr int kMinPlanes = 3;
 inline constexpr int kMaxPlanes = 64;

@@ -37,7 +37,7 @@ inline int smooth_alpha(const EdgeAlpha& edge, int mask, int sum) {
     return mask != 0 ? 255 - off : off;
 }
 
-// The alpha that a unit's references show for sample (x, y) of the picture, between samples interpolated; -1 where it
+// The alpha that a unit's references show for sample (x, y) of the image, between samples interpolated; -1 where it
 // has none.
 int interpolated_alpha(Source source, const std::array<MotionVector, 2>& motion,
                        const std::array<ConstPlaneViews, 2>& references, int x, int y);

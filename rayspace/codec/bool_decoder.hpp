@@ -1,5 +1,5 @@
 #pragma once
-// The binary arithmetic decoder of coded pictures: encode/FORMAT.md, section "Bits".
+// The binary arithmetic decoder of coded images: encode/FORMAT.md, section "Bits".
 //
 // What is likely comes from outside (context_states.hpp) and begins anew with every tile, so any tile can be begun
 // without its neighbours. Reading past the end gives zeros, as many as are read: a decoder never fails, and what

@@ -1,5 +1,5 @@
 #pragma once
-// The decoder of one tile of a dense picture: encode/FORMAT.md, section "Dense pictures". Integer and normative; engine
+// The decoder of one tile of a dense image: encode/FORMAT.md, section "Dense images". Integer and normative; engine
 // and tools share it.
 
 #include "rayspace/codec/code/dense_code.hpp"
@@ -12,7 +12,7 @@
 
 namespace rs::codec {
 
-// The samples of one picture as they are coded: Y, U, V and alpha, all of the coded size (width and height rounded up
+// The samples of one image as they are coded: Y, U, V and alpha, all of the coded size (width and height rounded up
 // to a multiple of 16).
 using PlaneViews = std::array<ImageView<std::uint8_t>, 4>;
 using ConstPlaneViews = std::array<ConstImageView<std::uint8_t>, 4>;
@@ -25,7 +25,7 @@ inline ConstPlaneViews views_of(const Planes& planes) {
     return {planes[0].view(), planes[1].view(), planes[2].view(), planes[3].view()};
 }
 
-// Told before samples of a picture that predicts are read: the rectangle [left, right) x [top, bottom), clamped to the
+// Told before samples of an image that predicts are read: the rectangle [left, right) x [top, bottom), clamped to the
 // coded size.
 class ReferenceListener {
 public:
@@ -37,7 +37,7 @@ public:
 };
 
 struct TilePlace {
-    int left = 0;  // first sample in the picture
+    int left = 0;  // first sample in the image
     int top = 0;
     int width = 0;  // samples, cut off at the coded size
     int height = 0;
@@ -46,7 +46,7 @@ struct TilePlace {
 // Decodes the tile at `place` into `out`, which may be written by other threads in other tiles.
 // references[r] are those of head.reference[r]. Any bytes give some samples: there is nothing to fail. Cost: about a
 // microsecond for 64 samples of each plane.
-void decode_dense_tile(const DenseCode& code, const PictureHead& head, std::span<const std::byte> bytes,
+void decode_dense_tile(const DenseCode& code, const ImageHead& head, std::span<const std::byte> bytes,
                        const TilePlace& place, const std::array<ConstPlaneViews, 2>& references,
                        ReferenceListener* listener, const PlaneViews& out);
 

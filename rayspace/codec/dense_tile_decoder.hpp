@@ -1,5 +1,5 @@
 #pragma once
-// The steps by which a tile of a dense picture is decoded, for any Coder (syntax.hpp): one that reads, or one that also
+// The steps by which a tile of a dense image is decoded, for any Coder (syntax.hpp): one that reads, or one that also
 // looks at what is read.
 
 #include "rayspace/codec/alpha_mask.hpp"
@@ -17,7 +17,7 @@ namespace rs::codec {
 template <class Coder>
 class DenseTileDecoder {
 public:
-    DenseTileDecoder(Coder& reader, const DenseCode& code, const PictureHead& head, const TilePlace& place,
+    DenseTileDecoder(Coder& reader, const DenseCode& code, const ImageHead& head, const TilePlace& place,
                      const std::array<ConstPlaneViews, 2>& references, ReferenceListener* listener,
                      const PlaneViews& out)
         : code_(code),
@@ -148,7 +148,7 @@ private:
     }
 
     const DenseCode& code_;
-    const PictureHead& head_;
+    const ImageHead& head_;
     Coder& reader_;
     TilePlace place_;
     int left_;

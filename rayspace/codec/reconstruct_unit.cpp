@@ -27,11 +27,10 @@ void predict_unit(const UnitChoice& choice, const UnitPlace& place, int plane,
         return;
     }
     const std::size_t first = uses(choice.source, 0) ? 0 : 1;
-    predict_from_picture(references[first][p], place.x, place.y, choice.motion[first], place.size, samples,
-                         out.stride());
+    predict_from_image(references[first][p], place.x, place.y, choice.motion[first], place.size, samples, out.stride());
     if (choice.source != Source::kBoth) return;
     std::uint8_t other[kMacroblock * kMacroblock];
-    predict_from_picture(references[1][p], place.x, place.y, choice.motion[1], place.size, other, place.size);
+    predict_from_image(references[1][p], place.x, place.y, choice.motion[1], place.size, other, place.size);
     average_into(samples, out.stride(), other, place.size, place.size);
 }
 

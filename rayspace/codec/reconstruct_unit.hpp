@@ -11,7 +11,7 @@
 namespace rs::codec {
 
 struct UnitPlace {
-    int x = 0;  // first sample in the picture
+    int x = 0;  // first sample in the image
     int y = 0;
     int size = kMacroblock;
     bool has_left = false;  // neighbours in the tile that are not empty
@@ -35,7 +35,7 @@ inline void enter_unit(TileGrid& grid, const PredictionUnit& unit, const UnitCho
     }
 }
 
-// The alpha level that the predicting pictures show at sample (x, y); -1 where the unit has none.
+// The alpha level that the predicting images show at sample (x, y); -1 where the unit has none.
 int predicted_alpha(const UnitChoice& choice, const std::array<ConstPlaneViews, 2>& references, int x, int y,
                     int alpha_bits);
 

@@ -1,5 +1,5 @@
 #pragma once
-// The syntax of dense pictures, once for reading and writing: encode/FORMAT.md, section "Syntax".
+// The syntax of dense images, once for reading and writing: encode/FORMAT.md, section "Syntax".
 //
 // A Coder has   int bit(int context, int value)   and   int raw(int value):   a reader ignores `value` and returns what
 // stands in the stream; a writer writes `value` and returns it; an estimator adds up what it would cost. Every function
@@ -62,7 +62,7 @@ constexpr int size_index(int size) {
     return size == kMacroblock ? 1 : 0;
 }
 
-// `references`: how many pictures there are to predict from, 0 .. 2.
+// `references`: how many images there are to predict from, 0 .. 2.
 template <class Coder>
 Source source(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, int references, Source value) {
     if (references == 0) return Source::kIntra;
@@ -218,7 +218,7 @@ constexpr int alpha_kind(int alpha, int full) {
 }
 
 // One sample of a mixed block, 0 .. full (full = 2^bits - 1). The neighbours count as 0 outside of the tile;
-// `predicted` is the alpha of the predicting picture's sample, -1 where there is none.
+// `predicted` is the alpha of the predicting image's sample, -1 where there is none.
 template <class Coder>
 int alpha_sample(Coder& coder, int bits, int west, int north, int north_west, int north_east, int predicted,
                  int value) {

@@ -6,16 +6,16 @@ namespace rs::object_chunks {
 
 std::span<const ChunkKind> chunk_table() {
     static const ChunkKind table[] = {
-        head_chunk(),    rig_chunk(), views_chunk(), foot_chunk(), code_chunk(),  // of the object
-        ring_chunk(),    map_chunk(), shape_chunk(),                              // of a ring
-        picture_chunk(),                                                          // of a view
+        head_chunk(),  rig_chunk(), views_chunk(), foot_chunk(), code_chunk(),  // of the object
+        ring_chunk(),  map_chunk(), shape_chunk(),                              // of a ring
+        image_chunk(),                                                          // of a view
     };
     return table;
 }
 
 std::size_t count_of(OneFor each, const RaySpaceObject& object) {
     if (each == OneFor::object) return 1;
-    return each == OneFor::ring ? object.rings.size() : object.pictures.size();
+    return each == OneFor::ring ? object.rings.size() : object.images.size();
 }
 
 int level_of(const RaySpaceObject& object, const Ring& ring, std::size_t n) {

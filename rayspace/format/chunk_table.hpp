@@ -23,7 +23,7 @@ struct ChunkKey {
     bool operator==(const ChunkKey&) const = default;
 };
 
-// The chunks of an object in the order of the file. Needs the rings' view lists and the levels of coded pictures;
+// The chunks of an object in the order of the file. Needs the rings' view lists and the levels of coded images;
 // `has` returns whether there is one of a kind that may be missing.
 std::vector<ChunkKey> chunk_order(const RaySpaceObject& object,
                                   const std::function<bool(const ChunkKind& kind, std::uint32_t index)>& has);
@@ -33,7 +33,7 @@ std::vector<ChunkKey> chunk_order(const RaySpaceObject& object);
 // The payload of one of these, as write_object() stores it.
 Payload chunk_payload(const RaySpaceObject& object, ChunkKey key);
 
-// The level at which the n-th view of a ring is loaded: a coded picture states it itself.
+// The level at which the n-th view of a ring is loaded: a coded image states it itself.
 int level_of(const RaySpaceObject& object, const Ring& ring, std::size_t n);
 
 }  // namespace rs::object_chunks

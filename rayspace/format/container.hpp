@@ -22,7 +22,7 @@ using ChunkName = std::array<char, 4>;
 
 struct ChunkEntry {
     ChunkName name{};
-    std::uint32_t index = 0;         // distinguishes chunks of one name: picture number, ring number
+    std::uint32_t index = 0;         // distinguishes chunks of one name: image number, ring number
     std::uint64_t offset_bytes = 0;  // from the start of the file
     std::uint64_t size_bytes = 0;
     std::uint64_t checksum = 0;  // XXH64, seed 0, of the payload

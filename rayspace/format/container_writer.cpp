@@ -32,7 +32,7 @@ Status ContainerWriter::add(ChunkName name, std::uint32_t index, std::span<const
     const std::uint64_t padded_bytes = aligned(payload.size());
     if (payload.size() > kMaxChunk_bytes || padded_bytes > kMaxContainer_bytes - file_.size_bytes()) {
         return Error{file_.target().string() + ": chunk " + to_string(name) + " " + std::to_string(index) +
-                     " would make it larger than the format allows; use fewer or smaller pictures"};
+                     " would make it larger than the format allows; use fewer or smaller images"};
     }
     table_.push_back({name, index, file_.size_bytes(), payload.size(), XXH64(payload.data(), payload.size(), 0)});
     if (Status status = file_.write(payload); !status) return status;

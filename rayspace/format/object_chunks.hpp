@@ -22,7 +22,7 @@ inline constexpr ChunkName kRing = {'R', 'I', 'N', 'G'};
 inline constexpr ChunkName kMap = {'R', 'M', 'A', 'P'};
 inline constexpr ChunkName kShape = {'s', 'h', 'a', 'p'};
 inline constexpr ChunkName kCode = {'C', 'O', 'D', 'E'};
-inline constexpr ChunkName kPicture = {'P', 'I', 'C', 'T'};
+inline constexpr ChunkName kImage = {'P', 'I', 'C', 'T'};
 
 using Payload = std::vector<std::byte>;
 
@@ -37,6 +37,6 @@ Payload map_payload(const Ring& ring);
 Payload map_payload(const map_coding::Runs& runs);
 
 // Of the planes of a PICT that is not coded.
-std::uint64_t raw_picture_bytes(int width, int height);
+std::uint64_t raw_image_bytes(int width, int height);
 
 }  // namespace rs::object_chunks

@@ -1,7 +1,7 @@
 #include "rayspace/format/object_file.hpp"
 
 #include "rayspace/codec/stream/coded_chunks.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/format/chunk_table.hpp"
 #include "rayspace/format/container_layout.hpp"
 #include "rayspace/format/object_memory.hpp"
@@ -21,13 +21,13 @@ public:
         : container_(container), options_(options) {}
 
     Result<RaySpaceObject> read() {
-        for (const ReadStage stage : {ReadStage::geometry, ReadStage::maps, ReadStage::pictures}) {
+        for (const ReadStage stage : {ReadStage::geometry, ReadStage::maps, ReadStage::images}) {
             RS_TRY(read_stage(stage));
             if (stage != ReadStage::geometry) continue;
             RS_TRY(check_geometry());
         }
         RS_TRY(validate_object(unread_.object, container_.where()));
-        if (unread_.coded && options_.decode) codec::decode_pictures(unread_.object);
+        if (unread_.coded && options_.decode) codec::decode_images(unread_.object);
         return std::move(unread_.object);
     }
 
@@ -44,7 +44,7 @@ public:
         std::uint64_t largest_chunk = 0;
         for (const ChunkEntry& entry : container_.table()) {
             largest_chunk = std::max(largest_chunk, entry.size_bytes);
-            if (unread_.coded && entry.name == kPicture) kept += entry.size_bytes;
+            if (unread_.coded && entry.name == kImage) kept += entry.size_bytes;
             const auto kind = std::ranges::find(chunk_table(), entry.name, &ChunkKind::name);
             if (kind == chunk_table().end() || kind->memory == nullptr) continue;
             RS_ASSIGN_OR_RETURN(const auto payload, read_payload(entry));
@@ -55,14 +55,14 @@ public:
         }
         const std::uint64_t passing =
             largest_chunk + largest_passing + kParsedOverText * unread_.object.rig_json.size();
-        const std::uint64_t pictures = wanted_pictures();
-        const std::uint64_t passing_planes = unread_.coded && options_.decode ? pictures * coded_planes_bytes() : 0;
+        const std::uint64_t images = wanted_images();
+        const std::uint64_t passing_planes = unread_.coded && options_.decode ? images * coded_planes_bytes() : 0;
         ReadingMemory memory;
         memory.most_bytes = static_cast<std::int64_t>(kept + needed_bytes_ + kept_by_maps + passing);
         memory.object_bytes = static_cast<std::int64_t>(kept + needed_bytes_ + kept_by_maps - passing_planes);
         memory.width = unread_.object.width;
         memory.height = unread_.object.height;
-        memory.pictures = static_cast<std::int64_t>(pictures);
+        memory.images = static_cast<std::int64_t>(images);
         return memory;
     }
 
@@ -104,7 +104,7 @@ private:
     }
 
     Status read_stage(ReadStage stage) {
-        if (stage == ReadStage::pictures) return read_pictures();
+        if (stage == ReadStage::images) return read_images();
         for (const OneFor each : {OneFor::object, OneFor::ring}) {
             for (std::uint32_t index = 0; index < count_of(each, unread_.object); ++index) {
                 if (Status status = read_each(each, stage, index); !status) return status;
@@ -113,13 +113,13 @@ private:
         return {};
     }
 
-    Status read_pictures() {
+    Status read_images() {
         for (const Ring& ring : unread_.object.rings) {
             for (std::size_t n = 0; n < ring.views.size(); ++n) {
                 if (!is_wanted(ring, n)) continue;
-                if (Status status = read_each(OneFor::view, ReadStage::pictures, ring.views[n]); !status) return status;
+                if (Status status = read_each(OneFor::view, ReadStage::images, ring.views[n]); !status) return status;
                 if (!unread_.coded) continue;
-                needed_bytes_ += unread_.coded->pictures[ring.views[n]].bytes.size();
+                needed_bytes_ += unread_.coded->images[ring.views[n]].bytes.size();
                 if (needed_bytes_ > options_.memory_cap_bytes) return too_large(needed_bytes_);
             }
         }
@@ -164,32 +164,32 @@ private:
         return Error{container_.where() + ": has no chunk " + named(expected[next]) + " in its place"};
     }
 
-    // What the maps and pictures need, but for what their chunks state themselves.
+    // What the maps and images need, but for what their chunks state themselves.
     Status check_memory() {
         // No product here reaches 2^64: every factor is capped by conventions.hpp.
         for (const Ring& ring : unread_.object.rings) {
             needed_bytes_ += sizeof(std::uint16_t) * static_cast<std::uint64_t>(ring.planes) *
                              static_cast<std::uint64_t>(ring.x_cells) * static_cast<std::uint64_t>(ring.u_cells);
         }
-        needed_bytes_ += wanted_pictures() * picture_bytes();
+        needed_bytes_ += wanted_images() * image_bytes();
         return needed_bytes_ <= options_.memory_cap_bytes ? Status{} : Status{too_large(needed_bytes_)};
     }
 
-    [[nodiscard]] std::uint64_t wanted_pictures() const {
-        std::uint64_t pictures = 0;
+    [[nodiscard]] std::uint64_t wanted_images() const {
+        std::uint64_t images = 0;
         for (const Ring& ring : unread_.object.rings) {
-            for (std::size_t n = 0; n < ring.views.size(); ++n) pictures += is_wanted(ring, n) ? 1 : 0;
+            for (std::size_t n = 0; n < ring.views.size(); ++n) images += is_wanted(ring, n) ? 1 : 0;
         }
-        return pictures;
+        return images;
     }
 
     [[nodiscard]] bool is_wanted(const Ring& ring, std::size_t n) const {
         return level_of(unread_.object, ring, n) <= options_.max_level;
     }
 
-    // What a picture will take: a coded one is unpacked at full size, from planes that are a little larger.
-    [[nodiscard]] std::uint64_t picture_bytes() const {
-        if (!unread_.coded) return raw_picture_bytes(unread_.object.width, unread_.object.height);
+    // What an image will take: a coded one is unpacked at full size, from planes that are a little larger.
+    [[nodiscard]] std::uint64_t image_bytes() const {
+        if (!unread_.coded) return raw_image_bytes(unread_.object.width, unread_.object.height);
         return codec::tile_table_bytes(*unread_.coded) + (options_.decode ? 2 * coded_planes_bytes() : 0);
     }
 
@@ -204,7 +204,7 @@ private:
             return std::to_string((bytes + (1U << 20) - 1) >> 20) + " MiB";
         };
         return Error{container_.where() + ": needs " + mebibytes(needed_bytes) + " of memory, more than the " +
-                     mebibytes(options_.memory_cap_bytes) + " allowed; encode it with fewer or smaller pictures"};
+                     mebibytes(options_.memory_cap_bytes) + " allowed; encode it with fewer or smaller images"};
     }
 
     const ContainerReader& container_;
@@ -217,10 +217,9 @@ private:
 
 Status write_object(const std::filesystem::path& path, const RaySpaceObject& object, Progress* progress) {
     if (Status status = validate_object(object, path.string()); !status) return status;
-    for (std::size_t i = 0; i < object.pictures.size(); ++i) {
-        if (object.coded ? !object.coded->pictures[i].loaded() : object.pictures[i].empty()) {
-            return Error{path.string() + ": picture " + std::to_string(i) +
-                         " is not loaded; an object is written whole"};
+    for (std::size_t i = 0; i < object.images.size(); ++i) {
+        if (object.coded ? !object.coded->images[i].loaded() : object.images[i].empty()) {
+            return Error{path.string() + ": image " + std::to_string(i) + " is not loaded; an object is written whole"};
         }
     }
     const std::vector<ChunkKey> order = chunk_order(object);

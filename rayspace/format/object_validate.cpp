@@ -12,7 +12,7 @@ using namespace object_chunks;
 
 std::string place_of(OneFor each, std::uint32_t index) {
     if (each == OneFor::object) return "";
-    return (each == OneFor::ring ? "ring " : "picture ") + std::to_string(index) + ": ";
+    return (each == OneFor::ring ? "ring " : "image ") + std::to_string(index) + ": ";
 }
 
 Status check_views_are_in_rings(const RaySpaceObject& object) {

@@ -12,7 +12,7 @@ Camera look_at_camera(const glm::dvec3& eye, const glm::dvec3& target, double fo
     RS_CHECK(glm::length(line_of_sight) > 0);
     RS_CHECK(fov_x_rad > 0 && width > 0 && height > 0);
     const glm::dvec3 forward = glm::normalize(line_of_sight);
-    // Where the view is vertical Y shows nothing about which way up the picture is.
+    // Where the view is vertical Y shows nothing about which way up the image is.
     const bool vertical = std::hypot(forward.x, forward.z) < 1e-12;
     const glm::dvec3 world_up = vertical ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, world_up));

@@ -37,7 +37,7 @@ struct Camera {
 // `fov_x_rad`, square pixels, principal point in the middle. eye != target.
 Camera look_at_camera(const glm::dvec3& eye, const glm::dvec3& target, double fov_x_rad, int width, int height);
 
-// True where every picture column is a vertical plane of rays: no pitch and no roll, within 1e-9.
+// True where every image column is a vertical plane of rays: no pitch and no roll, within 1e-9.
 bool is_upright(const Camera& camera);
 
 // The rotation's defect from orthonormality: max |R^T R - I|, plus 1 where the determinant is negative.

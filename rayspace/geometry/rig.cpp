@@ -4,7 +4,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig_json.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -44,9 +44,9 @@ Result<Rig> read_rig(const fs::path& path) {
     }
     RS_ASSIGN_OR_RETURN(const auto bytes, read_file(file, kMaxRigFile_bytes));
     const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    return parse_rig(text, file.string(), [&](const RigView& first) -> Result<PictureSize> {
-        RS_ASSIGN_OR_RETURN(const auto info, read_picture_info(picture_path(file.parent_path(), first)));
-        return PictureSize{info.width, info.height};
+    return parse_rig(text, file.string(), [&](const RigView& first) -> Result<ImageSize> {
+        RS_ASSIGN_OR_RETURN(const auto info, read_image_info(image_path(file.parent_path(), first)));
+        return ImageSize{info.width, info.height};
     });
 }
 
@@ -57,7 +57,7 @@ Status write_rig(const fs::path& transforms_json, const Rig& rig) {
         const std::string place = where + ": frame " + std::to_string(i);
         if (!all_finite(view.camera)) return Error{place + ": its camera holds a number that is not finite"};
         if (!is_utf8(view.file_path) || !is_utf8(view.depth_file_path)) {
-            return Error{place + ": its picture's name is not valid UTF-8; rename the file"};
+            return Error{place + ": its image's name is not valid UTF-8; rename the file"};
         }
     }
     if (!std::isfinite(rig.object_radius)) return Error{where + ": the object radius is not finite"};
@@ -66,7 +66,7 @@ Status write_rig(const fs::path& transforms_json, const Rig& rig) {
     return write_file(transforms_json, text);
 }
 
-fs::path picture_path(const fs::path& folder, const RigView& view) {
+fs::path image_path(const fs::path& folder, const RigView& view) {
     fs::path as_given = folder / view.file_path;
     std::error_code ignored;
     if (fs::is_regular_file(as_given, ignored)) return as_given;

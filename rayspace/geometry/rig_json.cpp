@@ -37,7 +37,7 @@ std::optional<double> number_of(JsonObject& object, const char* key, double lowe
 // Some tools write whole numbers as 800.0.
 std::optional<int> side_of(JsonObject& object, const char* key) {
     const auto found = object.find(key);
-    return found ? std::optional(found->whole_number(1, kMaxPictureSide_px)) : std::nullopt;
+    return found ? std::optional(found->whole_number(1, kMaxImageSide_px)) : std::nullopt;
 }
 
 std::string path_of(const JsonValue& value) {
@@ -78,7 +78,7 @@ void apply_intrinsics(const Intrinsics& frame, const Intrinsics& file, const Jso
     camera.width = frame.w.value_or(file.w.value_or(0));
     camera.height = frame.h.value_or(file.h.value_or(0));
     if (camera.width == 0 || camera.height == 0) {
-        throw place.wrong("has no w and h; add the pictures' width and height in pixels");
+        throw place.wrong("has no w and h; add the images' width and height in pixels");
     }
     const auto fl_x = choose_focal(frame.fl_x, frame.angle_x_rad, file.fl_x, file.angle_x_rad, camera.width);
     const auto fl_y = choose_focal(frame.fl_y, frame.angle_y_rad, file.fl_y, file.angle_y_rad, camera.height);
@@ -110,10 +110,10 @@ glm::dmat4 matrix_of(const JsonValue& rows) {
     return matrix;
 }
 
-RigView parse_frame(JsonObject frame, const FindPictureSize& find_size, bool first, Intrinsics& file) {
+RigView parse_frame(JsonObject frame, const FindImageSize& find_size, bool first, Intrinsics& file) {
     RigView view;
     view.file_path = path_of(frame.take("file_path"));
-    if (view.file_path.empty()) throw frame.wrong("file_path is empty; a frame needs the name of its picture");
+    if (view.file_path.empty()) throw frame.wrong("file_path is empty; a frame needs the name of its image");
     if (const auto depth = frame.find("depth_file_path")) view.depth_file_path = path_of(*depth);
     const JsonValue matrix = frame.take("transform_matrix");
     view.camera.world_from_camera = matrix_of(matrix);
@@ -124,8 +124,7 @@ RigView parse_frame(JsonObject frame, const FindPictureSize& find_size, bool fir
     const Intrinsics own = take_intrinsics(frame);
     if (first && find_size && !((own.w || file.w) && (own.h || file.h))) {
         const auto size = find_size(view);
-        if (!size)
-            throw frame.wrong("has no w and h, and they cannot be read from its picture: " + size.error().message);
+        if (!size) throw frame.wrong("has no w and h, and they cannot be read from its image: " + size.error().message);
         file.w = size->width;
         file.h = size->height;
     }
@@ -181,7 +180,7 @@ std::string dumped(const ordered_json& value) {
 
 }  // namespace
 
-Result<Rig> parse_rig(const std::string& text, const std::string& where, const FindPictureSize& find_size) {
+Result<Rig> parse_rig(const std::string& text, const std::string& where, const FindImageSize& find_size) {
     return read_json(text, where, [&](JsonObject& top) {
         if (!top.has("frames")) throw top.wrong("frames is missing; is this a transforms.json?");
         Intrinsics file = take_intrinsics(top);

@@ -102,7 +102,7 @@ struct Rgba8 {
 };
 static_assert(sizeof(Rgba8) == 4);
 
-// `front` over an opaque backdrop, both sRGB, mixed as pictures on a screen are; exact for alpha 0 and 255.
+// `front` over an opaque backdrop, both sRGB, mixed as images on a screen are; exact for alpha 0 and 255.
 constexpr Rgba8 over(const Rgba8& front, const Rgba8& backdrop) {
     const auto mix = [&](int f, int b) {
         return static_cast<std::uint8_t>((f * front.a + b * (255 - front.a) + 127) / 255);

@@ -5,11 +5,11 @@
 // Everything here is integer: the renderer's arithmetic (engine/RECONSTRUCTION.md) starts from these numbers and is
 // exact.
 //
-// A captured picture i is a line of ray space: through the point x of reference plane k it has exactly one ray. So the
-// RS map of a plane needs to hold only *which picture* answers a cell (x, u); the CapturedLine of (picture, plane) then
+// A captured image i is a line of ray space: through the point x of reference plane k it has exactly one ray. So the
+// RS map of a plane needs to hold only *which image* answers a cell (x, u); the CapturedLine of (image, plane) then
 // gives column and vertical scale of the ray through x exactly, without the rounding of a column stored per cell.
 
-#include "rayspace/codec/code/coded_pictures.hpp"
+#include "rayspace/codec/code/coded_images.hpp"
 #include "rayspace/image/image.hpp"
 #include "rayspace/object/shape_map.hpp"
 
@@ -21,9 +21,9 @@
 
 namespace rs {
 
-inline constexpr std::uint16_t kNoPicture = 0xFFFF;
+inline constexpr std::uint16_t kNoImage = 0xFFFF;
 
-// The plane point x (q20) seen by a captured picture:
+// The plane point x (q20) seen by a captured image:
 //     axial depth  l = l0 + x * l1                        (object radii)
 //     column       q = cx + (q0 + x * q1) / l             (px; floor gives the column index)
 //     row scale    m = fl_y / l                           (rows per object radius)
@@ -35,7 +35,7 @@ struct CapturedLine {
     bool operator==(const CapturedLine&) const = default;
 };
 
-// The upright camera behind one stored picture. A height Y on the plane point appears in row cy - m * (Y - height).
+// The upright camera behind one stored image. A height Y on the plane point appears in row cy - m * (Y - height).
 struct CapturedView {
     std::int32_t cx_q16 = 0;
     std::int32_t cy_q16 = 0;
@@ -46,7 +46,7 @@ struct CapturedView {
 };
 
 // A ring of views and its RS map. Cell (k, xi, ui) stands at cells[(k * x_cells + xi) * u_cells + ui] and holds the
-// index of a view of the object, or kNoPicture. xi = floor((x + x_half) * x_cells_per_unit) for x in [-x_half, x_half);
+// index of a view of the object, or kNoImage. xi = floor((x + x_half) * x_cells_per_unit) for x in [-x_half, x_half);
 // ui = floor((u + u_half) * u_cells_per_unit); both clamped to the map.
 struct Ring {
     std::int32_t elevation_udeg =
@@ -71,28 +71,28 @@ struct Ring {
     }
 };
 
-// One stored picture: Y and alpha at full size, U and V at half width and height (rounded up) or, if chroma_shift is 0,
+// One stored image: Y and alpha at full size, U and V at half width and height (rounded up) or, if chroma_shift is 0,
 // at full size too; 8 bits each.
-struct PlanarPicture {
+struct PlanarImage {
     Image<std::uint8_t> y, u, v, a;
     int chroma_shift = 1;  // of a pixel's column and row, to its place in U and V
     [[nodiscard]] bool empty() const { return y.empty(); }
-    bool operator==(const PlanarPicture&) const = default;
+    bool operator==(const PlanarImage&) const = default;
 };
 
 struct RaySpaceObject {
     std::string name;
     double units_per_radius = 1;           // length of the object radius in the units of the capture set
     std::optional<std::int32_t> foot_q20;  // Y of the ground that the object stands on, object radii; if it is known
-    std::string rig_json;  // the rig of the stored (upright) pictures, in the capture set's units: rig.hpp
-    int width = 0;         // px, of every picture
+    std::string rig_json;  // the rig of the stored (upright) images, in the capture set's units: rig.hpp
+    int width = 0;         // px, of every image
     int height = 0;
     std::vector<CapturedView> views;
     std::vector<Ring> rings;
-    std::vector<PlanarPicture> pictures;  // [view]; empty ones were not loaded (progressive reading)
-    // The pictures as the file holds them, where it holds them compressed; then `pictures` may all be empty until
-    // codec::decode_pictures() unpacks them.
-    std::shared_ptr<const codec::CodedPictures> coded;
+    std::vector<PlanarImage> images;  // [view]; empty ones were not loaded (progressive reading)
+    // The images as the file holds them, where it holds them compressed; then `images` may all be empty until
+    // codec::decode_images() unpacks them.
+    std::shared_ptr<const codec::CodedImages> coded;
 };
 
 // Chroma planes are half as large, rounded up.

@@ -17,7 +17,7 @@
 // h is that of a ray from the ring's own distance and height (`reference`); for a ray of another slope the engine
 // follows the surface to the reference ray that sees the same point (engine/RECONSTRUCTION.md).
 //
-// A cell holds one surface, which both pictures show or one of them: depth d means depth_low + d * depth_step along the
+// A cell holds one surface, which both images show or one of them: depth d means depth_low + d * depth_step along the
 // ray from the foot, away from the viewer. Cells are samples at their middles: between neighbouring cells, in p, in
 // height and from line to line, the engine interpolates where their depths differ by at most `jump`. A ray of another
 // slope that passes less than `thickness` behind the deepest cell around it meets the object all the same.
@@ -31,7 +31,7 @@ namespace rs {
 
 struct ShapeCell {
     std::uint8_t depth = 0;
-    // The gap's pictures that show the surface: kByFirst, kBySecond or kByBoth. 0: there is none, and depth is 0.
+    // The gap's images that show the surface: kByFirst, kBySecond or kByBoth. 0: there is none, and depth is 0.
     std::uint8_t shown = 0;
 
     static constexpr std::uint8_t kByFirst = 1, kBySecond = 2, kByBoth = kByFirst | kBySecond;
@@ -54,7 +54,7 @@ struct NormalLine {
 
 // The gap behind view n of the ring (to view n + 1, or from the last to view 0).
 struct ShapeGap {
-    std::uint16_t lines = 0;       // S; 0: nothing is known of this sector, its rays show the nearest picture
+    std::uint16_t lines = 0;       // S; 0: nothing is known of this sector, its rays show the nearest image
     std::uint32_t first_line = 0;  // sum of `lines` of the gaps before it
     bool operator==(const ShapeGap&) const = default;
 };

@@ -1,7 +1,7 @@
 #include "rayspace/output/view_output.hpp"
 
 #include "rayspace/file/input_file.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -11,7 +11,7 @@ namespace rs {
 
 Result<OutputKind> output_kind(const std::string& output) {
     const std::string extension = lower_case_extension(output);
-    if (extension == ".png") return OutputKind::picture;
+    if (extension == ".png") return OutputKind::image;
     if (extension == ".mp4") return OutputKind::video;
     for (const char* other :
          {".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".exr", ".bmp", ".gif", ".avi", ".mov", ".mkv", ".webm"}) {
@@ -22,7 +22,7 @@ Result<OutputKind> output_kind(const std::string& output) {
     return OutputKind::folder;
 }
 
-std::string numbered_picture_name(std::size_t number) {
+std::string numbered_image_name(std::size_t number) {
     char name[32];
     std::snprintf(name, sizeof name, "%04zu.png", number);
     return name;
@@ -32,7 +32,7 @@ Rig rig_of_views(const std::vector<Camera>& cameras) {
     Rig rig;
     for (const Camera& camera : cameras) {
         RigView view;
-        view.file_path = numbered_picture_name(rig.views.size());
+        view.file_path = numbered_image_name(rig.views.size());
         view.camera = camera;
         rig.views.push_back(view);
     }

@@ -1,7 +1,7 @@
 #include "rayspace/page/html_page.hpp"
 
 #include "rayspace/base/check.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -133,11 +133,10 @@ void HtmlPage::table(const std::vector<std::string>& header, const std::vector<s
     body_ += "</table>\n";
 }
 
-Status HtmlPage::pictures(std::span<const CaptionedPicture> row, int longest_side_px, PictureLayout layout) {
-    std::string markup =
-        layout == PictureLayout::kLine ? "<div class=\"pictures line\">\n" : "<div class=\"pictures\">\n";
-    for (const CaptionedPicture& captioned : row) {
-        const Image<Rgba8> small = scaled_down(captioned.picture, longest_side_px);
+Status HtmlPage::images(std::span<const CaptionedImage> row, int longest_side_px, ImageLayout layout) {
+    std::string markup = layout == ImageLayout::kLine ? "<div class=\"images line\">\n" : "<div class=\"images\">\n";
+    for (const CaptionedImage& captioned : row) {
+        const Image<Rgba8> small = scaled_down(captioned.image, longest_side_px);
         RS_ASSIGN_OR_RETURN(const auto png, encode_png(small, captioned.caption));
         const std::string caption = escaped(captioned.caption);
         markup += "<figure><img alt=\"" + caption + "\" width=\"" + std::to_string(small.width()) + "\" height=\"" +

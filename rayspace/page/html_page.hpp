@@ -1,10 +1,10 @@
 #pragma once
-// One self-contained HTML page, built from top to bottom: no scripts, no other files, pictures inside as PNG.
+// One self-contained HTML page, built from top to bottom: no scripts, no other files, images inside as PNG.
 //
 // Every text is escaped; the page follows the reader's light or dark setting.
 
 #include "rayspace/base/result.hpp"
-#include "rayspace/page/page_pictures.hpp"
+#include "rayspace/page/page_images.hpp"
 
 #include <span>
 #include <string>
@@ -19,9 +19,9 @@ std::string escaped(std::string_view text);
 
 std::string base64(std::span<const std::byte> bytes);
 
-enum class PictureLayout {
+enum class ImageLayout {
     kWrap,  // as many lines as it takes
-    kLine,  // one line; pictures are shown smaller where the window is narrow
+    kLine,  // one line; images are shown smaller where the window is narrow
 };
 
 class HtmlPage {
@@ -34,9 +34,9 @@ public:
     // Each row has as many cells as `header`. Cells of a column whose every cell begins with a digit or a sign are set
     // to the right.
     void table(const std::vector<std::string>& header, const std::vector<std::vector<std::string>>& rows);
-    // The pictures are brought to at most longest_side_px.
-    Status pictures(std::span<const CaptionedPicture> row, int longest_side_px = 400,
-                    PictureLayout layout = PictureLayout::kWrap);
+    // The images are brought to at most longest_side_px.
+    Status images(std::span<const CaptionedImage> row, int longest_side_px = 400,
+                  ImageLayout layout = ImageLayout::kWrap);
     // Markup of this folder's drawings (line_plot.hpp, ring_plan.hpp), taken as it is.
     void drawing(const std::string& svg);
 

@@ -45,7 +45,7 @@ PlotFrame plot_frame(const LinePlot& plot);
 // Colours are the variables --s0 .. --s4 of HtmlPage's style, in turn. Texts are escaped.
 std::string svg_of(const LinePlot& plot);
 
-// The same as a picture of its own: with its colours, on white.
+// The same as an image of its own: with its colours, on white.
 std::string standalone_svg_of(const LinePlot& plot);
 
 }  // namespace rs

@@ -1,5 +1,5 @@
 #pragma once
-// A polar plot as an SVG picture of its own: named curves over angles, 0 at the bottom, as the light of a luminaire
+// A polar plot as an SVG image of its own: named curves over angles, 0 at the bottom, as the light of a luminaire
 // that hangs is drawn.
 
 #include <string>

@@ -20,10 +20,10 @@ std::string svg_line(double x0, double y0, double x1, double y1, const std::stri
 // Of the series with this number, as a variable that HtmlPage's style sets.
 std::string series_colour(std::size_t series);
 
-// The beginning of a picture, up to and with its title.
+// The beginning of an image, up to and with its title.
 std::string svg_head(int width_px, int height_px, const std::string& title);
 
-// A picture that stands by itself, on white: variables are replaced by their colours, for few programs but browsers
+// An image that stands by itself, on white: variables are replaced by their colours, for few programs but browsers
 // know them.
 std::string standalone_svg(std::string svg);
 

@@ -127,9 +127,9 @@ Result<PixelSize> parse_size(const std::string& text) {
     if (!take_number(rest, size.width) || !take(rest, 'x') || !take_number(rest, size.height) || !rest.empty()) {
         return Error{"'" + text + "' is not a size; write WIDTHxHEIGHT, such as 640x480"};
     }
-    if (size.width < 1 || size.height < 1 || size.width > kMaxPictureSide_px || size.height > kMaxPictureSide_px) {
-        return Error{"the size " + text + " is out of range; each side must be 1.." +
-                     std::to_string(kMaxPictureSide_px) + " pixels"};
+    if (size.width < 1 || size.height < 1 || size.width > kMaxImageSide_px || size.height > kMaxImageSide_px) {
+        return Error{"the size " + text + " is out of range; each side must be 1.." + std::to_string(kMaxImageSide_px) +
+                     " pixels"};
     }
     return size;
 }

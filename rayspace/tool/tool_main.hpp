@@ -23,10 +23,10 @@ inline constexpr int kExitUsage = 2;
 int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run);
 
 // For CLI::Option::check() of a file to be written: its name must end in one of `endings`, as ".rso", in any case, so
-// that a slip does not cost a picture or a page that is there.
+// that a slip does not cost an image or a page that is there.
 std::function<std::string(const std::string&)> ends_in(std::vector<std::string> endings);
 
-// "640x480" -> {640, 480}; both 1..kMaxPictureSide_px.
+// "640x480" -> {640, 480}; both 1..kMaxImageSide_px.
 struct PixelSize {
     int width = 0;
     int height = 0;

@@ -55,7 +55,7 @@ protected:
         const Rig rig = make_ring({.count = 6, .fl_px = 60, .width = 48, .height = 40});
         for (std::size_t i = 0; i < 6; ++i) {
             const auto path = work_ / name / ("p" + std::to_string(i) + ".png");
-            ASSERT_TRUE(write_png(path, test::drawn_picture(rig.views[i].camera)).ok());
+            ASSERT_TRUE(write_png(path, test::drawn_image(rig.views[i].camera)).ok());
         }
     }
 
@@ -80,13 +80,13 @@ TEST_F(BadInput, Folders) {
     expect_failure("rs-encode", {"build", in("nowhere"), "-o", in("o.rso"), "-q"}, {"nowhere"});
 }
 
-TEST_F(BadInput, PicturesOfDifferentSizes) {
+TEST_F(BadInput, ImagesOfDifferentSizes) {
     write_photographs("photos");
     ASSERT_TRUE(write_png(work_ / "photos" / "p3.png", Image<Rgba8>(50, 40)).ok());
     expect_failure("rs-capture", {"import", in("photos"), "-o", in("set"), "-q"}, {"p3.png", "50x40"});
 }
 
-TEST_F(BadInput, CorruptPictures) {
+TEST_F(BadInput, CorruptImages) {
     write_photographs("photos");
     const auto photo = work_ / "photos" / "p4.png";
     const auto size = std::filesystem::file_size(photo);
@@ -100,7 +100,7 @@ TEST_F(BadInput, CorruptPictures) {
         file.put('\xAA');
     }
     expect_failure("rs-encode", {"build", in("set"), "-o", in("o.rso"), "-q"}, {"2.png"});
-    write_text("text.png", "this is no picture");
+    write_text("text.png", "this is no image");
     std::filesystem::rename(work_ / "text.png", work_ / "set" / "2.png");
     expect_failure("rs-encode", {"build", in("set"), "-o", in("o.rso"), "-q"}, {"2.png"});
 }
@@ -239,7 +239,7 @@ TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
                                               in("l.json"), "--stats", in("l.json")});
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_NE(run.err.find("was just written"), std::string::npos) << run.err;
-    EXPECT_TRUE(read_picture(in("new.png")).ok());
+    EXPECT_TRUE(read_image(in("new.png")).ok());
 }
 
 TEST_F(BadInput, LimitsOfTheProcessAreOnePlainLine) {

@@ -49,7 +49,7 @@ protected:
         for (const fs::path& file : files) all += file.string() + "\n" + bytes_of(name + "/" + file.string());
         return all;
     }
-    // Sets a, b, c of 8, 9, 10 pictures.
+    // Sets a, b, c of 8, 9, 10 images.
     void draw_sets() const {
         int count = 8;
         for (const char* const name : {"a", "b", "c"}) {

@@ -2,7 +2,7 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/calibration/drawn_drum.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -3,7 +3,7 @@
 #include "capture/calibration/model/turntable_model.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/calibration/board_photos.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -156,7 +156,7 @@ TEST_F(ImportTool, TakesBoardAndMasksAndWritesAPage) {
     const test::BoardPhotos photos;
     for (std::size_t i = 0; i < photos.model.angles_rad.size(); ++i) {
         const test::BoardPhotos::Photo photo = photos.taken(i);
-        ASSERT_TRUE(write_png(folder_ / "photos" / file_name(i), photo.picture).ok());
+        ASSERT_TRUE(write_png(folder_ / "photos" / file_name(i), photo.image).ok());
         ASSERT_TRUE(write_png(folder_ / "masks" / file_name(i), photo.mask).ok());
     }
     const std::vector<std::string> arguments = {
@@ -184,7 +184,7 @@ TEST_F(ImportTool, TakesBoardAndMasksAndWritesAPage) {
     EXPECT_NE(no_mask.err.find("04.png"), std::string::npos) << no_mask.err;
 }
 
-TEST_F(ImportTool, BadPicturesLeaveNothing) {
+TEST_F(ImportTool, BadImagesLeaveNothing) {
     write_drum(3);
     const test::ToolRun few = import({"--calibration", "tracks", "--report", in("page.html")});
     expect_nothing_written(few);
@@ -192,7 +192,7 @@ TEST_F(ImportTool, BadPicturesLeaveNothing) {
     std::filesystem::remove(folder_ / "photos" / file_name(1));
     const test::ToolRun two = import({});
     expect_nothing_written(two);
-    EXPECT_NE(two.err.find("holds 2 pictures; a turn has 5 and more"), std::string::npos) << two.err;
+    EXPECT_NE(two.err.find("holds 2 images; a turn has 5 and more"), std::string::npos) << two.err;
     for (std::size_t i = 0; i < 6; ++i) {
         ASSERT_TRUE(write_png(folder_ / "photos" / file_name(i), Image<Rgba8>(64, 48, Rgba8{255, 255, 255, 255})).ok());
     }
@@ -208,7 +208,7 @@ TEST_F(ImportTool, SegmentersAreChosenReportedAndRefused) {
     const test::BoardPhotos photos;
     for (std::size_t i = 0; i < photos.model.angles_rad.size(); ++i) {
         const test::BoardPhotos::Photo photo = photos.taken(i);
-        ASSERT_TRUE(write_png(folder_ / "photos" / file_name(i), photo.picture).ok());
+        ASSERT_TRUE(write_png(folder_ / "photos" / file_name(i), photo.image).ok());
         ASSERT_TRUE(write_png(folder_ / "masks" / file_name(i), photo.mask).ok());
     }
     const std::vector<std::string> nominal = {"--calibration", "nominal", "--masks", in("masks")};

@@ -1,7 +1,7 @@
 // rs-view --sequence as a user runs it, on the street that rs-street writes.
 
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -69,18 +69,18 @@ TEST_F(SequenceTool, AVideoHasTheFramesOfItsStills) {
     EXPECT_NEAR(video.get(cv::CAP_PROP_FPS), 25, 1e-6);
     int frames = 0;
     for (cv::Mat decoded; video.read(decoded); ++frames) {
-        const auto still = read_picture(in("stills/000" + std::to_string(frames) + ".png"));
+        const auto still = read_image(in("stills/000" + std::to_string(frames) + ".png"));
         ASSERT_TRUE(still) << frames;
         EXPECT_GE(psnr_db(decoded, *still), 35) << frames;
     }
     EXPECT_EQ(frames, 6);
     EXPECT_EQ(view({"--sequence", in("town"), "--frame", "3", "-o", in("third.png")}).exit_code, 0);
-    const auto third = read_picture(in("third.png"));
-    const auto still = read_picture(in("stills/0003.png"));
+    const auto third = read_image(in("third.png"));
+    const auto still = read_image(in("stills/0003.png"));
     ASSERT_TRUE(third && still);
     EXPECT_TRUE(std::equal(third->pixels().begin(), third->pixels().end(), still->pixels().begin()));
     EXPECT_EQ(view({"--sequence", in("town"), "--frame", "5", "--weather", "snow", "-o", in("a.jpg")}).exit_code, 0);
-    EXPECT_TRUE(read_picture(in("a.jpg")));
+    EXPECT_TRUE(read_image(in("a.jpg")));
     EXPECT_NE(view({"--sequence", in("town"), "--frame", "6", "-o", in("b.jpg")}).exit_code, 0);
     EXPECT_FALSE(fs::exists(in("b.jpg")));
 }
@@ -110,9 +110,9 @@ TEST_F(SequenceTool, AVideoNeedsTwoFrames) {
     EXPECT_EQ(refused.exit_code, 1);
     EXPECT_THAT(refused.err, HasSubstr("a video needs 2 or more"));
     EXPECT_FALSE(fs::exists(in("one.mp4")));
-    const test::ToolRun picture = view({"--sequence", in("one.obj"), "-o", in("one.jpg")});
-    if (picture.err.find("OpenGL: ") == std::string::npos) {
-        EXPECT_EQ(picture.exit_code, 0) << picture.err;
+    const test::ToolRun image = view({"--sequence", in("one.obj"), "-o", in("one.jpg")});
+    if (image.err.find("OpenGL: ") == std::string::npos) {
+        EXPECT_EQ(image.exit_code, 0) << image.err;
     }
 }
 

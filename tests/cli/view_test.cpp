@@ -2,7 +2,7 @@
 
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/small_object.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -42,9 +42,9 @@ constexpr const char* kWorld =
     "Shape { appearance Appearance { material Material { emissiveColor 1 0 0 gloss 3 } } geometry Box { } }\n";
 
 int red_pixels(const std::string& file) {
-    const auto picture = read_picture(file);
-    if (!picture) return -1;
-    return static_cast<int>(std::count_if(picture->pixels().begin(), picture->pixels().end(),
+    const auto image = read_image(file);
+    if (!image) return -1;
+    return static_cast<int>(std::count_if(image->pixels().begin(), image->pixels().end(),
                                           [](const Rgba8& pixel) { return pixel.r > 200; }));
 }
 
@@ -92,8 +92,8 @@ TEST_F(View, LightIsTracedWhereThatIsAskedFor) {
         arguments.insert(arguments.end(), more.begin(), more.end());
         arguments.insert(arguments.end(), {"-o", in(name)});
         run_ = view(arguments);
-        const auto picture = run_.exit_code == 0 ? read_picture(in(name)) : Result<Image<Rgba8>>(Error{run_.err});
-        return picture ? static_cast<int>((*picture)(32, 24).g) : -1;
+        const auto image = run_.exit_code == 0 ? read_image(in(name)) : Result<Image<Rgba8>>(Error{run_.err});
+        return image ? static_cast<int>((*image)(32, 24).g) : -1;
     };
     const int raster = brightness("raster.png", {"--shadows", "off"});
     if (raster < 0 && run_.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run_.err;
@@ -106,7 +106,7 @@ TEST_F(View, LightIsTracedWhereThatIsAskedFor) {
     std::vector<std::string> probe = base;
     probe.insert(probe.end(), {"--probe=0,1,0", "--passes", "2", "-o", in("probe.exr")});
     ASSERT_EQ(view(probe).exit_code, 0);
-    const auto info = read_picture_info(in("probe.exr"));
+    const auto info = read_image_info(in("probe.exr"));
     ASSERT_TRUE(info);
     EXPECT_EQ(info->width, 512);
 }
@@ -119,8 +119,8 @@ TEST_F(View, CartoonsHaveTonesWhateverTheExposure) {
     const auto tone = [&](std::vector<std::string> more) {
         more.insert(more.begin(), base.begin(), base.end());
         run_ = view(more);
-        const auto picture = run_.exit_code == 0 ? read_picture(in("x.png")) : Result<Image<Rgba8>>(Error{run_.err});
-        return picture ? static_cast<int>((*picture)(8, 24).g) : -1;
+        const auto image = run_.exit_code == 0 ? read_image(in("x.png")) : Result<Image<Rgba8>>(Error{run_.err});
+        return image ? static_cast<int>((*image)(8, 24).g) : -1;
     };
     const int lit = tone({});
     if (lit < 0 && run_.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run_.err;
@@ -147,7 +147,7 @@ TEST_F(View, ListsOfLightsThatMakeNoSenseAreRefused) {
 }
 
 // A scene's own lights and those of a list, in one list that replaces them all.
-TEST_F(View, SavedLightsGiveTheSamePicture) {
+TEST_F(View, SavedLightsGiveTheSameImage) {
     write("hall.wrl", std::string(kShadedFloor) +
                           "PointLight { location 0.3 0.8 0.2 intensity 0.4 color 1 0.9 0.7 attenuation 1 0.3 0.1 }\n"
                           "Transform { translation 0 0.5 0 children Shape { geometry Box { size 0.2 0.2 0.2 } } }\n");
@@ -163,7 +163,7 @@ TEST_F(View, SavedLightsGiveTheSamePicture) {
     run = view({in("hall.wrl"), "--lights", in("lamp.json"), "-o", in("a.png")});
     if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
     ASSERT_EQ(view({in("hall.wrl"), "--lights", in("all.json"), "-o", in("b.png")}).exit_code, 0);
-    EXPECT_EQ(read_picture(in("a.png")).value(), read_picture(in("b.png")).value());
+    EXPECT_EQ(read_image(in("a.png")).value(), read_image(in("b.png")).value());
     ASSERT_EQ(view({in("hall.wrl"), "--lights", in("all.json"), "--save-lights", in("again.json")}).exit_code, 0);
     EXPECT_EQ(read_file(in("all.json"), 1 << 20).value(), read_file(in("again.json"), 1 << 20).value());
 }
@@ -229,14 +229,14 @@ TEST_F(View, RoomsAreWalkedThroughWithinABudget) {
     EXPECT_EQ(all["memory"]["evictions"], 0);
     EXPECT_EQ(all["missing"]["times"], 0);
     EXPECT_GT(all["views_by_core"], 5);
-    const auto last = read_picture(in("frames/0005.png"));
+    const auto last = read_image(in("frames/0005.png"));
     ASSERT_TRUE(last);
     // An object takes 2 MiB, and some 5 while it is read: 6 do not hold one and the reading of the other.
     const nlohmann::json one = stats_of({"--memory", "6"});
     ASSERT_EQ(run_.exit_code, 0) << run_.err;
     EXPECT_EQ(one["memory"]["evictions"], 1) << one;
     EXPECT_LE(one["memory"]["peak_bytes"], 6 << 20);
-    EXPECT_EQ(*read_picture(in("frames/0005.png")), *last) << "each room is complete when it is seen";
+    EXPECT_EQ(*read_image(in("frames/0005.png")), *last) << "each room is complete when it is seen";
     const nlohmann::json streamed = stats_of({"--streaming", "--fps", "10"});
     ASSERT_EQ(run_.exit_code, 0) << run_.err;
     EXPECT_GE(streamed["memory"]["loads"], 1);

@@ -1,7 +1,7 @@
 // rs-view on walls and in tiles, as a user runs it.
 
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/udp_sender.hpp"
@@ -40,8 +40,8 @@ protected:
         arguments.emplace_back("-q");
         return test::run_tool(scratch_.path(), "rs-view", arguments);
     }
-    Image<Rgba8> picture(const std::string& name) const {
-        auto read = read_picture(in(name));
+    Image<Rgba8> image(const std::string& name) const {
+        auto read = read_image(in(name));
         EXPECT_TRUE(read.ok()) << read.error().message;
         return read ? std::move(*read) : Image<Rgba8>();
     }
@@ -51,16 +51,16 @@ protected:
     test::TemporaryFolder scratch_;
 };
 
-TEST_F(Displays, EachWallIsAPicture) {
+TEST_F(Displays, EachWallIsAImage) {
     test::ToolRun run = view({in("hall.wrl"), "--walls", "cave", "--size", "40x40", "-o", in("cave")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     for (const char* name : {"left", "front", "right", "floor"})
         EXPECT_TRUE(exists(std::string("cave/") + name + ".png"));
     // The box is straight ahead.
-    const Image<Rgba8> front = picture("cave/front.png");
+    const Image<Rgba8> front = image("cave/front.png");
     ASSERT_EQ(front.width(), 40);
     EXPECT_GT(front(20, 17).r, 200);
-    EXPECT_LT(picture("cave/left.png")(20, 17).r, 50);
+    EXPECT_LT(image("cave/left.png")(20, 17).r, 50);
     const auto rig = read_rig(in("cave"));
     ASSERT_TRUE(rig.ok()) << rig.error().message;
     EXPECT_EQ(rig->views.size(), 4U);
@@ -69,7 +69,7 @@ TEST_F(Displays, EachWallIsAPicture) {
     run = view({in("hall.wrl"), "--walls", "cave", "--wall", "front", "--size", "40x40", "--stereo", "side-by-side",
                 "-o", in("pair")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_EQ(picture("pair/front.png").width(), 80);
+    EXPECT_EQ(image("pair/front.png").width(), 80);
     EXPECT_FALSE(exists("pair/left.png"));
 }
 
@@ -77,7 +77,7 @@ TEST_F(Displays, StereoAloneMeansTwoFolders) {
     const test::ToolRun run =
         view({in("hall.wrl"), "--walls", "power-wall", "--size", "32x18", "-o", in("two"), "--stereo"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_NE(picture("two/left/front.png"), picture("two/right/front.png"));
+    EXPECT_NE(image("two/left/front.png"), image("two/right/front.png"));
     EXPECT_EQ(read_rig(in("two"))->views.size(), 2U);
 }
 
@@ -89,7 +89,7 @@ TEST_F(Displays, HeadsMoveFrameByFrameAndNotThroughWalls) {
     test::ToolRun run =
         view({in("hall.wrl"), "--walls", in("walls.json"), "--heads", in("heads.json"), "-o", in("walk")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_NE(picture("walk/w/0000.png"), picture("walk/w/0001.png"));
+    EXPECT_NE(image("walk/w/0000.png"), image("walk/w/0001.png"));
 
     write("heads.json", R"({"heads": [{"position": [0, 1, 0]}, {"position": [0, 1, -1.4]}]})");
     run = view({in("hall.wrl"), "--walls", in("walls.json"), "--heads", in("heads.json"), "-o", in("no")});
@@ -114,7 +114,7 @@ private:
     std::jthread thread_;
 };
 
-TEST_F(Displays, PicturesAreOfTheHeadThatIsTracked) {
+TEST_F(Displays, ImagesAreOfTheHeadThatIsTracked) {
     write("walls.json",
           R"({"walls": [{"name": "w", "lower_left": [-1, 0, -1], "lower_right": [1, 0, -1], "upper_left": [-1, 2, -1],
               "pixels": [32, 32]}], "head": {"position": [0, 1, 0]}})");
@@ -129,7 +129,7 @@ TEST_F(Displays, PicturesAreOfTheHeadThatIsTracked) {
         run = view({in("hall.wrl"), "--walls", in("walls.json"), "--heads", udp, "-o", in("tracked")});
     }
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_EQ(picture("tracked/w.png"), picture("by-file/w.png"));
+    EXPECT_EQ(image("tracked/w.png"), image("by-file/w.png"));
     {
         const Tracker tracker(port, {0, 0, -140, 0, 0, 0});
         run = view({in("hall.wrl"), "--walls", in("walls.json"), "--heads", udp, "-o", in("behind")});
@@ -159,7 +159,7 @@ TEST_F(Displays, TracedLightFallsOnWallsToo) {
         const test::ToolRun run = view({in("hall.wrl"), "--walls", "cave", "--wall", "front", "--size", "40x40",
                                         "--renderer", renderer, "--passes", "2", "-o", in(renderer)});
         ASSERT_EQ(run.exit_code, 0) << run.err;
-        EXPECT_GT(picture(std::string(renderer) + "/front.png")(20, 17).r, 200) << renderer;
+        EXPECT_GT(image(std::string(renderer) + "/front.png")(20, 17).r, 200) << renderer;
     }
 }
 
@@ -167,7 +167,7 @@ TEST_F(Displays, AQuiltHasItsLayoutInItsName) {
     test::ToolRun run =
         view({in("hall.wrl"), "--quilt", "3x2", "--tile-size", "30x40", "--cone", "30", "-o", in("hall.png")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    const Image<Rgba8> quilt = picture("hall_qs3x2a0.75.png");
+    const Image<Rgba8> quilt = image("hall_qs3x2a0.75.png");
     ASSERT_EQ(quilt.width(), 90);
     ASSERT_EQ(quilt.height(), 80);
     EXPECT_FALSE(exists("hall.png"));
@@ -204,7 +204,7 @@ TEST_F(Displays, OlderAndNewerWorldsAreShown) {
     for (const char* name : {"old.wrl", "new.x3d"}) {
         const test::ToolRun run = view({in(name), "--size", "40x40", "-o", in("shot.png")});
         ASSERT_EQ(run.exit_code, 0) << run.err;
-        EXPECT_GT(picture("shot.png")(20, 20).r, 200) << name;
+        EXPECT_GT(image("shot.png")(20, 20).r, 200) << name;
     }
     write("bad.x3d", "<X3D>\n<Scene>\n<Shape>\n</Scene></X3D>");
     const test::ToolRun run = view({in("bad.x3d"), "-o", in("bad.png")});

@@ -19,16 +19,16 @@ inline RaySpaceObject drum_object(std::optional<Rgba8> colour = std::nullopt) {
     RaySpaceObject object = ring_object(options);
     if (colour) {
         const Rig rig = ring_rig(options);
-        for (std::size_t i = 0; i < object.pictures.size(); ++i) {
+        for (std::size_t i = 0; i < object.images.size(); ++i) {
             std::mt19937_64 random(i);
-            Image<Rgba8> picture = noise_picture(rig.views[i].camera, random);
+            Image<Rgba8> image = noise_image(rig.views[i].camera, random);
             // Every column that shows something is opaque over its whole height.
-            for (int x = 0; x < picture.width(); ++x) {
+            for (int x = 0; x < image.width(); ++x) {
                 bool shows = false;
-                for (int y = 0; y < picture.height(); ++y) shows |= picture(x, y).a > 0;
-                for (int y = 2; y < picture.height() - 3; ++y) picture(x, y) = shows ? *colour : Rgba8{};
+                for (int y = 0; y < image.height(); ++y) shows |= image(x, y).a > 0;
+                for (int y = 2; y < image.height() - 3; ++y) image(x, y) = shows ? *colour : Rgba8{};
             }
-            object.pictures[i] = planar_from_rgba(picture);
+            object.images[i] = planar_from_rgba(image);
         }
     }
     return object;

@@ -5,7 +5,7 @@
 #include "capture/tracer/scene/scene_file.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
-#include "tests/compositor/truth_picture.hpp"
+#include "tests/compositor/truth_image.hpp"
 
 #include <memory>
 
@@ -15,7 +15,7 @@ namespace rs::test {
 // It stands 1.6 radii high, its foot 0.8 below the middle.
 capture::SceneFile signpost();
 
-// The signpost, captured with small pictures and encoded, and as the truth has it. Made once.
+// The signpost, captured with small images and encoded, and as the truth has it. Made once.
 struct Signpost {
     std::shared_ptr<const compositor::ViewableObject> viewable;
     std::shared_ptr<const TracedObject> traced;

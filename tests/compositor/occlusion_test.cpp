@@ -1,15 +1,15 @@
-// What hides what: frames of an object among geometry against pictures in golden/, each of which was looked at. Skipped
+// What hides what: frames of an object among geometry against images in golden/, each of which was looked at. Skipped
 // where no OpenGL context can be had.
 //
-// After a wanted change: RAYSPACE_UPDATE_GOLDEN=1 test_compositor --gtest_filter='Occlusion*' writes the pictures anew;
+// After a wanted change: RAYSPACE_UPDATE_GOLDEN=1 test_compositor --gtest_filter='Occlusion*' writes the images anew;
 // look at them before they are kept (RAYSPACE_TRUTH_FOLDER=FOLDER writes the truth of each beside), and say why they
 // changed. Tolerance: drivers
 // rasterise edges in their own ways, so one pixel in a hundred may differ, all others by up to kTolerance codes.
 
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/image/picture_metrics.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image/image_metrics.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/compositor/gl_test.hpp"
 #include "tests/compositor/occlusion_scene.hpp"
 
@@ -28,7 +28,7 @@ constexpr int kGoldenWidth = 160;
 constexpr int kGoldenHeight = 120;
 constexpr int kTolerance = 6;
 constexpr double kMayDiffer = 0.01;         // share of the pixels
-constexpr double kUprightMayLose_db = 1.1;  // by looking up in the picture of a level camera
+constexpr double kUprightMayLose_db = 1.1;  // by looking up in the image of a level camera
 constexpr glm::vec3 kWall{0.7F, 0.66F, 0.55F};
 constexpr glm::vec3 kGreen{0.1F, 0.5F, 0.2F};
 
@@ -48,10 +48,10 @@ double share_different(const Image<Rgba8>& a, const Image<Rgba8>& b) {
     return static_cast<double>(count) / (a.width() * a.height());
 }
 
-Image<Rgba8> flipped(const Image<Rgba8>& picture) {
-    Image<Rgba8> result(picture.width(), picture.height());
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) result(x, y) = picture(picture.width() - 1 - x, y);
+Image<Rgba8> flipped(const Image<Rgba8>& image) {
+    Image<Rgba8> result(image.width(), image.height());
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) result(x, y) = image(image.width() - 1 - x, y);
     }
     return result;
 }
@@ -76,7 +76,7 @@ protected:
                                 ObjectDepth depth = ObjectDepth::kPlane, bool upright = false) {
         Result<FrameCompositor> compositor = FrameCompositor::create(
             scene, objects,
-            {.width = kGoldenWidth, .height = kGoldenHeight, .object_depth = depth, .upright_pictures = upright});
+            {.width = kGoldenWidth, .height = kGoldenHeight, .object_depth = depth, .upright_images = upright});
         RS_CHECK(compositor.ok());
         Result<Image<Rgba8>> frame = compositor->compose(camera);
         RS_CHECK(frame.ok());
@@ -91,11 +91,11 @@ protected:
         }
         const auto traced = test::TruthScene::create(scene, nodes);
         RS_CHECK(traced.ok());
-        return traced->render(camera, {}).picture;
+        return traced->render(camera, {}).image;
     }
 
     static double truth_db(const Image<Rgba8>& frame, const Image<Rgba8>& truth) {
-        return compare_pictures_psnr(frame, truth).psnr_db();
+        return compare_images_psnr(frame, truth).psnr_db();
     }
 
     static void expect_golden(const Case& made) {
@@ -116,7 +116,7 @@ protected:
             }
             return;
         }
-        const Result<Image<Rgba8>> golden = read_picture(file);
+        const Result<Image<Rgba8>> golden = read_image(file);
         ASSERT_TRUE(golden) << golden.error().message;
         ASSERT_TRUE(golden->width() == kGoldenWidth && golden->height() == kGoldenHeight);
         EXPECT_LE(share_different(frame, *golden), kMayDiffer) << made.name;
@@ -136,7 +136,7 @@ Case with_boxes(Case made, const std::vector<std::tuple<glm::dvec3, glm::dvec3, 
     return made;
 }
 
-TEST_F(Occlusion, LooksAsInThePictures) {
+TEST_F(Occlusion, LooksAsInTheImages) {
     const Scene room = test::empty_room();
     const std::vector<PlacedObject> one = {placed()};
     const Camera front = seen({0.5, 0.6, 4.6});
@@ -160,7 +160,7 @@ TEST_F(Occlusion, LooksAsInThePictures) {
                    {{{0.1, 3, 1.2}, {0, 0, 0}, kWall, 0}}),
         with_boxes({"inside_the_cylinder", room, one, seen({0.55, 0.35, 0.75}, {-0.3, 0.05, -0.2}, 60), 18},
                    {{{0.2, 3, 0.2}, {-0.2, 0, -1.4}, kGreen, 0}}),
-        // From where no picture was taken little is left of the object; geometry before and below it must be whole.
+        // From where no image was taken little is left of the object; geometry before and below it must be whole.
         with_boxes({"straight_down", room, one, seen({0.2, 4.5, 0.1}, {0.2, 0, 0.1}), 15},
                    {{{4, 0.1, 4}, {0, -1.1, 0}, kWall, 0}, {{0.2, 0.2, 3}, {0.6, 1.3, 0}, kGreen, 0}}),
     };

@@ -147,8 +147,8 @@ Result<TruthDifference> TruthComparison::compare(const Camera& camera, const Tru
     if (!alone) return alone.error();
     TruthDifference difference;
     difference.truth = truth_.render(camera, options);
-    const TruthPicture& truth = difference.truth;
-    const Image<Rgba8> alone_truth = objects_alone_.render(camera, options).picture;
+    const TruthImage& truth = difference.truth;
+    const Image<Rgba8> alone_truth = objects_alone_.render(camera, options).image;
 
     SquaredError objects;
     SquaredError elsewhere;
@@ -156,7 +156,7 @@ Result<TruthDifference> TruthComparison::compare(const Camera& camera, const Tru
     for (int y = 0; y < camera.height; ++y) {
         for (int x = 0; x < camera.width; ++x) {
             const bool object = truth.objects(x, y) > 0 || (*shown)(x, y) > kAnything;
-            (object ? objects : elsewhere).add((*frame)(x, y), truth.picture(x, y));
+            (object ? objects : elsewhere).add((*frame)(x, y), truth.image(x, y));
             if (truth.unhidden(x, y) > 0 || (*unhidden)(x, y) > kAnything) {
                 objects_alone.add((*alone)(x, y), alone_truth(x, y));
             }

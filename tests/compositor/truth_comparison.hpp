@@ -3,13 +3,13 @@
 // geometry cuts objects.
 
 #include "compositor/viewer/drawing/frame_compositor.hpp"
-#include "tests/compositor/truth_picture.hpp"
+#include "tests/compositor/truth_image.hpp"
 
 #include <vector>
 
 namespace rs::test {
 
-// Of places at which one of two pictures has such an edge; each looks for the nearest edge of the other, up to 8 px.
+// Of places at which one of two images has such an edge; each looks for the nearest edge of the other, up to 8 px.
 struct EdgeDistances {
     int places = 0;
     double mean_px = 0;
@@ -21,11 +21,11 @@ struct TruthDifference {
     // dB with peak 255 over R, G, B of sRGB codes.
     double objects_db = 99;    // pixels in which the truth or the frame shows something of an object
     double elsewhere_db = 99;  // all others
-    double alone_db = 99;      // objects without any geometry: what the engine's pictures can reach
+    double alone_db = 99;      // objects without any geometry: what the engine's images can reach
     double object_share = 0;   // of the pixels
     EdgeDistances cuts;
     Image<Rgba8> frame;
-    TruthPicture truth;
+    TruthImage truth;
 };
 
 // Needs a gl::Context that is current, and outlives it.

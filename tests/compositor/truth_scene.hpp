@@ -1,5 +1,5 @@
 #pragma once
-// The scene by which composited frames are compared with the truth (truth_picture.hpp): a room with a table, a shelf, a
+// The scene by which composited frames are compared with the truth (truth_image.hpp): a room with a table, a shelf, a
 // plinth, pillars and a low screen, procedural objects, and eight viewpoints of a visitor's walk.
 
 #include "capture/tracer/scene/scene_file.hpp"
@@ -8,7 +8,7 @@
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
-#include "tests/compositor/truth_picture.hpp"
+#include "tests/compositor/truth_image.hpp"
 
 #include <filesystem>
 #include <memory>

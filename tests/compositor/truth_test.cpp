@@ -75,7 +75,7 @@ TEST_F(Truth, ErrorsAreSeen) {
     auto moved = TruthComparison::create(scene_, placed_, traced_, frame);
     ASSERT_TRUE(moved);
     EXPECT_LT(moved->compare(camera, options)->objects_db, objects_db - 3);
-    // Nearer to the eye and smaller: the same picture, but before the pillars.
+    // Nearer to the eye and smaller: the same image, but before the pillars.
     const compositor::Similarity nearer{glm::dmat3(1.0), camera.centre() * 0.7, 0.3};
     for (compositor::PlacedObject& object : placed_) object.world_from_object = nearer * object.world_from_object;
     auto before = TruthComparison::create(scene_, placed_, traced_, frame);

@@ -51,7 +51,7 @@ TEST_P(EveryRecipe, ShowsAllOfTheObject) {
             }
         }
         EXPECT_GT(nearest_edge_px, 2.0) << "view " << view;
-        EXPECT_LT(nearest_edge_px, 0.25 * recipe.height) << "the object is lost in the picture";
+        EXPECT_LT(nearest_edge_px, 0.25 * recipe.height) << "the object is lost in the image";
     }
 }
 

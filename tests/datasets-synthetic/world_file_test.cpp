@@ -3,7 +3,7 @@
 #include "datasets-synthetic/showroom/world_file.hpp"
 #include "datasets-synthetic/showroom/showroom.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -70,7 +70,7 @@ TEST(WorldFile, NamesWhatIsThere) {
     for (std::sregex_iterator it(text.begin(), text.end(), url), end; it != end; ++it) used.insert((*it)[1]);
     EXPECT_EQ(used.size(), world.textures.size()) << "every texture is used";
     for (const std::string& file : used) {
-        const Result<PictureInfo> info = read_picture_info(folder / "room" / file);
+        const Result<ImageInfo> info = read_image_info(folder / "room" / file);
         EXPECT_TRUE(info.ok()) << file;
     }
     std::size_t triangles = 0;

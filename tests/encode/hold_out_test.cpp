@@ -5,7 +5,7 @@
 #include "encode/set/capture_set.hpp"
 #include "encode/tools/evaluation.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/image/picture_metrics.hpp"
+#include "rayspace/image/image_metrics.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -90,8 +90,8 @@ TEST(NearestKeptView, IsNearestInTheTurnOfTheNearestRing) {
 
 TEST(WithViews, KeepsWhatTheWholeSetHas) {
     const test::TemporaryFolder folder;
-    Rig rig = test::drawn_ring(8, 20);  // looks down: pictures are made upright, in one frame for all
-    rig.object_radius = 0;              // measured over all pictures
+    Rig rig = test::drawn_ring(8, 20);  // looks down: images are made upright, in one frame for all
+    rig.object_radius = 0;              // measured over all images
     test::write_drawn_set(folder / "set", rig);
     const Result<CaptureSet> all = open_capture_set(folder / "set");
     ASSERT_TRUE(all.ok()) << all.error().message;
@@ -102,17 +102,17 @@ TEST(WithViews, KeepsWhatTheWholeSetHas) {
     EXPECT_EQ(some.height, all->height);
     EXPECT_EQ(some.upright.views[1].file_path, all->upright.views[6].file_path);
     EXPECT_EQ(some.upright.views[1].camera.world_from_camera, all->upright.views[6].camera.world_from_camera);
-    const auto picture = read_upright_picture(some, 1);
-    const auto same = read_upright_picture(*all, 6);
-    ASSERT_TRUE(picture.ok() && same.ok());
-    EXPECT_EQ(*picture, *same);
+    const auto image = read_upright_image(some, 1);
+    const auto same = read_upright_image(*all, 6);
+    ASSERT_TRUE(image.ok() && same.ok());
+    EXPECT_EQ(*image, *same);
     CaptureSet completed = *all;
     completed.completed = {{3, Image<Rgba8>(2, 2)}, {6, Image<Rgba8>(1, 1)}};
-    EXPECT_EQ(read_upright_picture(completed, 6)->width(), 1);
+    EXPECT_EQ(read_upright_image(completed, 6)->width(), 1);
     const CaptureSet some_completed = with_views(completed, std::vector<int>{1, 6});
     EXPECT_EQ(some_completed.completed.size(), 1U);
-    EXPECT_EQ(read_upright_picture(some_completed, 1)->width(), 1);
-    EXPECT_EQ(read_upright_picture(some_completed, 0)->width(), all->width);
+    EXPECT_EQ(read_upright_image(some_completed, 1)->width(), 1);
+    EXPECT_EQ(read_upright_image(some_completed, 0)->width(), all->width);
     EXPECT_TRUE(build_object(some, {.map = {}, .name = "two"}).ok());
 }
 
@@ -127,7 +127,7 @@ TEST(Evaluation, MethodsAreRead) {
     }
 }
 
-TEST(Evaluation, ScoresOnlyWhatWasHeldOutAgainstItsOwnPicture) {
+TEST(Evaluation, ScoresOnlyWhatWasHeldOutAgainstItsOwnImage) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", test::drawn_ring(24));
     const Result<CaptureSet> set = open_capture_set(folder / "set");
@@ -141,10 +141,10 @@ TEST(Evaluation, ScoresOnlyWhatWasHeldOutAgainstItsOwnPicture) {
         looked.insert(answered.view);
         EXPECT_EQ(answered.view, hold_out.held[answered.number]);
         EXPECT_EQ(answered.truth,
-                  test::drawn_picture(set->upright.views[static_cast<std::size_t>(answered.view)].camera));
-        EXPECT_EQ(answered.psnr_db, compare_pictures_psnr(answered.truth, answered.answer).psnr_db());
+                  test::drawn_image(set->upright.views[static_cast<std::size_t>(answered.view)].camera));
+        EXPECT_EQ(answered.psnr_db, compare_images_psnr(answered.truth, answered.answer).psnr_db());
         if (answered.method == Method::kPhoto) {
-            const auto photo = read_upright_picture(*set, nearest_kept_view(set->upright, hold_out, answered.view));
+            const auto photo = read_upright_image(*set, nearest_kept_view(set->upright, hold_out, answered.view));
             EXPECT_TRUE(photo.ok() && *photo == answered.answer);
         }
         return {};

@@ -38,7 +38,7 @@ int fuzz_ply(const std::uint8_t* data, std::size_t size);
 int fuzz_sequence(const std::uint8_t* data, std::size_t size);
 
 // The bytes as a photograph: JPEG or PNG, by how it begins.
-int fuzz_picture(const std::uint8_t* data, std::size_t size);
+int fuzz_image(const std::uint8_t* data, std::size_t size);
 
 // The bytes as a video file; decodes at most 16 frames, none if they have more than 2^20 pixels.
 int fuzz_film(const std::uint8_t* data, std::size_t size);

@@ -22,7 +22,7 @@ int fuzz_middlebury(const std::uint8_t* data, std::size_t size) {
     RS_CHECK(std::isfinite(known.principal_point->x) && std::isfinite(known.principal_point->y));
     RS_CHECK(std::isfinite(known.pose->pan_rad) && std::isfinite(known.pose->tilt_rad) &&
              std::isfinite(known.pose->roll_rad));
-    RS_CHECK(known.angles_rad->size() == file->pictures.size() && known.angles_rad->size() <= kMaxViews);
+    RS_CHECK(known.angles_rad->size() == file->images.size() && known.angles_rad->size() <= kMaxViews);
     for (const double angle : *known.angles_rad) RS_CHECK(std::isfinite(angle));
     RS_CHECK(known.angles_rad->front() == 0);
     return 0;

@@ -20,7 +20,7 @@ void check_rewriting(const RaySpaceObject& object) {
     const auto again = read_object(*container);
     RS_CHECK(again.ok());
     RS_CHECK(again->name == object.name && again->rig_json == object.rig_json && again->foot_q20 == object.foot_q20);
-    RS_CHECK(again->views == object.views && again->rings == object.rings && again->pictures == object.pictures);
+    RS_CHECK(again->views == object.views && again->rings == object.rings && again->images == object.images);
 }
 
 // What was accepted must be safe to render, from anywhere.
@@ -32,8 +32,8 @@ void check_rendering(const RaySpaceObject& object) {
         for (const Camera& each : {camera, upright_camera(camera)}) {
             const auto registers = engine::prepare_view(object, each);
             if (!registers) continue;
-            Image<Rgba8> picture(each.width, each.height);
-            engine::reconstruct_scalar(object, *registers, picture);
+            Image<Rgba8> image(each.width, each.height);
+            engine::reconstruct_scalar(object, *registers, image);
         }
     }
 }

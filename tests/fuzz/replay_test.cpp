@@ -5,7 +5,7 @@
 #include "compositor/scene/reader/vrml_file.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/fuzz/chunk_soup.hpp"
 #include "tests/fuzz/entries.hpp"
 #include "tests/fuzz/mutated_world.hpp"
@@ -130,8 +130,8 @@ TEST(FuzzReplay, Mtl) {
 TEST(FuzzReplay, Ply) {
     replay("ply", fuzz::fuzz_ply);
 }
-TEST(FuzzReplay, Picture) {
-    replay("picture", fuzz::fuzz_picture);
+TEST(FuzzReplay, Image) {
+    replay("picture", fuzz::fuzz_image);
 }
 TEST(FuzzReplay, Film) {
     replay("film", fuzz::fuzz_film);
@@ -206,7 +206,7 @@ TEST(FuzzReplay, SeedsAreValid) {
     }
     for (const fs::path& file : corpus("picture")) {
         if (file.filename().string().rfind("seed-", 0) != 0) continue;
-        EXPECT_TRUE(read_picture(file).ok()) << file;
+        EXPECT_TRUE(read_image(file).ok()) << file;
         ++seeds;
     }
     for (const fs::path& file : corpus("head")) {

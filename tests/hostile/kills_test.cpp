@@ -2,7 +2,7 @@
 
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/hostile/mutation.hpp"
 #include "tests/hostile/surviving.hpp"
 #include "tests/support/drawn_set.hpp"
@@ -72,7 +72,7 @@ TEST(HostileKills, WhatIsThereStaysWhole) {
         const auto extracted = read_rig(fs::path(set));
         ASSERT_TRUE(extracted.ok()) << extracted.error().message;
         for (const RigView& view : extracted->views) {
-            ASSERT_TRUE(read_picture(picture_path(set, view)).ok()) << view.file_path;
+            ASSERT_TRUE(read_image(image_path(set, view)).ok()) << view.file_path;
         }
     }
     EXPECT_GT(kills, 0);

@@ -53,7 +53,7 @@ std::string drawn_alike(const RaySpaceObject& object, const engine::Renderer& re
             Image<Rgba8> defined(each.width, each.height), drawn(each.width, each.height);
             engine::reconstruct_scalar(object, *registers, defined);
             renderer.render(*registers, drawn);
-            if (defined != drawn) return "the core's picture differs from the definition's";
+            if (defined != drawn) return "the core's image differs from the definition's";
         }
     }
     return "";
@@ -91,7 +91,7 @@ TEST(HostileObjects, AreRefusedOrDrawnAlike) {
         options.decode = false;
         auto coded = read_object(*container, options);
         if (!coded) return "is accepted decoded and refused coded";
-        const bool is_coded = coded->pictures.empty() || coded->pictures.front().empty();
+        const bool is_coded = coded->images.empty() || coded->images.front().empty();
         const auto renderer = engine::Renderer::create(is_coded ? std::move(*coded) : *object);
         if (!renderer) return of_one_line(renderer.error());
         return drawn_alike(*object, *renderer);

@@ -111,15 +111,15 @@ TEST(GoldenFiles, ValidOnesDecodeToTheirSums) {
 }
 
 // Nothing else would notice a sum that every file has.
-TEST(GoldenFiles, SumsTellPicturesApart) {
+TEST(GoldenFiles, SumsTellImagesApart) {
     std::set<std::uint64_t> luma;
-    std::size_t pictures = 0;
+    std::size_t images = 0;
     for (const auto& [name, views] : expected_planes()) {
         for (const PlaneSums& sums : views) luma.insert(sums[0]);
-        pictures += views.size();
+        images += views.size();
     }
-    EXPECT_GT(pictures, 60U);
-    EXPECT_GT(luma.size(), pictures * 3 / 4);
+    EXPECT_GT(images, 60U);
+    EXPECT_GT(luma.size(), images * 3 / 4);
 }
 
 struct Refusal {

@@ -1,13 +1,13 @@
 #include "tests/reference/library_tiles.hpp"
 
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 
 #include <algorithm>
 
 namespace rs::reference {
 
-std::vector<LibraryPlanes> decode_by_tiles(const codec::CodedPictures& coded) {
-    std::vector<LibraryPlanes> decoded(coded.pictures.size());
+std::vector<LibraryPlanes> decode_by_tiles(const codec::CodedImages& coded) {
+    std::vector<LibraryPlanes> decoded(coded.images.size());
     for (auto& planes : decoded) {
         for (auto& plane : planes) plane = Image<std::uint8_t>(coded.coded_width(), coded.coded_height(), 77);
     }
@@ -17,12 +17,12 @@ std::vector<LibraryPlanes> decode_by_tiles(const codec::CodedPictures& coded) {
     for (int level = 0; level < kProgressiveLevels; ++level) {
         for (std::size_t v = 0; v < decoded.size(); ++v) {
             if (coded.levels[v] != level) continue;
-            const codec::CodedPicture& picture = coded.pictures[v];
+            const codec::CodedImage& image = coded.images[v];
             std::array<codec::ConstPlaneViews, 2> references;
-            for (std::size_t r = 0; r < static_cast<std::size_t>(picture.head.references()); ++r) {
-                std::ranges::copy(views_of(decoded[picture.head.reference[r]]), references[r].begin());
+            for (std::size_t r = 0; r < static_cast<std::size_t>(image.head.references()); ++r) {
+                std::ranges::copy(views_of(decoded[image.head.reference[r]]), references[r].begin());
             }
-            for (std::size_t t = 0; t < picture.tiles.size(); ++t) {
+            for (std::size_t t = 0; t < image.tiles.size(); ++t) {
                 codec::decode_tile(coded, v, t, references, nullptr, views_of(decoded[v]));
             }
         }

@@ -26,7 +26,7 @@ inline void put16(std::vector<std::uint8_t>& bytes, int value) {
     put(bytes, (value >> 8) & 255);
 }
 
-// `levels`: of the views. Under a tame code the random bytes of a tile become something picture-like; without, samples
+// `levels`: of the views. Under a tame code the random bytes of a tile become something image-like; without, samples
 // are soon at 0 or 255.
 [[nodiscard]] std::vector<std::uint8_t> random_dense_code(const std::vector<int>& levels, bool is_tame, Random& random);
 [[nodiscard]] std::vector<std::uint8_t> random_board_code(const std::vector<int>& levels, bool is_tame, Random& random);

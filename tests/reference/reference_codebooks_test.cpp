@@ -1,4 +1,4 @@
-// The codebooks' frame in CODE of board pictures: both readers accept and refuse the same ones.
+// The codebooks' frame in CODE of board images: both readers accept and refuse the same ones.
 
 #include "tests/reference/damaged_payload.hpp"
 

@@ -1,5 +1,5 @@
 #pragma once
-// A ray <-> (plane, x, u), and vertical compensation, as the paper has them: what maps and pictures are checked
+// A ray <-> (plane, x, u), and vertical compensation, as the paper has them: what maps and images are checked
 // against.
 //
 // Source: Sakagawa, Katayama, Kotake, Tamura, "A Hardware Ray-Space Data Renderer for Interactive Augmented

@@ -48,7 +48,7 @@ inline CapturedView captured(const Camera& camera, int planes) {
     return view;
 }
 
-inline PlanarPicture picture(int width, int height, unsigned seed) {
+inline PlanarImage image(int width, int height, unsigned seed) {
     const auto filled = [&](int w, int h, unsigned salt) {
         Image<std::uint8_t> plane(w, h);
         unsigned state = seed * 7919U + salt;
@@ -67,7 +67,7 @@ inline std::uint16_t nearest_view(const std::vector<Camera>& cameras, std::uint1
                                   double x, double u) {
     const glm::dvec3 t = tangent(plane, planes);
     const glm::dvec3 normal(-t.z, 0, t.x);
-    std::uint16_t best = kNoPicture;
+    std::uint16_t best = kNoImage;
     double best_distance = 1e9;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const double a = glm::dot(cameras[i].centre(), t);
@@ -123,7 +123,7 @@ inline RaySpaceObject small_object(const SmallObjectOptions& options = {}) {
             cameras.push_back(view.camera);
             ring.views.push_back(index);
             object.views.push_back(captured(view.camera, options.planes));
-            object.pictures.push_back(picture(options.width, options.height, index));
+            object.images.push_back(image(options.width, options.height, index));
             rig.views.push_back(view);
         }
         for (int k = 0; k < options.planes; ++k) {

@@ -1,6 +1,6 @@
 #pragma once
 // A ray-space object whose shape is known exactly: a ball beside the axis with a grey texture, drawn by ray casting
-// into the pictures of a ring_object() and into its shape map, straight from the formulas of
+// into the images of a ring_object() and into its shape map, straight from the formulas of
 // rayspace/object/shape_map.hpp.
 
 #include "rayspace/geometry/ray_space.hpp"
@@ -35,18 +35,18 @@ inline double grey_at(const glm::dvec3& p) {
     return 128 + 55 * std::sin(5 * p.x + 1) * std::cos(4 * p.z) + 55 * std::sin(6 * p.y + 2 * p.x);
 }
 
-inline Image<Rgba8> sphere_picture(const Sphere& sphere, const Camera& camera) {
-    Image<Rgba8> picture(camera.width, camera.height);
+inline Image<Rgba8> sphere_image(const Sphere& sphere, const Camera& camera) {
+    Image<Rgba8> image(camera.width, camera.height);
     for (int y = 0; y < camera.height; ++y) {
         for (int x = 0; x < camera.width; ++x) {
             const glm::dvec3 ray = camera.ray(x + 0.5, y + 0.5);
             const auto met = hit(sphere, camera.centre(), ray);
             if (!met) continue;
             const auto grey = static_cast<std::uint8_t>(std::lround(grey_at(camera.centre() + met->enters * ray)));
-            picture(x, y) = {grey, grey, grey, 255};
+            image(x, y) = {grey, grey, grey, 255};
         }
     }
-    return picture;
+    return image;
 }
 
 // Numbers, gaps and normal lines of a shape map for the ring of `rig`; all cells empty.
@@ -130,7 +130,7 @@ inline ShapeMap sphere_shape(const Sphere& sphere, const Rig& rig, const Ring& r
     return shape;
 }
 
-// Options of a ring whose pictures are large enough for the ball's texture.
+// Options of a ring whose images are large enough for the ball's texture.
 inline RingObjectOptions sphere_options() {
     return {.views = 36, .width = 128, .height = 128, .fl_px = 200, .camera_height = 0.3};
 }
@@ -139,7 +139,7 @@ inline RaySpaceObject sphere_object(const RingObjectOptions& options, const Sphe
     RaySpaceObject object = ring_object(options);
     const Rig rig = ring_rig(options);
     for (std::size_t n = 0; n < rig.views.size(); ++n) {
-        object.pictures[n] = planar_from_rgba(sphere_picture(sphere, rig.views[n].camera));
+        object.images[n] = planar_from_rgba(sphere_image(sphere, rig.views[n].camera));
     }
     object.rings[0].shape = sphere_shape(sphere, rig, object.rings[0], 4, 64, 64);
     return object;

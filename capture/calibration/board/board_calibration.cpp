@@ -68,13 +68,12 @@ Status check(const Task& task) {
                      std::to_string(task.views.size()) + " views show at least " +
                      std::to_string(kFewestCornersOfView) +
                      " corners of it, three are needed; check that the board is the one described (" +
-                     to_string(task.design) + "), sharp, evenly lit and large in the picture"};
+                     to_string(task.design) + "), sharp, evenly lit and large in the image"};
     }
     if (task.options.free.angles == AngleFreedom::kEach && !without.empty()) {
-        return Error{
-            "board: too few corners are seen in " + list_of(task.names, without) +
-            ", so nothing tells how far the object had turned there; leave those pictures out, or say that the "
-            "steps are equal or how large they are"};
+        return Error{"board: too few corners are seen in " + list_of(task.names, without) +
+                     ", so nothing tells how far the object had turned there; leave those images out, or say that the "
+                     "steps are equal or how large they are"};
     }
     return {};
 }
@@ -216,7 +215,7 @@ std::vector<std::string> warnings_about(const Task& task, const Calibration& c) 
             "picture");
     }
     if (c.deviations.cx > 0.02 * c.model.lens.width || c.deviations.cy > 0.02 * c.model.lens.width) {
-        warnings.emplace_back("a level board hardly tells the principal point; leave it at the picture's middle");
+        warnings.emplace_back("a level board hardly tells the principal point; leave it at the image's middle");
     }
     if (c.rms_px > 1.0) {
         warnings.emplace_back(
@@ -251,7 +250,7 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
         // Observations lost to a poor start get another chance.
         used = within(turn, task.used, kCornerOutlierDeviations * task.options.noise_px);
         if (!adjust(turn, used, task.options)) {
-            return Error{"board: the adjustment fails; check that the pictures are of one turn and in order"};
+            return Error{"board: the adjustment fails; check that the images are of one turn and in order"};
         }
     }
     std::vector<std::size_t> against;  // views of which nothing is left have no angle of their own
@@ -263,7 +262,7 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
     if (!against.empty()) {
         return Error{
             "board: its corners in " + list_of(names, against) +
-            " contradict all others; leave those pictures out, or check that the board lay still on the turntable"};
+            " contradict all others; leave those images out, or check that the board lay still on the turntable"};
     }
     // The residual variance, for the deviations: each observation has two coordinates, each unknown takes one.
     std::set<int> shown, corners;

@@ -3,7 +3,7 @@
 // turntable's model and where the board lies.
 //
 // Unknown are f, k1, k2, the camera's pan, tilt and roll, one angle per view and the board's place; the principal point
-// is the picture's middle unless KnownInputs gives another. The board may lie anywhere on the turntable, turned and
+// is the image's middle unless KnownInputs gives another. The board may lie anywhere on the turntable, turned and
 // not quite level. A board that is seen from straight above or from the side does not determine the focal length: 15 to
 // 70 degrees above are good.
 
@@ -28,7 +28,7 @@ struct BoardCalibration {
     int outliers = 0;  // observations left out
 };
 
-// views[i] shows view i of a turn in pictures of width x height pixels. `names` (one per view, or none) are for
+// views[i] shows view i of a turn in images of width x height pixels. `names` (one per view, or none) are for
 // messages alone. Every tenth observation takes no part and gives held_out_rms_px; observations more than five
 // deviations off are left out of both. Errors: fewer than three views show the board; the angle of a view is told by
 // nothing; given angles that contradict the board; no solution. Deterministic; thread-safe; 36 views take well below a

@@ -54,7 +54,7 @@ std::map<int, cv::Point> squares_of_markers(const BoardDesign& design) {
     return squares;
 }
 
-// Markers of the board in the picture stretched by sx, sy.
+// Markers of the board in the image stretched by sx, sy.
 std::vector<FoundMarker> markers_in(const cv::Mat1b& grey, const BoardDesign& design,
                                     const std::map<int, cv::Point>& squares, double sx, double sy) {
     cv::Mat1b stretched = grey;
@@ -267,15 +267,15 @@ Result<BoardCorners> detect_board(ConstImageView<std::uint8_t> grey, const Board
         return corners_in(mat_over(grey), design);
     } catch (const cv::Exception& e) {
         return Error{"the board could not be looked for: " + std::string(e.what()) +
-                     "; check that the picture can be shown by other programs"};
+                     "; check that the image can be shown by other programs"};
     }
 }
 
-Result<BoardCorners> detect_board(ConstImageView<Rgba8> picture, const BoardDesign& design) {
-    Image<std::uint8_t> grey(picture.width(), picture.height());
-    for (int y = 0; y < picture.height(); ++y) {
-        const Rgba8* from = picture.row(y);
-        for (int x = 0; x < picture.width(); ++x) {
+Result<BoardCorners> detect_board(ConstImageView<Rgba8> image, const BoardDesign& design) {
+    Image<std::uint8_t> grey(image.width(), image.height());
+    for (int y = 0; y < image.height(); ++y) {
+        const Rgba8* from = image.row(y);
+        for (int x = 0; x < image.width(); ++x) {
             grey(x, y) = static_cast<std::uint8_t>((299 * from[x].r + 587 * from[x].g + 114 * from[x].b + 500) / 1000);
         }
     }
@@ -286,8 +286,8 @@ Result<std::vector<BoardCorners>> detect_boards(int views, const std::function<R
                                                 const BoardDesign& design, Progress* progress) {
     std::vector<BoardCorners> seen(static_cast<std::size_t>(std::max(0, views)));
     RS_TRY(for_each_in_parallel(views, "looking for the board", progress, [&](int view) -> Status {
-        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, load(view));
-        Result<BoardCorners> found = detect_board(picture.view(), design);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, load(view));
+        Result<BoardCorners> found = detect_board(image.view(), design);
         if (!found) return Error{"view " + std::to_string(view) + ": " + found.error().message};
         seen[static_cast<std::size_t>(view)] = std::move(*found);
         return {};

@@ -3,7 +3,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image/linear_light.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -192,15 +192,15 @@ Result<std::string> board_svg(const BoardDesign& design) {
     return svg.str();
 }
 
-Result<Image<Rgba8>> board_picture(const BoardDesign& design, double dpi) {
+Result<Image<Rgba8>> board_image(const BoardDesign& design, double dpi) {
     RS_TRY(check_board_design(design));
     const double px_per_mm = dpi / 25.4;
     const double border = design.square_mm;
     const double width_px = std::round((board_width_mm(design) + 2 * border) * px_per_mm);
     const double height_px = std::round((board_height_mm(design) + 2 * border) * px_per_mm);
-    if (!(width_px >= 1 && height_px >= 1 && std::max(width_px, height_px) <= kMaxPictureSide_px)) {
+    if (!(width_px >= 1 && height_px >= 1 && std::max(width_px, height_px) <= kMaxImageSide_px)) {
         return Error{"board: " + trimmed(width_px) + " x " + trimmed(height_px) + " pixels; at most " +
-                     std::to_string(kMaxPictureSide_px) + " a side, give another dpi"};
+                     std::to_string(kMaxImageSide_px) + " a side, give another dpi"};
     }
     const int width = static_cast<int>(width_px);
     const int height = static_cast<int>(height_px);
@@ -228,21 +228,21 @@ Result<Image<Rgba8>> board_picture(const BoardDesign& design, double dpi) {
     } catch (const cv::Exception& e) {
         return Error{"board: the small print could not be drawn: " + std::string(e.what())};
     }
-    Image<Rgba8> picture(width, height);
+    Image<Rgba8> image(width, height);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const std::uint8_t grey = srgb8_from_linear(std::clamp(1 - ink(y, x), 0.0F, 1.0F));
-            picture(x, y) = {grey, grey, grey, 255};
+            image(x, y) = {grey, grey, grey, 255};
         }
     }
-    return picture;
+    return image;
 }
 
 Status write_board(const std::filesystem::path& path, const SheetOptions& options) {
     const std::string ending = path.extension().string();
     if (ending == ".png") {
-        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, board_picture(options.design, options.dpi));
-        return write_png(path, picture.view());
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, board_image(options.design, options.dpi));
+        return write_png(path, image.view());
     }
     if (ending != ".pdf" && ending != ".svg") {
         return Error{path.string() + ": a board is written as .pdf, .svg or .png; give a name that ends so"};

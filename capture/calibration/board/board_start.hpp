@@ -1,7 +1,7 @@
 #pragma once
 // First values for calibrating with a board, from the corners alone. Stands between detection and the bundle.
 //
-// Each view's homography from the board's plane to the picture gives the camera's pose relative to the board once the
+// Each view's homography from the board's plane to the image gives the camera's pose relative to the board once the
 // focal length is known, and the focal length itself follows from the homographies where the board is seen obliquely
 // (Zhang, "A flexible new technique for camera calibration", 2000). The board turns with the disc, so the axis is the
 // direction, and the line, that stands still relative to the camera.

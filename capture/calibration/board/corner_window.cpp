@@ -30,7 +30,7 @@ cv::Point2d mapped(const cv::Matx33d& h, double x, double y) {
     return {p[0] / p[2], p[1] / p[2]};
 }
 
-// Samples around `centre` (in squares); false where they leave the picture.
+// Samples around `centre` (in squares); false where they leave the image.
 bool fill(Window& window, const cv::Mat1f& grey, const cv::Matx33d& h, const glm::dvec2& centre) {
     const int n = 2 * window.half + 1;
     window.grey.resize(static_cast<std::size_t>(n * n));
@@ -114,7 +114,7 @@ std::optional<glm::dvec2> offset(const Window& window, double band) {
 
 std::optional<glm::dvec2> refined_corner(const cv::Mat1f& grey, const cv::Matx33d& h, bool first_is_black,
                                          double margin) {
-    // The shorter edge in the picture shows how many pixels a square's narrow side has.
+    // The shorter edge in the image shows how many pixels a square's narrow side has.
     const double side_x = cv::norm(mapped(h, 0.5, 0) - mapped(h, -0.5, 0));
     const double side_y = cv::norm(mapped(h, 0, 0.5) - mapped(h, 0, -0.5));
     const double longest = std::max(side_x, side_y);

@@ -25,7 +25,7 @@ Result<double> common_focal_length(double fx_px, double fy_px, const std::string
     const double f_px = (fx_px + fy_px) / 2;
     if (std::abs(fx_px - fy_px) > kSquarePixels * f_px) {
         return Error{where + ": its focal lengths " + std::to_string(fx_px) + " and " + std::to_string(fy_px) +
-                     " differ by more than 1 %; scale the pictures to square pixels, and calibrate those"};
+                     " differ by more than 1 %; scale the images to square pixels, and calibrate those"};
     }
     return f_px;
 }
@@ -94,7 +94,7 @@ Result<MiddleburyView> view_from(std::string_view line, const std::string& place
     MiddleburyView view;
     view.name = std::string(words.next());
     if (view.name.empty()) return Error{place + " is empty; a view's name and 21 numbers belong there"};
-    if (view.name.size() > kMaxName_bytes) return Error{place + ": the picture's name is too long"};
+    if (view.name.size() > kMaxName_bytes) return Error{place + ": the image's name is too long"};
     std::array<double, kNumbersPerView> numbers{};
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const std::string_view word = words.next();
@@ -148,7 +148,7 @@ Result<glm::dvec2> distortion_of(const nlohmann::json& extras, const std::string
         RS_ASSIGN_OR_RETURN(const auto value, coefficient(key));
         if (value != 0) {
             return Error{where + ": distortion " + key + " = " + std::to_string(value) +
-                         " is not supported, only k1 and k2; calibrate with those alone or undistort the pictures"};
+                         " is not supported, only k1 and k2; calibrate with those alone or undistort the images"};
         }
     }
     const auto k1 = coefficient("k1");
@@ -186,7 +186,7 @@ Result<KnownFile> middlebury_parameters_from(const std::string& text, const std:
     std::vector<glm::dmat4> cameras;
     for (MiddleburyView& view : views) {
         cameras.push_back(view.world_from_camera);
-        file.pictures.push_back(std::move(view.name));
+        file.images.push_back(std::move(view.name));
     }
     RS_TRY(set_turn(file.known, cameras, where));
     return file;
@@ -197,16 +197,16 @@ Result<KnownFile> read_middlebury_parameters(const std::filesystem::path& path) 
     return middlebury_parameters_from({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 
-Result<KnownFile> read_known_rig(const std::filesystem::path& path, PicturePixels pictures) {
+Result<KnownFile> read_known_rig(const std::filesystem::path& path, ImagePixels images) {
     RS_ASSIGN_OR_RETURN(const auto rig, read_rig(path));
     const std::string where = path.string();
     if (rig.views.empty()) return Error{where + ": has no views"};
     const Camera& first = rig.views[0].camera;
     RS_ASSIGN_OR_RETURN(const auto f_px, common_focal_length(first.fl_x, first.fl_y, where));
-    if (pictures.width > 0 && (first.width != pictures.width || first.height != pictures.height)) {
-        return Error{where + ": is of pictures of " + std::to_string(first.width) + " x " +
-                     std::to_string(first.height) + " pixels, these have " + std::to_string(pictures.width) + " x " +
-                     std::to_string(pictures.height) + "; use pictures of the size it was made for"};
+    if (images.width > 0 && (first.width != images.width || first.height != images.height)) {
+        return Error{where + ": is of images of " + std::to_string(first.width) + " x " + std::to_string(first.height) +
+                     " pixels, these have " + std::to_string(images.width) + " x " + std::to_string(images.height) +
+                     "; use images of the size it was made for"};
     }
     RS_ASSIGN_OR_RETURN(const auto distortion, distortion_of(rig.extras, where));
 
@@ -225,7 +225,7 @@ Result<KnownFile> read_known_rig(const std::filesystem::path& path, PicturePixel
                          " has a lens of its own; a turn is taken with one lens"};
         }
         cameras.push_back(camera.world_from_camera);
-        file.pictures.push_back(view.file_path);
+        file.images.push_back(view.file_path);
     }
     file.known.f_px = f_px;
     file.known.principal_point = glm::dvec2(first.cx, first.cy);
@@ -234,11 +234,11 @@ Result<KnownFile> read_known_rig(const std::filesystem::path& path, PicturePixel
     return file;
 }
 
-Result<KnownFile> read_known_file(const std::filesystem::path& path, PicturePixels pictures) {
+Result<KnownFile> read_known_file(const std::filesystem::path& path, ImagePixels images) {
     const std::string ending = lower_case_extension(path);
     std::error_code failure;
-    if (ending == ".json" || std::filesystem::is_directory(path, failure)) return read_known_rig(path, pictures);
-    if (ending == ".yml" || ending == ".yaml" || ending == ".xml") return read_opencv_intrinsics(path, pictures);
+    if (ending == ".json" || std::filesystem::is_directory(path, failure)) return read_known_rig(path, images);
+    if (ending == ".yml" || ending == ".yaml" || ending == ".xml") return read_opencv_intrinsics(path, images);
     if (ending == ".txt") return read_middlebury_parameters(path);
     return Error{
         path.string() +
@@ -248,17 +248,17 @@ Result<KnownFile> read_known_file(const std::filesystem::path& path, PicturePixe
 
 Result<KnownInputs> known_of_photographs(const KnownFile& file, const std::vector<std::string>& photographs) {
     KnownInputs known = file.known;
-    if (!known.angles_rad || file.pictures.empty()) return known;
+    if (!known.angles_rad || file.images.empty()) return known;
     std::map<std::string, double> angle_of;
-    for (std::size_t i = 0; i < file.pictures.size() && i < known.angles_rad->size(); ++i) {
-        angle_of[std::filesystem::path(file.pictures[i]).stem().string()] = (*known.angles_rad)[i];
+    for (std::size_t i = 0; i < file.images.size() && i < known.angles_rad->size(); ++i) {
+        angle_of[std::filesystem::path(file.images[i]).stem().string()] = (*known.angles_rad)[i];
     }
     std::vector<double> angles;
     for (const std::string& photograph : photographs) {
         const auto found = angle_of.find(std::filesystem::path(photograph).stem().string());
         if (found == angle_of.end()) {
             return Error{photograph + ": is not among the " + std::to_string(angle_of.size()) +
-                         " pictures that the given rig knows; take it out of the folder, or give its rig"};
+                         " images that the given rig knows; take it out of the folder, or give its rig"};
         }
         angles.push_back(found->second);
     }

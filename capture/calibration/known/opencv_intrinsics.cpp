@@ -85,14 +85,14 @@ Result<Matrix> matrix_from(const cv::FileNode& node, const std::string& place) {
     return matrix;
 }
 
-Status check_size(const cv::FileStorage& file, const std::string& where, PicturePixels pictures) {
+Status check_size(const cv::FileStorage& file, const std::string& where, ImagePixels images) {
     const cv::FileNode width = file["image_width"];
     const cv::FileNode height = file["image_height"];
-    if (!width.isInt() || !height.isInt() || pictures.width <= 0) return {};
-    if (static_cast<int>(width) == pictures.width && static_cast<int>(height) == pictures.height) return {};
-    return Error{where + ": is of pictures of " + std::to_string(static_cast<int>(width)) + " x " +
-                 std::to_string(static_cast<int>(height)) + " pixels, these have " + std::to_string(pictures.width) +
-                 " x " + std::to_string(pictures.height) + "; calibrate with pictures of the same size"};
+    if (!width.isInt() || !height.isInt() || images.width <= 0) return {};
+    if (static_cast<int>(width) == images.width && static_cast<int>(height) == images.height) return {};
+    return Error{where + ": is of images of " + std::to_string(static_cast<int>(width)) + " x " +
+                 std::to_string(static_cast<int>(height)) + " pixels, these have " + std::to_string(images.width) +
+                 " x " + std::to_string(images.height) + "; calibrate with images of the same size"};
 }
 
 Result<glm::dvec2> distortion_from(const cv::FileNode& node, const std::string& where) {
@@ -108,13 +108,13 @@ Result<glm::dvec2> distortion_from(const cv::FileNode& node, const std::string& 
         if (k[i] != 0) {
             return Error{where + ": distortion " + kNames[i] + " = " + std::to_string(k[i]) +
                          " is not supported, only k1 and k2; calibrate with CALIB_ZERO_TANGENT_DIST and CALIB_FIX_K3, "
-                         "or undistort the pictures"};
+                         "or undistort the images"};
         }
     }
     return glm::dvec2(k.empty() ? 0 : k[0], k.size() > 1 ? k[1] : 0);
 }
 
-Result<KnownFile> known_from(const cv::FileStorage& file, const std::string& where, PicturePixels pictures) {
+Result<KnownFile> known_from(const cv::FileStorage& file, const std::string& where, ImagePixels images) {
     const cv::FileNode node = first_of(file, kMatrixNames);
     if (node.empty()) {
         return Error{where + ": has no camera_matrix (or cameraMatrix); check that it holds OpenCV's intrinsics"};
@@ -127,7 +127,7 @@ Result<KnownFile> known_from(const cv::FileStorage& file, const std::string& whe
     RS_ASSIGN_OR_RETURN(const auto f_px, common_focal_length(k[0], k[4], place));
     if (std::abs(k[1]) > 1e-3 * f_px) return Error{place + " has skew, which no camera here has"};
     if (!(std::abs(k[2]) < 1e6 && std::abs(k[5]) < 1e6)) return Error{place + ": its principal point is out of range"};
-    RS_TRY(check_size(file, where, pictures));
+    RS_TRY(check_size(file, where, images));
     RS_ASSIGN_OR_RETURN(const auto distortion, distortion_from(first_of(file, kCoefficientNames), where));
 
     KnownFile result;
@@ -146,14 +146,14 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-Result<KnownFile> opencv_intrinsics_from(const std::string& text, const std::string& where, PicturePixels pictures) {
+Result<KnownFile> opencv_intrinsics_from(const std::string& text, const std::string& where, ImagePixels images) {
     if (text.size() > kMaxFile_bytes) return Error{where + ": is larger than 1 MB, too large for intrinsics"};
     if (text.find('\0') != std::string::npos) return Error{where + ": is not a text file"};
     if (nests_too_deeply(text)) return Error{where + ": nests more deeply than intrinsics do; check the file"};
     try {
         const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
         if (!file.isOpened()) return Error{where + ": is not in OpenCV's YAML, XML or JSON"};
-        return known_from(file, where, pictures);
+        return known_from(file, where, images);
     } catch (const cv::Exception& problem) {
         return Error{where + ": is not in OpenCV's YAML, XML or JSON: " + one_line(problem.err)};
     } catch (const std::exception& problem) {
@@ -161,9 +161,9 @@ Result<KnownFile> opencv_intrinsics_from(const std::string& text, const std::str
     }
 }
 
-Result<KnownFile> read_opencv_intrinsics(const std::filesystem::path& path, PicturePixels pictures) {
+Result<KnownFile> read_opencv_intrinsics(const std::filesystem::path& path, ImagePixels images) {
     RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMaxFile_bytes));
-    return opencv_intrinsics_from({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string(), pictures);
+    return opencv_intrinsics_from({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string(), images);
 }
 
 }  // namespace rs::capture

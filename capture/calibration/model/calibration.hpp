@@ -2,7 +2,7 @@
 // The outcome of calibrating a turn, whatever found it: the model, how sure each number is, and what a photographer
 // should know.
 
-#include "capture/calibration/model/picture_place.hpp"
+#include "capture/calibration/model/image_place.hpp"
 #include "capture/calibration/model/turntable_model.hpp"
 
 #include <limits>
@@ -48,7 +48,7 @@ struct Calibration {
     TurntableModel model;
     // [view]; empty unless the photographs were moved and scaled one by one. The model, points and residuals are those
     // of the photographs put back.
-    std::vector<PicturePlace> places;
+    std::vector<ImagePlace> places;
     ModelDeviations deviations;
     int points = 0;
     int observations = 0;
@@ -62,7 +62,7 @@ struct Calibration {
 // What is known beforehand and held: every number that is set is not estimated.
 struct KnownInputs {
     std::optional<double> f_px;
-    std::optional<glm::dvec2> principal_point;  // otherwise the picture's middle, unless estimate_principal_point
+    std::optional<glm::dvec2> principal_point;  // otherwise the image's middle, unless estimate_principal_point
     std::optional<glm::dvec2> distortion;       // k1, k2
     std::optional<double> step_rad;             // from view to view, signed as in turntable_model.hpp
     std::optional<std::vector<double>> angles_rad;

@@ -32,7 +32,7 @@ Matrix3d about(const Vector3d& axis, double angle_rad) {
     return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix();
 }
 
-// The direction in the world that looks most alike from all cameras, up in their pictures. Nothing where another one
+// The direction in the world that looks most alike from all cameras, up in their images. Nothing where another one
 // looks as much alike: then nothing turns.
 std::optional<Vector3d> common_axis(const std::vector<Placed>& cameras) {
     Matrix3d mean = Matrix3d::Zero();

@@ -26,7 +26,7 @@ struct TurnOfCameras {
 
 // `world_from_camera`: rigid, camera axes of rayspace/base/conventions.hpp, in any world and unit. Axis and angles are
 // fitted by least squares to all orientations, then the axis' place to all centres. Of the axis' two directions the one
-// that points up in the pictures counts as up. Errors, which begin with `where`: fewer than 3 cameras, cameras that do
+// that points up in the images counts as up. Errors, which begin with `where`: fewer than 3 cameras, cameras that do
 // not turn against each other or stand on the axis, misfits above the limits. Thread-safe.
 Result<TurnOfCameras> turn_of_cameras(std::span<const glm::dmat4> world_from_camera, const std::string& where);
 

@@ -6,8 +6,8 @@
 //                    (0, 0, 1): where it stands is a convention, all that can be measured is how it is turned.
 // Camera             p_in_camera = Rz(roll) * Rx(tilt) * Ry(pan) * (p - (0, 0, 1)) with the camera axes of
 //                    rayspace/base/conventions.hpp (+X right, +Y up, looking along -Z). tilt > 0 looks down, pan > 0
-//                    looks to the right of the axis, roll > 0 turns the picture's content counter-clockwise; an axis
-//                    that lies sideways in the picture has a roll near +-90 degrees.
+//                    looks to the right of the axis, roll > 0 turns the image's content counter-clockwise; an axis
+//                    that lies sideways in the image has a roll near +-90 degrees.
 // View i             the object has turned by angle i about Y: a point X of the object stands at Ry(angle_i) * X.
 //                    Ry(t) = [cos t, 0, sin t; 0, 1, 0; -sin t, 0, cos t]. Positive angles take the object's front (+Z)
 //                    to the right (+X): counter-clockwise as seen from above.
@@ -79,12 +79,12 @@ private:
 // table height `origin_height` becomes Y = 0. The lens' distortion is left out.
 Camera object_camera(const TurntableModel& model, std::size_t view, double scale = 1, double origin_height = 0);
 
-// The column at which the axis crosses row `y_px` of the undistorted picture (for an axis nearer to upright than to
+// The column at which the axis crosses row `y_px` of the undistorted image (for an axis nearer to upright than to
 // sideways), and the same with columns and rows exchanged. Nothing where the axis does not cross it before the camera.
 std::optional<double> axis_column(const Lens& lens, const CameraPose& pose, double y_px);
 std::optional<double> axis_row(const Lens& lens, const CameraPose& pose, double x_px);
 
-// An axis nearer to sideways than to upright in the picture.
+// An axis nearer to sideways than to upright in the image.
 bool lies_sideways(const CameraPose& pose);
 
 // axis_column at row at_px; axis_row at column at_px for an axis that lies sideways.

@@ -51,11 +51,11 @@ struct BundleOptions {
     double enough = 1e-7;  // of the cost: a round that changes it by less is the last
 };
 
-// What lenses are like, given to the adjustment as weak observations so that what the pictures do not show stays at its
+// What lenses are like, given to the adjustment as weak observations so that what the images do not show stays at its
 // ordinary value: one standard deviation each.
 inline constexpr double kPriorK1 = 0.3;
 inline constexpr double kPriorK2 = 0.1;
-inline constexpr double kPriorPrincipalPoint = 0.03;  // of the picture's width, from its middle
+inline constexpr double kPriorPrincipalPoint = 0.03;  // of the image's width, from its middle
 
 // tracks[i] is explained by points[i], in the frame of turntable_model.hpp at angle 0.
 struct Bundle {

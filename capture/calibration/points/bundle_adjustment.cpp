@@ -24,7 +24,7 @@ void silence_ceres() {
 
 namespace {
 
-constexpr double kShortestFocalLength = 0.1;  // of the picture's width
+constexpr double kShortestFocalLength = 0.1;  // of the image's width
 
 // What Ceres adjusts: of the camera's numbers the free ones as one block, so that none is held within a block; angles
 // are those of the model itself.

@@ -19,12 +19,12 @@ namespace {
 constexpr double kFinestBlur_px = 1.2;
 
 // Beside the object so much is looked at, too: what features beside its outline are described by. The corner of it
-// stands where pictures halved four times have a pixel, so that features are found where they would be in the whole
-// picture.
+// stands where images halved four times have a pixel, so that features are found where they would be in the whole
+// image.
 constexpr int kBeside_px = 32;
 constexpr int kLattice_px = 16;
 
-// The part of a picture that is looked at for features inside of `inside`.
+// The part of an image that is looked at for features inside of `inside`.
 cv::Rect part_around(const cv::Mat1b& inside) {
     const cv::Rect box = box_of(inside);
     const cv::Point corner(std::max(0, box.x - kBeside_px) / kLattice_px * kLattice_px,
@@ -50,9 +50,9 @@ Descriptors root_sift(const cv::Mat1f& sift) {
     return roots;
 }
 
-ViewFeatures features_of(const CalibrationPicture& picture, const FollowOptions& options) {
+ViewFeatures features_of(const CalibrationImage& image, const FollowOptions& options) {
     cv::Mat inside;
-    cv::threshold(mat_over(picture.alpha), inside, 250, 255, cv::THRESH_BINARY);
+    cv::threshold(mat_over(image.alpha), inside, 250, 255, cv::THRESH_BINARY);
     const int side = 2 * options.rim_px + 1;
     cv::erode(inside, inside, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}), {-1, -1}, 1,
               cv::BORDER_REPLICATE);
@@ -61,7 +61,7 @@ ViewFeatures features_of(const CalibrationPicture& picture, const FollowOptions&
     std::vector<cv::KeyPoint> points;
     cv::Mat descriptors;
     const cv::Rect part = part_around(inside);
-    const cv::Mat grey = mat_over(picture.grey)(part);
+    const cv::Mat grey = mat_over(image.grey)(part);
     sift->detect(grey, points, inside(part));
     cv::KeyPointsFilter::retainBest(points, options.most_features);
     sift->compute(grey, points, descriptors);
@@ -108,7 +108,7 @@ private:
 
 }  // namespace
 
-std::vector<ViewFeatures> find_features(std::span<const CalibrationPicture> turn, const FollowOptions& options,
+std::vector<ViewFeatures> find_features(std::span<const CalibrationImage> turn, const FollowOptions& options,
                                         Progress* progress) {
     std::vector<ViewFeatures> views(turn.size());
     for_each_index(turn.size(), [&](std::size_t i) {
@@ -211,8 +211,8 @@ std::vector<FeatureMatch> alike(const ViewFeatures& first, const ViewFeatures& s
     return mutual(of_first, of_second, ratio);
 }
 
-std::vector<FeatureMatch> alike_near(const ViewFeatures& first, const ViewFeatures& second, double ratio,
-                                     const MayAppear& may_appear, double band_px) {
+std::vector<FeatureMatch> match_guided(const ViewFeatures& first, const ViewFeatures& second, double ratio,
+                                       const MayAppear& may_appear, double band_px) {
     constexpr double kRounding_px = 1e-3;
     const std::size_t rows = first.positions.size(), columns = second.positions.size();
     if (rows < 2 || columns < 2) return {};

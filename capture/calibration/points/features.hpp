@@ -15,13 +15,13 @@
 namespace rs::capture {
 
 struct ViewFeatures {
-    std::vector<glm::dvec2> positions;  // px of the pictures given, centres at +0.5
+    std::vector<glm::dvec2> positions;  // px of the images given, centres at +0.5
     Descriptors descriptors;            // square roots of L1-normalised SIFT, of length kDescriptorUnit
     PackedDescriptors packed{{}};       // the same
 };
 
 // [view]. Works side by side, the same on any number of threads; one step of `progress` per view. Throws cv::Exception.
-std::vector<ViewFeatures> find_features(std::span<const CalibrationPicture> turn, const FollowOptions& options,
+std::vector<ViewFeatures> find_features(std::span<const CalibrationImage> turn, const FollowOptions& options,
                                         Progress* progress);
 
 struct FeatureMatch {
@@ -33,7 +33,7 @@ struct FeatureMatch {
 // Mutual best matches whose best distance is below `ratio` times the second best (Lowe's test).
 std::vector<FeatureMatch> alike(const ViewFeatures& first, const ViewFeatures& second, double ratio);
 
-// A straight piece of a picture.
+// A straight piece of an image.
 struct Segment {
     glm::dvec2 from{0.0};
     glm::dvec2 to{0.0};
@@ -42,8 +42,8 @@ struct Segment {
 
 // The same among the pairs that lie within `band_px` of where the first's point may appear in the second view.
 using MayAppear = std::function<std::optional<Segment>(const glm::dvec2& in_first)>;
-std::vector<FeatureMatch> alike_near(const ViewFeatures& first, const ViewFeatures& second, double ratio,
-                                     const MayAppear& may_appear, double band_px);
+std::vector<FeatureMatch> match_guided(const ViewFeatures& first, const ViewFeatures& second, double ratio,
+                                       const MayAppear& may_appear, double band_px);
 
 // Matches chained to tracks of three views and more, the most alike first; a match that would bring two features of one
 // view together is left out.

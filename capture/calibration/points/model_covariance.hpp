@@ -45,7 +45,7 @@ ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& p
 //     the others would find without it (a jackknife over groups; Bell and McCaffrey 2002).
 //   - Of all tracks alike, which no residual shows: where surfaces bend away, and where light glides over them, what
 //     looks like a point moves a little, and the same way on every side. `shared_error_px` is the size of that: the
-//     standard deviation of each of four movements, across and along the picture, in proportion to the sine and to one
+//     standard deviation of each of four movements, across and along the image, in proportion to the sine and to one
 //     less the cosine of the angle by which a view lies beside the middle of those that see the point.
 // Counting observations as independent (s^2 H^-1) would promise two to five times too much.
 

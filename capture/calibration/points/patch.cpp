@@ -76,7 +76,7 @@ double contrast(const Patch& patch) {
     return std::sqrt(squares / std::max(1.0, samples(patch)));
 }
 
-// One round of alignment: what the picture shows there is gain * patch + a plane, and the warp is off by `step`.
+// One round of alignment: what the image shows there is gain * patch + a plane, and the warp is off by `step`.
 // Of 13 unknowns, or 10 where curvature is known.
 template <int kUnknowns>
 struct Round {
@@ -91,15 +91,15 @@ struct Round {
 constexpr double kCurvaturePrior = kTypicalNoise / (kTypicalCurvature * kTypicalCurvature);
 
 template <int kUnknowns>
-std::optional<Round<kUnknowns>> align_once(const PatchPicture& picture, const Patch& patch, const Warp& warp) {
+std::optional<Round<kUnknowns>> align_once(const PatchImage& image, const Patch& patch, const Warp& warp) {
     PatchSums sums(kUnknowns == kFlatPatchUnknowns);
     double count = 0;
     // What is seen in the middle, roughly.
-    const SeenRow middle = picture.row(warp, 0);
+    const SeenRow middle = image.row(warp, 0);
     const float less = middle.value[kPatchHalf_px];
     for (std::size_t row = 0; row < kPatchSide_px; ++row) {
         const int j = static_cast<int>(row) - kPatchHalf_px;
-        const SeenRow seen = j == 0 ? middle : picture.row(warp, j);
+        const SeenRow seen = j == 0 ? middle : image.row(warp, j);
         PatchRow weight;
         float counts = 0;
         for (std::size_t c = 0; c < kPatchColumns; ++c) {
@@ -139,15 +139,15 @@ glm::dmat2 whitening(const Eigen::Matrix2d& information) {
 }
 
 template <int kUnknowns>
-std::optional<Alignment> aligned(const PatchPicture& picture, const Patch& patch, Warp warp) {
+std::optional<Alignment> aligned(const PatchImage& image, const Patch& patch, Warp warp) {
     const Warp start = warp;
     constexpr double kEnough_px = kUnknowns == kFlatPatchUnknowns ? 0.003 : 0.02;
     std::optional<Round<kUnknowns>> round;
     glm::dvec3 curvature(0.0);  // beside what the warp began with
     for (int k = 0; k < kMostIterations; ++k) {
         // The middle lies on the object; samples beside it do not count.
-        if (!picture.is_solid(warp.centre)) return std::nullopt;
-        round = align_once<kUnknowns>(picture, patch, warp);
+        if (!image.is_solid(warp.centre)) return std::nullopt;
+        round = align_once<kUnknowns>(image, patch, warp);
         if (!round) return std::nullopt;
         const auto& step = round->solution;
         warp.centre += glm::dvec2(step[0], step[1]);
@@ -162,7 +162,7 @@ std::optional<Alignment> aligned(const PatchPicture& picture, const Patch& patch
             break;
         }
     }
-    if (round->correlation < kLeastCorrelation || !picture.is_solid(warp.centre)) return std::nullopt;
+    if (round->correlation < kLeastCorrelation || !image.is_solid(warp.centre)) return std::nullopt;
     if (glm::distance(warp.centre, start.centre) > kFarthestMove_px) return std::nullopt;
     const glm::dmat2 change = warp.matrix - start.matrix;
     if (std::max(glm::length(change[0]), glm::length(change[1])) > 0.5) return std::nullopt;
@@ -179,12 +179,12 @@ std::optional<Alignment> aligned(const PatchPicture& picture, const Patch& patch
 
 }  // namespace
 
-std::optional<Patch> textured_patch(const PatchPicture& picture, glm::dvec2 centre) {
+std::optional<Patch> textured_patch(const PatchImage& image, glm::dvec2 centre) {
     Warp warp;
     warp.centre = centre;
     Patch patch;
     for (std::size_t row = 0; row < kPatchSide_px; ++row) {
-        const SeenRow seen = picture.row(warp, static_cast<int>(row) - kPatchHalf_px);
+        const SeenRow seen = image.row(warp, static_cast<int>(row) - kPatchHalf_px);
         patch.value[row] = seen.value;
         patch.counts[row] = seen.counts;
     }
@@ -194,10 +194,9 @@ std::optional<Patch> textured_patch(const PatchPicture& picture, glm::dvec2 cent
     return patch;
 }
 
-std::optional<Alignment> align(const PatchPicture& picture, const Patch& patch, const Warp& warp,
-                               bool curvature_is_known) {
-    return curvature_is_known ? aligned<kFlatPatchUnknowns>(picture, patch, warp)
-                              : aligned<kPatchUnknowns>(picture, patch, warp);
+std::optional<Alignment> align(const PatchImage& image, const Patch& patch, const Warp& warp, bool curvature_is_known) {
+    return curvature_is_known ? aligned<kFlatPatchUnknowns>(image, patch, warp)
+                              : aligned<kPatchUnknowns>(image, patch, warp);
 }
 
 }  // namespace rs::capture

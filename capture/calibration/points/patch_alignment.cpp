@@ -51,7 +51,7 @@ std::optional<Facet> facet_of(const Bundle& bundle, std::size_t i, int reduction
     return facet;
 }
 
-// Where the facet is expected in a view, px of the reduced pictures.
+// Where the facet is expected in a view, px of the reduced images.
 std::optional<Warp> expected(const TurnProjection& projection, const Facet& facet, std::size_t view, int reduction) {
     const auto seen = [&](const glm::dvec3& p) { return projection.project(p, view); };
     // Differences over a few px, like the patch: a quadratic is what the patch sees of it.
@@ -75,7 +75,7 @@ std::optional<Warp> expected(const TurnProjection& projection, const Facet& face
 }
 
 // [view][point]
-std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const CalibrationPicture> turn, int reduction,
+std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const CalibrationImage> turn, int reduction,
                                                              const TurntableModel& model,
                                                              const std::vector<std::optional<Facet>>& facets,
                                                              const std::vector<std::optional<Patch>>& patches,
@@ -83,7 +83,7 @@ std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const Cal
     std::vector<std::vector<std::optional<Alignment>>> found(turn.size());
     const TurnProjection projection(model);
     for_each_index(turn.size(), [&](std::size_t view) {
-        const PatchPicture picture(turn[view]);
+        const PatchImage image(turn[view]);
         found[view].resize(facets.size());
         for (std::size_t i = 0; i < facets.size(); ++i) {
             if (!facets[i]) continue;
@@ -96,7 +96,7 @@ std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const Cal
             const double apart = nearest_turn(model.angles_rad[view] - model.angles_rad[reference]);
             if (std::abs(apart) > kFarthest_rad) continue;
             const auto warp = expected(projection, *facets[i], view, reduction);
-            if (warp) here = align(picture, *patches[i], *warp, curvature_is_known);
+            if (warp) here = align(image, *patches[i], *warp, curvature_is_known);
             if (here) {
                 here->seen.p *= static_cast<double>(reduction);
                 here->seen.view = static_cast<int>(view);
@@ -139,7 +139,7 @@ const Observation& middle_of_arc(const TurntableModel& model, const Track& track
     });
 }
 
-std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int reduction, const Bundle& bundle,
+std::vector<Track> aligned_tracks(std::span<const CalibrationImage> turn, int reduction, const Bundle& bundle,
                                   std::size_t known) {
     const TurntableModel& model = bundle.model;
     const std::size_t points = bundle.points.size();
@@ -148,10 +148,10 @@ std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int 
 
     std::vector<std::optional<Patch>> patches(points);
     for_each_index(turn.size(), [&](std::size_t view) {
-        const PatchPicture picture(turn[view]);
+        const PatchImage image(turn[view]);
         for (std::size_t i = 0; i < points; ++i) {
             if (!facets[i] || facets[i]->reference.view != static_cast<int>(view)) continue;
-            patches[i] = textured_patch(picture, facets[i]->reference.p * (1.0 / reduction));
+            patches[i] = textured_patch(image, facets[i]->reference.p * (1.0 / reduction));
             if (!patches[i]) facets[i].reset();
         }
     });

@@ -25,7 +25,7 @@ const Observation& middle_of_arc(const TurntableModel& model, const Track& track
 // alignment. Of points that are not found in three views the first `known` keep their own observations, with
 // kDetectedWeight; others are left out. Positions in px of the photographs, `turn` reduced by `reduction`. Works side
 // by side; the result does not depend on the number of threads.
-std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int reduction, const Bundle& bundle,
+std::vector<Track> aligned_tracks(std::span<const CalibrationImage> turn, int reduction, const Bundle& bundle,
                                   std::size_t known);
 
 }  // namespace rs::capture

@@ -3,7 +3,7 @@
 // of two of {slope x, slope y, texture, 1, what is not explained} times i^a j^b, so those few sums are taken instead of
 // the squares of all unknowns at every pixel.
 
-#include "capture/calibration/points/patch_picture.hpp"
+#include "capture/calibration/points/patch_image.hpp"
 
 #include <Eigen/Core>
 

@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    // Nothing beside the picture.
+    // Nothing beside the image.
     [[nodiscard]] std::optional<std::size_t> place(const Observation& seen) const {
         if (!(seen.p.x >= 0 && seen.p.x < width_ && seen.p.y >= 0 && seen.p.y < height_)) return std::nullopt;
         const int column = static_cast<int>(seen.p.x) / step_px_, row = static_cast<int>(seen.p.y) / step_px_;

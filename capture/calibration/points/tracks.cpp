@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kRatio = 0.8;            // Lowe: best distance over second best
 constexpr double kGuidedRatio = 0.9;      // among the few that the model allows
-constexpr double kEpipolarBand_px = 1.5;  // at 1000 px of the longer side; grows with the picture
+constexpr double kEpipolarBand_px = 1.5;  // at 1000 px of the longer side; grows with the image
 constexpr int kFewestMatches = 12;        // below, a pair shows nothing
 
 // Those that agree with one epipolar geometry (RANSAC with OpenCV's fixed seed).
@@ -102,17 +102,17 @@ ViewFeatures enlarged(ViewFeatures view, int reduction) {
 
 }  // namespace
 
-CalibrationPicture calibration_picture(ConstImageView<Rgba8> picture, int reduction) {
+CalibrationImage calibration_image(ConstImageView<Rgba8> image, int reduction) {
     RS_CHECK(reduction >= 1);
-    const int width = std::max(1, picture.width() / reduction);
-    const int height = std::max(1, picture.height() / reduction);
-    CalibrationPicture result{Image<std::uint8_t>(width, height), Image<std::uint8_t>(width, height)};
+    const int width = std::max(1, image.width() / reduction);
+    const int height = std::max(1, image.height() / reduction);
+    CalibrationImage result{Image<std::uint8_t>(width, height), Image<std::uint8_t>(width, height)};
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             int luma = 0, alpha = 0, count = 0;
-            for (int dy = 0; dy < reduction && y * reduction + dy < picture.height(); ++dy) {
-                for (int dx = 0; dx < reduction && x * reduction + dx < picture.width(); ++dx) {
-                    const Rgba8 p = picture(x * reduction + dx, y * reduction + dy);
+            for (int dy = 0; dy < reduction && y * reduction + dy < image.height(); ++dy) {
+                for (int dx = 0; dx < reduction && x * reduction + dx < image.width(); ++dx) {
+                    const Rgba8 p = image(x * reduction + dx, y * reduction + dy);
                     luma += (77 * p.r + 150 * p.g + 29 * p.b + 128) / 256;
                     alpha += p.a;
                     ++count;
@@ -135,7 +135,7 @@ PointFollower::PointFollower(std::unique_ptr<State> state) : state_(std::move(st
 PointFollower::PointFollower(PointFollower&&) noexcept = default;
 PointFollower::~PointFollower() = default;
 
-Result<PointFollower> PointFollower::look_at(std::span<const CalibrationPicture> turn, int reduction,
+Result<PointFollower> PointFollower::look_at(std::span<const CalibrationImage> turn, int reduction,
                                              const FollowOptions& options, Progress* progress) {
     auto state = std::make_unique<State>();
     if (turn.empty()) return PointFollower(std::move(state));
@@ -147,7 +147,7 @@ Result<PointFollower> PointFollower::look_at(std::span<const CalibrationPicture>
             state->views.push_back(enlarged(std::move(view), reduction));
         }
     } catch (const cv::Exception& escaped) {
-        return Error{std::string("the pictures' features cannot be found (OpenCV: ") + escaped.what() + ")"};
+        return Error{std::string("the images' features cannot be found (OpenCV: ") + escaped.what() + ")"};
     }
     return PointFollower(std::move(state));
 }
@@ -169,7 +169,7 @@ Result<FollowedPoints> PointFollower::follow(Progress* progress) const {
         });
         found.tracks = chained(state_->views, found.pairs, matches);
     } catch (const cv::Exception& escaped) {
-        return Error{std::string("the pictures' features cannot be followed (OpenCV: ") + escaped.what() + ")"};
+        return Error{std::string("the images' features cannot be followed (OpenCV: ") + escaped.what() + ")"};
     }
     return found;
 }
@@ -185,11 +185,11 @@ Result<std::vector<Track>> PointFollower::follow_guided(const TurntableModel& mo
             const auto may_appear = [&](const glm::dvec2& p) {
                 return ray_piece(model, pair.first, pair.second, p, radius);
             };
-            matches[i] = alike_near(a, b, kGuidedRatio, may_appear, band_px);
+            matches[i] = match_guided(a, b, kGuidedRatio, may_appear, band_px);
         });
         return chained(state_->views, state_->pairs, matches);
     } catch (const cv::Exception& escaped) {
-        return Error{std::string("the pictures' features cannot be followed (OpenCV: ") + escaped.what() + ")"};
+        return Error{std::string("the images' features cannot be followed (OpenCV: ") + escaped.what() + ")"};
     }
 }
 

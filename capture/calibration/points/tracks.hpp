@@ -19,23 +19,23 @@
 
 namespace rs::capture {
 
-// One photograph as calibration looks at it. All pictures of a turn have one size.
-struct CalibrationPicture {
+// One photograph as calibration looks at it. All images of a turn have one size.
+struct CalibrationImage {
     Image<std::uint8_t> grey;   // sRGB luma
     Image<std::uint8_t> alpha;  // of the object; same size
 };
 
 // What calibration is given of a turn.
-struct TurnPictures {
-    std::vector<CalibrationPicture> pictures;  // [view], in the order they were taken
-    std::vector<std::string> names;            // [view], as messages call them
-    int reduction = 1;                         // of the photographs' sides
-    int width = 0;                             // of the photographs, px
+struct TurnImages {
+    std::vector<CalibrationImage> images;  // [view], in the order they were taken
+    std::vector<std::string> names;        // [view], as messages call them
+    int reduction = 1;                     // of the photographs' sides
+    int width = 0;                         // of the photographs, px
     int height = 0;
 };
 
-// `picture` (straight alpha) with both sides divided by `reduction` >= 1, averaged.
-CalibrationPicture calibration_picture(ConstImageView<Rgba8> picture, int reduction);
+// `image` (straight alpha) with both sides divided by `reduction` >= 1, averaged.
+CalibrationImage calibration_image(ConstImageView<Rgba8> image, int reduction);
 
 struct Observation {
     int view = 0;
@@ -73,7 +73,7 @@ class PointFollower {
 public:
     // `turn` reduced by `reduction`; everything below is in px of the photographs. One step of `progress` per view.
     // Fails only where OpenCV does.
-    static Result<PointFollower> look_at(std::span<const CalibrationPicture> turn, int reduction,
+    static Result<PointFollower> look_at(std::span<const CalibrationImage> turn, int reduction,
                                          const FollowOptions& options, Progress* progress);
     PointFollower(PointFollower&& other) noexcept;
     ~PointFollower();

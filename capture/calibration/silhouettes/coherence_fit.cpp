@@ -30,11 +30,11 @@ constexpr std::size_t kCoarseRaysPerView = 100;
 constexpr double kTellsOfAngles = 0.5;
 
 // Consistency residuals of some rays, near `depths` once they are known.
-SilhouetteComparison consistency_comparison(const LooseNumbers& numbers, const SilhouetteTurn& turn, double picture_px,
+SilhouetteComparison consistency_comparison(const FreeParameters& numbers, const SilhouetteTurn& turn, double image_px,
                                             const RaySelection& rays, RayDepths& depths) {
-    const auto in_turn = [&numbers, picture_px](const Eigen::VectorXd& z) {
+    const auto in_turn = [&numbers, image_px](const Eigen::VectorXd& z) {
         TurntableModel model = numbers.at(z);
-        for (double* const px : {&model.lens.f_px, &model.lens.cx, &model.lens.cy}) *px /= picture_px;
+        for (double* const px : {&model.lens.f_px, &model.lens.cx, &model.lens.cy}) *px /= image_px;
         return model;
     };
     const auto residuals = [&turn, &rays, &depths, in_turn](const Eigen::VectorXd& z) {
@@ -60,9 +60,9 @@ std::size_t most_rays_of_a_view(const SilhouetteTurn& turn) {
 
 std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const NumberPlaces& places,
                                           const Eigen::MatrixXd& covariance, const SilhouetteTurn& turn,
-                                          double picture_px, const CoherenceOptions& options) {
+                                          double image_px, const CoherenceOptions& options) {
     if (places.count == 0 || covariance.rows() != places.count || !covariance.allFinite()) return std::nullopt;
-    const LooseNumbers numbers(model, places, covariance, 0.5 * turn.width_px() * picture_px, options.most_directions);
+    const FreeParameters numbers(model, places, covariance, 0.5 * turn.width_px() * image_px, options.most_directions);
     if (numbers.count() == 0) return std::nullopt;
     const SilhouetteErrors errors{kIndependentPerView * static_cast<double>(turn.views()), kOutlier_px, kFinest_px,
                                   true};
@@ -72,20 +72,20 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
     if (every > 1) {
         const RaySelection few{every, {}};
         RayDepths depths;
-        const SilhouetteComparison coarse = consistency_comparison(numbers, turn, picture_px, few, depths);
+        const SilhouetteComparison coarse = consistency_comparison(numbers, turn, image_px, few, depths);
         if (!SilhouetteAdjustment(coarse, errors).improve(z, kMostSteps, kLittle)) return std::nullopt;
         steps = kFineSteps;
     }
     const RaySelection all{1, {}};
     RayDepths depths;
-    SilhouetteComparison rays = consistency_comparison(numbers, turn, picture_px, all, depths);
+    SilhouetteComparison rays = consistency_comparison(numbers, turn, image_px, all, depths);
     if (!SilhouetteAdjustment(rays, errors).improve(z, steps, kLittle)) return std::nullopt;
     // Beside a body of revolution the few views that contradict it would seem to know how it stands: all are compared.
     rays.beside = nullptr;
     SilhouetteAdjustment found(rays, errors);
     const Eigen::MatrixXd information = found.information(z);
     CoherenceFit fit{numbers.at(z), numbers.told(covariance, information, options.untold_together, 1, 1), 0};
-    fit.consistency_residual_px = picture_px * rms_px(found.residuals(z));
+    fit.consistency_residual_px = image_px * rms_px(found.residuals(z));
     if (!(fit.consistency_residual_px <= options.worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;
     if (!(numbers.angles_left(information) <= kTellsOfAngles)) return std::nullopt;
     return fit;

@@ -31,12 +31,12 @@ struct CoherenceOptions {
 
 // `model`, known with `covariance` of the numbers at `places`, and the outlines together: what both make likeliest,
 // along those combinations of numbers that `covariance` leaves loosest. Outlines are weighed by how well they agree.
-// `picture_px`: px of the photographs per px of `turn`. Nothing where the outlines do not come to agree within
+// `image_px`: px of the photographs per px of `turn`. Nothing where the outlines do not come to agree within
 // worst_px, where they show little of the angles (a body of revolution, angles that are held), or
 // where `model` does not stay before the camera. Works on the threads of the calling tbb
 // arena; equal results whatever their number.
 std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const NumberPlaces& places,
                                           const Eigen::MatrixXd& covariance, const SilhouetteTurn& turn,
-                                          double picture_px, const CoherenceOptions& options);
+                                          double image_px, const CoherenceOptions& options);
 
 }  // namespace rs::capture

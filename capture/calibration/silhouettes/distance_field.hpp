@@ -1,6 +1,6 @@
 #pragma once
 // Distances of one view's outline, packed so that a look between four of them costs one line of cache, rarely two: what
-// rays need of all views, all over the pictures, is bound by memory and not by what is computed.
+// rays need of all views, all over the images, is bound by memory and not by what is computed.
 //
 // Samples are 16-bit whole numbers of 1/128 px, and stand in tiles of 8x4, 64 bytes each, row by row: sample (x, y) is
 // number (y / 4 * across + x / 8) * 32 + y % 4 * 8 + x % 8, `across` being how many tiles a row of them has.

@@ -30,8 +30,8 @@ Eigen::VectorXd px_per_unit(const TurntableModel& model, const NumberPlaces& pla
 
 }  // namespace
 
-LooseNumbers::LooseNumbers(const TurntableModel& model, const NumberPlaces& places, const Eigen::MatrixXd& covariance,
-                           double half_px, Eigen::Index most)
+FreeParameters::FreeParameters(const TurntableModel& model, const NumberPlaces& places,
+                               const Eigen::MatrixXd& covariance, double half_px, Eigen::Index most)
     : model_(model), places_(places) {
     const Eigen::VectorXd px = px_per_unit(model, places, half_px);
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(px.asDiagonal() * covariance * px.asDiagonal());
@@ -46,8 +46,8 @@ LooseNumbers::LooseNumbers(const TurntableModel& model, const NumberPlaces& plac
     }
 }
 
-Eigen::MatrixXd LooseNumbers::told(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& information, double untold,
-                                   double disbelief, double most) const {
+Eigen::MatrixXd FreeParameters::told(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& information,
+                                     double untold, double disbelief, double most) const {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(information);
     const Eigen::ArrayXd tell = disbelief * parts.eigenvalues().array().max(0);
     const Eigen::ArrayXd variance = (1 + untold * untold * tell) / (1 + tell).square();
@@ -56,7 +56,7 @@ Eigen::MatrixXd LooseNumbers::told(const Eigen::MatrixXd& covariance, const Eige
                             columns_.transpose();
 }
 
-double LooseNumbers::angles_left(const Eigen::MatrixXd& information) const {
+double FreeParameters::angles_left(const Eigen::MatrixXd& information) const {
     const Eigen::MatrixXd after = (Eigen::MatrixXd::Identity(count(), count()) + information).inverse();
     double before = 0, left = 0;
     for (const int place : places_.angles) {

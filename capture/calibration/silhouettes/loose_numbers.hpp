@@ -10,13 +10,13 @@
 
 namespace rs::capture {
 
-class LooseNumbers {
+class FreeParameters {
 public:
     // `model` and `places` are kept by reference. Of the combinations that `covariance` leaves loosest the first
     // `most`; those that move a point of the outlines, half_px beside the axis, by less than 0.01 px are known, and
     // none.
-    LooseNumbers(const TurntableModel& model, const NumberPlaces& places, const Eigen::MatrixXd& covariance,
-                 double half_px, Eigen::Index most);
+    FreeParameters(const TurntableModel& model, const NumberPlaces& places, const Eigen::MatrixXd& covariance,
+                   double half_px, Eigen::Index most);
 
     [[nodiscard]] Eigen::Index count() const { return columns_.cols(); }
 

@@ -28,17 +28,17 @@ constexpr double kUntoldTogether = 3;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // f, tilt, roll and the axis' position where outlines show nothing.
-std::array<double, SilhouetteParameters::kCount> unknown_deviations(const TurntableModel& model, double picture_px) {
+std::array<double, SilhouetteParameters::kCount> unknown_deviations(const TurntableModel& model, double image_px) {
     std::array<double, SilhouetteParameters::kCount> all = kSilhouettePriors;
     all[SilhouetteParameters::kLogF] *= model.lens.f_px;
-    all[SilhouetteParameters::kAxis] *= picture_px;
+    all[SilhouetteParameters::kAxis] *= image_px;
     return all;
 }
 
 Eigen::MatrixXd expected(const TurntableModel& model, const NumberPlaces& places, const ModelDeviations& deviations,
-                         double picture_px) {
+                         double image_px) {
     using Name = SilhouetteParameters;
-    const auto unknown = unknown_deviations(model, picture_px);
+    const auto unknown = unknown_deviations(model, image_px);
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(places.count, places.count);
     const auto set = [&](std::size_t number, double deviation) {
         if (const int k = places.camera[number]; k >= 0) covariance(k, k) = deviation * deviation;
@@ -59,8 +59,8 @@ Eigen::MatrixXd expected(const TurntableModel& model, const NumberPlaces& places
 }
 
 // What is not estimated is not known, either; and what is hardly surer than before has not been shown.
-void admit(ModelDeviations& deviations, const TurntableModel& model, const KnownInputs& known, double picture_px) {
-    const auto unknown = unknown_deviations(model, picture_px);
+void admit(ModelDeviations& deviations, const TurntableModel& model, const KnownInputs& known, double image_px) {
+    const auto unknown = unknown_deviations(model, image_px);
     const auto told = [](double deviation, double before) {
         return deviation < kToldNothing * before ? deviation : kInfinity;
     };
@@ -85,19 +85,19 @@ std::optional<SilhouetteAngles> angles_of_silhouettes(std::span<const Image<std:
     if (known.angles_rad || known.step_rad || known.equal_steps) return std::nullopt;
     const auto turn = SilhouetteTurn::of(masks, kDetail);
     if (!turn || turn->touches_border()) return std::nullopt;
-    const double picture_px = turn->reduction() * static_cast<double>(model.lens.width) / masks[0].width();
+    const double image_px = turn->reduction() * static_cast<double>(model.lens.width) / masks[0].width();
     BundleFreedom free;
     free.f = !known.f_px;
     free.k1 = !known.distortion;
     free.pan = free.tilt = free.roll = !known.pose;
     const NumberPlaces places(free, std::vector<bool>(model.angles_rad.size(), true));
-    const CoherenceOptions options{kWorst_px * picture_px, places.count, kUntoldTogether};
+    const CoherenceOptions options{kWorst_px * image_px, places.count, kUntoldTogether};
     const auto fit =
-        fit_coherence(model, places, expected(model, places, deviations, picture_px), *turn, picture_px, options);
+        fit_coherence(model, places, expected(model, places, deviations, image_px), *turn, image_px, options);
     if (!fit) return std::nullopt;
     const double at_px = 0.5 * (lies_sideways(fit->model.pose) ? model.lens.width : model.lens.height);
     SilhouetteAngles found{fit->model, deviations_of(fit->model, places, fit->covariance, at_px)};
-    admit(found.deviations, model, known, picture_px);
+    admit(found.deviations, model, known, image_px);
     return found;
 }
 

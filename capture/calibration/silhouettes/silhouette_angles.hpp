@@ -22,7 +22,7 @@ struct SilhouetteAngles {
 // `model`, found by the outlines under assumed angles, with `deviations`: angles, lens and directions together, each
 // near where it was by what its deviation allows. Both in px of the photographs, of which `masks` are reduced copies.
 // Numbers that `known` holds stay, the principal point and k2 do, too. Nothing where angles are known, where the
-// outlines show little of them or come to no agreement, and where the object reaches the pictures' border. About 10 s
+// outlines show little of them or come to no agreement, and where the object reaches the images' border. About 10 s
 // for 36 views on 2 cores.
 std::optional<SilhouetteAngles> angles_of_silhouettes(std::span<const Image<std::uint8_t>> masks,
                                                       const TurntableModel& model, const ModelDeviations& deviations,

@@ -60,7 +60,7 @@ TurntableModel changed(const TurntableModel& start, const SilhouetteParameters& 
     model.lens.f_px = start.lens.f_px * std::exp(by.value[SilhouetteParameters::kLogF]);
     model.pose.tilt_rad += by.value[SilhouetteParameters::kTilt];
     model.pose.roll_rad += by.value[SilhouetteParameters::kRoll];
-    // In px, so that another f leaves the axis where it is in the picture. Panning right moves the axis left.
+    // In px, so that another f leaves the axis where it is in the image. Panning right moves the axis left.
     const double axis_px = start.lens.f_px * std::tan(start.pose.pan_rad) - by.value[SilhouetteParameters::kAxis];
     model.pose.pan_rad = std::atan(axis_px / model.lens.f_px);
     for (double& angle : model.angles_rad) angle *= std::exp(by.value[SilhouetteParameters::kStep]);

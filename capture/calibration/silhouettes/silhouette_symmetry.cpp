@@ -21,7 +21,7 @@ constexpr int kMoves = 3;
 constexpr double kBelievedApart = 2;  // deviations of the outlines
 constexpr double kHalfCover = 127.5;
 
-// One row of the picture rectified about the axis.
+// One row of the image rectified about the axis.
 struct RimRow {
     double v = 0;
     double left = 0;  // u
@@ -64,14 +64,14 @@ Extent extent_of(ConstImageView<std::uint8_t> covered, int reduction, const Turn
     return extent;
 }
 
-// What is covered along the rays of one row; nothing beyond the picture.
+// What is covered along the rays of one row; nothing beyond the image.
 class Row {
 public:
     Row(ConstImageView<std::uint8_t> covered, int reduction, const TurntableModel& model, double v)
         : covered_(covered), reduction_(reduction), model_(model), v_(v) {}
 
     // The first crossing into what is covered from u = `from` towards -from, in steps of `step` > 0; nothing where the
-    // picture ends there.
+    // image ends there.
     [[nodiscard]] std::optional<double> rim(double from, double step) const {
         const double towards = from > 0 ? -step : step;
         std::optional<double> before = at(from);
@@ -225,11 +225,11 @@ TurntableModel moved(TurntableModel model, double u) {
 
 }  // namespace
 
-Image<std::uint8_t> covered_together(std::span<const CalibrationPicture> pictures) {
-    Image<std::uint8_t> covered = pictures.front().alpha;
-    for (const CalibrationPicture& picture : pictures.subspan(1)) {
+Image<std::uint8_t> covered_together(std::span<const CalibrationImage> images) {
+    Image<std::uint8_t> covered = images.front().alpha;
+    for (const CalibrationImage& image : images.subspan(1)) {
         for (int y = 0; y < covered.height(); ++y) {
-            for (int x = 0; x < covered.width(); ++x) covered(x, y) = std::max(covered(x, y), picture.alpha(x, y));
+            for (int x = 0; x < covered.width(); ++x) covered(x, y) = std::max(covered(x, y), image.alpha(x, y));
         }
     }
     return covered;

@@ -2,7 +2,7 @@
 // Where the axis of a turn is, from the outlines of its views alone; nothing of the object's texture takes part.
 //
 // All views of a full turn together cover what the solid of revolution covers that the turning object sweeps through,
-// and the picture of such a solid is symmetrical about the picture of its axis, whatever the object's shape. In the
+// and the image of such a solid is symmetrical about the image of its axis, whatever the object's shape. In the
 // table frame (turntable_model.hpp) the symmetry is exact also in perspective: with u = x / -z and v = y / -z of a ray,
 // the rims u_left(v) and u_right(v) of what is covered are opposite to each other. Half their sum is by how much the
 // model's axis stands beside the true one. (The symmetry is the harmonic homology of Wong, Mendonca and Cipolla,
@@ -21,8 +21,8 @@
 
 namespace rs::capture {
 
-// The most that any view covers, [pixel]. The pictures have one size; at least one.
-Image<std::uint8_t> covered_together(std::span<const CalibrationPicture> pictures);
+// The most that any view covers, [pixel]. The images have one size; at least one.
+Image<std::uint8_t> covered_together(std::span<const CalibrationImage> images);
 
 // Where the axis is, by whatever means it was found.
 struct AxisPlace {
@@ -32,7 +32,7 @@ struct AxisPlace {
 };
 
 // `covered`: of photographs reduced by `reduction`; `start`: in px of the photographs, near the truth (a few px, a
-// degree), with the views' angles. Rows whose rim is cut off by the picture's border do not count. The deviation holds
+// degree), with the views' angles. Rows whose rim is cut off by the image's border do not count. The deviation holds
 // the scatter over parts of the object's height, and what views with gaps between them can miss of a rim. Nothing where
 // the views make no full turn (a gap above a tenth of it), or fewer than 40 rows are left. One thread; less than a
 // second for 2 million pixels. Thread-safe.
@@ -44,7 +44,7 @@ std::optional<AxisPlace> axis_of_silhouettes(ConstImageView<std::uint8_t> covere
 // apart from the outlines beyond two of the outlines' deviations. `of_tracks` and `of_silhouettes` have one at_px.
 AxisPlace agreed_axis(const AxisPlace& of_tracks, const AxisPlace& of_silhouettes);
 
-// `model` with its axis there, by the camera's pan alone: lens, tilt, roll and angles stay. Nothing where the picture
+// `model` with its axis there, by the camera's pan alone: lens, tilt, roll and angles stay. Nothing where the image
 // of the axis cannot be brought there.
 std::optional<TurntableModel> with_axis_at(TurntableModel model, const AxisPlace& place);
 

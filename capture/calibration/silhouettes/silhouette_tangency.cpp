@@ -40,7 +40,7 @@ struct HullPoint {
     glm::dvec2 p{0.0};      // px
 };
 
-// Where alpha is half along every row and column, from the picture's borders inwards, px of the reduced picture.
+// Where alpha is half along every row and column, from the image's borders inwards, px of the reduced image.
 // Nothing where the object touches the border.
 std::vector<glm::dvec2> outermost(const Image<std::uint8_t>& alpha) {
     std::vector<glm::dvec2> points;
@@ -159,7 +159,7 @@ double beyond_belief(const NumberPlaces& places, const Eigen::MatrixXd& covarian
 
 }  // namespace
 
-std::vector<SilhouetteHull> silhouette_hulls(std::span<const CalibrationPicture> turn, int reduction,
+std::vector<SilhouetteHull> silhouette_hulls(std::span<const CalibrationImage> turn, int reduction,
                                              const TurntableModel& model) {
     std::vector<SilhouetteHull> hulls(turn.size());
     for_each_index(turn.size(), [&](std::size_t view) {
@@ -225,7 +225,7 @@ std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const Numbe
     if (places.count == 0 || covariance.rows() != places.count || !covariance.allFinite()) return std::nullopt;
     const std::vector<ViewPair> pairs = comparable_views(model, hulls);
     if (2 * pairs.size() < kFewestResiduals) return std::nullopt;
-    const LooseNumbers numbers(model, places, covariance, half_width_px(hulls), places.count);
+    const FreeParameters numbers(model, places, covariance, half_width_px(hulls), places.count);
     SilhouetteErrors errors{kWorthOfHull * kIndependentPerView * static_cast<double>(hulls.size()), 0, kFinestPlanes_px,
                             true};
     SilhouetteAdjustment adjustment(

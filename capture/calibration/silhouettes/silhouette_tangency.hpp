@@ -23,11 +23,11 @@
 namespace rs::capture {
 
 // The corners of the convex hull of what a view covers, px of the photograph, to a part of a pixel. Empty where the
-// view is empty or its object is cut off by the picture's border.
+// view is empty or its object is cut off by the image's border.
 using SilhouetteHull = std::vector<glm::dvec2>;
 
 // [view]; `turn` reduced by `reduction`. `model` only undoes the lens: hulls are convex without its distortion.
-std::vector<SilhouetteHull> silhouette_hulls(std::span<const CalibrationPicture> turn, int reduction,
+std::vector<SilhouetteHull> silhouette_hulls(std::span<const CalibrationImage> turn, int reduction,
                                              const TurntableModel& model);
 
 struct ViewPair {

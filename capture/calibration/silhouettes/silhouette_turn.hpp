@@ -30,11 +30,11 @@ public:
     [[nodiscard]] double width_px() const { return box_high_.x - box_low_.x; }  // of the turn's box
     [[nodiscard]] bool touches_border() const { return open_[0] || open_[1] || open_[2] || open_[3]; }
 
-    // Points of view i's outline to a fraction of a px, evenly around it, none on the border of the picture.
+    // Points of view i's outline to a fraction of a px, evenly around it, none on the border of the image.
     [[nodiscard]] std::span<const glm::dvec2> edges(std::size_t view) const { return edges_[view]; }
 
     // Signed distance in px from the outline of `view`, positive inside. Beyond a border that the object touches the
-    // picture is taken to go on as it ends there: what it does not show contradicts nothing.
+    // image is taken to go on as it ends there: what it does not show contradicts nothing.
     [[nodiscard]] float distance(std::size_t view, float x, float y) const {
         float outside = 0;
         x -= origin_.x + 0.5F;
@@ -58,9 +58,9 @@ private:
     }
 
     int reduction_ = 1;
-    glm::vec2 origin_{0};  // of the fields within the reduced picture
+    glm::vec2 origin_{0};  // of the fields within the reduced image
     glm::dvec2 box_low_{0}, box_high_{0};
-    bool open_[4] = {};  // left, right, top, bottom: the object reaches the picture's border there
+    bool open_[4] = {};  // left, right, top, bottom: the object reaches the image's border there
     std::vector<DistanceField> distances_;
     std::vector<std::vector<glm::dvec2>> edges_;
 };

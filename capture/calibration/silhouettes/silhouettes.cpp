@@ -43,12 +43,12 @@ Status check_start(std::span<const Image<std::uint8_t>> masks, const TurntableMo
                      std::to_string(start.angles_rad.size()) + " angles; give one angle per view"};
     }
     if (!(start.lens.f_px > 0) || start.lens.width <= 0 || start.lens.height <= 0) {
-        return Error{"silhouettes: the assumed lens has no focal length or no picture size"};
+        return Error{"silhouettes: the assumed lens has no focal length or no image size"};
     }
     const double scale = static_cast<double>(masks[0].width()) / start.lens.width;
     if (scale > 1 || std::abs(masks[0].height() - scale * start.lens.height) > 1) {
         return Error{"silhouettes: masks of " + std::to_string(masks[0].width()) + " x " +
-                     std::to_string(masks[0].height()) + " pixels are no reduced pictures of " +
+                     std::to_string(masks[0].height()) + " pixels are no reduced images of " +
                      std::to_string(start.lens.width) + " x " + std::to_string(start.lens.height)};
     }
     return {};
@@ -146,14 +146,14 @@ std::array<double, Parameters::kCount> jackknife(const SilhouetteProblem& proble
 }
 
 ModelDeviations deviations_of(const SilhouetteFit& fit, const std::array<double, Parameters::kCount>& spread,
-                              const TurntableModel& model, const KnownInputs& known, double picture_px) {
+                              const TurntableModel& model, const KnownInputs& known, double image_px) {
     const auto of = [&](Parameters::Name name) { return std::max(fit.deviation[name], spread[name]); };
     ModelDeviations deviations;
     deviations.f_px = of(Parameters::kLogF) * model.lens.f_px;
     deviations.tilt_rad = of(Parameters::kTilt);
     deviations.roll_rad = of(Parameters::kRoll);
     deviations.axis_direction_rad = std::hypot(deviations.tilt_rad, deviations.roll_rad);
-    deviations.axis_position_px = of(Parameters::kAxis) * picture_px;
+    deviations.axis_position_px = of(Parameters::kAxis) * image_px;
     if (known.principal_point) deviations.cx = deviations.cy = 0;
     if (known.distortion) deviations.k1 = deviations.k2 = 0;
     const bool angles_known = known.step_rad || known.angles_rad;
@@ -171,7 +171,7 @@ ModelDeviations deviations_of(const SilhouetteFit& fit, const std::array<double,
     return deviations;
 }
 
-std::vector<ViewFit> fits_by_view(const SilhouetteTurn& turn, const std::vector<double>& residuals, double picture_px) {
+std::vector<ViewFit> fits_by_view(const SilhouetteTurn& turn, const std::vector<double>& residuals, double image_px) {
     const std::vector<std::size_t> view_of = views_of_rays(turn, {});
     std::vector<ViewFit> views(turn.views());
     for (std::size_t r = 0; r < residuals.size(); ++r) {
@@ -179,7 +179,7 @@ std::vector<ViewFit> fits_by_view(const SilhouetteTurn& turn, const std::vector<
         views[view_of[r]].rms_px += residuals[r] * residuals[r];
     }
     for (ViewFit& view : views)
-        view.rms_px = view.observations > 0 ? picture_px * std::sqrt(view.rms_px / view.observations) : 0;
+        view.rms_px = view.observations > 0 ? image_px * std::sqrt(view.rms_px / view.observations) : 0;
     return views;
 }
 
@@ -200,7 +200,7 @@ void warn(Calibration& calibration, const SilhouetteTurn& turn) {
             "the outlines do not say what the lens is: its focal length is assumed; give it if it is known");
     }
     if (turn.touches_border()) {
-        warnings.emplace_back("the object reaches the border of the pictures: what is cut off there was not compared");
+        warnings.emplace_back("the object reaches the border of the images: what is cut off there was not compared");
     }
     for (std::size_t i = 0; i < calibration.views.size(); ++i) {
         const double limit = std::max(3 * calibration.rms_px, 2.0 * turn.reduction());
@@ -224,16 +224,16 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     RS_TRY(check_start(masks, held));
 
     // Photograph px per px of the turn.
-    const double picture_px = turn.reduction() * static_cast<double>(start.lens.width) / masks[0].width();
+    const double image_px = turn.reduction() * static_cast<double>(start.lens.width) / masks[0].width();
     SilhouetteProblem problem;
     problem.turn = &turn;
     problem.start = held;
-    problem.start.lens = scaled(held.lens, 1 / picture_px);
+    problem.start.lens = scaled(held.lens, 1 / image_px);
     const bool pose_free = !known.pose;
     problem.free = {pose_free, pose_free, pose_free, !known.f_px, !known.step_rad && !known.angles_rad};
 
     const auto disagreement = [&](double apart_px) {
-        return Error{"silhouettes: the outlines disagree by " + std::to_string(std::lround(apart_px * picture_px)) +
+        return Error{"silhouettes: the outlines disagree by " + std::to_string(std::lround(apart_px * image_px)) +
                      " pixels with every single turn; check the steps, the sense of turning and the cut-outs"};
     };
     const SilhouetteFit best = search(problem);
@@ -255,7 +255,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     TurntableModel of_turn = changed(problem.start, fit.at);
     std::vector<double> residuals = consistency_residuals_px(turn, of_turn, {});
     calibration.model = of_turn;
-    calibration.model.lens = scaled(calibration.model.lens, picture_px);
+    calibration.model.lens = scaled(calibration.model.lens, image_px);
     std::array<double, Parameters::kCount> spread = jackknife(problem, fit);
     const std::array<double, Parameters::kCount> open = valley(fit, best_cost, along);
     // Outlines that fit worse than good ones should are surer of nothing.
@@ -264,19 +264,19 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
         spread[k] = std::max(spread[k], doubt * open[k]);
         fit.deviation[k] *= doubt;
     }
-    calibration.deviations = deviations_of(fit, spread, calibration.model, known, picture_px);
+    calibration.deviations = deviations_of(fit, spread, calibration.model, known, image_px);
     if (auto found = angles_of_silhouettes(masks, calibration.model, calibration.deviations, known)) {
         calibration.model = std::move(found->model);
         calibration.deviations = std::move(found->deviations);
         of_turn = calibration.model;
-        of_turn.lens = scaled(of_turn.lens, 1 / picture_px);
+        of_turn.lens = scaled(of_turn.lens, 1 / image_px);
         residuals = consistency_residuals_px(turn, of_turn, {});
     }
     const double fit_rms = rms_px(residuals);
     if (fit_rms > kDisagree_px) return disagreement(fit_rms);
     calibration.observations = static_cast<int>(residuals.size());
-    calibration.rms_px = fit_rms * picture_px;
-    calibration.views = fits_by_view(turn, residuals, picture_px);
+    calibration.rms_px = fit_rms * image_px;
+    calibration.views = fits_by_view(turn, residuals, image_px);
     calibration.step_rad = median_step(calibration.model.angles_rad);
     warn(calibration, turn);
     return calibration;

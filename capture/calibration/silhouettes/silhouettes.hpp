@@ -2,7 +2,7 @@
 // Calibration of a turn from outlines alone, for objects without texture: the model under which all outlines can be
 // those of one body (consistency_residuals.hpp).
 //
-// What outlines show: where the axis is and how it leans in the picture, well; how far the camera looks down and single
+// What outlines show: where the axis is and how it leans in the image, well; how far the camera looks down and single
 // angles (silhouette_angles.hpp), fairly, unless the object is a body of revolution; the focal length, hardly. What
 // they cannot show is held near the start by a weak prior (silhouette_fit.hpp) and its deviation is infinite. The sense
 // of turning cannot be known: an outline taken from below with the other sense is the same but for perspective. The

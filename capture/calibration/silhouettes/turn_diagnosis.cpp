@@ -16,7 +16,7 @@ constexpr double kFewestAgreeingOfView = 0.4;  // of the median over all views
 constexpr double kMostViewsApart = 0.15;
 constexpr double kLeastExplained = 0.6;  // of the shares' scatter, by one change
 constexpr double kLeastChange = 0.25;
-constexpr double kLargestRms = 0.004;        // of the picture's longer side: 4 px of 1000
+constexpr double kLargestRms = 0.004;        // of the image's longer side: 4 px of 1000
 constexpr double kMostUncertainLens = 0.25;  // deviation of f over f
 constexpr double kStepWarning_deg = 0.5;
 constexpr double kRepeat = 0.1;  // of the median step
@@ -104,7 +104,7 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
     const std::vector<std::size_t> apart = views_apart(bundle, candidates);
     const auto views = static_cast<double>(names.size());
     if (share < kFewestAgreeing || static_cast<double>(apart.size()) > kMostViewsApart * views) {
-        std::string text = "the pictures do not show one turn before a still camera: " + with_digits(100 * share, 0) +
+        std::string text = "the images do not show one turn before a still camera: " + with_digits(100 * share, 0) +
                            " % of the observations agree with the best one";
         if (!apart.empty()) text += ", and not those of " + list_of(apart, names);
         if (const auto moment = moment_of_change(agreeing_shares(bundle, candidates))) {
@@ -117,7 +117,7 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
     const double longer = std::max(model.lens.width, model.lens.height);
     if (rms_px(bundle) > kLargestRms * longer) {
         return Error{"the best turn misses the observations by " + with_digits(rms_px(bundle), 1) +
-                     " px; are the pictures in the order they were taken, from one still camera?"};
+                     " px; are the images in the order they were taken, from one still camera?"};
     }
     const double usual = median_step(model.angles_rad);
     int against = 0;
@@ -127,15 +127,15 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
     if (std::abs(degrees(usual)) < 0.05 || against > 0.1 * views) {
         return Error{"the angles make no turn (median step " + with_digits(degrees(usual), 2) + " degrees, " +
                      std::to_string(against) +
-                     " steps against it); are the pictures in the order they were taken? Names are sorted naturally"};
+                     " steps against it); are the images in the order they were taken? Names are sorted naturally"};
     }
     const double turn_deg = std::abs(degrees(model.angles_rad.back() - model.angles_rad.front()));
     if (turn_deg < 15 || turn_deg > 400) {
-        return Error{"the pictures cover " + with_digits(turn_deg, 1) +
+        return Error{"the images cover " + with_digits(turn_deg, 1) +
                      " degrees of turn; 15 to 400 are needed (one turn, without repeats)"};
     }
     if (!(deviations.f_px < kMostUncertainLens * model.lens.f_px)) {
-        return Error{"the pictures leave the focal length open; give it with --fov, or put a board under the object"};
+        return Error{"the images leave the focal length open; give it with --fov, or put a board under the object"};
     }
     return {};
 }
@@ -195,8 +195,8 @@ std::vector<std::string> step_warnings(std::span<const double> angles, const Mod
     return lines;
 }
 
-std::vector<std::string> picture_warnings(const Bundle& bundle, std::span<const int> candidates,
-                                          std::span<const int> features, std::span<const std::string> names) {
+std::vector<std::string> image_warnings(const Bundle& bundle, std::span<const int> candidates,
+                                        std::span<const int> features, std::span<const std::string> names) {
     std::vector<std::string> lines;
     std::vector<double> counts(features.begin(), features.end());
     const double ordinary = median(counts);
@@ -211,7 +211,7 @@ std::vector<std::string> picture_warnings(const Bundle& bundle, std::span<const 
         if (candidates[view] < kFewestObservations) {
             lines.push_back(
                 names[view] + " shows only " + std::to_string(candidates[view]) +
-                " points that other pictures show, too, and its angle may be wrong; larger pictures have more of them");
+                " points that other images show, too, and its angle may be wrong; larger images have more of them");
             continue;
         }
         lines.push_back(names[view] + " does not fit the turn (" + std::to_string(kept[view]) + " of " +
@@ -221,15 +221,15 @@ std::vector<std::string> picture_warnings(const Bundle& bundle, std::span<const 
     return lines;
 }
 
-std::string place_warning(std::span<const PicturePlace> places) {
+std::string place_warning(std::span<const ImagePlace> places) {
     double shift_px = 0;
     double least = places.front().scale, most = least;
-    for (const PicturePlace& place : places) {
+    for (const ImagePlace& place : places) {
         shift_px = std::max(shift_px, glm::length(place.shift_px - places.front().shift_px));
         least = std::min(least, place.scale);
         most = std::max(most, place.scale);
     }
-    return "the pictures were moved (by up to " + with_digits(shift_px, 0) + " px) and scaled (by up to " +
+    return "the images were moved (by up to " + with_digits(shift_px, 0) + " px) and scaled (by up to " +
            with_digits(100 * (most / least - 1), 0) + " %) one by one, as shops do; they are put back";
 }
 
@@ -239,7 +239,7 @@ std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPl
     if (!(apart > std::max(believed, kAxesApart_px * reduction))) return std::nullopt;
     return "the object's texture turns about an axis " + with_digits(apart, 1) +
            " px beside that of its outlines, which is taken; stripes wound around the object mislead like this, but so "
-           "do cut-outs that lack the same side in all pictures: look at those, or put a printed board under the "
+           "do cut-outs that lack the same side in all images: look at those, or put a printed board under the "
            "object";
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Whether a bundle is to be believed, and what a photographer should know about the pictures.
+// Whether a bundle is to be believed, and what a photographer should know about the images.
 
 #include "capture/calibration/model/calibration.hpp"
 #include "capture/calibration/points/bundle.hpp"
@@ -17,7 +17,7 @@ namespace rs::capture {
 // A view with fewer observations has no angle of its own.
 inline constexpr int kFewestObservations = 6;
 
-// An error where no rig should be made of these pictures: most observations disagree with any single turn, too many
+// An error where no rig should be made of these images: most observations disagree with any single turn, too many
 // views stand apart, the angles make no turn, or the lens is left open. `candidates` are the observations of each view
 // that were offered to the bundle, wrong matches among them.
 Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span<const int> candidates,
@@ -27,19 +27,19 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
 // camera was moved there.
 bool changes_at_one_moment(const Bundle& bundle, std::span<const int> candidates);
 
-// One line each: steps that differ from the others, pictures that stand at the same angle, gaps.
+// One line each: steps that differ from the others, images that stand at the same angle, gaps.
 std::vector<std::string> step_warnings(std::span<const double> angles_rad, const ModelDeviations& deviations,
                                        std::span<const std::string> names);
 
-// One line each: blurred pictures, and pictures that do not fit.
-std::vector<std::string> picture_warnings(const Bundle& bundle, std::span<const int> candidates,
-                                          std::span<const int> features, std::span<const std::string> names);
+// One line each: blurred images, and images that do not fit.
+std::vector<std::string> image_warnings(const Bundle& bundle, std::span<const int> candidates,
+                                        std::span<const int> features, std::span<const std::string> names);
 
-// That pictures were moved and scaled one by one, and by how much.
-std::string place_warning(std::span<const PicturePlace> places);
+// That images were moved and scaled one by one, and by how much.
+std::string place_warning(std::span<const ImagePlace> places);
 
 // Where the texture turns about another axis than the outlines do, and further from it than both can be off: what may
-// be the matter. Nothing where they agree to half a px of the pictures that were looked at.
+// be the matter. Nothing where they agree to half a px of the images that were looked at.
 std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPlace& of_silhouettes, int reduction);
 
 // Views that stand where an earlier one does, within a tenth of the median step: the turntable had not turned, or the

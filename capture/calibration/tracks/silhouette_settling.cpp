@@ -41,11 +41,11 @@ void take(const TurntableModel& model, const Eigen::MatrixXd& covariance, TrackS
 // glides alike around the whole object looks as if it turned about an axis beside the true one, and bending lens and
 // angles until it fits the true one only spreads the error. `deviations` are those of the bundle as it stands; the
 // position's is made that of both. A line for the photographer where they disagree.
-std::optional<std::string> settle_axis(TrackSolution& solution, const TurnPictures& turn, std::size_t fewest_tracks) {
+std::optional<std::string> settle_axis(TrackSolution& solution, const TurnImages& turn, std::size_t fewest_tracks) {
     const NumberPlaces& places = solution.places;
     if (places.camera[CameraNumber::kPan] < 0) return std::nullopt;
     const TurntableModel& found = solution.bundle.model;
-    const auto of_silhouettes = axis_of_silhouettes(covered_together(turn.pictures), turn.reduction, found);
+    const auto of_silhouettes = axis_of_silhouettes(covered_together(turn.images), turn.reduction, found);
     if (!of_silhouettes) return std::nullopt;
     const auto position = axis_position(found.lens, found.pose, of_silhouettes->at_px);
     if (!position) return std::nullopt;
@@ -63,7 +63,7 @@ std::optional<std::string> settle_axis(TrackSolution& solution, const TurnPictur
 
 // Brings the whole model to where tracks and outlines together see it (silhouette_tangency.hpp), and the points with
 // it. The covariance is that of the tracks alone; the axis' position is known as the deviations state.
-void settle_pairs(TrackSolution& solution, const TurnPictures& turn, std::size_t fewest_tracks) {
+void settle_pairs(TrackSolution& solution, const TurnImages& turn, std::size_t fewest_tracks) {
     Eigen::MatrixXd& covariance = solution.covariance;
     const TurntableModel& found = solution.bundle.model;
     if (const int pan = solution.places.camera[CameraNumber::kPan]; pan >= 0) {
@@ -71,7 +71,7 @@ void settle_pairs(TrackSolution& solution, const TurnPictures& turn, std::size_t
         covariance.col(pan).setZero();
         covariance(pan, pan) = std::pow(solution.deviations.axis_position_px / found.lens.f_px, 2);
     }
-    const std::vector<SilhouetteHull> hulls = silhouette_hulls(turn.pictures, turn.reduction, found);
+    const std::vector<SilhouetteHull> hulls = silhouette_hulls(turn.images, turn.reduction, found);
     const auto fit = fit_tangency(found, solution.places, covariance, hulls, kWorstPairs_px * turn.reduction);
     if (fit) take(fit->model, fit->covariance, solution, fewest_tracks);
 }
@@ -83,21 +83,20 @@ SilhouetteDetail detail_of(std::size_t views) {
 }
 
 // The same with the outlines of all views together (coherence_fit.hpp).
-void settle_all(TrackSolution& solution, const TurnPictures& turn, std::size_t fewest_tracks) {
+void settle_all(TrackSolution& solution, const TurnImages& turn, std::size_t fewest_tracks) {
     std::vector<Image<std::uint8_t>> masks;
-    for (const CalibrationPicture& picture : turn.pictures) masks.push_back(picture.alpha);
+    for (const CalibrationImage& image : turn.images) masks.push_back(image.alpha);
     const auto silhouettes = SilhouetteTurn::of(masks, detail_of(masks.size()));
     if (!silhouettes || silhouettes->touches_border()) return;
-    const double picture_px = silhouettes->reduction() * turn.reduction;
-    const auto fit =
-        fit_coherence(solution.bundle.model, solution.places, solution.covariance, *silhouettes, picture_px,
-                      {.worst_px = kWorstTogether_px * turn.reduction, .few_rays_first = true});
+    const double image_px = silhouettes->reduction() * turn.reduction;
+    const auto fit = fit_coherence(solution.bundle.model, solution.places, solution.covariance, *silhouettes, image_px,
+                                   {.worst_px = kWorstTogether_px * turn.reduction, .few_rays_first = true});
     if (fit) take(fit->model, fit->covariance, solution, fewest_tracks);
 }
 
 }  // namespace
 
-std::optional<std::string> settle_with_silhouettes(TrackSolution& solution, const TurnPictures& turn,
+std::optional<std::string> settle_with_silhouettes(TrackSolution& solution, const TurnImages& turn,
                                                    std::size_t fewest_tracks) {
     std::optional<std::string> axis_disagrees = settle_axis(solution, turn, fewest_tracks);
     if (solution.covariance.size() == 0) return axis_disagrees;

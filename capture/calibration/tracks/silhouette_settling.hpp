@@ -26,7 +26,7 @@ struct TrackSolution {
 // Whatever outlines cannot show, or do not agree on, stays as it is, and so does a step that would leave fewer than
 // `fewest_tracks`. The value is a line for the photographer where axis and outlines disagree. Works on the threads of
 // the calling tbb arena; deterministic.
-std::optional<std::string> settle_with_silhouettes(TrackSolution& solution, const TurnPictures& turn,
+std::optional<std::string> settle_with_silhouettes(TrackSolution& solution, const TurnImages& turn,
                                                    std::size_t fewest_tracks);
 
 }  // namespace rs::capture

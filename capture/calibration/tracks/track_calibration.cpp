@@ -1,9 +1,9 @@
 #include "capture/calibration/tracks/track_calibration.hpp"
 
+#include "capture/calibration/points/image_places.hpp"
 #include "capture/calibration/points/model_covariance.hpp"
 #include "capture/calibration/points/patch_alignment.hpp"
 #include "capture/calibration/points/patch_growth.hpp"
-#include "capture/calibration/points/picture_places.hpp"
 #include "capture/calibration/points/start_search.hpp"
 #include "capture/calibration/silhouettes/turn_diagnosis.hpp"
 #include "capture/calibration/tracks/silhouette_settling.hpp"
@@ -65,8 +65,8 @@ std::vector<ViewFit> fits(const Bundle& bundle) {
     return views;
 }
 
-// The representation whose picture is the same but whose axis points the other way; an axis that lies sideways has no
-// upper end in the picture, so the end that the camera looks down from is taken for it.
+// The representation whose image is the same but whose axis points the other way; an axis that lies sideways has no
+// upper end in the image, so the end that the camera looks down from is taken for it.
 void choose_upper_end(Bundle& bundle) {
     CameraPose& pose = bundle.model.pose;
     if (!lies_sideways(pose) || pose.tilt_rad >= 0) return;
@@ -86,9 +86,9 @@ double farthest_radius(const Bundle& bundle) {
     return *most;
 }
 
-const char* const kNoSolution = "the bundle adjustment fails; are the pictures in order?";
+const char* const kNoSolution = "the bundle adjustment fails; are the images in order?";
 
-Lens known_lens(const TurnPictures& turn, const KnownInputs& known) {
+Lens known_lens(const TurnImages& turn, const KnownInputs& known) {
     return with_known(Lens{turn.width, turn.height, 0, turn.width / 2.0, turn.height / 2.0, 0, 0}, known);
 }
 
@@ -169,12 +169,12 @@ void keep_enough_tracks(Bundle& bundle) {
 
 // The same points observed anew, by alignment of their patches, and points beside them, until there are `most`
 // observations; leaves in `options` the loss that fits them. Nothing where no bundle of them can be had.
-std::optional<Bundle> refined(Bundle bundle, const TurnPictures& turn, BundleOptions& options, int most) {
+std::optional<Bundle> refined(Bundle bundle, const TurnImages& turn, BundleOptions& options, int most) {
     for (int round = 0; round < kMostAlignmentRounds; ++round) {
         const std::size_t known = bundle.tracks.size();
         grow(bundle, turn.reduction, most);
         if (round >= kAlignmentRounds && bundle.tracks.size() == known) break;
-        const std::vector<Track> tracks = aligned_tracks(turn.pictures, turn.reduction, bundle, known);
+        const std::vector<Track> tracks = aligned_tracks(turn.images, turn.reduction, bundle, known);
         bundle = make_agreeing_bundle(bundle.model, tracks, kAlignedLimit_px * turn.reduction);
         keep_wide_tracks(bundle);
         for (int again = 0; again < 2; ++again) {
@@ -189,7 +189,7 @@ std::optional<Bundle> refined(Bundle bundle, const TurnPictures& turn, BundleOpt
 }
 
 // Tracks that had no part in a model, with their points and outliers found as those were that had; the model stays.
-Bundle judged_by(const TurntableModel& model, const Bundle& unseen, const TurnPictures& turn, bool aligned) {
+Bundle judged_by(const TurntableModel& model, const Bundle& unseen, const TurnImages& turn, bool aligned) {
     Bundle bundle = make_agreeing_bundle(model, unseen.tracks, outlier_limit(unseen, turn.reduction));
     if (!aligned) return bundle;
     BundleOptions held;
@@ -198,24 +198,24 @@ Bundle judged_by(const TurntableModel& model, const Bundle& unseen, const TurnPi
 }
 
 // Where no turn before a still camera explains the points, nor a tripod that was moved once, `placed` becomes the best
-// one with pictures moved and scaled one by one. Null: they were, and are put back.
-Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownInputs& known, Progress* progress,
+// one with images moved and scaled one by one. Null: they were, and are put back.
+Result<TrackCalibration> calibrate_still(const TurnImages& turn, const KnownInputs& known, Progress* progress,
                                          std::optional<PlacedTurn>* placed) {
-    const std::size_t views = turn.pictures.size();
+    const std::size_t views = turn.images.size();
     if (views < kFewestViews) {
-        return Error{std::to_string(views) + " pictures do not make a turn that could be calibrated; take at least " +
+        return Error{std::to_string(views) + " images do not make a turn that could be calibrated; take at least " +
                      std::to_string(kFewestViews) + ", better 36"};
     }
     if (progress != nullptr) progress->start("following points", 2 * static_cast<std::int64_t>(views));
     RS_ASSIGN_OR_RETURN(const PointFollower follower,
-                        PointFollower::look_at(turn.pictures, turn.reduction, {}, progress));
+                        PointFollower::look_at(turn.images, turn.reduction, {}, progress));
     RS_ASSIGN_OR_RETURN(FollowedPoints followed, follower.follow(progress));
     TrackCalibration result;
     result.followed = std::move(followed);
     const std::vector<Track>& tracks = result.followed.tracks;
     if (tracks.size() < kFewestTracks) {
         return Error{"only " + std::to_string(tracks.size()) +
-                     " points of the object can be followed over three pictures and more; an object with so little "
+                     " points of the object can be followed over three images and more; an object with so little "
                      "texture needs a board under it (rs-capture board)"};
     }
     std::vector<Track> part, held_out;
@@ -277,13 +277,13 @@ Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownIn
     calibration.step_rad = median_step(bundle.model.angles_rad);
     Bundle judged = settled;  // its observations, the better angles
     judged.model = bundle.model;
-    // Of pictures that were moved, angles and axis are only as the moves leave them.
+    // Of images that were moved, angles and axis are only as the moves leave them.
     if (placed != nullptr) {
         calibration.warnings = step_warnings(bundle.model.angles_rad, calibration.deviations, turn.names);
         if (axis_disagrees) calibration.warnings.push_back(*axis_disagrees);
     }
-    const auto of_pictures = picture_warnings(judged, candidates, result.followed.features, turn.names);
-    calibration.warnings.insert(calibration.warnings.end(), of_pictures.begin(), of_pictures.end());
+    const auto of_images = image_warnings(judged, candidates, result.followed.features, turn.names);
+    calibration.warnings.insert(calibration.warnings.end(), of_images.begin(), of_images.end());
     calibration.points = static_cast<int>(bundle.tracks.size());
     calibration.observations = observation_count(bundle);
     calibration.rms_px = rms_px(bundle);
@@ -293,11 +293,11 @@ Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownIn
     return result;
 }
 
-Result<TrackCalibration> calibrate_placed(const TurnPictures& turn, const KnownInputs& known, Progress* progress) {
+Result<TrackCalibration> calibrate_placed(const TurnImages& turn, const KnownInputs& known, Progress* progress) {
     std::optional<PlacedTurn> placed;
     Result<TrackCalibration> still = calibrate_still(turn, known, progress, &placed);
     if (!placed || placed->agreeing < kFewestAgreeingPlaced) return still;
-    std::vector<PicturePlace> places = std::move(placed->places);
+    std::vector<ImagePlace> places = std::move(placed->places);
     for (int round = 0;; ++round) {
         Result<TrackCalibration> found = calibrate_still(put_back(turn, places), known, progress, nullptr);
         if (!found) return still;
@@ -312,7 +312,7 @@ Result<TrackCalibration> calibrate_placed(const TurnPictures& turn, const KnownI
     }
 }
 
-// No lens folds its own picture over itself: what the distortion would explain then is something else.
+// No lens folds its own image over itself: what the distortion would explain then is something else.
 bool folds(const Lens& lens) {
     for (const double x : {0.0, static_cast<double>(lens.width)}) {
         for (const double y : {0.0, static_cast<double>(lens.height)}) {
@@ -324,7 +324,7 @@ bool folds(const Lens& lens) {
 
 }  // namespace
 
-Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const KnownInputs& known, Progress* progress) {
+Result<TrackCalibration> calibrate_with_tracks(const TurnImages& turn, const KnownInputs& known, Progress* progress) {
     Result<TrackCalibration> found = calibrate_placed(turn, known, progress);
     if (!found || known.distortion || !folds(found->calibration.model.lens)) return found;
     KnownInputs straight = known;

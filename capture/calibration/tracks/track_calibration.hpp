@@ -1,8 +1,8 @@
 #pragma once
 // Calibration of a turn from points of the object: start search, bundle, outliers, hold-out, judgement. The outlines of
 // a full turn have their say in where the axis is (silhouette_symmetry.hpp). Where no turn before a still camera
-// explains the points, pictures are taken to have been moved and scaled one by one, as shops do, and put back
-// (picture_places.hpp). Where the points are explained best by a lens that folds its own picture over, all is done
+// explains the points, images are taken to have been moved and scaled one by one, as shops do, and put back
+// (image_places.hpp). Where the points are explained best by a lens that folds its own image over, all is done
 // again without distortion.
 
 #include "capture/calibration/model/calibration.hpp"
@@ -19,9 +19,9 @@ struct TrackCalibration {
     Bundle bundle;            // the tracks that took part, at the optimum but for the axis' position
 };
 
-// Fails, with what a photographer can do about it, where the pictures do not determine a single-axis motion: too few
+// Fails, with what a photographer can do about it, where the images do not determine a single-axis motion: too few
 // points, neighbours that share too little, points that do not agree (two cameras, a moved tripod), angles that make no
 // turn. One thread calls; works on all cores.
-Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const KnownInputs& known, Progress* progress);
+Result<TrackCalibration> calibrate_with_tracks(const TurnImages& turn, const KnownInputs& known, Progress* progress);
 
 }  // namespace rs::capture

@@ -20,15 +20,15 @@ Result<Intake> take_in(PhotoFolder folder, Progress* progress) {
     Intake taken{std::move(folder), std::move(survey), {}, {}};
     const PhotoFolder& of = taken.folder;
     taken.notes = of.selection_notes;
-    note_aside(of.ignored, "not a picture", taken.notes);
+    note_aside(of.ignored, "not an image", taken.notes);
     note_aside(of.in_other_formats, "there in another format, too", taken.notes);
     const bool is_mixed = !of.own_orientations.empty();
     if (is_mixed)
-        taken.notes.emplace_back("some pictures are stored on their side and some upright; all are shown upright");
+        taken.notes.emplace_back("some images are stored on their side and some upright; all are shown upright");
     if (of.otherwise_turned > 0) {
         taken.notes.push_back("the camera states " + std::to_string(of.otherwise_turned) + " of " +
                               std::to_string(of.photos.size()) +
-                              " pictures turned otherwise than the rest; all are taken as most of them are" +
+                              " images turned otherwise than the rest; all are taken as most of them are" +
                               (is_mixed ? "" : ", EXIF orientation " + std::to_string(of.orientation)));
     }
     if (of.reduction > 1) {

@@ -28,7 +28,7 @@ bool natural_less(std::string_view a, std::string_view b);
 
 /// True if the name has the extension of an image file: .png .jpg .jpeg .tif .tiff .webp .heic .heif .avif .bmp .exr
 /// .hdr .tga .ppm, in any case.
-bool is_picture_name(const std::filesystem::path& name);
+bool is_image_name(const std::filesystem::path& name);
 
 /// Photos of one turn. Photos are displayed in the size shown_width x shown_height, after the EXIF orientation is
 /// applied. read_photograph() returns images in the working size, width x height.
@@ -38,7 +38,7 @@ struct PhotoFolder {
     /// Skipped files: photos that the folder also holds in another format under the same name. The most frequent
     /// format is used, JPEG in a tie.
     std::vector<std::string> in_other_formats;
-    /// EXIF orientation of the stored pixels (PictureInfo::orientation), the same for all photos because the camera is
+    /// EXIF orientation of the stored pixels (ImageInfo::orientation), the same for all photos because the camera is
     /// fixed. If files differ, it is the most frequent one: a camera that looks down cannot sense its orientation.
     int orientation = 1;
     int otherwise_turned = 0;  ///< number of files with another orientation
@@ -62,9 +62,9 @@ struct PhotoFolder {
         return own_orientations.empty() ? orientation : own_orientations[photograph];
     }
     /// Converts a point of the displayed photo, in px, to px of the image in working size.
-    [[nodiscard]] glm::dvec2 in_picture(const glm::dvec2& shown_px) const {
-        const glm::dvec2 shown(shown_width, shown_height), picture(width, height);
-        return 0.5 * picture + (shown_px - 0.5 * shown) / reduction;
+    [[nodiscard]] glm::dvec2 in_image(const glm::dvec2& shown_px) const {
+        const glm::dvec2 shown(shown_width, shown_height), image(width, height);
+        return 0.5 * image + (shown_px - 0.5 * shown) / reduction;
     }
     /// True if the files differ in their EXIF orientation.
     [[nodiscard]] bool states_several() const { return otherwise_turned > 0 || !own_orientations.empty(); }
@@ -89,10 +89,10 @@ std::vector<std::string> file_names(const PhotoFolder& folder);
 inline constexpr int kMinSide_px = 64;
 
 /// Lists the folder and reads the headers of the image files, not their pixels. The working size of large photos is
-/// reduced to max_side_px (kMinSide_px .. kMaxPictureSide_px) on the longer side (photograph_reduction()); a side of a
+/// reduced to max_side_px (kMinSide_px .. kMaxImageSide_px) on the longer side (photograph_reduction()); a side of a
 /// thin photo keeps at least one pixel. Errors: a folder that cannot be listed; no image files, or more than kMaxViews;
 /// an unreadable header; a side longer than kMaxPhotographSide_px; two sizes that differ after EXIF orientation (the
 /// message has both files and sizes).
-Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int max_side_px = kMaxPictureSide_px);
+Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int max_side_px = kMaxImageSide_px);
 
 }  // namespace rs::capture

@@ -17,7 +17,7 @@ inline constexpr std::size_t kMaxPhotosWithoutSelection = 150;
 struct PhotoRequest {
     std::filesystem::path photos;  // folder or film
     std::filesystem::path output;  // extracted frames of a film are stored beside it during the import
-    int max_side_px = kMaxPictureSide_px;
+    int max_side_px = kMaxImageSide_px;
     std::optional<int> frames;  // number of photos or frames to select
     // True if options describe single photos (masks, angles, steps), so that none may be left out.
     bool has_per_photo_options = false;

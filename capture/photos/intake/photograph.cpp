@@ -2,8 +2,8 @@
 
 #include "capture/photos/intake/reduction.hpp"
 #include "rayspace/base/check.hpp"
-#include "rayspace/pictures/photograph_size.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
+#include "rayspace/image_io/photograph_size.hpp"
 
 #include <utility>
 
@@ -36,7 +36,7 @@ Image<Rgba8> to_working_size(Image<Rgba8> upright, const PhotoFolder& folder) {
 }
 
 Result<Image<Rgba8>> read_photograph(const PhotoFolder& folder, std::size_t i) {
-    Result<Image<Rgba8>> stored = read_picture(folder.photos[i], kMaxPhotographSide_px);
+    Result<Image<Rgba8>> stored = read_image(folder.photos[i], kMaxPhotographSide_px);
     if (!stored) return stored;
     Image<Rgba8> upright = apply_orientation(std::move(*stored), folder.orientation_of(i));
     if (upright.width() != folder.shown_width || upright.height() != folder.shown_height) {

@@ -18,7 +18,7 @@ Image<Rgba8> apply_orientation(Image<Rgba8> stored, int orientation);
 Image<Rgba8> to_working_size(Image<Rgba8> upright, const PhotoFolder& folder);
 
 /// Photo i of the folder, folder.width x folder.height px. Peak memory: twice the file's pixels at 4 bytes each.
-/// Thread-safe. Errors: those of read_picture(), and a file whose size has changed since the folder was opened.
+/// Thread-safe. Errors: those of read_image(), and a file whose size has changed since the folder was opened.
 Result<Image<Rgba8>> read_photograph(const PhotoFolder& folder, std::size_t i);
 
 }  // namespace rs::capture

@@ -5,8 +5,8 @@
 #include "capture/photos/masks/mask_names.hpp"
 #include "capture/photos/masks/mask_statistics.hpp"
 #include "rayspace/base/printable.hpp"
-#include "rayspace/pictures/photograph_size.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
+#include "rayspace/image_io/photograph_size.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -110,7 +110,7 @@ Status MaskFolder::find_files(const std::filesystem::path& folder, const PhotoFo
 
 Status MaskFolder::check_sizes(const std::filesystem::path& folder, const PhotoFolder& photos) {
     for (std::size_t i = 0; i < files_.size(); ++i) {
-        RS_ASSIGN_OR_RETURN(const PictureInfo info, read_picture_info(files_[i], kMaxPhotographSide_px));
+        RS_ASSIGN_OR_RETURN(const ImageInfo info, read_image_info(files_[i], kMaxPhotographSide_px));
         sizes_.push_back({info.width, info.height});
         if (is_scaled_photo(info.width, info.height, shown_.width, shown_.height)) continue;
         const bool is_turned = info.width == shown_.height && info.height == shown_.width;
@@ -224,12 +224,12 @@ Result<MaskFolder> MaskFolder::open(const std::filesystem::path& folder, const P
     double most_pixels = 0;
     for (const Size& size : masks.sizes_) most_pixels = std::max(most_pixels, 1.0 * size.width * size.height);
     const double bytes_per_px = std::ceil(kReadBytesPerPixel * most_pixels / (1.0 * photos.width * photos.height));
-    RS_TRY(for_each_photo(
-        photos, static_cast<int>(std::min(bytes_per_px, 1e9)), "reading masks", progress, [&](std::size_t i) -> Status {
-            RS_ASSIGN_OR_RETURN(const auto mask, read_picture(masks.files_[i], kMaxPhotographSide_px));
-            survey.masks[i] = mask_statistics(mask);
-            return {};
-        }));
+    RS_TRY(for_each_photo(photos, static_cast<int>(std::min(bytes_per_px, 1e9)), "reading masks", progress,
+                          [&](std::size_t i) -> Status {
+                              RS_ASSIGN_OR_RETURN(const auto mask, read_image(masks.files_[i], kMaxPhotographSide_px));
+                              survey.masks[i] = mask_statistics(mask);
+                              return {};
+                          }));
     RS_TRY(masks.choose_channel(folder, survey));
     masks.choose_codes(folder, survey);
     RS_TRY(masks.check_content(folder, survey));
@@ -239,7 +239,7 @@ Result<MaskFolder> MaskFolder::open(const std::filesystem::path& folder, const P
 
 Result<Image<std::uint8_t>> MaskFolder::read(std::size_t i) const {
     RS_CHECK(i < files_.size());
-    RS_ASSIGN_OR_RETURN(const Image<Rgba8> stored, read_picture(files_[i], kMaxPhotographSide_px));
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> stored, read_image(files_[i], kMaxPhotographSide_px));
     if (stored.width() != sizes_[i].width || stored.height() != sizes_[i].height) {
         return Error{printable(files_[i].string() + ": has changed its size to " +
                                size_text(stored.width(), stored.height()) + " while it was in use; run again")};

@@ -40,13 +40,13 @@ public:
     /// \param kind   what read() is to give.
     /// \return an error where photos have no mask (how many, and the first), where a mask has another size, is a photo,
     ///         or is all black or all white, where some masks are transparent and others are not, and those of
-    ///         read_picture().
+    ///         read_image().
     static Result<MaskFolder> open(const std::filesystem::path& folder, const PhotoFolder& photos, MaskKind kind,
                                    Progress* progress = nullptr);
 
     /// The mask of photo i, photos.shown_width x photos.shown_height: 255 where the object is and 0 elsewhere, nothing
-    /// between for kBinary (a code of 128 counts as object). Thread-safe. Memory: that of read_picture() and the mask.
-    /// \return the errors of read_picture(), and one where the file has changed its size since open().
+    /// between for kBinary (a code of 128 counts as object). Thread-safe. Memory: that of read_image() and the mask.
+    /// \return the errors of read_image(), and one where the file has changed its size since open().
     [[nodiscard]] Result<Image<std::uint8_t>> read(std::size_t i) const;
 
     [[nodiscard]] MaskKind kind() const { return kind_; }

@@ -6,7 +6,7 @@
 #include "rayspace/base/printable.hpp"
 #include "rayspace/page/html_page.hpp"
 #include "rayspace/page/line_plot.hpp"
-#include "rayspace/page/page_pictures.hpp"
+#include "rayspace/page/page_images.hpp"
 
 #include <opencv2/imgproc.hpp>
 
@@ -39,7 +39,7 @@ glm::dvec2 in_photo(const Calibration& calibration, int view, const glm::dvec2& 
     return calibration.places[static_cast<std::size_t>(view)].seen(p, {lens.width / 2.0, lens.height / 2.0});
 }
 
-void draw_axis(cv::Mat& picture, const ImportReport& report, int view, double scale) {
+void draw_axis(cv::Mat& image, const ImportReport& report, int view, double scale) {
     const cv::Scalar white(255, 255, 255, 255), black(0, 0, 0, 255);
     std::vector<glm::dvec2> line;
     if (report.calibration.calibration) {
@@ -56,13 +56,13 @@ void draw_axis(cv::Mat& picture, const ImportReport& report, int view, double sc
     }
     for (const int thickness : {3, 1}) {
         for (std::size_t i = 1; i < line.size(); ++i) {
-            cv::line(picture, fixed(line[i - 1], scale), fixed(line[i], scale), thickness == 3 ? black : white,
-                     thickness, cv::LINE_AA, kShift);
+            cv::line(image, fixed(line[i - 1], scale), fixed(line[i], scale), thickness == 3 ? black : white, thickness,
+                     cv::LINE_AA, kShift);
         }
     }
 }
 
-void draw_points(cv::Mat& picture, const TrackCalibration& tracks, int view, double scale) {
+void draw_points(cv::Mat& image, const TrackCalibration& tracks, int view, double scale) {
     const Bundle& bundle = tracks.bundle;
     const auto views = static_cast<int>(bundle.model.angles_rad.size());
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
@@ -77,9 +77,9 @@ void draw_points(cv::Mat& picture, const TrackCalibration& tracks, int view, dou
         const cv::Scalar colour = residual_colour(r ? glm::length(*r) : 99);
         if (const auto before = at((view + views - 1) % views); before != seen.end()) {
             const glm::dvec2 at_before = in_photo(tracks.calibration, before->view, before->p);
-            cv::line(picture, fixed(at_before, scale), fixed(at_here, scale), colour, 1, cv::LINE_AA, kShift);
+            cv::line(image, fixed(at_before, scale), fixed(at_here, scale), colour, 1, cv::LINE_AA, kShift);
         }
-        cv::circle(picture, fixed(at_here, scale), 2 << kShift, colour, cv::FILLED, cv::LINE_AA, kShift);
+        cv::circle(image, fixed(at_here, scale), 2 << kShift, colour, cv::FILLED, cv::LINE_AA, kShift);
     }
 }
 
@@ -89,9 +89,9 @@ Image<Rgba8> annotated_photo(ConstImageView<Rgba8> photo, const ImportReport& re
     Image<Rgba8> small = scaled_down(photo, kAnnotatedSide_px);
     for (Rgba8& p : small.pixels()) p = over(p, {128, 128, 128, 255});
     const double scale = static_cast<double>(small.width()) / photo.width();
-    cv::Mat picture = writable_mat_over(small);
-    if (report.calibration.tracks) draw_points(picture, *report.calibration.tracks, view, scale);
-    draw_axis(picture, report, view, scale);
+    cv::Mat image = writable_mat_over(small);
+    if (report.calibration.tracks) draw_points(image, *report.calibration.tracks, view, scale);
+    draw_axis(image, report, view, scale);
     return small;
 }
 
@@ -207,7 +207,7 @@ void add_plots(HtmlPage& page, const Calibration& found) {
 }
 
 Status add_photographs(HtmlPage& page, const ImportReport& report) {
-    std::vector<CaptionedPicture> row;
+    std::vector<CaptionedImage> row;
     for (const int view : evenly_spread(static_cast<int>(report.folder.photos.size()), kAnnotated)) {
         const auto i = static_cast<std::size_t>(view);
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photograph(report.folder, i));
@@ -219,18 +219,18 @@ Status add_photographs(HtmlPage& page, const ImportReport& report) {
             ? "White: the turntable's axis. Points: where they were seen, and the way they went from the view "
               "before; green where the model agrees within a pixel, red where it misses by two and more."
             : "White: the turntable's axis.");
-    return page.pictures(row, kAnnotatedSide_px);
+    return page.images(row, kAnnotatedSide_px);
 }
 
 Status add_mattes(HtmlPage& page, const ImportReport& report) {
-    std::vector<CaptionedPicture> row;
+    std::vector<CaptionedImage> row;
     for (const int view : evenly_spread(static_cast<int>(report.small_cut_outs.size()), kMattes)) {
         Image<Rgba8> matte = report.small_cut_outs[static_cast<std::size_t>(view)];
         for (Rgba8& p : matte.pixels()) p = over(p, kMagenta);
         row.push_back({std::move(matte), source_name(report, static_cast<std::size_t>(view))});
     }
     page.heading("Mattes on magenta");
-    return page.pictures(row, 260);
+    return page.images(row, 260);
 }
 
 }  // namespace

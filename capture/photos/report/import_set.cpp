@@ -2,7 +2,7 @@
 
 #include "capture/photos/intake/bounded_work.hpp"
 #include "capture/photos/report/import_rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <mutex>
 #include <utility>
@@ -37,9 +37,9 @@ Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFold
     std::mutex mutex;
     const auto work = [&](std::size_t i) -> Status {
         if (is_left_out(report, i)) return {};
-        RS_ASSIGN_OR_RETURN(const Image<Rgba8> picture, cuts.get(i));
-        const Image<Rgba8> upright = rectified(calibration.model, report.frame, picture,
-                                               calibration.places.empty() ? PicturePlace{} : calibration.places[i]);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, cuts.get(i));
+        const Image<Rgba8> upright = rectified(calibration.model, report.frame, image,
+                                               calibration.places.empty() ? ImagePlace{} : calibration.places[i]);
         if (Status status = write_png(set / set_image_name(number[i]), upright); !status) return status;
         TurnSilhouette own(upright.width(), upright.height());
         own.add(upright);
@@ -54,10 +54,10 @@ Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFold
 
 Status write_as_they_are(const fs::path& set, const PhotoFolder& folder, const CutoutCache& cuts, Progress* progress) {
     const auto write = [&](std::size_t i) -> Status {
-        const Result<Image<Rgba8>> picture = cuts.get(i);
-        return picture ? write_png(set / set_image_name(i), *picture) : Status(picture.error());
+        const Result<Image<Rgba8>> image = cuts.get(i);
+        return image ? write_png(set / set_image_name(i), *image) : Status(image.error());
     };
-    return for_each_photo(folder, kReadBytesPerPixel, "writing the pictures", progress, write);
+    return for_each_photo(folder, kReadBytesPerPixel, "writing the images", progress, write);
 }
 
 }  // namespace

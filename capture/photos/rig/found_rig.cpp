@@ -16,11 +16,11 @@ double sense(const NominalTurn& nominal) {
 }
 
 // Converts the pixel values of the request from the photos as displayed to the working size of the folder.
-RigRequest in_picture_px(RigRequest given, const PhotoFolder& folder) {
+RigRequest in_image_px(RigRequest given, const PhotoFolder& folder) {
     KnownInputs& known = given.known.known;
     if (known.f_px) *known.f_px /= folder.reduction;
-    if (known.principal_point) known.principal_point = folder.in_picture(*known.principal_point);
-    if (given.axis_x_px) given.axis_x_px = folder.in_picture({*given.axis_x_px, 0}).x;
+    if (known.principal_point) known.principal_point = folder.in_image(*known.principal_point);
+    if (given.axis_x_px) given.axis_x_px = folder.in_image({*given.axis_x_px, 0}).x;
     return given;
 }
 
@@ -62,8 +62,8 @@ void leave_out_repeats(FoundRig& rig, const PhotoFolder& folder) {
     }
     if (rig.left_out.empty()) return;
     rig.notes.push_back(listed(rig.left_out, 1) + (rig.left_out.size() > 1
-                                                       ? " repeat other pictures and are left out of the set"
-                                                       : " repeats another picture and is left out of the set"));
+                                                       ? " repeat other images and are left out of the set"
+                                                       : " repeats another image and is left out of the set"));
 }
 
 void take_nominal(FoundRig& rig, const KnownInputs& given) {
@@ -91,7 +91,7 @@ void take_calibrated(FoundRig& rig, const PhotoFolder& folder) {
 
 Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, const SegmentedTurn& turn,
                           const CutoutCache& cuts, Progress* progress) {
-    const RigRequest request = in_picture_px(given, folder);
+    const RigRequest request = in_image_px(given, folder);
     FoundRig rig;
     rig.nominal = find_nominal_turn(request, folder, turn);
     // Evaluated on demand: calibration by object points or a board yields the sense of rotation itself.

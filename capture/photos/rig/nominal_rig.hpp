@@ -59,9 +59,9 @@ struct NominalTurn {
     double step_deg = 0;                       ///< between neighbouring views
     double axis_x_px = 0;                      ///< column of the axis
     double axis_spread_px = 0;                 ///< spread of the axis column over the rows
-    std::string axis_from;                     ///< "silhouettes", "given", "picture middle"
+    std::string axis_from;                     ///< "silhouettes", "given", "image middle"
     Turning turning = Turning::kClockwise;
-    std::string turning_from;        ///< "pictures", "given", "assumed"; empty before find_sense()
+    std::string turning_from;        ///< "images", "given", "assumed"; empty before find_sense()
     std::vector<std::string> notes;  ///< doubtful values, one line each
 };
 

@@ -20,17 +20,17 @@ namespace fs = std::filesystem;
 constexpr int kSilhouetteSide_px = 640;
 
 // Reads the cut-outs, not the photos, so that no point of the background is tracked.
-Result<TurnPictures> read_turn(const PhotoFolder& folder, const CutoutCache& cuts, Progress* progress) {
-    TurnPictures turn;
+Result<TurnImages> read_turn(const PhotoFolder& folder, const CutoutCache& cuts, Progress* progress) {
+    TurnImages turn;
     turn.width = folder.width;
     turn.height = folder.height;
     const int longer = std::max(folder.width, folder.height);
     turn.reduction = (longer + kCalibrationSide_px - 1) / kCalibrationSide_px;
-    turn.pictures.resize(folder.photos.size());
+    turn.images.resize(folder.photos.size());
     for (const fs::path& photo : folder.photos) turn.names.push_back(photo.filename().string());
     const auto read = [&](std::size_t i) -> Status {
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> cut, cuts.get(i));
-        turn.pictures[i] = calibration_picture(cut, turn.reduction);
+        turn.images[i] = calibration_image(cut, turn.reduction);
         return {};
     };
     RS_TRY(for_each_photo(folder, kReadBytesPerPixel, "reading the cut-outs", progress, read));
@@ -51,19 +51,19 @@ struct Silhouettes {
     int reduction = 1;  // of the photos' sides; a remainder at the right and at the bottom is cropped
 };
 
-Silhouettes silhouettes(const TurnPictures& turn) {
-    const Image<std::uint8_t>& first = turn.pictures.front().alpha;
+Silhouettes silhouettes(const TurnImages& turn) {
+    const Image<std::uint8_t>& first = turn.images.front().alpha;
     const int longer = std::max(first.width(), first.height());
     const int factor = (longer + kSilhouetteSide_px - 1) / kSilhouetteSide_px;
     Silhouettes result{{}, turn.reduction * factor};
-    for (const CalibrationPicture& picture : turn.pictures) {
+    for (const CalibrationImage& image : turn.images) {
         Image<std::uint8_t> mask(std::max(1, first.width() / factor), std::max(1, first.height() / factor));
         for (int y = 0; y < mask.height(); ++y) {
             for (int x = 0; x < mask.width(); ++x) {
                 int sum = 0, count = 0;
                 for (int dy = 0; dy < factor && y * factor + dy < first.height(); ++dy) {
                     for (int dx = 0; dx < factor && x * factor + dx < first.width(); ++dx, ++count) {
-                        sum += picture.alpha(x * factor + dx, y * factor + dy);
+                        sum += image.alpha(x * factor + dx, y * factor + dy);
                     }
                 }
                 mask(x, y) = static_cast<std::uint8_t>(sum / count);
@@ -96,7 +96,7 @@ std::vector<int> steps_before(const std::vector<Image<std::uint8_t>>& masks) {
 
 // Calibrates with silhouettes. An unknown sense of rotation is guessed first. The silhouettes refute the guess if they
 // fit only the other sense, or fit the guess only with a camera that looks up from below the turntable.
-Result<Calibration> from_silhouettes(const TurnPictures& turn, const CalibrationRequest& request) {
+Result<Calibration> from_silhouettes(const TurnImages& turn, const CalibrationRequest& request) {
     const Silhouettes outlines = silhouettes(turn);
     // Size of the part of the photos that the silhouettes cover: its sides must be integer multiples of theirs.
     TurntableModel start = request.nominal();
@@ -117,8 +117,7 @@ Result<Calibration> from_silhouettes(const TurnPictures& turn, const Calibration
         Result<Calibration> other = calibrate_with_silhouettes(outlines.masks, start, known);
         if (other && (!found || (!seems_to_look_up(*other) && other->rms_px < kAsGood * found->rms_px))) {
             found = std::move(other);
-            found->warnings.emplace_back(
-                "the pictures seem to turn the other way, but the outlines fit this one better");
+            found->warnings.emplace_back("the images seem to turn the other way, but the outlines fit this one better");
         }
     }
     if (!found) return found;
@@ -155,7 +154,7 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const Cutou
         return Error{"the given rig has " + std::to_string(request.known.angles_rad->size()) + " views, the folder " +
                      std::to_string(views) + " photographs; give a rig of these photographs"};
     }
-    RS_ASSIGN_OR_RETURN(TurnPictures turn, read_turn(folder, cuts, progress));
+    RS_ASSIGN_OR_RETURN(TurnImages turn, read_turn(folder, cuts, progress));
     if (choice == CalibrationChoice::kBoard && !request.board) {
         return Error{
             "calibration by a board was asked for, but the board is not described; say --board default for "

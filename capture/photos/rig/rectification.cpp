@@ -113,23 +113,23 @@ Result<UprightFrame> plan_upright_frame(const TurntableModel& model,
         if (!slopes || !stretch) {
             return Error{"rectification: an upright camera does not see what is at " + at(p) +
                          ": the camera looks too steeply down or the lens distortion is too strong there; check the "
-                         "calibration, or take the pictures from lower down"};
+                         "calibration, or take the images from lower down"};
         }
         seen.include(*slopes);
         source.include(p);
         full_detail_f_px = std::max(full_detail_f_px, 1 / stretch->least);
     }
     const auto middle = stretch_at(model, (source.low + source.high) / 2.0);
-    if (!middle) return Error{"rectification: the calibration does not fit the pictures; check it"};
+    if (!middle) return Error{"rectification: the calibration does not fit the images; check it"};
 
     const double least_f_px = 1 / middle->least;
     const double wished_f_px = std::max(least_f_px, std::min(full_detail_f_px, kMaxEnlargement / middle->most));
     const glm::dvec2 extent = seen.high - seen.low;
-    const double room_px = kMaxPictureSide_px - 2 * kUprightMargin_px - 2;
+    const double room_px = kMaxImageSide_px - 2 * kUprightMargin_px - 2;
     const double f_px = std::min(wished_f_px, room_px / std::max(extent.x, extent.y));
     if (f_px < kMinScale * least_f_px) {
-        return Error{"rectification: the camera looks so steeply down that the upright pictures would need more than " +
-                     std::to_string(kMaxPictureSide_px) + " pixels; take the pictures from lower down"};
+        return Error{"rectification: the camera looks so steeply down that the upright images would need more than " +
+                     std::to_string(kMaxImageSide_px) + " pixels; take the images from lower down"};
     }
 
     UprightFrame frame;
@@ -145,13 +145,13 @@ Result<UprightFrame> plan_upright_frame(const TurntableModel& model,
 }
 
 Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, ConstImageView<Rgba8> cut_out,
-                       const PicturePlace& place) {
+                       const ImagePlace& place) {
     RS_CHECK(cut_out.width() == model.lens.width && cut_out.height() == model.lens.height);
     const glm::dmat3 camera_from_table = camera_rotation(model.pose);
     const double fold = fold_radius(model.lens);
     const glm::dvec2 middle(model.lens.width / 2.0, model.lens.height / 2.0);
     const Lens& lens = model.lens;
-    const PremultipliedPicture from(cut_out);
+    const PremultipliedImage from(cut_out);
     Image<Rgba8> upright(frame.lens.width, frame.lens.height);
     for (int y = 0; y < upright.height(); ++y) {
         for (int x = 0; x < upright.width(); ++x) {

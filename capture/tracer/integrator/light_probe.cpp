@@ -11,7 +11,7 @@
 namespace rs::capture {
 namespace {
 
-RayPicture all_directions(const glm::dvec3& place, int width) {
+RayImage all_directions(const glm::dvec3& place, int width) {
     return {width, width / 2, place, {0, 0, -1}, [width](double x, double y) { return probe_direction(x, y, width); }};
 }
 
@@ -60,7 +60,7 @@ Image<RgbaF> light_probe(const Tracer& tracer, const glm::dvec3& place, const Li
     render.max_bounces = options.max_bounces;
     render.see_areas = true;
     render.see_environment = true;
-    Image<RgbaF> map = tracer.render(all_directions(place, options.width), render, progress).picture;
+    Image<RgbaF> map = tracer.render(all_directions(place, options.width), render, progress).image;
     for (const Light& light : tracer.lights()) add_light(light, tracer, place, map);
     return map;
 }

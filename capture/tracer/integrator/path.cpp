@@ -7,24 +7,24 @@ namespace rs::capture {
 bool PathTracer::trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                        glm::vec3& radiance) const {
     CameraRay ray{origin, direction, time, sampler};
-    const Arrived arrived = follow(ray);
+    const RadianceSample arrived = follow(ray);
     sampler = ray.sampler;
     radiance = arrived.radiance;
     return arrived.met;
 }
 
-void PathTracer::trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
+void PathTracer::trace_many(std::span<CameraRay> rays, std::span<RadianceSample> arrived) const {
     for (std::size_t i = 0; i < rays.size(); ++i) arrived[i] = follow(rays[i]);
 }
 
-Arrived PathTracer::follow(CameraRay& ray) const {
+RadianceSample PathTracer::follow(CameraRay& ray) const {
     // From its second rough surface on (its fourth of any kind) a path goes on with a probability of 2.5 times what is
     // left of its light, at most 1: fur, where little comes back, takes an eighth less time with the same noise.
     constexpr int kRouletteFrom = 3;
     constexpr int kRoughBefore = 2;
     constexpr float kRouletteMargin = 2.5F;
     using Met = LightTransport::Met;
-    Arrived arrived;
+    RadianceSample arrived;
     Sampler& sampler = ray.sampler;
     glm::vec3 throughput(1.0F);
     LightTransport::Segment segment = LightTransport::camera_segment(ray.origin, ray.direction, ray.time);

@@ -14,17 +14,17 @@ namespace rs::capture {
 
 class PathTracer final : public Integrator {
 public:
-    // `guides`: it describes what surfaces are, for pictures that are filtered.
+    // `guides`: it describes what surfaces are, for images that are filtered.
     PathTracer(const LightTransport& transport, int max_bounces, bool guides = false)
         : transport_(transport), max_bounces_(max_bounces), guides_(guides) {}
 
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
-    void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const override;
+    void trace_many(std::span<CameraRay> rays, std::span<RadianceSample> arrived) const override;
     [[nodiscard]] bool gives_guides() const override { return guides_; }
 
 private:
-    [[nodiscard]] Arrived follow(CameraRay& ray) const;
+    [[nodiscard]] RadianceSample follow(CameraRay& ray) const;
 
     LightTransport transport_;
     int max_bounces_;

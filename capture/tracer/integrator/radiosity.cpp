@@ -12,7 +12,7 @@ namespace rs::capture {
 namespace {
 
 constexpr std::uint64_t kOfTimes = 0x74696D6573ULL;  // key of their random numbers
-// Smaller pictures are not worth the photons of many groups.
+// Smaller images are not worth the photons of many groups.
 constexpr int kPixelsOfGroup = 4096;
 
 }  // namespace
@@ -32,15 +32,15 @@ struct RadiosityTracer::Packet {
 };
 
 RadiosityTracer::RadiosityTracer(const LightTransport& transport, const VirtualLightOptions& options,
-                                 const RayPicture& picture, std::uint64_t key, int first, int count)
+                                 const RayImage& image, std::uint64_t key, int first, int count)
     : transport_(transport),
       materials_(transport.scene(), transport.models()),
       options_(options),
       key_(key),
       first_(first) {
-    const VirtualLights lights(transport_, materials_, options, picture, key);
+    const VirtualLights lights(transport_, materials_, options, image, key);
     bound_ = lights.bound();
-    if (picture.width * picture.height >= kPixelsOfGroup * static_cast<int>(kLanes)) groups_ = kLanes;
+    if (image.width * image.height >= kPixelsOfGroup * static_cast<int>(kLanes)) groups_ = kLanes;
     lights_.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(groups_));
     for_each_index(static_cast<std::int64_t>(lights_.size()), 0, [&](std::int64_t i) {
         const int group = first_ * groups_ + static_cast<int>(i);
@@ -68,14 +68,14 @@ const std::vector<VirtualLight>& RadiosityTracer::lights_for(const CameraRay& ra
 bool RadiosityTracer::trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                             glm::vec3& radiance) const {
     CameraRay ray{origin, direction, time, sampler};
-    Arrived arrived;
+    RadianceSample arrived;
     trace_many({&ray, 1}, {&arrived, 1});
     sampler = ray.sampler;
     radiance = arrived.radiance;
     return arrived.met;
 }
 
-void RadiosityTracer::Way::begin(CameraRay& from, Arrived& into, float at) {
+void RadiosityTracer::Way::begin(CameraRay& from, RadianceSample& into, float at) {
     ray = &from;
     arrived = &into;
     into = {};
@@ -86,7 +86,7 @@ void RadiosityTracer::Way::begin(CameraRay& from, Arrived& into, float at) {
     distance = 0.0F;
 }
 
-void RadiosityTracer::trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
+void RadiosityTracer::trace_many(std::span<CameraRay> rays, std::span<RadianceSample> arrived) const {
     Packet packet(transport_.rays(), materials_);
     std::array<std::vector<std::size_t>, kLanes> of_group;
     for (const CameraRay& ray : rays) RS_CHECK(ray.sampler.sample() == rays.front().sampler.sample());

@@ -4,7 +4,7 @@
 //     photons from the lights -> virtual lights (virtual_lights.hpp)
 //     camera ray -> mirrors, glass -> surface: a sample of each light for direct light, virtual lights for the rest
 //
-// In pictures of 65,536 pixels and more virtual lights are interleaved: of the pixels of each square of 4 x 4 every one
+// In images of 65,536 pixels and more virtual lights are interleaved: of the pixels of each square of 4 x 4 every one
 // has a group of its own, so that neighbours together see sixteen times as many (I. Wald et al., "Interactive Global
 // Illumination using Fast Ray Tracing", Eurographics Rendering Workshop 2002); discontinuity_filter.hpp brings them
 // together. Sixteen pixels that have the same group go together as a packet.
@@ -16,11 +16,11 @@
 // Left out is the light that reaches the camera over more than one surface from primitives, and from surfaces that
 // shine and move while the shutter is open.
 
+#include "capture/tracer/image/ray_image.hpp"
 #include "capture/tracer/integrator/gather_packet.hpp"
 #include "capture/tracer/integrator/packet_materials.hpp"
 #include "capture/tracer/integrator/transport.hpp"
 #include "capture/tracer/integrator/virtual_lights.hpp"
-#include "capture/tracer/picture/ray_picture.hpp"
 
 #include <array>
 #include <cstdint>
@@ -31,9 +31,9 @@ namespace rs::capture {
 
 class RadiosityTracer final : public Integrator {
 public:
-    // Makes ready for the samples first <= s < first + count of a picture; each is a pass of its own. The same `key`
+    // Makes ready for the samples first <= s < first + count of an image; each is a pass of its own. The same `key`
     // and sample give the same virtual lights.
-    RadiosityTracer(const LightTransport& transport, const VirtualLightOptions& options, const RayPicture& picture,
+    RadiosityTracer(const LightTransport& transport, const VirtualLightOptions& options, const RayImage& image,
                     std::uint64_t key, int first, int count);
     RadiosityTracer(const RadiosityTracer&) = delete;
     RadiosityTracer& operator=(const RadiosityTracer&) = delete;
@@ -43,7 +43,7 @@ public:
     // as the first pixel of its square.
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
-    void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const override;
+    void trace_many(std::span<CameraRay> rays, std::span<RadianceSample> arrived) const override;
 
     [[nodiscard]] bool gives_guides() const override { return true; }
 
@@ -55,7 +55,7 @@ private:
     // A camera ray on its way.
     struct Way {
         CameraRay* ray = nullptr;
-        Arrived* arrived = nullptr;
+        RadianceSample* arrived = nullptr;
         LightTransport::Segment segment{};
         MediumStack media;
         glm::vec3 throughput{1.0F};
@@ -65,7 +65,7 @@ private:
         float gathered_cos = 0.0F;
         float distance = 0.0F;  // so far
 
-        void begin(CameraRay& from, Arrived& into, float at);
+        void begin(CameraRay& from, RadianceSample& into, float at);
     };
     struct Packet;
 

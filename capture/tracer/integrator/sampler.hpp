@@ -1,5 +1,5 @@
 #pragma once
-// Random numbers for one path, as a function of (seed, pixel, sample, dimension) alone: no state is shared, so pictures
+// Random numbers for one path, as a function of (seed, pixel, sample, dimension) alone: no state is shared, so images
 // do not depend on threads or tiles.
 //
 // Each call draws from the first two dimensions of the Sobol sequence; the order of the samples and both coordinates

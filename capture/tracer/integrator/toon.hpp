@@ -23,13 +23,13 @@ namespace rs::capture {
 
 class ToonTracer final : public WhittedTracer {
 public:
-    // `pixel_rad`: between the rays of neighbouring pixels in the middle of the picture.
+    // `pixel_rad`: between the rays of neighbouring pixels in the middle of the image.
     ToonTracer(const LightTransport& transport, IrradianceMap irradiance, const glm::vec3& ambient, int max_depth,
                ToonStyle style, float pixel_rad);
 
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
-    void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const override {
+    void trace_many(std::span<CameraRay> rays, std::span<RadianceSample> arrived) const override {
         trace_one_by_one(rays, arrived);
     }
 

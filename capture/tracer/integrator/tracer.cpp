@@ -1,10 +1,10 @@
 #include "capture/tracer/integrator/tracer.hpp"
 
+#include "capture/tracer/image/discontinuity_filter.hpp"
 #include "capture/tracer/integrator/path.hpp"
 #include "capture/tracer/integrator/radiosity.hpp"
 #include "capture/tracer/integrator/toon.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
-#include "capture/tracer/picture/discontinuity_filter.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/parallel.hpp"
@@ -69,7 +69,7 @@ std::vector<glm::ivec2> pixels_of_tile(int left, int top, const PixelRectangle& 
 }
 
 // Each camera position has noise of its own, so that neighbouring views do not share a pattern.
-std::uint64_t picture_key(std::uint64_t seed, std::initializer_list<glm::dvec3> placement) {
+std::uint64_t image_key(std::uint64_t seed, std::initializer_list<glm::dvec3> placement) {
     std::uint64_t key = mix_bits(seed);
     for (const glm::dvec3& vector : placement) {
         for (int row = 0; row < 3; ++row) {
@@ -80,9 +80,9 @@ std::uint64_t picture_key(std::uint64_t seed, std::initializer_list<glm::dvec3> 
     return key;
 }
 
-std::uint64_t picture_key(std::uint64_t seed, const Camera& camera) {
+std::uint64_t image_key(std::uint64_t seed, const Camera& camera) {
     const glm::dmat4& m = camera.world_from_camera;
-    return picture_key(seed, {glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2]), glm::dvec3(m[3])});
+    return image_key(seed, {glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2]), glm::dvec3(m[3])});
 }
 
 LightSet::Extent extent_of(const RayScene& rays) {
@@ -90,20 +90,20 @@ LightSet::Extent extent_of(const RayScene& rays) {
     return {0.5F * (rays.upper() + rays.lower()), 0.5F * glm::length(rays.upper() - rays.lower())};
 }
 
-RayPicture rays_of(const Camera& camera) {
+RayImage rays_of(const Camera& camera) {
     return {camera.width, camera.height, camera.centre(), camera.forward(),
             [camera](double x, double y) { return camera.ray(x, y); }};
 }
 
 // Between the rays of pixels beside each other in the middle.
-float pixel_rad_of(const RayPicture& rays) {
+float pixel_rad_of(const RayImage& rays) {
     const double x = 0.5 * rays.width, y = 0.5 * rays.height;
     return static_cast<float>(
         glm::distance(glm::normalize(rays.ray(x - 0.5, y)), glm::normalize(rays.ray(x + 0.5, y))));
 }
 
 // Axial, of the first surface through each pixel's centre.
-Image<float> first_depths(const RayPicture& rays, const PixelRectangle& visible, const RayScene& scene, int threads) {
+Image<float> first_depths(const RayImage& rays, const PixelRectangle& visible, const RayScene& scene, int threads) {
     Image<float> depths(rays.width, rays.height);
     for_each_index(std::max(visible.y1 - visible.y0, 0), threads, [&](std::int64_t row) {
         const int y = visible.y0 + static_cast<int>(row);
@@ -119,7 +119,7 @@ Image<float> first_depths(const RayPicture& rays, const PixelRectangle& visible,
 
 }  // namespace
 
-// What of a picture may show something, and what its noise is drawn from.
+// What of an image may show something, and what its noise is drawn from.
 struct Tracer::Frame {
     PixelRectangle visible;
     std::uint64_t key;
@@ -144,7 +144,7 @@ std::int64_t Tracer::step_count(const Camera& camera) {
     return static_cast<std::int64_t>(tiles_along(camera.width)) * tiles_along(camera.height);
 }
 
-std::int64_t Tracer::step_count(const RayPicture& rays) {
+std::int64_t Tracer::step_count(const RayImage& rays) {
     return static_cast<std::int64_t>(tiles_along(rays.width)) * tiles_along(rays.height);
 }
 
@@ -156,10 +156,10 @@ Tracer::Frame Tracer::frame_of(const Camera& camera, const RenderOptions& option
     // What is out of focus is wider than it is.
     const bool anywhere = options.see_areas || options.see_environment || options.lens.aperture > 0;
     return {anywhere ? PixelRectangle{0, 0, camera.width, camera.height} : visible_rectangle(camera, *state_->rays),
-            picture_key(options.seed, camera)};
+            image_key(options.seed, camera)};
 }
 
-std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& transport, const RayPicture& picture,
+std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& transport, const RayImage& image,
                                                           std::uint64_t key, const RenderOptions& options, int first,
                                                           int count) const {
     constexpr int kWhittedDepth = 8;
@@ -167,7 +167,7 @@ std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& 
     switch (options.method) {
         case RenderMethod::kRadiosity:
             return std::make_unique<RadiosityTracer>(transport, VirtualLightOptions{.max_bounces = options.max_bounces},
-                                                     picture, key, first, count);
+                                                     image, key, first, count);
         case RenderMethod::kWhitted:
             return std::make_unique<WhittedTracer>(transport, IrradianceMap(transport.lights().environment()),
                                                    options.ambient, std::min(options.max_bounces, kWhittedDepth),
@@ -175,7 +175,7 @@ std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& 
         case RenderMethod::kToon:
             return std::make_unique<ToonTracer>(transport, IrradianceMap(transport.lights().environment()),
                                                 options.ambient, std::min(options.max_bounces, kWhittedDepth),
-                                                options.toon, pixel_rad_of(picture));
+                                                options.toon, pixel_rad_of(image));
         case RenderMethod::kPath:
             break;
     }
@@ -186,12 +186,12 @@ Rendering Tracer::render(const Camera& camera, const RenderOptions& options, Pro
     return render(rays_of(camera), frame_of(camera, options), options, progress);
 }
 
-Rendering Tracer::render(const RayPicture& rays, const RenderOptions& options, Progress* progress) const {
+Rendering Tracer::render(const RayImage& rays, const RenderOptions& options, Progress* progress) const {
     const PixelRectangle whole{0, 0, rays.width, rays.height};
-    return render(rays, {whole, picture_key(options.seed, {rays.centre, rays.forward})}, options, progress);
+    return render(rays, {whole, image_key(options.seed, {rays.centre, rays.forward})}, options, progress);
 }
 
-Rendering Tracer::render(const RayPicture& rays, const Frame& frame, const RenderOptions& options,
+Rendering Tracer::render(const RayImage& rays, const Frame& frame, const RenderOptions& options,
                          Progress* progress) const {
     RS_CHECK(options.samples_per_pixel >= 1 && options.samples_per_pixel <= 65536);
     Accumulation sum;
@@ -204,7 +204,7 @@ Rendering Tracer::render(const RayPicture& rays, const Frame& frame, const Rende
         accumulate(rays, frame, options, count, sum, last ? progress : nullptr, nullptr);
     }
     Rendering rendering;
-    rendering.picture = options.filtered ? filtered_mean(sum, frame.visible) : std::move(sum).mean();
+    rendering.image = options.filtered ? filtered_mean(sum, frame.visible) : std::move(sum).mean();
     if (options.depth) rendering.depth = first_depths(rays, frame.visible, *state_->rays, options.threads);
     return rendering;
 }
@@ -214,7 +214,7 @@ bool Tracer::accumulate(const Camera& camera, const RenderOptions& options, int 
     return accumulate(rays_of(camera), frame_of(camera, options), options, count, into, progress, stop);
 }
 
-bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const RenderOptions& options, int count,
+bool Tracer::accumulate(const RayImage& rays, const Frame& frame, const RenderOptions& options, int count,
                         Accumulation& into, Progress* progress, const std::atomic<bool>* stop) const {
     RS_CHECK(options.filter_radius_px > 0.0F && options.filter_radius_px <= 0.5F);
     RS_CHECK(options.max_bounces >= 0 && count >= 1);
@@ -251,7 +251,7 @@ bool Tracer::accumulate(const RayPicture& rays, const Frame& frame, const Render
                                                               static_cast<int>(tile / across) * kTileSide_px, visible);
         std::vector<CameraRay> many;
         many.reserve(pixels.size());
-        std::vector<Arrived> arrived(pixels.size());
+        std::vector<RadianceSample> arrived(pixels.size());
         for (int s = into.samples; s < into.samples + count && !pixels.empty(); ++s) {
             many.clear();
             for (const glm::ivec2& p : pixels) many.push_back(camera_ray(p.x, p.y, s));
@@ -335,11 +335,11 @@ Result<Tracer> Tracer::create(Scene scene) {
     return Tracer(std::move(state));
 }
 
-Image<Rgba8> to_srgb8(ConstImageView<RgbaF> picture) {
-    Image<Rgba8> result(picture.width(), picture.height());
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            const RgbaF& p = picture(x, y);
+Image<Rgba8> to_srgb8(ConstImageView<RgbaF> image) {
+    Image<Rgba8> result(image.width(), image.height());
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            const RgbaF& p = image(x, y);
             const auto alpha = static_cast<std::uint8_t>(std::lround(std::clamp(p.a, 0.0F, 1.0F) * 255.0F));
             if (alpha > 0)
                 result(x, y) = {srgb8_from_linear(p.r), srgb8_from_linear(p.g), srgb8_from_linear(p.b), alpha};

@@ -1,13 +1,13 @@
 #pragma once
-// The tracer: pictures of a Scene from any camera. Second room of the capture pipeline's synthetic branch:
+// The tracer: images of a Scene from any camera. Second room of the capture pipeline's synthetic branch:
 //
-//     mesh file, recipe -> Scene -> Tracer -> pictures -> capture set (capture_set.hpp)
+//     mesh file, recipe -> Scene -> Tracer -> images -> capture set (capture_set.hpp)
 //
 // The same scene, camera and options give the same bytes, whatever the number of threads. Source: J. Kajiya, "The
 // Rendering Equation", 1986; E. Veach's thesis, 1997, for multiple importance sampling.
 
-#include "capture/tracer/picture/accumulation.hpp"
-#include "capture/tracer/picture/ray_picture.hpp"
+#include "capture/tracer/image/accumulation.hpp"
+#include "capture/tracer/image/ray_image.hpp"
 #include "capture/tracer/scene/scene.hpp"
 #include "capture/tracer/scene/toon_style.hpp"
 #include "rayspace/base/progress.hpp"
@@ -34,12 +34,12 @@ struct RenderOptions {
     int samples_per_pixel = 64;  // 1..65536; powers of two are stratified best
     std::uint64_t seed = 1;
     int max_bounces = 16;           // surfaces that a path may visit after the first
-    float filter_radius_px = 0.5F;  // box filter, (0, 0.5]: a picture shows no blur of its own
+    float filter_radius_px = 0.5F;  // box filter, (0, 0.5]: an image shows no blur of its own
     bool depth = false;
     // Of render() by paths or radiosity: smoothed where surfaces are alike, as far as there is noise
-    // (discontinuity_filter.hpp). Pictures with more samples are smoothed less; they go to where those without it go.
+    // (discontinuity_filter.hpp). Images with more samples are smoothed less; they go to where those without it go.
     bool filtered = false;
-    // What stands in the picture itself; else it is seen in reflections and through glass only.
+    // What stands in the image itself; else it is seen in reflections and through glass only.
     bool see_areas = false;
     bool see_environment = false;
     glm::vec3 ambient{
@@ -53,7 +53,7 @@ struct RenderOptions {
 };
 
 struct Rendering {
-    Image<RgbaF> picture;  // linear light, straight alpha = share of camera rays that hit a surface
+    Image<RgbaF> image;  // linear light, straight alpha = share of camera rays that hit a surface
     // Axial, of the first surface through the pixel's centre at time 0; 0 = none; empty if not requested.
     Image<float> depth;
 };
@@ -74,9 +74,9 @@ public:
                                    Progress* progress = nullptr) const;
     [[nodiscard]] static std::int64_t step_count(const Camera& camera);
     // The same for any projection.
-    [[nodiscard]] Rendering render(const RayPicture& rays, const RenderOptions& options,
+    [[nodiscard]] Rendering render(const RayImage& rays, const RenderOptions& options,
                                    Progress* progress = nullptr) const;
-    [[nodiscard]] static std::int64_t step_count(const RayPicture& rays);
+    [[nodiscard]] static std::int64_t step_count(const RayImage& rays);
 
     // Adds `count` samples to each pixel, those that come after the ones it has; an empty accumulation begins anew. Of
     // the options samples_per_pixel and depth count nothing. Advances `progress` by step_count(camera) steps. Once
@@ -117,12 +117,12 @@ private:
     struct State;
     struct Frame;
     [[nodiscard]] Frame frame_of(const Camera& camera, const RenderOptions& options) const;
-    [[nodiscard]] Rendering render(const RayPicture& rays, const Frame& frame, const RenderOptions& options,
+    [[nodiscard]] Rendering render(const RayImage& rays, const Frame& frame, const RenderOptions& options,
                                    Progress* progress) const;
-    bool accumulate(const RayPicture& rays, const Frame& frame, const RenderOptions& options, int count,
+    bool accumulate(const RayImage& rays, const Frame& frame, const RenderOptions& options, int count,
                     Accumulation& into, Progress* progress, const std::atomic<bool>* stop) const;
     [[nodiscard]] std::unique_ptr<const Integrator> make_integrator(const LightTransport& transport,
-                                                                    const RayPicture& picture, std::uint64_t key,
+                                                                    const RayImage& image, std::uint64_t key,
                                                                     const RenderOptions& options, int first,
                                                                     int count) const;
     explicit Tracer(std::unique_ptr<State> state);
@@ -130,6 +130,6 @@ private:
 };
 
 // 8-bit sRGB with straight alpha; radiance above 1 is clipped. Transparent pixels are (0, 0, 0, 0).
-Image<Rgba8> to_srgb8(ConstImageView<RgbaF> picture);
+Image<Rgba8> to_srgb8(ConstImageView<RgbaF> image);
 
 }  // namespace rs::capture

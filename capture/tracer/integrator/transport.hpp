@@ -4,11 +4,11 @@
 //
 // Radiance is not scaled by the squared index of refraction inside glass: all lights are outside, where it cancels.
 
+#include "capture/tracer/image/accumulation.hpp"
 #include "capture/tracer/integrator/medium_stack.hpp"
 #include "capture/tracer/integrator/sampler.hpp"
 #include "capture/tracer/integrator/surface.hpp"
 #include "capture/tracer/light/light_set.hpp"
-#include "capture/tracer/picture/accumulation.hpp"
 #include "capture/tracer/rays/ray_scene.hpp"
 #include "rayspace/light/directions.hpp"
 
@@ -24,7 +24,7 @@ struct Seen {
     bool environment = false;
 };
 
-// A ray of a picture.
+// A ray of an image.
 struct CameraRay {
     glm::vec3 origin;
     glm::vec3 direction;  // unit length
@@ -33,7 +33,7 @@ struct CameraRay {
     unsigned in_square = 0;  // number of its pixel within a square of 4 x 4, row by row
 };
 
-// The light that arrives along one ray of a picture.
+// The light that arrives along one ray of an image.
 class Integrator {
 public:
     Integrator() = default;
@@ -44,8 +44,8 @@ public:
     // ray_scene.hpp has it. Thread-safe.
     virtual bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                        glm::vec3& radiance) const = 0;
-    // The same bits for many rays, as many results; neighbours in the list should be neighbours in the picture.
-    virtual void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
+    // The same bits for many rays, as many results; neighbours in the list should be neighbours in the image.
+    virtual void trace_many(std::span<CameraRay> rays, std::span<RadianceSample> arrived) const {
         trace_one_by_one(rays, arrived);
     }
 
@@ -53,7 +53,7 @@ public:
     [[nodiscard]] virtual bool gives_guides() const { return false; }
 
 protected:
-    void trace_one_by_one(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
+    void trace_one_by_one(std::span<CameraRay> rays, std::span<RadianceSample> arrived) const {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             arrived[i].met =
                 trace(rays[i].origin, rays[i].direction, rays[i].time, rays[i].sampler, arrived[i].radiance);
@@ -104,7 +104,7 @@ public:
         }
 
         // Notes it as what a ray has met after so long a way, where it is the first that is rough.
-        void guide(float distance, Arrived& arrived) const {
+        void guide(float distance, RadianceSample& arrived) const {
             if (arrived.guided || surface.is_specular()) return;
             arrived.guided = true;
             arrived.guide = {point.position, frame.normal, surface.colour(), distance};

@@ -38,22 +38,22 @@ float adjoint_factor(const LightTransport::Vertex& vertex, const glm::vec3& in, 
 }  // namespace
 
 VirtualLights::VirtualLights(const LightTransport& transport, const PacketMaterials& materials,
-                             const VirtualLightOptions& options, const RayPicture& picture, std::uint64_t key)
+                             const VirtualLightOptions& options, const RayImage& image, std::uint64_t key)
     : transport_(transport), materials_(materials), options_(options), key_(key) {
     if (transport_.lights().empty()) return;
-    find_camera_points(picture);
+    find_camera_points(image);
     plan_photons();
 }
 
-void VirtualLights::find_camera_points(const RayPicture& picture) {
+void VirtualLights::find_camera_points(const RayImage& image) {
     std::vector<float> distances;
     int found = 0;
     for (int i = 0; i < kCameraPoints; ++i) {
         Sampler sampler(mix_bits(key_ ^ kOfCameraPoints), static_cast<std::uint32_t>(i));
         const glm::vec2 at = sampler.next_2d();
         const glm::dvec3 ray =
-            picture.ray(at.x * static_cast<float>(picture.width), at.y * static_cast<float>(picture.height));
-        auto segment = LightTransport::camera_segment(glm::vec3(picture.centre), glm::vec3(glm::normalize(ray)));
+            image.ray(at.x * static_cast<float>(image.width), at.y * static_cast<float>(image.height));
+        auto segment = LightTransport::camera_segment(glm::vec3(image.centre), glm::vec3(glm::normalize(ray)));
         MediumStack media;
         glm::vec3 throughput(1.0F), ignored(0.0F);
         SurfacePoint point;

@@ -6,9 +6,9 @@
 // some points that the camera sees, and its power is divided by that (I. Georgiev, P. Slusallek, "Simple and Robust
 // Iterative Importance Sampling of Virtual Point Lights", Eurographics 2010).
 
+#include "capture/tracer/image/ray_image.hpp"
 #include "capture/tracer/integrator/gather_packet.hpp"
 #include "capture/tracer/integrator/transport.hpp"
-#include "capture/tracer/picture/ray_picture.hpp"
 
 #include <array>
 #include <cstdint>
@@ -27,9 +27,9 @@ struct VirtualLightOptions {
 // Thread-safe.
 class VirtualLights {
 public:
-    // Plans how many photons a group takes. Refers to all but the picture.
+    // Plans how many photons a group takes. Refers to all but the image.
     VirtualLights(const LightTransport& transport, const PacketMaterials& materials, const VirtualLightOptions& options,
-                  const RayPicture& picture, std::uint64_t key);
+                  const RayImage& image, std::uint64_t key);
 
     // Each stands for all light that has met a surface; their mean is it. At a time (RayScene).
     [[nodiscard]] std::vector<VirtualLight> group(int number, float time) const;
@@ -44,7 +44,7 @@ private:
         std::array<glm::vec3, kLanes> throughput{};
     };
 
-    void find_camera_points(const RayPicture& picture);
+    void find_camera_points(const RayImage& image);
     void find_bound(std::vector<float> distances);
     void plan_photons();
     void follow_photon(float time, Sampler& sampler, std::vector<VirtualLight>& lights) const;

@@ -9,7 +9,7 @@
 //     the rest     a constant, `ambient`
 //     metal        a mirror of its colour, whatever its roughness, with the highlights of lights without an area
 //
-// Rays whose light would come to less than 1/256 of the picture's are not followed.
+// Rays whose light would come to less than 1/256 of the image's are not followed.
 
 #include "capture/tracer/integrator/packet_materials.hpp"
 #include "capture/tracer/integrator/transport.hpp"
@@ -39,7 +39,7 @@ public:
                glm::vec3& radiance) const override;
     // Camera rays and those to lights in packets (packets/packet.hpp), light by light; mirrors and glass are followed
     // ray by ray.
-    void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const override;
+    void trace_many(std::span<CameraRay> rays, std::span<RadianceSample> arrived) const override;
 
 protected:
     struct Ray {
@@ -64,12 +64,12 @@ private:
     };
     // Sixteen rays of neighbours, and what they have met.
     struct Packet;
-    void trace_packet(std::span<CameraRay> rays, std::span<Arrived> arrived, Packet& packet) const;
-    void meet(std::span<const CameraRay> rays, std::span<Arrived> arrived, Packet& packet) const;
-    bool arrive_at(std::size_t lane, const Packet& packet, Arrived& arrived) const;
+    void trace_packet(std::span<CameraRay> rays, std::span<RadianceSample> arrived, Packet& packet) const;
+    void meet(std::span<const CameraRay> rays, std::span<RadianceSample> arrived, Packet& packet) const;
+    bool arrive_at(std::size_t lane, const Packet& packet, RadianceSample& arrived) const;
     void make_ready(Packet& packet) const;
     void light_packet(std::size_t light, std::span<CameraRay> rays, Packet& packet) const;
-    void go_on(std::span<CameraRay> rays, std::span<Arrived> arrived, const Packet& packet) const;
+    void go_on(std::span<CameraRay> rays, std::span<RadianceSample> arrived, const Packet& packet) const;
     bool follow(const Ray& ray, Sampler& sampler, glm::vec3& radiance) const;
     void follow_mirrors(const Ray& ray, const LightTransport::Vertex& vertex, Sampler& sampler,
                         glm::vec3& radiance) const;

@@ -39,7 +39,7 @@ void WhittedTracer::Packet::take(std::span<const CameraRay> rays) {
     some_lit = some_go_on = false;
 }
 
-void WhittedTracer::trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
+void WhittedTracer::trace_many(std::span<CameraRay> rays, std::span<RadianceSample> arrived) const {
     Packet packet;
     for (std::size_t first = 0; first < rays.size(); first += kLanes) {
         const std::size_t count = std::min(kLanes, rays.size() - first);
@@ -47,7 +47,7 @@ void WhittedTracer::trace_many(std::span<CameraRay> rays, std::span<Arrived> arr
     }
 }
 
-void WhittedTracer::trace_packet(std::span<CameraRay> rays, std::span<Arrived> arrived, Packet& packet) const {
+void WhittedTracer::trace_packet(std::span<CameraRay> rays, std::span<RadianceSample> arrived, Packet& packet) const {
     packet.take(rays);
     meet(rays, arrived, packet);
     if (packet.some_lit) {
@@ -61,7 +61,7 @@ void WhittedTracer::trace_packet(std::span<CameraRay> rays, std::span<Arrived> a
 }
 
 // Follows the camera's rays as far as what they meet first.
-void WhittedTracer::meet(std::span<const CameraRay> rays, std::span<Arrived> arrived, Packet& packet) const {
+void WhittedTracer::meet(std::span<const CameraRay> rays, std::span<RadianceSample> arrived, Packet& packet) const {
     const HitLanes& hit = packet.met.hit;
     transport_.rays().intersect(packet.asked, packet.met);
     for (std::size_t lane = 0; lane < rays.size(); ++lane) {
@@ -93,7 +93,7 @@ void WhittedTracer::meet(std::span<const CameraRay> rays, std::span<Arrived> arr
 }
 
 // LightTransport::arrive() of a camera ray that has met this surface.
-bool WhittedTracer::arrive_at(std::size_t lane, const Packet& packet, Arrived& arrived) const {
+bool WhittedTracer::arrive_at(std::size_t lane, const Packet& packet, RadianceSample& arrived) const {
     const PacketMaterial& material = *packet.material[lane];
     const bool front_side = packet.surfaces.front_side[lane] != 0;
     arrived.met = true;
@@ -165,7 +165,7 @@ void WhittedTracer::light_packet(std::size_t light, std::span<CameraRay> rays, P
 }
 
 // Into mirrors and glass.
-void WhittedTracer::go_on(std::span<CameraRay> rays, std::span<Arrived> arrived, const Packet& packet) const {
+void WhittedTracer::go_on(std::span<CameraRay> rays, std::span<RadianceSample> arrived, const Packet& packet) const {
     for (std::size_t lane = 0; lane < rays.size(); ++lane) {
         if (!packet.goes_on[lane]) continue;
         CameraRay& from = rays[lane];

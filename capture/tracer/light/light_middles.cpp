@@ -10,7 +10,7 @@ namespace rs::capture {
 
 void LightSet::gather_glow(const Mesh& mesh) {
     const Material& material = scene_.materials[static_cast<std::size_t>(mesh.material)];
-    Glow glow;
+    EmissiveMeshProxy glow;
     glow.two_sided = material.two_sided;
     glow.emission = material.emission;
     if (material.emission_texture >= 0) {
@@ -45,7 +45,7 @@ std::optional<LightSample> LightSet::middle(std::size_t number, const glm::vec3&
     return sample_area(areas_[source.index], position, 1.0F, glm::vec2(0.0F));
 }
 
-std::optional<LightSample> LightSet::glow(const Glow& glow, const glm::vec3& position) {
+std::optional<LightSample> LightSet::glow(const EmissiveMeshProxy& glow, const glm::vec3& position) {
     const glm::vec3 to_light = glow.middle - position;
     const float distance2 = glm::dot(to_light, to_light);
     if (!(distance2 > 0.0F)) return std::nullopt;

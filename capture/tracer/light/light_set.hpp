@@ -133,7 +133,7 @@ private:
         const LightModel* model = nullptr;
     };
     // A mesh that shines, for those who take it for a point.
-    struct Glow {
+    struct EmissiveMeshProxy {
         glm::vec3 middle{0.0F};
         glm::vec3 mean_normal{0.0F};  // times the area; short where the mesh is closed
         glm::vec3 emission{0.0F};     // mean
@@ -154,7 +154,7 @@ private:
         bool hole;
     };
 
-    [[nodiscard]] static std::optional<LightSample> glow(const Glow& glow, const glm::vec3& position);
+    [[nodiscard]] static std::optional<LightSample> glow(const EmissiveMeshProxy& glow, const glm::vec3& position);
     void gather_emitters();
     void gather_emitter(const Mesh& mesh);
     void gather_glow(const Mesh& mesh);
@@ -194,7 +194,7 @@ private:
     std::vector<Area> areas_;
     std::vector<std::unique_ptr<const Mesh>> placed_;  // meshes of instances that shine, in the world
     std::vector<Emitter> emitters_;
-    std::vector<Glow> glows_;
+    std::vector<EmissiveMeshProxy> glows_;
     std::vector<float> brightness_;  // of each material: luminance of its emission, mean over the texture
     bool instances_shine_ = false;
     double emitter_power_ = 0;  // sum of area * brightness

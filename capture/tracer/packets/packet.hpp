@@ -7,7 +7,7 @@
 //     (LightSet) SurfaceLanes, LightLanes -> RayLanes    send_light(): the rays to the light, and what it makes the
 //     surfaces send
 //
-// Every function gives the bits of its plain twin, which takes one ray at a time and which it names; so a picture is
+// Every function gives the bits of its plain twin, which takes one ray at a time and which it names; so an image is
 // the same whether its rays go together or alone. Lanes that a mask leaves out may hold anything afterwards. No
 // function refers to what it was given after it returns; all are thread-safe.
 

@@ -3,8 +3,8 @@
 #include "capture/tracer/scene/mesh_material.hpp"
 #include "capture/tracer/scene/ply_file.hpp"
 #include "rayspace/file/input_file.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/models/model_files.hpp"
-#include "rayspace/pictures/picture_io.hpp"
 
 #include <assimp/BaseImporter.h>
 #include <assimp/config.h>
@@ -113,7 +113,7 @@ Result<Texture> read_texture(const std::filesystem::path& path, const std::files
     if (!std::filesystem::is_regular_file(path, ignored)) {
         return missing_texture(path, asked_by);
     }
-    RS_ASSIGN_OR_RETURN(Image<RgbaF> pixels, read_picture_linear(path));
+    RS_ASSIGN_OR_RETURN(Image<RgbaF> pixels, read_image_linear(path));
     return Texture{path.filename().string(), std::move(pixels)};
 }
 

@@ -26,7 +26,7 @@ bool is_mesh_file(const std::filesystem::path& path);
 
 Error missing_texture(const std::filesystem::path& path, const std::filesystem::path& asked_by);
 
-// A picture file as a texture; `asked_by` is the file that names it.
+// An image file as a texture; `asked_by` is the file that names it.
 Result<Texture> read_texture(const std::filesystem::path& path, const std::filesystem::path& asked_by);
 
 }  // namespace rs::capture

@@ -3,7 +3,7 @@
 #include "capture/tracer/scene/mesh_file.hpp"
 #include "capture/tracer/scene/texture_lookup.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/ObjMaterial.h>
@@ -61,7 +61,7 @@ Status write_bytes(const aiTexture& source, const std::filesystem::path& path) {
     return staged.commit();
 }
 
-// Pictures that stand inside of a GLB go through a file of their own, for readers take paths.
+// Images that stand inside of a GLB go through a file of their own, for readers take paths.
 template <class Read>
 auto read_embedded(const aiTexture& source, const std::string& name, const std::filesystem::path& file, Read read)
     -> decltype(read(file)) {
@@ -79,7 +79,7 @@ auto read_embedded(const aiTexture& source, const std::string& name, const std::
     return Error{file.string() + ": its embedded texture \"" + name + "\" cannot be read; store it as PNG or JPEG"};
 }
 
-// Calls `read` with the path of the picture.
+// Calls `read` with the path of the image.
 template <class Read>
 auto read_named(const aiScene& source, const std::string& name, const std::filesystem::path& file, Read read)
     -> decltype(read(file)) {
@@ -110,13 +110,13 @@ Result<int> MeshTextures::colours(const std::string& name, float hole_alpha) {
 }
 
 Result<glm::vec3> MeshTextures::mean_numbers(const std::string& name) {
-    // As codes of 8 bits; the sRGB curve, which such pictures do not have, is then not undone.
+    // As codes of 8 bits; the sRGB curve, which such images do not have, is then not undone.
     RS_ASSIGN_OR_RETURN(
         const Image<Rgba8> codes,
         read_named(source_, name, file_, [&](const std::filesystem::path& path) -> Result<Image<Rgba8>> {
             std::error_code ignored;
             if (!std::filesystem::is_regular_file(path, ignored)) return missing_texture(path, file_);
-            return read_picture(path);
+            return read_image(path);
         }));
     glm::dvec3 sum(0.0);
     for (const Rgba8& p : codes.pixels()) sum += glm::dvec3(p.r, p.g, p.b);

@@ -10,25 +10,25 @@
 #include <utility>
 #include <vector>
 
-// The pictures that the materials of an Assimp scene name. Part of mesh_file.
+// The images that the materials of an Assimp scene name. Part of mesh_file.
 
 struct aiScene;
 
 namespace rs::capture {
 
-// Names are relative to the folder of `file`, which `source` was read from, or name a picture inside of it. Each
-// picture is read once. Errors name the picture and `file`.
+// Names are relative to the folder of `file`, which `source` was read from, or name an image inside of it. Each
+// image is read once. Errors name the image and `file`.
 class MeshTextures {
 public:
     // Refers to all three; appends to `textures`.
     MeshTextures(const aiScene& source, const std::filesystem::path& file, std::vector<Texture>& textures)
         : source_(source), file_(file), textures_(textures) {}
 
-    // The index of a picture of colours in `textures`. What has alpha below `hole_alpha` becomes a hole: nothing for 0,
+    // The index of an image of colours in `textures`. What has alpha below `hole_alpha` becomes a hole: nothing for 0,
     // everything for infinity.
     Result<int> colours(const std::string& name, float hole_alpha);
 
-    // The mean red, green and blue of a picture of numbers 0..1, which has no sRGB curve.
+    // The mean red, green and blue of an image of numbers 0..1, which has no sRGB curve.
     Result<glm::vec3> mean_numbers(const std::string& name);
 
 private:

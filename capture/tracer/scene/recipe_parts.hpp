@@ -13,7 +13,7 @@ namespace rs::capture {
 // How the turntable's camera stands, when the command line says nothing else.
 struct CameraRecipe {
     double distance_radii = 3.5;  // from the axis, in bounding-sphere radii
-    double focal_widths = 1.4;    // focal length over picture width
+    double focal_widths = 1.4;    // focal length over image width
     double elevation_deg = 0;
     double look_at_height = 0;
     int views = 90;

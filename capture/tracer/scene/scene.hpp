@@ -62,7 +62,7 @@ struct Texture {
     bool repeat_v = true;
 };
 
-// Latitude-longitude map: row 0 is +Y, the picture's middle column is -Z, u grows towards +X from there. Empty = black.
+// Latitude-longitude map: row 0 is +Y, the image's middle column is -Z, u grows towards +X from there. Empty = black.
 struct Environment {
     Image<RgbaF> pixels;
     float scale = 1.0F;

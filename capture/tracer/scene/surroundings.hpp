@@ -1,5 +1,5 @@
 #pragma once
-// A room around an object that is captured: pictures show the object alone, as the room's light and walls make it look.
+// A room around an object that is captured: images show the object alone, as the room's light and walls make it look.
 
 #include "capture/tracer/scene/scene.hpp"
 

@@ -13,7 +13,7 @@ float repeat(float coordinate) {
     return fraction >= 0.0F && fraction < 1.0F ? fraction : 0.0F;
 }
 
-// Of a picture whose border goes on, half a pixel from its edge at the farthest.
+// Of an image whose border goes on, half a pixel from its edge at the farthest.
 float place_of(float coordinate, bool repeats, int size) {
     if (repeats) return repeat(coordinate);
     const float half_px = 0.5F / static_cast<float>(size);

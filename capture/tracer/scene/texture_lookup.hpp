@@ -5,7 +5,7 @@
 
 namespace rs::capture {
 
-// uv (0, 0) = the picture's lower left corner. The texture must have pixels.
+// uv (0, 0) = the image's lower left corner. The texture must have pixels.
 RgbaF sample_texture(const Texture& texture, const glm::vec2& uv);
 
 // Only the alpha channel, at the nearest pixel: holes have crisp edges and cost little to test.

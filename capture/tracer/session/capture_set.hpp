@@ -1,5 +1,5 @@
 #pragma once
-// Writes a synthetic capture set: traced pictures of every camera of a rig, and the transforms.json beside them.
+// Writes a synthetic capture set: traced images of every camera of a rig, and the transforms.json beside them.
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "rayspace/base/progress.hpp"
@@ -20,18 +20,18 @@ inline std::string view_number(std::size_t view) {
     return text;
 }
 
-enum class PictureFormat { png, exr };
+enum class ImageFormat { png, exr };
 
 struct CaptureSetOptions {
-    RenderOptions render;  // with depth, a NNN.depth.exr stands beside each picture
-    PictureFormat format = PictureFormat::png;
+    RenderOptions render;  // with depth, a NNN.depth.exr stands beside each image
+    ImageFormat format = ImageFormat::png;
 };
 
 struct CaptureSetSummary {
     int views = 0;
     double render_s = 0;       // wall clock, without writing
     double mean_coverage = 0;  // share of the pixels that show the object, over all views
-    int clipped_views = 0;     // views where the object touches the picture's edge
+    int clipped_views = 0;     // views where the object touches the image's edge
 };
 
 // Cameras and top-level keys come from `rig`; file names become 000.png, 001.png, ... (or .exr). The folder appears

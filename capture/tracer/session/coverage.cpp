@@ -13,7 +13,7 @@ namespace {
 constexpr int kFirstRays = 16;
 constexpr int kOutlineRays = 256;
 
-float covered_share(const RayScene& scene, const RayPicture& rays, int x, int y, int count) {
+float covered_share(const RayScene& scene, const RayImage& rays, int x, int y, int count) {
     const glm::vec3 centre(rays.centre);
     const std::uint64_t key = mix_bits(static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x));
     int hits = 0;
@@ -38,7 +38,7 @@ bool is_on_outline(const Image<float>& shares, int x, int y) {
 
 }  // namespace
 
-Image<float> trace_coverage(const RayScene& scene, const RayPicture& rays, int threads) {
+Image<float> trace_coverage(const RayScene& scene, const RayImage& rays, int threads) {
     Image<float> first(rays.width, rays.height);
     if (scene.empty()) return first;
     for_each_index(rays.height, threads, [&](std::int64_t row) {

@@ -8,7 +8,7 @@
 #include "capture/tracer/session/sensor.hpp"
 #include "capture/tracer/session/still_backdrop.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -66,8 +66,8 @@ nlohmann::json turntable_json(const SessionPlan& plan, const Turntable& turntabl
         nlohmann::json corners = nlohmann::json::array();
         for (const glm::dvec3& corner : turntable.board->corners) corners.push_back({corner.x, corner.y, corner.z});
         json["board"] = {{"corners", std::move(corners)},
-                         {"width_px", turntable.board->picture.width()},
-                         {"height_px", turntable.board->picture.height()}};
+                         {"width_px", turntable.board->image.width()},
+                         {"height_px", turntable.board->image.height()}};
     }
     return json;
 }
@@ -75,7 +75,7 @@ nlohmann::json turntable_json(const SessionPlan& plan, const Turntable& turntabl
 // The truth of the turn. `dimming` is the factor on the scene's lights; `photo_of_view` names the photographs, relative
 // to the transforms.json. `places` is empty where photographs are as the still camera took them.
 Rig truth_rig(const SessionPlan& plan, const Turntable& turntable, double object_radius, const PhotoOptions& options,
-              double dimming, const std::vector<std::string>& photo_of_view, std::span<const PicturePlace> places) {
+              double dimming, const std::vector<std::string>& photo_of_view, std::span<const ImagePlace> places) {
     Rig rig;
     rig.object_radius = object_radius;
     rig.foot_height = turntable.top;
@@ -88,7 +88,7 @@ Rig truth_rig(const SessionPlan& plan, const Turntable& turntable, double object
     rig.extras["turntable"] = turntable_json(plan, turntable, options, dimming);
     if (!places.empty()) {
         nlohmann::json& listed = rig.extras["turntable"]["places"] = nlohmann::json::array();
-        for (const PicturePlace& place : places) {
+        for (const ImagePlace& place : places) {
             listed.push_back({{"scale", place.scale}, {"shift_px", {place.shift_px.x, place.shift_px.y}}});
         }
     }
@@ -121,8 +121,8 @@ Result<Image<RgbaF>> make_backdrop(const PhotoOptions& options, const SessionPla
     if (options.backdrop == "wall") return wall_backdrop(plan, turntable, options.session.seed);
     if (options.backdrop == "blue") return even_backdrop(lens, {0.04F, 0.12F, 0.45F});
     if (options.backdrop == "white") return even_backdrop(lens, glm::vec3(0.88F));
-    RS_ASSIGN_OR_RETURN(Image<RgbaF> picture, read_picture_linear(options.backdrop));
-    return picture_backdrop(lens, std::move(picture));
+    RS_ASSIGN_OR_RETURN(Image<RgbaF> image, read_image_linear(options.backdrop));
+    return image_backdrop(lens, std::move(image));
 }
 
 // What the lights must be dimmed by so that bright parts of object and disc are not clipped: a photographer's meter,
@@ -130,7 +130,7 @@ Result<Image<RgbaF>> make_backdrop(const PhotoOptions& options, const SessionPla
 double metered_dimming(const Tracer& tracer, const SessionPlan& plan, const PhotoOptions& options) {
     constexpr int kCoarse = 8;
     constexpr float kBright = 0.85F;  // linear; what one pixel in a hundred may exceed
-    RayPicture rays = lens_rays_of(plan, 0);
+    RayImage rays = lens_rays_of(plan, 0);
     rays.width = std::max(1, rays.width / kCoarse);
     rays.height = std::max(1, rays.height / kCoarse);
     rays.ray = [whole = rays.ray](double x, double y) { return whole(x * kCoarse, y * kCoarse); };
@@ -140,7 +140,7 @@ double metered_dimming(const Tracer& tracer, const SessionPlan& plan, const Phot
     render.threads = options.threads;
     std::vector<float> brightest;
     const Rendering metered = tracer.render(rays, render);
-    for (const RgbaF& p : metered.picture.pixels()) {
+    for (const RgbaF& p : metered.image.pixels()) {
         if (p.a > 0) brightest.push_back(std::max({p.r, p.g, p.b}));
     }
     if (brightest.empty()) return 1;
@@ -162,13 +162,13 @@ Image<RgbaF> over(const Image<RgbaF>& front, double dimming, const Image<RgbaF>&
     return result;
 }
 
-Image<Rgba8> grey_picture(const Image<float>& shares) {
-    Image<Rgba8> picture(shares.width(), shares.height());
+Image<Rgba8> grey_image(const Image<float>& shares) {
+    Image<Rgba8> image(shares.width(), shares.height());
     for (std::size_t i = 0; i < shares.pixels().size(); ++i) {
         const auto code = static_cast<std::uint8_t>(std::lround(shares.pixels()[i] * 255.0F));
-        picture.pixels()[i] = {code, code, code, 255};
+        image.pixels()[i] = {code, code, code, 255};
     }
-    return picture;
+    return image;
 }
 
 double mean_of(const Image<float>& shares) {
@@ -200,12 +200,12 @@ struct Session {
 struct View {
     Image<Rgba8> photo;
     Image<float> alpha;
-    PicturePlace place;
+    ImagePlace place;
 };
 
 View take_photo(Session& session, std::size_t view, const PhotoOptions& options, Progress* progress) {
-    RayPicture rays = lens_rays_of(session.plan, view);
-    PicturePlace place;
+    RayImage rays = lens_rays_of(session.plan, view);
+    ImagePlace place;
     if (options.recentred) {
         place = recentred_place(trace_coverage(session.outlines, rays, options.threads));
         rays = rays_at(std::move(rays), place);
@@ -219,8 +219,8 @@ View take_photo(Session& session, std::size_t view, const PhotoOptions& options,
     const Rendering traced = session.tracer.render(rays, render, progress);
     const Sensor sensor{session.plan.exposures[view], options.noise_codes,
                         mix_bits(options.session.seed) + static_cast<std::uint64_t>(view)};
-    const Image<RgbaF> light = over(traced.picture, session.dimming,
-                                    options.recentred ? picture_at(session.backdrop, place) : session.backdrop);
+    const Image<RgbaF> light =
+        over(traced.image, session.dimming, options.recentred ? image_at(session.backdrop, place) : session.backdrop);
     return {expose(light, sensor), trace_coverage(session.outlines, rays, options.threads), place};
 }
 
@@ -244,8 +244,8 @@ Result<CaptureSetSummary> write_photo_session(const Scene& object, double object
 
     Turntable turntable = fit_turntable(object, object_radius, options.disc, options.session.seed);
     if (!options.board.empty()) {
-        RS_ASSIGN_OR_RETURN(Image<RgbaF> picture, read_picture_linear(options.board));
-        lay_board(turntable, std::move(picture), options.board_width * object_radius);
+        RS_ASSIGN_OR_RETURN(Image<RgbaF> image, read_image_linear(options.board));
+        lay_board(turntable, std::move(image), options.board_width * object_radius);
     }
     RS_ASSIGN_OR_RETURN(SessionPlan plan, plan_session(options.session, shown_circles(object, turntable)));
     RS_ASSIGN_OR_RETURN(Image<RgbaF> backdrop, make_backdrop(options, plan, turntable));
@@ -270,7 +270,7 @@ Result<CaptureSetSummary> write_photo_session(const Scene& object, double object
 
     CaptureSetSummary summary;
     std::vector<std::string> names;
-    std::vector<PicturePlace> places;
+    std::vector<ImagePlace> places;
     for (std::size_t i = 0; i < views; ++i) {
         const Clock::time_point begun = Clock::now();
         const View view = take_photo(session, i, options, progress);
@@ -284,7 +284,7 @@ Result<CaptureSetSummary> write_photo_session(const Scene& object, double object
         names.push_back("../photos/" + name);
         Status written = options.jpeg_quality > 0 ? write_jpeg(photos / name, view.photo, options.jpeg_quality)
                                                   : write_png(photos / name, view.photo);
-        if (written) written = write_png(truth / "alpha" / (view_number(i) + ".png"), grey_picture(view.alpha));
+        if (written) written = write_png(truth / "alpha" / (view_number(i) + ".png"), grey_image(view.alpha));
         if (!written) return written.error();
     }
     if (!(summary.mean_coverage > 0)) {

@@ -15,7 +15,7 @@
 // cx, cy, k1, k2, pan_rad, tilt_rad, roll_rad and angles_rad as in capture/calibration/model/turntable_model.hpp;
 // "distance" and "camera_height" of the camera's centre from axis and origin, in the scene's unit; exposures; dimming
 // (of the lights); "plate", the turntable's disc; the board's corners in the object's frame; the options; and, of
-// recentred photographs, "places": for every view scale and shift_px as in capture/calibration/model/picture_place.hpp.
+// recentred photographs, "places": for every view scale and shift_px as in capture/calibration/model/image_place.hpp.
 // The cameras are the still one's.
 
 #include "capture/tracer/scene/scene.hpp"
@@ -38,10 +38,10 @@ struct PhotoOptions {
     double noise_codes = 1.5;  // standard deviation, 8-bit sRGB
     int jpeg_quality = 90;     // 1..100; 0 = PNG
     DiscSurface disc = DiscSurface::rings;
-    std::filesystem::path board;    // a picture; empty = none
+    std::filesystem::path board;    // an image; empty = none
     double board_width = 1.2;       // object radii
-    bool recentred = false;         // each picture by itself, as shops do (recentring.hpp)
-    std::string backdrop = "wall";  // "wall", "blue", "white", or the name of a picture
+    bool recentred = false;         // each image by itself, as shops do (recentring.hpp)
+    std::string backdrop = "wall";  // "wall", "blue", "white", or the name of an image
 };
 
 // True for the names of backdrops that no file is needed for.
@@ -49,7 +49,7 @@ bool is_made_backdrop(const std::string& name);
 
 // `object` stands as it is on a disc under its lowest vertex; `object_radius` is its largest distance from the axis.
 // The folder appears when all is written, and replaces one that this function wrote (file_output.hpp). The same
-// options give the same bytes, whatever the number of threads. Fails where a picture cannot be read, where the lens or
+// options give the same bytes, whatever the number of threads. Fails where an image cannot be read, where the lens or
 // the camera are impossible (session_plan.hpp), and where no view shows the object. `progress` counts all views.
 Result<CaptureSetSummary> write_photo_session(const Scene& object, double object_radius, const PhotoOptions& options,
                                               const std::filesystem::path& folder, Progress* progress = nullptr);

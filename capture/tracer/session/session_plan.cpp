@@ -12,7 +12,7 @@ namespace rs::capture {
 
 namespace {
 
-constexpr double kMargin = 0.03;  // of the picture's height, free around all that it should show
+constexpr double kMargin = 0.03;  // of the image's height, free around all that it should show
 constexpr double kFarthest = 1000;
 
 enum SessionPurpose : std::uint64_t { kAim = 1, kAngles, kExposure };
@@ -72,7 +72,7 @@ Status check_lens(const Lens& lens) {
     for (const glm::dvec2& corner : {glm::dvec2(0, 0), glm::dvec2(lens.width, lens.height)}) {
         if (undistorted(lens, corner)) continue;
         return Error{"the lens: k1 = " + std::to_string(lens.k1) + ", k2 = " + std::to_string(lens.k2) +
-                     " fold the picture's corners back; use smaller ones or a longer focal length"};
+                     " fold the image's corners back; use smaller ones or a longer focal length"};
     }
     return {};
 }
@@ -118,7 +118,7 @@ Camera pinhole_of(const SessionPlan& plan, std::size_t view) {
     return object_camera(plan.model, view, plan.distance, -plan.camera_height / plan.distance);
 }
 
-RayPicture lens_rays_of(const SessionPlan& plan, std::size_t view) {
+RayImage lens_rays_of(const SessionPlan& plan, std::size_t view) {
     const Camera camera = pinhole_of(plan, view);
     return {camera.width, camera.height, camera.centre(), camera.forward(),
             [lens = plan.model.lens, camera](double x, double y) {

@@ -1,12 +1,12 @@
 #pragma once
-// The truth of a photographed turn, before any picture is taken: camera, lens, angles and exposures, drawn from a seed.
+// The truth of a photographed turn, before any image is taken: camera, lens, angles and exposures, drawn from a seed.
 //
 // The camera stands still in the room and the object turns; see capture/calibration/model/turntable_model.hpp.
 // `distance` and `camera_height` place that model's table frame in the scene: a table point p stands at p * distance +
 // (0, camera_height, 0) in the scene's coordinates as they are at angle 0.
 
 #include "capture/calibration/model/turntable_model.hpp"
-#include "capture/tracer/picture/ray_picture.hpp"
+#include "capture/tracer/image/ray_image.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
 
@@ -20,7 +20,7 @@ struct SessionOptions {
     int views = 36;   // 1..kMaxViews
     int width = 640;  // px
     int height = 512;
-    double focal_widths = 1.4;       // focal length over picture width
+    double focal_widths = 1.4;       // focal length over image width
     std::optional<double> distance;  // camera to target, in the scene's unit; empty = as near as everything fits in
     double elevation_deg = 20;       // of the camera above the target's horizontal plane, 0..85
     double look_at_height = 0;       // of the target on the axis
@@ -40,19 +40,19 @@ struct SessionPlan {
     std::vector<double> exposures;  // [view] factors on linear light
 };
 
-// A circle about the axis that pictures should show whole.
+// A circle about the axis that images should show whole.
 struct AxisCircle {
     double radius = 0;
     double height = 0;
 };
 
-// Fails where the lens folds a corner of the picture back, and where no distance shows all circles.
+// Fails where the lens folds a corner of the image back, and where no distance shows all circles.
 Result<SessionPlan> plan_session(const SessionOptions& options, const std::vector<AxisCircle>& shown);
 
 // View `view` without the lens' distortion, in the object's frame.
 Camera pinhole_of(const SessionPlan& plan, std::size_t view);
 
 // View `view` as the lens sees it, in the object's frame.
-RayPicture lens_rays_of(const SessionPlan& plan, std::size_t view);
+RayImage lens_rays_of(const SessionPlan& plan, std::size_t view);
 
 }  // namespace rs::capture

@@ -1,5 +1,5 @@
 #pragma once
-// What stands still behind a turntable, as one picture in linear light.
+// What stands still behind a turntable, as one image in linear light.
 
 #include "capture/tracer/session/session_plan.hpp"
 #include "capture/tracer/session/turntable.hpp"
@@ -24,7 +24,7 @@ Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Turntable& turntable, 
 // An even backdrop of this colour that falls off by a seventh towards the corners.
 Image<RgbaF> even_backdrop(const Lens& lens, const glm::vec3& colour);
 
-// `picture` over the whole frame, stretched where its shape differs.
-Image<RgbaF> picture_backdrop(const Lens& lens, Image<RgbaF> picture);
+// `image` over the whole frame, stretched where its shape differs.
+Image<RgbaF> image_backdrop(const Lens& lens, Image<RgbaF> image);
 
 }  // namespace rs::capture

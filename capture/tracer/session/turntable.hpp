@@ -1,5 +1,5 @@
 #pragma once
-// What a photographed object stands on: a turntable's disc that turns with it, and a picture laid on the disc.
+// What a photographed object stands on: a turntable's disc that turns with it, and an image laid on the disc.
 //
 // Lengths are the scene's, the frame is the object's: the disc's axis is Y, its top lies a hair below the object's
 // lowest vertex, so that the object stands on it and no two surfaces coincide.
@@ -19,10 +19,10 @@ enum class DiscSurface {
     speckled,  // dots, which turn
 };
 
-// A picture lying face up; its corners as they stand at angle 0.
+// An image lying face up; its corners as they stand at angle 0.
 struct Board {
-    Image<RgbaF> picture;  // linear light, taken as opaque
-    // Top left, top right, bottom right, bottom left of the picture.
+    Image<RgbaF> image;  // linear light, taken as opaque
+    // Top left, top right, bottom right, bottom left of the image.
     std::array<glm::dvec3, 4> corners{};
 };
 
@@ -43,9 +43,9 @@ struct Turntable {
 // A disc that fits under `object`, whose vertices reach `object_radius` from the axis.
 Turntable fit_turntable(const Scene& object, double object_radius, DiscSurface surface, std::uint64_t seed);
 
-// Lays `picture` on the disc, `width` wide, a little off the axis and turned by any angle, both drawn from the
-// turntable's seed. The height follows from the picture, whose pixels are square.
-void lay_board(Turntable& turntable, Image<RgbaF> picture, double width);
+// Lays `image` on the disc, `width` wide, a little off the axis and turned by any angle, both drawn from the
+// turntable's seed. The height follows from the image, whose pixels are square.
+void lay_board(Turntable& turntable, Image<RgbaF> image, double width);
 
 // Adds the meshes, materials and textures of disc and board.
 void add_turntable(Scene& scene, const Turntable& turntable);

@@ -4,8 +4,8 @@
 #include "rayspace/base/json_text.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/photograph_size.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
+#include "rayspace/image_io/photograph_size.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -41,7 +41,7 @@ int max_side_of(const std::vector<std::string>& options) {
         // What is no number rs-capture refuses.
         std::from_chars(value.data(), value.data() + value.size(), max_side_px);
     }
-    return std::clamp(max_side_px, 1, kMaxPictureSide_px);
+    return std::clamp(max_side_px, 1, kMaxImageSide_px);
 }
 
 // All files count as photographs of the size of the first that is one, as large as they are worked with; reading one
@@ -55,7 +55,7 @@ Result<Extent> extent_of_photos(const fs::path& folder, const std::vector<std::s
         if (at->is_regular_file(error) && !at->path().filename().string().starts_with('.')) files.insert(at->path());
     }
     for (const fs::path& file : files) {
-        const Result<PictureInfo> info = read_picture_info(file, kMaxPhotographSide_px);
+        const Result<ImageInfo> info = read_image_info(file, kMaxPhotographSide_px);
         if (!info) continue;
         const double reduction = photograph_reduction(info->width, info->height, max_side_of(options));
         const double pixels = static_cast<double>(info->width) * info->height;
@@ -137,10 +137,10 @@ Result<std::vector<Item>> items_of(const WorkKind& kind, const FarmRequest& requ
         item.name = name;
         const Result<Extent> found = kind.extent_of(input, request.options);
         const Extent extent = found ? *found : Extent{};
-        item.size = extent.pictures * extent.pixels * extent.samples;
+        item.size = extent.images * extent.pixels * extent.samples;
         item.memory_bytes = request.item_memory_bytes.value_or(
-            static_cast<std::int64_t>(kind.base_bytes + kind.bytes_per_pixel * extent.pictures * extent.pixels +
-                                      kind.bytes_per_picture_pixel * extent.pixels));
+            static_cast<std::int64_t>(kind.base_bytes + kind.bytes_per_pixel * extent.images * extent.pixels +
+                                      kind.bytes_per_image_pixel * extent.pixels));
         ToolOrder order;
         order.tool = kind.tool;
         order.arguments = {kind.command, input.string(), "-q"};

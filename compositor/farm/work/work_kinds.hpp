@@ -15,8 +15,8 @@ namespace rs::farm {
 
 // How many pixels an input stands for, times how often each is worked at.
 struct Extent {
-    double pictures = 0;
-    double pixels = 0;   // of a picture
+    double images = 0;
+    double pixels = 0;   // of an image
     double samples = 1;  // of a pixel
 };
 
@@ -29,12 +29,12 @@ struct WorkKind {
     const char* ending;   // of a result's name
     bool reads_folder;
     Result<Extent> (*extent_of)(const std::filesystem::path& input, const std::vector<std::string>& options);
-    // What the tool takes: so much, and of every picture's pixel, and of one picture's. Of encode as measured (8 x
+    // What the tool takes: so much, and of every image's pixel, and of one image's. Of encode as measured (8 x
     // 64x64: 142 MB, 35 x 914x892: 507 MB), of import as capture/photos/import.hpp states it, for two photographs at a
     // time.
     double base_bytes;
     double bytes_per_pixel;
-    double bytes_per_picture_pixel;
+    double bytes_per_image_pixel;
 };
 extern const std::array<WorkKind, 3> kWorkKinds;  // encode, import, synth
 
@@ -60,7 +60,7 @@ struct RenderRequest {
     std::filesystem::path tools;  // folder
 };
 
-// Tiles of each frame, and after them the frames; of pictures that are not traced the frames alone. Asks rs-view what
+// Tiles of each frame, and after them the frames; of images that are not traced the frames alone. Asks rs-view what
 // it would draw, which reads the scene. Tiles are the same however many ranks there are; those of other requests are
 // removed.
 Result<std::vector<Item>> render_items(const RenderRequest& request, const std::filesystem::path& state);

@@ -102,7 +102,7 @@ Result<std::string> light_list_to_json(const LightList& list, const std::filesys
     text += " ]";
     if (const auto& environment = list.environment_entry) {
         if (environment->file.empty()) {
-            return Error{path.string() + ": environment: is no file's picture; choose one"};
+            return Error{path.string() + ": environment: is no file's image; choose one"};
         }
         Json json;
         json["file"] = name_from(folder, environment->file);

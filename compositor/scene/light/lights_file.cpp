@@ -2,8 +2,8 @@
 
 #include "rayspace/base/strict_json.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/light/light_model.hpp"
-#include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>
 #include <map>

@@ -14,7 +14,7 @@
 // Each may have a "name" and a "colour" [r, g, b], a factor in linear light (1, 1, 1). Photometric numbers are divided
 // by kLumensPerWatt. "beam_deg" and "cut_off_deg" are full angles. "turn_deg" turns an area or a luminaire about its
 // aim, counter-clockwise as seen looking along -aim; at 0 its plane C0 lies where +X is best seen, or +Z where it is
-// aimed along X. "dimmer" (1) is a factor on a luminaire. An environment is a picture as EnvironmentLight needs it;
+// aimed along X. "dimmer" (1) is a factor on a luminaire. An environment is an image as EnvironmentLight needs it;
 // "seen" (false) puts it behind everything where light is traced. Files are named from the list's folder. Lengths are
 // the scene's; luminaires and candela take them for metres.
 //

@@ -1,6 +1,6 @@
 #include "compositor/scene/model/gltf_nodes.hpp"
 
-#include "compositor/scene/scene_pictures.hpp"
+#include "compositor/scene/scene_images.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/strict_json.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// What Assimp does not carry over from the nodes of a glTF 2.0 file: `extras` that stand for objects made of pictures,
+// What Assimp does not carry over from the nodes of a glTF 2.0 file: `extras` that stand for objects made of images,
 // cameras, and lights (KHR_lights_punctual). Pure; thread-safe.
 
 #include "compositor/scene/scene.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Scenes from glTF 2.0 (.gltf, .glb) and OBJ files, through Assimp.
 //
-// A glTF node stands for an object made of pictures where its `extras` state it:
+// A glTF node stands for an object made of images where its `extras` state it:
 //
 //     "extras": {"RaySpace": {"url": "vase.rso", "size": 1, "standing": true, "description": "..."}}
 //
@@ -17,7 +17,7 @@
 
 namespace rs::compositor {
 
-// Metallic and rough surfaces become diffuse and specular ones; embedded and separate pictures are read. A file without
+// Metallic and rough surfaces become diffuse and specular ones; embedded and separate images are read. A file without
 // lights gets a headlight. What cannot be shown becomes a warning of the scene. Files beyond 64 MiB are refused. May be
 // called from any thread.
 Result<Scene> read_model(const std::filesystem::path& path);

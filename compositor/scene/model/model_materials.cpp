@@ -1,7 +1,7 @@
 #include "compositor/scene/model/model_materials.hpp"
 
 #include "rayspace/base/printable.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/ObjMaterial.h>
@@ -54,22 +54,22 @@ const ModelMaterial& ModelMaterials::at(unsigned index) {
     return converted_.emplace(index, convert(*model_.mMaterials[index])).first->second;
 }
 
-// Pictures inside of the file are written to a temporary one, which the picture reader opens.
-std::shared_ptr<const SceneTexture> ModelMaterials::picture(const std::string& name, bool repeat_s, bool repeat_t) {
+// Images inside of the file are written to a temporary one, which the image reader opens.
+std::shared_ptr<const SceneTexture> ModelMaterials::image(const std::string& name, bool repeat_s, bool repeat_t) {
     std::string fault;
     std::shared_ptr<const SceneTexture> read;
     const aiTexture* embedded = model_.GetEmbeddedTexture(name.c_str());
     if (embedded == nullptr) {
-        read = pictures_.read({name}, file_.parent_path(), repeat_s, repeat_t, fault);
+        read = images_.read({name}, file_.parent_path(), repeat_s, repeat_t, fault);
     } else if (embedded->mHeight != 0) {
-        fault = "a picture inside of the file is of an unknown kind";
+        fault = "an image inside of the file is of an unknown kind";
     } else {
         std::string path = (std::filesystem::temp_directory_path() / "rayspace-picture-XXXXXX").string();
         const int descriptor = mkstemp(path.data());
         if (descriptor >= 0) close(descriptor);
         std::ofstream(path, std::ios::binary)
             .write(reinterpret_cast<const char*>(embedded->pcData), static_cast<std::streamsize>(embedded->mWidth));
-        read = pictures_.read({path}, "", repeat_s, repeat_t, fault);
+        read = images_.read({path}, "", repeat_s, repeat_t, fault);
         std::error_code ignored;
         std::filesystem::remove(path, ignored);
     }
@@ -111,7 +111,7 @@ ModelMaterial ModelMaterials::convert(const aiMaterial& source) {
     for (const aiTextureType type : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
         aiString name;
         if (material.texture || source.GetTexture(type, 0, &name) != AI_SUCCESS || name.length == 0) continue;
-        const auto read = picture(name.C_Str(), repeats(source, type, true), repeats(source, type, false));
+        const auto read = image(name.C_Str(), repeats(source, type, true), repeats(source, type, false));
         if (!read) continue;
         auto texture = std::make_shared<SceneTexture>(*read);
         texture->modulates = true;
@@ -127,7 +127,7 @@ std::shared_ptr<const NormalMap> ModelMaterials::relief(const aiMaterial& source
     for (const aiTextureType type : {aiTextureType_NORMALS, aiTextureType_HEIGHT}) {
         aiString name;
         if (source.GetTexture(type, 0, &name) != AI_SUCCESS || name.length == 0) continue;
-        const auto read = picture(name.C_Str(), repeats(source, type, true), repeats(source, type, false));
+        const auto read = image(name.C_Str(), repeats(source, type, true), repeats(source, type, false));
         if (!read) continue;
         float strength = property<float>(source, AI_MATKEY_GLTF_TEXTURE_SCALE(type, 0)).value_or(1);
         strength = property<float>(source, AI_MATKEY_OBJ_BUMPMULT(type, 0)).value_or(strength);

@@ -2,7 +2,7 @@
 // Assimp's materials -> ours. Private to the reader of models; not thread-safe.
 
 #include "compositor/scene/normal_map.hpp"
-#include "compositor/scene/scene_pictures.hpp"
+#include "compositor/scene/scene_images.hpp"
 
 #include <filesystem>
 #include <map>
@@ -30,11 +30,11 @@ public:
 private:
     ModelMaterial convert(const aiMaterial& source);
     std::shared_ptr<const NormalMap> relief(const aiMaterial& source);
-    std::shared_ptr<const SceneTexture> picture(const std::string& name, bool repeat_s, bool repeat_t);
+    std::shared_ptr<const SceneTexture> image(const std::string& name, bool repeat_s, bool repeat_t);
 
     const aiScene& model_;
     std::filesystem::path file_;
-    ScenePictures pictures_;
+    SceneImages images_;
     std::map<unsigned, ModelMaterial> converted_;
 };
 

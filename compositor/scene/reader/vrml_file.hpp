@@ -2,7 +2,7 @@
 // Scenes from VRML and X3D files, plain or gzip, whatever their names are: VRML97, X3D in its XML and its classic
 // encoding (scene/vrml/graph.hpp states what is read and what is left out), VRML 1.0 (scene/vrml1/graph.hpp).
 //
-// Besides the nodes of VRML97 there are one for objects made of pictures and one for rooms, whose objects are in memory
+// Besides the nodes of VRML97 there are one for objects made of images and one for rooms, whose objects are in memory
 // while a visitor is in them or near (viewer/residency/load_priority.hpp):
 //
 //     RaySpace {

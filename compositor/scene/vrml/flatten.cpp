@@ -107,7 +107,7 @@ private:
         auto known = materials_.find(key);
         if (known == materials_.end()) {
             std::string fault;
-            const Material material = material_of(appearance.get(), *mesh, folder(), pictures_, fault);
+            const Material material = material_of(appearance.get(), *mesh, folder(), images_, fault);
             if (!fault.empty()) warn(*appearance->node("texture"), fault + "; drawn without");
             known = materials_.emplace(key, material).first;
         }
@@ -176,7 +176,7 @@ private:
         if (node.type == "Fog" && node.number("visibilityRange") > 0) scene_.fog = fog_of(node, place);
         if (node.type == "Background") {
             std::string fault;
-            scene_.background = background_of(node, place, folder(), pictures_, fault);
+            scene_.background = background_of(node, place, folder(), images_, fault);
             if (!fault.empty()) warn(node, fault + "; drawn without");
         }
         bound_.insert(node.type);
@@ -196,7 +196,7 @@ private:
 
     const Loader& load_;
     Scene& scene_;
-    ScenePictures pictures_;
+    SceneImages images_;
     std::map<std::pair<const Node*, Topology>, Material> materials_;
     std::vector<std::shared_ptr<const LoadedFile>> open_files_;
     std::map<const Node*, std::shared_ptr<const Mesh>> meshes_;

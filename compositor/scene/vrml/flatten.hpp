@@ -2,7 +2,7 @@
 // The graph of a VRML file -> draw lists. Private to the VRML reader.
 
 #include "compositor/scene/scene.hpp"
-#include "compositor/scene/scene_pictures.hpp"
+#include "compositor/scene/scene_images.hpp"
 #include "compositor/scene/vrml/graph.hpp"
 #include "compositor/scene/vrml/place.hpp"
 #include "rayspace/base/result.hpp"

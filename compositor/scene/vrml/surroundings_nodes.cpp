@@ -88,18 +88,18 @@ Fog fog_of(const Node& node, const Place& place) {
     return fog;
 }
 
-Background background_of(const Node& node, const Place& place, const std::filesystem::path& folder,
-                         ScenePictures& pictures, std::string& fault) {
+Background background_of(const Node& node, const Place& place, const std::filesystem::path& folder, SceneImages& images,
+                         std::string& fault) {
     Background background;
     background.sky = {glm::vec3(0)};
     take_gradient(node, "skyColor", "skyAngle", background.sky, background.sky_angles_rad);
     take_gradient(node, "groundColor", "groundAngle", background.ground, background.ground_angles_rad);
     background.world_from_background = place.rotation();
     constexpr const char* kFields[] = {"frontUrl", "backUrl", "leftUrl", "rightUrl", "topUrl", "bottomUrl"};
-    for (std::size_t i = 0; i < background.pictures.size(); ++i) {
+    for (std::size_t i = 0; i < background.images.size(); ++i) {
         const std::vector<std::string>& urls = node.field(kFields[i]).texts;
         std::string wrong;
-        if (!urls.empty()) background.pictures[i] = pictures.read(urls, folder, false, false, wrong);
+        if (!urls.empty()) background.images[i] = images.read(urls, folder, false, false, wrong);
         if (!wrong.empty()) fault = wrong;
     }
     return background;

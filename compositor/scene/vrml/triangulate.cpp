@@ -240,11 +240,11 @@ std::shared_ptr<const Mesh> triangulate(const Node& geometry, const ShapeCheck& 
     auto* complexity = new SoComplexity;
     complexity->value = kRoundness;
     root->addChild(complexity);
-    // Coin leaves texture coordinates out where no picture needs them.
-    auto* picture = new SoTexture2;
+    // Coin leaves texture coordinates out where no image needs them.
+    auto* image = new SoTexture2;
     constexpr unsigned char kTexel[] = {255};
-    picture->image.setValue(SbVec2s(1, 1), 1, kTexel);
-    root->addChild(picture);
+    image->image.setValue(SbVec2s(1, 1), 1, kTexel);
+    root->addChild(image);
     root->addChild(CoinShape(geometry, check).get());
     SoCallbackAction action;
     MeshCollector collector(geometry.has("ccw") && !geometry.flag("ccw"));

@@ -78,7 +78,7 @@ bool is_numeric(std::string_view text) {
     });
 }
 
-// What nodes hold that has no meaning for a picture of a world that stands still.
+// What nodes hold that has no meaning for an image of a world that stands still.
 bool is_silent(std::string_view name) {
     static const std::set<std::string, std::less<>> kNames = {
         "DEF",     "USE",     "bboxDisplay", "centerOfRotation",    "class", "containerField", "description",

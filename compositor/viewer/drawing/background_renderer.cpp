@@ -29,24 +29,24 @@ Result<BackgroundRenderer> BackgroundRenderer::create(const Background& backgrou
     std::vector<glm::vec4> stops;
     const int sky_stops = append_stops(background.sky, background.sky_angles_rad, stops);
     const int ground_stops = append_stops(background.ground, background.ground_angles_rad, stops);
-    int shown_pictures = 0;
-    for (std::size_t i = 0; i < background.pictures.size(); ++i) {
-        if (background.pictures[i]) shown_pictures |= 1 << i;
+    int shown_images = 0;
+    for (std::size_t i = 0; i < background.images.size(); ++i) {
+        if (background.images[i]) shown_images |= 1 << i;
     }
     const std::string constants = "#version 450 core\n" + shaders::shader_constant("kSkyStops", sky_stops) +
                                   shaders::shader_constant("kGroundStops", ground_stops) +
-                                  shaders::shader_constant("kShownPictures", shown_pictures);
+                                  shaders::shader_constant("kShownPictures", shown_images);
     RS_ASSIGN_OR_RETURN(auto program, gl::Program::create("background", shaders::kWholeFrameVertex,
                                                           constants + shaders::kBackgroundFragment));
     BackgroundRenderer renderer(std::move(program));
     renderer.stops_.emplace(std::as_bytes(std::span(stops)));
-    for (std::size_t i = 0; i < background.pictures.size(); ++i) {
-        if (!background.pictures[i]) continue;
-        renderer.pictures_[i].emplace(background.pictures[i]->picture.view(), gl::TextureWrap{false, false});
+    for (std::size_t i = 0; i < background.images.size(); ++i) {
+        if (!background.images[i]) continue;
+        renderer.images_[i].emplace(background.images[i]->image.view(), gl::TextureWrap{false, false});
     }
     renderer.background_from_world_ = glm::transpose(background.world_from_background);
     renderer.zenith_ = background.sky.front();
-    renderer.plain_ = sky_stops == 1 && ground_stops <= 1 && shown_pictures == 0;
+    renderer.plain_ = sky_stops == 1 && ground_stops <= 1 && shown_images == 0;
     return renderer;
 }
 
@@ -57,8 +57,8 @@ void BackgroundRenderer::draw(const Camera& camera, BackgroundArea area) const {
     // A plain one's shader does not depend on where it looks.
     if (!plain_) program_.set("direction_from_pixel", glm::mat3(background_from_world_ * world_from_pixel));
     stops_->bind_table(3);
-    for (std::size_t i = 0; i < pictures_.size(); ++i) {
-        if (pictures_[i]) pictures_[i]->bind(static_cast<unsigned>(i) + 1);
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+        if (images_[i]) images_[i]->bind(static_cast<unsigned>(i) + 1);
     }
     gl::draw(program_, rectangle_, {.depth_test = area == BackgroundArea::kBehindGeometry, .depth_write = false});
 }

@@ -36,7 +36,7 @@ private:
     gl::Program program_;
     gl::VertexArray rectangle_;
     std::optional<gl::Buffer> stops_;
-    std::array<std::optional<gl::Texture>, 6> pictures_;
+    std::array<std::optional<gl::Texture>, 6> images_;
     glm::dmat3 background_from_world_{1.0};
     glm::vec3 zenith_{0};
     bool plain_ = true;

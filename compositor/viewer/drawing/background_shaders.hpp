@@ -1,5 +1,5 @@
 #pragma once
-// The GLSL of the background: colours by the angle from the zenith and the nadir, over them pictures on a cube.
+// The GLSL of the background: colours by the angle from the zenith and the nadir, over them images on a cube.
 
 namespace rs::compositor::shaders {
 
@@ -8,8 +8,8 @@ void main() {
     gl_Position = vec4((gl_VertexID & 1) * 2 - 1, (gl_VertexID >> 1) * 2 - 1, 0.0, 1.0);
 })";
 
-// A picture with straight alpha, pixel by pixel.
-inline constexpr const char* kPictureFragment = R"(#version 450 core
+// An image with straight alpha, pixel by pixel.
+inline constexpr const char* kImageFragment = R"(#version 450 core
 layout(binding = 1) uniform sampler2D picture;
 out vec4 result;
 void main() {
@@ -17,8 +17,8 @@ void main() {
     result = vec4(texel.rgb * texel.a, texel.a);
 })";
 
-// Behind "#version" and the constants kSkyStops, kGroundStops and kShownPictures (bit i: pictures[i]): a shader that
-// has no picture takes a fraction of the time of one that might.
+// Behind "#version" and the constants kSkyStops, kGroundStops and kShownImages (bit i: images[i]): a shader that
+// has no image takes a fraction of the time of one that might.
 inline constexpr const char* kBackgroundFragment = R"(
 layout(std430, binding = 3) readonly buffer Gradients { vec4 stops[]; };  // colour; w: angle; the sky's, then the ground's
 layout(binding = 1) uniform sampler2D pictures[6];

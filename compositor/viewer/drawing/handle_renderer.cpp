@@ -101,13 +101,13 @@ Result<HandleRenderer> HandleRenderer::create() {
 }
 
 Status HandleRenderer::draw(const std::vector<HandleStroke>& strokes, const Camera& camera,
-                            const gl::Framebuffer& picture, const gl::Framebuffer& depths) {
-    if (!copy_ || copy_->width() != picture.width() || copy_->height() != picture.height()) {
-        RS_ASSIGN_OR_RETURN(auto made, gl::Framebuffer::create(picture.width(), picture.height(), 1));
+                            const gl::Framebuffer& image, const gl::Framebuffer& depths) {
+    if (!copy_ || copy_->width() != image.width() || copy_->height() != image.height()) {
+        RS_ASSIGN_OR_RETURN(auto made, gl::Framebuffer::create(image.width(), image.height(), 1));
         copy_ = std::move(made);
     }
     copy_->begin(glm::vec3(0));
-    picture.resolve_to(*copy_);
+    image.resolve_to(*copy_);
     depths.copy_depths_to(*copy_);
     std::vector<StrokeVertex> vertices;
     std::vector<std::uint32_t> indices;
@@ -117,7 +117,7 @@ Status HandleRenderer::draw(const std::vector<HandleStroke>& strokes, const Came
         std::as_bytes(std::span(vertices)), static_cast<int>(sizeof(StrokeVertex)),
         {{3, offsetof(StrokeVertex, corner)}, {4, offsetof(StrokeVertex, ends)}, {4, offsetof(StrokeVertex, look)}},
         indices);
-    program_.set("screen", glm::vec2(picture.width(), picture.height()));
+    program_.set("screen", glm::vec2(image.width(), image.height()));
     for (const bool hidden : {true, false}) {
         program_.set("strength", hidden ? kHiddenStrength : 1.0F);
         gl::draw(program_, quads,

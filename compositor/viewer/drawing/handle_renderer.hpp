@@ -17,8 +17,8 @@ class HandleRenderer {
 public:
     static Result<HandleRenderer> create();
 
-    // `picture` has one sample; `depths` is of the same size and may have several. The camera is that of the frame.
-    Status draw(const std::vector<HandleStroke>& strokes, const Camera& camera, const gl::Framebuffer& picture,
+    // `image` has one sample; `depths` is of the same size and may have several. The camera is that of the frame.
+    Status draw(const std::vector<HandleStroke>& strokes, const Camera& camera, const gl::Framebuffer& image,
                 const gl::Framebuffer& depths);
     // The copy with the handles; there must have been a draw().
     [[nodiscard]] const gl::Framebuffer& shown() const { return *copy_; }

@@ -26,10 +26,10 @@ gl::Texture& large_enough(std::optional<gl::Texture>& texture, int width, int he
     return *texture;
 }
 
-// How far from its place a pixel of the screen, or one that touches it, reads the picture.
+// How far from its place a pixel of the screen, or one that touches it, reads the image.
 int margin_of(const ObjectView& view) {
     const auto place = [&](double x, double y) {
-        const glm::dvec3 p = view.picture_from_screen * glm::dvec3(x, y, 1);
+        const glm::dvec3 p = view.image_from_screen * glm::dvec3(x, y, 1);
         return glm::dvec2(p) / p.z;
     };
     const ScreenRectangle& area = view.rectangle;
@@ -75,16 +75,16 @@ Result<ObjectRenderer> ObjectRenderer::create(std::size_t nodes, ObjectDepth dep
 ObjectRenderer::ObjectRenderer(Programs programs, std::size_t nodes, ObjectDepth depth)
     : depth_(depth), programs_(std::move(programs)), textures_(nodes) {}
 
-void ObjectRenderer::upload(std::size_t node, const ObjectView& view, ConstImageView<Rgba8> picture,
+void ObjectRenderer::upload(std::size_t node, const ObjectView& view, ConstImageView<Rgba8> image,
                             ConstImageView<float> depths) {
     Textures& textures = textures_[node];
-    const ShownMesh shown = shown_mesh(shown_bands(picture, margin_of(view)), glm::inverse(view.picture_from_screen));
+    const ShownMesh shown = shown_mesh(shown_bands(image, margin_of(view)), glm::inverse(view.image_from_screen));
     textures.opaque = triangles(shown.corners, shown.opaque);
     textures.blended = triangles(shown.corners, shown.blended);
     textures.filled_last ^= 1;
-    const int width = picture.width();
-    const int height = picture.height();
-    large_enough(textures.in_turns[textures.filled_last], width, height, gl::TexelKind::kColour).upload(picture);
+    const int width = image.width();
+    const int height = image.height();
+    large_enough(textures.in_turns[textures.filled_last], width, height, gl::TexelKind::kColour).upload(image);
     if (depth_ != ObjectDepth::kPixel) return;
     RS_CHECK(depths.width() == width && depths.height() == height);
     large_enough(textures.depths[textures.filled_last], width, height, gl::TexelKind::kFloat).upload(depths);
@@ -94,7 +94,7 @@ const gl::Program& ObjectRenderer::set_up(const std::vector<gl::Program>& progra
                                           const Appearance& appearance) const {
     const gl::Program& program = programs[view.smooth ? 0 : static_cast<std::size_t>(view.samples_across)];
     program.set("screen", glm::vec2(appearance.screen_px));
-    program.set("picture_from_screen", glm::mat3(view.picture_from_screen));
+    program.set("picture_from_screen", glm::mat3(view.image_from_screen));
     program.set("facing_depth", glm::vec3(view.inverse_depth_facing * kNear));
     program.set("foot_depth", glm::vec3(view.inverse_depth_foot * kNear));
     program.set("from_above", view.from_above ? 1 : 0);

@@ -1,5 +1,5 @@
 #pragma once
-// Draws the pictures of ray-space nodes into a frame: what they show (shown_parts.hpp), at the depth of the node's
+// Draws the images of ray-space nodes into a frame: what they show (shown_parts.hpp), at the depth of the node's
 // reference plane (object_view.hpp), tested against the geometry and blended over.
 //
 // With a depth for every pixel, objects, and objects and geometry, reach into each other as their surfaces do. Then
@@ -33,19 +33,19 @@ public:
     // For nodes 0 .. nodes - 1.
     static Result<ObjectRenderer> create(std::size_t nodes, ObjectDepth depth = ObjectDepth::kPlane);
 
-    // Gives the picture of a node to the GPU, at least one pixel; that of the view, which is drawn next. A node has two
+    // Gives the image of a node to the GPU, at least one pixel; that of the view, which is drawn next. A node has two
     // textures, taken in turns, so that one may still be drawn from while the other is filled. Of kPixel, `depths` has
-    // the picture's size and holds axial depths in the units of the object's rig (engine::depth_picture).
-    void upload(std::size_t node, const ObjectView& view, ConstImageView<Rgba8> picture,
+    // the image's size and holds axial depths in the units of the object's rig (engine::depth_image).
+    void upload(std::size_t node, const ObjectView& view, ConstImageView<Rgba8> image,
                 ConstImageView<float> depths = {});
 
     struct Appearance {
         glm::ivec2 screen_px{0};  // size of the frame
         glm::vec3 fog{0};         // its colour, linear light
         float own_light = 1;      // what fog leaves of the object's, 0 .. 1
-        float opacity = 1;        // 0 .. 1, times that of the picture
+        float opacity = 1;        // 0 .. 1, times that of the image
     };
-    // Draws what was uploaded last, a picture of the view.
+    // Draws what was uploaded last, an image of the view.
     void draw(std::size_t node, const ObjectView& view, const Appearance& appearance) const;
 
     // Gives the textures of a node back.
@@ -63,7 +63,7 @@ private:
         std::array<std::optional<gl::Texture>, 2> in_turns;
         std::array<std::optional<gl::Texture>, 2> depths;
         std::size_t filled_last = 0;
-        std::optional<gl::VertexArray> opaque;  // parts of the picture
+        std::optional<gl::VertexArray> opaque;  // parts of the image
         std::optional<gl::VertexArray> blended;
     };
     const gl::Program& set_up(const std::vector<gl::Program>& programs, const ObjectView& view,

@@ -1,5 +1,5 @@
 #pragma once
-// The GLSL of floors and of objects made of pictures. Colours are linear light; the framebuffer encodes sRGB.
+// The GLSL of floors and of objects made of images. Colours are linear light; the framebuffer encodes sRGB.
 
 #include <string>
 
@@ -59,7 +59,7 @@ void main() {
 })";
 
 // A ray-space node: the parts of the screen that show it (shown_parts.hpp), each pixel the mean of samples_across *
-// samples_across samples of the picture, at the depth of its two planes or of its pixels (object_view.hpp).
+// samples_across samples of the image, at the depth of its two planes or of its pixels (object_view.hpp).
 inline constexpr const char* kObjectVertex = R"(#version 450 core
 layout(location = 0) in vec3 corner;  // homogeneous, in pixels
 uniform vec2 screen;                  // width, height in pixels

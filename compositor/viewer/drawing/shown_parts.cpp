@@ -14,7 +14,7 @@ engine::PreparedObject prepared(const std::shared_ptr<const ViewableObject>& obj
 }
 
 Result<std::shared_ptr<const ShownNodes>> show_all(const std::vector<PlacedObject>& objects,
-                                                   engine::DataModule& engine) {
+                                                   engine::RenderSession& engine) {
     const auto nodes = std::make_shared<ShownNodes>();
     std::map<const ViewableObject*, engine::ObjectHandle> loaded;
     for (const PlacedObject& placed : objects) {
@@ -28,8 +28,8 @@ Result<std::shared_ptr<const ShownNodes>> show_all(const std::vector<PlacedObjec
     return std::shared_ptr<const ShownNodes>(nodes);
 }
 
-engine::DataModuleLimits limits_of_viewer() {
-    engine::DataModuleLimits limits;
+engine::RenderSessionLimits limits_of_viewer() {
+    engine::RenderSessionLimits limits;
     limits.objects = std::numeric_limits<int>::max();
     return limits;
 }
@@ -44,19 +44,19 @@ struct ColumnRange {
     int end = 0;
 };
 
-// Of the places within `margin` of it: the largest or least alpha of each column, those beyond the picture are 0.
+// Of the places within `margin` of it: the largest or least alpha of each column, those beyond the image are 0.
 // Element x + margin is column x, from -margin to width + margin.
 struct ColumnAlphas {
     std::vector<std::uint8_t> largest;
     std::vector<std::uint8_t> least;
 };
 
-ColumnAlphas column_alphas(ConstImageView<Rgba8> picture, int first_row, int end_row, int margin) {
-    const auto width = static_cast<std::size_t>(picture.width());
+ColumnAlphas column_alphas(ConstImageView<Rgba8> image, int first_row, int end_row, int margin) {
+    const auto width = static_cast<std::size_t>(image.width());
     std::vector<std::uint8_t> largest(width, 0);
-    std::vector<std::uint8_t> least(width, first_row < 0 || end_row > picture.height() ? 0 : 255);
-    for (int y = std::max(first_row, 0); y < std::min(end_row, picture.height()); ++y) {
-        const Rgba8* row = picture.row(y);
+    std::vector<std::uint8_t> least(width, first_row < 0 || end_row > image.height() ? 0 : 255);
+    for (int y = std::max(first_row, 0); y < std::min(end_row, image.height()); ++y) {
+        const Rgba8* row = image.row(y);
         for (std::size_t x = 0; x < width; ++x) {
             largest[x] = std::max(largest[x], row[x].a);
             least[x] = std::min(least[x], row[x].a);
@@ -136,19 +136,19 @@ void add_triangles(const ShownRun& run, const CornerLine& top, const CornerLine&
 
 }  // namespace
 
-std::vector<ShownBand> shown_bands(ConstImageView<Rgba8> picture, int margin_px) {
+std::vector<ShownBand> shown_bands(ConstImageView<Rgba8> image, int margin_px) {
     RS_CHECK(margin_px >= 0);
     std::vector<ShownBand> bands;
-    for (int top = 0; top < picture.height(); top += kBandRows) {
-        const int bottom = std::min(top + kBandRows, picture.height());
-        const ColumnAlphas alphas = column_alphas(picture, top - margin_px, bottom + margin_px, margin_px);
+    for (int top = 0; top < image.height(); top += kBandRows) {
+        const int bottom = std::min(top + kBandRows, image.height());
+        const ColumnAlphas alphas = column_alphas(image, top - margin_px, bottom + margin_px, margin_px);
         const auto count = static_cast<int>(alphas.largest.size());
         const auto shown = ranges_where(count, kClosedGap_px, 1, [&](std::size_t x) { return alphas.largest[x] > 0; });
         const auto opaque =
             ranges_where(count, 0, kShortestOpaque_px, [&](std::size_t x) { return alphas.least[x] == 255; });
         ShownBand band{top, bottom, {}};
         if (top == 0) band.top -= margin_px;
-        if (bottom == picture.height()) band.bottom += margin_px;
+        if (bottom == image.height()) band.bottom += margin_px;
         for (const ColumnRange& range : shown) {
             int begin = range.begin;
             for (const ColumnRange& inner : opaque) {
@@ -164,12 +164,12 @@ std::vector<ShownBand> shown_bands(ConstImageView<Rgba8> picture, int margin_px)
     return bands;
 }
 
-ShownMesh shown_mesh(const std::vector<ShownBand>& bands, const glm::dmat3& screen_from_picture) {
+ShownMesh shown_mesh(const std::vector<ShownBand>& bands, const glm::dmat3& screen_from_image) {
     ShownMesh mesh;
     const auto line = [&](const ShownBand* above, const ShownBand* below, int row) {
         CornerLine made{split_columns(above, below), static_cast<std::uint32_t>(mesh.corners.size())};
         for (const int column : made.columns) {
-            mesh.corners.emplace_back(screen_from_picture * glm::dvec3(column, row, 1));
+            mesh.corners.emplace_back(screen_from_image * glm::dvec3(column, row, 1));
         }
         return made;
     };

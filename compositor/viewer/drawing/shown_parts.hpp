@@ -1,13 +1,13 @@
 #pragma once
-// Which parts of an object's picture show something, and their outline on the screen: a third or more of a picture's
+// Which parts of an object's image show something, and their outline on the screen: a third or more of an image's
 // pixels are empty, and what is opaque need not be blended. Pure; thread-safe.
 //
-//   picture -> bands of kBandRows rows -> in each of them runs of columns, opaque ones and others -> polygons
+//   image -> bands of kBandRows rows -> in each of them runs of columns, opaque ones and others -> polygons
 //
 // Polygons that touch share their corners exactly, so no pixel between them is left out or drawn twice.
 
 #include "compositor/viewer/residency/placed_object.hpp"
-#include "engine/driver/data_module.hpp"
+#include "engine/driver/render_session.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 
@@ -41,19 +41,19 @@ struct ShownNode {
 };
 using ShownNodes = std::vector<ShownNode>;
 
-// For DataModule::load(): without a copy, and alive for as long as anybody uses it.
+// For RenderSession::load(): without a copy, and alive for as long as anybody uses it.
 engine::PreparedObject prepared(const std::shared_ptr<const ViewableObject>& object);
 
 // All at once, every object loaded into `engine`.
 Result<std::shared_ptr<const ShownNodes>> show_all(const std::vector<PlacedObject>& objects,
-                                                   engine::DataModule& engine);
+                                                   engine::RenderSession& engine);
 
 // As many objects as a scene may have; a frame's views go in cycles of the board's size.
-engine::DataModuleLimits limits_of_viewer();
+engine::RenderSessionLimits limits_of_viewer();
 
 inline constexpr int kBandRows = 16;
 
-// Columns [begin, end) of the picture, which may reach beyond it by the margin.
+// Columns [begin, end) of the image, which may reach beyond it by the margin.
 struct ShownRun {
     int begin = 0;
     int end = 0;
@@ -69,8 +69,8 @@ struct ShownBand {
     std::vector<ShownRun> runs;
 };
 
-// From top to bottom without gaps. `margin_px` >= 0: how far around its place a pixel of the screen reads the picture.
-std::vector<ShownBand> shown_bands(ConstImageView<Rgba8> picture, int margin_px);
+// From top to bottom without gaps. `margin_px` >= 0: how far around its place a pixel of the screen reads the image.
+std::vector<ShownBand> shown_bands(ConstImageView<Rgba8> image, int margin_px);
 
 // Triangles of the runs. Corners are homogeneous: (x, y, w) is the place (x / w, y / w) on the screen.
 struct ShownMesh {
@@ -78,7 +78,7 @@ struct ShownMesh {
     std::vector<std::uint32_t> opaque;  // three corners each
     std::vector<std::uint32_t> blended;
 };
-// screen_from_picture * (u, v, 1) = w * (x, y, 1).
-ShownMesh shown_mesh(const std::vector<ShownBand>& bands, const glm::dmat3& screen_from_picture);
+// screen_from_image * (u, v, 1) = w * (x, y, 1).
+ShownMesh shown_mesh(const std::vector<ShownBand>& bands, const glm::dmat3& screen_from_image);
 
 }  // namespace rs::compositor

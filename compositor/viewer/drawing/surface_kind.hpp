@@ -24,8 +24,8 @@ struct SurfaceKind {
     bool headlight = false;
     bool lit = false;
     bool shiny = false;
-    int picture = 0;  // 0 none, 1 in place of the material's colour, 2 times it
-    AlphaUse picture_alpha = AlphaUse::kNone;
+    int image = 0;  // 0 none, 1 in place of the material's colour, 2 times it
+    AlphaUse image_alpha = AlphaUse::kNone;
     bool colours = false;  // of its own at the corners
     bool relief = false;   // NormalMap
     int fog = 0;           // 0 none, 1 linear, 2 exponential

@@ -45,10 +45,10 @@ public:
         return uploaded;
     }
 
-    std::shared_ptr<const gl::Texture> picture(const SceneTexture& texture) {
-        auto& uploaded = pictures_[&texture];
+    std::shared_ptr<const gl::Texture> image(const SceneTexture& texture) {
+        auto& uploaded = images_[&texture];
         if (!uploaded) {
-            uploaded = std::make_shared<const gl::Texture>(texture.picture.view(),
+            uploaded = std::make_shared<const gl::Texture>(texture.image.view(),
                                                            gl::TextureWrap{texture.repeat_s, texture.repeat_t});
         }
         return uploaded;
@@ -69,11 +69,11 @@ public:
         return found->second;
     }
 
-    [[nodiscard]] int count() const { return static_cast<int>(meshes_.size() + pictures_.size() + reliefs_.size()); }
+    [[nodiscard]] int count() const { return static_cast<int>(meshes_.size() + images_.size() + reliefs_.size()); }
 
 private:
     std::map<const Mesh*, std::shared_ptr<const gl::VertexArray>> meshes_;
-    std::map<const SceneTexture*, std::shared_ptr<const gl::Texture>> pictures_;
+    std::map<const SceneTexture*, std::shared_ptr<const gl::Texture>> images_;
     std::map<const NormalMap*, std::shared_ptr<const gl::Texture>> reliefs_;
     std::map<const SceneTexture*, AlphaUse> alphas_;
 };
@@ -130,9 +130,9 @@ Status SurfaceRenderer::put(Item& item) {
     RS_ASSIGN_OR_RETURN(auto made, program(kind));
     item.program = std::move(made);
     SurfaceKind veil{.fog = kind.fog, .veil = true};
-    if (kind.picture_alpha == AlphaUse::kMask) {
-        veil.picture = kind.picture;
-        veil.picture_alpha = kind.picture_alpha;
+    if (kind.image_alpha == AlphaUse::kMask) {
+        veil.image = kind.image;
+        veil.image_alpha = kind.image_alpha;
     }
     RS_ASSIGN_OR_RETURN(auto veiled, program(veil));
     item.veil = std::move(veiled);
@@ -183,7 +183,7 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const Shadow
         item.world_from_node = node.world_from_node;
         item.bounds_in_node = bounds_of(*node.mesh);
         if (node.material.texture) {
-            item.picture = uploads.picture(*node.material.texture);
+            item.image = uploads.image(*node.material.texture);
             item.alpha = uploads.alpha(*node.material.texture);
         }
         if (node.material.lit && node.material.normals) item.relief = uploads.relief(*node.material.normals);
@@ -264,7 +264,7 @@ void SurfaceRenderer::draw(const Item& item, const gl::Program& program, const F
     if (!item.shadows.empty()) set("shadows", std::span(&item.shadows.front().u, 4 * item.shadows.size()));
     set("light_counts", item.light_counts);
     set("shadow_counts", item.shadow_counts);
-    if (item.picture) item.picture->bind(0);
+    if (item.image) item.image->bind(0);
     if (item.relief) item.relief->bind(4);
     state.clockwise = item.mirrored;
     gl::draw(program, *item.mesh, state);
@@ -308,7 +308,7 @@ std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const Fra
     return std::move(seen.transparent);
 }
 
-void SurfaceRenderer::draw_veil(const FrameView& view) const {
+void SurfaceRenderer::draw_fog(const FrameView& view) const {
     if (!scene_.fog) return;
     for (const Item& item : items_) {
         if (item.hidden || item.transparent || !may_be_seen(item.bounds, view.clip_from_world)) continue;
@@ -335,7 +335,7 @@ void SurfaceRenderer::draw_casters(const ShadowPass& pass) const {
         program.set("clip_from_node", glm::mat4(face.clip_from_world * item.world_from_node));
         if (masked) {
             program.set("texture_transform", item.texture_transform);
-            item.picture->bind(0);
+            item.image->bind(0);
         }
         gl::draw(program, *item.mesh,
                  {.culling = item.two_sided ? gl::Culling::kNone : gl::Culling::kBack, .clockwise = item.mirrored});

@@ -1,6 +1,6 @@
 #pragma once
 // Draws the geometry of a scene: lit (geometry_shaders.hpp), textured, in fog, culled by the frustum. Meshes and
-// pictures are on the GPU from the beginning on, and every kind of surface has its shader. The nearest is drawn
+// images are on the GPU from the beginning on, and every kind of surface has its shader. The nearest is drawn
 // first, so that light is computed for little that is hidden.
 
 #include "compositor/gl/draw.hpp"
@@ -44,10 +44,10 @@ public:
         std::size_t index;
         double distance;  // from the viewpoint to the middle of what is drawn, scene units
     };
-    // Draws what is opaque and returns what is not but may be in the picture, to be drawn from the farthest on.
+    // Draws what is opaque and returns what is not but may be in the image, to be drawn from the farthest on.
     std::vector<Transparent> draw_opaque(const FrameView& view, bool wire_frame, OpaquePass pass = OpaquePass::kLit);
-    // The fog before what is opaque, over a picture of it that has none. Nothing where there is no fog.
-    void draw_veil(const FrameView& view) const;
+    // The fog before what is opaque, over an image of it that has none. Nothing where there is no fog.
+    void draw_fog(const FrameView& view) const;
     void draw_transparent(const Transparent& item, const FrameView& view, bool wire_frame) const;
 
     // From the next frame on a geometry node that may be moved stands elsewhere, or nowhere. Only its numbers change,
@@ -62,11 +62,11 @@ public:
     // From where a node throws shadows, in scene coordinates; empty where it throws none.
     [[nodiscard]] BoundingBox caster_bounds(std::size_t node) const;
 
-    // Meshes and pictures that were given to the driver since create() began, and shaders.
+    // Meshes and images that were given to the driver since create() began, and shaders.
     [[nodiscard]] int uploads() const { return uploads_; }
     [[nodiscard]] int shaders_made() const { return static_cast<int>(programs_.size()); }
 
-    // What throws shadows on a map that has begun: opaque surfaces, with the holes of their pictures, from the sides
+    // What throws shadows on a map that has begun: opaque surfaces, with the holes of their images, from the sides
     // from which they are seen.
     void draw_casters(const ShadowPass& pass) const;
 
@@ -76,13 +76,13 @@ public:
 private:
     struct Item {
         std::shared_ptr<const gl::VertexArray> mesh;
-        std::shared_ptr<const gl::Texture> picture;
+        std::shared_ptr<const gl::Texture> image;
         std::shared_ptr<const gl::Texture> relief;
         glm::dmat4 world_from_node;
         BoundingBox bounds_in_node;
         BoundingBox bounds;                          // in scene coordinates
         std::size_t node = 0;                        // of Scene::geometry
-        AlphaUse alpha = AlphaUse::kNone;            // of its picture
+        AlphaUse alpha = AlphaUse::kNone;            // of its image
         std::shared_ptr<const gl::Program> program;  // of its kind
         std::shared_ptr<const gl::Program> veil;     // the fog before it alone
         MaterialRow material;

@@ -1,6 +1,6 @@
 #pragma once
 // Draws rain and snow (weather_shaders.hpp): tested against the depth of what is drawn already, blended over it, lit by
-// the sky and the lamps near by. The same seed, time and camera give the same picture.
+// the sky and the lamps near by. The same seed, time and camera give the same image.
 
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/vertex_array.hpp"

@@ -24,14 +24,13 @@ constexpr float kRead = 0.7F;
 
 class ObjectFiles final : public ObjectSource {
 public:
-    ObjectFiles(std::shared_ptr<const engine::DataModule> engine, bool background)
+    ObjectFiles(std::shared_ptr<const engine::RenderSession> engine, bool background)
         : engine_(std::move(engine)), background_(background), arena_(background ? 1 : tbb::task_arena::automatic) {}
 
     Result<std::int64_t> most_bytes(const std::filesystem::path& file) override {
         RS_ASSIGN_OR_RETURN(const auto container, ContainerReader::open(file));
         RS_ASSIGN_OR_RETURN(const ReadingMemory reading, memory_to_read(container));
-        const std::int64_t texels =
-            engine::TexelStore::bytes_of_pictures(reading.width, reading.height, reading.pictures);
+        const std::int64_t texels = engine::TexelStore::bytes_of_images(reading.width, reading.height, reading.images);
         // A board that takes it gets a copy of its own, made of what may be a changed one.
         const int copies = engine_->has_board() ? 3 : 1;
         return std::max(reading.most_bytes, copies * reading.object_bytes + texels);
@@ -66,7 +65,7 @@ private:
         return viewable;
     }
 
-    std::shared_ptr<const engine::DataModule> engine_;
+    std::shared_ptr<const engine::RenderSession> engine_;
     bool background_;
     bool slowed_ = false;
     tbb::task_arena arena_;
@@ -74,7 +73,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<ObjectSource> object_files(std::shared_ptr<const engine::DataModule> engine, bool background) {
+std::unique_ptr<ObjectSource> object_files(std::shared_ptr<const engine::RenderSession> engine, bool background) {
     return std::make_unique<ObjectFiles>(std::move(engine), background);
 }
 

@@ -2,7 +2,7 @@
 // Where the objects of a scene come from: files, or what a test makes.
 
 #include "compositor/viewer/residency/placed_object.hpp"
-#include "engine/driver/data_module.hpp"
+#include "engine/driver/render_session.hpp"
 #include "rayspace/base/result.hpp"
 
 #include <cstdint>
@@ -31,6 +31,6 @@ public:
 
 // .rso files, made ready for the engine, which outlives the source. In the `background` one thread reads, at low
 // priority, else all do.
-std::unique_ptr<ObjectSource> object_files(std::shared_ptr<const engine::DataModule> engine, bool background);
+std::unique_ptr<ObjectSource> object_files(std::shared_ptr<const engine::RenderSession> engine, bool background);
 
 }  // namespace rs::compositor

@@ -17,7 +17,7 @@ constexpr std::uint8_t kSolid = 128;  // alpha from which a pixel counts as the 
 
 struct RowRange {
     int begin = 0;
-    int end = 0;  // begin == end: the picture is empty
+    int end = 0;  // begin == end: the image is empty
 };
 
 RowRange occupied_rows(const Image<std::uint8_t>& alpha, std::uint8_t least) {
@@ -44,8 +44,8 @@ int widest(const Image<std::uint8_t>& alpha, RowRange rows) {
 }
 
 // A CapturedView in floating point.
-struct PictureScale {
-    explicit PictureScale(const CapturedView& view)
+struct ImageScale {
+    explicit ImageScale(const CapturedView& view)
         : axis_depth(std::ldexp(view.lines.front().l0_q20, -20)),  // where x = 0, on every plane
           focal_px(std::ldexp(view.fl_y_q16, -16)),
           principal_row(std::ldexp(view.cy_q16, -16)),
@@ -64,7 +64,7 @@ struct PictureScale {
     double height;
 };
 
-// One picture that shows something.
+// One image that shows something.
 struct Outline {
     std::size_t view;
     RowRange rows;  // solid ones
@@ -89,8 +89,8 @@ std::vector<Outline> outlines_of_lowest_ring(const RaySpaceObject& object) {
     });
     std::vector<Outline> outlines;
     for (const std::uint16_t view : lowest->views) {
-        if (object.pictures[view].empty()) continue;
-        const RowRange rows = occupied_rows(object.pictures[view].a, kSolid);
+        if (object.images[view].empty()) continue;
+        const RowRange rows = occupied_rows(object.images[view].a, kSolid);
         if (rows.begin < rows.end) outlines.push_back({view, rows, azimuth_of(object.views[view]), 0, 0});
     }
     return outlines;
@@ -98,9 +98,9 @@ std::vector<Outline> outlines_of_lowest_ring(const RaySpaceObject& object) {
 
 // Measures how far the object reaches to either side where a foot at this height would be seen, and below.
 void measure_sides(const RaySpaceObject& object, double foot, Outline& outline) {
-    const Image<std::uint8_t>& alpha = object.pictures[outline.view].a;
+    const Image<std::uint8_t>& alpha = object.images[outline.view].a;
     const CapturedView& view = object.views[outline.view];
-    const PictureScale scale(view);
+    const ImageScale scale(view);
     const double axis_column = std::ldexp(view.cx_q16, -16) + std::ldexp(view.lines[0].q0_q16, -16) / scale.axis_depth;
     const int some = std::max((outline.rows.end - outline.rows.begin) / 24, 1);
     const auto begin = static_cast<int>(std::clamp(scale.row_of(foot, scale.axis_depth) - some,
@@ -142,8 +142,8 @@ double reach_towards(const std::vector<Outline>& outlines, const Outline& outlin
     return count > 0 ? sum / count : (outline.left + outline.right) / 2;
 }
 
-// Where the foot is, begun at a first guess: its height shows where in the pictures its sides are, and these how far
-// before the axis the lowest point of each picture is.
+// Where the foot is, begun at a first guess: its height shows where in the images its sides are, and these how far
+// before the axis the lowest point of each image is.
 double foot_of(const RaySpaceObject& object, double foot) {
     std::vector<Outline> outlines = outlines_of_lowest_ring(object);
     if (outlines.empty()) return foot;
@@ -151,7 +151,7 @@ double foot_of(const RaySpaceObject& object, double foot) {
         for (Outline& outline : outlines) measure_sides(object, foot, outline);
         std::vector<double> heights;
         for (const Outline& outline : outlines) {
-            const PictureScale scale(object.views[outline.view]);
+            const ImageScale scale(object.views[outline.view]);
             const bool beyond_horizon = outline.rows.end < scale.principal_row;
             const double reach = reach_towards(outlines, outline);
             heights.push_back(scale.height_at(outline.rows.end, scale.axis_depth + (beyond_horizon ? reach : -reach)));
@@ -169,11 +169,11 @@ BoundingCylinder bounding_cylinder(const RaySpaceObject& object) {
         const double x_half = std::ldexp(ring.x_half_q20, -20);
         bound.radius = std::max(bound.radius, x_half);
         for (const std::uint16_t index : ring.views) {
-            const PlanarPicture& picture = object.pictures[index];
-            if (picture.empty()) continue;
-            const RowRange rows = occupied_rows(picture.a, 1);
+            const PlanarImage& image = object.images[index];
+            if (image.empty()) continue;
+            const RowRange rows = occupied_rows(image.a, 1);
             if (rows.begin == rows.end) continue;
-            const PictureScale scale(object.views[index]);
+            const ImageScale scale(object.views[index]);
             for (const double depth : {std::max(scale.axis_depth - x_half, 0.0), scale.axis_depth + x_half}) {
                 bound.top = std::max(bound.top, scale.height_at(rows.begin, depth));
                 bound.bottom = std::min(bound.bottom, scale.height_at(rows.end, depth));
@@ -187,12 +187,12 @@ BoundingCylinder bounding_cylinder(const RaySpaceObject& object) {
 UprightExtent estimated_extent(const RaySpaceObject& object) {
     std::vector<double> bottoms;
     std::vector<double> tops;
-    for (std::size_t i = 0; i < object.pictures.size(); ++i) {
-        const Image<std::uint8_t>& alpha = object.pictures[i].a;
-        if (object.pictures[i].empty()) continue;
+    for (std::size_t i = 0; i < object.images.size(); ++i) {
+        const Image<std::uint8_t>& alpha = object.images[i].a;
+        if (object.images[i].empty()) continue;
         const RowRange rows = occupied_rows(alpha, kSolid);
         if (rows.begin == rows.end) continue;
-        const PictureScale scale(object.views[i]);
+        const ImageScale scale(object.views[i]);
         // The rim that reaches farthest away from the horizon is the near one; where an end of the object lies beyond
         // the horizon (a foot above the camera) it is the far one.
         const auto height_of_end = [&](int row, RowRange end_rows, bool beyond_horizon) {

@@ -11,7 +11,7 @@
 
 namespace rs::compositor {
 
-// How much room an object takes, computed from its captured pictures. Pure; thread-safe.
+// How much room an object takes, computed from its captured images. Pure; thread-safe.
 
 // An upright cylinder about the object's axis, in object radii.
 struct BoundingCylinder {
@@ -21,23 +21,23 @@ struct BoundingCylinder {
     [[nodiscard]] bool empty() const { return bottom >= top; }
 };
 
-// Holds every point at which the engine can show something of the object: for each picture the heights that its
+// Holds every point at which the engine can show something of the object: for each image the heights that its
 // occupied rows take over all plane points the RS map covers (RECONSTRUCTION.md, section 3, solved for Y). Larger than
-// the object itself. Empty where no picture shows anything. Looks at every pixel; the pictures must be loaded.
+// the object itself. Empty where no image shows anything. Looks at every pixel; the images must be loaded.
 BoundingCylinder bounding_cylinder(const RaySpaceObject& object);
 
 // An estimate of where the object itself begins and ends on its axis, in object radii: `bottom` is what would touch a
-// floor that it stands on, which the object itself may state (RaySpaceObject::foot_q20). Else each picture's lowest row
+// floor that it stands on, which the object itself may state (RaySpaceObject::foot_q20). Else each image's lowest row
 // is taken for the rim of the foot that is nearest to the camera. How far that is before the axis is seen from the
-// side, in the pictures a quarter turn away. Of all pictures the median counts. The top is found likewise, but with the
-// object's width for its depth. Both 0 where no picture shows anything.
+// side, in the images a quarter turn away. Of all images the median counts. The top is found likewise, but with the
+// object's width for its depth. Both 0 where no image shows anything.
 struct UprightExtent {
     double bottom = 0;
     double top = 0;
 };
 UprightExtent estimated_extent(const RaySpaceObject& object);
 
-// What is measured on the pictures is kept beside the renderer, which converts and releases them.
+// What is measured on the images is kept beside the renderer, which converts and releases them.
 struct ViewableObject {
     engine::Renderer renderer;
     BoundingCylinder bounds;

@@ -2,7 +2,7 @@
 
 #include "compositor/viewer/views/screen_rectangle.hpp"
 #include "engine/core/definition/view_registers.hpp"
-#include "engine/core/views/depth_picture.hpp"
+#include "engine/core/views/depth_image.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
 
@@ -26,10 +26,10 @@ constexpr double kJump_px = 8;             // between neighbours of one surface,
 
 struct ShellView {
     Camera camera;  // object radii
-    Image<Rgba8> picture;
+    Image<Rgba8> image;
     Image<float> depths;  // object radii, 0 where there is nothing
 
-    [[nodiscard]] bool solid(int x, int y) const { return picture(x, y).a >= kSolidAlpha && depths(x, y) > 0; }
+    [[nodiscard]] bool solid(int x, int y) const { return image(x, y).a >= kSolidAlpha && depths(x, y) > 0; }
     [[nodiscard]] glm::dvec3 point(double x, double y, double depth) const {
         return camera.centre() + depth * camera.ray(x, y);
     }
@@ -39,16 +39,16 @@ struct ShellView {
         if (!(at.z > 0)) return false;
         const int column = static_cast<int>(std::floor(at.x));
         const int row = static_cast<int>(std::floor(at.y));
-        for (int y = std::max(row - 1, 0); y <= std::min(row + 1, picture.height() - 1); ++y) {
-            for (int x = std::max(column - 1, 0); x <= std::min(column + 1, picture.width() - 1); ++x) {
-                if (picture(x, y).a >= kSolidAlpha) return true;
+        for (int y = std::max(row - 1, 0); y <= std::min(row + 1, image.height() - 1); ++y) {
+            for (int x = std::max(column - 1, 0); x <= std::min(column + 1, image.width() - 1); ++x) {
+                if (image(x, y).a >= kSolidAlpha) return true;
             }
         }
         return false;
     }
 };
 
-// Level, so that the engine draws it column by column; the object is where it falls on the picture.
+// Level, so that the engine draws it column by column; the object is where it falls on the image.
 std::optional<ShellView> view_from(const ViewableObject& object, double azimuth_rad, double elevation_rad) {
     const BoundingCylinder& bounds = object.bounds;
     const double side = std::max({2 * bounds.radius, bounds.top - bounds.bottom, 1e-6});
@@ -75,10 +75,10 @@ std::optional<ShellView> view_from(const ViewableObject& object, double azimuth_
     in_rig.world_from_camera[3] = glm::dvec4(eye * description.units_per_radius, 1);
     const auto registers = engine::prepare_view(description, in_rig);
     if (!registers) return std::nullopt;
-    view.picture = Image<Rgba8>(camera.width, camera.height);
+    view.image = Image<Rgba8>(camera.width, camera.height);
     Image<std::int32_t> lambda(camera.width, camera.height);
-    object.renderer.render(*registers, view.picture.view(), lambda.view());
-    view.depths = engine::depth_picture(description, in_rig, lambda);
+    object.renderer.render(*registers, view.image.view(), lambda.view());
+    view.depths = engine::depth_image(description, in_rig, lambda);
     for (float& depth : view.depths.pixels()) depth /= static_cast<float>(description.units_per_radius);
     return view;
 }
@@ -119,8 +119,8 @@ private:
 
     void add(const ShellView& view) {
         constexpr std::uint32_t kNone = ~0U;
-        const int width = view.picture.width();
-        const int height = view.picture.height();
+        const int width = view.image.width();
+        const int height = view.image.height();
         Image<std::uint32_t> corners(width, height, kNone);
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {

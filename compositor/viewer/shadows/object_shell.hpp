@@ -1,7 +1,7 @@
 #pragma once
-// The surface of an object made of pictures, as far as its shadow needs it: what the engine shows of it, with depth,
+// The surface of an object made of images, as far as its shadow needs it: what the engine shows of it, with depth,
 // from places all around at the elevations that its capture holds, put together. Any light may shine on that, also from
-// straight above, where no picture was taken and the engine has no answer.
+// straight above, where no image was taken and the engine has no answer.
 
 #include "compositor/viewer/residency/placed_object.hpp"
 

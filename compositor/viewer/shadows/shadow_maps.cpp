@@ -82,7 +82,7 @@ void add_area(gl::TexelArea area, std::vector<gl::TexelArea>& areas) {
     areas.push_back(area);
 }
 
-// The projection whose picture is that area of the face's map.
+// The projection whose image is that area of the face's map.
 glm::dmat4 area_from_world(const ShadowFace& face, const gl::TexelArea& area, int side) {
     const glm::dvec2 size(area.width, area.height);
     const glm::dvec2 middle = (glm::dvec2(area.x, area.y) + 0.5 * size) * (2.0 / side) - 1.0;
@@ -158,7 +158,7 @@ int ShadowMaps::update(const std::vector<std::optional<PlacedObject>>& objects, 
 }
 
 void ShadowMaps::touch(const BoundingBox& box) {
-    constexpr std::size_t kMostTouched = 4096;  // maps may stay undrawn for long, as under traced pictures
+    constexpr std::size_t kMostTouched = 4096;  // maps may stay undrawn for long, as under traced images
     if (!drawn_ || box.empty()) return;
     touched_.push_back(box);
     if (touched_.size() < kMostTouched) return;

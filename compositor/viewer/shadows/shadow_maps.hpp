@@ -27,7 +27,7 @@ enum class Casters {
 struct ShadowPass {
     ShadowFace face;
     Casters casters = Casters::kAll;
-    // What lies outside of this projection's picture need not be drawn.
+    // What lies outside of this projection's image need not be drawn.
     glm::dmat4 area_from_world{1.0};
 };
 

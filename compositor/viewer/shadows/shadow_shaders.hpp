@@ -23,7 +23,7 @@ void main() {
 })";
 inline constexpr const char* kCasterFragment = R"(#version 450 core
 void main() {})";
-// With holes where the picture has some.
+// With holes where the image has some.
 inline constexpr const char* kMaskedCasterFragment = R"(#version 450 core
 layout(binding = 0) uniform sampler2D surface_picture;
 in vec2 place_on_texture;

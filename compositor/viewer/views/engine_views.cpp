@@ -16,7 +16,7 @@ Status EngineViews::submit(std::vector<engine::ViewRequest> views) {
 }
 
 Status EngineViews::submit_more() {
-    const engine::DataModuleLimits& limits = engine_.limits();
+    const engine::RenderSessionLimits& limits = engine_.limits();
     while (submitted_ < views_.size() && under_way_.size() < static_cast<std::size_t>(limits.cycles_in_flight)) {
         const std::size_t count =
             std::min(views_.size() - submitted_, static_cast<std::size_t>(limits.views_per_cycle));

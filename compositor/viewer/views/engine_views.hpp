@@ -2,7 +2,7 @@
 // The views of one frame on their way through the engine: in as many rendering cycles as they need, of which as many
 // are under way at a time as the data module takes.
 
-#include "engine/driver/data_module.hpp"
+#include "engine/driver/render_session.hpp"
 #include "rayspace/base/result.hpp"
 
 #include <deque>
@@ -13,7 +13,7 @@ namespace rs::compositor {
 // One thread; nobody else submits to the module meanwhile, which outlives this.
 class EngineViews {
 public:
-    explicit EngineViews(engine::DataModule& engine) : engine_(engine) {}
+    explicit EngineViews(engine::RenderSession& engine) : engine_(engine) {}
     EngineViews(const EngineViews&) = delete;
     EngineViews& operator=(const EngineViews&) = delete;
     ~EngineViews();  // waits for what is under way
@@ -26,7 +26,7 @@ public:
 private:
     Status submit_more();
 
-    engine::DataModule& engine_;
+    engine::RenderSession& engine_;
     std::vector<engine::ViewRequest> views_;
     std::size_t submitted_ = 0;
     std::deque<engine::CycleHandle> under_way_;

@@ -11,15 +11,15 @@
 
 namespace rs::compositor {
 
-// Looks at the middle of the objects from the +Z side, from so far that each of them fits into the picture (width over
-// height = `aspect`), and at the mean elevation of their first rings, where their pictures were taken. `fov_x_rad` is
+// Looks at the middle of the objects from the +Z side, from so far that each of them fits into the image (width over
+// height = `aspect`), and at the mean elevation of their first rings, where their images were taken. `fov_x_rad` is
 // the full horizontal angle.
 CameraPose framing_pose(const std::vector<PlacedObject>& objects, double fov_x_rad, double aspect);
 
 // Looks at the middle of the box, which is not empty, from the +Z side, from so far that all of it fits.
 CameraPose framing_pose(const BoundingBox& bounds, double fov_x_rad, double aspect);
 
-// A picture of width x height px with square pixels. The viewpoint's field of view is that of the shorter side, as
+// An image of width x height px with square pixels. The viewpoint's field of view is that of the shorter side, as
 // VRML97 requires.
 Camera camera_at(const Viewpoint& viewpoint, int width, int height);
 

@@ -93,7 +93,7 @@ Visitor visitor_at(const Viewpoint& viewpoint, const glm::dvec3& pivot) {
     visitor.eye = glm::dvec3(viewpoint.world_from_camera[3]);
     const glm::dvec3 sight = -glm::normalize(glm::dvec3(viewpoint.world_from_camera[2]));
     visitor.pitch_rad = clamped_pitch(std::asin(std::clamp(sight.y, -1.0, 1.0)));
-    // Straight up or down, what is up in the picture shows where the visitor would walk.
+    // Straight up or down, what is up in the image shows where the visitor would walk.
     const glm::dvec3 level =
         std::abs(sight.y) < 0.9999 ? sight : glm::dvec3(viewpoint.world_from_camera[1]) * (sight.y < 0 ? 1.0 : -1.0);
     visitor.heading_rad = std::atan2(-level.x, -level.z);

@@ -9,8 +9,8 @@
 // the object stands on. Along the screen the reciprocal of a plane's depth is linear, which is what the depth buffer
 // holds.
 //
-// Engines take one captured pixel for each pixel of the picture that they render. Where a node is seen from so
-// far that captured pixels are smaller than the screen's, a larger picture is rendered and averaged, so that a pixel
+// Engines take one captured pixel for each pixel of the image that they render. Where a node is seen from so
+// far that captured pixels are smaller than the screen's, a larger image is rendered and averaged, so that a pixel
 // of the screen shows all that lies in it. Two across
 // bring most of what there is to gain (bench_truth), for up to four times the pixels.
 
@@ -30,10 +30,10 @@ struct ObjectView {
     ScreenRectangle rectangle;
     // In the units of the object's rig: for engine::prepare_view.
     Camera camera;
-    // Position (x, y) of the screen to that of the camera's picture: _ * (x, y, 1) = w * (u, v, 1), where w is the
-    // axial depth in the picture over that on the screen. It may mirror.
-    glm::dmat3 picture_from_screen{1.0};
-    // A pixel of the screen is the mean of so many samples across, each the nearest pixel of the picture, or where
+    // Position (x, y) of the screen to that of the camera's image: _ * (x, y, 1) = w * (u, v, 1), where w is the
+    // axial depth in the image over that on the screen. It may mirror.
+    glm::dmat3 image_from_screen{1.0};
+    // A pixel of the screen is the mean of so many samples across, each the nearest pixel of the image, or where
     // `smooth` between the nearest four.
     int samples_across = 1;
     bool smooth = false;
@@ -46,18 +46,18 @@ struct ObjectView {
     glm::dvec3 inverse_depth_foot{0.0};
     bool from_above = true;
 
-    // The pixel of the camera's picture in the middle of a pixel of the screen, which must lie in the rectangle;
-    // nothing where the picture does not reach there.
-    [[nodiscard]] std::optional<glm::ivec2> picture_pixel(int x, int y) const;
+    // The pixel of the camera's image in the middle of a pixel of the screen, which must lie in the rectangle;
+    // nothing where the image does not reach there.
+    [[nodiscard]] std::optional<glm::ivec2> image_pixel(int x, int y) const;
 };
 
 struct ObjectViewOptions {
     int most_samples_across = kUsualSamplesAcross;  // 1, no averaging, .. kMostSamplesAcross
-    bool upright = false;                           // pictures of upright cameras, where that can be
+    bool upright = false;                           // images of upright cameras, where that can be
 };
 
 // Nothing where the object is off the screen, smaller than half a pixel, seen from its own axis, or so far aside in a
-// very wide picture that engines do not draw it (engine::prepare_view).
+// very wide image that engines do not draw it (engine::prepare_view).
 std::optional<ObjectView> view_of_object(const PlacedObject& placed, const Camera& camera_in_world,
                                          const ObjectViewOptions& options = {});
 

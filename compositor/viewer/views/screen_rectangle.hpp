@@ -20,7 +20,7 @@ struct ScreenRectangle {
     bool operator==(const ScreenRectangle&) const = default;
 };
 
-// Every pixel whose rays may meet the cylinder, cut to the camera's picture; nothing where the cylinder is empty,
+// Every pixel whose rays may meet the cylinder, cut to the camera's image; nothing where the cylinder is empty,
 // behind the camera or off the screen. The camera is in the cylinder's coordinates and may stand inside of it.
 std::optional<ScreenRectangle> covering_rectangle(const BoundingCylinder& bound, const Camera& camera);
 
@@ -37,7 +37,7 @@ struct FrameView {
 };
 FrameView view_of_frame(const Camera& camera);
 
-// False only where nothing of the box can be in the picture of that projection. `perspective`: it is seen from a place,
+// False only where nothing of the box can be in the image of that projection. `perspective`: it is seen from a place,
 // and what lies nearer than kNear is cut off; else along a direction.
 bool may_be_seen(const BoundingBox& box_in_world, const glm::dmat4& clip_from_world, bool perspective = true);
 

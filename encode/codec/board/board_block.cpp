@@ -16,7 +16,7 @@ constexpr std::array<std::size_t, 4> pixels_of_pair(std::size_t pair) {
 }
 
 template <class Prediction>
-BlockResidual residual_of(const SourcePicture& source, int x, int y, const Prediction& prediction) {
+BlockResidual residual_of(const SourceImage& source, int x, int y, const Prediction& prediction) {
     BlockResidual residual;
     for (std::size_t i = 0; i < 64; ++i) {
         const int column = x + static_cast<int>(i % 8);
@@ -43,11 +43,11 @@ std::int64_t BlockResidual::error() const {
     return sum;
 }
 
-BlockResidual residual_of_flat(const SourcePicture& source, int x, int y, const std::array<std::uint8_t, 3>& colour) {
+BlockResidual residual_of_flat(const SourceImage& source, int x, int y, const std::array<std::uint8_t, 3>& colour) {
     return residual_of(source, x, y, [&](std::size_t plane, std::size_t) { return int{colour[plane]}; });
 }
 
-BlockResidual residual_of_predicted(const SourcePicture& source, int x, int y, const codec::ConstPlaneViews& reference,
+BlockResidual residual_of_predicted(const SourceImage& source, int x, int y, const codec::ConstPlaneViews& reference,
                                     int from_x, int from_y) {
     return residual_of(source, x, y, [&](std::size_t plane, std::size_t i) {
         const ConstImageView<std::uint8_t>& from = reference[plane];
@@ -56,7 +56,7 @@ BlockResidual residual_of_predicted(const SourcePicture& source, int x, int y, c
     });
 }
 
-std::array<std::uint8_t, 3> mean_colour(const SourcePicture& source, int x, int y) {
+std::array<std::uint8_t, 3> mean_colour(const SourceImage& source, int x, int y) {
     std::array<int, 3> sum = {};
     int count = 0;
     for (int row = y; row < y + 8; ++row) {

@@ -2,7 +2,7 @@
 // One block of 8x8 pixels on its way through the stages of the board profile: what is left to be coded of it.
 
 #include "encode/codec/board/vector_quantiser.hpp"
-#include "encode/codec/source_picture.hpp"
+#include "encode/codec/source_image.hpp"
 #include "rayspace/codec/code/board_code.hpp"
 #include "rayspace/codec/dense_tile.hpp"
 
@@ -24,12 +24,12 @@ struct BlockResidual {
 };
 
 // The block at (x, y): source less prediction. `colour`: Y, U, V.
-BlockResidual residual_of_flat(const SourcePicture& source, int x, int y, const std::array<std::uint8_t, 3>& colour);
-BlockResidual residual_of_predicted(const SourcePicture& source, int x, int y, const codec::ConstPlaneViews& reference,
+BlockResidual residual_of_flat(const SourceImage& source, int x, int y, const std::array<std::uint8_t, 3>& colour);
+BlockResidual residual_of_predicted(const SourceImage& source, int x, int y, const codec::ConstPlaneViews& reference,
                                     int from_x, int from_y);
 
 // The mean colour of the valid samples of the block; grey where there are none.
-std::array<std::uint8_t, 3> mean_colour(const SourcePicture& source, int x, int y);
+std::array<std::uint8_t, 3> mean_colour(const SourceImage& source, int x, int y);
 
 // What a stage of whole blocks, or of quarter `quarter`, sees of the residual: kBlockDimensions or kQuarterDimensions
 // components, as in a codebook.

@@ -1,10 +1,10 @@
 #pragma once
-// The encoder of the `board` profile: one picture in nine is a reference, made of flat blocks plus entries of
+// The encoder of the `board` profile: one image in nine is a reference, made of flat blocks plus entries of
 // codebooks; blocks of the others are predicted from the references next to them on the ring. Codebooks are trained on
 // the object; every block chooses its class of record by rate and distortion.
 
-#include "encode/codec/encoded_pictures.hpp"
-#include "encode/codec/source_picture.hpp"
+#include "encode/codec/encoded_images.hpp"
+#include "encode/codec/source_image.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
@@ -21,7 +21,7 @@ struct BoardSettings {
 };
 
 // As encode_dense(). Memory: 8 bytes a sample of the coded size, and some 30 MB.
-EncodedPictures encode_board(const RaySpaceObject& object, const std::vector<SourcePicture>& sources,
-                             const BoardSettings& settings, Progress* progress = nullptr);
+EncodedImages encode_board(const RaySpaceObject& object, const std::vector<SourceImage>& sources,
+                           const BoardSettings& settings, Progress* progress = nullptr);
 
 }  // namespace rs::encode

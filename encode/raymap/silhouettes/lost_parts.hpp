@@ -27,13 +27,13 @@ double share_of(const Image<float>& part, const WorkView& view);
 
 class LostPartPainter {
 public:
-    /// `view` and `part` are `scale` times smaller than `picture` on each side.
-    LostPartPainter(const WorkView& view, const Image<float>& part, int scale, Image<Rgba8> picture);
+    /// `view` and `part` are `scale` times smaller than `image` on each side.
+    LostPartPainter(const WorkView& view, const Image<float>& part, int scale, Image<Rgba8> image);
 
     /// Another photo, at full size and as a working view with its depths.
     struct Painter {
         const DepthView* seen = nullptr;
-        const Image<Rgba8>* picture = nullptr;
+        const Image<Rgba8>* image = nullptr;
     };
     /// The number of unpainted pixels that another photo shows; with `hidden`, including those that seem occluded.
     [[nodiscard]] std::size_t shown_by(const Painter& from, bool hidden = false) const;
@@ -45,7 +45,7 @@ public:
     [[nodiscard]] bool done() const { return left_.empty(); }
     [[nodiscard]] bool half_done() const { return 2 * left_.size() <= all_; }
     /// The photo; unpainted pixels are unchanged.
-    [[nodiscard]] Image<Rgba8> picture() && { return std::move(picture_); }
+    [[nodiscard]] Image<Rgba8> image() && { return std::move(image_); }
 
 private:
     // A pixel to paint, and its surface point.
@@ -58,7 +58,7 @@ private:
 
     [[nodiscard]] std::optional<glm::dvec3> seen_by(const Painter& from, const Spot& spot, bool hidden) const;
 
-    Image<Rgba8> picture_;
+    Image<Rgba8> image_;
     int scale_;
     std::vector<Spot> left_;
     std::size_t all_ = 0;  // number of pixels to paint at the start

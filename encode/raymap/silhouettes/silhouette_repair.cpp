@@ -13,11 +13,11 @@ bool rules_out(const SampledHull& hull, const PlaceInSpace& point) {
     });
 }
 
-bool shows(const DepthView& picture, const PlaceInSpace& point, double tolerance) {
-    const std::optional<SeenPoint> at = picture.view.see(point.place, point.y);
+bool shows(const DepthView& image, const PlaceInSpace& point, double tolerance) {
+    const std::optional<SeenPoint> at = image.view.see(point.place, point.y);
     if (!at) return false;
-    const double depth = picture.view.ray_of(at->whole_column() + 0.5).depth_of(point.place);
-    const auto there = static_cast<double>(picture.depth(at->whole_row(), at->whole_column()));
+    const double depth = image.view.ray_of(at->whole_column() + 0.5).depth_of(point.place);
+    const auto there = static_cast<double>(image.depth(at->whole_row(), at->whole_column()));
     return std::abs(depth - there) < tolerance;  // false where there is no depth
 }
 
@@ -35,14 +35,14 @@ std::optional<glm::ivec2> pixel_beside(const WorkView& view, const PlaceInSpace&
 
 }  // namespace
 
-std::vector<RuledOutPoint> ruled_out(const DepthView& picture, std::span<const DepthView* const> beside,
-                                     double tolerance, const SampledHull& searched, const SampledHull& hull) {
+std::vector<RuledOutPoint> ruled_out(const DepthView& image, std::span<const DepthView* const> beside, double tolerance,
+                                     const SampledHull& searched, const SampledHull& hull) {
     std::vector<RuledOutPoint> points;
-    const WorkView& view = picture.view;
+    const WorkView& view = image.view;
     for (int column = 0; column < view.width; ++column) {
         const HorizontalRay ray = view.ray_of(column + 0.5);
         for (int row = 0; row < view.height; ++row) {
-            const auto depth = static_cast<double>(picture.depth(row, column));
+            const auto depth = static_cast<double>(image.depth(row, column));
             if (std::isnan(depth) || view.at(column, row).a < kOpaque) continue;
             const auto at = [&](double d) {
                 return PlaceInSpace{ray.place_at(d), view.height_of(row + 0.5, ray.axial_at(d))};
@@ -63,8 +63,8 @@ Image<float> missing_depths(const WorkView& view, std::span<const std::vector<Ru
     Image<float> missing(view.height, view.width, kNoDepth);
     const auto pixels = view.columns.pixels();
     if (std::ranges::none_of(pixels, [](const Rgba8& pixel) { return pixel.a >= kInside; })) return missing;
-    for (const std::vector<RuledOutPoint>& of_picture : points) {
-        for (const RuledOutPoint& point : of_picture) {
+    for (const std::vector<RuledOutPoint>& of_image : points) {
+        for (const RuledOutPoint& point : of_image) {
             const std::optional<glm::ivec2> at = pixel_beside(view, point.found);
             if (!at || !pixel_beside(view, point.nearest) || !pixel_beside(view, point.farthest)) continue;
             const auto depth = static_cast<float>(view.ray_of(at->x + 0.5).depth_of(point.found.place));

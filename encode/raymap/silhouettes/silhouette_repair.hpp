@@ -27,8 +27,8 @@ struct RuledOutPoint {
 /// The points of a photo's opaque pixels that each photo of `beside` confirms but `hull` rules out, also `tolerance`
 /// object radii nearer and farther.
 /// \param searched  the hull in which the depths were estimated; points outside of it are ignored.
-std::vector<RuledOutPoint> ruled_out(const DepthView& picture, std::span<const DepthView* const> beside,
-                                     double tolerance, const SampledHull& searched, const SampledHull& hull);
+std::vector<RuledOutPoint> ruled_out(const DepthView& image, std::span<const DepthView* const> beside, double tolerance,
+                                     const SampledHull& searched, const SampledHull& hull);
 
 /// Projects the points of several photos into a view: the nearest depth (as DepthView::depth) in each pixel with a
 /// point that in all three places projects to a pixel neither of the object nor next to it; kNoDepth elsewhere, and

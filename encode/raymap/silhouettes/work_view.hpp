@@ -121,7 +121,7 @@ inline std::ptrdiff_t count_depths(const Image<float>& depths) {
 
 /// Downsamples a photo by averaging blocks of `reduction` x `reduction` pixels, colour weighted by alpha; incomplete
 /// blocks at the right and lower edges are dropped. `camera` is upright and in object radii.
-WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> picture, int reduction);
+WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> image, int reduction);
 
 /// Downsamples a view once more, by two.
 WorkView halved(const WorkView& view);

@@ -25,9 +25,9 @@ Result<std::vector<ExecutedView>> CoreExecutor::render(const std::vector<SlotVie
         const auto found = held_.find(slot);
         if (found == held_.end()) return no_object_in(slot);
         ExecutedView& view = drawn.emplace_back();
-        view.picture = Image<Rgba8>(registers.width, registers.height);
+        view.image = Image<Rgba8>(registers.width, registers.height);
         if (depth) view.depth_q20 = Image<std::int32_t>(registers.width, registers.height);
-        found->second->render(registers, view.picture, view.depth_q20);
+        found->second->render(registers, view.image, view.depth_q20);
     }
     return drawn;
 }

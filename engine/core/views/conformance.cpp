@@ -3,7 +3,7 @@
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/core/fast/renderer.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/geometry/ray_space.hpp"
 
 #include <algorithm>
@@ -76,11 +76,11 @@ Camera random_camera(const RaySpaceObject& object, Random& random, Pose pose) {
 }  // namespace
 
 Result<ConformanceReport> check_conformance(RaySpaceObject object, int views, std::uint64_t seed, Progress* progress) {
-    RS_TRY(substitute_missing_pictures(object));
+    RS_TRY(substitute_missing_images(object));
     RS_ASSIGN_OR_RETURN(const Renderer renderer, Renderer::create(object));
-    if (shows_coded_pictures(object)) {  // the definition reads them unpacked
-        object.pictures.resize(object.views.size());
-        codec::decode_pictures(object);
+    if (shows_coded_images(object)) {  // the definition reads them unpacked
+        object.images.resize(object.views.size());
+        codec::decode_images(object);
     }
 
     ConformanceReport report;

@@ -1,5 +1,5 @@
 #pragma once
-// The decoder of one tile of a board picture: encode/FORMAT.md, section "Board tiles". Integer and normative; engine
+// The decoder of one tile of a board image: encode/FORMAT.md, section "Board tiles". Integer and normative; engine
 // and tools share it. It needs no more than look-ups and additions, so that hardware can do the same for one pixel per
 // cycle.
 
@@ -29,13 +29,13 @@ struct BoardMotion {
 BoardMotion board_motion(std::uint16_t word);
 std::uint16_t board_motion_word(const BoardMotion& motion);  // its inverse
 
-// As decode_dense_tile(): any bytes give some samples. Where a picture has one reference, `reference` is taken as 0.
+// As decode_dense_tile(): any bytes give some samples. Where an image has one reference, `reference` is taken as 0.
 // Cost: some 0.2 microseconds for 64 samples of each plane.
-void decode_board_tile(const BoardCode& code, const PictureHead& head, std::span<const std::byte> bytes,
+void decode_board_tile(const BoardCode& code, const ImageHead& head, std::span<const std::byte> bytes,
                        const TilePlace& place, const std::array<ConstPlaneViews, 2>& references,
                        ReferenceListener* listener, const PlaneViews& out);
 
-// The samples of one block from its record, at (x, y) of the picture.
+// The samples of one block from its record, at (x, y) of the image.
 void decode_board_block(const BoardCode& code, const RecordClass& record_class, std::span<const std::byte> record,
                         int x, int y, int reference_count, const std::array<ConstPlaneViews, 2>& references,
                         ReferenceListener* listener, const PlaneViews& out);

@@ -1,5 +1,5 @@
 #pragma once
-// What all board pictures of an object share (chunk CODE): classes of records and codebooks. A record of fixed size
+// What all board images of an object share (chunk CODE): classes of records and codebooks. A record of fixed size
 // describes a block of 8x8 pixels; its samples are a prediction plus entries of codebooks, added up. encode/FORMAT.md,
 // section "Board tiles".
 
@@ -18,7 +18,7 @@ inline constexpr int kMaxQuarterStages = 4;  // of quarters of blocks, 4x4
 
 // What a record of one class holds.
 struct RecordClass {
-    bool predicted = false;  // from another picture; else from a flat colour
+    bool predicted = false;  // from another image; else from a flat colour
     bool alpha = false;      // states which samples are covered; else all are
     int block_stages = 0;    // 0 .. kMaxBlockStages
     int quarter_stages = 0;  // 0 .. kMaxQuarterStages
@@ -43,7 +43,7 @@ struct Books {
 };
 
 struct BoardCode {
-    // [pictures without references, with][class]; the first has no predicted classes, class 0 is not used.
+    // [images without references, with][class]; the first has no predicted classes, class 0 is not used.
     std::array<std::array<RecordClass, kBoardClasses>, 2> classes;
     std::array<Books, 2> books;       // [of flat blocks, of predicted ones]
     std::vector<std::uint8_t> alpha;  // kBookEntries * 16 samples of alpha, of a quarter each; empty where not used

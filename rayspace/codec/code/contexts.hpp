@@ -1,10 +1,10 @@
 #pragma once
-// Where the probability of each binary decision of a dense picture stands in the object's table: encode/FORMAT.md,
+// Where the probability of each binary decision of a dense image stands in the object's table: encode/FORMAT.md,
 // section "Contexts". A context is a number 0 .. kCount - 1.
 
 namespace rs::codec::context {
 
-// The kinds of coefficient blocks: plane (Y, or U and V) * 4 + size (8x8, 16x16) * 2 + (is predicted from pictures).
+// The kinds of coefficient blocks: plane (Y, or U and V) * 4 + size (8x8, 16x16) * 2 + (is predicted from images).
 inline constexpr int kBlockKinds = 8;
 inline constexpr int kBands = 4;
 inline constexpr int kNearSums = 5;

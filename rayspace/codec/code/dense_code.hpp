@@ -1,5 +1,5 @@
 #pragma once
-// What all dense pictures of an object share (chunk CODE), and what each states of itself before its tiles (chunk
+// What all dense images of an object share (chunk CODE), and what each states of itself before its tiles (chunk
 // PICT): encode/FORMAT.md, sections "CODE" and "PICT".
 
 #include "rayspace/codec/code/contexts.hpp"
@@ -53,7 +53,7 @@ inline constexpr int kMaxChromaOffset = 31;
 
 inline constexpr std::uint16_t kNoReference = 0xFFFF;
 
-struct PictureHead {
+struct ImageHead {
     int step = 0;                                                           // quantiser step of Y, 0 .. kMaxStep
     std::array<std::uint16_t, 2> reference = {kNoReference, kNoReference};  // views; the second only with the first
     std::array<MotionVector, 2> global_motion;

@@ -14,7 +14,7 @@ inline constexpr int kMacroblock = 16;
 inline constexpr int kMinTileLog2 = 4;
 inline constexpr int kMaxTileLog2 = 6;
 
-enum class AlphaClass : std::uint8_t { kOutside, kEmpty, kOpaque, kMixed };  // kOutside: of the tile or the picture
+enum class AlphaClass : std::uint8_t { kOutside, kEmpty, kOpaque, kMixed };  // kOutside: of the tile or the image
 
 enum class Source : std::uint8_t { kNone, kIntra, kFirst, kSecond, kBoth };  // kNone: nothing is there
 constexpr bool is_inter(Source source) {

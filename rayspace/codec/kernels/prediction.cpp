@@ -101,8 +101,8 @@ HWY_EXPORT(filter_16);
 
 }  // namespace
 
-void predict_from_picture(ConstImageView<std::uint8_t> plane, int x, int y, MotionVector vector, int size,
-                          std::uint8_t* out, std::ptrdiff_t stride) {
+void predict_from_image(ConstImageView<std::uint8_t> plane, int x, int y, MotionVector vector, int size,
+                        std::uint8_t* out, std::ptrdiff_t stride) {
     const int left = x + (vector.x >> 2) - kTapsBefore;
     const int top = y + (vector.y >> 2) - kTapsBefore;
     const int span = size + kTaps - 1;

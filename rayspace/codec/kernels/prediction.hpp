@@ -1,5 +1,5 @@
 #pragma once
-// What a unit of a coded picture is predicted from: its neighbours inside the tile, or one or two other pictures.
+// What a unit of a coded image is predicted from: its neighbours inside the tile, or one or two other images.
 // Integer and normative: encode/FORMAT.md, section "Prediction". No function here allocates; all may be called from
 // several threads at once.
 
@@ -10,7 +10,7 @@
 
 namespace rs::codec {
 
-// A picture's samples may be read within these many of the place that a vector points to.
+// An image's samples may be read within these many of the place that a vector points to.
 inline constexpr int kTapsBefore = 3;
 inline constexpr int kTapsAfter = 4;
 
@@ -23,8 +23,8 @@ inline constexpr int kMaxMotion_q2 = 1023;  // of either component, absolute
 
 // size x size samples of `plane`, the first at (x, y) + vector, to out[row * stride + column]; size 8 or 16. Samples
 // outside of the plane are those of its rim. Separable, 8 taps.
-void predict_from_picture(ConstImageView<std::uint8_t> plane, int x, int y, MotionVector vector, int size,
-                          std::uint8_t* out, std::ptrdiff_t stride);
+void predict_from_image(ConstImageView<std::uint8_t> plane, int x, int y, MotionVector vector, int size,
+                        std::uint8_t* out, std::ptrdiff_t stride);
 
 // (a + b + 1) / 2 of size x size samples, into `a`.
 void average_into(std::uint8_t* a, std::ptrdiff_t a_stride, const std::uint8_t* b, std::ptrdiff_t b_stride, int size);

@@ -1,5 +1,5 @@
 #pragma once
-// The inverse transform of coded pictures: the separable integer DCTs of 8x8 and 16x16 that HEVC has (ITU-T H.265,
+// The inverse transform of coded images: the separable integer DCTs of 8x8 and 16x16 that HEVC has (ITU-T H.265,
 // 8.6.4.2), because they are known, exact in 16-bit intermediates, and cheap in hardware. encode/FORMAT.md, section
 // "Transform".
 

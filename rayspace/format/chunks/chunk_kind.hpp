@@ -20,7 +20,7 @@ using Bytes = std::span<const std::byte>;
 // An object that is being read.
 struct UnreadObject {
     RaySpaceObject object;
-    std::shared_ptr<codec::CodedPictures> coded;  // object.coded, while it is filled
+    std::shared_ptr<codec::CodedImages> coded;  // object.coded, while it is filled
 };
 
 // What parsing a chunk takes beyond a small multiple of its payload.
@@ -30,7 +30,7 @@ struct ChunkMemory {
 };
 
 // Read one after the other. Everything of the first is bound by counts that its chunks' parsers check.
-enum class ReadStage { geometry, maps, pictures };
+enum class ReadStage { geometry, maps, images };
 enum class OneFor { object, ring, view };
 
 // The table's order is the file's: those of an object, then those of ring after ring, then those of views by levels.
@@ -69,6 +69,6 @@ ChunkKind code_chunk();
 ChunkKind ring_chunk();
 ChunkKind map_chunk();
 ChunkKind shape_chunk();
-ChunkKind picture_chunk();
+ChunkKind image_chunk();
 
 }  // namespace rs::object_chunks

@@ -1,4 +1,4 @@
-// CODE: what the coded pictures of an object share; rayspace/codec/stream/coded_chunks.hpp has the payload.
+// CODE: what the coded images of an object share; rayspace/codec/stream/coded_chunks.hpp has the payload.
 #include "rayspace/codec/stream/coded_chunks.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
 
@@ -11,7 +11,7 @@ Payload shared_payload(const RaySpaceObject& object, std::uint32_t) {
 
 Status parse_shared(Bytes payload, UnreadObject& unread, std::uint32_t) {
     RaySpaceObject& object = unread.object;
-    unread.coded = std::make_shared<codec::CodedPictures>();
+    unread.coded = std::make_shared<codec::CodedImages>();
     object.coded = unread.coded;
     return codec::parse_code(payload, object.views.size(), object.width, object.height, *unread.coded);
 }
@@ -19,17 +19,17 @@ Status parse_shared(Bytes payload, UnreadObject& unread, std::uint32_t) {
 Status check_coded(const RaySpaceObject& object, std::uint32_t) {
     if (object.coded &&
         (object.coded->width != object.width || object.coded->height != object.height ||
-         object.coded->pictures.size() != object.views.size() || object.coded->levels.size() != object.views.size())) {
-        return Error{"its coded pictures do not have the object's size and number"};
+         object.coded->images.size() != object.views.size() || object.coded->levels.size() != object.views.size())) {
+        return Error{"its coded images do not have the object's size and number"};
     }
     return {};
 }
 
 std::int64_t held_by_coded(const RaySpaceObject& object, std::uint32_t) {
     if (!object.coded) return 0;
-    const codec::CodedPictures& coded = *object.coded;
-    std::int64_t bytes = sizeof(codec::CodedPictures) + held_by(coded.levels) + held_by(coded.pictures);
-    for (const codec::CodedPicture& picture : coded.pictures) bytes += held_by(picture.tiles) + held_by(picture.bytes);
+    const codec::CodedImages& coded = *object.coded;
+    std::int64_t bytes = sizeof(codec::CodedImages) + held_by(coded.levels) + held_by(coded.images);
+    for (const codec::CodedImage& image : coded.images) bytes += held_by(image.tiles) + held_by(image.bytes);
     for (const codec::Books& books : coded.board.books) {
         for (const codec::Book& book : books.block) bytes += held_by(book);
         for (const codec::Book& book : books.quarter) bytes += held_by(book);

@@ -35,10 +35,9 @@ Status parse_head(Bytes payload, UnreadObject& unread, std::uint32_t) {
     object.units_per_radius = in.get_double();
     const auto name_bytes = in.get<std::uint32_t>();
     if (!in.ok()) return Error{"is too short"};
-    if (width < 1 || width > kMaxPictureSide_px)
-        return out_of_range("the pictures' width", width, 1, kMaxPictureSide_px);
-    if (height < 1 || height > kMaxPictureSide_px) {
-        return out_of_range("the pictures' height", height, 1, kMaxPictureSide_px);
+    if (width < 1 || width > kMaxImageSide_px) return out_of_range("the images' width", width, 1, kMaxImageSide_px);
+    if (height < 1 || height > kMaxImageSide_px) {
+        return out_of_range("the images' height", height, 1, kMaxImageSide_px);
     }
     if (views < 1 || views > kMaxViews) return out_of_range("the number of views", views, 1, kMaxViews);
     if (rings < 1 || rings > kMaxRings) return out_of_range("the number of rings", rings, 1, kMaxRings);
@@ -48,7 +47,7 @@ Status parse_head(Bytes payload, UnreadObject& unread, std::uint32_t) {
     object.height = static_cast<int>(height);
     object.views.resize(views);
     object.rings.resize(rings);
-    object.pictures.resize(views);
+    object.images.resize(views);
     const Bytes name = in.take(name_bytes);
     object.name.assign(reinterpret_cast<const char*>(name.data()), name.size());
     return {};
@@ -66,10 +65,10 @@ bool is_printable_utf8(const std::string& text) {
 }
 
 Status check_head(const RaySpaceObject& object, std::uint32_t) {
-    const auto is_side = [](int side) { return side >= 1 && side <= kMaxPictureSide_px; };
+    const auto is_side = [](int side) { return side >= 1 && side <= kMaxImageSide_px; };
     if (!is_side(object.width) || !is_side(object.height)) {
-        return Error{"pictures of " + std::to_string(object.width) + "x" + std::to_string(object.height) +
-                     " pixels; each side must be 1.." + std::to_string(kMaxPictureSide_px)};
+        return Error{"images of " + std::to_string(object.width) + "x" + std::to_string(object.height) +
+                     " pixels; each side must be 1.." + std::to_string(kMaxImageSide_px)};
     }
     if (object.views.empty() || object.views.size() > kMaxViews) {
         return Error{std::to_string(object.views.size()) + " views; 1.." + std::to_string(kMaxViews) + " are possible"};
@@ -77,7 +76,7 @@ Status check_head(const RaySpaceObject& object, std::uint32_t) {
     if (object.rings.empty() || object.rings.size() > kMaxRings) {
         return Error{std::to_string(object.rings.size()) + " rings; 1.." + std::to_string(kMaxRings) + " are possible"};
     }
-    if (object.pictures.size() != object.views.size()) return Error{"not as many pictures as views"};
+    if (object.images.size() != object.views.size()) return Error{"not as many images as views"};
     if (object.name.size() > kMaxName_bytes || !is_printable_utf8(object.name)) {
         return Error{"its name is longer than " + std::to_string(kMaxName_bytes) + " bytes or no printable UTF-8"};
     }
@@ -88,7 +87,7 @@ Status check_head(const RaySpaceObject& object, std::uint32_t) {
 }
 
 std::int64_t held_by_head(const RaySpaceObject& object, std::uint32_t) {
-    return held_by(object.views) + held_by(object.rings) + held_by(object.pictures);
+    return held_by(object.views) + held_by(object.rings) + held_by(object.images);
 }
 
 }  // namespace

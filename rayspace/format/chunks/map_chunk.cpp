@@ -80,7 +80,7 @@ Status check_cells(const RaySpaceObject& object, std::uint32_t index) {
     std::vector<std::size_t> checked_in_row(object.views.size(), kNone);
     for (std::size_t row = 0; row < rows; ++row) {
         for (const std::uint16_t view : std::span(ring.cells).subspan(row * u_cells, u_cells)) {
-            if (view == kNoPicture) continue;
+            if (view == kNoImage) continue;
             const auto place = [&] {
                 return "plane " + std::to_string(row / x_cells) + ", row " + std::to_string(row % x_cells) +
                        " of its map names view " + std::to_string(view) + ", which ";

@@ -153,7 +153,7 @@ Status check_gaps(const Ring& ring) {
 // What does not exist is 0, so that equal maps are equal in memory and the file need not hold it.
 Status check_cell(const ShapeCell& cell) {
     if (!cell.has_surface() && cell.depth != 0) return Error{"has a depth and no surface"};
-    if (cell.shown > ShapeCell::kByBoth) return Error{"is shown by pictures that its gap does not have"};
+    if (cell.shown > ShapeCell::kByBoth) return Error{"is shown by images that its gap does not have"};
     return {};
 }
 

@@ -11,8 +11,8 @@ namespace rs::test {
 
 struct BoardPhotos {
     struct Photo {
-        Image<Rgba8> picture;  // opaque
-        Image<Rgba8> mask;     // white where the drum is
+        Image<Rgba8> image;  // opaque
+        Image<Rgba8> mask;   // white where the drum is
     };
 
     BoardPhotos() {
@@ -21,7 +21,7 @@ struct BoardPhotos {
         for (int i = 0; i < 10; ++i) model.angles_rad.push_back(i * radians(36) + (i % 3) * radians(0.7));
         design.squares_x = design.squares_y = 7;
         design.square_mm = 24;
-        const auto drawn = capture::board_picture(design, kDpi);
+        const auto drawn = capture::board_image(design, kDpi);
         if (drawn) printed = *drawn;
         drum.height = 0.1;
         drum.radius = 0.06;
@@ -34,9 +34,9 @@ struct BoardPhotos {
         const glm::dvec3 from = capture::turned({0, 0, 1}, -model.angles_rad[view]);
         const capture::TableRays rays(model.lens, model.pose, -model.angles_rad[view]);
         constexpr int kSide = 3;
-        for (int y = 0; y < photo.picture.height(); ++y) {
-            for (int x = 0; x < photo.picture.width(); ++x) {
-                Rgba8& pixel = photo.picture(x, y);
+        for (int y = 0; y < photo.image.height(); ++y) {
+            for (int x = 0; x < photo.image.width(); ++x) {
+                Rgba8& pixel = photo.image(x, y);
                 photo.mask(x, y) = {pixel.a, pixel.a, pixel.a, 255};
                 if (pixel.a == 255) continue;
                 double light = 0;

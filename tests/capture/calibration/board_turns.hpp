@@ -52,7 +52,7 @@ inline glm::dvec3 corner_in_table(const capture::BoardTurn& turn, const capture:
     return capture::turned(p, turn.model.angles_rad[view]);
 }
 
-// Every corner inside of the picture with Gaussian noise; a share of them unseen.
+// Every corner inside of the image with Gaussian noise; a share of them unseen.
 inline std::vector<capture::BoardCorners> corners_of(const capture::BoardTurn& turn, const capture::BoardDesign& design,
                                                      double noise_px, double unseen, std::uint32_t seed) {
     std::mt19937 random(seed);

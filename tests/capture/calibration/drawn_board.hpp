@@ -43,7 +43,7 @@ private:
     std::map<int, std::vector<bool>> cells_;
 };
 
-// The turn of make_turn() with a smaller picture.
+// The turn of make_turn() with a smaller image.
 inline capture::BoardTurn small_turn(const TurnOptions& options, std::uint32_t seed) {
     capture::BoardTurn turn = make_turn(options, seed);
     capture::Lens& lens = turn.model.lens;
@@ -62,7 +62,7 @@ inline Image<Rgba8> drawn(const capture::BoardTurn& turn, const capture::BoardDe
     const capture::Lens& lens = turn.model.lens;
     std::mt19937 random(static_cast<std::uint32_t>(view) + 50);
     std::normal_distribution<float> noise(0, 1.5F);
-    Image<Rgba8> picture(lens.width, lens.height);
+    Image<Rgba8> image(lens.width, lens.height);
     const double angle = -turn.model.angles_rad[view];  // into the object's frame
     const glm::dvec3 from = capture::turned({0, 0, 1}, angle);
     const capture::TableRays rays(lens, turn.model.pose, angle);
@@ -87,10 +87,10 @@ inline Image<Rgba8> drawn(const capture::BoardTurn& turn, const capture::BoardDe
             }
             const float grey = srgb8_from_linear(light / (kSamples * kSamples)) + noise(random);
             const auto code = static_cast<std::uint8_t>(std::clamp(std::lround(grey), 0L, 255L));
-            picture(x, y) = {code, code, code, 255};
+            image(x, y) = {code, code, code, 255};
         }
     }
-    return picture;
+    return image;
 }
 
 struct Found {

@@ -1,5 +1,5 @@
 #pragma once
-// Drawn pictures of a spotted drum on a turntable, with exact truth: a short upright cylinder of solid noise with a
+// Drawn images of a spotted drum on a turntable, with exact truth: a short upright cylinder of solid noise with a
 // flat top, so that its surface has features all around and its outline says nothing of the angle.
 
 #include "capture/calibration/model/turntable_model.hpp"
@@ -81,10 +81,10 @@ inline Image<Rgba8> drawn_drum(const Drum& drum, const capture::TurntableModel& 
     constexpr int kSide = 3;
     const double angle = model.angles_rad[view];
     const glm::dvec3 origin = capture::turned({0, 0, 1}, -angle);
-    Image<Rgba8> picture(model.lens.width, model.lens.height);
+    Image<Rgba8> image(model.lens.width, model.lens.height);
     const capture::TableRays rays(model.lens, model.pose, -angle);
-    for_each_index(picture.height(), [&](int y) {
-        for (int x = 0; x < picture.width(); ++x) {
+    for_each_index(image.height(), [&](int y) {
+        for (int x = 0; x < image.width(); ++x) {
             glm::dvec3 sum(0.0);
             int inside = 0;
             for (int s = 0; s < kSide * kSide; ++s) {
@@ -98,14 +98,14 @@ inline Image<Rgba8> drawn_drum(const Drum& drum, const capture::TurntableModel& 
             }
             if (inside == 0) continue;
             const auto code = [&](double light) { return srgb8_from_linear(static_cast<float>(light / inside)); };
-            picture(x, y) = {code(sum.x), code(sum.y), code(sum.z),
-                             static_cast<std::uint8_t>(std::lround(255.0 * inside / (kSide * kSide)))};
+            image(x, y) = {code(sum.x), code(sum.y), code(sum.z),
+                           static_cast<std::uint8_t>(std::lround(255.0 * inside / (kSide * kSide)))};
         }
     });
-    return picture;
+    return image;
 }
 
-// 320 x 256 px, 20 degrees from above, the drum half as wide as the picture.
+// 320 x 256 px, 20 degrees from above, the drum half as wide as the image.
 inline capture::TurntableModel drum_turn(int views, double step_rad) {
     capture::TurntableModel model;
     model.lens = {320, 256, 620, 160, 128, 0, 0};

@@ -34,7 +34,7 @@ inline std::vector<Ellipsoid> bottle() {
 inline TurntableModel turn_of_figure(int views) {
     TurntableModel model;
     model.lens = {320, 240, 420, 160, 120, 0, 0};
-    // The axis runs 12 px to the right of the picture's middle.
+    // The axis runs 12 px to the right of the image's middle.
     model.pose = {std::atan(-12.0 / 420), radians(15), radians(1)};
     for (int i = 0; i < views; ++i) model.angles_rad.push_back(2 * kPi * i / views);
     return model;

@@ -30,7 +30,7 @@ struct SurfacePoint {
     double facing_rad = 0;
 };
 
-// On an upright body before the middle of turn_model()'s picture, at various distances from the axis.
+// On an upright body before the middle of turn_model()'s image, at various distances from the axis.
 inline std::vector<SurfacePoint> surface_points(int count, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> share(0, 1);

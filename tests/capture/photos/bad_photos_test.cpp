@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 class BadPhotos : public test::DrumPhotos {};
 
-TEST_F(BadPhotos, BlurredPicturesGetARemedy) {
+TEST_F(BadPhotos, BlurredImagesGetARemedy) {
     test::Drum soft;
     soft.grain = 0.4;  // all detail gone
     for (std::size_t i = 0; i < test::kViews; ++i) write(i, test::drawn_drum(soft, test::drum_model(), i));
@@ -32,17 +32,17 @@ TEST_F(BadPhotos, BlurredPicturesGetARemedy) {
 TEST_F(BadPhotos, ARigOfOtherPhotographsIsRefused) {
     write_spotted();
     options_.known = truth();
-    options_.known.pictures[7] = "images/other.png";
+    options_.known.images[7] = "images/other.png";
     expect_error(AllOf(HasSubstr("07.png"), HasSubstr("give its rig")));
     options_.known = truth();
-    options_.known.pictures.clear();
+    options_.known.images.clear();
     options_.known.known.angles_rad->pop_back();
     expect_error(AllOf(HasSubstr("17 views"), HasSubstr("18 photographs")));
 }
 
-TEST_F(BadPhotos, ALastPictureThatClosesTheTurnIsLeftOut) {
+TEST_F(BadPhotos, ALastImageThatClosesTheTurnIsLeftOut) {
     write_spotted();
-    // Not the first picture again, or it would be known by its pixels: half a degree on.
+    // Not the first image again, or it would be known by its pixels: half a degree on.
     TurntableModel model = test::drum_model();
     model.angles_rad.push_back(-radians(360.5));
     write(test::kViews, test::drawn_drum({}, model, test::kViews));
@@ -86,7 +86,7 @@ TEST_F(BadPhotos, MovedTripodsAndMixedCamerasAreNamed) {
     expect_error(HasSubstr("one camera, one zoom"));
 }
 
-TEST_F(BadPhotos, TooFewOrEmptyPicturesAreRefused) {
+TEST_F(BadPhotos, TooFewOrEmptyImagesAreRefused) {
     for (std::size_t i = 0; i < 3; ++i) write(i, test::spotted()[i]);
     options_.calibration = CalibrationChoice::kTracks;
     expect_error(HasSubstr("take at least 5, better 36"));

@@ -2,7 +2,7 @@
 // A folder of drawn photographs of a drum with alpha, and what must hold where importing them fails.
 
 #include "capture/photos/import.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/calibration/drawn_drum.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -23,12 +23,12 @@ inline capture::TurntableModel drum_model() {
 
 // Cut out already.
 inline const std::vector<Image<Rgba8>>& spotted() {
-    static const auto kPictures = [] {
-        std::vector<Image<Rgba8>> pictures;
-        for (std::size_t i = 0; i < kViews; ++i) pictures.push_back(drawn_drum({}, drum_model(), i));
-        return pictures;
+    static const auto kImages = [] {
+        std::vector<Image<Rgba8>> images;
+        for (std::size_t i = 0; i < kViews; ++i) images.push_back(drawn_drum({}, drum_model(), i));
+        return images;
     }();
-    return kPictures;
+    return kImages;
 }
 
 inline Image<Rgba8> plain(std::size_t view) {
@@ -51,8 +51,8 @@ protected:
         options_.known.known.f_px = 620;  // keeps the search for a start short
         options_.turning = capture::Turning::kClockwise;
     }
-    void write(std::size_t view, const Image<Rgba8>& picture) const {
-        const Status status = write_png(folder_ / "photos" / file_name(view), picture);
+    void write(std::size_t view, const Image<Rgba8>& image) const {
+        const Status status = write_png(folder_ / "photos" / file_name(view), image);
         ASSERT_TRUE(status.ok()) << status.error().message;
     }
     void write_spotted() const {
@@ -70,7 +70,7 @@ protected:
         file.known.distortion = {0, 0};
         file.known.pose = model.pose;
         file.known.angles_rad = model.angles_rad;
-        for (std::size_t i = 0; i < kViews; ++i) file.pictures.push_back("images/" + file_name(i));
+        for (std::size_t i = 0; i < kViews; ++i) file.images.push_back("images/" + file_name(i));
         return file;
     }
     void expect_error(const testing::Matcher<std::string>& words) const {

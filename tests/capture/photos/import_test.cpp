@@ -1,8 +1,8 @@
 #include "capture/photos/import.hpp"
 
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
-#include "tests/capture/photos/turn_of_pictures.hpp"
+#include "rayspace/image_io/image_io.hpp"
+#include "tests/capture/photos/turn_of_images.hpp"
 #include "tests/support/camera_jpeg.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -35,8 +35,8 @@ protected:
         options_.turning = Turning::kClockwise;
         options_.calibration = CalibrationChoice::kNominal;
     }
-    void write(int number, const Image<Rgba8>& picture) const {
-        const Status status = write_png(photo(number), picture);
+    void write(int number, const Image<Rgba8>& image) const {
+        const Status status = write_png(photo(number), image);
         ASSERT_TRUE(status.ok()) << status.error().message;
     }
     [[nodiscard]] std::filesystem::path photo(int number) const {
@@ -73,7 +73,7 @@ TEST_F(ImportTest, MakesACaptureSet) {
     for (int i = 0; i < 12; ++i) {
         const RigView& view = rig->views[static_cast<std::size_t>(i)];
         EXPECT_NEAR(view.camera.cx, report->nominal.axis_x_px, 1e-9);
-        const Result<Image<Rgba8>> cut = read_picture(picture_path(options_.output, view));
+        const Result<Image<Rgba8>> cut = read_image(image_path(options_.output, view));
         ASSERT_TRUE(cut.ok()) << cut.error().message;
         const test::DrawnView truth = test::draw_view(turn_, i);
         double wrong = 0;
@@ -108,7 +108,7 @@ TEST_F(ImportTest, TurnsWhatAPhoneTookOnItsSide) {
     EXPECT_NEAR(report->nominal.fov_deg, 2 * std::atan(half_mm / 50) * 180 / 3.14159265, 1e-3);
     const Result<Rig> rig = read_rig(options_.output);
     ASSERT_TRUE(rig.ok()) << rig.error().message;
-    const Result<Image<Rgba8>> cut = read_picture(picture_path(options_.output, rig->views[3]));
+    const Result<Image<Rgba8>> cut = read_image(image_path(options_.output, rig->views[3]));
     ASSERT_TRUE(cut.ok()) << cut.error().message;
     const test::DrawnView truth = test::draw_view(turn_, 3);
     double wrong = 0;
@@ -228,11 +228,11 @@ TEST_F(ImportTest, SaysSoWhereThereIsNoFullTurn) {
     options_.degrees_per_view = 5;
     const Result<ImportReport> report = import_photos(options_, nullptr);
     ASSERT_TRUE(report.ok()) << report.error().message;
-    EXPECT_EQ(report->nominal.axis_from, "picture middle");
+    EXPECT_EQ(report->nominal.axis_from, "image middle");
     EXPECT_THAT(report->notes, testing::Contains(HasSubstr("--axis-x")));
 }
 
-TEST_F(ImportTest, ACorruptPictureLeavesNothing) {
+TEST_F(ImportTest, ACorruptImageLeavesNothing) {
     const auto size = std::filesystem::file_size(photo(7));
     std::filesystem::resize_file(photo(7), size / 2);
     const Result<ImportReport> report = import_photos(options_, nullptr);
@@ -259,9 +259,9 @@ TEST_F(ImportTest, AViewThatIsAllObjectLeavesNothing) {
 
 TEST_F(ImportTest, AViewWithItsOwnAlphaMayBeAllObject) {
     for (int i = 1; i <= turn_.views; ++i) {
-        Image<Rgba8> picture(turn_.width, turn_.height, Rgba8{190, 60, static_cast<std::uint8_t>(20 * i), 255});
-        for (int y = 0; y < turn_.height && i != 5; ++y) picture(0, y).a = picture(1, y).a = 0;
-        write(i, picture);
+        Image<Rgba8> image(turn_.width, turn_.height, Rgba8{190, 60, static_cast<std::uint8_t>(20 * i), 255});
+        for (int y = 0; y < turn_.height && i != 5; ++y) image(0, y).a = image(1, y).a = 0;
+        write(i, image);
     }
     const Result<ImportReport> report = import_photos(options_, nullptr);
     ASSERT_TRUE(report.ok()) << report.error().message;
@@ -310,7 +310,7 @@ std::vector<std::string> names_below(const std::filesystem::path& folder) {
 
 TEST_F(ImportTest, RefusesToReplaceItsOwnPhotographs) {
     ASSERT_TRUE(import_photos(options_, nullptr).ok());
-    // The pictures of a set are photographs with alpha: without the check they would be replaced by themselves.
+    // The images of a set are photographs with alpha: without the check they would be replaced by themselves.
     const std::filesystem::path set = options_.output;
     const auto before = names_below(folder_.path());
     std::filesystem::create_directory_symlink(set, folder_ / "link");

@@ -100,10 +100,10 @@ inline Rendering render(Scene scene, const Camera& camera, const RenderOptions& 
 }
 
 // The mean colour of what is covered, weighted by coverage.
-inline glm::dvec3 mean_radiance(const Image<RgbaF>& picture) {
+inline glm::dvec3 mean_radiance(const Image<RgbaF>& image) {
     glm::dvec3 sum(0);
     double weight = 0;
-    for (const RgbaF& p : picture.pixels()) {
+    for (const RgbaF& p : image.pixels()) {
         sum += glm::dvec3(p.r, p.g, p.b) * static_cast<double>(p.a);
         weight += static_cast<double>(p.a);
     }

@@ -29,7 +29,7 @@ Camera camera_of(const Wall& wall, const glm::dvec3& eye, const RoomPlace& place
     return *camera;
 }
 
-TEST(Wall, ItsCornersAreThePicturesCorners) {
+TEST(Wall, ItsCornersAreTheImagesCorners) {
     std::mt19937_64 random(1);
     std::uniform_real_distribution<double> number(-1.2, 1.2);
     for (int i = 0; i < 100; ++i) {

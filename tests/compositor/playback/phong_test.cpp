@@ -116,8 +116,8 @@ int difference(const Scene& scene) {
         FrameCompositor::create(scene, std::vector<PlacedObject>{}, {.width = 320, .height = 200, .samples = 1});
     EXPECT_TRUE(compositor);
     if (!compositor) return 255;
-    const auto picture = compositor->compose(camera);
-    EXPECT_TRUE(picture);
+    const auto image = compositor->compose(camera);
+    EXPECT_TRUE(image);
     int greatest = 0;
     int counted = 0;
     for (int y = 0; y < 200; ++y) {
@@ -135,7 +135,7 @@ int difference(const Scene& scene) {
                                                                           : std::exp(-d / (v - d));
                 colour = glm::mix(dvec3(scene.fog->colour), colour, kept);
             }
-            const Rgba8& seen = (*picture)(x, y);
+            const Rgba8& seen = (*image)(x, y);
             const int channels[] = {seen.r, seen.g, seen.b};
             for (int k = 0; k < 3; ++k) {
                 const int expected = srgb8_from_linear(static_cast<float>(std::min(colour[k], 1.0)));

@@ -98,11 +98,11 @@ TEST_F(PlayerTest, AFrameIsTheSameHoweverItIsComeByAndNothingIsUploadedAgain) {
     for (GeometryNode& node : still.geometry) node.moving.reset();
     auto compositor = FrameCompositor::create(still, std::vector<PlacedObject>{}, kSmall);
     ASSERT_TRUE(compositor);
-    const auto picture = compositor->compose(camera_of(*sequence, 1, 160, 96));
-    ASSERT_TRUE(picture);
+    const auto image = compositor->compose(camera_of(*sequence, 1, 160, 96));
+    ASSERT_TRUE(image);
     int greatest = 0;
     for (int y = 0; y < 96; ++y) {
-        for (int x = 0; x < 160; ++x) greatest = std::max(greatest, std::abs((*picture)(x, y).r - second(x, y).r));
+        for (int x = 0; x < 160; ++x) greatest = std::max(greatest, std::abs((*image)(x, y).r - second(x, y).r));
     }
     EXPECT_LE(greatest, 1);
 }

@@ -1,4 +1,4 @@
-// What pictures a view begins with, by clocks that tests turn.
+// What images a view begins with, by clocks that tests turn.
 #include "compositor/traced/progression.hpp"
 
 #include "tests/compositor/traced/small_room.hpp"
@@ -33,7 +33,7 @@ TEST(FirstGrid, IsTheFinestThatComesInTime) {
     EXPECT_EQ(grid.side(kPath, 512, 512), 4);
     grid.took(kPath, 512, 512, 4, 0.101);
     EXPECT_EQ(grid.side(kPath, 512, 512), 8);
-    // In a picture of a quarter of the pixels a grid twice as fine has as many cells.
+    // In an image of a quarter of the pixels a grid twice as fine has as many cells.
     grid.took(kPath, 512, 512, 4, 0.099);
     EXPECT_EQ(grid.side(kPath, 256, 256), 2);
     // Other methods take other times.
@@ -57,7 +57,7 @@ TEST(FirstGrid, WhatIsMeasuredCountsMoreThanWhatIsConcluded) {
     EXPECT_EQ(grid.side(kPath, 1024, 1024), 4);
 }
 
-TEST(FirstGrid, AClockThatStandsStillBeginsWithWholePictures) {
+TEST(FirstGrid, AClockThatStandsStillBeginsWithWholeImages) {
     FirstGrid grid(0.1);
     grid.took(kPath, 1024, 1024, 32, 0);
     EXPECT_EQ(grid.side(kPath, 1024, 1024), 1);
@@ -65,10 +65,10 @@ TEST(FirstGrid, AClockThatStandsStillBeginsWithWholePictures) {
     EXPECT_EQ(grid.side(kPath, 1024, 1024), 2);
 }
 
-// Runs a view until so many passes are there; every picture takes as long as the list says, then as its last.
+// Runs a view until so many passes are there; every image takes as long as the list says, then as its last.
 struct Refined {
     std::vector<int> passes;
-    std::vector<Image<Rgba8>> pictures;
+    std::vector<Image<Rgba8>> images;
 };
 Refined refined(TracedRenderer& renderer, const Camera& camera, FirstGrid& grid, int passes, double seconds) {
     Refined run;
@@ -79,9 +79,9 @@ Refined refined(TracedRenderer& renderer, const Camera& camera, FirstGrid& grid,
         return now;
     };
     std::atomic<bool> stop{false};
-    refine(renderer, camera, grid, clock, stop, [&](Image<Rgba8> picture, int pass) {
+    refine(renderer, camera, grid, clock, stop, [&](Image<Rgba8> image, int pass) {
         run.passes.push_back(pass);
-        run.pictures.push_back(std::move(picture));
+        run.images.push_back(std::move(image));
         if (pass == passes) stop = true;
     });
     return run;
@@ -95,19 +95,19 @@ TEST(Refine, EachGridIsTwiceAsFineAndPassesDoNotHangOnTheClock) {
     const Refined slow = refined(*renderer, camera, grid, 2, 1);
     EXPECT_EQ(slow.passes, (std::vector<int>{0, 0, 0, 1, 2}));  // grids of 8, 4, 2
     for (int i = 0, side = 8; i < 3; ++i, side /= 2) {
-        const auto coarse = renderer->coarse_picture(camera, side);
+        const auto coarse = renderer->coarse_image(camera, side);
         ASSERT_TRUE(coarse);
-        EXPECT_EQ(slow.pictures[static_cast<std::size_t>(i)], *coarse);
+        EXPECT_EQ(slow.images[static_cast<std::size_t>(i)], *coarse);
     }
-    // A second for each picture is too slow for any but the coarsest; a millisecond is quick enough for all.
+    // A second for each image is too slow for any but the coarsest; a millisecond is quick enough for all.
     EXPECT_EQ(refined(*renderer, camera, grid, 1, 0.001).passes.size(), 4U);
     const Refined quick = refined(*renderer, camera, grid, 2, 0.001);
     EXPECT_EQ(quick.passes, (std::vector<int>{1, 2}));
-    EXPECT_EQ(quick.pictures[0], slow.pictures[3]);
-    EXPECT_EQ(quick.pictures[1], slow.pictures[4]);
+    EXPECT_EQ(quick.images[0], slow.images[3]);
+    EXPECT_EQ(quick.images[1], slow.images[4]);
     renderer->look(camera);
     ASSERT_TRUE(renderer->add_pass() && renderer->add_pass());
-    EXPECT_EQ(renderer->picture(), slow.pictures[4]);
+    EXPECT_EQ(renderer->image(), slow.images[4]);
 }
 
 TEST(Refine, EndsWhereItIsStopped) {
@@ -115,15 +115,15 @@ TEST(Refine, EndsWhereItIsStopped) {
     ASSERT_TRUE(renderer);
     FirstGrid grid;
     std::atomic<bool> stop{false};
-    int pictures = 0;
+    int images = 0;
     refine(
         *renderer, looking_from({3, 2, 4}, {0, 0.4, 0}, 100), grid, [] { return 0.0; }, stop,
         [&](const Image<Rgba8>&, int pass) {
             EXPECT_EQ(pass, 0);
-            ++pictures;
+            ++images;
             stop = true;
         });
-    EXPECT_EQ(pictures, 1);
+    EXPECT_EQ(images, 1);
 }
 
 }  // namespace

@@ -126,13 +126,13 @@ TEST(TracedRenderer, PassesGiveTheSameBitsInAnyNumberOfThreads) {
     };
     const Image<RgbaF> one = traced(1);
     const Image<RgbaF> four = traced(4);
-    // And as one picture of seven samples.
+    // And as one image of seven samples.
     TracedRoom room = traced_room(small_room());
     auto tracer = capture::Tracer::create(std::move(room.scene));
     ASSERT_TRUE(tracer);
     capture::RenderOptions options;
     options.samples_per_pixel = 7;
-    const Image<RgbaF> whole = tracer->render(camera, options).picture;
+    const Image<RgbaF> whole = tracer->render(camera, options).image;
     for (int y = 0; y < 33; ++y) {
         for (int x = 0; x < 33; ++x) {
             ASSERT_EQ(one(x, y), four(x, y));
@@ -165,7 +165,7 @@ TEST(TracedRenderer, PartsHaveTheBytesOfTheWhole) {
             renderer->set_part(part);
             renderer->look(camera);
             for (int pass = 0; pass < 2; ++pass) EXPECT_TRUE(renderer->add_pass());
-            return renderer->picture();
+            return renderer->image();
         };
         const Image<Rgba8> whole = traced({0, 0, 280, 240});
         for (const capture::PixelRectangle& part : {capture::PixelRectangle{96, 64, 160, 128}, {240, 0, 280, 64}}) {
@@ -192,7 +192,7 @@ TEST(TracedRoom, WhatMayMoveIsAPartThatNodesShare) {
 // What moves looks as what was read at its new place.
 TEST(TracedRenderer, MovedNodesLookAsReadThere) {
     const Camera camera = looking_from({3, 3, 5}, {0, 0.4, 0}, 64);
-    const auto picture_of = [&](TracedRenderer& renderer) {
+    const auto image_of = [&](TracedRenderer& renderer) {
         renderer.look(camera);
         EXPECT_TRUE(renderer.add_pass());
         return renderer.radiance();
@@ -201,12 +201,12 @@ TEST(TracedRenderer, MovedNodesLookAsReadThere) {
     auto moved = renderer_of(scene);
     ASSERT_TRUE(moved);
     moved->set_method(TracedMethod::kWhitted);
-    const Image<RgbaF> before = picture_of(*moved);
+    const Image<RgbaF> before = image_of(*moved);
     const glm::dmat4 way = glm::translate(glm::dmat4(1), {0.3, 0.2, 1});
     ASSERT_TRUE(moved->move(7, way));
     EXPECT_FALSE(moved->move(9, way));            // no such node
     EXPECT_FALSE(moved->move(8, glm::dmat4(0)));  // no inverse
-    const Image<RgbaF> after = picture_of(*moved);
+    const Image<RgbaF> after = image_of(*moved);
     for (GeometryNode& node : scene.geometry) {
         if (node.moving == 7U) node.world_from_node = way * node.world_from_node;
         node.moving.reset();
@@ -214,7 +214,7 @@ TEST(TracedRenderer, MovedNodesLookAsReadThere) {
     auto still = renderer_of(scene);
     ASSERT_TRUE(still);
     still->set_method(TracedMethod::kWhitted);
-    const Image<RgbaF> expected = picture_of(*still);
+    const Image<RgbaF> expected = image_of(*still);
     int other = 0, wrong = 0;
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) {
@@ -224,9 +224,9 @@ TEST(TracedRenderer, MovedNodesLookAsReadThere) {
     }
     EXPECT_GT(other, 200);
     EXPECT_LT(wrong, 10);
-    // While the shutter is open a shadow's edge goes on: pictures become grey there.
+    // While the shutter is open a shadow's edge goes on: images become grey there.
     ASSERT_TRUE(moved->move(7, way, glm::translate(way, {0.5, 0, 0})));
-    const Image<RgbaF> blurred = picture_of(*moved);
+    const Image<RgbaF> blurred = image_of(*moved);
     EXPECT_NE(blurred, after);
 }
 
@@ -241,11 +241,11 @@ TEST(TracedRenderer, ExposureCountsInStops) {
     }
     EXPECT_EQ(plain->radiance()(1, 1), brighter->radiance()(1, 1));
     const auto linear = [](std::uint8_t code) { return std::pow((code / 255.0 + 0.055) / 1.055, 2.4); };
-    EXPECT_NEAR(linear(brighter->picture()(1, 1).g) / linear(plain->picture()(1, 1).g), 2, 0.1);
+    EXPECT_NEAR(linear(brighter->image()(1, 1).g) / linear(plain->image()(1, 1).g), 2, 0.1);
 }
 
 // Whatever is changed of the light, and back again, the bits are those of a renderer that began with it.
-TEST(TracedRenderer, EditedLightGivesThePicturesOfASceneThatHasIt) {
+TEST(TracedRenderer, EditedLightGivesTheImagesOfASceneThatHasIt) {
     const Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 33);
     Scene first = small_room();
     EnvironmentLight sky;
@@ -265,10 +265,10 @@ TEST(TracedRenderer, EditedLightGivesThePicturesOfASceneThatHasIt) {
     Scene dark = none;
     dark.lights.clear();
     dark.navigation.headlight = true;
-    const auto picture = [&](TracedRenderer& renderer) {
+    const auto image = [&](TracedRenderer& renderer) {
         renderer.look(camera);
         for (int pass = 0; pass < 2; ++pass) EXPECT_TRUE(renderer.add_pass());
-        return std::pair(renderer.radiance(), renderer.picture());
+        return std::pair(renderer.radiance(), renderer.image());
     };
     for (const NamedMethod& named : kTracedMethods) {
         auto edited = renderer_of(first);
@@ -281,7 +281,7 @@ TEST(TracedRenderer, EditedLightGivesThePicturesOfASceneThatHasIt) {
             auto fresh = renderer_of(*scene, exposure_ev);
             ASSERT_TRUE(fresh);
             fresh->set_method(named.method);
-            EXPECT_EQ(picture(*edited), picture(*fresh)) << named.name << " " << exposure_ev;
+            EXPECT_EQ(image(*edited), image(*fresh)) << named.name << " " << exposure_ev;
         }
     }
 }

@@ -1,5 +1,5 @@
 // Light that is edited in a window on a virtual display: handles are dragged, both renderers follow, undo and profiles
-// give the same pictures back. Skipped where there is no Xvfb.
+// give the same images back. Skipped where there is no Xvfb.
 
 #include "compositor/viewer/views/framing.hpp"
 #include "compositor/window/visit.hpp"
@@ -51,7 +51,7 @@ protected:
         Viewpoint front;
         front.world_from_camera = look_at_camera({1, 2, 5}, {0, 0.7, 0}, 1, 4, 3).world_from_camera;
         options.viewpoints = {front};
-        options.pictures = work_.path();
+        options.images = work_.path();
         options.lights = work_ / "profile.json";
         options.samples = 1;
         auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.waits = true});
@@ -111,7 +111,7 @@ protected:
             EXPECT_TRUE(step());
         } while (visit_->panel().passes < 1 && std::chrono::steady_clock::now() < patience);
         EXPECT_GE(visit_->panel().passes, 1);
-        return visit_->picture();
+        return visit_->image();
     }
 
     static inline std::unique_ptr<test::VirtualDisplay> display_;
@@ -122,23 +122,23 @@ protected:
 };
 
 TEST_F(LightInWindow, AnAxisIsDraggedAndUndone) {
-    const Image<Rgba8> before = visit_->picture();
+    const Image<Rgba8> before = visit_->image();
     const glm::dvec3 place = light().location;
     click(seen_at(place));
     EXPECT_EQ(desk().edits().selected(), 0U);
-    EXPECT_EQ(visit_->picture(), before);  // handles are not in the picture
+    EXPECT_EQ(visit_->image(), before);  // handles are not in the image
     const glm::dvec3 grasped = glm::mix(place, axis_end(light(), HandlePart::kAxisX, camera_), 0.8);
     drag(seen_at(grasped), seen_at(grasped + glm::dvec3(-0.75, 0, 0)));
     EXPECT_LT(glm::distance(light().location, place + glm::dvec3(-0.75, 0, 0)), 1e-6);
-    const Image<Rgba8> after = visit_->picture();
+    const Image<Rgba8> after = visit_->image();
     EXPECT_NE(after, before);
     press(Key::kUndo);
     ASSERT_TRUE(step());
     EXPECT_EQ(light().location, place);
-    EXPECT_EQ(visit_->picture(), before);
+    EXPECT_EQ(visit_->image(), before);
     press(Key::kRedo);
     ASSERT_TRUE(step());
-    EXPECT_EQ(visit_->picture(), after);
+    EXPECT_EQ(visit_->image(), after);
     EXPECT_EQ(visit_->visitor().eye, glm::dvec3(1, 2, 5));  // nobody looked around
 }
 
@@ -163,7 +163,7 @@ TEST_F(LightInWindow, ACloserLookIsNoDragAndAClickBesideDeselects) {
 }
 
 TEST_F(LightInWindow, TheRefinementFollowsAndUndoGivesItsBytesBack) {
-    const Image<Rgba8> raster = visit_->picture();
+    const Image<Rgba8> raster = visit_->image();
     press(Key::kTrace);
     const Image<Rgba8> before = traced();
     click(seen_at(light().location));
@@ -176,14 +176,14 @@ TEST_F(LightInWindow, TheRefinementFollowsAndUndoGivesItsBytesBack) {
     // Back in raster, the light is where it was dragged to; undone, the bytes are those of before.
     press(Key::kTrace);
     ASSERT_TRUE(step());
-    EXPECT_NE(visit_->picture(), raster);
-    EXPECT_NE(visit_->picture(), moved);
+    EXPECT_NE(visit_->image(), raster);
+    EXPECT_NE(visit_->image(), moved);
     press(Key::kUndo);
     ASSERT_TRUE(step());
-    EXPECT_EQ(visit_->picture(), raster);
+    EXPECT_EQ(visit_->image(), raster);
 }
 
-TEST_F(LightInWindow, AProfileComesBackToTheSamePicture) {
+TEST_F(LightInWindow, AProfileComesBackToTheSameImage) {
     desk().add(LightKind::kRectangle, {camera_, [](const glm::dvec2&) { return std::nullopt; }});
     LightEntry panel = light(1);
     panel.location = {0.7, 1.1, 0.3};
@@ -194,18 +194,18 @@ TEST_F(LightInWindow, AProfileComesBackToTheSamePicture) {
     ASSERT_EQ(desk().files().size(), 1U);
     desk().add(LightKind::kLuminaire, {camera_, [](const glm::dvec2&) { return std::nullopt; }});
     ASSERT_TRUE(step());
-    const Image<Rgba8> lit = visit_->picture();
+    const Image<Rgba8> lit = visit_->image();
     const LightingState state = desk().edits().state();
     ASSERT_EQ(state.entries.size(), 3U);
     ASSERT_TRUE(desk().save());
     while (desk().edits().undo()) {
     }
     ASSERT_TRUE(step());
-    EXPECT_NE(visit_->picture(), lit);
+    EXPECT_NE(visit_->image(), lit);
     const Status loaded = desk().load();
     ASSERT_TRUE(loaded) << loaded.error().message;
     ASSERT_TRUE(step());
-    EXPECT_EQ(visit_->picture(), lit);
+    EXPECT_EQ(visit_->image(), lit);
     ASSERT_EQ(desk().edits().state().entries.size(), 3U);
     EXPECT_EQ(light(1), state.entries[1]);
     // A profile that is wrong changes nothing.
@@ -219,7 +219,7 @@ TEST_F(LightInWindow, AProfileComesBackToTheSamePicture) {
         EXPECT_NE(refused.error().message.find("profile.json"), std::string::npos);
         EXPECT_EQ(refused.error().message.find('\n'), std::string::npos);
         ASSERT_TRUE(step());
-        EXPECT_EQ(visit_->picture(), lit);
+        EXPECT_EQ(visit_->image(), lit);
     }
 }
 

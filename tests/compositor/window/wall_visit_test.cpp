@@ -2,7 +2,7 @@
 
 #include "compositor/window/wall_visit.hpp"
 
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/compositor/objects.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/virtual_display.hpp"
@@ -31,7 +31,7 @@ protected:
                                               90});
         }
         options_.heads = {Head{.position = {0, 1.5, 0}}};
-        options_.pictures = work_.path();
+        options_.images = work_.path();
         options_.samples = 1;
         options_.window.wait_for_screen = false;
         options_.window.context = {.debug = true, .at_end = [this](const std::vector<std::string>& left) {
@@ -72,11 +72,11 @@ protected:
         visit_->windows()[window].inject(KeyEvent{key, false});
     }
     [[nodiscard]] double red_middle(std::size_t wall) const {
-        const Image<Rgba8>& picture = visit_->pictures()[wall];
+        const Image<Rgba8>& image = visit_->images()[wall];
         double sum = 0, count = 0;
-        for (int y = 0; y < picture.height(); ++y) {
-            for (int x = 0; x < picture.width(); ++x) {
-                if (picture(x, y).r < 200 || picture(x, y).g > 60) continue;
+        for (int y = 0; y < image.height(); ++y) {
+            for (int x = 0; x < image.width(); ++x) {
+                if (image(x, y).r < 200 || image(x, y).g > 60) continue;
                 sum += x;
                 count += 1;
             }
@@ -145,15 +145,15 @@ TEST_F(WallWindows, FollowATrackedHeadButThroughNoWall) {
     EXPECT_EQ(visit_->head().position, glm::dvec3(0.5, 1.5, 0.2));
 }
 
-TEST_F(WallWindows, GoToViewpointsTakePicturesAndLeave) {
+TEST_F(WallWindows, GoToViewpointsTakeImagesAndLeave) {
     options_.stereo = StereoForm::kAnaglyph;
     open();
     press(Key::kNextViewpoint);
     press(Key::kScreenshot, 1);
     ASSERT_TRUE(step());
     EXPECT_EQ(visit_->place().position.z, 10);
-    EXPECT_TRUE(read_picture(work_.path() / "wall-front-1.png").ok());
-    EXPECT_TRUE(read_picture(work_.path() / "wall-left-1.png").ok());
+    EXPECT_TRUE(read_image(work_.path() / "wall-front-1.png").ok());
+    EXPECT_TRUE(read_image(work_.path() / "wall-left-1.png").ok());
     press(Key::kQuit, 1);
     EXPECT_FALSE(step());
 }

@@ -4,7 +4,7 @@
 
 #include "encode/codec/coders.hpp"
 #include "encode/codec/dense_encoder.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/codec/syntax.hpp"
 #include "tests/support/coded_object.hpp"
 
@@ -149,20 +149,20 @@ TEST(CostTable, LevelsCostWhatTheirDecisionsDo) {
     }
 }
 
-// On drawn pictures, which have little to choose from.
+// On drawn images, which have little to choose from.
 TEST(SearchEffort, MoreOfItGivesABetterBargain) {
     RaySpaceObject object = test::small_object({.views_per_ring = 12, .width = 160, .height = 96});
-    const std::vector<Image<Rgba8>> pictures = test::drawn_pictures(object);
-    std::vector<SourcePicture> sources;
-    for (const auto& picture : pictures) sources.push_back(source_picture(picture, 2));
+    const std::vector<Image<Rgba8>> images = test::drawn_images(object);
+    std::vector<SourceImage> sources;
+    for (const auto& image : images) sources.push_back(source_image(image, 2));
     // Bytes, and the error as bytes of the same worth: a decibel is about a seventh of them.
     const auto price = [&](int effort) {
         DenseSettings settings;
         settings.step = 8;
         settings.effort = effort;
-        const EncodedPictures encoded = encode_dense(object, sources, settings);
+        const EncodedImages encoded = encode_dense(object, sources, settings);
         double bytes = 0;
-        for (const auto& picture : encoded.coded.pictures) bytes += static_cast<double>(picture.bytes.size());
+        for (const auto& image : encoded.coded.images) bytes += static_cast<double>(image.bytes.size());
         return bytes * std::pow(10.0, -encoded.psnr_db / 16);
     };
     const double most = price(kMostEffort);

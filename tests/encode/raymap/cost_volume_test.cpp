@@ -31,7 +31,7 @@ TEST(CostVolume, HasTheLevelsThatTheHullAllows) {
     const std::vector<WorkView> views = drawn_views(drawn_ring(12, 3));
     const SampledHull hull(VisualHull(pointers(views), 1), 0.004);
     WorkView view = views[0];
-    // A corner of the picture that no silhouette knows of.
+    // A corner of the image that no silhouette knows of.
     for (int row = 0; row < 4; ++row) view.columns(row, 0) = {1, 2, 3, 255};
     const CostVolume volume = levels_within(hull, view, kRange);
     int between = 0;
@@ -146,7 +146,7 @@ TEST(CostVolume, LevelStripesHaveADepthOnlyAcrossRings) {
     }
 }
 
-// Stripes that all pictures show alike say nothing about depth; what the neighbours were found to show does.
+// Stripes that all images show alike say nothing about depth; what the neighbours were found to show does.
 TEST(CostVolume, WhatNeighboursShowTellsTheDepth) {
     const WorkView view = striped_view(0, 10).view;
     const DepthView left = striped_view(-6, 10);

@@ -1,5 +1,5 @@
 #pragma once
-// Working pictures of the drawn balls, and the plain twin of the visual hull.
+// Working images of the drawn balls, and the plain twin of the visual hull.
 
 #include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -26,9 +26,9 @@ inline std::vector<WorkView> drawn_views(const Rig& rig) {
     std::vector<WorkView> views;
     for (const RigView& view : rig.views) {
         Camera camera = view.camera;
-        const Image<Rgba8> picture = test::drawn_picture(camera);
+        const Image<Rgba8> image = test::drawn_image(camera);
         camera.world_from_camera[3] = glm::dvec4(camera.centre() / rig.object_radius, 1);
-        views.push_back(make_work_view(camera, picture, 1));
+        views.push_back(make_work_view(camera, image, 1));
     }
     return views;
 }

@@ -15,20 +15,20 @@ inline constexpr double kBallRadius = 0.8;
 // Opaque, in the colour of the place that a ray meets; transparent beside it.
 template <class Colour>
 Image<Rgba8> drawn_ball(const Camera& camera, const Colour& colour) {
-    Image<Rgba8> picture(camera.width, camera.height);
+    Image<Rgba8> image(camera.width, camera.height);
     const glm::dvec3 eye = camera.centre();
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
             const glm::dvec3 ray = glm::normalize(camera.ray(x + 0.5, y + 0.5));
             const double along = -glm::dot(ray, eye);
             const double inside = kBallRadius * kBallRadius + along * along - glm::dot(eye, eye);
             if (inside < 0) continue;
             const glm::dvec3 found = colour(eye + (along - std::sqrt(inside)) * ray);
             const auto code = [](double wave) { return static_cast<std::uint8_t>(128 + std::lround(100 * wave)); };
-            picture(x, y) = {code(found.r), code(found.g), code(found.b), 255};
+            image(x, y) = {code(found.r), code(found.g), code(found.b), 255};
         }
     }
-    return picture;
+    return image;
 }
 
 inline Image<Rgba8> striped_ball(const Camera& camera) {

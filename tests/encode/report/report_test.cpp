@@ -1,13 +1,13 @@
 // The page of a build: well-formed whatever texts it is given, plots whose points stand where their numbers say,
-// pictures that are what went in.
+// images that are what went in.
 
 #include "encode/report/build_report.hpp"
 #include "encode/report/ring_plan.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/page/html_page.hpp"
 #include "rayspace/page/line_plot.hpp"
 #include "rayspace/page/svg_parts.hpp"
-#include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -92,41 +92,41 @@ TEST(HtmlPage, IsWellFormedAndHoldsWhatWasAdded) {
     EXPECT_EQ(unbalanced_tag("<p><b></p></b>"), "p") << "the check itself must be able to fail";
 }
 
-TEST(HtmlPage, APictureInsideIsThePictureScaledDown) {
-    Image<Rgba8> picture(600, 300, {200, 100, 50, 255});
-    const std::vector<CaptionedPicture> row{{picture, "wide \"one\""}, {Image<Rgba8>(20, 40, {1, 2, 3, 255}), "small"}};
+TEST(HtmlPage, AImageInsideIsTheImageScaledDown) {
+    Image<Rgba8> image(600, 300, {200, 100, 50, 255});
+    const std::vector<CaptionedImage> row{{image, "wide \"one\""}, {Image<Rgba8>(20, 40, {1, 2, 3, 255}), "small"}};
     HtmlPage page("pictures");
-    ASSERT_TRUE(page.pictures(row, 150).ok());
+    ASSERT_TRUE(page.images(row, 150).ok());
     const std::string text = page.text();
     EXPECT_EQ(unbalanced_tag(text), "");
     EXPECT_THAT(text, HasSubstr("alt=\"wide &quot;one&quot;\" width=\"150\" height=\"75\""));
     EXPECT_THAT(text, HasSubstr("width=\"20\" height=\"40\""));
-    const auto bytes = encode_png(scaled_down(picture, 150), "wide");
+    const auto bytes = encode_png(scaled_down(image, 150), "wide");
     ASSERT_TRUE(bytes.ok());
     EXPECT_THAT(text, HasSubstr("src=\"data:image/png;base64," + base64(*bytes) + "\""));
     // The bytes are a file that can be read.
     const test::TemporaryFolder folder;
     std::ofstream(folder / "p.png", std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
-    const auto read = read_picture(folder / "p.png");
+    const auto read = read_image(folder / "p.png");
     ASSERT_TRUE(read.ok()) << read.error().message;
     EXPECT_EQ(*read, Image<Rgba8>(150, 75, {200, 100, 50, 255}));
-    EXPECT_FALSE(HtmlPage("none").pictures(std::vector<CaptionedPicture>{{{}, "empty"}}).ok());
+    EXPECT_FALSE(HtmlPage("none").images(std::vector<CaptionedImage>{{{}, "empty"}}).ok());
 }
 
 TEST(ScaledDown, AveragesInLinearLightAndByAlpha) {
-    Image<Rgba8> picture(4, 2, {0, 0, 0, 255});
+    Image<Rgba8> image(4, 2, {0, 0, 0, 255});
     for (int y = 0; y < 2; ++y) {
-        picture(0, y) = {255, 255, 255, 255};
-        picture(2, y) = {90, 60, 30, 255};
-        picture(3, y) = {255, 0, 255, 0};
+        image(0, y) = {255, 255, 255, 255};
+        image(2, y) = {90, 60, 30, 255};
+        image(3, y) = {255, 0, 255, 0};
     }
-    const Image<Rgba8> small = scaled_down(picture, 2);
+    const Image<Rgba8> small = scaled_down(image, 2);
     ASSERT_EQ(small.width(), 2);
     ASSERT_EQ(small.height(), 1);
     EXPECT_EQ(small(0, 0), (Rgba8{188, 188, 188, 255}));  // half of white's light
     EXPECT_EQ(small(1, 0), (Rgba8{90, 60, 30, 128}));     // the transparent half gives no colour
-    EXPECT_EQ(scaled_down(picture, 4), picture);
+    EXPECT_EQ(scaled_down(image, 4), image);
     // Sizes that do not divide: a constant stays what it is, to the last pixel.
     const Image<Rgba8> odd(101, 67, {77, 88, 99, 255});
     EXPECT_EQ(scaled_down(odd, 40), Image<Rgba8>(40, 27, {77, 88, 99, 255}));
@@ -143,14 +143,14 @@ TEST(Colours, DepthAndErrorRunFromEndToEnd) {
 
     Image<float> depth(2, 1, 1.0F);
     depth(1, 0) = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(depth_picture(depth, 0, 2)(0, 0), depth_colour(0.5F));
-    EXPECT_EQ(depth_picture(depth, 0, 2)(1, 0).a, 0);
+    EXPECT_EQ(depth_image(depth, 0, 2)(0, 0), depth_colour(0.5F));
+    EXPECT_EQ(depth_image(depth, 0, 2)(1, 0).a, 0);
 
     Image<Rgba8> a(3, 1), b(3, 1);
     a(0, 0) = {100, 50, 20, 255};
     b(0, 0) = {100, 82, 20, 255};
     a(1, 0) = {10, 10, 10, 255};  // b is transparent there: the whole colour is wrong
-    const Image<Rgba8> error = error_picture(a, b, 64);
+    const Image<Rgba8> error = error_image(a, b, 64);
     EXPECT_EQ(error(0, 0), heat_colour(0.5F));
     EXPECT_EQ(error(1, 0), heat_colour(10.0F / 64));
     EXPECT_EQ(error(2, 0).a, 0);
@@ -214,7 +214,7 @@ TEST(LinePlot, LongNamesGetRoom) {
     EXPECT_GT(usual.right, plot_frame(plot).right + 100);
 }
 
-TEST(RingPlan, AMissingPictureOfAnEvenTurnIsSeen) {
+TEST(RingPlan, AMissingImageOfAnEvenTurnIsSeen) {
     std::vector<double> azimuths;
     for (int n = 0; n < 36; ++n) azimuths.push_back(radians(10.0 * n));
     EXPECT_TRUE(missing_sectors(azimuths).empty());
@@ -263,23 +263,23 @@ TEST(BuildReport, WhatIsEmptyIsNotShown) {
     ASSERT_TRUE(page.ok());
     EXPECT_EQ(unbalanced_tag(*page), "");
     EXPECT_THAT(*page, HasSubstr("vase &lt;1&gt;"));
-    EXPECT_THAT(*page, HasSubstr("75.00"));  // per cent of the bytes in pictures
+    EXPECT_THAT(*page, HasSubstr("75.00"));  // per cent of the bytes in images
     for (const char* heading : {"Warnings", "Captured", "Visual hull", "Depth found", "Views held out"}) {
         EXPECT_THAT(*page, Not(HasSubstr(std::string("<h2>") + heading))) << heading;
     }
 }
 
-TEST(BuildReport, ShowsScoresAndPictures) {
+TEST(BuildReport, ShowsScoresAndImages) {
     BuildReport report = small_report();
-    const CaptionedPicture picture{Image<Rgba8>(8, 8, {9, 9, 9, 255}), "some picture"};
+    const CaptionedImage image{Image<Rgba8>(8, 8, {9, 9, 9, 255}), "some image"};
     report.warnings = {"a gap & a hole"};
-    report.captured = {picture};
-    report.hull_pictures = {picture, picture};
-    report.depth_pictures = {picture};
+    report.captured = {image};
+    report.hull_images = {image, image};
+    report.depth_images = {image};
     report.hold_out = "Every 2nd.";
     report.scores = {{"photo", {{1, "1.png", 17.5, 0.8}, {3, "3.png", 18.5, 0.9}}, 18.0, 17.97, 0.85, 0},
                      {"shape", {{1, "1.png", 28.5, 0.95}, {3, "3.png", 27.25, 0.94}}, 27.875, 27.8, 0.945, 3}};
-    report.held_out = {{"view 1", {picture, picture, picture}}};
+    report.held_out = {{"view 1", {image, image, image}}};
     const auto page = build_report_page(report);
     ASSERT_TRUE(page.ok());
     EXPECT_EQ(unbalanced_tag(*page), "");

@@ -61,7 +61,7 @@ TEST(SoftCoverage, TheRimOfACutOutIsNone) {
     EXPECT_EQ(std::ranges::count(patches.pixels(), 255), 0);
 }
 
-TEST(SoftCoverage, PicturesSmallerThanAPatchHaveNone) {
+TEST(SoftCoverage, ImagesSmallerThanAPatchHaveNone) {
     const Image<std::uint8_t> patches = soft_patches(Image<std::uint8_t>(8, 3, 100), 2);
     EXPECT_EQ(patches, Image<std::uint8_t>(8, 3));
     EXPECT_TRUE(soft_patches(Image<std::uint8_t>(), 2).empty());

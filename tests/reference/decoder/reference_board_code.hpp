@@ -1,5 +1,5 @@
 #pragma once
-// FORMAT.md, "CODE", what follows the levels of board pictures: the classes of their records and the codebooks.
+// FORMAT.md, "CODE", what follows the levels of board images: the classes of their records and the codebooks.
 
 #include <array>
 #include <cstddef>

@@ -37,8 +37,8 @@ struct Code {
     int u_offset = 0;
     int v_offset = 0;
     std::vector<int> level;                       // per view
-    std::array<int, kContexts[1]> probability{};  // of dense pictures: in 256ths, of a 0
-    BoardCode board;                              // of board pictures
+    std::array<int, kContexts[1]> probability{};  // of dense images: in 256ths, of a 0
+    BoardCode board;                              // of board images
 };
 
 struct Pict {

@@ -5,7 +5,7 @@
 
 namespace rs::reference {
 
-// Sample (x, y) of the picture is the first one of block B: the right one of an upright edge, the lower one of a level
+// Sample (x, y) of the image is the first one of block B: the right one of an upright edge, the lower one of a level
 // one. The 8 samples to its left (above it) are block A's, and q is that of "Reconstruction".
 struct Edge {
     int plane, x, y;
@@ -13,6 +13,6 @@ struct Edge {
     int q;
 };
 
-void smooth_edge(Picture& picture, const Edge& edge);
+void smooth_edge(Image& image, const Edge& edge);
 
 }  // namespace rs::reference

@@ -91,7 +91,7 @@ void TileDecoder::read_alpha(const Part& part, int x, int y) {
             int level = alpha == AlphaClass::kOpaque ? full_ : 0;
             if (alpha == AlphaClass::kMixed) level = read_mixed_level(part, x, sx, sy);
             levels_[static_cast<std::size_t>(sy * width_ + sx)] = level;
-            sample(picture_, 3, tile_x_ + sx, tile_y_ + sy) =
+            sample(image_, 3, tile_x_ + sx, tile_y_ + sy) =
                 static_cast<std::uint8_t>((255 * level + full_ / 2) / full_);
         }
     }

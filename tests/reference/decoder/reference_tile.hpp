@@ -14,10 +14,10 @@ namespace rs::reference {
 
 class TileDecoder {
 public:
-    // `references` has null where the picture has no reference; `picture` holds the samples of empty blocks where it is
-    // not decoded yet. Tile t of the picture has the bytes.
-    TileDecoder(const Code& code, const Pict& pict, std::array<const Picture*, 2> references, int t, Bytes bytes,
-                Picture& picture);
+    // `references` has null where the image has no reference; `image` holds the samples of empty blocks where it is
+    // not decoded yet. Tile t of the image has the bytes.
+    TileDecoder(const Code& code, const Pict& pict, std::array<const Image*, 2> references, int t, Bytes bytes,
+                Image& image);
 
     void decode();
 
@@ -89,8 +89,8 @@ private:
 
     const Code& code_;
     const Pict& pict_;
-    std::array<const Picture*, 2> references_;
-    Picture& picture_;
+    std::array<const Image*, 2> references_;
+    Image& image_;
     Bits bits_;
     int tile_x_ = 0, tile_y_ = 0, width_ = 0, height_ = 0;
     int full_ = 0;

@@ -53,6 +53,6 @@ std::vector<Damage> shape_damages();
 // Of the valid files "dense-random-small", "dense-random-masks-small" and "board-random-small", whose chunks tell where
 // their numbers stand.
 std::vector<Damage> code_damages(const Draft& dense, const Draft& masks, const Draft& board);
-std::vector<Damage> picture_damages(const std::string& base, const Draft& valid);
+std::vector<Damage> image_damages(const std::string& base, const Draft& valid);
 
 }  // namespace rs::golden

@@ -8,8 +8,8 @@
 
 namespace rs::reference {
 
-// "Everything linear in d", for one picture.
-struct PictureOfRay {
+// "Everything linear in d", for one image.
+struct ImageOfRay {
     std::size_t index = 0;
     Whole L0 = 0, L1 = 0, Q0 = 0, Q1 = 0;
 };
@@ -21,7 +21,7 @@ struct ShapeRay {
     Whole weight = 0, p_part = 0, line_part = 0;
     std::array<Whole, 2> cell_p{}, line{};
     Whole low = 0, step = 0, foot_d = 0;
-    PictureOfRay first, second;  // the second only of a ray that has a shape
+    ImageOfRay first, second;  // the second only of a ray that has a shape
     Whole lambda0 = 0, lambda1 = 0;
 };
 std::optional<ShapeRay> shape_ray(const RaySpaceObject& object, const engine::ViewRegisters& view,

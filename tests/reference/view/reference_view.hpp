@@ -17,7 +17,7 @@ namespace rs::reference {
 enum class Branch {
     plane_behind_or_edge_on,  // section 2
     misses_or_too_far,
-    no_picture,
+    no_image,
     shown_on_plane,  // 3, 4
     outside_on_plane,
     too_near_on_plane,
@@ -68,7 +68,7 @@ enum class Branch {
     one_of_eight_lacks,
     met_after_another,
     too_near,  // 7
-    beside_the_picture,
+    beside_the_image,
     transparent,
     seen,
     at_a_border,
@@ -81,9 +81,9 @@ enum class Branch {
     detail_clamped,
     behind_the_viewer,  // 8
     transparent_hides,
-    both_pictures,
-    first_picture_alone,
-    second_picture_alone,
+    both_images,
+    first_image_alone,
+    second_image_alone,
     both_outside,
     no_shape,
     weight_is_0,
@@ -121,7 +121,7 @@ struct ReferencePixel {
 struct PlaneRay {
     std::size_t k = 0;
     Whole n = 0, T = 0, u = 0, x = 0, lambda = 0;
-    std::size_t picture = 0;
+    std::size_t image = 0;
 };
 std::optional<PlaneRay> plane_ray(const RaySpaceObject& object, const engine::ViewRegisters& view, int i, int j,
                                   Branches& branches);
@@ -130,9 +130,9 @@ std::optional<PlaneRay> plane_ray(const RaySpaceObject& object, const engine::Vi
 struct Colour {
     Whole R = 0, G = 0, B = 0, A = 0;
 };
-Colour stored_colour(const PlanarPicture& picture, Whole column, Whole row);
+Colour stored_colour(const PlanarImage& image, Whole column, Whole row);
 
-// `object` has passed validate_object, all of its pictures are loaded, and `view` has passed check_registers.
+// `object` has passed validate_object, all of its images are loaded, and `view` has passed check_registers.
 ReferencePixel reference_pixel(const RaySpaceObject& object, const engine::ViewRegisters& view, int i, int j,
                                Branches& branches);
 

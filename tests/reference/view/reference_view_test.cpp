@@ -31,25 +31,25 @@ struct Drawn {
     double fov_rad = 0;        // that holds the object from the captures' distance
 };
 
-// Pictures whose U and V are as large as Y.
+// Images whose U and V are as large as Y.
 void enlarge_chroma(RaySpaceObject& object, Random& random) {
-    for (PlanarPicture& picture : object.pictures) {
-        picture.chroma_shift = 0;
-        for (Image<std::uint8_t>* plane : {&picture.u, &picture.v}) {
+    for (PlanarImage& image : object.images) {
+        image.chroma_shift = 0;
+        for (Image<std::uint8_t>* plane : {&image.u, &image.v}) {
             *plane = Image<std::uint8_t>(object.width, object.height);
             for (std::uint8_t& sample : plane->pixels()) sample = static_cast<std::uint8_t>(random.whole(0, 255));
         }
     }
 }
 
-// Pictures of whose columns some show next to nothing and some a part, as at rims.
+// Images of whose columns some show next to nothing and some a part, as at rims.
 void thin_out(RaySpaceObject& object, Random& random) {
-    for (PlanarPicture& picture : object.pictures) {
+    for (PlanarImage& image : object.images) {
         for (int column = 0; column < object.width; ++column) {
             const int kind = random.whole(0, 2);
             for (int row = 0; row < object.height; ++row) {
                 const int alpha = kind == 0 ? random.whole(0, 1) : kind == 1 ? random.whole(40, 200) : 255;
-                picture.a(column, row) = static_cast<std::uint8_t>(alpha);
+                image.a(column, row) = static_cast<std::uint8_t>(alpha);
             }
         }
     }
@@ -180,7 +180,7 @@ TEST(ReferenceViewProperty, TheTextGivesTheDefinitionsPixelsAndEachOfItsBranches
     ASSERT_TRUE(equals_definition_from_everywhere(compared, true, 1, 400));
     EXPECT_GT(compared.shown * 10, compared.pixels);
     expect_taken(compared.branches, static_cast<std::size_t>(Branch::plane_behind_or_edge_on),
-                 static_cast<std::size_t>(Branch::no_picture));
+                 static_cast<std::size_t>(Branch::no_image));
     expect_taken(compared.branches, static_cast<std::size_t>(Branch::foot_too_far),
                  static_cast<std::size_t>(Branch::count) - 1);
 }
@@ -303,7 +303,7 @@ TEST(ReferenceViewProperty, NumbersAtTheEndsOfTheirRangesKeepTheBoundsOfTheTextA
 }
 
 // Captured cameras that come too near to the plane, or enlarge it too much, for section 3. A row of the view that looks
-// along the horizontal keeps to the row cy of the picture however large that is.
+// along the horizontal keeps to the row cy of the image however large that is.
 TEST(ReferenceViewProperty, NumbersAtTheEndsOfTheirRangesGiveTheDefinitionsPixelsOfObjectsWithoutAShapeMap) {
     Compared compared;
     for (std::uint64_t seed = 3001; seed < 3401; ++seed) {

@@ -4,8 +4,8 @@
 #include "capture/photos/intake/photograph.hpp"
 #include "capture/photos/intake/reduction.hpp"
 #include "rayspace/image/linear_light.hpp"
-#include "rayspace/pictures/picture_io.hpp"
-#include "rayspace/pictures/video_reader.hpp"
+#include "rayspace/image_io/image_io.hpp"
+#include "rayspace/image_io/video_reader.hpp"
 
 #include <algorithm>
 #include <array>

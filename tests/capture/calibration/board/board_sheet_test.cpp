@@ -114,16 +114,16 @@ TEST(BoardPdf, WhatDoesNotFitIsRefusedWithWhatFits) {
     EXPECT_TRUE(board_pdf(design, "a4")) << "lies on its side";
 }
 
-TEST(BoardPicture, HasABorderOfOneSquareAndARefusedSizeIsAnError) {
-    const auto picture = board_picture({}, 254);
-    ASSERT_TRUE(picture);
-    EXPECT_EQ(picture->width(), 11 * 180);
-    EXPECT_EQ((*picture)(179, 179).r, 255);
-    EXPECT_EQ((*picture)(180, 180).r, 0);
-    EXPECT_EQ((*picture)(359, 359).r, 0);
-    EXPECT_EQ((*picture)(360, 180).r, 255);
-    EXPECT_FALSE(board_picture({}, 2400));
-    EXPECT_FALSE(board_picture({}, 0));
+TEST(BoardImage, HasABorderOfOneSquareAndARefusedSizeIsAnError) {
+    const auto image = board_image({}, 254);
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->width(), 11 * 180);
+    EXPECT_EQ((*image)(179, 179).r, 255);
+    EXPECT_EQ((*image)(180, 180).r, 0);
+    EXPECT_EQ((*image)(359, 359).r, 0);
+    EXPECT_EQ((*image)(360, 180).r, 255);
+    EXPECT_FALSE(board_image({}, 2400));
+    EXPECT_FALSE(board_image({}, 0));
 }
 
 TEST(BoardSvg, HasTheSizeInMillimetres) {

@@ -64,8 +64,8 @@ std::string opencv_yaml(const std::string& more = "", const std::string& coeffic
            coefficients + " ]\n" + more;
 }
 
-std::string opencv_message(const std::string& text, PicturePixels pictures = {}) {
-    const auto file = opencv_intrinsics_from(text, "x.yml", pictures);
+std::string opencv_message(const std::string& text, ImagePixels images = {}) {
+    const auto file = opencv_intrinsics_from(text, "x.yml", images);
     return file.ok() ? "accepted" : file.error().message;
 }
 
@@ -153,8 +153,8 @@ TEST(MiddleburyParameters, GiveTheTurnThatTheyWereMadeFrom) {
     const auto file = middlebury_parameters_from(middlebury_text(model), "x_par.txt");
     ASSERT_TRUE(file.ok()) << file.error().message;
     expect_turn(file->known, model, 1e-9);
-    ASSERT_EQ(file->pictures.size(), 16U);
-    EXPECT_EQ(file->pictures[3], "view3.png");
+    ASSERT_EQ(file->images.size(), 16U);
+    EXPECT_EQ(file->images[3], "view3.png");
     // Small errors of a calibration view by view are averaged.
     const auto noisy = middlebury_parameters_from(middlebury_text(model, radians(0.1)), "x_par.txt");
     ASSERT_TRUE(noisy.ok()) << noisy.error().message;
@@ -219,7 +219,7 @@ TEST(KnownRig, GivesTheTurnOfATransformsJson) {
     ASSERT_TRUE(file.ok()) << file.error().message;
     expect_turn(file->known, model, 1e-9);
     EXPECT_EQ(file->known.distortion, glm::dvec2(-0.05, 0));
-    EXPECT_EQ(file->pictures[2], "images/2.png");
+    EXPECT_EQ(file->images[2], "images/2.png");
     const auto other_size = read_known_rig(path, {320, 240});
     ASSERT_FALSE(other_size.ok());
     EXPECT_NE(other_size.error().message.find("640 x 480"), std::string::npos);

@@ -131,7 +131,7 @@ TEST(Bundle, ItsCostIsThatOfWeightedResiduals) {
 TEST(Bundle, NoLensIsTooShortToBeSoughtButOneMayBeKnown) {
     const TurntableModel truth = test::turn_model(12, radians(30));
     TurntableModel start = truth;
-    start.lens.f_px = 99;  // of a picture 1000 px wide
+    start.lens.f_px = 99;  // of an image 1000 px wide
     Bundle bundle = make_bundle(truth, test::tracks_of(truth, test::surface_points(60, 6), 0.3, 6));
     bundle.model = start;
     Bundle known = bundle;

@@ -97,7 +97,7 @@ TEST(PatchGrowth, ThereAreNoMoreObservationsThanAskedFor) {
     EXPECT_NEAR(share(middle, all.points.size()), 1.0 / 3, 0.05);
 }
 
-TEST(PatchGrowth, NothingGrowsBesideThePicture) {
+TEST(PatchGrowth, NothingGrowsBesideTheImage) {
     Bundle bundle = one_point(3);
     const Observation middle = middle_of_arc(bundle.model, bundle.tracks[0]);
     bundle.model.lens.width = static_cast<int>(middle.p.x) + 1;  // the point is in the last column

@@ -39,7 +39,7 @@ std::optional<Start> start_of(const TurntableModel& truth, const KnownInputs& kn
                       known);
 }
 
-// An axis that lies sideways has no upper end: the same pictures come of either.
+// An axis that lies sideways has no upper end: the same images come of either.
 TurntableModel seen_from_above(TurntableModel model) {
     if (model.pose.tilt_rad > 0) return model;
     model.pose = {-model.pose.pan_rad, -model.pose.tilt_rad,
@@ -115,7 +115,7 @@ TEST(StartSearch, HoldsWhatIsKnown) {
     EXPECT_EQ(start->model.lens.f_px, 1700);
     EXPECT_NEAR(start->model.angles_rad[5], truth.angles_rad[5], 1e-12);
 
-    known.counter_clockwise = false;  // against what the pictures show
+    known.counter_clockwise = false;  // against what the images show
     const auto forced = start_of(truth, known);
     if (forced) {
         EXPECT_LT(forced->model.angles_rad[1], 0);

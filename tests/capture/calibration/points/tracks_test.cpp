@@ -1,4 +1,4 @@
-// Points followed over drawn pictures whose every number is known, and the calibration that stands on them.
+// Points followed over drawn images whose every number is known, and the calibration that stands on them.
 
 #include "capture/calibration/points/tracks.hpp"
 
@@ -25,13 +25,13 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-TurnPictures pictures_of(const TurntableModel& model, const test::Drum& drum = {}) {
-    TurnPictures turn;
+TurnImages images_of(const TurntableModel& model, const test::Drum& drum = {}) {
+    TurnImages turn;
     turn.width = model.lens.width;
     turn.height = model.lens.height;
     turn.names = test::photograph_names(model.angles_rad.size());
     for (std::size_t i = 0; i < model.angles_rad.size(); ++i) {
-        turn.pictures.push_back(calibration_picture(test::drawn_drum(drum, model, i), 1));
+        turn.images.push_back(calibration_image(test::drawn_drum(drum, model, i), 1));
     }
     return turn;
 }
@@ -48,9 +48,9 @@ TurntableModel truth() {
     return test::drum_turn(24, -radians(15));
 }
 
-const TurnPictures& drum_pictures() {
-    static const TurnPictures kPictures = pictures_of(truth());
-    return kPictures;
+const TurnImages& drum_images() {
+    static const TurnImages kImages = images_of(truth());
+    return kImages;
 }
 
 // Median over tracks of how far the point that explains them best under the true model misses them.
@@ -74,8 +74,8 @@ void expect_well_formed(const std::vector<Track>& tracks, int views) {
 }
 
 TEST(Tracks, FollowPointsOfADrum) {
-    const TurnPictures& turn = drum_pictures();
-    const auto follower = PointFollower::look_at(turn.pictures, 1, {}, nullptr);
+    const TurnImages& turn = drum_images();
+    const auto follower = PointFollower::look_at(turn.images, 1, {}, nullptr);
     ASSERT_TRUE(follower.ok()) << follower.error().message;
     const auto found = follower->follow(nullptr);
     ASSERT_TRUE(found.ok()) << found.error().message;
@@ -106,8 +106,8 @@ TEST(Tracks, FollowPointsOfADrum) {
 }
 
 TEST(Tracks, PositionsAreInPixelsOfThePhotographs) {
-    const TurnPictures& turn = drum_pictures();
-    const std::vector<CalibrationPicture> few(turn.pictures.begin(), turn.pictures.begin() + 6);
+    const TurnImages& turn = drum_images();
+    const std::vector<CalibrationImage> few(turn.images.begin(), turn.images.begin() + 6);
     const auto whole = PointFollower::look_at(few, 1, {}, nullptr);
     const auto reduced = PointFollower::look_at(few, 3, {}, nullptr);
     ASSERT_TRUE(whole.ok() && reduced.ok());
@@ -128,8 +128,8 @@ TEST(Tracks, PositionsAreInPixelsOfThePhotographs) {
 }
 
 TEST(Tracks, DoNotDependOnTheNumberOfThreads) {
-    const TurnPictures& turn = drum_pictures();
-    const std::vector<CalibrationPicture> few(turn.pictures.begin(), turn.pictures.begin() + 8);
+    const TurnImages& turn = drum_images();
+    const std::vector<CalibrationImage> few(turn.images.begin(), turn.images.begin() + 8);
     const auto follow = [&](int threads) {
         tbb::task_arena arena(threads);
         return arena.execute([&] { return PointFollower::look_at(few, 1, {}, nullptr)->follow(nullptr)->tracks; });
@@ -146,31 +146,31 @@ TEST(Tracks, DoNotDependOnTheNumberOfThreads) {
 }
 
 TEST(Tracks, NothingIsLookedForOnTheBackdrop) {
-    TurnPictures turn = drum_pictures();
-    turn.pictures.resize(6);
-    for (CalibrationPicture& picture : turn.pictures) {  // a pattern beside the object
+    TurnImages turn = drum_images();
+    turn.images.resize(6);
+    for (CalibrationImage& image : turn.images) {  // a pattern beside the object
         for (int y = 0; y < 256; ++y) {
             for (int x = 0; x < 320; ++x) {
-                if (picture.alpha(x, y) == 0) picture.grey(x, y) = (x / 16 + y / 16) % 2 == 0 ? 110 : 140;
+                if (image.alpha(x, y) == 0) image.grey(x, y) = (x / 16 + y / 16) % 2 == 0 ? 110 : 140;
             }
         }
     }
-    const auto found = PointFollower::look_at(turn.pictures, 1, {}, nullptr)->follow(nullptr);
+    const auto found = PointFollower::look_at(turn.images, 1, {}, nullptr)->follow(nullptr);
     ASSERT_TRUE(found.ok());
     ASSERT_FALSE(found->tracks.empty());
     for (const Track& track : found->tracks) {
         for (const Observation& seen : track.seen) {
-            const CalibrationPicture& picture = turn.pictures[static_cast<std::size_t>(seen.view)];
-            EXPECT_GT(picture.alpha(static_cast<int>(seen.p.x), static_cast<int>(seen.p.y)), 250);
+            const CalibrationImage& image = turn.images[static_cast<std::size_t>(seen.view)];
+            EXPECT_GT(image.alpha(static_cast<int>(seen.p.x), static_cast<int>(seen.p.y)), 250);
         }
     }
 }
 
-TEST(Tracks, CalibrationPicturesAreMeans) {
-    Image<Rgba8> picture(5, 4, {100, 100, 100, 255});
-    picture(0, 0) = {200, 200, 200, 255};
-    picture(2, 0).a = 1;
-    const CalibrationPicture half = calibration_picture(picture, 2);
+TEST(Tracks, CalibrationImagesAreMeans) {
+    Image<Rgba8> image(5, 4, {100, 100, 100, 255});
+    image(0, 0) = {200, 200, 200, 255};
+    image(2, 0).a = 1;
+    const CalibrationImage half = calibration_image(image, 2);
     EXPECT_EQ(half.grey.width(), 2);
     EXPECT_EQ(half.grey.height(), 2);
     EXPECT_EQ(half.grey(0, 0), 125);
@@ -182,7 +182,7 @@ TEST(Tracks, CalibrationPicturesAreMeans) {
 TEST(TrackCalibration, FindsTheTurnOfADrum) {
     KnownInputs sense;
     sense.counter_clockwise = false;
-    const auto found = calibrate_with_tracks(drum_pictures(), sense, nullptr);
+    const auto found = calibrate_with_tracks(drum_images(), sense, nullptr);
     ASSERT_TRUE(found.ok()) << found.error().message;
     const Calibration& calibration = found->calibration;
     const TurntableModel expected = truth();
@@ -206,12 +206,12 @@ TEST(TrackCalibration, FindsTheTurnOfADrum) {
     EXPECT_LT(calibration.deviations.f_px, 0.05 * expected.lens.f_px);
 }
 
-// A lens that explains the points best but folds the picture's corners over: something else bends their ways.
-TEST(TrackCalibration, TakesNoLensThatFoldsItsPicture) {
+// A lens that explains the points best but folds the image's corners over: something else bends their ways.
+TEST(TrackCalibration, TakesNoLensThatFoldsItsImage) {
     TurntableModel bent = truth();
     bent.lens.k1 = -3;
     ASSERT_FALSE(undistorted(bent.lens, {0, 0}).has_value());
-    const auto found = calibrate_with_tracks(pictures_of(bent), lens_and_sense(), nullptr);
+    const auto found = calibrate_with_tracks(images_of(bent), lens_and_sense(), nullptr);
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_EQ(found->calibration.model.lens.k1, 0);
     EXPECT_THAT(found->calibration.warnings, Contains(HasSubstr("do not show how the lens distorts")));
@@ -220,8 +220,8 @@ TEST(TrackCalibration, TakesNoLensThatFoldsItsPicture) {
 TEST(TrackCalibration, NamesTheViewsThatStandWrongOrAreBlurred) {
     TurntableModel model = truth();
     model.angles_rad[9] += radians(1.8);
-    TurnPictures turn = pictures_of(model);
-    Image<std::uint8_t>& grey = turn.pictures[17].grey;
+    TurnImages turn = images_of(model);
+    Image<std::uint8_t>& grey = turn.images[17].grey;
     cv::Mat wrapped(grey.height(), grey.width(), CV_8U, &grey(0, 0), static_cast<std::size_t>(grey.view().stride()));
     cv::GaussianBlur(wrapped, wrapped, {}, 7);
     const auto found = calibrate_with_tracks(turn, lens_and_sense(), nullptr);
@@ -231,20 +231,20 @@ TEST(TrackCalibration, NamesTheViewsThatStandWrongOrAreBlurred) {
     EXPECT_THAT(warnings, Contains(AllOf(HasSubstr("017.jpg"), HasSubstr("is it blurred?"))));
 }
 
-TEST(TrackCalibration, SaysWhatIsWrongWithPicturesThatMakeNoTurn) {
-    const auto message = [](const TurnPictures& turn) {
+TEST(TrackCalibration, SaysWhatIsWrongWithImagesThatMakeNoTurn) {
+    const auto message = [](const TurnImages& turn) {
         const auto found = calibrate_with_tracks(turn, lens_and_sense(), nullptr);
         EXPECT_FALSE(found.ok());
         return found.ok() ? "" : found.error().message;
     };
-    TurnPictures few = drum_pictures();
-    few.pictures.resize(3);
+    TurnImages few = drum_images();
+    few.images.resize(3);
     few.names.resize(3);
     EXPECT_THAT(message(few), HasSubstr("take at least 5"));
 
     test::Drum plain;
     plain.is_spotted = false;
-    EXPECT_THAT(message(pictures_of(truth(), plain)), HasSubstr("needs a board under it (rs-capture board)"));
+    EXPECT_THAT(message(images_of(truth(), plain)), HasSubstr("needs a board under it (rs-capture board)"));
 }
 
 }  // namespace

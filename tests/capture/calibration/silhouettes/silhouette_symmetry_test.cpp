@@ -37,7 +37,7 @@ TurntableModel turn_of_silhouettes(int views, double roll_rad = 0.01) {
 
 // `on_left_px`: by how much the cut-outs lack the left side of the object.
 Image<std::uint8_t> covered_of(const TurntableModel& model, int on_left_px = 0) {
-    std::vector<CalibrationPicture> pictures;
+    std::vector<CalibrationImage> images;
     for (const double angle : model.angles_rad) {
         Image<std::uint8_t> alpha(model.lens.width, model.lens.height);
         for (int y = 0; y < alpha.height(); ++y) {
@@ -59,9 +59,9 @@ Image<std::uint8_t> covered_of(const TurntableModel& model, int on_left_px = 0) 
             for (int x = on_left_px; x < alpha.width(); ++x)
                 cut(x, y) = std::min(alpha(x, y), alpha(x - on_left_px, y));
         }
-        pictures.push_back({{}, std::move(cut)});
+        images.push_back({{}, std::move(cut)});
     }
-    return covered_together(pictures);
+    return covered_together(images);
 }
 
 double error_px(const TurntableModel& truth, const AxisPlace& found) {
@@ -118,7 +118,7 @@ TEST(SilhouetteSymmetry, IsLessSureOfFewerViewsAndSilentWithoutAFullTurn) {
     EXPECT_FALSE(axis_of_silhouettes(covered_of(part), 1, part));
 }
 
-TEST(SilhouetteSymmetry, DoesNotUseRowsCutOffByThePicture) {
+TEST(SilhouetteSymmetry, DoesNotUseRowsCutOffByTheImage) {
     TurntableModel truth = turn_of_silhouettes(36);
     truth.pose.pan_rad = 0.235;  // the widest rows reach beyond the left border
     const Image<std::uint8_t> covered = covered_of(truth);

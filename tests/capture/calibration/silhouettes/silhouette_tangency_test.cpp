@@ -162,16 +162,16 @@ TEST(SilhouetteTangency, HullsLieWhereAlphaIsHalf) {
     const TurntableModel model = turn_of_cloud();
     constexpr double kRadius_px = 40;
     const auto disc = [&](double x_px, double y_px) {
-        CalibrationPicture picture{Image<std::uint8_t>(360, 288), Image<std::uint8_t>(360, 288)};
+        CalibrationImage image{Image<std::uint8_t>(360, 288), Image<std::uint8_t>(360, 288)};
         for (int y = 0; y < 288; ++y) {
             for (int x = 0; x < 360; ++x) {
                 const double inside = kRadius_px - std::hypot(x + 0.5 - x_px, y + 0.5 - y_px);
-                picture.alpha(x, y) = static_cast<std::uint8_t>(std::lround(255 * std::clamp(inside + 0.5, 0.0, 1.0)));
+                image.alpha(x, y) = static_cast<std::uint8_t>(std::lround(255 * std::clamp(inside + 0.5, 0.0, 1.0)));
             }
         }
-        return picture;
+        return image;
     };
-    std::vector<CalibrationPicture> turn;
+    std::vector<CalibrationImage> turn;
     turn.push_back(disc(180.3, 140.6));
     turn.push_back(disc(20, 140));  // cut off
     const auto hulls = silhouette_hulls(turn, 2, model);

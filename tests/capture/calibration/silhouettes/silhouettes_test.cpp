@@ -137,7 +137,7 @@ TEST(Silhouettes, DoNotPretendToKnowWhatABodyOfRevolutionHides) {
     const std::vector<Image<std::uint8_t>> masks(24, drawn(bottle(), one_view)[0]);
     const auto found = calibrate_with_silhouettes(masks, level_start(truth), {});
     ASSERT_TRUE(found.ok()) << found.error().message;
-    // Where the axis runs in the picture is seen.
+    // Where the axis runs in the image is seen.
     EXPECT_LT(axis_error_px(found->model, truth), 1);
     const ModelDeviations& d = found->deviations;
     EXPECT_GT(d.tilt_rad, radians(10));
@@ -180,7 +180,7 @@ TEST(Silhouettes, RefuseInputsThatDoNotFitTogether) {
     EXPECT_NE(message(figure_masks(), other).find("23 angles"), std::string::npos);
     other = truth;
     other.lens.width = 400;
-    EXPECT_NE(message(figure_masks(), other).find("no reduced pictures"), std::string::npos);
+    EXPECT_NE(message(figure_masks(), other).find("no reduced images"), std::string::npos);
 }
 
 TEST(Silhouettes, TheOtherSenseOfTurningIsNoticed) {

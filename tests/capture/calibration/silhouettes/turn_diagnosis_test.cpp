@@ -40,7 +40,7 @@ Judged judge(const std::vector<Track>& tracks, const TurntableModel& start, std:
     const ModelDeviations deviations = bundle_deviations(bundle, options, 400);
     const std::vector<std::string> names = test::photograph_names(views);
     std::vector<std::string> warnings = step_warnings(bundle.model.angles_rad, deviations, names);
-    for (std::string& line : picture_warnings(bundle, candidates, features, names)) warnings.push_back(std::move(line));
+    for (std::string& line : image_warnings(bundle, candidates, features, names)) warnings.push_back(std::move(line));
     return {accept(bundle, deviations, candidates, names), std::move(warnings)};
 }
 
@@ -71,10 +71,10 @@ TEST(TurnDiagnosis, NamesTheViewThatStandsWrong) {
     }
 }
 
-TEST(TurnDiagnosis, NamesAStepGapAndPictureTakenTwice) {
+TEST(TurnDiagnosis, NamesAStepGapAndImageTakenTwice) {
     const TurntableModel equal = test::turn_model(30, -radians(10));
     TurntableModel truth = equal;
-    for (std::size_t i = 12; i < 30; ++i) truth.angles_rad[i] -= radians(10);  // one picture is missing
+    for (std::size_t i = 12; i < 30; ++i) truth.angles_rad[i] -= radians(10);  // one image is missing
     EXPECT_THAT(judge(truth, truth).warnings, Contains(HasSubstr("gap of 20.0 degrees between 011.jpg and 012.jpg")));
 
     truth = equal;
@@ -149,7 +149,7 @@ Judged with_moved_tripod(std::size_t from) {
     return judge(test::tracks_of(models, test::surface_points(250, 33), 0.2, 33), truth);
 }
 
-TEST(TurnDiagnosis, AMovedTripodIsAnErrorThatNamesThePicture) {
+TEST(TurnDiagnosis, AMovedTripodIsAnErrorThatNamesTheImage) {
     for (const std::size_t from : {14U, 18U, 22U}) {
         const Judged judged = with_moved_tripod(from);
         ASSERT_FALSE(judged.accepted.ok());
@@ -171,7 +171,7 @@ TEST(TurnDiagnosis, TwoCamerasAreAnErrorThatSaysSo) {
     EXPECT_THAT(judged.accepted.error().message, Not(HasSubstr("tripod")));
 }
 
-TEST(TurnDiagnosis, PicturesOutOfOrderAreAnError) {
+TEST(TurnDiagnosis, ImagesOutOfOrderAreAnError) {
     TurntableModel shuffled = test::turn_model(36, radians(10));
     for (std::size_t i = 1; i + 1 < 36; i += 3) std::swap(shuffled.angles_rad[i], shuffled.angles_rad[i + 1]);
     const Judged judged = judge(shuffled, shuffled);

@@ -1,7 +1,7 @@
 #include "capture/photos/background/background_model.hpp"
 
 #include "capture/photos/background/background_estimate.hpp"
-#include "tests/capture/photos/turn_of_pictures.hpp"
+#include "tests/capture/photos/turn_of_images.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

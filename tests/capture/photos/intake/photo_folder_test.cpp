@@ -2,7 +2,7 @@
 
 #include "capture/photos/intake/photograph.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/camera_jpeg.hpp"
 #include "tests/support/png_header.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -21,7 +21,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-void write_picture(const std::filesystem::path& path, int width, int height) {
+void write_image(const std::filesystem::path& path, int width, int height) {
     const Status status = write_png(path, Image<Rgba8>(width, height, Rgba8{1, 2, 3, 255}));
     ASSERT_TRUE(status.ok()) << status.error().message;
 }
@@ -54,14 +54,14 @@ TEST(NaturalOrder, IsTotal) {
     }
 }
 
-TEST(PhotoFolder, ListsPicturesOnlyInOrder) {
+TEST(PhotoFolder, ListsImagesOnlyInOrder) {
     const test::TemporaryFolder folder;
     for (const char* name : {"10.png", "9.png", "2.PNG"}) {
         // The writer chooses the format by itself; the name's case is what is tested.
-        write_picture(folder / "x.png", 4, 3);
+        write_image(folder / "x.png", 4, 3);
         std::filesystem::rename(folder / "x.png", folder / name);
     }
-    std::ofstream(folder / "notes.txt") << "not a picture";
+    std::ofstream(folder / "notes.txt") << "not an image";
     std::ofstream(folder / ".hidden.png") << "not one either";
     const Result<PhotoFolder> found = open_photo_folder(folder.path());
     ASSERT_TRUE(found.ok()) << found.error().message;
@@ -73,7 +73,7 @@ TEST(PhotoFolder, ListsPicturesOnlyInOrder) {
     EXPECT_EQ(found->height, 3);
 }
 
-TEST(PhotoFolder, TakesAPictureOnceThatIsThereInTwoFormats) {
+TEST(PhotoFolder, TakesAImageOnceThatIsThereInTwoFormats) {
     const test::TemporaryFolder folder;
     const auto opened = [&] {
         const Result<PhotoFolder> found = open_photo_folder(folder.path());
@@ -82,29 +82,29 @@ TEST(PhotoFolder, TakesAPictureOnceThatIsThereInTwoFormats) {
     };
     const Image<Rgba8> grey(4, 3, Rgba8{9, 9, 9, 255});
     for (const char* name : {"1.jpg", "2.jpg", "3.jpg"}) ASSERT_TRUE(write_jpeg(folder / name, grey, 90).ok());
-    for (const char* name : {"1.png", "2.png"}) write_picture(folder / name, 8, 6);
+    for (const char* name : {"1.png", "2.png"}) write_image(folder / name, 8, 6);
     EXPECT_THAT(file_names(opened()), ElementsAre("1.jpg", "2.jpg", "3.jpg")) << "the format that most have";
     EXPECT_THAT(opened().in_other_formats, ElementsAre("1.png", "2.png"));
-    write_picture(folder / "3.png", 8, 6);
+    write_image(folder / "3.png", 8, 6);
     EXPECT_THAT(file_names(opened()), ElementsAre("1.jpg", "2.jpg", "3.jpg")) << "as many: the PNGs may be masks";
-    write_picture(folder / "4.png", 8, 6);
+    write_image(folder / "4.png", 8, 6);
     EXPECT_THAT(file_names(opened()), ElementsAre("1.png", "2.png", "3.png", "4.png"));
     EXPECT_THAT(opened().in_other_formats, ElementsAre("1.jpg", "2.jpg", "3.jpg"));
 }
 
-TEST(PhotoFolder, RefusesWhatHoldsNoPictures) {
+TEST(PhotoFolder, RefusesWhatHoldsNoImages) {
     const test::TemporaryFolder folder;
     const Result<PhotoFolder> empty = open_photo_folder(folder.path());
     ASSERT_FALSE(empty.ok());
-    EXPECT_THAT(empty.error().message, HasSubstr(folder.path().string() + ": holds no pictures"));
+    EXPECT_THAT(empty.error().message, HasSubstr(folder.path().string() + ": holds no images"));
     EXPECT_FALSE(open_photo_folder(folder / "absent").ok());
 }
 
-TEST(PhotoFolder, NamesTwoPicturesOfDifferentSize) {
+TEST(PhotoFolder, NamesTwoImagesOfDifferentSize) {
     const test::TemporaryFolder folder;
-    write_picture(folder / "1.png", 6, 4);
-    write_picture(folder / "2.png", 6, 4);
-    write_picture(folder / "3.png", 6, 5);
+    write_image(folder / "1.png", 6, 4);
+    write_image(folder / "2.png", 6, 4);
+    write_image(folder / "3.png", 6, 5);
     const Result<PhotoFolder> found = open_photo_folder(folder.path());
     ASSERT_FALSE(found.ok());
     for (const char* part : {"3.png", "6x5", "1.png", "6x4"}) EXPECT_THAT(found.error().message, HasSubstr(part));
@@ -124,7 +124,7 @@ TEST(PhotoFolder, TurnsAllAsMostWantToBeShown) {
     EXPECT_EQ(found->otherwise_turned, 1);
 }
 
-// An editor saved one of pictures that are stored on their side upright, with its pixels turned.
+// An editor saved one of images that are stored on their side upright, with its pixels turned.
 TEST(PhotoFolder, TurnsEachAsItStatesWhereOnlySomeLieOnTheirSide) {
     const test::TemporaryFolder folder;
     // White at the top: stored at the left, as the row of a file of orientation 6 is a column of what it shows.
@@ -180,13 +180,13 @@ TEST(PhotoFolder, SaysWhatPhotographsShowWhenTheyAreTurned) {
 
 TEST(PhotoFolder, MakesLargePhotographsSmaller) {
     const test::TemporaryFolder folder;
-    write_picture(folder / "1.png", 400, 381);
+    write_image(folder / "1.png", 400, 381);
     const auto opened = [&](int max_side_px) {
         const Result<PhotoFolder> found = open_photo_folder(folder.path(), max_side_px);
         EXPECT_TRUE(found.ok());
         return *found;
     };
-    EXPECT_EQ(opened(kMaxPictureSide_px).width, 400);
+    EXPECT_EQ(opened(kMaxImageSide_px).width, 400);
     EXPECT_EQ(opened(320).width, 400) << "to a quarter more they stay";
     EXPECT_EQ(opened(320).reduction, 1);
     const PhotoFolder small = opened(128);
@@ -194,24 +194,24 @@ TEST(PhotoFolder, MakesLargePhotographsSmaller) {
     EXPECT_EQ(small.width, 128);
     EXPECT_EQ(small.height, 121);  // 121.92: what is left over goes
     EXPECT_EQ(small.shown_width, 400);
-    EXPECT_EQ(small.in_picture({200, 190.5}), glm::dvec2(64, 60.5)) << "the middle stays the middle";
-    EXPECT_EQ(small.in_picture({200 + 31.25, 190.5 - 62.5}), glm::dvec2(74, 40.5));
+    EXPECT_EQ(small.in_image({200, 190.5}), glm::dvec2(64, 60.5)) << "the middle stays the middle";
+    EXPECT_EQ(small.in_image({200 + 31.25, 190.5 - 62.5}), glm::dvec2(74, 40.5));
 }
 
 TEST(PhotoFolder, LeavesAPixelOfAThinPhotograph) {
     const test::TemporaryFolder folder;
-    write_picture(folder / "1.png", 2600, 1);
+    write_image(folder / "1.png", 2600, 1);
     const Result<PhotoFolder> thin = open_photo_folder(folder.path(), 2048);
     ASSERT_TRUE(thin.ok()) << thin.error().message;
     EXPECT_EQ(thin->reduction, 1);
     EXPECT_EQ(thin->width, 2600);
-    write_picture(folder / "1.png", 2600, 20);
+    write_image(folder / "1.png", 2600, 20);
     EXPECT_EQ(open_photo_folder(folder.path(), 64)->height, 1);
 }
 
-TEST(PhotoFolder, TakesPhotographsThatAreLargerThanPictures) {
+TEST(PhotoFolder, TakesPhotographsThatAreLargerThanImages) {
     const test::TemporaryFolder folder;
-    write_picture(folder / "1.png", kMaxPictureSide_px, 64);
+    write_image(folder / "1.png", kMaxImageSide_px, 64);
     // write_png() writes none as large: its header is made to claim so, which is all that is read here.
     const auto claim = [&](std::uint32_t width) {
         auto png = read_file(folder / "1.png", 1 << 20);
@@ -220,10 +220,10 @@ TEST(PhotoFolder, TakesPhotographsThatAreLargerThanPictures) {
         ASSERT_TRUE(write_file(folder / "1.png", *png).ok());
     };
     claim(9504);
-    const Result<PhotoFolder> large = open_photo_folder(folder.path(), kMaxPictureSide_px);
+    const Result<PhotoFolder> large = open_photo_folder(folder.path(), kMaxImageSide_px);
     ASSERT_TRUE(large.ok()) << large.error().message;
     EXPECT_EQ(large->shown_width, 9504);
-    EXPECT_EQ(large->width, kMaxPictureSide_px);
+    EXPECT_EQ(large->width, kMaxImageSide_px);
     claim(16385);
     EXPECT_FALSE(open_photo_folder(folder.path()).ok());
 }
@@ -241,13 +241,13 @@ TEST(PhotoFolder, KnowsTheLensThatAllPhotographsState) {
 
 TEST(PhotoFolder, TakesWhatPhonesWrite) {
     for (const char* name : {"a.jpg", "IMG_1.HEIC", "b.heif", "c.avif", "d.tif"})
-        EXPECT_TRUE(is_picture_name(name)) << name;
-    for (const char* name : {"a.cr2", "heic", "b.txt"}) EXPECT_FALSE(is_picture_name(name)) << name;
+        EXPECT_TRUE(is_image_name(name)) << name;
+    for (const char* name : {"a.cr2", "heic", "b.txt"}) EXPECT_FALSE(is_image_name(name)) << name;
 }
 
-TEST(PhotoFolder, NamesAPictureThatIsNone) {
+TEST(PhotoFolder, NamesAImageThatIsNone) {
     const test::TemporaryFolder folder;
-    write_picture(folder / "1.png", 6, 4);
+    write_image(folder / "1.png", 6, 4);
     std::ofstream(folder / "2.png") << "no PNG at all";
     const Result<PhotoFolder> found = open_photo_folder(folder.path());
     ASSERT_FALSE(found.ok());

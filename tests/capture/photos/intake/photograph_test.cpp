@@ -1,6 +1,6 @@
 #include "capture/photos/intake/photograph.hpp"
 
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/camera_jpeg.hpp"
 #include "tests/support/temporary_folder.hpp"
 

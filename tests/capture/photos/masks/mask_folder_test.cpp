@@ -1,7 +1,7 @@
 #include "capture/photos/masks/mask_folder.hpp"
 
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/real_data.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -247,7 +247,7 @@ TEST_F(Masks, ThatAreMissingAreCounted) {
 
 TEST_F(Masks, ThatCannotBeReadAreNamed) {
     write_all(black_and_white);
-    ASSERT_TRUE(write_file(folder_ / "c.png", "no picture").ok());
+    ASSERT_TRUE(write_file(folder_ / "c.png", "no image").ok());
     EXPECT_THAT(open_error(), HasSubstr("c.png"));
     const Result<MaskFolder> nowhere = MaskFolder::open(folder_ / "none", photos(), MaskKind::kBinary);
     ASSERT_FALSE(nowhere.ok());

@@ -12,19 +12,19 @@ namespace {
 // A ball whose centre circles the axis at `orbit` (heights from `bottom`), in perspective, as the camera of `rig` sees
 // it.
 Image<Rgba8> silhouette(const Camera& camera, const glm::dvec3& centre, double radius) {
-    Image<Rgba8> picture(camera.width, camera.height);
+    Image<Rgba8> image(camera.width, camera.height);
     for (int y = 0; y < camera.height; ++y) {
         for (int x = 0; x < camera.width; ++x) {
             const glm::dvec3 ray = glm::normalize(camera.ray(x + 0.5, y + 0.5));
             const glm::dvec3 to_ball = centre - camera.centre();
             const double miss = glm::length(to_ball - ray * glm::dot(ray, to_ball));
-            if (miss <= radius) picture(x, y) = {255, 255, 255, 255};
+            if (miss <= radius) image(x, y) = {255, 255, 255, 255};
         }
     }
-    return picture;
+    return image;
 }
 
-// Also where the camera looks down: the axis stands upright in the picture all the same.
+// Also where the camera looks down: the axis stands upright in the image all the same.
 TEST(TurnSilhouette, FindsTheAxisOfATurnInPerspective) {
     for (const double elevation_deg : {0.0, 20.0}) {
         Camera camera = look_at_camera({0, 6 * std::tan(radians(elevation_deg)), 6}, {0, 0, 0}, radians(30), 320, 240);
@@ -62,7 +62,7 @@ TEST(NominalRig, TheOutermostRayTouchesTheUnitCircle) {
     }
 }
 
-TEST(NominalRig, SeesTheObjectWhereThePicturesShowIt) {
+TEST(NominalRig, SeesTheObjectWhereTheImagesShowIt) {
     NominalRigOptions options;
     options.width = 640;
     options.height = 480;

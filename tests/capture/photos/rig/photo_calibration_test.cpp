@@ -3,7 +3,7 @@
 #include "capture/photos/import.hpp"
 #include "capture/photos/report/import_page.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/calibration/board_photos.hpp"
 #include "tests/capture/calibration/drawn_figure.hpp"
 #include "tests/capture/photos/drum_photos.hpp"
@@ -46,7 +46,7 @@ TEST_F(PhotoCalibrationTest, PointsAreTakenFirstWhereNothingElseIsGiven) {
     EXPECT_EQ(made["standard_deviations"]["f_px"], 0) << "it was given";
     EXPECT_EQ(rig->views[3].extras["source_file"], "03.png");
 
-    // The page has the pictures and the tables.
+    // The page has the images and the tables.
     const Result<std::string> page = import_page(options_.photos, *report);
     ASSERT_TRUE(page.ok()) << page.error().message;
     for (const char* part : {"<table", "focal length, px", "620.0", "held", "median step", "Mattes on magenta",
@@ -129,12 +129,12 @@ TEST_F(PhotoCalibrationTest, AChoiceIsTakenOrFails) {
 }
 
 Image<Rgba8> grey_where(const Image<std::uint8_t>& mask) {
-    Image<Rgba8> picture(mask.width(), mask.height());
-    for (std::size_t i = 0; i < mask.pixels().size(); ++i) picture.pixels()[i] = {120, 120, 120, mask.pixels()[i]};
-    return picture;
+    Image<Rgba8> image(mask.width(), mask.height());
+    for (std::size_t i = 0; i < mask.pixels().size(); ++i) image.pixels()[i] = {120, 120, 120, mask.pixels()[i]};
+    return image;
 }
 
-// One picture is there twice, and the turn lacks its last.
+// One image is there twice, and the turn lacks its last.
 TEST_F(PhotoCalibrationTest, OutlinesMayRepeatAndLackAView) {
     constexpr std::size_t kFigureViews = 24;
     constexpr std::size_t kTwice = 9;
@@ -195,7 +195,7 @@ TEST_F(PhotoCalibrationTest, ABoardIsTakenBeforeAllElse) {
     options_.segmentation.masks = folder_ / "photos" / "masks";
     for (std::size_t i = 0; i < photos.model.angles_rad.size(); ++i) {
         const test::BoardPhotos::Photo photo = photos.taken(i);
-        write(i, photo.picture);
+        write(i, photo.image);
         ASSERT_TRUE(write_png(options_.segmentation.masks / test::file_name(i), photo.mask).ok());
     }
     options_.known = {};

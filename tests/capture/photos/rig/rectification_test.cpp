@@ -1,8 +1,8 @@
 #include "capture/photos/rig/rectification.hpp"
 
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/image/image_metrics.hpp"
 #include "rayspace/image/linear_light.hpp"
-#include "rayspace/image/picture_metrics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,26 +36,26 @@ Rgba8 pattern(const glm::dvec3& ray) {
 }
 
 Image<Rgba8> drawn(const Lens& lens, const CameraPose& pose) {
-    Image<Rgba8> picture(lens.width, lens.height);
+    Image<Rgba8> image(lens.width, lens.height);
     for (int y = 0; y < lens.height; ++y) {
         for (int x = 0; x < lens.width; ++x) {
-            if (const auto ray = table_ray(lens, pose, {x + 0.5, y + 0.5})) picture(x, y) = pattern(*ray);
+            if (const auto ray = table_ray(lens, pose, {x + 0.5, y + 0.5})) image(x, y) = pattern(*ray);
         }
     }
-    return picture;
+    return image;
 }
 
-TurnSilhouette::Box visible_box(const Image<Rgba8>& picture) {
-    TurnSilhouette outline(picture.width(), picture.height());
-    outline.add(picture);
+TurnSilhouette::Box visible_box(const Image<Rgba8>& image) {
+    TurnSilhouette outline(image.width(), image.height());
+    outline.add(image);
     return outline.visible();
 }
 
-Image<Rgba8> without_hidden_colours(Image<Rgba8> picture) {
-    for (Rgba8& pixel : picture.pixels()) {
+Image<Rgba8> without_hidden_colours(Image<Rgba8> image) {
+    for (Rgba8& pixel : image.pixels()) {
         if (pixel.a == 0) pixel = {};
     }
-    return picture;
+    return image;
 }
 
 double psnr_of_rectification(const TurntableModel& model) {
@@ -70,10 +70,10 @@ double psnr_of_rectification(const TurntableModel& model) {
     EXPECT_TRUE(frame.ok()) << frame.error().message;
     if (!frame) return 0;
     const Image<Rgba8> upright = without_hidden_colours(rectified(model, *frame, photo));
-    return compare_pictures_psnr(upright, drawn(frame->lens, {})).psnr_db();
+    return compare_images_psnr(upright, drawn(frame->lens, {})).psnr_db();
 }
 
-TEST(Rectification, EqualsThePictureOfAnUprightCamera) {
+TEST(Rectification, EqualsTheImageOfAnUprightCamera) {
     const double psnr_db = psnr_of_rectification(crooked_model());
     EXPECT_GT(psnr_db, 45);
     RecordProperty("psnr_db", std::to_string(psnr_db));
@@ -84,7 +84,7 @@ TEST(Rectification, EqualsThePictureOfAnUprightCamera) {
     const auto frame = plan_upright_frame(wrong, std::array{visible_box(photo)});
     ASSERT_TRUE(frame.ok());
     const Image<Rgba8> upright = without_hidden_colours(rectified(wrong, *frame, photo));
-    EXPECT_LT(compare_pictures_psnr(upright, drawn(frame->lens, {})).psnr_db(), 35);
+    EXPECT_LT(compare_images_psnr(upright, drawn(frame->lens, {})).psnr_db(), 35);
 }
 
 TEST(Rectification, AMovedPhotographIsPutBack) {
@@ -92,7 +92,7 @@ TEST(Rectification, AMovedPhotographIsPutBack) {
     const Image<Rgba8> photo = drawn(model.lens, model.pose);
     const auto frame = plan_upright_frame(model, std::array{visible_box(photo)});
     ASSERT_TRUE(frame.ok());
-    const PicturePlace place{{13, -8}, 0.9};
+    const ImagePlace place{{13, -8}, 0.9};
     Lens moved = model.lens;  // a place is another lens: nothing is resampled
     const glm::dvec2 principal =
         place.seen({moved.cx, moved.cy}, glm::dvec2(model.lens.width, model.lens.height) / 2.0);
@@ -100,9 +100,9 @@ TEST(Rectification, AMovedPhotographIsPutBack) {
     moved.cx = principal.x;
     moved.cy = principal.y;
     const Image<Rgba8> upright = without_hidden_colours(rectified(model, *frame, drawn(moved, model.pose), place));
-    EXPECT_GT(compare_pictures_psnr(upright, drawn(frame->lens, {})).psnr_db(), 42);
+    EXPECT_GT(compare_images_psnr(upright, drawn(frame->lens, {})).psnr_db(), 42);
     const Image<Rgba8> ignored = without_hidden_colours(rectified(model, *frame, drawn(moved, model.pose)));
-    EXPECT_LT(compare_pictures_psnr(ignored, drawn(frame->lens, {})).psnr_db(), 30);
+    EXPECT_LT(compare_images_psnr(ignored, drawn(frame->lens, {})).psnr_db(), 30);
 }
 
 TEST(Rectification, AnAxisThatLiesSidewaysIsTurnedUpright) {
@@ -216,16 +216,16 @@ Image<Rgba8> spot(const TurntableModel& model, const glm::dvec2& p) {
     return photo;
 }
 
-glm::dvec2 centroid(const Image<Rgba8>& picture) {
+glm::dvec2 centroid(const Image<Rgba8>& image) {
     glm::dvec3 sum(0);
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x)
-            sum += static_cast<double>(picture(x, y).a) * glm::dvec3(x + 0.5, y + 0.5, 1);
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x)
+            sum += static_cast<double>(image(x, y).a) * glm::dvec3(x + 0.5, y + 0.5, 1);
     }
     return glm::dvec2(sum) / sum.z;
 }
 
-TEST(Rectification, TheRigSeesPointsWhereTheRectifiedPicturesShowThem) {
+TEST(Rectification, TheRigSeesPointsWhereTheRectifiedImagesShowThem) {
     const TurntableModel model = crooked_model();
     const auto frame = plan_upright_frame(model, std::array{TurnSilhouette::Box{90, 390, 40, 320}});
     ASSERT_TRUE(frame.ok());

@@ -15,12 +15,12 @@ constexpr double kDiscRadius_px = 90;
 constexpr double kHeight_px = 130;
 constexpr double kAxis_px = 120;
 
-// An upright textured cylinder from far away, seen from `elevation_deg` above. Nearer means lower in the picture.
+// An upright textured cylinder from far away, seen from `elevation_deg` above. Nearer means lower in the image.
 Image<Rgba8> cylinder(double turned_rad, double elevation_deg, double contrast) {
     const double e = radians(elevation_deg);
-    Image<Rgba8> picture(240, 220);
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
+    Image<Rgba8> image(240, 220);
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
             const double across = (x + 0.5 - kAxis_px) / kDiscRadius_px;
             if (std::abs(across) >= 1) continue;
             const double azimuth = std::asin(across);  // 0 is the front, growing to the right
@@ -31,10 +31,10 @@ Image<Rgba8> cylinder(double turned_rad, double elevation_deg, double contrast) 
             const double texture =
                 std::sin(11 * t + 0.07 * up) * std::sin(0.21 * up - 5 * t) + std::sin(23 * t) * std::cos(0.16 * up);
             const auto code = static_cast<std::uint8_t>(128 + contrast * texture / 2);
-            picture(x, y) = {code, code, code, 255};
+            image(x, y) = {code, code, code, 255};
         }
     }
-    return picture;
+    return image;
 }
 
 // `sense` +1: the texture moves to the right on the front.

@@ -3,7 +3,7 @@
 #include "capture/photos/segmentation/background_model_segmenter.hpp"
 #include "tests/capture/photos/backdrop_behind.hpp"
 #include "tests/capture/photos/cut_out.hpp"
-#include "tests/capture/photos/turn_of_pictures.hpp"
+#include "tests/capture/photos/turn_of_images.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "rayspace/image/linear_light.hpp"
 #include "tests/capture/photos/cut_out.hpp"
-#include "tests/capture/photos/turn_of_pictures.hpp"
+#include "tests/capture/photos/turn_of_images.hpp"
 
 #include <gtest/gtest.h>
 

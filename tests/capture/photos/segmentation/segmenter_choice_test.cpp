@@ -1,7 +1,7 @@
 #include "capture/photos/segmentation/segmenter_choice.hpp"
 
-#include "rayspace/pictures/picture_io.hpp"
-#include "tests/capture/photos/turn_of_pictures.hpp"
+#include "rayspace/image_io/image_io.hpp"
+#include "tests/capture/photos/turn_of_images.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>

@@ -18,7 +18,7 @@ double furnace_mean(Mesh mesh, const Material& material, int samples = 64) {
     RenderOptions options;
     options.samples_per_pixel = samples;
     options.max_bounces = 24;
-    return mean_radiance(render(std::move(scene), front_camera(3.5, 36.0, 48), options).picture).g;
+    return mean_radiance(render(std::move(scene), front_camera(3.5, 36.0, 48), options).image).g;
 }
 
 TEST(Furnace, DiffuseReflectsAll) {
@@ -74,10 +74,10 @@ TEST(Furnace, CamerasSeeThroughRooms) {
     const Camera camera = front_camera(3.5, 36.0, 48);
     const Rendering alone = render(std::move(object), camera, options);
     const Rendering lit = render(std::move(within), camera, options);
-    EXPECT_NEAR(mean_radiance(lit.picture).g, 1.0, 0.005);
+    EXPECT_NEAR(mean_radiance(lit.image).g, 1.0, 0.005);
     for (int y = 0; y < 48; ++y) {
         for (int x = 0; x < 48; ++x) {
-            ASSERT_EQ(lit.picture(x, y).a, alone.picture(x, y).a) << x << " " << y;
+            ASSERT_EQ(lit.image(x, y).a, alone.image(x, y).a) << x << " " << y;
             ASSERT_NEAR(lit.depth(x, y), alone.depth(x, y), 1e-5F) << x << " " << y;
         }
     }

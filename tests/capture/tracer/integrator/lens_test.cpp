@@ -22,13 +22,13 @@ RenderOptions many_rays(RenderMethod method, int samples) {
 }
 
 // How wide an even disc would be that has the same spread about its middle, in px; `own` is what it would have anyway.
-double disc_of(const Image<RgbaF>& picture, double own_variance) {
+double disc_of(const Image<RgbaF>& image, double own_variance) {
     glm::dvec2 middle(0);
     double sum = 0, spread = 0;
     const auto each = [&](const auto& visit) {
-        for (int y = 0; y < picture.height(); ++y) {
-            for (int x = 0; x < picture.width(); ++x) {
-                const RgbaF& p = picture(x, y);
+        for (int y = 0; y < image.height(); ++y) {
+            for (int x = 0; x < image.width(); ++x) {
+                const RgbaF& p = image(x, y);
                 visit(glm::dvec2(x + 0.5, y + 0.5), static_cast<double>(p.g) * static_cast<double>(p.a));
             }
         }
@@ -61,7 +61,7 @@ TEST(ThinLens, ABlurCircleIsAsWideAsTheLensFormulaSays) {
                 if (expected < 4 || expected > 80) continue;
                 const double side_px = side * camera.fl_x / z;
                 const double own = 2 * (1 + side_px * side_px) / 12;  // of the pixels and of the speck
-                const double found = disc_of(render(std::move(scene), camera, options).picture, own);
+                const double found = disc_of(render(std::move(scene), camera, options).image, own);
                 EXPECT_NEAR(found, expected, 0.03 * expected) << z << " " << aperture;
                 if (method == RenderMethod::kToon) {
                     std::printf("blur circle at %.1f: %.2f px, %.2f by the formula\n", z, found, expected);
@@ -72,14 +72,14 @@ TEST(ThinLens, ABlurCircleIsAsWideAsTheLensFormulaSays) {
 }
 
 TEST(ThinLens, WhatIsInFocusIsAsSharpAsThroughAPinhole) {
-    const auto picture = [](double aperture) {
+    const auto image = [](double aperture) {
         Scene scene = scene_of(make_quad({-0.5F, -0.5F, 0}, {1, 0, 0}, {0, 1, 0}), material_of(SurfaceKind::diffuse));
         scene.lights = {directional_light({0, 0, -1}, glm::vec3(1))};
         RenderOptions options = many_rays(RenderMethod::kWhitted, 64);
         options.lens = {aperture, 4};
-        return render(std::move(scene), front_camera(4, 20, 64), options).picture;
+        return render(std::move(scene), front_camera(4, 20, 64), options).image;
     };
-    const Image<RgbaF> pinhole = picture(0), lens = picture(0.5);
+    const Image<RgbaF> pinhole = image(0), lens = image(0.5);
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) EXPECT_NEAR(pinhole(x, y).a, lens(x, y).a, 0.1) << x << " " << y;
     }
@@ -97,9 +97,9 @@ double penumbra(RenderMethod method, double lamp_width, double lamp_height, doub
         options.soft_shadows = true;
         options.max_bounces = 1;  // no light from below the half plane
         const Camera camera = look_at_camera({0, 0.9 * edge_height, 1e-4}, {0, 0, 0}, radians(60), 256, 1);
-        const Image<RgbaF> picture = render(std::move(scene), camera, options).picture;
+        const Image<RgbaF> image = render(std::move(scene), camera, options).image;
         std::vector<double> light;
-        for (int x = 0; x < 256; ++x) light.push_back(static_cast<double>(picture(x, 0).g));
+        for (int x = 0; x < 256; ++x) light.push_back(static_cast<double>(image(x, 0).g));
         return light;
     };
     const std::vector<double> shaded = row(true), open = row(false);
@@ -141,7 +141,7 @@ TEST(SoftShadows, SurfacesThatShineLightFromAllOver) {
         options.max_bounces = 1;
         return mean_radiance(
                    render(std::move(scene), look_at_camera({0, 0.3, 0.01}, {0, 0, 0}, radians(0.1), 2, 2), options)
-                       .picture)
+                       .image)
             .g;
     };
     const double truth = brightness(RenderMethod::kPath);
@@ -164,9 +164,9 @@ TEST(Shutter, AStreakIsAsLongAsTheWayOfWhatMoves) {
             const Camera camera = front_camera(3, 20, 128);
             RenderOptions options = many_rays(method, 256);
             options.toon.edge_radius = 0;
-            const Image<RgbaF> picture = render(std::move(scene), camera, options).picture;
+            const Image<RgbaF> image = render(std::move(scene), camera, options).image;
             // As wide as the way where half of the most is seen, whatever the width of what moves.
-            const auto light = [&](int x) { return static_cast<double>(picture(x, 64).a * picture(x, 64).g); };
+            const auto light = [&](int x) { return static_cast<double>(image(x, 64).a * image(x, 64).g); };
             double most = 0, length = 0;
             for (int x = 0; x < 128; ++x) most = std::max(most, light(x));
             for (int x = 0; x + 1 < 128; ++x) {

@@ -82,14 +82,14 @@ TEST(LightProbe, LightsAnObjectAsTheRoomDoes) {
         const Camera camera = look_at_camera({0.3, 0.4, 1}, {0, 0, 0}, radians(18.0), 32, 32);
         RenderOptions options;
         options.samples_per_pixel = 256;
-        const Image<Rgba8> in_room = to_srgb8(render(std::move(inside), camera, options).picture);
+        const Image<Rgba8> in_room = to_srgb8(render(std::move(inside), camera, options).image);
         const Rendering by_itself = render(std::move(alone), camera, options);
-        const Image<Rgba8> by_probe = to_srgb8(by_itself.picture);
+        const Image<Rgba8> by_probe = to_srgb8(by_itself.image);
         double squares = 0;
         int count = 0;
         for (int y = 0; y < 32; ++y) {
             for (int x = 0; x < 32; ++x) {
-                if (by_itself.picture(x, y).a < 1) continue;
+                if (by_itself.image(x, y).a < 1) continue;
                 for (const int d : {in_room(x, y).r - by_probe(x, y).r, in_room(x, y).g - by_probe(x, y).g,
                                     in_room(x, y).b - by_probe(x, y).b}) {
                     squares += d * d;

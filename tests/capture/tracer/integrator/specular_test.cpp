@@ -46,7 +46,7 @@ TEST(Mirror, ReflectsWhereTheLawSays) {
     for (int y = 0; y < 16; ++y) {
         for (int x = 0; x < 16; ++x) {
             const glm::vec3 out = glm::reflect(glm::normalize(glm::vec3(camera.ray(x + 0.5, y + 0.5))), normal);
-            const RgbaF& seen = rendering.picture(x, y);
+            const RgbaF& seen = rendering.image(x, y);
             ASSERT_EQ(seen.a, 1.0F);
             EXPECT_NEAR(seen.r, 1.0F + out.x, 2e-3F);
             EXPECT_NEAR(seen.g, 1.0F + out.y, 2e-3F);
@@ -95,16 +95,16 @@ TEST(Glass, SlabShiftsRaysAsSnellSays) {
         if (std::abs(p.x) < 2e-3) continue;
         // Fresnel splits the light, so lit pixels are less than 1; dark ones get nothing at all.
         if (p.x > 0) {
-            EXPECT_GT(rendering.picture(x, 4).g, 0.7F) << x;
+            EXPECT_GT(rendering.image(x, 4).g, 0.7F) << x;
             ++lit;
         } else {
-            EXPECT_LT(rendering.picture(x, 4).g, 0.15F) << x;
+            EXPECT_LT(rendering.image(x, 4).g, 0.15F) << x;
             ++dark;
         }
     }
     EXPECT_GT(lit, 10);
     EXPECT_GT(dark, 10);
-    EXPECT_GT(moved_by_refraction, 3) << "a straight ray would give the same picture";
+    EXPECT_GT(moved_by_refraction, 3) << "a straight ray would give the same image";
 }
 
 TEST(Glass, SlabReflectsAndPassesWhatFresnelSays) {
@@ -121,7 +121,7 @@ TEST(Glass, SlabReflectsAndPassesWhatFresnelSays) {
         }
     }
     const Camera camera = look_at_camera({1.5, 0, 1.5}, {0, 0, 0}, radians(0.5), 16, 16);
-    const glm::dvec3 mean = mean_radiance(render(std::move(scene), camera, sharp(256)).picture);
+    const glm::dvec3 mean = mean_radiance(render(std::move(scene), camera, sharp(256)).image);
     const double once = static_cast<double>(fresnel_dielectric(std::sqrt(0.5F), 1.5F));
     EXPECT_NEAR(once, 0.0502, 1e-3);  // tabulated: BK7-like glass at 45 degrees, unpolarised
     EXPECT_NEAR(mean.r, 2 * once / (1 + once), 0.003);
@@ -135,7 +135,7 @@ TEST(Glass, AbsorbsByTheLengthOfTheWay) {
     scene.materials = {glass};
     add_slab(scene, 2.0F, 0);
     scene.environment = constant_environment(1.0F);
-    const glm::dvec3 mean = mean_radiance(render(std::move(scene), front_camera(3.0, 0.5, 8), sharp(1)).picture);
+    const glm::dvec3 mean = mean_radiance(render(std::move(scene), front_camera(3.0, 0.5, 8), sharp(1)).image);
     EXPECT_NEAR(mean.r, 0.25, 1e-3);
     EXPECT_NEAR(mean.g, 0.0625, 1e-3);
     EXPECT_NEAR(mean.b, 1.0, 1e-5);
@@ -153,7 +153,7 @@ double seen_through(const std::vector<Slab>& slabs) {
         scene.materials.back().ior = 1.0F;
     }
     scene.environment = constant_environment(1.0F);
-    return mean_radiance(render(std::move(scene), front_camera(9.0, 0.5, 8), sharp(1024)).picture).g;
+    return mean_radiance(render(std::move(scene), front_camera(9.0, 0.5, 8), sharp(1024)).image).g;
 }
 
 TEST(Glass, InsideOfGlassTheInnermostAbsorbs) {

@@ -25,7 +25,7 @@ Camera small_patch_camera() {
 }
 
 double brightness(Scene scene, const Camera& camera, const RenderOptions& options = whitted()) {
-    return mean_radiance(render(std::move(scene), camera, options).picture).g;
+    return mean_radiance(render(std::move(scene), camera, options).image).g;
 }
 
 TEST(Whitted, DirectLightIsThatOfTheFormulaWithoutNoise) {
@@ -43,12 +43,12 @@ TEST(Whitted, ShadowsAreHard) {
     scene.lights = {rectangle_light({-0.5F, 4, -0.5F}, {1, 0, 0}, {0, 0, 1}, glm::vec3(2.0F))};
     scene.meshes.push_back(make_quad({0, 2, -9}, {9, 0, 0}, {0, 0, 18}));  // its edge halfway under the middle
     const Camera camera = look_at_camera({0, 1.5, 0.01}, {0, 0, 0}, radians(60), 64, 3);
-    const Image<RgbaF> picture = render(std::move(scene), camera, whitted()).picture;
+    const Image<RgbaF> image = render(std::move(scene), camera, whitted()).image;
     for (int x = 0; x < 64; ++x) {
         if (x < 31) {
-            EXPECT_GT(picture(x, 1).g, 0.03) << x;
+            EXPECT_GT(image(x, 1).g, 0.03) << x;
         } else if (x > 32) {
-            EXPECT_EQ(picture(x, 1).g, 0) << x;
+            EXPECT_EQ(image(x, 1).g, 0) << x;
         }
     }
 }
@@ -101,9 +101,9 @@ TEST(Whitted, TwoMirrorsEndAfterEightReflections) {
 TEST(Whitted, AnEvenEnvironmentLightsEverySideAlike) {
     Scene scene = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.6F)));
     scene.environment = constant_environment(1.5F);
-    const Image<RgbaF> picture = render(std::move(scene), front_camera(3.5, 36, 32), whitted()).picture;
+    const Image<RgbaF> image = render(std::move(scene), front_camera(3.5, 36, 32), whitted()).image;
     int seen = 0;
-    for (const RgbaF& p : picture.pixels()) {
+    for (const RgbaF& p : image.pixels()) {
         if (p.a < 1) continue;
         EXPECT_NEAR(p.g, 0.9, 0.005 * 0.9);
         ++seen;

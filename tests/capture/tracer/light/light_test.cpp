@@ -33,14 +33,14 @@ TEST(DirectionalLight, LambertSphereFollowsItsFormula) {
     int compared = 0;
     for (int y = 0; y < camera.height; ++y) {
         for (int x = 0; x < camera.width; ++x) {
-            if (rendering.picture(x, y).a < 1.0F) continue;
+            if (rendering.image(x, y).a < 1.0F) continue;
             const glm::dvec3 d = glm::normalize(camera.ray(x + 0.5, y + 0.5));
             const double b = glm::dot(camera.centre(), d);
             const double discriminant = b * b - glm::dot(camera.centre(), camera.centre()) + 1.0;
             if (discriminant < 0.01) continue;  // at the limb a pixel spans too many normals
             const glm::vec3 normal(camera.centre() + d * (-b - std::sqrt(discriminant)));
             const float expected = 0.6F / kPiF * 3.0F * std::max(0.0F, glm::dot(normal, to_light));
-            EXPECT_NEAR(rendering.picture(x, y).g, expected, 0.012F) << x << ", " << y;
+            EXPECT_NEAR(rendering.image(x, y).g, expected, 0.012F) << x << ", " << y;
             ++compared;
         }
     }
@@ -55,7 +55,7 @@ TEST(DirectionalLight, CoarseSphereShowsNoFacetsAtTheTerminator) {
     const Rendering rendering = render(std::move(scene), camera, direct_light(16));
     for (int x = 36; x < 56; ++x) {
         const double along = (x + 0.5 - 32.0) / camera.fl_x * 7.0;  // about where the ray meets the sphere
-        EXPECT_NEAR(rendering.picture(x, 32).g, along, 0.06) << x;
+        EXPECT_NEAR(rendering.image(x, 32).g, along, 0.06) << x;
     }
 }
 
@@ -64,7 +64,7 @@ TEST(PointLight, FallsOffWithTheSquareOfDistance) {
     for (const float distance : {1.0F, 2.0F, 5.0F}) {
         Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::diffuse, glm::vec3(0.5F)));
         scene.lights.push_back(point_light({0, distance, 0}, glm::vec3(2.0F)));
-        const double mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(4)).picture).g;
+        const double mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(4)).image).g;
         EXPECT_NEAR(mean, 0.5 / kPi * 2.0 / (distance * distance), 2e-3 * mean);
         if (distance == 1.0F) at_one = mean;
         EXPECT_NEAR(mean * distance * distance, at_one, 2e-3 * at_one);
@@ -82,7 +82,7 @@ TEST(RectangleLight, GivesTheAnalyticFormFactor) {
     // cross(u, v) points down.
     scene.lights.push_back(rectangle_light({-1.5F, 1, -0.5F}, {3, 0, 0}, {0, 0, 1}, glm::vec3(4.0F)));
     ASSERT_LT(glm::cross(glm::vec3(3, 0, 0), glm::vec3(0, 0, 1)).y, 0.0F);
-    const double mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(1024)).picture).g;
+    const double mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(1024)).image).g;
     EXPECT_NEAR(mean, 0.7 * 4.0 * form_factor, 0.005 * mean);
 }
 
@@ -90,9 +90,9 @@ TEST(RectangleLight, IsDarkFromBehindAndSeenInMirrorsOnly) {
     Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::mirror, glm::vec3(0.9F)));
     scene.lights.push_back(rectangle_light({-5, 3, -5}, {10, 0, 0}, {0, 0, 10}, glm::vec3(4.0F)));
     const Camera camera = patch_camera();  // below the light, which is larger than what it sees
-    EXPECT_NEAR(mean_radiance(render(scene, camera, direct_light(4)).picture).g, 0.9 * 4.0, 1e-4);
+    EXPECT_NEAR(mean_radiance(render(scene, camera, direct_light(4)).image).g, 0.9 * 4.0, 1e-4);
     std::swap(scene.lights[0].half_u, scene.lights[0].half_v);
-    EXPECT_EQ(mean_radiance(render(scene, camera, direct_light(4)).picture).g, 0.0);
+    EXPECT_EQ(mean_radiance(render(scene, camera, direct_light(4)).image).g, 0.0);
 }
 
 TEST(Emitter, LightsLikeARectangleOfTheSameSize) {
@@ -109,8 +109,8 @@ TEST(Emitter, LightsLikeARectangleOfTheSameSize) {
         by_mesh.meshes.back().material = 1;
         // Below the lamp, for it hides the floor from above.
         const Camera camera = look_at_camera({0, 0.4, 0.5}, {0, 0, 0}, radians(1.0), 8, 8);
-        const double expected = mean_radiance(render(by_light, camera, direct_light(512)).picture).g;
-        const double mean = mean_radiance(render(by_mesh, camera, direct_light(512)).picture).g;
+        const double expected = mean_radiance(render(by_light, camera, direct_light(512)).image).g;
+        const double mean = mean_radiance(render(by_mesh, camera, direct_light(512)).image).g;
         EXPECT_GT(expected, 0.1);
         EXPECT_NEAR(mean, expected, 0.01 * expected) << offset;
     }
@@ -134,7 +134,7 @@ Scene half_lamp_scene(const RgbaF& right_half, bool painted) {
 double floor_radiance(Scene scene, int samples = 1024) {
     // Below the lamp, for it hides the floor from above.
     const Camera camera = look_at_camera({0, 0.4, 0.5}, {0, 0, 0}, radians(1.0), 8, 8);
-    return mean_radiance(render(std::move(scene), camera, direct_light(samples)).picture).g;
+    return mean_radiance(render(std::move(scene), camera, direct_light(samples)).image).g;
 }
 
 TEST(Emitter, DoesNotShineThroughItsHoles) {
@@ -202,7 +202,7 @@ TEST(EnvironmentMap, ImportanceSamplingEqualsTheIntegral) {
     }
     Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
     scene.environment = environment;
-    const glm::dvec3 mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(1024)).picture);
+    const glm::dvec3 mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(1024)).image);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], irradiance[c] / kPi, 0.01 * mean[c]) << c;
 }
 

@@ -47,7 +47,7 @@ TEST(LuminaireLight, LightsTheFloorByTheInverseSquareLaw) {
             const Camera camera = look_at_camera(place + glm::dvec3(0, 1, 1e-3), place, radians(0.05), 2, 2);
             RenderOptions options;
             options.samples_per_pixel = 16;
-            const double mean = mean_radiance(render(std::move(scene), camera, options).picture).g;
+            const double mean = mean_radiance(render(std::move(scene), camera, options).image).g;
 
             const auto plane = static_cast<std::size_t>(turn_deg / 90);
             const double share = turn_deg / 90 - static_cast<double>(plane);
@@ -72,21 +72,21 @@ void expect_sphere_is_filled(const std::shared_ptr<const Luminaire>& luminaire, 
     Scene scene = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(albedo)));
     scene.lights.push_back(light_of(luminaire, {0, 0, 0}));
     // All directions alike: equal steps of height and turn.
-    // Noise of virtual lights is the same all over a picture, so that passes count there, and pixels elsewhere.
+    // Noise of virtual lights is the same all over an image, so that passes count there, and pixels elsewhere.
     const bool radiosity = method == RenderMethod::kRadiosity;
     const int side = radiosity ? 8 : 96;
-    RayPicture rays{2 * side, side, glm::dvec3(0), {0, 0, -1}, [side](double x, double y) {
-                        const double h = 1 - 2 * y / side, turn = kPi * x / side,
-                                     across = std::sqrt(std::max(1 - h * h, 0.0));
-                        return glm::dvec3(across * std::cos(turn), h, across * std::sin(turn));
-                    }};
+    RayImage rays{2 * side, side, glm::dvec3(0), {0, 0, -1}, [side](double x, double y) {
+                      const double h = 1 - 2 * y / side, turn = kPi * x / side,
+                                   across = std::sqrt(std::max(1 - h * h, 0.0));
+                      return glm::dvec3(across * std::cos(turn), h, across * std::sin(turn));
+                  }};
     RenderOptions options;
     options.method = method;
     options.samples_per_pixel = radiosity ? 512 : 16;
     options.max_bounces = 24;
     auto tracer = Tracer::create(std::move(scene));
     ASSERT_TRUE(tracer) << tracer.error().message;
-    const double mean = mean_radiance(tracer->render(rays, options).picture).g;
+    const double mean = mean_radiance(tracer->render(rays, options).image).g;
     const double wall = 4 * kPi * radius * radius;
     const double flux = luminaire->web.lumens() / kLumensPerWatt;
     const double indirect = mean * kPi / albedo - flux / wall;
@@ -168,10 +168,10 @@ TEST(DiscLight, GivesItsFormFactorAndIsSeenInMirrors) {
         const Camera camera = look_at_camera({0, 1, 0.05}, {0, 0, 0}, radians(1.0), 8, 8);
         RenderOptions options;
         options.samples_per_pixel = 256;
-        const double mean = mean_radiance(render(Scene(scene), camera, options).picture).g;
+        const double mean = mean_radiance(render(Scene(scene), camera, options).image).g;
         EXPECT_NEAR(mean, mirror ? 0.5 * 4 : 0.5 * 4 * (4 / (4 + 2.25)), 0.01);
         std::swap(scene.lights[0].half_u, scene.lights[0].half_v);
-        EXPECT_EQ(mean_radiance(render(std::move(scene), camera, options).picture).g, 0);
+        EXPECT_EQ(mean_radiance(render(std::move(scene), camera, options).image).g, 0);
     }
 }
 
@@ -183,10 +183,10 @@ TEST(LightSet, ALampAmongManyIsFoundWhereItShines) {
         const Camera camera = look_at_camera({0, 1, 0.05}, {0, 0, 0}, radians(1.0), 16, 16);
         RenderOptions options;
         options.samples_per_pixel = 16;
-        const auto picture = render(std::move(scene), camera, options).picture;
-        const double mean = mean_radiance(picture).g;
+        const auto image = render(std::move(scene), camera, options).image;
+        const double mean = mean_radiance(image).g;
         double squares = 0;
-        for (const RgbaF& p : picture.pixels()) squares += (p.g - mean) * (p.g - mean);
+        for (const RgbaF& p : image.pixels()) squares += (p.g - mean) * (p.g - mean);
         return std::sqrt(squares / 256) / mean;
     };
     EXPECT_LT(error_below(49), 0.25);  // drawn evenly it would be 1.7

@@ -223,7 +223,7 @@ void expect_whitted_gives_the_bits_of_single_rays(const Scene& scene, float envi
                 {glm::vec3(camera.centre()), glm::vec3(glm::normalize(camera.ray(x + 0.5, y + 0.5))), time, sampler});
         }
     }
-    std::vector<Arrived> single(many.size());
+    std::vector<RadianceSample> single(many.size());
     std::vector<int> met(scene.materials.size());
     double sum = 0;
     for (std::size_t i = 0; i < many.size(); ++i) {
@@ -241,7 +241,7 @@ void expect_whitted_gives_the_bits_of_single_rays(const Scene& scene, float envi
     for (const std::size_t at_once : {many.size(), std::size_t{256}, std::size_t{1}, std::size_t{15}, std::size_t{17},
                                       std::size_t{65}, std::size_t{0}}) {
         std::vector<CameraRay> asked = many;
-        std::vector<Arrived> arrived(many.size());
+        std::vector<RadianceSample> arrived(many.size());
         for (std::size_t i = 0; i < many.size(); i += std::max<std::size_t>(at_once, 1)) {
             const std::size_t count = std::min(at_once, many.size() - i);
             tracer.trace_many(std::span(asked).subspan(i, count), std::span(arrived).subspan(i, count));

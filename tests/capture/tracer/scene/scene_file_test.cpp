@@ -3,7 +3,7 @@
 #include "capture/tracer/scene/scene_file.hpp"
 #include "capture/tracer/scene/normalise.hpp"
 #include "capture/tracer/scene/studio.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -346,12 +346,12 @@ TEST(Studio, DefaultLightsAWhiteBallWithoutClippingMuch) {
     RenderOptions options;
     options.samples_per_pixel = 16;
     const Rendering rendering = render(std::move(scene), front_camera(3.5, 36.0, 32), options);
-    const glm::dvec3 mean = mean_radiance(rendering.picture);
+    const glm::dvec3 mean = mean_radiance(rendering.image);
     EXPECT_GT(mean.g, 0.3);
     EXPECT_LT(mean.g, 0.8);
     EXPECT_NEAR(mean.r, mean.b, 0.1) << "neutral";
     int clipped = 0;
-    for (const RgbaF& p : rendering.picture.pixels()) clipped += p.g > 1.05F ? 1 : 0;
+    for (const RgbaF& p : rendering.image.pixels()) clipped += p.g > 1.05F ? 1 : 0;
     EXPECT_LT(clipped, 10);
 }
 

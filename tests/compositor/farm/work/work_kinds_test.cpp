@@ -1,6 +1,6 @@
 #include "compositor/farm/work/work_kinds.hpp"
 
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

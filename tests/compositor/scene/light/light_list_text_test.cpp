@@ -5,7 +5,7 @@
 #include "compositor/scene/reader/scene_file.hpp"
 #include "compositor/scene/reader/vrml_file.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>

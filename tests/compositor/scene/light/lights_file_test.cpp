@@ -5,7 +5,7 @@
 #include "datasets-synthetic/showroom/evening.hpp"
 #include "datasets-synthetic/showroom/showroom.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
@@ -107,7 +107,7 @@ TEST(LightList, TheShowroomsEveningIsOne) {
     }
 }
 
-TEST(LightList, AnEnvironmentIsAPicture) {
+TEST(LightList, AnEnvironmentIsAImage) {
     const test::TemporaryFolder scratch;
     Image<RgbaF> sky(8, 4, {0.5F, -1, 3, 1});
     ASSERT_TRUE(write_exr(scratch / "sky.exr", sky));

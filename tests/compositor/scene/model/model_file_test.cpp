@@ -1,7 +1,7 @@
 #include "compositor/scene/model/model_file.hpp"
 
 #include "compositor/scene/normal_map.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -131,7 +131,7 @@ TEST_F(ModelFile, CamerasAndLightsAreRead) {
     EXPECT_FALSE(scene->navigation.headlight);
 }
 
-TEST_F(ModelFile, PicturesBesideTheFileModulate) {
+TEST_F(ModelFile, ImagesBesideTheFileModulate) {
     ASSERT_TRUE(write_png(folder_ / "grain.png", Image<Rgba8>(4, 4, Rgba8{255, 0, 0, 0})).ok());
     const auto scene = read(gltf(R"({"mesh": 0})",
                                  R"(, "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],

@@ -1,4 +1,4 @@
-// Worlds in two forms: what VRML 1.0 or X3D says, and the same world in VRML97. Pictures of both agree. Skipped where
+// Worlds in two forms: what VRML 1.0 or X3D says, and the same world in VRML97. Images of both agree. Skipped where
 // no OpenGL context can be had.
 
 #include "compositor/scene/reader/vrml_file.hpp"
@@ -34,7 +34,7 @@ std::string world_of_xml(const std::string& nodes) {
 
 class Forms : public test::GlTest {
 protected:
-    static Image<Rgba8> picture_of(const Scene& scene, const Camera& camera) {
+    static Image<Rgba8> image_of(const Scene& scene, const Camera& camera) {
         auto compositor = FrameCompositor::create(scene, std::vector<PlacedObject>{},
                                                   {.width = camera.width, .height = camera.height});
         RS_CHECK(compositor.ok());
@@ -59,9 +59,9 @@ protected:
             if (first.viewpoints.empty()) return 0;
             camera = camera_at(first.viewpoints.front(), kWidth, kHeight);
         }
-        const Image<Rgba8> seen = picture_of(first, camera);
+        const Image<Rgba8> seen = image_of(first, camera);
         if (!second.viewpoints.empty()) camera = camera_at(second.viewpoints.front(), kWidth, kHeight);
-        const Image<Rgba8> truth = picture_of(second, camera);
+        const Image<Rgba8> truth = image_of(second, camera);
         double squares = 0;
         int shown = 0;
         for (std::size_t i = 0; i < truth.pixels().size(); ++i) {

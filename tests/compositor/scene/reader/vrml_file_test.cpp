@@ -1,7 +1,7 @@
 #include "compositor/scene/reader/vrml_file.hpp"
 
 #include "rayspace/image/linear_light.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <zlib.h>
@@ -349,7 +349,7 @@ TEST_F(VrmlFolder, ANameOfTwoLinesIsSaidInOne) {
     EXPECT_NE(scene->warnings[0].find("a\\x0Ab.png"), std::string::npos) << scene->warnings[0];
 }
 
-TEST_F(VrmlFolder, APictureThatCannotBeReadIsSaidWithItsLine) {
+TEST_F(VrmlFolder, AImageThatCannotBeReadIsSaidWithItsLine) {
     write("hall.wrl",
           "Shape { appearance Appearance {\n texture ImageTexture { url \"gone.png\" } } geometry Box { } }");
     const Result<Scene> scene = read_vrml(folder_ / "hall.wrl");
@@ -366,9 +366,9 @@ TEST(VrmlFile, APixelTextureBeginsAtTheLowerLeft) {
         "Box { } }");
     const auto& texture = scene.geometry.at(0).material.texture;
     ASSERT_TRUE(texture);
-    EXPECT_EQ(texture->picture(0, 1), (Rgba8{255, 0, 0, 255}));
-    EXPECT_EQ(texture->picture(1, 1), (Rgba8{0, 255, 0, 255}));
-    EXPECT_EQ(texture->picture(0, 0), (Rgba8{0, 0, 255, 255}));
+    EXPECT_EQ(texture->image(0, 1), (Rgba8{255, 0, 0, 255}));
+    EXPECT_EQ(texture->image(1, 1), (Rgba8{0, 255, 0, 255}));
+    EXPECT_EQ(texture->image(0, 0), (Rgba8{0, 0, 255, 255}));
     EXPECT_FALSE(texture->repeat_s);
     EXPECT_TRUE(texture->repeat_t);
     EXPECT_FALSE(texture->modulates);

@@ -12,9 +12,9 @@
 namespace rs::compositor {
 namespace {
 
-// Discs and a bar, some soft, some touching the border, on an empty picture.
+// Discs and a bar, some soft, some touching the border, on an empty image.
 Image<Rgba8> shapes(int width, int height, std::mt19937& random) {
-    Image<Rgba8> picture(width, height);
+    Image<Rgba8> image(width, height);
     std::uniform_int_distribution<int> x_of(0, width - 1);
     std::uniform_int_distribution<int> y_of(0, height - 1);
     for (int n = 0; n < 3; ++n) {
@@ -24,11 +24,11 @@ Image<Rgba8> shapes(int width, int height, std::mt19937& random) {
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
                 const double inside = radius - std::hypot(x - cx, y - cy);
-                if (inside > 0) picture(x, y).a = static_cast<std::uint8_t>(n == 0 || inside >= 2 ? 255 : 100);
+                if (inside > 0) image(x, y).a = static_cast<std::uint8_t>(n == 0 || inside >= 2 ? 255 : 100);
             }
         }
     }
-    return picture;
+    return image;
 }
 
 TEST(ShownParts, HoldAllThatShowsSomethingAndOpaqueOnesNothingElse) {
@@ -36,13 +36,13 @@ TEST(ShownParts, HoldAllThatShowsSomethingAndOpaqueOnesNothingElse) {
     for (const int margin : {0, 1, 5}) {
         for (const int width : {1, 15, 64, 131}) {
             const int height = width == 64 ? 16 : 75;
-            const Image<Rgba8> picture = shapes(width, height, random);
+            const Image<Rgba8> image = shapes(width, height, random);
             const auto alpha = [&](int x, int y) {
-                return x < 0 || y < 0 || x >= width || y >= height ? 0 : static_cast<int>(picture(x, y).a);
+                return x < 0 || y < 0 || x >= width || y >= height ? 0 : static_cast<int>(image(x, y).a);
             };
             int next_row = -margin;
             std::int64_t opaque = 0;
-            for (const ShownBand& band : shown_bands(picture, margin)) {
+            for (const ShownBand& band : shown_bands(image, margin)) {
                 ASSERT_EQ(band.top, next_row);
                 next_row = band.bottom;
                 for (int y = band.top; y < band.bottom; ++y) {
@@ -79,7 +79,7 @@ TEST(ShownParts, HoldAllThatShowsSomethingAndOpaqueOnesNothingElse) {
     }
 }
 
-TEST(ShownParts, AnEmptyPictureHasNone) {
+TEST(ShownParts, AnEmptyImageHasNone) {
     for (const ShownBand& band : shown_bands(Image<Rgba8>(40, 40), 3)) EXPECT_TRUE(band.runs.empty());
     EXPECT_TRUE(shown_mesh(shown_bands(Image<Rgba8>(40, 40), 3), glm::dmat3(1)).corners.empty());
 }
@@ -91,8 +91,8 @@ double side_of_line(const glm::vec3& a, const glm::vec3& b, const glm::vec3& p) 
 
 TEST(ShownParts, TrianglesCoverEveryPointOfTheRunsOnce) {
     std::mt19937 random(11);
-    const Image<Rgba8> picture = shapes(131, 75, random);
-    const std::vector<ShownBand> bands = shown_bands(picture, 2);
+    const Image<Rgba8> image = shapes(131, 75, random);
+    const std::vector<ShownBand> bands = shown_bands(image, 2);
     const ShownMesh mesh = shown_mesh(bands, glm::dmat3(1));
     for (const glm::vec3& corner : mesh.corners) ASSERT_EQ(corner.z, 1);
     for (const ShownBand& band : bands) {

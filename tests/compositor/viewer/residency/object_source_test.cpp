@@ -50,10 +50,10 @@ RaySpaceObject ball(bool coded, bool shape) {
     RaySpaceObject object = test::sphere_object(options, {});
     if (!shape) object.rings[0].shape = {};
     if (!coded) return object;
-    std::vector<Image<Rgba8>> pictures;
-    for (const RigView& view : test::ring_rig(options).views) pictures.push_back(test::sphere_picture({}, view.camera));
-    for (PlanarPicture& picture : object.pictures) picture = {};
-    object.coded = std::make_shared<codec::CodedPictures>(test::code_pictures(object, pictures, {}));
+    std::vector<Image<Rgba8>> images;
+    for (const RigView& view : test::ring_rig(options).views) images.push_back(test::sphere_image({}, view.camera));
+    for (PlanarImage& image : object.images) image = {};
+    object.coded = std::make_shared<codec::CodedImages>(test::code_images(object, images, {}));
     return object;
 }
 
@@ -69,7 +69,7 @@ TEST_P(ObjectFiles, TakeNoMoreThanForeseenAndNotMuchLess) {
         ASSERT_TRUE(config);
         board = engine::model::make_simulated_board(*config, true);
     }
-    const auto engine = std::make_shared<engine::DataModule>(engine::DataModuleLimits{}, std::move(board));
+    const auto engine = std::make_shared<engine::RenderSession>(engine::RenderSessionLimits{}, std::move(board));
     const std::unique_ptr<ObjectSource> source = object_files(engine, true);
     const Result<std::int64_t> foreseen = source->most_bytes(folder / "ball.rso");
     ASSERT_TRUE(foreseen) << foreseen.error().message;
@@ -84,7 +84,7 @@ TEST_P(ObjectFiles, TakeNoMoreThanForeseenAndNotMuchLess) {
     RecordProperty("kept", std::to_string(kept));
     std::printf("foreseen %lld, most %lld, kept %lld bytes\n", static_cast<long long>(*foreseen),
                 static_cast<long long>(most), static_cast<long long>(kept));
-    EXPECT_EQ((*read)->for_board != nullptr, with_board && !coded) << "this board takes raw pictures";
+    EXPECT_EQ((*read)->for_board != nullptr, with_board && !coded) << "this board takes raw images";
     EXPECT_LE(most, *foreseen);
     EXPECT_LE(kept, *foreseen);
     EXPECT_LE(*foreseen, (with_board && coded ? 5 * kept : 5 * kept / 2));
@@ -99,12 +99,12 @@ INSTANTIATE_TEST_SUITE_P(RawAndCoded, ObjectFiles, ::testing::Combine(::testing:
 TEST(ObjectMemory, CountsWhatAnObjectHolds) {
     RaySpaceObject object = ball(false, true);
     const std::int64_t before = memory_of(object);
-    const std::int64_t picture = memory_of(object) - [&] {
-        object.pictures[0] = {};
+    const std::int64_t image = memory_of(object) - [&] {
+        object.images[0] = {};
         return memory_of(object);
     }();
-    EXPECT_EQ(picture, 200 * 220 + 2 * 100 * 110 + 200 * 220);
-    EXPECT_GT(before, 36 * picture);
+    EXPECT_EQ(image, 200 * 220 + 2 * 100 * 110 + 200 * 220);
+    EXPECT_GT(before, 36 * image);
 }
 
 }  // namespace

@@ -46,22 +46,22 @@ inline compositor::Scene boxes(const Light& light) {
 }
 
 // What geometry shows, linear light of its red.
-inline Image<float> red_of(const Image<Rgba8>& picture) {
-    Image<float> red(picture.width(), picture.height());
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) red(x, y) = linear_from_srgb8(picture(x, y).r);
+inline Image<float> red_of(const Image<Rgba8>& image) {
+    Image<float> red(image.width(), image.height());
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) red(x, y) = linear_from_srgb8(image(x, y).r);
     }
     return red;
 }
 
-inline Image<Rgba8> raster_picture(const compositor::Scene& scene, const std::vector<compositor::PlacedObject>& objects,
-                                   const Camera& camera, bool shadows) {
+inline Image<Rgba8> raster_image(const compositor::Scene& scene, const std::vector<compositor::PlacedObject>& objects,
+                                 const Camera& camera, bool shadows) {
     auto frames = compositor::FrameCompositor::create(
         scene, objects, {.width = camera.width, .height = camera.height, .samples = 1, .shadows = shadows});
     RS_CHECK(frames.ok());
-    Result<Image<Rgba8>> picture = frames->compose(camera);
-    RS_CHECK(picture.ok());
-    return std::move(*picture);
+    Result<Image<Rgba8>> image = frames->compose(camera);
+    RS_CHECK(image.ok());
+    return std::move(*image);
 }
 
 // Of the pixels that are lit where nothing is in the way: how many raster and rays call shaded alike.
@@ -79,10 +79,10 @@ inline ShadowAgreement shadow_agreement(const compositor::Scene& scene,
     tracer->look(camera);
     RS_CHECK(tracer->add_pass());
     const Image<RgbaF> traced = tracer->radiance();
-    const Image<float> open = red_of(raster_picture(scene, {}, camera, false));
-    const Image<float> shadowed = red_of(raster_picture(scene, objects, camera, true));
-    const Image<Rgba8> objects_seen = raster_picture(scene, objects, camera, false);
-    const Image<Rgba8> geometry_seen = raster_picture(scene, {}, camera, false);
+    const Image<float> open = red_of(raster_image(scene, {}, camera, false));
+    const Image<float> shadowed = red_of(raster_image(scene, objects, camera, true));
+    const Image<Rgba8> objects_seen = raster_image(scene, objects, camera, false);
+    const Image<Rgba8> geometry_seen = raster_image(scene, {}, camera, false);
     Image<std::uint8_t> by_rays(camera.width, camera.height, 0);  // 1 lit, 2 shaded, 0 neither
     constexpr float kLit = 0.03F;
     for (int y = 0; y < camera.height; ++y) {

@@ -62,8 +62,8 @@ TEST_F(Shadows, ALitPlaneDoesNotShadeItself) {
             Scene scene;
             scene.lights = {light};
             scene.geometry = {plane};
-            const Image<Rgba8> open = test::raster_picture(scene, {}, camera, false);
-            const Image<Rgba8> shadowed = test::raster_picture(scene, {}, camera, true);
+            const Image<Rgba8> open = test::raster_image(scene, {}, camera, false);
+            const Image<Rgba8> shadowed = test::raster_image(scene, {}, camera, true);
             int differing = 0;
             for (std::size_t i = 0; i < open.pixels().size(); ++i) {
                 if (open.pixels()[i] != shadowed.pixels()[i]) ++differing;
@@ -83,8 +83,8 @@ TEST_F(Shadows, AreClosedAtTheFoot) {
         Scene scene;
         scene.lights = {light};
         scene.geometry = {test::matte_box({6, 0.2, 6}, {0, -0.1, 0}), test::matte_box({1, 1, 1}, {0, 0.5, 0})};
-        const Image<float> open = test::red_of(test::raster_picture(scene, {}, camera, false));
-        const Image<float> shadowed = test::red_of(test::raster_picture(scene, {}, camera, true));
+        const Image<float> open = test::red_of(test::raster_image(scene, {}, camera, false));
+        const Image<float> shadowed = test::red_of(test::raster_image(scene, {}, camera, true));
         int looked_at = 0;
         for (double along = -0.35; along <= 0.35; along += 0.01) {
             for (const double beside : {0.002, 0.005, 0.01, 0.02, 0.05, 0.1}) {
@@ -116,7 +116,7 @@ TEST_F(Shadows, OfSheetsFallFromTheSideThatIsSeenOnly) {
     ceiling.world_from_node[3] = glm::dvec4(0, 1, 0, 1);
     scene.geometry = {test::matte_box({6, 0.2, 6}, {0, -0.1, 0}), ceiling};
     const Camera camera = look_at_camera({0, 0.5, 3}, {0, 0, 0}, radians(50), 65, 65);
-    const auto middle = [&](bool shadows) { return test::raster_picture(scene, {}, camera, shadows)(32, 32).r; };
+    const auto middle = [&](bool shadows) { return test::raster_image(scene, {}, camera, shadows)(32, 32).r; };
     EXPECT_GT(middle(false), 100);
     EXPECT_EQ(middle(true), 0);
     scene.geometry[1].world_from_node = scene.geometry[1].world_from_node *
@@ -130,11 +130,11 @@ TEST_F(Shadows, OfLightsInRoomsAreThoseOfTheRoom) {
     light.everywhere = false;
     Scene scene = test::boxes(light);
     for (GeometryNode& node : scene.geometry) node.lights = {0};
-    const Image<Rgba8> alone = test::raster_picture(scene, {}, over_the_boxes(), true);
+    const Image<Rgba8> alone = test::raster_image(scene, {}, over_the_boxes(), true);
     scene.geometry.push_back(test::matte_box({4, 4, 4}, {6, 6, 0}));  // between the light and the room
-    EXPECT_TRUE(std::ranges::equal(test::raster_picture(scene, {}, over_the_boxes(), true).pixels(), alone.pixels()));
+    EXPECT_TRUE(std::ranges::equal(test::raster_image(scene, {}, over_the_boxes(), true).pixels(), alone.pixels()));
     scene.geometry.back().lights = {0};
-    EXPECT_FALSE(std::ranges::equal(test::raster_picture(scene, {}, over_the_boxes(), true).pixels(), alone.pixels()));
+    EXPECT_FALSE(std::ranges::equal(test::raster_image(scene, {}, over_the_boxes(), true).pixels(), alone.pixels()));
 }
 
 TEST_F(Shadows, OfObjectsAgreeWithTracedOnes) {
@@ -165,7 +165,7 @@ TEST_F(Shadows, AreDrawnAgainOnlyWhereSomethingHasChanged) {
     ASSERT_TRUE(frames->draw(camera));
     EXPECT_GT(frames->statistics().shadow_maps_drawn, 0);
     EXPECT_LT(frames->statistics().shadow_maps_drawn, 6);
-    // Not under a traced picture, which shows shadows of its own, but as soon as it is gone.
+    // Not under a traced image, which shows shadows of its own, but as soon as it is gone.
     frames->set_traced(std::make_shared<const Image<Rgba8>>(64, 48));
     frames->turn_object(0, 0.7);
     ASSERT_TRUE(frames->draw(camera));
@@ -195,7 +195,7 @@ TEST_F(Shadows, OfWhatHasMovedAreThoseOfMapsDrawnWhole) {
         };
         FrameCompositor walked = make();
         ASSERT_TRUE(walked.draw(camera));
-        const Image<Rgba8> before = walked.picture();
+        const Image<Rgba8> before = walked.image();
         for (const double shift : {0.0, 0.13, 0.9, 2.5, 40.0, -1.0}) {
             const auto move = [&](FrameCompositor& frames) {
                 for (std::uint32_t i = 1; i < 4; ++i) {
@@ -210,10 +210,9 @@ TEST_F(Shadows, OfWhatHasMovedAreThoseOfMapsDrawnWhole) {
             FrameCompositor fresh = make();
             move(walked);
             move(fresh);
-            EXPECT_TRUE(std::ranges::equal(walked.picture().pixels(), fresh.picture().pixels()))
-                << name << " " << shift;
+            EXPECT_TRUE(std::ranges::equal(walked.image().pixels(), fresh.image().pixels())) << name << " " << shift;
             if (shift == 0.13) {
-                EXPECT_FALSE(std::ranges::equal(walked.picture().pixels(), before.pixels())) << name;
+                EXPECT_FALSE(std::ranges::equal(walked.image().pixels(), before.pixels())) << name;
             }
         }
     }

@@ -116,7 +116,7 @@ TEST(Visitors, ComeFromViewpointsAndGiveThemBack) {
     EXPECT_NEAR(back.pivot_distance, 5, kNear);
 }
 
-// A viewpoint that looks straight down: where its picture's upper edge is, there goes who walks forward.
+// A viewpoint that looks straight down: where its image's upper edge is, there goes who walks forward.
 TEST(Visitors, FromAboveKnowWhereForwardIs) {
     Viewpoint above;
     above.world_from_camera =

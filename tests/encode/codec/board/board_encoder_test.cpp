@@ -7,7 +7,7 @@
 #include "rayspace/codec/board/board_tile.hpp"
 #include "rayspace/codec/stream/byte_account.hpp"
 #include "rayspace/codec/stream/coded_chunks.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "tests/support/coded_object.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -25,38 +25,38 @@ const test::SmallObjectOptions kSmallBoard{.views_per_ring = 18, .width = 72, .h
 
 RaySpaceObject board_object(const BoardSettings& settings, double* psnr_db = nullptr) {
     RaySpaceObject object = test::small_object(kSmallBoard);
-    for (PlanarPicture& picture : object.pictures) picture = {};
-    std::vector<SourcePicture> sources;
-    for (const Image<Rgba8>& picture : test::drawn_pictures(object)) {
-        sources.push_back(source_picture(picture, settings.alpha_bits));
+    for (PlanarImage& image : object.images) image = {};
+    std::vector<SourceImage> sources;
+    for (const Image<Rgba8>& image : test::drawn_images(object)) {
+        sources.push_back(source_image(image, settings.alpha_bits));
     }
-    EncodedPictures encoded = encode_board(object, sources, settings);
+    EncodedImages encoded = encode_board(object, sources, settings);
     if (psnr_db != nullptr) *psnr_db = encoded.psnr_db;
-    object.coded = std::make_shared<codec::CodedPictures>(std::move(encoded.coded));
+    object.coded = std::make_shared<codec::CodedImages>(std::move(encoded.coded));
     return object;
 }
 
-std::vector<std::vector<std::byte>> payloads_of(const codec::CodedPictures& coded) {
+std::vector<std::vector<std::byte>> payloads_of(const codec::CodedImages& coded) {
     std::vector<std::vector<std::byte>> payloads = {codec::code_payload(coded)};
-    for (std::size_t v = 0; v < coded.pictures.size(); ++v) payloads.push_back(codec::coded_picture_payload(coded, v));
+    for (std::size_t v = 0; v < coded.images.size(); ++v) payloads.push_back(codec::coded_image_payload(coded, v));
     return payloads;
 }
 
-std::size_t record_bytes(const codec::CodedPictures& coded) {
+std::size_t record_bytes(const codec::CodedImages& coded) {
     std::size_t bytes = 0;
-    for (const codec::CodedPicture& picture : coded.pictures) bytes += picture.bytes.size();
+    for (const codec::CodedImage& image : coded.images) bytes += image.bytes.size();
     return bytes;
 }
 
-// The error against the drawn pictures, measured on what the file gives back.
+// The error against the drawn images, measured on what the file gives back.
 double file_psnr(const std::filesystem::path& file) {
     const auto object = read_object(file);
     EXPECT_TRUE(object.ok()) << object.error().message;
-    const std::vector<Image<Rgba8>> drawn = test::drawn_pictures(*object);
+    const std::vector<Image<Rgba8>> drawn = test::drawn_images(*object);
     double error = 0;
     double samples = 0;
     for (std::size_t v = 0; v < drawn.size(); ++v) {
-        const PlanarPicture& shown = object->pictures[v];
+        const PlanarImage& shown = object->images[v];
         for (int y = 0; y < object->height; ++y) {
             for (int x = 0; x < object->width; ++x) {
                 const Rgba8 expected = drawn[v](x, y);
@@ -95,17 +95,17 @@ TEST(BoardEncoder, IsTheSameOnAnyNumberOfThreads) {
     }
 }
 
-TEST(BoardEncoder, OnePictureInNineIsAReferenceAndTheOthersNeedNoMore) {
+TEST(BoardEncoder, OneImageInNineIsAReferenceAndTheOthersNeedNoMore) {
     const RaySpaceObject object = board_object({.step = 10});
     int references = 0;
     for (std::size_t v = 0; v < object.views.size(); ++v) {
-        const codec::PictureHead& head = object.coded->pictures[v].head;
+        const codec::ImageHead& head = object.coded->images[v].head;
         if (head.references() == 0) {
             ++references;
             EXPECT_EQ(object.coded->levels[v], 0);
         }
         for (int r = 0; r < head.references(); ++r) {
-            EXPECT_EQ(object.coded->pictures[head.reference[static_cast<std::size_t>(r)]].head.references(), 0);
+            EXPECT_EQ(object.coded->images[head.reference[static_cast<std::size_t>(r)]].head.references(), 0);
         }
     }
     EXPECT_EQ(references, 2);
@@ -119,7 +119,7 @@ TEST(BoardEncoder, AccountsForEveryByte) {
     }
     double expected = 0;
     for (std::size_t v = 0; v < object.views.size(); ++v) {
-        expected += static_cast<double>(codec::coded_picture_payload(*object.coded, v).size());
+        expected += static_cast<double>(codec::coded_image_payload(*object.coded, v).size());
     }
     EXPECT_DOUBLE_EQ(bytes, expected);
 }

@@ -98,7 +98,7 @@ TEST_F(LostPart, DoesNotFloat) {
     EXPECT_EQ(count_of(lost_part(view_, missing_)), 0);  // at one
 }
 
-// A ring about a ball, in pictures twice as large as the views; one lacks its middle.
+// A ring about a ball, in images twice as large as the views; one lacks its middle.
 class LostPartPainting : public testing::Test {
 protected:
     static constexpr int kBitten = 3;
@@ -106,8 +106,8 @@ protected:
 
     LostPartPainting() {
         for (const RigView& each : drawn_ring(24).views) {
-            pictures_.push_back(striped_ball(each.camera));
-            DepthView view{make_work_view(each.camera, pictures_.back(), 2), {}};
+            images_.push_back(striped_ball(each.camera));
+            DepthView view{make_work_view(each.camera, images_.back(), 2), {}};
             view.depth = Image<float>(view.view.height, view.view.width, kNoDepth);
             for (int column = 0; column < view.view.width; ++column) {
                 for (int row = 0; row < view.view.height; ++row) {
@@ -117,11 +117,11 @@ protected:
             }
             ring_.push_back(std::move(view));
         }
-        whole_ = pictures_[kBitten];
+        whole_ = images_[kBitten];
         part_ = Image<float>(whole_.height() / 2, whole_.width() / 2, kNoDepth);
         for (int x = kLeft; x < kRight; ++x) {
             for (int y = kTop; y < kBottom; ++y) {
-                pictures_[kBitten](x, y) = {};
+                images_[kBitten](x, y) = {};
                 ring_[kBitten].view.columns(y / 2, x / 2) = {};
                 part_(y / 2, x / 2) = ring_[kBitten].depth(y / 2, x / 2);
             }
@@ -129,25 +129,25 @@ protected:
     }
 
     [[nodiscard]] LostPartPainter painter() const {
-        return LostPartPainter(ring_[kBitten].view, part_, 2, pictures_[kBitten]);
+        return LostPartPainter(ring_[kBitten].view, part_, 2, images_[kBitten]);
     }
     [[nodiscard]] LostPartPainter::Painter from(int n) const {
-        return {&ring_[static_cast<std::size_t>(n)], &pictures_[static_cast<std::size_t>(n)]};
+        return {&ring_[static_cast<std::size_t>(n)], &images_[static_cast<std::size_t>(n)]};
     }
 
-    std::vector<Image<Rgba8>> pictures_;
+    std::vector<Image<Rgba8>> images_;
     std::vector<DepthView> ring_;
     Image<Rgba8> whole_;
     Image<float> part_;
 };
 
-TEST_F(LostPartPainting, ShowsWhatAPictureBesideShows) {
+TEST_F(LostPartPainting, ShowsWhatAImageBesideShows) {
     LostPartPainter brush = painter();
     EXPECT_FALSE(brush.done());
     EXPECT_EQ(brush.shown_by(from(kBitten + 1)), 32U * 32U);
     brush.paint_from(from(kBitten + 1));
     EXPECT_TRUE(brush.done());
-    const Image<Rgba8> painted = std::move(brush).picture();
+    const Image<Rgba8> painted = std::move(brush).image();
     double squares = 0;
     for (int y = 0; y < whole_.height(); ++y) {
         for (int x = 0; x < whole_.width(); ++x) {
@@ -161,10 +161,10 @@ TEST_F(LostPartPainting, ShowsWhatAPictureBesideShows) {
     EXPECT_LT(std::sqrt(squares / (32 * 32)), 6);  // stripes of 200 codes, 15 degrees away
 }
 
-TEST_F(LostPartPainting, LeavesWhatAPictureDoesNotShow) {
+TEST_F(LostPartPainting, LeavesWhatAImageDoesNotShow) {
     LostPartPainter brush = painter();
     brush.paint_from(from(kBitten + 12));  // from behind
-    EXPECT_EQ(std::move(brush).picture(), pictures_[kBitten]);
+    EXPECT_EQ(std::move(brush).image(), images_[kBitten]);
 }
 
 TEST_F(LostPartPainting, DoesNotTakeWhatStandsBeforeIt) {
@@ -176,7 +176,7 @@ TEST_F(LostPartPainting, DoesNotTakeWhatStandsBeforeIt) {
     EXPECT_EQ(brush.shown_by(from(kBitten - 1)), 32U * 32U);
 }
 
-TEST_F(LostPartPainting, TakesAllOfAPictureThatShowsMost) {
+TEST_F(LostPartPainting, TakesAllOfAImageThatShowsMost) {
     DepthView& other = ring_[kBitten + 1];
     for (int row = 0; row < other.view.height; row += 5) {
         for (int column = 0; column < other.view.width; ++column) other.depth(row, column) -= 0.2F;
@@ -187,12 +187,12 @@ TEST_F(LostPartPainting, TakesAllOfAPictureThatShowsMost) {
     EXPECT_TRUE(brush.done());
 }
 
-TEST_F(LostPartPainting, KeepsAPicturesOwnSoftEdge) {
-    Rgba8& soft = pictures_[kBitten](kLeft + 4, kTop + 4);
+TEST_F(LostPartPainting, KeepsAImagesOwnSoftEdge) {
+    Rgba8& soft = images_[kBitten](kLeft + 4, kTop + 4);
     soft = {10, 20, 30, 51};  // a fifth
     LostPartPainter brush = painter();
     brush.paint_from(from(kBitten + 1));
-    const Rgba8 found = std::move(brush).picture()(kLeft + 4, kTop + 4);
+    const Rgba8 found = std::move(brush).image()(kLeft + 4, kTop + 4);
     EXPECT_EQ(found.a, 255);
     EXPECT_NEAR(found.b, 0.2 * 30 + 0.8 * 128, 1);
 }

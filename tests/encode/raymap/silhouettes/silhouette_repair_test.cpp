@@ -17,11 +17,11 @@ namespace {
 constexpr int kViews = 12;
 constexpr double kTolerance = 0.02;
 
-// A ring about the ball with true depths, in pictures of which one lacks a part.
+// A ring about the ball with true depths, in images of which one lacks a part.
 class SilhouetteRepair : public testing::Test {
 protected:
     static constexpr int kBitten = 6;
-    // Of the bitten picture: a strip at the ball's left rim.
+    // Of the bitten image: a strip at the ball's left rim.
     static constexpr int kLeft = 20, kRight = 32, kTop = 40, kBottom = 64;
 
     SilhouetteRepair() {
@@ -91,14 +91,14 @@ TEST_F(SilhouetteRepair, NothingIsMissingWhereSilhouettesAreWhole) {
     EXPECT_EQ(count_of(points()), 0U);
 }
 
-TEST_F(SilhouetteRepair, WhatOnePictureLacksIsFoundThereAlone) {
+TEST_F(SilhouetteRepair, WhatOneImageLacksIsFoundThereAlone) {
     bite();
     ASSERT_GT(bitten_, 100);
     const auto found = points();
     for (std::size_t n = 0; n < kViews; ++n) {
         const Image<float> missing = missing_depths(ring_[n].view, found);
         if (n != kBitten) {
-            EXPECT_EQ(count_of(missing), 0) << "picture " << n;
+            EXPECT_EQ(count_of(missing), 0) << "image " << n;
             continue;
         }
         int near = 0;  // a few pixels meet no point of the near side
@@ -124,7 +124,7 @@ TEST_F(SilhouetteRepair, PointsThatOneNeighbourDoesNotShowSayNothing) {
         for (float& depth : ring_[n].depth.pixels()) depth += 0.5F;
     }
     const auto left = points();
-    std::size_t before = 0, after = 0;  // of pictures of which one neighbour has moved
+    std::size_t before = 0, after = 0;  // of images of which one neighbour has moved
     for (std::size_t n = 1; n < kViews; n += 2) {
         before += agreed[n].size();
         after += left[n].size();
@@ -140,7 +140,7 @@ TEST_F(SilhouetteRepair, OnlyWhatWasSearchedIsFound) {
     EXPECT_EQ(count_of(points(1)), 0U);
 }
 
-TEST_F(SilhouetteRepair, APictureWithoutAnObjectLacksNothing) {
+TEST_F(SilhouetteRepair, AImageWithoutAnObjectLacksNothing) {
     bite();
     const auto found = points();
     WorkView empty = ring_[kBitten].view;
@@ -208,10 +208,10 @@ TEST(HalvedView, DropsWhatIsLeftOverAndFillsUpToTheEdge) {
 
 TEST(HalvedView, SeesPointsAtHalfTheirPlaceInMeansOfFourPixels) {
     const Camera camera = drawn_ring(8).views[1].camera;
-    Image<Rgba8> picture(camera.width, camera.height, {40, 80, 120, 255});
-    picture(10, 21) = {80, 80, 120, 255};
-    picture(11, 20) = {0, 0, 0, 0};
-    const WorkView whole = make_work_view(camera, picture, 1);
+    Image<Rgba8> image(camera.width, camera.height, {40, 80, 120, 255});
+    image(10, 21) = {80, 80, 120, 255};
+    image(11, 20) = {0, 0, 0, 0};
+    const WorkView whole = make_work_view(camera, image, 1);
     const WorkView half = halved(whole);
     EXPECT_EQ(half.width, 64);
     EXPECT_EQ(half.height, 56);

@@ -182,7 +182,7 @@ private:
     glm::dvec2 viewpoint_;
 };
 
-// Each picture's depths are as wrong as they can be: the far end of the search. From between two pictures such points
+// Each image's depths are as wrong as they can be: the far end of the search. From between two images such points
 // stand aside of the object.
 TEST(ShapeLines, NothingFloatsBesideTheObjectWhereSilhouettesAgree) {
     const std::vector<WorkView> views = drawn_views(drawn_ring(12));
@@ -227,8 +227,8 @@ TEST(ShapeLines, NothingFloatsBesideTheObjectWhereSilhouettesAgree) {
     EXPECT_GT(dropped, 20);
 }
 
-// A wall of gauze behind the object: halfway between two pictures it is also seen where one of them shows the object.
-TEST(ShapeLines, NoPictureHidesWhatStandsBehind) {
+// A wall of gauze behind the object: halfway between two images it is also seen where one of them shows the object.
+TEST(ShapeLines, NoImageHidesWhatStandsBehind) {
     std::vector<DepthView> gauze;
     for (const WorkView& view : drawn_views(drawn_ring(12))) {
         DepthView& one = gauze.emplace_back(DepthView{view, Image<float>(view.height, view.width, kNoDepth)});
@@ -254,12 +254,11 @@ TEST(ShapeLines, NoPictureHidesWhatStandsBehind) {
                 const double depth =
                     std::ldexp(map.depth_low_q20, -20) + cell.depth * std::ldexp(map.depth_step_q24, -24);
                 const CellPlaces::Point point = places.at(pi, hi, depth);
-                const bool hides = std::any_of(gauze.begin(), gauze.begin() + 2, [&](const DepthView& picture) {
-                    const SeenColumn seen = picture.view.see(point.place);
-                    const double row = picture.view.row_of(point.y, seen.axial);
-                    return seen.column >= 0 && seen.column < picture.view.width && row >= 0 &&
-                           row < picture.view.height &&
-                           std::isnan(picture.depth(static_cast<int>(row), static_cast<int>(seen.column)));
+                const bool hides = std::any_of(gauze.begin(), gauze.begin() + 2, [&](const DepthView& image) {
+                    const SeenColumn seen = image.view.see(point.place);
+                    const double row = image.view.row_of(point.y, seen.axial);
+                    return seen.column >= 0 && seen.column < image.view.width && row >= 0 && row < image.view.height &&
+                           std::isnan(image.depth(static_cast<int>(row), static_cast<int>(seen.column)));
                 });
                 ++hidden_shown[hides ? 0 : 1];
             }

@@ -1,4 +1,4 @@
-// Pictures as the depth search sees them.
+// Images as the depth search sees them.
 
 #include "encode/raymap/silhouettes/work_view.hpp"
 
@@ -43,17 +43,17 @@ TEST(WorkView, PixelsGoToPointsAndBack) {
 }
 
 TEST(WorkView, ReductionAveragesByAlpha) {
-    Image<Rgba8> picture(5, 4);
-    picture(0, 0) = {200, 100, 0, 255};
-    picture(1, 0) = {0, 0, 200, 85};
-    const WorkView view = make_work_view(cameras_around(1).views[0].camera, picture, 2);
+    Image<Rgba8> image(5, 4);
+    image(0, 0) = {200, 100, 0, 255};
+    image(1, 0) = {0, 0, 200, 85};
+    const WorkView view = make_work_view(cameras_around(1).views[0].camera, image, 2);
     EXPECT_EQ(view.width, 2);
     EXPECT_EQ(view.height, 2);
     EXPECT_EQ(view.at(0, 0), (Rgba8{150, 75, 50, 85}));
     EXPECT_EQ(view.at(1, 1), Rgba8{});
 }
 
-// A picture of coarse stripes that are brighter than in another one, as gloss is.
+// An image of coarse stripes that are brighter than in another one, as gloss is.
 TEST(WorkView, WeakenedShadingKeepsDetail) {
     const auto view_of = [](int gloss) {
         WorkView view;
