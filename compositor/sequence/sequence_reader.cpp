@@ -42,7 +42,7 @@ public:
         sequence_.weather = files_.weather;
         for (const fs::path& path : files_.models) {
             RS_ASSIGN_OR_RETURN(const ExtendedObj parsed, read_extended_obj(path));
-            RS_ASSIGN_OR_RETURN(const const Model* model, model_of(path, parsed));
+            RS_ASSIGN_OR_RETURN(const Model* model, model_of(path, parsed));
             models_.push_back(model);
         }
         RS_TRY(read_base());
@@ -98,7 +98,7 @@ private:
         } else {
             RS_ASSIGN_OR_RETURN(const ExtendedObj parsed, read_extended_obj(*files_.base));
             if (!parsed.objects.empty()) {
-                RS_ASSIGN_OR_RETURN(const const Model* model, model_of(*files_.base, parsed));
+                RS_ASSIGN_OR_RETURN(const Model* model, model_of(*files_.base, parsed));
                 base_ = model;
             }
             sequence_.camera = parsed.camera;
@@ -127,7 +127,7 @@ private:
         RS_ASSIGN_OR_RETURN(const ExtendedObj parsed, read_extended_obj(path));
         const Model* own = nullptr;
         if (!parsed.objects.empty()) {
-            RS_ASSIGN_OR_RETURN(const const Model* model, model_of(path, parsed));
+            RS_ASSIGN_OR_RETURN(const Model* model, model_of(path, parsed));
             own = model;
         }
         poses_ += parsed.instances.size();
