@@ -159,7 +159,7 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
     intake.survey = Survey{};  // frees memory; the survey is not needed any more
 
     const CutoutCache cutouts(cut, intake.folder.width, intake.folder.height);
-    RS_ASSIGN_OR_RETURN(SegmentedTurn turn, segment_turn(intake.folder, chosen->segmenter, cutouts, progress,
+    RS_ASSIGN_OR_RETURN(SegmentedTurn turn, segment_turn(intake.folder, *chosen.segmenter, cutouts, progress,
                                                          options.segmentation.parameters.foreground));
     chosen.segmenter.reset();
     SegmentationFindings findings =

@@ -27,7 +27,7 @@ public:
     }
 
     [[nodiscard]] Status draws(const ViewRegisters& registers) const override {
-        RS_ASSIGN_OR_RETURN(const BoardView view, board_view(registers, 0));
+        RS_TRY(board_view(registers, 0));
         if (registers.width > limits_.image_buffer_side_px || registers.height > limits_.image_buffer_side_px) {
             return Error{"the view is larger than the board's image buffer"};
         }
