@@ -141,7 +141,7 @@ void add_view_options(CLI::App& app, ViewArguments& arguments, bool& headless) {
         ->type_name("X,Y,Z");
     app.add_option("--tile", arguments.tile,
                    "in place of a view: of frame F of the traced image W x H pixels from (X, Y), as a .png, for "
-                   "--tiles (rs-farm render does all of it)")
+                   "--tiles (workflow/Snakefile does all of it)")
         ->type_name("F:X,Y,WxH");
     app.add_option("--tiles", arguments.tiles, "take the traced images from this folder of tiles F-X-Y.png")
         ->type_name("FOLDER")

@@ -1,5 +1,5 @@
 #pragma once
-// A traced image in pieces, each made by a process of its own: what rs-farm render hands out. Tiles are the traced
+// A traced image in pieces, each made by a process of its own: as workflow/Snakefile does. Tiles are the traced
 // image's own pixels, before objects and what is blended are drawn over and under it.
 
 #include "compositor/tools/view_options.hpp"

@@ -4,28 +4,12 @@
 
 #include <pthread.h>
 
-#include <chrono>
-
 namespace rs {
 namespace {
 
 constexpr int kWake = SIGUSR2;  // ends the watcher's wait when the guard ends
 
-// Launchers of many processes send the signal several times at once.
-constexpr std::chrono::seconds kOneRequest(3);
-
-std::atomic<bool> noting{false};
-std::atomic<int> noted{0};
-
 }  // namespace
-
-void note_interruptions() {
-    noting = true;
-}
-
-int interruption() {
-    return noted;
-}
 
 InterruptionGuard::InterruptionGuard() {
     sigemptyset(&watched_);
@@ -50,15 +34,9 @@ InterruptionGuard::~InterruptionGuard() {
 
 void InterruptionGuard::watch() {
     int received = 0;
-    std::chrono::steady_clock::time_point first;
-    for (;;) {
+    do {
         if (sigwait(&watched_, &received) != 0 || done_) return;
-        if (received == kWake) continue;
-        const auto now = std::chrono::steady_clock::now();
-        if (!noting || (noted != 0 && now - first > kOneRequest)) break;
-        if (noted == 0) first = now;
-        noted = received;
-    }
+    } while (received == kWake);
     remove_staged_output();
     // To the shell the program ended by the signal, as it would have without this guard.
     std::signal(received, SIG_DFL);

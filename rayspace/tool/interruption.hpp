@@ -7,12 +7,6 @@
 
 namespace rs {
 
-// From now on the first signal that an InterruptionGuard watches for is only noted, for work that comes to its end by
-// itself; one that comes more than three seconds later ends the process. Thread-safe, as interruption() is.
-void note_interruptions();
-// The signal that was noted; 0 where there was none.
-int interruption();
-
 // While it lives, SIGINT, SIGTERM and SIGHUP remove the staged output of this process (file_output.hpp) before they end
 // it in their usual way. Made on the main thread before any other thread runs, so that all of them inherit its signal
 // mask.

@@ -2,9 +2,7 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
-#include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
-#include "rayspace/file/input_list.hpp"
 #include "rayspace/tool/interruption.hpp"
 
 #include <algorithm>
@@ -12,7 +10,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -65,14 +62,6 @@ bool take(std::string_view& text, char expected) {
     return true;
 }
 
-// For whoever started the tool and needs to know (input_list.hpp).
-Status list_inputs() {
-    const char* const list = std::getenv(kInputListVariable);
-    if (list == nullptr) return {};
-    RS_ASSIGN_OR_RETURN(const std::vector<InputStamp> stamps, input_stamps());
-    return write_file(list, input_list_text(stamps));
-}
-
 }  // namespace
 
 int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run) {
@@ -96,7 +85,6 @@ int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run
     try {
         const Status status = run();
         if (!status) return fail(app, status.error().message);
-        if (const Status listed = list_inputs(); !listed) return fail(app, listed.error().message);
     } catch (const std::bad_alloc&) {
         return fail(app, "out of memory");
     } catch (const std::system_error& refused) {

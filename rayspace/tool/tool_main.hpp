@@ -1,9 +1,8 @@
 #pragma once
 // The frame of every tool's main: parse -> run -> exit code. Exit 0: done; 1: failed, one line "TOOL: error: ..." on
 // stderr; 2: wrong usage. Ctrl-C (SIGINT), SIGTERM and SIGHUP remove staged output before they end the program. Data
-// goes to stdout, log and progress to stderr. What was read is listed where kInputListVariable requests it
-// (rayspace/file/input_list.hpp). Exceptions that escape a library are caught here as a last resort and
-// reported as errors (std::bad_alloc: "out of memory").
+// goes to stdout, log and progress to stderr. Exceptions that escape a library are caught here as a last
+// resort and reported as errors (std::bad_alloc: "out of memory").
 
 #include "rayspace/base/result.hpp"
 

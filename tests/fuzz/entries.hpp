@@ -46,9 +46,6 @@ int fuzz_film(const std::uint8_t* data, std::size_t size);
 // The bytes as a photometric file: IES, and EULUMDAT.
 int fuzz_luminaire(const std::uint8_t* data, std::size_t size);
 
-// The bytes as a farm's manifest, and as a list of inputs.
-int fuzz_manifest(const std::uint8_t* data, std::size_t size);
-
 // The bytes as a file of a display's walls, and as one of heads before them.
 int fuzz_walls(const std::uint8_t* data, std::size_t size);
 

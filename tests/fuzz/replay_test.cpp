@@ -94,10 +94,6 @@ TEST(FuzzReplay, Luminaire) {
     replay("luminaire", fuzz::fuzz_luminaire);
 }
 
-TEST(FuzzReplay, Manifest) {
-    replay("manifest", fuzz::fuzz_manifest);
-}
-
 TEST(FuzzReplay, Walls) {
     replay("walls", fuzz::fuzz_walls);
 }
