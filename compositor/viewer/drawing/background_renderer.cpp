@@ -56,7 +56,7 @@ void BackgroundRenderer::draw(const Camera& camera, BackgroundArea area) const {
     const glm::dmat3 world_from_pixel(along_x, along_y, camera.ray(0, 0));
     // The shader of a uniform background has no direction.
     if (!plain_) program_.set("direction_from_pixel", glm::mat3(background_from_world_ * world_from_pixel));
-    stops_->bind_table(3);
+    stops_->bind_storage(3);
     for (std::size_t i = 0; i < images_.size(); ++i) {
         if (images_[i]) images_[i]->bind(static_cast<unsigned>(i) + 1);
     }

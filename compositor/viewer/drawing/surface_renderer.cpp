@@ -240,19 +240,19 @@ BoundingBox SurfaceRenderer::caster_bounds(std::size_t node) const {
 void SurfaceRenderer::set_frame(const FrameView& view) const {
     const auto& fog = scene_.fog;
     for (const auto& [kind, program] : programs_) {
-        if (program->uses("eye")) program->set("eye", glm::vec3(view.camera.centre()));
-        if (program->uses("headlight")) program->set("headlight", glm::vec3(view.camera.forward()));
-        if (program->uses("cover_light")) program->set("cover_light", ambient_light_);
+        if (program->has_uniform("eye")) program->set("eye", glm::vec3(view.camera.centre()));
+        if (program->has_uniform("headlight")) program->set("headlight", glm::vec3(view.camera.forward()));
+        if (program->has_uniform("cover_light")) program->set("cover_light", ambient_light_);
         if (!fog) continue;
-        if (program->uses("fog")) program->set("fog", fog->colour);
-        if (program->uses("fog_visibility")) program->set("fog_visibility", static_cast<float>(fog->visibility));
+        if (program->has_uniform("fog")) program->set("fog", fog->colour);
+        if (program->has_uniform("fog_visibility")) program->set("fog_visibility", static_cast<float>(fog->visibility));
     }
 }
 
 void SurfaceRenderer::draw(const Item& item, const gl::Program& program, const FrameView& view,
                            gl::DrawState state) const {
     const auto set = [&](const char* name, const auto& value) {
-        if (program.uses(name)) program.set(name, value);
+        if (program.has_uniform(name)) program.set(name, value);
     };
     program.set("clip_from_node", glm::mat4(view.clip_from_world * item.world_from_node));
     set("world_from_node", glm::mat4(item.world_from_node));

@@ -57,9 +57,9 @@ RaySpaceObject ball(bool coded, bool shape) {
     return object;
 }
 
-class ObjectFiles : public ::testing::TestWithParam<std::tuple<bool, bool>> {};
+class FileObjectSource : public ::testing::TestWithParam<std::tuple<bool, bool>> {};
 
-TEST_P(ObjectFiles, TakeNoMoreThanForeseenAndNotMuchLess) {
+TEST_P(FileObjectSource, TakeNoMoreThanForeseenAndNotMuchLess) {
     const auto [coded, with_board] = GetParam();
     const test::TemporaryFolder folder;
     ASSERT_TRUE(write_object(folder / "ball.rso", ball(coded, !with_board)));
@@ -94,7 +94,7 @@ TEST_P(ObjectFiles, TakeNoMoreThanForeseenAndNotMuchLess) {
     EXPECT_FALSE(source->read(folder / "ball.rso", *foreseen / 8, [](float) {}));
 }
 
-INSTANTIATE_TEST_SUITE_P(RawAndCoded, ObjectFiles, ::testing::Combine(::testing::Bool(), ::testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(RawAndCoded, FileObjectSource, ::testing::Combine(::testing::Bool(), ::testing::Bool()));
 
 TEST(ObjectMemory, CountsWhatAnObjectHolds) {
     RaySpaceObject object = ball(false, true);
