@@ -109,7 +109,7 @@ Status SequencePlayer::trace(std::size_t number, const Camera& camera) {
         // Nodes drawn by raster alone are not in the tracer.
         static_cast<void>(tracer_->move(id, moved.geometry[slot].value_or(hidden_transform_)));
     }
-    tracer_->look(camera);
+    tracer_->begin_image(camera);
     commit_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     for (int pass = 0; pass < options_.passes; ++pass) tracer_->add_pass();
     compositor_.set_traced(std::make_shared<const Image<Rgba8>>(tracer_->image()));

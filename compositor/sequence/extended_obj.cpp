@@ -14,9 +14,9 @@ namespace rs::compositor {
 namespace {
 
 constexpr double kFarthest = 1e6;  // coordinates, scales
-constexpr double kLeastScale = 1e-6;
-constexpr double kMostTurns_deg = 36000;
-constexpr std::size_t kLongestShown = 40;
+constexpr double kMinScale = 1e-6;
+constexpr double kMaxTurns_deg = 36000;
+constexpr std::size_t kMaxQuoted_chars = 40;
 
 struct MalformedLine {
     std::string what;  // "...; what to do"
@@ -40,7 +40,7 @@ Words words_of(std::string_view line) {
     return words;
 }
 
-// What stands behind the first word, with its blanks.
+// Text after the first word, including its blanks.
 std::string rest_of(std::string_view line, std::string_view first_word) {
     std::string_view rest = line.substr(line.find(first_word) + first_word.size());
     while (!rest.empty() && is_space(rest.front())) rest.remove_prefix(1);
@@ -49,10 +49,10 @@ std::string rest_of(std::string_view line, std::string_view first_word) {
 }
 
 std::string in_quotes(std::string_view word) {
-    return "'" + printable(word.substr(0, kLongestShown)) + (word.size() > kLongestShown ? "...'" : "'");
+    return "'" + printable(word.substr(0, kMaxQuoted_chars)) + (word.size() > kMaxQuoted_chars ? "...'" : "'");
 }
 
-// `f` at the end as of a C number is taken where the line may have it.
+// Parses a number; a trailing `f` as in C is accepted if `may_end_in_f`.
 double number(std::string_view word, double lowest, double highest, bool may_end_in_f) {
     std::string_view digits = word;
     if (may_end_in_f && digits.size() > 1 && (digits.back() == 'f' || digits.back() == 'F')) digits.remove_suffix(1);
@@ -80,7 +80,7 @@ bool whole(std::string_view word, long long& value) {
     return end.ec == std::errc() && end.ptr == word.data() + word.size();
 }
 
-// Reads a file line by line.
+// Line-by-line parser.
 class Reader {
 public:
     void take(std::string_view line, int number_of_line) {
@@ -113,10 +113,10 @@ private:
         instance.line = line_;
         instance.id = std::string(words[1]);
         instance.pose.move = triple(values.subspan(2, 3), kFarthest);
-        instance.pose.turn_deg = triple(values.subspan(5, 3), kMostTurns_deg);
+        instance.pose.turn_deg = triple(values.subspan(5, 3), kMaxTurns_deg);
         instance.pose.scale = triple(values.subspan(8, 3), kFarthest);
         for (int axis = 0; axis < 3; ++axis) {
-            if (std::abs(instance.pose.scale[axis]) < kLeastScale) {
+            if (std::abs(instance.pose.scale[axis]) < kMinScale) {
                 throw MalformedLine{"the scale " + in_quotes(words[static_cast<std::size_t>(8 + axis)]) +
                                     " leaves nothing; give one that is not 0"};
             }
@@ -153,7 +153,7 @@ private:
         };
         const auto name = [&] {
             if (words.size() < 2) throw MalformedLine{in_quotes(kind) + " has no name; give one"};
-            // As the reader of meshes has it: up to the next blank.
+            // Names end at the next blank, as in the mesh reader.
             return std::string(words[1]);
         };
         if (kind == "v") {
@@ -212,7 +212,7 @@ private:
         if (!whole(text, index) || index == 0) {
             throw MalformedLine{"the corner " + in_quotes(corner) + " is no index; write it as 1, 1/2, 1//3 or 1/2/3"};
         }
-        // Some writers number texture coordinates that they do not write.
+        // Some exporters write texture coordinate indices without coordinates.
         if (part == 1 && count == 0) return;
         if (index > count || index < -count) {
             constexpr std::array kWhat{"vertices", "texture coordinates", "normals"};
@@ -246,7 +246,7 @@ private:
     long long places_ = 0;
     long long normals_ = 0;
     bool has_o_ = false;
-    std::string object_ = "defaultobject";  // as the reader of meshes calls what stands before all names
+    std::string object_ = "defaultobject";  // the mesh reader's name of faces before all names
     std::string node_ = "defaultobject";
     std::map<std::string, std::string> owner_of_node_;
 };
@@ -260,7 +260,7 @@ glm::dmat3 turn_matrix(const glm::dvec3& turn_deg) {
         const double s = std::sin(radians(turn_deg[axis]));
         const int u = (axis + 1) % 3;
         const int v = (axis + 2) % 3;
-        glm::dmat3 about(1.0);  // takes u to v
+        glm::dmat3 about(1.0);  // rotates u to v
         about[u][u] = c;
         about[u][v] = s;
         about[v][u] = -s;
@@ -285,7 +285,7 @@ Result<ExtendedObj> parse_extended_obj(std::string_view text, const std::string&
     Reader reader;
     int line = 0;
     try {
-        std::string joined;  // of lines that end in a backslash
+        std::string joined;  // lines continued by backslashes
         int first = 0;
         for (std::size_t begin = 0; begin < text.size();) {
             const std::size_t end = std::min(text.find('\n', begin), text.size());

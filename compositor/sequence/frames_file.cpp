@@ -21,7 +21,7 @@ glm::vec3 take_colour(JsonObject& object, const char* key) {
     return {linear_from_srgb(srgb.r), linear_from_srgb(srgb.g), linear_from_srgb(srgb.b)};
 }
 
-// From the zenith down to the horizon, whose colour the ground has.
+// Gradient from the zenith to the horizon; the ground has the horizon's colour.
 Background take_background(JsonObject object) {
     Background background;
     const glm::vec3 zenith = take_colour(object, "zenith");
@@ -41,7 +41,7 @@ std::vector<fs::path> take_files(JsonObject& object, const char* key, std::size_
     return files;
 }
 
-// The only map of a project's folder.
+// Map of a project folder with a single map.
 Result<std::optional<fs::path>> only_map(const fs::path& folder) {
     std::error_code error;
     std::vector<fs::path> maps;

@@ -154,11 +154,11 @@ TEST_F(SequenceFiles, MapsAreFound) {
 }
 
 TEST(Converter, WordsAreTakenWithoutAShell) {
-    const auto words = converter_words(R"(my 'one word' "it's" {in}.x a$HOME;b {out})", "in dir", "out");
+    const auto words = parse_converter_command(R"(my 'one word' "it's" {in}.x a$HOME;b {out})", "in dir", "out");
     ASSERT_TRUE(words);
     EXPECT_THAT(*words, ElementsAre("my", "one word", "it's", "in dir.x", "a$HOME;b", "out"));
-    EXPECT_FALSE(converter_words("my {in}", "a", "b"));
-    EXPECT_FALSE(converter_words("my '{in} {out}", "a", "b"));
+    EXPECT_FALSE(parse_converter_command("my {in}", "a", "b"));
+    EXPECT_FALSE(parse_converter_command("my '{in} {out}", "a", "b"));
 }
 
 TEST_F(SequenceFiles, ConvertersAreChecked) {
