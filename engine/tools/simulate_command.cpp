@@ -205,7 +205,7 @@ Status use_images(const model::BoardRun& run, const std::vector<Drawing>& drawin
 Status run_simulate(const SimulateArguments& arguments) {
     RS_ASSIGN_OR_RETURN(const model::BoardConfig config, model::read_board_config(arguments.config));
     if (arguments.print_config) {
-        std::printf("%s\n", model::board_config_jsonconfig.c_str());
+        std::printf("%s\n", model::board_config_json(config).c_str());
         return {};
     }
     model::Board board(config);

@@ -223,7 +223,7 @@ const ChunkEntry* ContainerReader::find(ChunkName name, std::uint32_t index) con
 Result<std::vector<std::byte>> ContainerReader::read(const ChunkEntry& entry) const {
     // The padding belongs to the chunk before it: a file of which every chunk was read was checked to the last byte.
     RS_ASSIGN_OR_RETURN(auto bytes, source_->bytes_at(entry.offset_bytes, aligned(entry.size_bytes)));
-    const std::span<const std::byte> padding = std::spanbytes.subspan(static_cast<std::size_t>(entry.size_bytes));
+    const std::span<const std::byte> padding = std::span(bytes).subspan(static_cast<std::size_t>(entry.size_bytes));
     if (std::any_of(padding.begin(), padding.end(), [](std::byte b) { return b != std::byte{0}; })) {
         return source_->wrong(place(entry) + "the padding behind it is not zero" + kDamaged);
     }

@@ -23,7 +23,7 @@ namespace rs::reference {
 namespace {
 
 // The first sample of width x height in which the planes differ; "" for none.
-std::string difference(const Image& expected, std::size_t plane, const Image<std::uint8_t>& found, int width,
+std::string difference(const DecodedImage& expected, std::size_t plane, const Image<std::uint8_t>& found, int width,
                        int height) {
     if (found.width() < width || found.height() < height) return "a plane is too small";
     for (int y = 0; y < height; ++y) {
@@ -41,7 +41,7 @@ void expect_same(const Images& expected, const codec::CodedImages& coded) {
     const std::vector<LibraryPlanes> found = decode_by_tiles(coded);
     ASSERT_EQ(expected.views.size(), found.size());
     for (std::size_t v = 0; v < found.size(); ++v) {
-        const Image& image = expected.views[v];
+        const DecodedImage& image = expected.views[v];
         ASSERT_EQ(image.width, coded.coded_width());
         ASSERT_EQ(image.height, coded.coded_height());
         for (std::size_t p = 0; p < 4; ++p) {
@@ -181,7 +181,7 @@ TEST_P(RandomStreams, AreTheSameByBothDecoders) {
         codec::CodedImages coded;
         ASSERT_EQ(parse_stream(stream, coded), "");
         ASSERT_NO_FATAL_FAILURE(expect_same(expected, coded));
-        for (const Image& image : expected.views) {
+        for (const DecodedImage& image : expected.views) {
             samples += image.planes[0].size();
             telling += static_cast<std::size_t>(
                 std::ranges::count_if(image.planes[0], [](std::uint8_t s) { return s != 0 && s != 128 && s != 255; }));

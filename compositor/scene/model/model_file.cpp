@@ -129,7 +129,7 @@ Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
         const ModelFiles& files = read_models_only(importer, kMaxModel_bytes);
         importer.ReadFile(path.string(), 0);
         if (!files.refusal().empty()) return Error{files.refusal()};
-        RS_ASSIGN_OR_RETURN(const const aiScene* read,
+        RS_ASSIGN_OR_RETURN(const aiScene* read,
                             post_processed(importer,
                                            aiProcess_Triangulate | aiProcess_GenSmoothNormals |
                                                aiProcess_JoinIdenticalVertices | aiProcess_SortByPType,

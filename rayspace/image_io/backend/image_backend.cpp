@@ -103,32 +103,32 @@ Channels choose_channels(const OIIO::ImageSpec& spec) {
 
 // The data window's first `channels` channels, interleaved.
 template <class T>
-Result<std::vector<T>> read_samples(OpenedImage& image, const std::string& path, int first, int channels) {
-    const OIIO::ImageSpec spec = image.input->spec();
+Result<std::vector<T>> read_samples(OpenedImage& opened, const std::string& path, int first, int channels) {
+    const OIIO::ImageSpec spec = opened.input->spec();
     std::vector<T> samples(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
                            static_cast<std::size_t>(channels));
     const OIIO::TypeDesc type = OIIO::BaseTypeFromC<T>::value;
-    if (!image.input->read_image(0, 0, first, first + channels, type, samples.data())) {
-        return Error{path + ": is damaged or cut short: " + one_line(image.input->geterror())};
+    if (!opened.input->read_image(0, 0, first, first + channels, type, samples.data())) {
+        return Error{path + ": is damaged or cut short: " + one_line(opened.input->geterror())};
     }
     // Some readers go on after damage and only leave a note.
-    if (image.input->has_error()) {
-        return Error{path + ": is damaged or cut short: " + one_line(image.input->geterror())};
+    if (opened.input->has_error()) {
+        return Error{path + ": is damaged or cut short: " + one_line(opened.input->geterror())};
     }
     return samples;
 }
 
 // Calls set(x, y, sample pointer) for the part of the data window that lies inside the display window.
 template <class T, class Set>
-void for_each_visible(const OpenedImage& image, const std::vector<T>& samples, int channels, Set&& set) {
-    const OIIO::ImageSpec& spec = image.input->spec();
+void for_each_visible(const OpenedImage& opened, const std::vector<T>& samples, int channels, Set&& set) {
+    const OIIO::ImageSpec& spec = opened.input->spec();
     for (int y = 0; y < spec.height; ++y) {
         const std::int64_t shown_y = std::int64_t{y} + spec.y - spec.full_y;
-        if (shown_y < 0 || shown_y >= image.height) continue;
+        if (shown_y < 0 || shown_y >= opened.height) continue;
         const T* sample = samples.data() + static_cast<std::ptrdiff_t>(y) * spec.width * channels;
         for (int x = 0; x < spec.width; ++x, sample += channels) {
             const std::int64_t shown_x = std::int64_t{x} + spec.x - spec.full_x;
-            if (shown_x < 0 || shown_x >= image.width) continue;
+            if (shown_x < 0 || shown_x >= opened.width) continue;
             set(static_cast<int>(shown_x), static_cast<int>(shown_y), sample);
         }
     }
@@ -153,19 +153,19 @@ RgbaF pixel_of(const T* sample, const Channels& channels) {
     return pixel;
 }
 
-std::optional<ColourProfile> profile_of(const OpenedImage& image) {
-    const OIIO::ParamValue* const icc = image.input->spec().find_attribute("ICCProfile");
+std::optional<ColourProfile> profile_of(const OpenedImage& opened) {
+    const OIIO::ParamValue* const icc = opened.input->spec().find_attribute("ICCProfile");
     if (icc == nullptr || icc->type().basetype != OIIO::TypeDesc::UINT8) return std::nullopt;
     return ColourProfile::unlike_srgb({static_cast<const std::byte*>(icc->data()), icc->type().size()});
 }
 
 Result<ImageInfo> read_info(const std::string& path, int max_side_px) {
     return guarded(path, [&]() -> Result<ImageInfo> {
-        RS_ASSIGN_OR_RETURN(const auto image, open_image(path, Need::kHeader, max_side_px));
-        const OIIO::ImageSpec& spec = image.input->spec();
+        RS_ASSIGN_OR_RETURN(const auto opened, open_image(path, Need::kHeader, max_side_px));
+        const OIIO::ImageSpec& spec = opened.input->spec();
         const int orientation = spec.get_int_attribute("Orientation", 1);
-        return ImageInfo{image.width,
-                         image.height,
+        return ImageInfo{opened.width,
+                         opened.height,
                          spec.nchannels,
                          choose_channels(spec).alpha,
                          orientation >= 1 && orientation <= 8 ? orientation : 1,
@@ -174,12 +174,12 @@ Result<ImageInfo> read_info(const std::string& path, int max_side_px) {
 }
 
 // 8-bit files with straight alpha: nothing is computed, every value comes through as it is.
-Result<Image<Rgba8>> read_bytes(OpenedImage& image, const std::string& path, const Channels& channels) {
-    RS_ASSIGN_OR_RETURN(const auto samples, read_samples<std::uint8_t>(image, path, 0, channels.count));
-    Image<Rgba8> image(image.width, image.height);
+Result<Image<Rgba8>> read_bytes(OpenedImage& opened, const std::string& path, const Channels& channels) {
+    RS_ASSIGN_OR_RETURN(const auto samples, read_samples<std::uint8_t>(opened, path, 0, channels.count));
+    Image<Rgba8> image(opened.width, opened.height);
     const int green = channels.colours == 3 ? 1 : 0;
     const int blue = channels.colours == 3 ? 2 : 0;
-    for_each_visible(image, samples, channels.count, [&](int x, int y, const std::uint8_t* s) {
+    for_each_visible(opened, samples, channels.count, [&](int x, int y, const std::uint8_t* s) {
         const std::uint8_t alpha = channels.alpha ? s[channels.colours] : std::uint8_t{255};
         image(x, y) = {s[0], s[green], s[blue], alpha};
     });
@@ -188,22 +188,22 @@ Result<Image<Rgba8>> read_bytes(OpenedImage& image, const std::string& path, con
 
 Result<Image<Rgba8>> read_image(const std::string& path, int max_side_px) {
     return guarded(path, [&]() -> Result<Image<Rgba8>> {
-        RS_ASSIGN_OR_RETURN(auto image, open_image(path, Need::kWholeFile, max_side_px));
-        const Channels channels = choose_channels(image.input->spec());
-        const bool is_float = image.input->spec().format.is_floating_point();
-        const std::optional<ColourProfile> profile = profile_of(image);
-        if (image.input->spec().format == OIIO::TypeUInt8 && (channels.straight || !channels.alpha)) {
-            Result<Image<Rgba8>> image = read_bytes(image, path, channels);
+        RS_ASSIGN_OR_RETURN(auto opened, open_image(path, Need::kWholeFile, max_side_px));
+        const Channels channels = choose_channels(opened.input->spec());
+        const bool is_float = opened.input->spec().format.is_floating_point();
+        const std::optional<ColourProfile> profile = profile_of(opened);
+        if (opened.input->spec().format == OIIO::TypeUInt8 && (channels.straight || !channels.alpha)) {
+            Result<Image<Rgba8>> image = read_bytes(opened, path, channels);
             if (image && profile) profile->to_srgb(std::span(image->pixels()));
             return image;
         }
-        Image<Rgba8> image(image.width, image.height);
+        Image<Rgba8> image(opened.width, opened.height);
         const auto store = [&](int x, int y, RgbaF p) {
             if (is_float) p = {srgb_from_linear(p.r), srgb_from_linear(p.g), srgb_from_linear(p.b), p.a};
             image(x, y) = {byte_from_unit(p.r), byte_from_unit(p.g), byte_from_unit(p.b), byte_from_unit(p.a)};
         };
-        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(image, path, 0, channels.count));
-        for_each_visible(image, samples, channels.count,
+        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(opened, path, 0, channels.count));
+        for_each_visible(opened, samples, channels.count,
                          [&](int x, int y, const float* s) { store(x, y, pixel_of(s, channels)); });
         if (profile && !is_float) profile->to_srgb(std::span(image.pixels()));
         return image;
@@ -212,15 +212,15 @@ Result<Image<Rgba8>> read_image(const std::string& path, int max_side_px) {
 
 Result<Image<RgbaF>> read_image_linear(const std::string& path) {
     return guarded(path, [&]() -> Result<Image<RgbaF>> {
-        RS_ASSIGN_OR_RETURN(auto image, open_image(path, Need::kWholeFile));
-        const Channels channels = choose_channels(image.input->spec());
-        const bool is_float = image.input->spec().format.is_floating_point();
-        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(image, path, 0, channels.count));
-        Image<RgbaF> image(image.width, image.height);
-        for_each_visible(image, samples, channels.count,
+        RS_ASSIGN_OR_RETURN(auto opened, open_image(path, Need::kWholeFile));
+        const Channels channels = choose_channels(opened.input->spec());
+        const bool is_float = opened.input->spec().format.is_floating_point();
+        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(opened, path, 0, channels.count));
+        Image<RgbaF> image(opened.width, opened.height);
+        for_each_visible(opened, samples, channels.count,
                          [&](int x, int y, const float* s) { image(x, y) = pixel_of(s, channels); });
         if (is_float) return image;
-        if (const auto profile = profile_of(image)) profile->to_srgb(std::span(image.pixels()));
+        if (const auto profile = profile_of(opened)) profile->to_srgb(std::span(image.pixels()));
         for (RgbaF& p : image.pixels()) {
             p = {linear_from_srgb(p.r), linear_from_srgb(p.g), linear_from_srgb(p.b), p.a};
         }
@@ -230,13 +230,13 @@ Result<Image<RgbaF>> read_image_linear(const std::string& path) {
 
 Result<Image<float>> read_channel(const std::string& path) {
     return guarded(path, [&]() -> Result<Image<float>> {
-        RS_ASSIGN_OR_RETURN(auto image, open_image(path, Need::kWholeFile));
-        const std::vector<std::string>& names = image.input->spec().channelnames;
+        RS_ASSIGN_OR_RETURN(auto opened, open_image(path, Need::kWholeFile));
+        const std::vector<std::string>& names = opened.input->spec().channelnames;
         const auto z = std::find(names.begin(), names.end(), "Z");
         const int channel = z == names.end() ? 0 : static_cast<int>(z - names.begin());
-        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(image, path, channel, 1));
-        Image<float> image(image.width, image.height);
-        for_each_visible(image, samples, 1, [&](int x, int y, const float* s) { image(x, y) = *s; });
+        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(opened, path, channel, 1));
+        Image<float> image(opened.width, opened.height);
+        for_each_visible(opened, samples, 1, [&](int x, int y, const float* s) { image(x, y) = *s; });
         return image;
     });
 }

@@ -22,8 +22,8 @@ int place_in_quarter(int x, int y) {
 
 }  // namespace
 
-BoardTileDecoder::BoardTileDecoder(const Code& code, std::array<const Image*, 2> references, int t, Bytes bytes,
-                                   Image& image)
+BoardTileDecoder::BoardTileDecoder(const Code& code, std::array<const DecodedImage*, 2> references, int t, Bytes bytes,
+                                   DecodedImage& image)
     : code_(code.board), references_(references), bytes_(bytes), image_(image) {
     const int columns = ceil_div(image.width, 32);
     tile_x_ = 32 * (t % columns);

@@ -12,7 +12,7 @@
 namespace rs::reference {
 
 // "Samples, tiles, blocks": Y, U, V and alpha of the coded size, sample (x, y) of plane p at planes[p][y * width + x].
-struct Image {
+struct DecodedImage {
     int width = 0;
     int height = 0;
     std::array<std::vector<std::uint8_t>, 4> planes;
@@ -20,7 +20,7 @@ struct Image {
 
 struct Images {
     std::string error;  // the rule that was broken; empty: none
-    std::vector<Image> views;
+    std::vector<DecodedImage> views;
 };
 
 // Width and height are the images' (px, 1 .. 8192), `code` the payload of the chunk `CODE`, `picts[v]` that of `PICT`

@@ -13,6 +13,6 @@ struct Edge {
     int q;
 };
 
-void smooth_edge(Image& image, const Edge& edge);
+void smooth_edge(DecodedImage& image, const Edge& edge);
 
 }  // namespace rs::reference

@@ -32,13 +32,13 @@ int matrix(int n, int row, int column) {
 
 }  // namespace
 
-int nearest_sample(const Image& image, int plane, int x, int y) {
+int nearest_sample(const DecodedImage& image, int plane, int x, int y) {
     const int inside_x = std::clamp(x, 0, image.width - 1);
     const int inside_y = std::clamp(y, 0, image.height - 1);
     return image.planes[static_cast<std::size_t>(plane)][static_cast<std::size_t>(inside_y * image.width + inside_x)];
 }
 
-Square predict_from_reference(const Image& reference, int plane, int x, int y, int n, Vector vector) {
+Square predict_from_reference(const DecodedImage& reference, int plane, int x, int y, int n, Vector vector) {
     Square part(n);
     for (int py = 0; py < n; ++py) {
         for (int px = 0; px < n; ++px) {
@@ -56,7 +56,7 @@ Square predict_from_reference(const Image& reference, int plane, int x, int y, i
     return part;
 }
 
-Square predict_from_neighbours(const Image& image, int plane, int x, int y, int n, int mode, bool has_left,
+Square predict_from_neighbours(const DecodedImage& image, int plane, int x, int y, int n, int mode, bool has_left,
                                bool has_upper) {
     std::vector<int> l(static_cast<std::size_t>(n), 128);
     std::vector<int> t(static_cast<std::size_t>(n), 128);

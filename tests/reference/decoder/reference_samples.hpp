@@ -18,18 +18,18 @@ struct Square {
     std::vector<int> values;
 };
 
-inline std::uint8_t& sample(Image& image, int plane, int x, int y) {
+inline std::uint8_t& sample(DecodedImage& image, int plane, int x, int y) {
     return image.planes[static_cast<std::size_t>(plane)][static_cast<std::size_t>(y * image.width + x)];
 }
 
 // "Samples outside of the coded size are the nearest ones inside."
-int nearest_sample(const Image& image, int plane, int x, int y);
+int nearest_sample(const DecodedImage& image, int plane, int x, int y);
 
 // "From a reference": the part of n x n at (x, y), moved by the vector.
-Square predict_from_reference(const Image& reference, int plane, int x, int y, int n, Vector vector);
+Square predict_from_reference(const DecodedImage& reference, int plane, int x, int y, int n, Vector vector);
 
 // "From neighbours": the part of n x n at (x, y) of the image that is being decoded.
-Square predict_from_neighbours(const Image& image, int plane, int x, int y, int n, int mode, bool has_left,
+Square predict_from_neighbours(const DecodedImage& image, int plane, int x, int y, int n, int mode, bool has_left,
                                bool has_upper);
 
 // "Step index i stands for q".

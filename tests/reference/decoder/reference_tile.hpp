@@ -16,8 +16,8 @@ class TileDecoder {
 public:
     // `references` has null where the image has no reference; `image` holds the samples of empty blocks where it is
     // not decoded yet. Tile t of the image has the bytes.
-    TileDecoder(const Code& code, const Pict& pict, std::array<const Image*, 2> references, int t, Bytes bytes,
-                Image& image);
+    TileDecoder(const Code& code, const Pict& pict, std::array<const DecodedImage*, 2> references, int t, Bytes bytes,
+                DecodedImage& image);
 
     void decode();
 
@@ -89,8 +89,8 @@ private:
 
     const Code& code_;
     const Pict& pict_;
-    std::array<const Image*, 2> references_;
-    Image& image_;
+    std::array<const DecodedImage*, 2> references_;
+    DecodedImage& image_;
     Bits bits_;
     int tile_x_ = 0, tile_y_ = 0, width_ = 0, height_ = 0;
     int full_ = 0;

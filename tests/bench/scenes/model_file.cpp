@@ -1,4 +1,4 @@
-#include "datasets-synthetic/measuring/model_file.hpp"
+#include "tests/bench/scenes/model_file.hpp"
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"

@@ -3,7 +3,7 @@
 // lights of some passengers, and by the sun through its windows. What instant radiosity was measured on in a flight
 // simulator had as many lights.
 
-#include "datasets-synthetic/measuring/model.hpp"
+#include "tests/bench/scenes/model.hpp"
 
 namespace rs::synthetic {
 

@@ -1,7 +1,7 @@
 #pragma once
 // What stands in the halls: each piece is a group of its own whose foot is at the origin.
 
-#include "datasets-synthetic/measuring/model.hpp"
+#include "tests/bench/scenes/model.hpp"
 
 namespace rs::synthetic {
 

@@ -1,10 +1,10 @@
 #pragma once
 // Builds a group from boxes, sheets, lathes, tubes and cushions, in the frame of the piece at hand. Not thread-safe.
 
-#include "datasets-synthetic/measuring/model.hpp"
 #include "datasets-synthetic/shapes/frame.hpp"
 #include "datasets-synthetic/shapes/grid_surface.hpp"
 #include "datasets-synthetic/shapes/random.hpp"
+#include "tests/bench/scenes/model.hpp"
 
 #include <initializer_list>
 #include <span>

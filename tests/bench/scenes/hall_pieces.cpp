@@ -1,8 +1,8 @@
-#include "datasets-synthetic/measuring/hall_pieces.hpp"
+#include "tests/bench/scenes/hall_pieces.hpp"
 
-#include "datasets-synthetic/measuring/group_builder.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "rayspace/image/linear_light.hpp"
+#include "tests/bench/scenes/group_builder.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // Rooms to measure with: as many triangles as they say, the same every time, and lights that can be read.
 
-#include "datasets-synthetic/measuring/cabin.hpp"
-#include "datasets-synthetic/measuring/hall.hpp"
-#include "datasets-synthetic/measuring/light_list.hpp"
-#include "datasets-synthetic/measuring/model_file.hpp"
 #include "rayspace/light/luminaire.hpp"
+#include "tests/bench/scenes/cabin.hpp"
+#include "tests/bench/scenes/hall.hpp"
+#include "tests/bench/scenes/light_list.hpp"
+#include "tests/bench/scenes/model_file.hpp"
 #include "tests/datasets-synthetic/digest.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,9 +1,9 @@
-#include "datasets-synthetic/measuring/cabin.hpp"
+#include "tests/bench/scenes/cabin.hpp"
 
-#include "datasets-synthetic/measuring/cabin_pieces.hpp"
-#include "datasets-synthetic/measuring/group_builder.hpp"
-#include "datasets-synthetic/measuring/light_list.hpp"
 #include "rayspace/base/check.hpp"
+#include "tests/bench/scenes/cabin_pieces.hpp"
+#include "tests/bench/scenes/group_builder.hpp"
+#include "tests/bench/scenes/light_list.hpp"
 
 #include <vector>
 

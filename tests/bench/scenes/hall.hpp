@@ -3,7 +3,7 @@
 // balusters to a gallery, tables with chairs, benches, chandeliers and plants. As large as the two halls that Whitted's
 // ray tracing was measured on in a CAVE.
 
-#include "datasets-synthetic/measuring/model.hpp"
+#include "tests/bench/scenes/model.hpp"
 
 namespace rs::synthetic {
 

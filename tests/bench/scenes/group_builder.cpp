@@ -1,4 +1,4 @@
-#include "datasets-synthetic/measuring/group_builder.hpp"
+#include "tests/bench/scenes/group_builder.hpp"
 
 #include "datasets-synthetic/shapes/lathe.hpp"
 #include "datasets-synthetic/shapes/sweep.hpp"

@@ -1,4 +1,4 @@
-#include "datasets-synthetic/measuring/light_list.hpp"
+#include "tests/bench/scenes/light_list.hpp"
 
 #include "rayspace/base/conventions.hpp"
 

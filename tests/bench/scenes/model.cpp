@@ -1,4 +1,4 @@
-#include "datasets-synthetic/measuring/model.hpp"
+#include "tests/bench/scenes/model.hpp"
 
 namespace rs::synthetic {
 

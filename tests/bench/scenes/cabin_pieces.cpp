@@ -1,6 +1,6 @@
-#include "datasets-synthetic/measuring/cabin_pieces.hpp"
+#include "tests/bench/scenes/cabin_pieces.hpp"
 
-#include "datasets-synthetic/measuring/group_builder.hpp"
+#include "tests/bench/scenes/group_builder.hpp"
 
 #include <algorithm>
 #include <cmath>

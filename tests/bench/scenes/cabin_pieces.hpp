@@ -1,7 +1,7 @@
 #pragma once
 // What the cabin is made of. X goes from the nose to the tail, the floor is at y = 0.
 
-#include "datasets-synthetic/measuring/model.hpp"
+#include "tests/bench/scenes/model.hpp"
 
 namespace rs::synthetic {
 

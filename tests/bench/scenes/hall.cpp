@@ -1,9 +1,9 @@
-#include "datasets-synthetic/measuring/hall.hpp"
+#include "tests/bench/scenes/hall.hpp"
 
-#include "datasets-synthetic/measuring/group_builder.hpp"
-#include "datasets-synthetic/measuring/hall_pieces.hpp"
-#include "datasets-synthetic/measuring/light_list.hpp"
 #include "rayspace/base/check.hpp"
+#include "tests/bench/scenes/group_builder.hpp"
+#include "tests/bench/scenes/hall_pieces.hpp"
+#include "tests/bench/scenes/light_list.hpp"
 
 #include <cmath>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
 // Writes a model as glTF 2.0, with the lights and luminaires beside it.
 
-#include "datasets-synthetic/measuring/model.hpp"
 #include "rayspace/base/result.hpp"
+#include "tests/bench/scenes/model.hpp"
 
 #include <filesystem>
 
