@@ -146,7 +146,7 @@ Result<WallDisplay> walls_from_json(const std::string& text, const std::filesyst
         top.read("fit_scene", display.fits_scene);
         if (top.has("place")) {
             const JsonValue place = top.take("place");
-            if (display.fits_scene) throw place.wrong("cannot stand beside \"fit_scene\": true; leave one out");
+            if (display.fits_scene) throw place.wrong("cannot be combined with \"fit_scene\": true; leave one out");
             display.place = take_place(JsonObject(place));
             display.place->units_per_metre = display.units_per_metre;
         }

@@ -38,7 +38,7 @@ Result<Framebuffer> Framebuffer::create(int width, int height, int samples) {
     const std::string size = std::to_string(width) + "x" + std::to_string(height);
     if (width > largest || height > largest) {
         return Error{"OpenGL: an image of " + size + " is larger than the driver's " + std::to_string(largest) +
-                     " pixels a side; ask for a smaller one"};
+                     " pixels a side; use a smaller one"};
     }
     Framebuffer made;
     made.width_ = width;
@@ -52,7 +52,7 @@ Result<Framebuffer> Framebuffer::create(int width, int height, int samples) {
     glNamedFramebufferRenderbuffer(name, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, made.colour_.name());
     glNamedFramebufferRenderbuffer(name, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, made.depth_.name());
     if (glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        return Error{"OpenGL: the driver cannot draw into an image of " + size + "; ask for a smaller one"};
+        return Error{"OpenGL: the driver cannot draw into an image of " + size + "; use a smaller one"};
     }
     return made;
 }

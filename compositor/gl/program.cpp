@@ -40,7 +40,7 @@ private:
 
 Error shader_error(const std::string& what, std::string log) {
     std::replace(log.begin(), log.end(), '\n', ' ');
-    return Error{"OpenGL: the driver refuses the shader '" + what + "': " + log + "; try a newer Mesa"};
+    return Error{"OpenGL: the driver rejects the shader '" + what + "': " + log + "; try a newer Mesa"};
 }
 
 }  // namespace

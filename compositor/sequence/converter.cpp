@@ -91,11 +91,11 @@ Result<Converted> convert_scene(const std::string& command, const std::filesyste
     const int status = run_command(words);
     const std::string name = printable(words.front());
     if (status < 0) {
-        return Error{"--convert: " + name + " cannot be run (" + std::strerror(errno) + "); mend the command's name"};
+        return Error{"--convert: " + name + " cannot be run (" + std::strerror(errno) + "); correct the command"};
     }
     if (status != 0) {
         return Error{printable(in.string()) + ": the converter " + name + " ended with " + std::to_string(status) +
-                     "; see what it says above"};
+                     "; see its output above"};
     }
     std::error_code error;
     if (!std::filesystem::exists(out, error)) {

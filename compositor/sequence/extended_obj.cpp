@@ -60,7 +60,7 @@ double number(std::string_view word, double lowest, double highest, bool may_end
     double value = 0;
     const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (end.ec != std::errc() || end.ptr != digits.data() + digits.size() || !std::isfinite(value)) {
-        throw MalformedLine{in_quotes(word) + " is no number; write it as 1.5"};
+        throw MalformedLine{in_quotes(word) + " is not a number; write it as 1.5"};
     }
     if (value < lowest || value > highest) {
         std::array<char, 96> text{};
@@ -106,7 +106,7 @@ private:
                                 "; write: instance ID dx dy dz rx ry rz sx sy sz MATERIAL"};
         }
         if (result_.instances.size() >= kMaxInstances) {
-            throw MalformedLine{"is one instance too many; a file may have " + std::to_string(kMaxInstances)};
+            throw MalformedLine{"too many instances; a file may have " + std::to_string(kMaxInstances)};
         }
         const std::span<const std::string_view> values(words);
         InstanceLine instance;
@@ -118,7 +118,7 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             if (std::abs(instance.pose.scale[axis]) < kMinScale) {
                 throw MalformedLine{"the scale " + in_quotes(words[static_cast<std::size_t>(8 + axis)]) +
-                                    " leaves nothing; give one that is not 0"};
+                                    " is 0; give a non-zero scale"};
             }
         }
         instance.material = std::string(words[11]);
@@ -130,7 +130,7 @@ private:
             throw MalformedLine{"a camera has 7 values, not " + std::to_string(words.size() - 1) +
                                 "; write: camera ex ey ez tx ty tz ANGLE"};
         }
-        if (result_.camera) throw MalformedLine{"is a second camera; keep one"};
+        if (result_.camera) throw MalformedLine{"there are two cameras; keep one"};
         const std::span<const std::string_view> values(words);
         SequenceCamera camera;
         camera.pose.eye = triple(values.subspan(1, 3), kFarthest);
@@ -181,7 +181,7 @@ private:
             name();
         } else if (kind != "s" && kind != "mg" && kind != "vp" && kind != "lod" && kind != "bevel" &&
                    kind != "c_interp" && kind != "d_interp") {
-            throw MalformedLine{in_quotes(kind) + " begins no line of extended OBJ; mend or take out the line"};
+            throw MalformedLine{in_quotes(kind) + " is not a statement of extended OBJ; correct or remove the line"};
         }
     }
 
@@ -210,7 +210,8 @@ private:
         if (text.empty() && part != 0) return;
         long long index = 0;
         if (!whole(text, index) || index == 0) {
-            throw MalformedLine{"the corner " + in_quotes(corner) + " is no index; write it as 1, 1/2, 1//3 or 1/2/3"};
+            throw MalformedLine{"the corner " + in_quotes(corner) +
+                                " is not an index; write it as 1, 1/2, 1//3 or 1/2/3"};
         }
         // Some exporters write texture coordinate indices without coordinates.
         if (part == 1 && count == 0) return;

@@ -76,7 +76,7 @@ Result<SequenceFiles> frames_from_json(const std::string& text, const fs::path& 
         if (top.has("weather")) {
             const JsonValue value = top.take("weather");
             Result<Weather> weather = parse_weather(value.text());
-            if (!weather) throw value.wrong("is no weather; give rain, snow or fog, or rain,fog");
+            if (!weather) throw value.wrong("is not a weather; give rain, snow or fog, or rain,fog");
             files.weather = *weather;
         }
         if (top.has("seed")) {
@@ -108,7 +108,7 @@ Result<SequenceFiles> find_sequence(const fs::path& folder) {
     }
     if (!file) {
         return Error{printable(folder.string()) +
-                     ": holds no frames.json, neither here nor in anim/out/; give a map's folder "
+                     ": has no frames.json, in it or in anim/out/; give a map's folder "
                      "(compositor/sequence/README.md)"};
     }
     RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(*file, kMaxFramesFile_bytes));

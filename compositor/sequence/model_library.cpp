@@ -49,7 +49,7 @@ Result<Model> read_model_objects(const std::filesystem::path& path, const Extend
         std::error_code error;
         if (std::filesystem::is_regular_file(path.parent_path() / library.name, error)) continue;
         return Error{printable(path.string() + ":" + std::to_string(library.line) + ": the material library '" +
-                               library.name + "' is not beside the file; put it there or take out the line")};
+                               library.name + "' is not next to the file; put it there or remove the line")};
     }
     RS_ASSIGN_OR_RETURN(ModelParts parts, read_model_parts(path));
     Model model;

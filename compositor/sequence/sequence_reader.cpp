@@ -73,8 +73,9 @@ private:
         auto& known = read_[{parsed.mesh_digest, libraries}];
         if (known) return known.get();
         if (read_.size() > kMaxMeshesOfFrames) {
-            return Error{printable(path.string()) + ": is one more mesh than " + std::to_string(kMaxMeshesOfFrames) +
-                         "; put meshes that stand still into the base, those that move into models"};
+            return Error{printable(path.string()) + ": exceeds the limit of meshes, " +
+                         std::to_string(kMaxMeshesOfFrames) +
+                         "; put static meshes into the base, moving ones into models"};
         }
         Result<Model> model = read_model_objects(path, parsed);
         if (!model) {
@@ -132,7 +133,7 @@ private:
         }
         poses_ += parsed.instances.size();
         if (poses_ > kMaxPoses) {
-            return Error{printable(path.string()) + ": is one frame too many; a sequence may have " +
+            return Error{printable(path.string()) + ": has too many instances; a sequence may have " +
                          std::to_string(kMaxPoses) + " instances in all"};
         }
         SequenceFrame frame;
@@ -200,7 +201,7 @@ private:
             if (named.material == nullptr) {
                 return wrong("there is no material '" + printable(line.material) + "' (there are " +
                              std::to_string(named.model->materials.size()) +
-                             ", counted from 0); mend it, or give - for the object's own");
+                             ", counted from 0); correct it, or give - for the object's own");
             }
         }
         if (base_ != nullptr && named.model == base_) instanced_in_base_.insert(named.object);

@@ -130,7 +130,7 @@ bool LightDesk::on_key(Key command) {
             report(edits_.undo() ? "undone" : "nothing to undo");
             return true;
         case Key::kRedo:
-            report(edits_.redo() ? "done again" : "nothing to do again");
+            report(edits_.redo() ? "redone" : "nothing to redo");
             return true;
         case Key::kDelete:
             if (open_) edits_.remove_selected();
@@ -159,7 +159,7 @@ void LightDesk::add(LightKind kind, const DeskView& view) {
     entry.name = free_light_name(edits_.state(), words.kind);
     if (words.has_file) {
         if (files_.empty()) {
-            report(folder_.string() + ": holds no .ies or .ldt file; choose another folder");
+            report(folder_.string() + ": has no .ies or .ldt file; choose another folder");
             return;
         }
         Result<Luminaire> read = read_luminaire(files_.front());

@@ -214,8 +214,8 @@ void edit_surroundings(LightingState& state) {
     if (state.headlight) ImGui::Checkbox("headlight", &state.headlight);
     if (!state.environment) return;
     factor_field("environment", state.environment->scale, 1, kPowers);
-    step_field("its turn, degrees", state.environment->turn_deg, 0, {-36000, 36000});
-    ImGui::Checkbox("environment is seen", &state.environment->seen);
+    step_field("environment rotation, degrees", state.environment->turn_deg, 0, {-36000, 36000});
+    ImGui::Checkbox("environment visible", &state.environment->seen);
 }
 
 void draw_profile(LightDesk& desk) {

@@ -29,7 +29,7 @@ constexpr std::array kHelp = {
     HelpLine{"wheel", "forward; examine: nearer"},
     HelpLine{"1 2 3", "walk, fly, examine"},
     HelpLine{"page up, page down", "viewpoints"},
-    HelpLine{"home", "where the visit began"},
+    HelpLine{"home", "initial viewpoint"},
     HelpLine{"click", "pick an object"},
     HelpLine{"F", "wire frame"},
     HelpLine{"O", "shadows, on and off"},

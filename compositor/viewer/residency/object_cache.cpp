@@ -124,7 +124,7 @@ struct ObjectCache::State {
                 lease.shrink(bytes);
                 object = std::make_shared<const StoredObject>(StoredObject{std::move(lease), std::move(*read)});
             } else {
-                why = file.path.string() + ": takes more memory than was foreseen; encode it anew";
+                why = file.path.string() + ": needs more memory than estimated; encode it again";
             }
         } else {
             why = read.error().message;

@@ -45,7 +45,7 @@ public:
         try {
             return arena_.execute([&]() -> Result<ViewableObject> { return read_in_arena(file, most_bytes, tell); });
         } catch (const std::bad_alloc&) {
-            return Error{file.string() + ": there is no memory for it; lower the budget (--memory)"};
+            return Error{file.string() + ": not enough memory; lower the budget (--memory)"};
         }
     }
 

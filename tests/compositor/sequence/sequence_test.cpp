@@ -148,7 +148,7 @@ TEST_F(SequenceFiles, MapsAreFound) {
     EXPECT_TRUE(find_sequence(folder_.path()));
     EXPECT_TRUE(find_sequence(out() / "frames.json"));
     EXPECT_TRUE(find_sequence(folder_ / "models" / "base.obj"));
-    EXPECT_THAT(find_sequence(folder_ / "models").error().message, HasSubstr("holds no frames.json"));
+    EXPECT_THAT(find_sequence(folder_ / "models").error().message, HasSubstr("has no frames.json"));
     write(folder_ / "maps" / "city" / "anim" / "out" / "frames.json", "{}");
     EXPECT_THAT(find_sequence(folder_.path()).error().message, HasSubstr("several maps"));
 }

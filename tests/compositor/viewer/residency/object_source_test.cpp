@@ -79,7 +79,7 @@ TEST_P(FileObjectSource, TakeNoMoreThanForeseenAndNotMuchLess) {
         [&] { read.emplace(source->read(folder / "ball.rso", *foreseen, [&](float p) { progress.push_back(p); })); });
     ASSERT_TRUE(*read) << read->error().message;
     const std::int64_t kept = (*read)->memory_bytes();
-    RecordProperty("foreseen", std::to_string(*foreseen));
+    RecordProperty("than estimated", std::to_string(*foreseen));
     RecordProperty("most", std::to_string(most));
     RecordProperty("kept", std::to_string(kept));
     std::printf("foreseen %lld, most %lld, kept %lld bytes\n", static_cast<long long>(*foreseen),
