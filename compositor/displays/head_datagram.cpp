@@ -25,7 +25,7 @@ Result<Head> head_from_datagram(std::span<const std::byte> bytes) {
     for (double& number : numbers) number = reader.get_double();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         static constexpr std::array<const char*, 6> kNames{"x", "y", "z", "yaw", "pitch", "roll"};
-        if (!std::isfinite(numbers[i])) return Error{std::string("has a ") + kNames[i] + " that is no finite number"};
+        if (!std::isfinite(numbers[i])) return Error{std::string("has a ") + kNames[i] + " that is not finite"};
         const bool is_length = i < 3;
         if (std::abs(numbers[i]) <= (is_length ? kFarthestTrackedHead_m / kCentimetre_m : kMostTrackedTurn_deg))
             continue;

@@ -16,11 +16,11 @@ namespace rs::compositor {
 namespace {
 
 constexpr std::string_view kScheme = "udp:";
-// Of one call, so that a flood of datagrams stops no frame; the system keeps fewer by itself.
-constexpr int kMostAtOnce = 4096;
-// More than a head has, so that what is longer is seen to be.
-constexpr std::size_t kLongest_bytes = 512;
-static_assert(kLongest_bytes > kHeadDatagram_bytes);
+// Datagrams read per call, so that a flood cannot stop the frames.
+constexpr int kMaxDatagramsPerCall = 4096;
+// Longer than a head, so that longer datagrams are detected.
+constexpr std::size_t kMaxDatagram_bytes = 512;
+static_assert(kMaxDatagram_bytes > kHeadDatagram_bytes);
 
 Error cannot_listen(const UdpPlace& place, const asio::error_code& why) {
     std::string remedy = "give another port or address";
@@ -97,8 +97,8 @@ Result<HeadReceiver> HeadReceiver::listen(const UdpPlace& place) {
 
 std::optional<Head> HeadReceiver::newest() {
     std::optional<Head> newest;
-    std::array<std::byte, kLongest_bytes> bytes{};
-    for (int i = 0; i < kMostAtOnce; ++i) {
+    std::array<std::byte, kMaxDatagram_bytes> bytes{};
+    for (int i = 0; i < kMaxDatagramsPerCall; ++i) {
         asio::error_code failed;
         asio::ip::udp::endpoint sender;
         const std::size_t size = socket_->udp.receive_from(asio::buffer(bytes.data(), bytes.size()), sender, 0, failed);

@@ -38,7 +38,7 @@ std::vector<Camera> quilt_cameras(const Camera& middle, const QuiltLayout& layou
         const double aside = focus * std::tan(share * cone_rad);
         Camera camera = middle;
         camera.world_from_camera[3] += aside * middle.world_from_camera[0];
-        // A point at depth `focus` moves to the left by aside * fl_x / focus: bring it back.
+        // A point at depth `focus` moves to the left by aside * fl_x / focus; the principal point compensates.
         camera.cx += aside * middle.fl_x / focus;
         cameras.push_back(camera);
     }

@@ -18,18 +18,18 @@ constexpr std::size_t kMostWalls = 64;
 constexpr std::size_t kMostHeads = 100000;
 constexpr double kFarthest_m = 1e4;
 constexpr double kFarthestPlace = 1e6;  // scene units
-constexpr double kMostTurn_deg = 36000;
-constexpr double kFittedShare = 0.8;  // of the table's shorter side
+constexpr double kMaxTurn_deg = 36000;
+constexpr double kFitRatio = 0.8;  // fraction of the table's shorter side
 
 double angle(JsonObject& object, const char* key) {
-    return object.has(key) ? radians(object.take(key).number(-kMostTurn_deg, kMostTurn_deg)) : 0;
+    return object.has(key) ? radians(object.take(key).number(-kMaxTurn_deg, kMaxTurn_deg)) : 0;
 }
 
 glm::dvec3 corner(JsonObject& object, const char* key) {
     return object.take(key).triple(-kFarthest_m, kFarthest_m);
 }
 
-// Fit for a file: letters, digits, '-', '_', '.', not at the beginning.
+// Valid in a file name: letters, digits, '-', '_', '.'; no leading '-' or '.'.
 bool is_file_name(const std::string& name) {
     return name.size() <= 64 && name.front() != '.' && name.front() != '-' &&
            std::all_of(name.begin(), name.end(), [](char c) {
@@ -146,7 +146,7 @@ Result<WallDisplay> walls_from_json(const std::string& text, const std::filesyst
         top.read("fit_scene", display.fits_scene);
         if (top.has("place")) {
             const JsonValue place = top.take("place");
-            if (display.fits_scene) throw place.wrong("cannot stand beside \"fit_scene\": true; leave one out");
+            if (display.fits_scene) throw place.wrong("cannot be combined with \"fit_scene\": true; leave one out");
             display.place = take_place(JsonObject(place));
             display.place->units_per_metre = display.units_per_metre;
         }
@@ -196,7 +196,7 @@ RoomPlace fitted_place(const Wall& table, const BoundingBox& scene_box) {
     const glm::dvec3 across = table.lower_right - table.lower_left;
     const glm::dvec3 along = table.upper_left - table.lower_left;
     const glm::dvec3 size = scene_box.highest - scene_box.lowest;
-    const double shorter_m = kFittedShare * std::min(glm::length(across), glm::length(along));
+    const double shorter_m = kFitRatio * std::min(glm::length(across), glm::length(along));
     RoomPlace place;
     place.units_per_metre = std::max(std::max(size.x, size.z), 1e-6) / shorter_m;
     const glm::dvec3 foot((scene_box.lowest.x + scene_box.highest.x) / 2, scene_box.lowest.y,

@@ -9,8 +9,8 @@ namespace rs::compositor {
 
 namespace {
 
-// Takes what a frame does not show out of sight: small, below everything.
-glm::dmat4 nowhere_in(const Scene& scene) {
+// Transform that hides instances: scaled down, below the scene.
+glm::dmat4 hidden_transform(const Scene& scene) {
     constexpr double kSmall = 1e-6;
     const BoundingBox box = bounds_of(scene);
     glm::dmat4 matrix(kSmall);
@@ -53,7 +53,7 @@ Result<SequencePlayer> SequencePlayer::create(std::shared_ptr<const Sequence> se
     RS_ASSIGN_OR_RETURN(auto compositor,
                         FrameCompositor::create(scene, showroom->engine(), showroom->nodes(), options.frame));
     SequencePlayer player(std::move(sequence), std::move(showroom), std::move(compositor), options);
-    player.nowhere_ = nowhere_in(scene);
+    player.hidden_transform_ = hidden_transform(scene);
     player.scene_ = scene;
     return player;
 }
@@ -98,7 +98,7 @@ Status SequencePlayer::make_tracer() {
 }
 
 Status SequencePlayer::trace(std::size_t number, const Camera& camera) {
-    // Ray-space objects stand where they are in a tracer.
+    // Ray-space objects cannot move in a tracer, so it is rebuilt.
     const MovedSlots moved = moved_slots(*sequence_, number);
     if (!tracer_ || !moved.objects.empty()) {
         if (Status status = make_tracer(); !status) return status;
@@ -106,10 +106,10 @@ Status SequencePlayer::trace(std::size_t number, const Camera& camera) {
     const auto begin = std::chrono::steady_clock::now();
     for (std::size_t slot = 0; slot < sequence_->slots.size(); ++slot) {
         const auto id = static_cast<std::uint32_t>(slot);
-        // What is drawn by raster alone has no part in it.
-        static_cast<void>(tracer_->move(id, moved.geometry[slot].value_or(nowhere_)));
+        // Nodes drawn by raster alone are not in the tracer.
+        static_cast<void>(tracer_->move(id, moved.geometry[slot].value_or(hidden_transform_)));
     }
-    tracer_->look(camera);
+    tracer_->begin_image(camera);
     commit_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     for (int pass = 0; pass < options_.passes; ++pass) tracer_->add_pass();
     compositor_.set_traced(std::make_shared<const Image<Rgba8>>(tracer_->image()));

@@ -11,7 +11,7 @@ namespace {
 constexpr double kFarthestObject = 1e6;
 constexpr double kSmallestScale = 1e-6;
 
-// False where the text is anything but finite numbers with commas between them.
+// False unless the text consists of finite numbers separated by commas.
 bool parse_numbers(std::string_view text, std::vector<double>& numbers) {
     while (true) {
         double number = 0;

@@ -21,7 +21,7 @@ glm::vec3 take_colour(JsonObject& object, const char* key) {
     return {linear_from_srgb(srgb.r), linear_from_srgb(srgb.g), linear_from_srgb(srgb.b)};
 }
 
-// From the zenith down to the horizon, whose colour the ground has.
+// Gradient from the zenith to the horizon; the ground has the horizon's colour.
 Background take_background(JsonObject object) {
     Background background;
     const glm::vec3 zenith = take_colour(object, "zenith");
@@ -41,7 +41,7 @@ std::vector<fs::path> take_files(JsonObject& object, const char* key, std::size_
     return files;
 }
 
-// The only map of a project's folder.
+// Map of a project folder with a single map.
 Result<std::optional<fs::path>> only_map(const fs::path& folder) {
     std::error_code error;
     std::vector<fs::path> maps;
@@ -76,7 +76,7 @@ Result<SequenceFiles> frames_from_json(const std::string& text, const fs::path& 
         if (top.has("weather")) {
             const JsonValue value = top.take("weather");
             Result<Weather> weather = parse_weather(value.text());
-            if (!weather) throw value.wrong("is no weather; give rain, snow or fog, or rain,fog");
+            if (!weather) throw value.wrong("is not a weather; give rain, snow or fog, or rain,fog");
             files.weather = *weather;
         }
         if (top.has("seed")) {
@@ -108,7 +108,7 @@ Result<SequenceFiles> find_sequence(const fs::path& folder) {
     }
     if (!file) {
         return Error{printable(folder.string()) +
-                     ": holds no frames.json, neither here nor in anim/out/; give a map's folder "
+                     ": has no frames.json, in it or in anim/out/; give a map's folder "
                      "(compositor/sequence/README.md)"};
     }
     RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(*file, kMaxFramesFile_bytes));

@@ -124,7 +124,7 @@ TEST_F(SequenceTool, ABatchGoesOnAndTellsWhatFailed) {
     EXPECT_EQ(batch.exit_code, 1);
     EXPECT_THAT(batch.out, HasSubstr(in("town") + ": 6 frames"));
     EXPECT_THAT(batch.out, HasSubstr(in("empty") + ": failed"));
-    EXPECT_THAT(batch.err, HasSubstr("holds no frames.json"));
+    EXPECT_THAT(batch.err, HasSubstr("has no frames.json"));
     EXPECT_THAT(batch.err, HasSubstr("1 of 3 sequences failed"));
     for (const char* name : {"town", "village"}) {
         EXPECT_TRUE(fs::exists(work_ / "renders" / name / "sequence.mp4"));

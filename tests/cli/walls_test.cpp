@@ -209,7 +209,7 @@ TEST_F(Displays, OlderAndNewerWorldsAreShown) {
     write("bad.x3d", "<X3D>\n<Scene>\n<Shape>\n</Scene></X3D>");
     const test::ToolRun run = view({in("bad.x3d"), "-o", in("bad.png")});
     EXPECT_EQ(run.exit_code, 1);
-    EXPECT_THAT(run.err, HasSubstr("bad.x3d: line 4: is no well-formed XML"));
+    EXPECT_THAT(run.err, HasSubstr("bad.x3d: line 4: is not well-formed XML"));
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST(ObjectView, TakesSeveralSamplesWhereCapturedPixelsAreSmaller) {
     const auto object = test::drum();
     const auto samples_at = [&](double distance, int most) {
         const Camera camera = look_at_camera({0, 0, distance}, {0, 0, 0}, radians(50), 400, 400);
-        const auto view = view_of_object(test::placed_at(object), camera, {.most_samples_across = most});
+        const auto view = view_of_object(test::placed_at(object), camera, {.max_samples_across = most});
         RS_CHECK(view.has_value());
         EXPECT_EQ(view->camera.width, view->rectangle.width * view->samples_across);
         EXPECT_EQ(view->camera.height, view->rectangle.height * view->samples_across);

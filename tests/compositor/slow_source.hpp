@@ -61,7 +61,7 @@ public:
     }
 
     Result<compositor::ViewableObject> read(const std::filesystem::path& file, std::int64_t most_bytes,
-                                            const Tell& tell) override {
+                                            const ProgressCallback& tell) override {
         log_->add(most_bytes);
         tell(0.5F);
         std::this_thread::sleep_for(options_.reading);

@@ -1,4 +1,4 @@
-// Lists of lights as text; the reader is lights_file.cpp.
+// Writer of light lists; the reader is lights_file.cpp.
 #include "compositor/scene/light/lights_file.hpp"
 
 #include "rayspace/file/file_output.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Whole numbers without ".0", as people write them.
+// Integers are written without ".0".
 Json json_of(double number) {
     constexpr double kMostDigits = 1e15;
     const bool whole = number == std::floor(number) && std::abs(number) < kMostDigits;
@@ -27,7 +27,7 @@ Json json_of(const glm::dvec3& v) {
     return Json::array({json_of(v.x), json_of(v.y), json_of(v.z)});
 }
 
-// As it is called in a list in `folder`.
+// Path of the file relative to `folder`.
 std::string name_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
     const auto whole = [](const std::filesystem::path& path) {
         std::error_code failed;
@@ -63,7 +63,7 @@ Json json_of(const LightEntry& entry, const std::filesystem::path& folder) {
     return json;
 }
 
-// Whether a reader would take its numbers.
+// True if the reader accepts the numbers.
 bool is_within_limits(const LightEntry& entry) {
     const auto within = [](const glm::dvec3& v, double most) {
         return glm::all(glm::lessThanEqual(glm::abs(v), glm::dvec3(most)));
@@ -91,18 +91,18 @@ Result<std::string> light_list_to_json(const LightList& list, const std::filesys
     for (std::size_t i = 0; i < list.entries.size(); ++i) {
         const LightEntry& entry = list.entries[i];
         if (model_of(entry).words.has_file && entry.file.empty()) {
-            return Error{path.string() + ": lights[" + std::to_string(i) +
-                         "] shines as no file says; choose a photometric file for it"};
+            return Error{path.string() + ": lights[" + std::to_string(i) + "] has no photometric file; choose one"};
         }
         if (!is_within_limits(entry)) {
-            return Error{path.string() + ": lights[" + std::to_string(i) + "] has numbers that no list may hold"};
+            return Error{path.string() + ": lights[" + std::to_string(i) +
+                         "] has values outside of a list's limits; change them"};
         }
         text += (i > 0 ? ",\n    " : "\n    ") + text_of(json_of(entry, folder));
     }
     text += " ]";
     if (const auto& environment = list.environment_entry) {
         if (environment->file.empty()) {
-            return Error{path.string() + ": environment: is no file's image; choose one"};
+            return Error{path.string() + ": environment: has no image file; choose one"};
         }
         Json json;
         json["file"] = name_from(folder, environment->file);

@@ -74,7 +74,7 @@ private:
 
     static glm::dvec3 aim_of(JsonObject& object) {
         const JsonValue aim = object.take("aim");
-        static_cast<void>(aim.direction());  // refuses what is none
+        static_cast<void>(aim.direction());  // throws if not a direction
         return aim.triple(-kMostDistant, kMostDistant);
     }
 
@@ -109,7 +109,7 @@ private:
         if (entry.attenuation == glm::dvec3(0)) throw attenuation.wrong("is nowhere above 0; give [1, 0, 0]");
     }
 
-    // Those that may be left out take the ones that they must not be above.
+    // Optional numbers default to their upper limit, which is another number of the light.
     static void read_numbers(JsonObject& object, const LightWords& words, LightEntry& entry) {
         for (const LightNumber& number : words.numbers) {
             if (number.at_most != nullptr) continue;

@@ -6,7 +6,7 @@
 namespace rs::compositor::vrml1 {
 namespace {
 
-// Type, then fields: name, type, and the value of a node without it.
+// Type, then per field: name, type, default value.
 constexpr const char* kKinds[] = {
     "AsciiText string MFString [ ] spacing SFFloat 1 justification SFEnum LEFT width MFFloat 0",
     "Cone parts SFBitMask ALL bottomRadius SFFloat 1 height SFFloat 2",
@@ -81,7 +81,7 @@ Field field_of_type(std::string_view type) {
     return field;
 }
 
-std::map<std::string, NodeKind, std::less<>> parsed_kinds() {
+std::map<std::string, NodeKind, std::less<>> parse_kinds() {
     std::map<std::string, NodeKind, std::less<>> table;
     for (const char* row : kKinds) {
         Lexer lexer(row, "node table");
@@ -99,7 +99,7 @@ std::map<std::string, NodeKind, std::less<>> parsed_kinds() {
 }  // namespace
 
 const NodeKind* find_kind(std::string_view type) {
-    static const std::map<std::string, NodeKind, std::less<>> kTable = parsed_kinds();
+    static const std::map<std::string, NodeKind, std::less<>> kTable = parse_kinds();
     const auto found = kTable.find(type);
     return found == kTable.end() ? nullptr : &found->second;
 }

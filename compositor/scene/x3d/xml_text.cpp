@@ -12,13 +12,13 @@
 namespace rs::compositor::x3d {
 namespace {
 
-constexpr int kMaxElements = 1000;  // one in another
+constexpr int kMaxElements = 1000;  // nesting depth
 
 struct Reading {
     XML_Parser parser = nullptr;
     ClassicWriter writer;
     int depth = 0;
-    std::string fault;  // why it was stopped
+    std::string fault;  // reason for stopping
 
     [[nodiscard]] int line() const { return static_cast<int>(XML_GetCurrentLineNumber(parser)); }
     void stop(const std::string& why) {
@@ -27,7 +27,7 @@ struct Reading {
     }
 };
 
-// No exception may pass through Expat, which is C.
+// Exceptions must not pass through Expat, which is C.
 template <class Work>
 void guarded(void* user, const Work& work) noexcept {
     auto& reading = *static_cast<Reading*>(user);
@@ -35,7 +35,7 @@ void guarded(void* user, const Work& work) noexcept {
     try {
         work(reading);
     } catch (const std::bad_alloc&) {
-        reading.stop("it takes more memory than there is");
+        reading.stop("not enough memory");
     }
 }
 
@@ -63,7 +63,7 @@ void on_close(void* user, const XML_Char* /*name*/) {
 void on_entity(void* user, const XML_Char* /*name*/, int /*is_parameter*/, const XML_Char* /*value*/, int /*length*/,
                const XML_Char* /*base*/, const XML_Char* /*system*/, const XML_Char* /*public_id*/,
                const XML_Char* /*notation*/) {
-    guarded(user, [&](Reading& reading) { reading.stop("it declares entities; write what they stand for"); });
+    guarded(user, [&](Reading& reading) { reading.stop("it declares entities; replace them by their text"); });
 }
 
 struct ParserCloser {
@@ -91,7 +91,7 @@ Result<std::string> classic_text(std::string_view xml, const std::string& file) 
     const XML_Status status = XML_Parse(parser.get(), xml.data(), static_cast<int>(xml.size()), XML_TRUE);
     if (!reading.fault.empty() || status != XML_STATUS_OK) {
         const std::string why = !reading.fault.empty() ? reading.fault
-                                                       : std::string("is no well-formed XML: ") +
+                                                       : std::string("is not well-formed XML: ") +
                                                              XML_ErrorString(XML_GetErrorCode(parser.get()));
         return Error{file + ": line " + std::to_string(reading.line()) + ": " + why};
     }

@@ -6,7 +6,7 @@
 namespace rs::compositor {
 namespace {
 
-// Around what the object is estimated to fill, in the scene.
+// Bounding sphere of the object's estimated extent in the scene.
 struct Ball {
     glm::dvec3 middle;
     double radius;
@@ -39,7 +39,7 @@ CameraPose framing_pose(const std::vector<PlacedObject>& objects, double fov_x_r
     double distance = 0;
     for (const PlacedObject& placed : objects) {
         const Ball ball = ball_around(placed);
-        // A ball stays inside of a wedge of half angle h where offset * cos h + radius <= depth * sin h.
+        // A sphere is inside a wedge of half angle h if offset * cos h + radius <= depth * sin h.
         const glm::dvec3 offset = ball.middle - middle;
         const double towards = glm::dot(offset, back);
         const double aside_x = std::abs(offset.x);
@@ -54,7 +54,7 @@ CameraPose framing_pose(const BoundingBox& bounds, double fov_x_rad, double aspe
     const glm::dvec3 half = (bounds.highest - bounds.lowest) * 0.5;
     const double half_x_rad = fov_x_rad / 2;
     const double half_y_rad = std::atan(std::tan(half_x_rad) / aspect);
-    // The nearest side of the box is the one that has to fit.
+    // The front face of the box must fit.
     const double distance =
         half.z + std::max({half.x / std::tan(half_x_rad), half.y / std::tan(half_y_rad), 1e-3 + half.z * 0.1}) * 1.05;
     return {bounds.middle() + glm::dvec3(0, 0, distance), bounds.middle()};

@@ -51,8 +51,8 @@ TEST(HeadDatagram, WhatIsNoHeadIsNamed) {
     EXPECT_FALSE(head_from_datagram(longer).ok());
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     constexpr double kEndless = std::numeric_limits<double>::infinity();
-    EXPECT_THAT(fault_of({0, kNone, 0, 0, 0, 0}), HasSubstr("y that is no finite number"));
-    EXPECT_THAT(fault_of({0, 0, 0, 0, 0, -kEndless}), HasSubstr("roll that is no finite number"));
+    EXPECT_THAT(fault_of({0, kNone, 0, 0, 0, 0}), HasSubstr("y that is not finite"));
+    EXPECT_THAT(fault_of({0, 0, 0, 0, 0, -kEndless}), HasSubstr("roll that is not finite"));
     EXPECT_THAT(fault_of({10000.1, 0, 0, 0, 0, 0}), HasSubstr("x beyond 100 m"));
     EXPECT_EQ(fault_of({10000, 0, 0, 0, 0, 0}), "");
     EXPECT_THAT(fault_of({0, 0, 0, 0, 36001, 0}), HasSubstr("pitch beyond a hundred turns"));

@@ -123,7 +123,7 @@ TEST_F(WallImage, IsTracedAsTheCropOfAnOversizedOne) {
     ASSERT_TRUE(tracer.ok()) << tracer.error().message;
     // Over black, as it is seen: the colour of a pixel that a single ray of many met says nothing.
     const auto traced = [&](const Camera& camera) {
-        tracer->look(camera);
+        tracer->begin_image(camera);
         for (int pass = 0; pass < 64; ++pass) tracer->add_pass();
         Image<Rgba8> image = tracer->image();
         for (Rgba8& pixel : image.pixels()) pixel = over(pixel, {0, 0, 0, 255});

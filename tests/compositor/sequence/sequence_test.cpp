@@ -148,17 +148,17 @@ TEST_F(SequenceFiles, MapsAreFound) {
     EXPECT_TRUE(find_sequence(folder_.path()));
     EXPECT_TRUE(find_sequence(out() / "frames.json"));
     EXPECT_TRUE(find_sequence(folder_ / "models" / "base.obj"));
-    EXPECT_THAT(find_sequence(folder_ / "models").error().message, HasSubstr("holds no frames.json"));
+    EXPECT_THAT(find_sequence(folder_ / "models").error().message, HasSubstr("has no frames.json"));
     write(folder_ / "maps" / "city" / "anim" / "out" / "frames.json", "{}");
     EXPECT_THAT(find_sequence(folder_.path()).error().message, HasSubstr("several maps"));
 }
 
 TEST(Converter, WordsAreTakenWithoutAShell) {
-    const auto words = converter_words(R"(my 'one word' "it's" {in}.x a$HOME;b {out})", "in dir", "out");
+    const auto words = parse_converter_command(R"(my 'one word' "it's" {in}.x a$HOME;b {out})", "in dir", "out");
     ASSERT_TRUE(words);
     EXPECT_THAT(*words, ElementsAre("my", "one word", "it's", "in dir.x", "a$HOME;b", "out"));
-    EXPECT_FALSE(converter_words("my {in}", "a", "b"));
-    EXPECT_FALSE(converter_words("my '{in} {out}", "a", "b"));
+    EXPECT_FALSE(parse_converter_command("my {in}", "a", "b"));
+    EXPECT_FALSE(parse_converter_command("my '{in} {out}", "a", "b"));
 }
 
 TEST_F(SequenceFiles, ConvertersAreChecked) {

@@ -104,7 +104,7 @@ TEST_F(ModelFile, AFaultInExtrasIsAnErrorThatNamesItsPlace) {
          {std::pair{R"({"RaySpace": {"size": 1}})", "nodes[0].extras.RaySpace: url is missing"},
           std::pair{R"({"RaySpace": {"url": "a.rso", "size": 0}})", "nodes[0].extras.RaySpace.size: must be a number"},
           std::pair{R"({"RaySpace": {"url": "a.rso", "hue": 0}})", "has a key 'hue'"},
-          std::pair{R"({"RaySpace": {"url": "http://a/b.rso"}})", "no file on this machine"}}) {
+          std::pair{R"({"RaySpace": {"url": "http://a/b.rso"}})", "not a local file"}}) {
         const auto scene = read(gltf(R"({"mesh": 0, "extras": )" + std::string(extras) + "}", kMaterial));
         ASSERT_FALSE(scene) << extras;
         EXPECT_THAT(scene.error().message, ::testing::AllOf(HasSubstr("hall.gltf: "), HasSubstr(expected)));

@@ -322,7 +322,7 @@ TEST_F(VrmlFolder, FilesThatIncludeEachOtherTooOftenAreRefused) {
     write("w15.wrl", "Shape { geometry Box { } }");
     const Result<Scene> scene = read_vrml(folder_ / "w0.wrl");
     ASSERT_FALSE(scene);
-    EXPECT_THAT(scene.error().message, HasSubstr("unfold to too much"));
+    EXPECT_THAT(scene.error().message, HasSubstr("expand to too many nodes"));
 }
 
 TEST_F(VrmlFolder, GzipIsUnpackedWhateverTheName) {

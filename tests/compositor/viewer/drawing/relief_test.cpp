@@ -45,7 +45,7 @@ Camera before(double from_side = 0.4) {
 Image<RgbaF> traced(const Scene& scene, TracedMethod method) {
     auto tracer = TracedRenderer::create(scene, {}, {.method = method});
     RS_CHECK(tracer.ok());
-    tracer->look(before());
+    tracer->begin_image(before());
     for (int pass = 0; pass < 4; ++pass) RS_CHECK(tracer->add_pass());
     return tracer->radiance();
 }

@@ -40,10 +40,10 @@ public:
 
     void listen() {
         for (CacheEvent& event : store.events()) {
-            if (event.kind == CacheEvent::Kind::kArrived) {
+            if (event.kind == CacheEvent::Kind::kLoaded) {
                 EXPECT_FALSE(here.contains(event.file)) << "arrived twice";
                 here[event.file] = event.object;
-            } else if (event.kind == CacheEvent::Kind::kLeaves) {
+            } else if (event.kind == CacheEvent::Kind::kEvicting) {
                 EXPECT_TRUE(here.contains(event.file)) << "leaves without having come";
                 here.erase(event.file);
                 ++left;
@@ -255,15 +255,15 @@ TEST(MemoryBudget, GivesNoMoreThanItHas) {
 
 TEST(LoadPriority, GivesWayOnlyWhereItIsClearlyLessWanted) {
     const LoadPriority here{LoadPriority::kHere, 2, 0.3};
-    EXPECT_FALSE(gives_way(here, {LoadPriority::kHere, 2.3, 0.3}));
-    EXPECT_FALSE(gives_way({0.2, 1, 0.3}, here)) << "at the door of the next room";
-    EXPECT_TRUE(gives_way({0.4, 1, 0.3}, here));
-    EXPECT_FALSE(gives_way({5, 1, 0.3}, {4, 1, 0.3}));
-    EXPECT_TRUE(gives_way({6, 1, 0.3}, {4, 1, 0.3}));
-    EXPECT_FALSE(gives_way({4, 1, 0.3}, {6, 1, 0.3}));
-    EXPECT_TRUE(gives_way({LoadPriority::kHere, 9, 0.3}, {LoadPriority::kHere, 2, 0.3}));
-    EXPECT_FALSE(gives_way({LoadPriority::kAlways, 90, 0.3}, here));
-    EXPECT_FALSE(gives_way({6, 1, 0.3, 0.2}, here)) << "just left, in a hurry";
+    EXPECT_FALSE(is_evictable_for(here, {LoadPriority::kHere, 2.3, 0.3}));
+    EXPECT_FALSE(is_evictable_for({0.2, 1, 0.3}, here)) << "at the door of the next room";
+    EXPECT_TRUE(is_evictable_for({0.4, 1, 0.3}, here));
+    EXPECT_FALSE(is_evictable_for({5, 1, 0.3}, {4, 1, 0.3}));
+    EXPECT_TRUE(is_evictable_for({6, 1, 0.3}, {4, 1, 0.3}));
+    EXPECT_FALSE(is_evictable_for({4, 1, 0.3}, {6, 1, 0.3}));
+    EXPECT_TRUE(is_evictable_for({LoadPriority::kHere, 9, 0.3}, {LoadPriority::kHere, 2, 0.3}));
+    EXPECT_FALSE(is_evictable_for({LoadPriority::kAlways, 90, 0.3}, here));
+    EXPECT_FALSE(is_evictable_for({6, 1, 0.3, 0.2}, here)) << "just left, in a hurry";
 }
 
 }  // namespace

@@ -57,9 +57,9 @@ RaySpaceObject ball(bool coded, bool shape) {
     return object;
 }
 
-class ObjectFiles : public ::testing::TestWithParam<std::tuple<bool, bool>> {};
+class FileObjectSource : public ::testing::TestWithParam<std::tuple<bool, bool>> {};
 
-TEST_P(ObjectFiles, TakeNoMoreThanForeseenAndNotMuchLess) {
+TEST_P(FileObjectSource, TakeNoMoreThanForeseenAndNotMuchLess) {
     const auto [coded, with_board] = GetParam();
     const test::TemporaryFolder folder;
     ASSERT_TRUE(write_object(folder / "ball.rso", ball(coded, !with_board)));
@@ -79,7 +79,7 @@ TEST_P(ObjectFiles, TakeNoMoreThanForeseenAndNotMuchLess) {
         [&] { read.emplace(source->read(folder / "ball.rso", *foreseen, [&](float p) { progress.push_back(p); })); });
     ASSERT_TRUE(*read) << read->error().message;
     const std::int64_t kept = (*read)->memory_bytes();
-    RecordProperty("foreseen", std::to_string(*foreseen));
+    RecordProperty("than estimated", std::to_string(*foreseen));
     RecordProperty("most", std::to_string(most));
     RecordProperty("kept", std::to_string(kept));
     std::printf("foreseen %lld, most %lld, kept %lld bytes\n", static_cast<long long>(*foreseen),
@@ -94,7 +94,7 @@ TEST_P(ObjectFiles, TakeNoMoreThanForeseenAndNotMuchLess) {
     EXPECT_FALSE(source->read(folder / "ball.rso", *foreseen / 8, [](float) {}));
 }
 
-INSTANTIATE_TEST_SUITE_P(RawAndCoded, ObjectFiles, ::testing::Combine(::testing::Bool(), ::testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(RawAndCoded, FileObjectSource, ::testing::Combine(::testing::Bool(), ::testing::Bool()));
 
 TEST(ObjectMemory, CountsWhatAnObjectHolds) {
     RaySpaceObject object = ball(false, true);

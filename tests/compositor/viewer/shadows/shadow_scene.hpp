@@ -76,7 +76,7 @@ inline ShadowAgreement shadow_agreement(const compositor::Scene& scene,
                                         const std::vector<compositor::PlacedObject>& objects, const Camera& camera) {
     auto tracer = compositor::TracedRenderer::create(scene, objects, {.method = compositor::TracedMethod::kWhitted});
     RS_CHECK(tracer.ok());
-    tracer->look(camera);
+    tracer->begin_image(camera);
     RS_CHECK(tracer->add_pass());
     const Image<RgbaF> traced = tracer->radiance();
     const Image<float> open = red_of(raster_image(scene, {}, camera, false));

@@ -60,7 +60,7 @@ TEST(Looking, FollowsTheHand) {
     EXPECT_LT(next.sight().x, 0);
     EXPECT_GT(next.sight().y, 0);
     drag.look_px = {0, -1e6};
-    EXPECT_NEAR(moved({}, NavigationMode::kWalk, drag, kSettings).pitch_rad, kMostPitch_rad, kNear);
+    EXPECT_NEAR(moved({}, NavigationMode::kWalk, drag, kSettings).pitch_rad, kMaxPitch_rad, kNear);
 }
 
 TEST(Flying, GoesWhereOneLooks) {
@@ -123,7 +123,7 @@ TEST(Visitors, FromAboveKnowWhereForwardIs) {
         glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 9, 0, 1));
     const Visitor visitor = visitor_at(above, {0, 0, 0});
     EXPECT_NEAR(visitor.heading_rad, 0, kNear);
-    EXPECT_NEAR(visitor.pitch_rad, -kMostPitch_rad, kNear);
+    EXPECT_NEAR(visitor.pitch_rad, -kMaxPitch_rad, kNear);
     EXPECT_NEAR(visitor.pivot_distance, 9, kNear);
 }
 

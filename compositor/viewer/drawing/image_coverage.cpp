@@ -1,51 +1,21 @@
-#include "compositor/viewer/drawing/shown_parts.hpp"
+#include "compositor/viewer/drawing/image_coverage.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <map>
 
 namespace rs::compositor {
 
-engine::PreparedObject prepared(const std::shared_ptr<const ViewableObject>& object) {
-    engine::PreparedObject result;
-    result.renderer = {object, &object->renderer};
-    if (object->for_board) result.for_board = {object, object->for_board.get()};
-    return result;
-}
-
-Result<std::shared_ptr<const ShownNodes>> show_all(const std::vector<PlacedObject>& objects,
-                                                   engine::RenderSession& engine) {
-    const auto nodes = std::make_shared<ShownNodes>();
-    std::map<const ViewableObject*, engine::ObjectHandle> loaded;
-    for (const PlacedObject& placed : objects) {
-        const auto [known, is_new] = loaded.try_emplace(placed.object.get());
-        if (is_new) {
-            RS_ASSIGN_OR_RETURN(const engine::ObjectHandle handle, engine.load(prepared(placed.object)));
-            known->second = handle;
-        }
-        nodes->push_back({.object = placed, .handle = known->second, .placeholder = std::nullopt});
-    }
-    return std::shared_ptr<const ShownNodes>(nodes);
-}
-
-engine::RenderSessionLimits limits_of_viewer() {
-    engine::RenderSessionLimits limits;
-    limits.objects = std::numeric_limits<int>::max();
-    return limits;
-}
-
 namespace {
 
-constexpr int kClosedGap_px = 8;        // no longer ones are drawn with what is beside them
-constexpr int kShortestOpaque_px = 16;  // shorter ones are not worth polygons of their own
+constexpr int kMaxClosedGap_px = 8;   // gaps up to this length are drawn with the adjacent runs
+constexpr int kMinOpaqueRun_px = 16;  // shorter opaque ranges are blended
 
 struct ColumnRange {
     int begin = 0;
     int end = 0;
 };
 
-// Of the places within `margin` of it: the largest or least alpha of each column, those beyond the image are 0.
-// Element x + margin is column x, from -margin to width + margin.
+// Per column, the maximum and minimum alpha within `margin` pixels; alpha outside the image is 0. Element x + margin
+// belongs to column x, from -margin to width + margin.
 struct ColumnAlphas {
     std::vector<std::uint8_t> largest;
     std::vector<std::uint8_t> least;
@@ -70,7 +40,7 @@ ColumnAlphas column_alphas(ConstImageView<Rgba8> image, int first_row, int end_r
             around.largest[x + shift] = std::max(around.largest[x + shift], largest[x]);
         }
     }
-    // What is fewer than `margin` columns from an end has nothing beyond it.
+    // Columns closer than `margin` to an end have transparent neighbours, so their minimum is 0.
     for (std::size_t x = beside; x + beside < width; ++x) {
         around.least[x + beside] = *std::min_element(least.begin() + static_cast<std::ptrdiff_t>(x - beside),
                                                      least.begin() + static_cast<std::ptrdiff_t>(x + beside + 1));
@@ -78,13 +48,13 @@ ColumnAlphas column_alphas(ConstImageView<Rgba8> image, int first_row, int end_r
     return around;
 }
 
-// The ranges of columns where `holds`, in order; gaps of at most `closed` columns are closed and ranges of fewer than
-// `shortest` left out.
+// Ranges of columns for which `predicate` is true, in order. Gaps of at most `closed` columns are closed; ranges of
+// fewer than `shortest` columns are dropped.
 template <class Predicate>
-std::vector<ColumnRange> ranges_where(int count, int closed, int shortest, Predicate holds) {
+std::vector<ColumnRange> ranges_where(int count, int closed, int shortest, Predicate predicate) {
     std::vector<ColumnRange> ranges;
     for (int x = 0; x < count; ++x) {
-        if (!holds(static_cast<std::size_t>(x))) continue;
+        if (!predicate(static_cast<std::size_t>(x))) continue;
         if (!ranges.empty() && x <= ranges.back().end + closed) {
             ranges.back().end = x + 1;
         } else {
@@ -95,19 +65,19 @@ std::vector<ColumnRange> ranges_where(int count, int closed, int shortest, Predi
     return ranges;
 }
 
-// All split points of a line between two bands: the ends of the runs above and below it.
-std::vector<int> split_columns(const ShownBand* above, const ShownBand* below) {
+// Split points of the line between two bands: the ends of the runs above and below.
+std::vector<int> split_columns(const CoverageBand* above, const CoverageBand* below) {
     std::vector<int> columns;
-    for (const ShownBand* band : {above, below}) {
+    for (const CoverageBand* band : {above, below}) {
         if (band == nullptr) continue;
-        for (const ShownRun& run : band->runs) columns.insert(columns.end(), {run.begin, run.end});
+        for (const CoverageRun& run : band->runs) columns.insert(columns.end(), {run.begin, run.end});
     }
     std::sort(columns.begin(), columns.end());
     columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
     return columns;
 }
 
-// The corners of one line, of which corner i of the mesh is at columns[i - first].
+// Corners of one line; mesh corner i is at columns[i - first].
 struct CornerLine {
     std::vector<int> columns;
     std::uint32_t first = 0;
@@ -118,8 +88,8 @@ struct CornerLine {
     }
 };
 
-// The polygon between two lines, from column run.begin to run.end: along both, the lesser column first.
-void add_triangles(const ShownRun& run, const CornerLine& top, const CornerLine& bottom,
+// Triangulates the polygon between two lines from column run.begin to run.end, corners in order of column.
+void add_triangles(const CoverageRun& run, const CornerLine& top, const CornerLine& bottom,
                    std::vector<std::uint32_t>& indices) {
     std::uint32_t upper = top.corner(run.begin);
     std::uint32_t lower = bottom.corner(run.begin);
@@ -136,17 +106,18 @@ void add_triangles(const ShownRun& run, const CornerLine& top, const CornerLine&
 
 }  // namespace
 
-std::vector<ShownBand> shown_bands(ConstImageView<Rgba8> image, int margin_px) {
+std::vector<CoverageBand> coverage_bands(ConstImageView<Rgba8> image, int margin_px) {
     RS_CHECK(margin_px >= 0);
-    std::vector<ShownBand> bands;
+    std::vector<CoverageBand> bands;
     for (int top = 0; top < image.height(); top += kBandRows) {
         const int bottom = std::min(top + kBandRows, image.height());
         const ColumnAlphas alphas = column_alphas(image, top - margin_px, bottom + margin_px, margin_px);
         const auto count = static_cast<int>(alphas.largest.size());
-        const auto shown = ranges_where(count, kClosedGap_px, 1, [&](std::size_t x) { return alphas.largest[x] > 0; });
+        const auto shown =
+            ranges_where(count, kMaxClosedGap_px, 1, [&](std::size_t x) { return alphas.largest[x] > 0; });
         const auto opaque =
-            ranges_where(count, 0, kShortestOpaque_px, [&](std::size_t x) { return alphas.least[x] == 255; });
-        ShownBand band{top, bottom, {}};
+            ranges_where(count, 0, kMinOpaqueRun_px, [&](std::size_t x) { return alphas.least[x] == 255; });
+        CoverageBand band{top, bottom, {}};
         if (top == 0) band.top -= margin_px;
         if (bottom == image.height()) band.bottom += margin_px;
         for (const ColumnRange& range : shown) {
@@ -164,9 +135,9 @@ std::vector<ShownBand> shown_bands(ConstImageView<Rgba8> image, int margin_px) {
     return bands;
 }
 
-ShownMesh shown_mesh(const std::vector<ShownBand>& bands, const glm::dmat3& screen_from_image) {
-    ShownMesh mesh;
-    const auto line = [&](const ShownBand* above, const ShownBand* below, int row) {
+CoverageMesh coverage_mesh(const std::vector<CoverageBand>& bands, const glm::dmat3& screen_from_image) {
+    CoverageMesh mesh;
+    const auto line = [&](const CoverageBand* above, const CoverageBand* below, int row) {
         CornerLine made{split_columns(above, below), static_cast<std::uint32_t>(mesh.corners.size())};
         for (const int column : made.columns) {
             mesh.corners.emplace_back(screen_from_image * glm::dvec3(column, row, 1));
@@ -176,9 +147,9 @@ ShownMesh shown_mesh(const std::vector<ShownBand>& bands, const glm::dmat3& scre
     if (bands.empty()) return mesh;
     CornerLine top = line(nullptr, &bands.front(), bands.front().top);
     for (std::size_t i = 0; i < bands.size(); ++i) {
-        const ShownBand* below = i + 1 < bands.size() ? &bands[i + 1] : nullptr;
+        const CoverageBand* below = i + 1 < bands.size() ? &bands[i + 1] : nullptr;
         CornerLine bottom = line(&bands[i], below, bands[i].bottom);
-        for (const ShownRun& run : bands[i].runs) {
+        for (const CoverageRun& run : bands[i].runs) {
             add_triangles(run, top, bottom, run.opaque ? mesh.opaque : mesh.blended);
         }
         top = std::move(bottom);

@@ -1,4 +1,4 @@
-#include "compositor/traced/traced_room.hpp"
+#include "compositor/traced/tracer_scene.hpp"
 
 #include "capture/tracer/scene/flatten.hpp"
 #include "compositor/scene/normal_map.hpp"
@@ -16,7 +16,7 @@ namespace rs::compositor {
 namespace {
 
 constexpr int kFloorCorners = 96;
-constexpr int kFloorTexels = 64;  // of two squares
+constexpr int kFloorTexels = 64;  // two squares of the checker
 
 capture::Texture linear_texture(const SceneTexture& from) {
     capture::Texture texture;
@@ -46,7 +46,7 @@ capture::Material surface_of(const Material& from, const glm::vec3& vertex_colou
     } else if (luminance(from.specular) > 0) {
         material.kind = capture::SurfaceKind::glossy;
         const float exponent = from.shininess * 128;
-        material.roughness = std::pow(2 / (exponent + 2), 0.25F);  // its square is GGX's alpha
+        material.roughness = std::pow(2 / (exponent + 2), 0.25F);  // GGX alpha is roughness squared
     }
     return material;
 }
@@ -74,7 +74,7 @@ glm::vec3 mean_of(const std::vector<glm::vec3>& colours) {
     return glm::vec3(sum / static_cast<double>(colours.size()));
 }
 
-// Seen from above. The checker's fade at its rim is the raster renderer's.
+// Visible from above. Without the fade at the rim, which the raster renderer has.
 void add_floor(const Floor& floor, capture::Scene& scene) {
     capture::Texture checker;
     checker.pixels = Image<RgbaF>(kFloorTexels, kFloorTexels);
@@ -108,13 +108,13 @@ void add_floor(const Floor& floor, capture::Scene& scene) {
     scene.meshes.push_back(std::move(mesh));
 }
 
-// Appends to a scene the materials and textures of the nodes that it takes.
-class NodeTaker {
+// Converts nodes and appends their materials and textures to the scene.
+class NodeConverter {
 public:
-    explicit NodeTaker(capture::Scene& scene) : scene_(scene) {}
+    explicit NodeConverter(capture::Scene& scene) : scene_(scene) {}
 
     // In the node's coordinates.
-    capture::Mesh take(const GeometryNode& node, const std::string& name) {
+    capture::Mesh convert(const GeometryNode& node, const std::string& name) {
         capture::Mesh mesh = mesh_of(node);
         mesh.name = name;
         mesh.material = static_cast<int>(scene_.materials.size());
@@ -159,19 +159,19 @@ capture::Environment traced_environment(const Scene& scene) {
     return {*scene.environment->pixels, scene.environment->scale, scene.environment->turn_rad};
 }
 
-TracedRoom traced_room(const Scene& scene) {
-    TracedRoom room;
-    NodeTaker taker(room.scene);
-    std::vector<std::pair<const GeometryNode*, std::size_t>> parts;  // the first node of each
+TracerScene make_tracer_scene(const Scene& scene) {
+    TracerScene room;
+    NodeConverter converter(room.scene);
+    std::vector<std::pair<const GeometryNode*, std::size_t>> parts;  // first node of each part
     for (std::size_t n = 0; n < scene.geometry.size(); ++n) {
         const GeometryNode& node = scene.geometry[n];
         if (node.mesh->topology != Topology::kTriangles || is_blended(node.material)) {
-            ++room.left_to_raster;
+            ++room.raster_only_nodes;
             continue;
         }
         if (!node.moving) {
             room.scene.meshes.push_back(
-                capture::placed_mesh(taker.take(node, "node " + std::to_string(n + 1)), node.world_from_node));
+                capture::placed_mesh(converter.convert(node, "node " + std::to_string(n + 1)), node.world_from_node));
             continue;
         }
         const auto same = [&](const auto& known) {
@@ -181,7 +181,7 @@ TracedRoom traced_room(const Scene& scene) {
         if (known == parts.end()) {
             const std::string name = "node " + std::to_string(n + 1);
             known = parts.insert(known, {&node, room.scene.parts.size()});
-            room.scene.parts.push_back({name, {taker.take(node, name)}});
+            room.scene.parts.push_back({name, {converter.convert(node, name)}});
         }
         room.scene.instances.push_back({known->second, node.world_from_node});
         room.moving.push_back({*node.moving, node.world_from_node});
@@ -189,7 +189,7 @@ TracedRoom traced_room(const Scene& scene) {
     if (scene.floor) add_floor(*scene.floor, room.scene);
     room.scene.environment = traced_environment(scene);
     room.scene.lights = traced_lights(scene);
-    room.without_own_lights = static_cast<int>(scene.lights.size() - room.scene.lights.size());
+    room.unsupported_lights = static_cast<int>(scene.lights.size() - room.scene.lights.size());
     return room;
 }
 

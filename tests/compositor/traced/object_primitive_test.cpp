@@ -1,6 +1,6 @@
 // A ball that is known exactly, as a ray-space object that answers rays.
 
-#include "compositor/traced/object_rays.hpp"
+#include "compositor/traced/object_primitive.hpp"
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "rayspace/image/linear_light.hpp"

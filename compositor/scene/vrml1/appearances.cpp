@@ -1,4 +1,4 @@
-// What shapes of VRML 1.0 look like in their state: Appearance, Material and textures of VRML97.
+// Appearance, Material and texture nodes of VRML 1.0 shapes in their state.
 
 #include "compositor/scene/vrml1/state.hpp"
 
@@ -13,12 +13,12 @@ using vrml::NodePointer;
 
 namespace {
 
-const Tree& usual_material() {
-    static const Tree kUsual{.type = "Material", .kind = find_kind("Material")};
-    return kUsual;
+const Tree& default_material() {
+    static const Tree kDefault{.type = "Material", .kind = find_kind("Material")};
+    return kDefault;
 }
 
-// Value number `part` of a list of colours or numbers, or the last one there is.
+// Value number `part` of a list of colours or numbers, clamped to the last.
 std::vector<double> value_at(const Tree& material, const char* field, std::size_t part, std::size_t each) {
     const std::vector<double>& all = material.field(field).numbers;
     if (all.size() < each) return material.kind->fields.find(field)->second.initial.numbers;
@@ -32,8 +32,8 @@ bool is_black(const std::vector<double>& colour) {
 
 }  // namespace
 
-NodePointer ShapeMaker::material_of(const TreePointer& material, bool lines, std::size_t part, int line) {
-    const Tree& from = material ? *material : usual_material();
+NodePointer ShapeBuilder::material_of(const TreePointer& material, bool lines, std::size_t part, int line) {
+    const Tree& from = material ? *material : default_material();
     const auto colour = [&](const char* field) { return value_at(from, field, part, 3); };
     Fields fields{{"diffuseColor", numbers(colour("diffuseColor"))},
                   {"specularColor", numbers(colour("specularColor"))},
@@ -41,25 +41,25 @@ NodePointer ShapeMaker::material_of(const TreePointer& material, bool lines, std
                   {"shininess", numbers(value_at(from, "shininess", part, 1))},
                   {"transparency", numbers(value_at(from, "transparency", part, 1))}};
     if (lines && is_black(colour("emissiveColor"))) fields["emissiveColor"] = fields["diffuseColor"];
-    return made_node(builder_, "Material", line, std::move(fields));
+    return make_node(builder_, "Material", line, std::move(fields));
 }
 
-NodePointer ShapeMaker::texture_of(const State& state) {
+NodePointer ShapeBuilder::texture_of(const State& state) {
     const Tree& texture = *state.texture;
     Fields fields{{"repeatS", numbers({texture.text("wrapS") == "CLAMP" ? 0.0 : 1.0})},
                   {"repeatT", numbers({texture.text("wrapT") == "CLAMP" ? 0.0 : 1.0})}};
     if (!texture.text("filename").empty()) {
         fields["url"] = words(texture.text("filename"));
-        return made_node(builder_, "ImageTexture", texture.line, std::move(fields));
+        return make_node(builder_, "ImageTexture", texture.line, std::move(fields));
     }
     if (texture.field("image").numbers.size() < 4) return nullptr;
     fields["image"] = texture.field("image");
-    return made_node(builder_, "PixelTexture", texture.line, std::move(fields));
+    return make_node(builder_, "PixelTexture", texture.line, std::move(fields));
 }
 
-// VRML 1.0 scales about the centre, turns and moves; VRML97 moves, turns and scales about the centre's negative. Where
-// a scale that is not even is turned there is no form that is the same: then the order of turn and scale is lost.
-NodePointer ShapeMaker::texture_transform_of(const Tree& from) {
+// VRML 1.0 scales about the centre, rotates and translates; VRML97 translates, rotates and scales about the negative
+// centre. Rotated non-uniform scales have no equivalent: the order of rotation and scale is then lost.
+NodePointer ShapeBuilder::texture_transform_of(const Tree& from) {
     const auto pair = [&](const char* field) {
         const std::vector<double>& n = from.field(field).numbers;
         return glm::dvec2(n.at(0), n.at(1));
@@ -70,19 +70,19 @@ NodePointer ShapeMaker::texture_transform_of(const Tree& from) {
     const glm::dvec2 turned(std::cos(angle) * by.x + std::sin(angle) * by.y,
                             std::cos(angle) * by.y - std::sin(angle) * by.x);
     const auto divided = [](double a, double b) { return b != 0 ? a / b : 0.0; };
-    return made_node(builder_, "TextureTransform", from.line,
+    return make_node(builder_, "TextureTransform", from.line,
                      {{"translation", numbers({divided(turned.x, scale.x), divided(turned.y, scale.y)})},
                       {"rotation", from.field("rotation")},
                       {"scale", from.field("scaleFactor")},
                       {"center", numbers({-pair("center").x, -pair("center").y})}});
 }
 
-NodePointer ShapeMaker::appearance_of(const State& state, bool lines, std::size_t part, bool coloured) {
+NodePointer ShapeBuilder::appearance_of(const State& state, bool lines, std::size_t part, bool coloured) {
     NodePointer& known = appearances_[{state.material, state.texture, state.texture_transform, lines, part, coloured}];
     if (known) return known;
     const int line = state.material ? state.material->line : 0;
     Fields fields;
-    // Colours of light that a surface has of itself, corner by corner, are those of surfaces without a material.
+    // Emissive colours per corner are represented as a surface without material.
     const bool of_itself = coloured && state.material->field("diffuseColor").numbers.size() <= 3;
     if (!of_itself) fields["material"] = nodes({material_of(state.material, lines, part, line)});
     if (state.texture && !lines) {
@@ -93,7 +93,7 @@ NodePointer ShapeMaker::appearance_of(const State& state, bool lines, std::size_
             }
         }
     }
-    known = made_node(builder_, "Appearance", line, std::move(fields));
+    known = make_node(builder_, "Appearance", line, std::move(fields));
     return known;
 }
 

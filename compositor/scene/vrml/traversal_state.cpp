@@ -1,4 +1,4 @@
-#include "compositor/scene/vrml/place.hpp"
+#include "compositor/scene/vrml/traversal_state.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,11 +20,11 @@ glm::dmat4 scale_matrix(const glm::dvec3& by) {
 
 }  // namespace
 
-double Place::scale() const {
+double TraversalState::scale() const {
     return std::cbrt(std::abs(glm::determinant(glm::dmat3(world_from_node))));
 }
 
-glm::dmat3 Place::rotation() const {
+glm::dmat3 TraversalState::rotation() const {
     const glm::dmat3 m(world_from_node);
     const glm::dvec3 back = glm::normalize(m[2]);
     const glm::dvec3 up = glm::normalize(m[1] - back * glm::dot(m[1], back));
@@ -40,7 +40,7 @@ glm::dmat4 rotation_matrix(const glm::dvec4& axis_angle) {
     return turn.parent_from_node().matrix();
 }
 
-bool descend(const Node& transform, Place& place) {
+bool descend(const Node& transform, TraversalState& state) {
     const glm::dvec3 centre = transform.triple("center");
     const glm::dvec3 translation = transform.triple("translation");
     const glm::dvec3 scale = transform.triple("scale");
@@ -48,32 +48,32 @@ bool descend(const Node& transform, Place& place) {
     const glm::dmat4 stretch = rotation_matrix(transform.quadruple("scaleOrientation"));
     const glm::dmat4 local = translation_matrix(translation + centre) * rotation_matrix(turn) * stretch *
                              scale_matrix(scale) * glm::transpose(stretch) * translation_matrix(-centre);
-    place.world_from_node = place.world_from_node * local;
+    state.world_from_node = state.world_from_node * local;
     const double smallest = std::min({std::abs(scale.x), std::abs(scale.y), std::abs(scale.z)});
-    const double determinant = glm::determinant(glm::dmat3(place.world_from_node));
+    const double determinant = glm::determinant(glm::dmat3(state.world_from_node));
     if (!(smallest > 1e-9) || !std::isfinite(determinant) || !(std::abs(determinant) > 1e-30) ||
-        !std::isfinite(glm::length(glm::dvec3(place.world_from_node[3])))) {
+        !std::isfinite(glm::length(glm::dvec3(state.world_from_node[3])))) {
         return false;
     }
     const glm::dvec3 sizes = glm::abs(scale);
-    if (std::max({sizes.x, sizes.y, sizes.z}) > smallest * 1.0001) place.unlike = "is stretched more along one axis";
+    if (std::max({sizes.x, sizes.y, sizes.z}) > smallest * 1.0001) state.deviation = "is stretched more along one axis";
 
     NodeTransform node;
     node.translation = translation + centre;
     if (glm::length(glm::dvec3(turn)) > 0) node.axis = glm::dvec3(turn);
     node.angle_rad = turn.w;
     node.scale = std::cbrt(sizes.x * sizes.y * sizes.z);
-    place.chain.push_back(node);
+    state.chain.push_back(node);
     if (scale != sizes) {
         const glm::dmat3 axes(stretch);
         const glm::dvec3 signs = glm::sign(scale);
         const glm::dmat3 mirror(signs.x, 0, 0, 0, signs.y, 0, 0, 0, signs.z);
-        place.chain.push_back(NodeTransform::of(axes * mirror * glm::transpose(axes), 1));
+        state.chain.push_back(NodeTransform::of(axes * mirror * glm::transpose(axes), 1));
     }
     if (centre != glm::dvec3(0)) {
         NodeTransform back;
         back.translation = -centre;
-        place.chain.push_back(back);
+        state.chain.push_back(back);
     }
     return true;
 }

@@ -1,4 +1,4 @@
-#include "compositor/window/light_desk.hpp"
+#include "compositor/window/light_editor.hpp"
 
 #include "compositor/lighting/light_warnings.hpp"
 #include "compositor/scene/light/scene_lights.hpp"
@@ -14,9 +14,9 @@ namespace rs::compositor {
 namespace {
 
 constexpr double kHandShakes_px = 4;
-constexpr std::size_t kMostFiles = 500;
-constexpr double kLift = 5e-4;  // of the scene's diagonal
-constexpr double kAhead = 3;    // where nothing is seen, scene units
+constexpr std::size_t kMaxFiles = 500;
+constexpr double kLift = 5e-4;  // fraction of the scene's diagonal
+constexpr double kAhead = 3;    // distance if no surface is in view, scene units
 
 }  // namespace
 
@@ -43,14 +43,14 @@ bool LightDesk::take_change() {
         if (edits_.selected() && edits_.revision() == lit_revision_) {
             warning_ = light_warning(*lit_, *edits_.selected());
         } else if (edits_.selected()) {
-            warned_.reset();  // once the scene is lit
+            warned_.reset();  // warns once the scene is relit
         }
     }
     if (edits_.revision() == lit_revision_) return false;
     lit_revision_ = edits_.revision();
     auto lit = std::make_shared<Scene>(*base_);
     const Status added = add_lights(*lit, list_of(edits_.state()), profile);
-    RS_CHECK(added.ok());  // load() has checked
+    RS_CHECK(added.ok());  // checked by load()
     lit_ = std::move(lit);
     return true;
 }
@@ -64,65 +64,64 @@ void LightDesk::open(bool open) {
 void LightDesk::end_drag() {
     if (drag_) edits_.end_gesture();
     drag_.reset();
-    grasp_.reset();
-    pressed_beside_.reset();
+    grab_.reset();
+    pressed_outside_.reset();
 }
 
-bool LightDesk::take(const Event& event, const DeskView& view) {
+bool LightDesk::on_event(const Event& event, const DeskView& view) {
     if (!open_) return false;
     if (const auto* const move = std::get_if<MoveEvent>(&event)) {
         pointer_ = move->to_px;
         pointer_moved_ = true;
-        return grasp_.has_value();
+        return grab_.has_value();
     }
     if (std::holds_alternative<LostFocusEvent>(event)) {
         end_drag();
         return false;
     }
     const auto* const button = std::get_if<ButtonEvent>(&event);
-    if (button == nullptr || button->button != Button::kLeft) return grasp_.has_value() && button != nullptr;
+    if (button == nullptr || button->button != Button::kLeft) return grab_.has_value() && button != nullptr;
     if (button->down) {
         pointer_ = button->at_px;
         const auto hit = handle_at(edits_.state(), edits_.selected(), view.camera, button->at_px);
         if (!hit) {
-            pressed_beside_ = button->at_px;
+            pressed_outside_ = button->at_px;
             return false;
         }
         edits_.select(hit->light);
-        grasp_ = Grasp{*hit, button->at_px};
+        grab_ = HandleGrab{*hit, button->at_px};
         return true;
     }
-    if (grasp_) {
+    if (grab_) {
         pointer_ = button->at_px;
         follow(view);
         end_drag();
         return true;
     }
-    // A click beside all handles.
-    if (pressed_beside_ && glm::distance(*pressed_beside_, button->at_px) <= kHandShakes_px)
+    // Click outside of all handles.
+    if (pressed_outside_ && glm::distance(*pressed_outside_, button->at_px) <= kHandShakes_px)
         edits_.select(std::nullopt);
-    pressed_beside_.reset();
+    pressed_outside_.reset();
     return false;
 }
 
 void LightDesk::follow(const DeskView& view) {
-    if (!grasp_ || grasp_->hit.light >= edits_.state().entries.size()) return;
+    if (!grab_ || grab_->hit.light >= edits_.state().entries.size()) return;
     if (!drag_) {
-        if (glm::distance(grasp_->at_px, pointer_) <= kHandShakes_px) return;
+        if (glm::distance(grab_->at_px, pointer_) <= kHandShakes_px) return;
         edits_.begin_gesture();
-        drag_.emplace(edits_.state().entries[grasp_->hit.light], grasp_->hit.part, view.camera, grasp_->at_px, lift_);
+        drag_.emplace(edits_.state().entries[grab_->hit.light], grab_->hit.part, view.camera, grab_->at_px, lift_);
     }
-    edits_.set_light(grasp_->hit.light, drag_->to(pointer_, view.camera, view.surface));
+    edits_.set_light(grab_->hit.light, drag_->to(pointer_, view.camera, view.surface));
 }
 
-void LightDesk::settle(const DeskView& view) {
+void LightDesk::update(const DeskView& view) {
     if (!open_ || !std::exchange(pointer_moved_, false)) return;
     follow(view);
-    under_pointer_ =
-        grasp_ ? std::optional(grasp_->hit) : handle_at(edits_.state(), edits_.selected(), view.camera, pointer_);
+    hovered_ = grab_ ? std::optional(grab_->hit) : handle_at(edits_.state(), edits_.selected(), view.camera, pointer_);
 }
 
-bool LightDesk::obey(Key command) {
+bool LightDesk::on_key(Key command) {
     switch (command) {
         case Key::kLights:
             open(!open_);
@@ -131,7 +130,7 @@ bool LightDesk::obey(Key command) {
             report(edits_.undo() ? "undone" : "nothing to undo");
             return true;
         case Key::kRedo:
-            report(edits_.redo() ? "done again" : "nothing to do again");
+            report(edits_.redo() ? "redone" : "nothing to redo");
             return true;
         case Key::kDelete:
             if (open_) edits_.remove_selected();
@@ -145,7 +144,7 @@ bool LightDesk::obey(Key command) {
 }
 
 std::vector<HandleStroke> LightDesk::strokes(const Camera& camera) const {
-    return light_strokes(edits_.state(), edits_.selected(), under_pointer_, camera);
+    return light_strokes(edits_.state(), edits_.selected(), hovered_, camera);
 }
 
 void LightDesk::add(LightKind kind, const DeskView& view) {
@@ -153,14 +152,14 @@ void LightDesk::add(LightKind kind, const DeskView& view) {
     const glm::dvec2 middle(0.5 * camera.width, 0.5 * camera.height);
     const auto seen = view.surface(middle);
     const glm::dvec3 ahead = camera.ray(middle.x, middle.y);
-    // Half-way to what is seen, so that it lights something and can be grasped.
+    // Half-way to the visible surface, so that the light illuminates it and can be grabbed.
     const glm::dvec3 place = seen ? glm::mix(camera.centre(), seen->place, 0.5) : camera.centre() + kAhead * ahead;
     const LightWords& words = model_of(kind).words;
     LightEntry entry = new_light(kind, place);
     entry.name = free_light_name(edits_.state(), words.kind);
     if (words.has_file) {
         if (files_.empty()) {
-            report(folder_.string() + ": holds no .ies or .ldt file; choose another folder");
+            report(folder_.string() + ": has no .ies or .ldt file; choose another folder");
             return;
         }
         Result<Luminaire> read = read_luminaire(files_.front());
@@ -202,7 +201,7 @@ void LightDesk::look_for_files(const std::filesystem::path& folder) {
     files_.clear();
     std::error_code failed;
     std::filesystem::directory_iterator entries(folder, failed);
-    for (; !failed && entries != std::filesystem::directory_iterator() && files_.size() < kMostFiles;
+    for (; !failed && entries != std::filesystem::directory_iterator() && files_.size() < kMaxFiles;
          entries.increment(failed)) {
         const std::string ending = lower_case_extension(entries->path());
         if (ending == ".ies" || ending == ".ldt") files_.push_back(entries->path());

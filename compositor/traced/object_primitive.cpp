@@ -1,4 +1,4 @@
-#include "compositor/traced/object_rays.hpp"
+#include "compositor/traced/object_primitive.hpp"
 
 #include "engine/core/definition/view_registers.hpp"
 #include "rayspace/image/linear_light.hpp"
@@ -9,13 +9,13 @@
 namespace rs::compositor {
 namespace {
 
-constexpr double kViewpointDistance = 3;  // of the middle from the viewpoint, in lengths of reach_
+constexpr double kViewpointDistance = 3;  // from the centre to the viewpoint, in units of reach_
 constexpr double kFocalLength_px = 1000;
 
-// Looks along a direction; its only pixel's middle is that direction.
+// Camera of one pixel whose centre ray is `direction`.
 Camera one_pixel(const glm::dvec3& eye, const glm::dvec3& direction) {
     const glm::dvec3 back = -direction;
-    const glm::dvec3 level(back.z, 0, -back.x);  // cross of Y and back
+    const glm::dvec3 level(back.z, 0, -back.x);  // cross product of Y and back
     const double length = glm::length(level);
     const glm::dvec3 right = length > 1e-9 ? level / length : glm::dvec3(1, 0, 0);
     Camera camera;

@@ -1,4 +1,4 @@
-#include "compositor/viewer/drawing/shown_parts.hpp"
+#include "compositor/viewer/drawing/image_coverage.hpp"
 
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST(ShownParts, HoldAllThatShowsSomethingAndOpaqueOnesNothingElse) {
             };
             int next_row = -margin;
             std::int64_t opaque = 0;
-            for (const ShownBand& band : shown_bands(image, margin)) {
+            for (const CoverageBand& band : coverage_bands(image, margin)) {
                 ASSERT_EQ(band.top, next_row);
                 next_row = band.bottom;
                 for (int y = band.top; y < band.bottom; ++y) {
@@ -56,7 +56,7 @@ TEST(ShownParts, HoldAllThatShowsSomethingAndOpaqueOnesNothingElse) {
                             }
                         }
                         int runs = 0;
-                        for (const ShownRun& run : band.runs) {
+                        for (const CoverageRun& run : band.runs) {
                             if (x < run.begin || x >= run.end) continue;
                             ++runs;
                             if (run.opaque) {
@@ -80,8 +80,8 @@ TEST(ShownParts, HoldAllThatShowsSomethingAndOpaqueOnesNothingElse) {
 }
 
 TEST(ShownParts, AnEmptyImageHasNone) {
-    for (const ShownBand& band : shown_bands(Image<Rgba8>(40, 40), 3)) EXPECT_TRUE(band.runs.empty());
-    EXPECT_TRUE(shown_mesh(shown_bands(Image<Rgba8>(40, 40), 3), glm::dmat3(1)).corners.empty());
+    for (const CoverageBand& band : coverage_bands(Image<Rgba8>(40, 40), 3)) EXPECT_TRUE(band.runs.empty());
+    EXPECT_TRUE(coverage_mesh(coverage_bands(Image<Rgba8>(40, 40), 3), glm::dmat3(1)).corners.empty());
 }
 
 // Above 0 on one side of the line from a to b, below on the other.
@@ -92,15 +92,15 @@ double side_of_line(const glm::vec3& a, const glm::vec3& b, const glm::vec3& p) 
 TEST(ShownParts, TrianglesCoverEveryPointOfTheRunsOnce) {
     std::mt19937 random(11);
     const Image<Rgba8> image = shapes(131, 75, random);
-    const std::vector<ShownBand> bands = shown_bands(image, 2);
-    const ShownMesh mesh = shown_mesh(bands, glm::dmat3(1));
+    const std::vector<CoverageBand> bands = coverage_bands(image, 2);
+    const CoverageMesh mesh = coverage_mesh(bands, glm::dmat3(1));
     for (const glm::vec3& corner : mesh.corners) ASSERT_EQ(corner.z, 1);
-    for (const ShownBand& band : bands) {
+    for (const CoverageBand& band : bands) {
         for (int y = band.top; y < band.bottom; ++y) {
             for (int x = -2; x < 133; ++x) {
                 const glm::vec3 p(static_cast<float>(x) + 0.37F, static_cast<float>(y) + 0.53F, 1);
                 int expected = 0;  // 1: blended, 100: opaque
-                for (const ShownRun& run : band.runs) {
+                for (const CoverageRun& run : band.runs) {
                     if (x >= run.begin && x < run.end) expected += run.opaque ? 100 : 1;
                 }
                 int covered = 0;
