@@ -218,11 +218,10 @@ TEST(CaptureSetMemory, IsBoundedBeforehand) {
     EXPECT_TRUE(check_memory(set, needed).ok());
     const Status refused = check_memory(set, needed - 1);
     ASSERT_FALSE(refused.ok());
-    EXPECT_EQ(
-        refused.error().message,
-        "hemisphere/transforms.json: 250 images of 886x5814 (made upright, those of 800x800 become so large) take "
-        "about 20.6 GB of memory, and this machine has 20.6; leave out the steepest views, or make the images "
-        "smaller");
+    EXPECT_EQ(refused.error().message,
+              "hemisphere/transforms.json: 250 images of 886x5814 (enlarged from 800x800 to be upright) take "
+              "about 20.6 GB of memory, and this machine has 20.6; leave out the steepest views, or make the images "
+              "smaller");
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ TEST(ShapeMap, ALargePartThatFewCutOutsLackIsPaintedFromThoseBeside) {
     std::vector<int> completed;
     for (const auto& [view, image] : built.completed) completed.push_back(view);
     EXPECT_EQ(completed, (std::vector<int>{7, 15}));
-    EXPECT_THAT(built.warnings, Contains(HasSubstr("2 cut-outs lack a large part")));
+    EXPECT_THAT(built.warnings, Contains(HasSubstr("2 masks lack a large part")));
     EXPECT_GT(psnr_of(built, folder / "whole"), psnr_of(built, folder / "set"));
     const Result<CaptureSet> whole = open_capture_set(folder / "whole");
     ASSERT_TRUE(whole.ok());

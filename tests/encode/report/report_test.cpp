@@ -264,7 +264,7 @@ TEST(BuildReport, WhatIsEmptyIsNotShown) {
     EXPECT_EQ(unbalanced_tag(*page), "");
     EXPECT_THAT(*page, HasSubstr("vase &lt;1&gt;"));
     EXPECT_THAT(*page, HasSubstr("75.00"));  // per cent of the bytes in images
-    for (const char* heading : {"Warnings", "Captured", "Visual hull", "Depth found", "Views held out"}) {
+    for (const char* heading : {"Warnings", "Captured", "Visual hull", "Estimated depth", "Held-out views"}) {
         EXPECT_THAT(*page, Not(HasSubstr(std::string("<h2>") + heading))) << heading;
     }
 }
@@ -284,7 +284,8 @@ TEST(BuildReport, ShowsScoresAndImages) {
     ASSERT_TRUE(page.ok());
     EXPECT_EQ(unbalanced_tag(*page), "");
     EXPECT_EQ(occurrences(*page, "<img "), 7U);
-    for (const char* text : {"a gap &amp; a hole", "<h2>Visual hull", "<h2>Depth found", "27.25", "94.50", "<svg"}) {
+    for (const char* text :
+         {"a gap &amp; a hole", "<h2>Visual hull", "<h2>Estimated depth", "27.25", "94.50", "<svg"}) {
         EXPECT_THAT(*page, HasSubstr(text)) << text;
     }
     report.scores.clear();
