@@ -21,7 +21,7 @@ struct Error {
     std::string message;  // one line, no final newline: "FILE: what is wrong at which place; what to do about it"
 };
 
-// `what` is a number that a file states.
+// Error for a number from a file, named `what`, that is out of range.
 template <class Found, class Lowest, class Highest>
 Error out_of_range(const std::string& what, Found found, Lowest lowest, Highest highest) {
     return Error{what + " is " + std::to_string(found) + "; it must be " + std::to_string(lowest) + ".." +

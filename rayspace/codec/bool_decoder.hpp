@@ -1,9 +1,8 @@
 #pragma once
-// The binary arithmetic decoder of coded images: encode/FORMAT.md, section "Bits".
+// Binary arithmetic decoder of coded images: encode/FORMAT.md, section "Bits".
 //
-// What is likely comes from outside (context_states.hpp) and begins anew with every tile, so any tile can be begun
-// without its neighbours. Reading past the end gives zeros, as many as are read: a decoder never fails, and what
-// it makes of damaged bytes is bounded by the syntax that is read through it.
+// Probabilities come from the caller (context_states.hpp) and are reset for every tile, so that tiles are independent.
+// Reads past the end return zeros: a decoder never fails, and the syntax bounds the result of damaged bytes.
 
 #include <bit>
 #include <cstddef>
