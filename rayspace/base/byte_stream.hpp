@@ -42,8 +42,8 @@ private:
     std::vector<std::byte> bytes_;
 };
 
-// Reads past the end return zeros and make ok() false. A parser checks ok() once at its end, and before it allocates
-// memory by a number it has read.
+/// Reads past the end return zeros and make ok() false. A parser checks ok() once at its end, and before it allocates
+/// memory by a number it has read.
 class ByteReader {
 public:
     explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -64,7 +64,7 @@ public:
         std::memcpy(&number, &bits, sizeof number);
         return number;
     }
-    // The next `count` bytes; empty if there are fewer.
+    /// The next `count` bytes; empty if there are fewer.
     std::span<const std::byte> take(std::size_t count) {
         if (count > bytes_.size()) {
             ok_ = false;
@@ -75,7 +75,7 @@ public:
         bytes_ = bytes_.subspan(count);
         return taken;
     }
-    // True if the next `count` bytes exist and are zero.
+    /// True if the next `count` bytes exist and are zero.
     bool take_zeros(std::size_t count) {
         for (const std::byte b : take(count)) {
             if (b != std::byte{0}) return false;

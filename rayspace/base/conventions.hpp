@@ -30,7 +30,7 @@ constexpr double degrees(double radians) {
     return radians * (180.0 / kPi);
 }
 
-// Largest sizes accepted by all readers; larger ones are rejected with a message that states the limit.
+/// Largest sizes accepted by all readers; larger ones are rejected with a message that states the limit.
 inline constexpr int kMaxImageSide_px = 8192;
 inline constexpr int kMaxViews = 4096;
 inline constexpr int kMinPlanes = 3;

@@ -11,8 +11,8 @@
 
 namespace rs {
 
-// Parses JSON text. Errors, which name `where` and the line: invalid JSON, brackets nested more than 64 deep, a number
-// out of range, a repeated key. Thread-safe.
+/// Parses JSON text. Errors, which name `where` and the line: invalid JSON, brackets nested more than 64 deep, a number
+/// out of range, a repeated key. Thread-safe.
 Result<nlohmann::json> parse_json(std::string_view text, const std::string& where);
 
 }  // namespace rs

@@ -8,7 +8,7 @@
 
 namespace rs {
 
-// The upper median: of an even count the greater of the two middle values; 0 for an empty list. Reorders the values.
+/// The upper median: of an even count the greater of the two middle values; 0 for an empty list. Reorders the values.
 template <class T>
 T median_of(std::span<T> values) {
     if (values.empty()) return T{};
@@ -17,7 +17,7 @@ T median_of(std::span<T> values) {
     return *middle;
 }
 
-// The upper median, without reordering.
+/// The upper median, without reordering.
 template <class T>
 T median(std::vector<T> values) {
     return median_of(std::span<T>(values));

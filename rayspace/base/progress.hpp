@@ -13,16 +13,16 @@ namespace rs {
 class Progress {
 public:
     virtual ~Progress() = default;
-    // Starts a stage of `total` steps; ends the previous stage, if any.
+    /// Starts a stage of `total` steps; ends the previous stage, if any.
     virtual void start(const std::string& label, std::int64_t total) = 0;
-    // Thread-safe.
+    /// Thread-safe.
     virtual void advance(std::int64_t steps = 1) = 0;
     virtual void finish() = 0;
 };
 
 class ProgressBar final : public Progress {
 public:
-    // Nothing is drawn for stages that end within `silence`.
+    /// Nothing is drawn for stages that end within `silence`.
     explicit ProgressBar(bool quiet = false, std::chrono::milliseconds silence = std::chrono::milliseconds(500));
     ~ProgressBar() override;
 

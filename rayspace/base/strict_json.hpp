@@ -21,10 +21,10 @@ struct MalformedJson {
     std::string message;  // "FILE: KEY: what is wrong; what to do", without control characters
 };
 
-// As parse_json() of json_text.hpp, but throws MalformedJson.
+/// As parse_json() of json_text.hpp, but throws MalformedJson.
 nlohmann::json parse_json_text(std::string_view text, const std::string& file);
 
-// A value with the file's name and its path in the file, such as "nodes[2].box". Refers to `value`.
+/// A value with the file's name and its path in the file, such as "nodes[2].box". Refers to `value`.
 class JsonValue {
 public:
     JsonValue(const nlohmann::json& value, std::string file, std::string key);
@@ -37,11 +37,11 @@ public:
     [[nodiscard]] bool boolean() const;
     [[nodiscard]] std::string text() const;           // not empty, without zero characters
     [[nodiscard]] std::string text_or_empty() const;  // without zero characters
-    // The index of the text in `words`.
+    /// The index of the text in `words`.
     [[nodiscard]] std::size_t one_of(const std::vector<std::string>& words) const;
     [[nodiscard]] glm::dvec3 triple(double lowest, double highest) const;
     [[nodiscard]] glm::dvec3 direction() const;  // three numbers, not all 0; normalised
-    // Fails unless the value is a list of `least` to `most` items.
+    /// Fails unless the value is a list of `least` to `most` items.
     std::size_t list_size(std::size_t least, std::size_t most) const;
     [[nodiscard]] JsonValue item(std::size_t i) const;
 
@@ -61,21 +61,21 @@ public:
     explicit JsonObject(const JsonValue& value);
 
     [[nodiscard]] bool has(const std::string& name) const;
-    // The value of a required key.
+    /// The value of a required key.
     JsonValue take(const std::string& name);
-    // The value of an optional key.
+    /// The value of an optional key.
     std::optional<JsonValue> find(const std::string& name);
-    // Reads an optional key; `value` is unchanged if the key is missing.
+    /// Reads an optional key; `value` is unchanged if the key is missing.
     void read(const std::string& name, double& value, double lowest = -kMost, double highest = kMost);
     void read(const std::string& name, float& value, double lowest = -kMost, double highest = kMost);
     void read(const std::string& name, int& value, int lowest, int highest);
     void read(const std::string& name, bool& value);
     void read(const std::string& name, std::string& value);  // may be empty
-    // Three numbers; a single number sets all three.
+    /// Three numbers; a single number sets all three.
     void read(const std::string& name, glm::vec3& value, double lowest = -kMost, double highest = kMost);
-    // All unread keys, which then count as read.
+    /// All unread keys, which then count as read.
     [[nodiscard]] nlohmann::json take_rest();
-    // Fails on the first unread key, and lists the keys that are allowed. Must be called last.
+    /// Fails on the first unread key, and lists the keys that are allowed. Must be called last.
     void expect_all_taken() const;
 
 private:
@@ -83,8 +83,8 @@ private:
     mutable std::set<std::string> known_;
 };
 
-// Parses a JSON object and returns read(object), which must read all keys. Errors: those of parse_json(), and
-// MalformedJson thrown by `read`.
+/// Parses a JSON object and returns read(object), which must read all keys. Errors: those of parse_json(), and
+/// MalformedJson thrown by `read`.
 template <class Read>
 auto read_json(std::string_view text, const std::string& file, const Read& read)
     -> Result<decltype(read(std::declval<JsonObject&>()))> {

@@ -16,8 +16,8 @@ constexpr int mask_of_level(int level, int bits) {
     return level >> (bits - 1);
 }
 
-// Weighted sum of the mask around (x, y) with weights 1 2 1, 2 4 2, 1 2 1: 0 .. 16. Samples outside of the tile (width
-// x height samples) repeat the nearest ones inside.
+/// Weighted sum of the mask around (x, y) with weights 1 2 1, 2 4 2, 1 2 1: 0 .. 16. Samples outside of the tile (width
+/// x height samples) repeat the nearest ones inside.
 inline int mask_sum(const AlphaLevels& mask, int x, int y, int width, int height) {
     const int left = std::max(x - 1, 0);
     const int right = std::min(x + 1, width - 1);
@@ -25,31 +25,31 @@ inline int mask_sum(const AlphaLevels& mask, int x, int y, int width, int height
     return row(std::max(y - 1, 0)) + 2 * row(y) + row(std::min(y + 1, height - 1));
 }
 
-// The weight in `sum` of samples that differ from the centre: 0 .. 12.
+/// The weight in `sum` of samples that differ from the centre: 0 .. 12.
 constexpr int unlike_weight(int mask, int sum) {
     return mask != 0 ? 16 - sum : sum;
 }
 
-// Alpha reconstructed from the mask only, with the object's mean edge softness.
+/// Alpha reconstructed from the mask only, with the object's mean edge softness.
 inline int smooth_alpha(const EdgeAlpha& edge, int mask, int sum) {
     const int weight = unlike_weight(mask, sum);
     const int off = weight == 0 ? 0 : edge[static_cast<std::size_t>(kEdgeWeights * mask + weight - 1)];
     return mask != 0 ? 255 - off : off;
 }
 
-// The references' alpha at sample (x, y) of the image, interpolated between samples; -1 if the unit has no references.
+/// The references' alpha at sample (x, y) of the image, interpolated between samples; -1 if the unit has no references.
 int interpolated_alpha(Source source, const std::array<MotionVector, 2>& motion,
                        const std::array<ConstPlaneViews, 2>& references, int x, int y);
 
-// The first index of context::kMask.
+/// The first index of context::kMask.
 constexpr int predicted_mask(int alpha) {
     if (alpha < 0) return 0;
     if (alpha == 0) return 1;
     return alpha < 64 ? 2 : alpha < 112 ? 3 : alpha < 144 ? 4 : alpha < 192 ? 5 : alpha < 255 ? 6 : 7;
 }
 
-// Finishes a tile's alpha after its masks and units are known: smooths it, or codes the further bits.
-// \param depths  values for syntax::alpha_depth if the coder writes; filled in.
+/// Finishes a tile's alpha after its masks and units are known: smooths it, or codes the further bits.
+/// \param depths  values for syntax::alpha_depth if the coder writes; filled in.
 template <class Coder>
 class AlphaFinish {
 public:

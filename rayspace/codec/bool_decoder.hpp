@@ -11,7 +11,7 @@
 
 namespace rs::codec {
 
-// P(bit is 0) = probability / 4096.
+/// P(bit is 0) = probability / 4096.
 inline constexpr int kProbabilityBits = 12;
 
 class BoolDecoder {
@@ -20,7 +20,7 @@ public:
         refill();
     }
 
-    // `probability`: 1 .. 4095.
+    /// `probability`: 1 .. 4095.
     int bit(std::uint32_t probability) {
         const std::uint32_t split = (range_ * probability) >> kProbabilityBits;
         const std::uint64_t high_split = std::uint64_t{split} << 48;

@@ -11,7 +11,7 @@ namespace rs::codec {
 
 class BoolEncoder {
 public:
-    // `probability`: probability of a 0 in 4096ths, 1 .. 4095.
+    /// `probability`: probability of a 0 in 4096ths, 1 .. 4095.
     void bit(int value, std::uint32_t probability) {
         const std::uint32_t split = (range_ * probability) >> kProbabilityBits;
         if (value != 0) {
@@ -27,7 +27,7 @@ public:
         while (pending_bits_ >= 8) put_byte();
     }
 
-    // Returns the shortest bytes that decode to the written decisions. The encoder must not be used afterwards.
+    /// Returns the shortest bytes that decode to the written decisions. The encoder must not be used afterwards.
     std::vector<std::byte> finish() {
         for (int zeros = 16; zeros >= 0; --zeros) {
             const std::uint64_t mask = (std::uint64_t{1} << zeros) - 1;

@@ -21,7 +21,7 @@ public:
         uses_ = kFirstUses;
     }
 
-    // The probability of a 0 in 4096ths, for BoolDecoder.
+    /// The probability of a 0 in 4096ths, for BoolDecoder.
     [[nodiscard]] std::uint32_t probability(int context) const {
         return decoder_probability(zero_q16_[static_cast<std::size_t>(context)]);
     }

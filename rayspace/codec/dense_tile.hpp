@@ -12,8 +12,8 @@
 
 namespace rs::codec {
 
-// The coded samples of one image: Y, U, V and alpha, all of the coded size (width and height rounded up to a multiple
-// of 16).
+/// The coded samples of one image: Y, U, V and alpha, all of the coded size (width and height rounded up to a multiple
+/// of 16).
 using PlaneViews = std::array<ImageView<std::uint8_t>, 4>;
 using ConstPlaneViews = std::array<ConstImageView<std::uint8_t>, 4>;
 using Planes = std::array<Image<std::uint8_t>, 4>;
@@ -25,8 +25,8 @@ inline ConstPlaneViews views_of(const Planes& planes) {
     return {planes[0].view(), planes[1].view(), planes[2].view(), planes[3].view()};
 }
 
-// Receives the rectangle [left, right) x [top, bottom), clamped to the coded size, of each read of a reference image
-// before it happens.
+/// Receives the rectangle [left, right) x [top, bottom), clamped to the coded size, of each read of a reference image
+/// before it happens.
 class ReferenceListener {
 public:
     ReferenceListener() = default;
@@ -43,14 +43,14 @@ struct TilePlace {
     int height = 0;
 };
 
-// Decodes the tile at `place` into `out`; other threads may write other tiles. references[r] is the image
-// head.reference[r]. Any bytes decode to some samples: there are no errors. Cost: about a microsecond per 64 samples of
-// each plane.
+/// Decodes the tile at `place` into `out`; other threads may write other tiles. references[r] is the image
+/// head.reference[r]. Any bytes decode to some samples: there are no errors. Cost: about a microsecond per 64 samples
+/// of each plane.
 void decode_dense_tile(const DenseCode& code, const ImageHead& head, std::span<const std::byte> bytes,
                        const TilePlace& place, const std::array<ConstPlaneViews, 2>& references,
                        ReferenceListener* listener, const PlaneViews& out);
 
-// Clears a tile without bytes: transparent.
+/// Clears a tile without bytes: transparent.
 void clear_tile(const TilePlace& place, const PlaneViews& out);
 inline constexpr std::uint8_t kEmptySample = 128;  // Y, U and V of transparent samples
 

@@ -7,7 +7,7 @@
 
 namespace rs::codec {
 
-// Levels of one block, with a margin of two zero rows and columns so that neighbours need no bounds checks.
+/// Levels of one block, with a margin of two zero rows and columns so that neighbours need no bounds checks.
 struct Levels {
     static constexpr int kStride = kLargestTransform + 2;
     std::int16_t at[(kLargestTransform + 2) * kStride] = {};

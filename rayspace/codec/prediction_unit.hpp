@@ -11,7 +11,7 @@
 
 namespace rs::codec {
 
-// Alpha levels 0 .. 2^bits - 1 of a tile, or its mask, with a margin of zeros above and on both sides.
+/// Alpha levels 0 .. 2^bits - 1 of a tile, or its mask, with a margin of zeros above and on both sides.
 class AlphaLevels {
 public:
     void clear() { std::memset(levels_, 0, sizeof levels_); }
@@ -36,7 +36,7 @@ constexpr int level_of_alpha(int alpha, int bits) {
 
 inline constexpr int kPlanes = 3;  // Y, U, V
 
-// All choices of a unit except its alpha.
+/// All choices of a unit except its alpha.
 struct UnitChoice {
     Source source = Source::kIntra;
     int intra_mode = 0;
@@ -53,8 +53,8 @@ struct UnitChoice {
     [[nodiscard]] int transforms(int unit_size) const { return unit_size == kMacroblock && small_transforms ? 4 : 1; }
 };
 
-// Codes a mixed block's alpha. predicted(x, y): the references' level at sample (x, y) of the tile, -1 if there is
-// none.
+/// Codes a mixed block's alpha. predicted(x, y): the references' level at sample (x, y) of the tile, -1 if there is
+/// none.
 template <class Coder, class Predicted>
 void code_block_alpha(Coder& coder, AlphaLevels& alpha, int bits, int bx, int by, const Predicted& predicted) {
     for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
@@ -69,7 +69,7 @@ void code_block_alpha(Coder& coder, AlphaLevels& alpha, int bits, int bx, int by
     }
 }
 
-// Codes a mixed block's mask. predicted(x, y): the context class of the references' alpha (predicted_mask).
+/// Codes a mixed block's mask. predicted(x, y): the context class of the references' alpha (predicted_mask).
 template <class Coder, class Predicted>
 void code_block_mask(Coder& coder, AlphaLevels& mask, int bx, int by, const Predicted& predicted) {
     for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
@@ -85,8 +85,8 @@ void code_block_mask(Coder& coder, AlphaLevels& mask, int bx, int by, const Pred
     }
 }
 
-// Codes the alpha classes of the macroblock at block (bx, by) and of its blocks; reads them from the grid if the coder
-// writes, else stores them there. Returns false if the macroblock is empty and nothing follows.
+/// Codes the alpha classes of the macroblock at block (bx, by) and of its blocks; reads them from the grid if the coder
+/// writes, else stores them there. Returns false if the macroblock is empty and nothing follows.
 template <class Coder>
 bool code_macroblock_alpha(Coder& coder, TileGrid& grid, int bx, int by) {
     const auto block = [&](int i) -> BlockInfo& { return grid.at(bx + (i & 1), by + (i >> 1)); };
@@ -114,7 +114,7 @@ struct UnitSurroundings {
     std::array<MotionVector, 2> global_motion;
 };
 
-// Codes the prediction of a unit.
+/// Codes the prediction of a unit.
 template <class Coder>
 void code_prediction(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, const UnitSurroundings& around,
                      UnitChoice& choice) {
@@ -135,7 +135,7 @@ void code_prediction(Coder& coder, const TileGrid& grid, const PredictionUnit& u
     }
 }
 
-// Codes the coefficients of a unit, whose prediction is known.
+/// Codes the coefficients of a unit, whose prediction is known.
 template <class Coder>
 void code_coefficients(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, bool sign_data_hiding,
                        UnitChoice& choice) {

@@ -17,8 +17,8 @@
 
 namespace rs::codec::syntax {
 
-// Codes `value` below 2^bits as a binary tree of `bits` decisions, highest bit first, each in the context of the
-// previous ones.
+/// Codes `value` below 2^bits as a binary tree of `bits` decisions, highest bit first, each in the context of the
+/// previous ones.
 template <class Coder>
 int tree(Coder& coder, int context, int bits, int value) {
     int node = 1;
@@ -26,8 +26,8 @@ int tree(Coder& coder, int context, int bits, int value) {
     return node - (1 << bits);
 }
 
-// Codes a number 0 .. 2^(places) - 1: its bit length in unary (contexts class_context + 0 ..), its second highest bit
-// (top_context + length), and the lower bits raw.
+/// Codes a number 0 .. 2^(places) - 1: its bit length in unary (contexts class_context + 0 ..), its second highest bit
+/// (top_context + length), and the lower bits raw.
 template <class Coder>
 int number(Coder& coder, int class_context, int places, int top_context, int value) {
     const int wanted = std::bit_width(static_cast<unsigned>(value));
@@ -39,7 +39,7 @@ int number(Coder& coder, int class_context, int places, int top_context, int val
     return read;
 }
 
-// Codes the alpha class of a macroblock (context::kMacroblockAlpha) or a block (kBlockAlpha).
+/// Codes the alpha class of a macroblock (context::kMacroblockAlpha) or a block (kBlockAlpha).
 template <class Coder>
 AlphaClass alpha_class(Coder& coder, int context, AlphaClass left, AlphaClass above, AlphaClass value) {
     const int at = context + 2 * (4 * static_cast<int>(left) + static_cast<int>(above));
@@ -53,7 +53,7 @@ bool split(Coder& coder, const TileGrid& grid, int bx, int by, bool value) {
     return coder.bit(context::kSplit + neighbours, value ? 1 : 0) != 0;
 }
 
-// The number of the two neighbours that fulfil the condition.
+/// The number of the two neighbours that fulfil the condition.
 template <class Condition>
 int count_neighbours(const TileGrid& grid, const PredictionUnit& unit, const Condition& condition) {
     return (condition(grid.at(unit.bx - 1, unit.by)) ? 1 : 0) + (condition(grid.at(unit.bx, unit.by - 1)) ? 1 : 0);
@@ -63,7 +63,7 @@ constexpr int size_index(int size) {
     return size == kMacroblock ? 1 : 0;
 }
 
-// Codes the source of a unit's prediction. `references`: number of reference images, 0 .. 2.
+/// Codes the source of a unit's prediction. `references`: number of reference images, 0 .. 2.
 template <class Coder>
 Source source(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, int references, Source value) {
     if (references == 0) return Source::kIntra;
@@ -83,7 +83,8 @@ int intra_mode(Coder& coder, const PredictionUnit& unit, int value) {
     return tree(coder, context::kIntraMode + 7 * size_index(unit.size), 3, value);
 }
 
-// Codes the difference of a vector from its prediction. A read vector may exceed +-kMaxMotion_q2: the caller clamps it.
+/// Codes the difference of a vector from its prediction. A read vector may exceed +-kMaxMotion_q2: the caller clamps
+/// it.
 template <class Coder>
 std::array<int, 2> motion(Coder& coder, const PredictionUnit& unit, std::array<int, 2> value) {
     constexpr int kPlaces = 10;
@@ -103,7 +104,7 @@ std::array<int, 2> motion(Coder& coder, const PredictionUnit& unit, std::array<i
     return read;
 }
 
-// Codes whether a unit has any coefficients.
+/// Codes whether a unit has any coefficients.
 template <class Coder>
 bool coded(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, bool inter, bool value) {
     const int neighbours = count_neighbours(grid, unit, [](const BlockInfo& b) { return b.coded; });
@@ -113,11 +114,11 @@ bool coded(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, bool 
 
 // ------------------------------------------------------------------------------------------------------- coefficients
 
-// The positions of a block in diagonal order from the DC coefficient: [i] = v * size + u.
+/// The positions of a block in diagonal order from the DC coefficient: [i] = v * size + u.
 const std::uint8_t* scan_order(int size);
 
-// Context from the neighbours to the right and below of (u, v): the sum of their magnitudes, limited to 3 each, halved,
-// at most kNearSums - 1.
+/// Context from the neighbours to the right and below of (u, v): the sum of their magnitudes, limited to 3 each,
+/// halved, at most kNearSums - 1.
 inline int near_sum(const Levels& levels, int u, int v) {
     const std::int16_t* const l = levels.at + v * Levels::kStride + u;
     const auto size = [](int level) { return std::min(std::abs(level), 3); };
@@ -126,7 +127,7 @@ inline int near_sum(const Levels& levels, int u, int v) {
     return std::min((sum + 1) >> 1, context::kNearSums - 1);
 }
 
-// The kind of coefficient block, as in contexts.hpp.
+/// The kind of coefficient block, as in contexts.hpp.
 constexpr int block_kind(int plane, int transform_size, bool inter) {
     return (plane == 0 ? 0 : 4) + 2 * size_index(transform_size) + (inter ? 1 : 0);
 }
@@ -137,7 +138,7 @@ constexpr int band_of(int diagonal, int size) {
     return d <= 2 ? 1 : d <= 5 ? 2 : 3;
 }
 
-// Codes the magnitude of one level; `must_be`: known not to be zero.
+/// Codes the magnitude of one level; `must_be`: known not to be zero.
 template <class Coder>
 int magnitude(Coder& coder, int kind, int band, int near, bool must_be, int value) {
     if (!must_be) {
@@ -164,19 +165,19 @@ int magnitude(Coder& coder, int kind, int band, int near, bool must_be, int valu
     return read;
 }
 
-// Codes the scan position of the last non-zero level.
+/// Codes the scan position of the last non-zero level.
 template <class Coder>
 int last_place(Coder& coder, int kind, int size, int value) {
     return number(coder, context::kLastClass + 8 * kind, size == 8 ? 6 : 8, context::kLastTop + 9 * kind, value);
 }
 
-// Levels are processed in groups of kSignGroup positions. With sign data hiding, the sign of a group's lowest non-zero
-// level is the parity of the sum of its magnitudes, if the highest one is at least kHidingSpan positions above it.
+/// Levels are processed in groups of kSignGroup positions. With sign data hiding, the sign of a group's lowest non-zero
+/// level is the parity of the sum of its magnitudes, if the highest one is at least kHidingSpan positions above it.
 inline constexpr int kSignGroup = 16;
 inline constexpr int kHidingSpan = 4;
 
-// Codes a block with at least one non-zero level. `levels` contains the values to be written, or zeros, and is filled
-// in; `last`: the scan position of the last one, for a writer.
+/// Codes a block with at least one non-zero level. `levels` contains the values to be written, or zeros, and is filled
+/// in; `last`: the scan position of the last one, for a writer.
 template <class Coder>
 void block(Coder& coder, int kind, int size, bool sign_data_hiding, Levels& levels, int last) {
     const std::uint8_t* const scan = scan_order(size);
@@ -214,13 +215,13 @@ void block(Coder& coder, int kind, int size, bool sign_data_hiding, Levels& leve
 
 // -------------------------------------------------------------------------------------------------------------- alpha
 
-// 0: transparent, 2: covered, 1: between.
+/// 0: transparent, 2: covered, 1: between.
 constexpr int alpha_kind(int alpha, int full) {
     return alpha == 0 ? 0 : alpha == full ? 2 : 1;
 }
 
-// Codes one sample of a mixed block, 0 .. full (full = 2^bits - 1). Neighbours outside of the tile count as 0.
-// \param predicted  alpha level of the reference's sample, -1 if there is none.
+/// Codes one sample of a mixed block, 0 .. full (full = 2^bits - 1). Neighbours outside of the tile count as 0.
+/// \param predicted  alpha level of the reference's sample, -1 if there is none.
 template <class Coder>
 int alpha_sample(Coder& coder, int bits, int west, int north, int north_west, int north_east, int predicted,
                  int value) {
@@ -235,19 +236,18 @@ int alpha_sample(Coder& coder, int bits, int west, int north, int north_west, in
     return tree(coder, context::kAlphaBetween + 16 * mean, bits, value);
 }
 
-// Codes the distance of a sample of a mixed block from the end of the range given by its mask, for two bits of alpha: 0
-// or 1.
-// \param sum         weighted sum of the mask around it, 0 .. 16.
-// \param neighbours  number of the left and upper neighbours with a distance that is not 0.
-// \param predicted   0: no references; 1: these are at an end of the range; 2: between.
+/// Codes the distance of a sample of a mixed block from the end of the range given by its mask, for two bits of alpha:
+/// 0 or 1. \param sum         weighted sum of the mask around it, 0 .. 16. \param neighbours  number of the left and
+/// upper neighbours with a distance that is not 0. \param predicted   0: no references; 1: these are at an end of the
+/// range; 2: between.
 template <class Coder>
 int alpha_inner(Coder& coder, int mask, int sum, int neighbours, int predicted, int value) {
     return coder.bit(context::kInner + ((3 * neighbours + predicted) * 2 + mask) * 17 + sum, value);
 }
 
-// Codes that distance for more bits, 0 .. 2^(bits - 1) - 1, as a difference from `guess`.
-// \param activity  variation of the neighbouring distances.
-// \param beside    1 if the mask around the sample differs from its own, else 0.
+/// Codes that distance for more bits, 0 .. 2^(bits - 1) - 1, as a difference from `guess`.
+/// \param activity  variation of the neighbouring distances.
+/// \param beside    1 if the mask around the sample differs from its own, else 0.
 template <class Coder>
 int alpha_depth(Coder& coder, int bits, int guess, int activity, int beside, int predicted, int value) {
     constexpr int kActivities = 6;

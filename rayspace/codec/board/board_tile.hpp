@@ -16,10 +16,10 @@ inline constexpr int kBoardBlock = 8;          // side of a block
 inline constexpr int kBoardTileBlocks = 16;    // blocks per tile, column by column
 inline constexpr int kBoardTileHeadBytes = 6;  // 3 bits per block's class
 
-// The 16 classes of a tile, block b at bit 3 b. Bytes beyond the end count as zero, also in the functions below.
+/// The 16 classes of a tile, block b at bit 3 b. Bytes beyond the end count as zero, also in the functions below.
 std::uint64_t board_tile_classes(std::span<const std::byte> bytes);
 
-// Motion of a predicted record.
+/// Motion of a predicted record.
 struct BoardMotion {
     int reference = 0;  // 0 or 1
     int x = 0;          // whole samples, -128 .. 127
@@ -28,13 +28,13 @@ struct BoardMotion {
 BoardMotion board_motion(std::uint16_t word);
 std::uint16_t board_motion_word(const BoardMotion& motion);  // its inverse
 
-// Decodes a tile as decode_dense_tile() does; any bytes decode to some samples. For an image with one reference,
-// `reference` counts as 0. Cost: about 0.2 microseconds per 64 samples of each plane.
+/// Decodes a tile as decode_dense_tile() does; any bytes decode to some samples. For an image with one reference,
+/// `reference` counts as 0. Cost: about 0.2 microseconds per 64 samples of each plane.
 void decode_board_tile(const BoardCode& code, const ImageHead& head, std::span<const std::byte> bytes,
                        const TilePlace& place, const std::array<ConstPlaneViews, 2>& references,
                        ReferenceListener* listener, const PlaneViews& out);
 
-// Decodes one block from its record, at (x, y) of the image.
+/// Decodes one block from its record, at (x, y) of the image.
 void decode_board_block(const BoardCode& code, const RecordClass& record_class, std::span<const std::byte> record,
                         int x, int y, int reference_count, const std::array<ConstPlaneViews, 2>& references,
                         ReferenceListener* listener, const PlaneViews& out);

@@ -16,7 +16,7 @@ inline constexpr int kBookEntries = 256;     // an index is one byte
 inline constexpr int kMaxBlockStages = 2;    // codebooks of whole blocks per record
 inline constexpr int kMaxQuarterStages = 4;  // codebooks of 4x4 quarters per record
 
-// Contents of the records of one class.
+/// Contents of the records of one class.
 struct RecordClass {
     bool predicted = false;  // from another image; else from a flat colour
     bool alpha = false;      // has an alpha pattern per quarter; else all samples are covered
@@ -24,14 +24,14 @@ struct RecordClass {
     int quarter_stages = 0;  // 0 .. kMaxQuarterStages
     bool operator==(const RecordClass&) const = default;
 
-    // Size of a record; even, so that records begin at even addresses.
+    /// Size of a record; even, so that records begin at even addresses.
     [[nodiscard]] int bytes() const {
         return ((predicted ? 2 : 3) + block_stages + 4 * quarter_stages + (alpha ? 4 : 0) + 1) / 2 * 2;
     }
 };
 
-// Entry e of a book begins at [e * dimensions]. Block entries: 64 differences of Y, row by row, then 16 of U and 16 of
-// V, each for 2x2 pixels. Quarter entries: 16 of Y, 16 of U, 16 of V.
+/// Entry e of a book begins at [e * dimensions]. Block entries: 64 differences of Y, row by row, then 16 of U and 16 of
+/// V, each for 2x2 pixels. Quarter entries: 16 of Y, 16 of U, 16 of V.
 inline constexpr int kBlockDimensions = 64 + 16 + 16;
 inline constexpr int kQuarterDimensions = 3 * 16;
 using Book = std::vector<std::int8_t>;

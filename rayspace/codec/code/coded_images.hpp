@@ -20,7 +20,7 @@ constexpr const char* name_of(Profile profile) {
     return profile == Profile::kBoard ? "board" : "dense";
 }
 
-// Range of a tile's bytes within its image. A tile that is not present is transparent.
+/// Range of a tile's bytes within its image. A tile that is not present is transparent.
 struct TileSpan {
     std::uint32_t begin = 0;
     std::uint32_t size = 0;

@@ -19,7 +19,7 @@ enum class AlphaCoding : std::uint8_t {
     kDepths = 2,  // a mask, and the distance from 0 or full in 3 to 6 bits
 };
 
-// Distance of alpha from 0 (255) beside a mask's edge: [mask][weight of the differing samples around, 1 .. 12].
+/// Distance of alpha from 0 (255) beside a mask's edge: [mask][weight of the differing samples around, 1 .. 12].
 using EdgeAlpha = std::array<std::uint8_t, 24>;
 inline constexpr int kEdgeWeights = 12;
 inline constexpr int kMaxEdgeAlpha = 127;
@@ -39,9 +39,9 @@ struct DenseCode {
         return alpha_bits <= 2 ? AlphaCoding::kMask : AlphaCoding::kDepths;
     }
     [[nodiscard]] bool has_edge_alpha() const { return has_masks && alpha_bits == 1; }
-    // The number of contexts in use.
+    /// The number of contexts in use.
     [[nodiscard]] int contexts() const { return has_masks ? context::kMaskCount : context::kLevelsCount; }
-    // The step index of plane 0 .. 2.
+    /// The step index of plane 0 .. 2.
     [[nodiscard]] int plane_step(int step, int plane) const {
         if (plane == 0) return step;
         return std::clamp(step + chroma_step_offset[static_cast<std::size_t>(plane - 1)], 0, kMaxStep);

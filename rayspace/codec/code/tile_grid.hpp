@@ -34,7 +34,7 @@ struct BlockInfo {
     std::array<MotionVector, 2> motion;
 };
 
-// Blocks (-1 .. n - 1, -1 .. n - 1) of a tile; those to the left of it and above it are kOutside.
+/// Blocks (-1 .. n - 1, -1 .. n - 1) of a tile; those to the left of it and above it are kOutside.
 class TileGrid {
 public:
     BlockInfo& at(int bx, int by) { return blocks_[static_cast<std::size_t>((by + 1) * kSide + bx + 1)]; }
@@ -48,7 +48,7 @@ private:
     std::array<BlockInfo, static_cast<std::size_t>(kSide* kSide)> blocks_;
 };
 
-// A unit: a macroblock (size 16) or one of its four blocks (8). bx, by: its first block in the tile.
+/// A unit: a macroblock (size 16) or one of its four blocks (8). bx, by: its first block in the tile.
 struct PredictionUnit {
     int bx = 0;
     int by = 0;
@@ -56,8 +56,8 @@ struct PredictionUnit {
     [[nodiscard]] int blocks() const { return size / kBlock; }
 };
 
-// Predicts a vector: the median of the vectors of the left and upper blocks and `global`; the vector of the only one of
-// both blocks that uses the reference; `global` if neither does.
+/// Predicts a vector: the median of the vectors of the left and upper blocks and `global`; the vector of the only one
+/// of both blocks that uses the reference; `global` if neither does.
 inline MotionVector predicted_motion(const TileGrid& grid, const PredictionUnit& unit, int reference,
                                      MotionVector global) {
     const BlockInfo& left = grid.at(unit.bx - 1, unit.by);

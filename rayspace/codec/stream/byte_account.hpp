@@ -14,8 +14,8 @@ struct AccountEntry {
     double bytes = 0;
 };
 
-// Computes the breakdown. All images of `coded` must be loaded. The entries add up to the images' chunks; rounding to
-// whole bytes is an entry of its own. Decodes dense images once, on the threads of the calling tbb arena.
+/// Computes the breakdown. All images of `coded` must be loaded. The entries add up to the images' chunks; rounding to
+/// whole bytes is an entry of its own. Decodes dense images once, on the threads of the calling tbb arena.
 std::vector<AccountEntry> account_bytes(const CodedImages& coded);
 
 }  // namespace rs::codec

@@ -143,7 +143,7 @@ TEST(ToolMain, NamesOfFilesToWriteEndAsTheyShould) {
     const auto page = ends_in({".html", ".htm"});
     EXPECT_EQ(page("a.html") + page("b/c.HTM") + page(".d.html"), "");
     for (const char* wrong : {"shoe.jpg", "noext", "html", "a.html/", ""}) {
-        EXPECT_THAT(page(wrong), HasSubstr(std::string(wrong) + ": a name that ends in .html")) << wrong;
+        EXPECT_THAT(page(wrong), HasSubstr(std::string(wrong) + ": must end in .html")) << wrong;
     }
 }
 
