@@ -19,7 +19,7 @@ int fuzz_manifest(const std::uint8_t* data, std::size_t size) {
     }
     const auto stamps = parse_input_list(text, "fuzz");
     if (stamps) {
-        // What was read says the same when it is written.
+        // The list must survive a round trip.
         const auto again = parse_input_list(input_list_text(*stamps), "fuzz");
         RS_CHECK(again.ok() && *again == *stamps);
     } else {

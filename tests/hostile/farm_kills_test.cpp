@@ -1,4 +1,4 @@
-// A farm that is killed at any moment, with mpirun, a rank or a tool: what was finished stays, and is not done again.
+// Kills a farm at random moments (mpirun, a rank or a tool): finished results are kept and not computed again.
 
 #include "rayspace/file/input_list.hpp"
 #include "tests/hostile/mutation.hpp"
@@ -41,7 +41,7 @@ pid_t parent_of(pid_t process) {
     return std::atoi(stat.c_str() + name_end + 4);
 }
 
-// Of `root`, itself first.
+// All descendants of `root`, starting with itself.
 std::vector<pid_t> descendants(pid_t root) {
     std::vector<pid_t> found{root};
     std::error_code error;
@@ -79,8 +79,7 @@ public:
         }
     }
     [[nodiscard]] std::vector<pid_t> processes() const { return descendants(process_); }
-    // Open MPI 4.1's mpirun has been seen to wait for ever for a rank that was killed while MPI began: it gets ten
-    // seconds.
+    // Open MPI 4.1's mpirun may wait forever for a rank that was killed during MPI_Init: it gets ten seconds.
     void end_soon() const {
         const auto late = std::chrono::steady_clock::now() + std::chrono::seconds(10);
         while (!ended()) {
@@ -89,7 +88,7 @@ public:
         }
         wait();
     }
-    // The exit code; -1 where a signal ended mpirun.
+    // The exit code; -1 if a signal ended mpirun.
     int wait() const {
         int status = 0;
         ::waitpid(process_, &status, 0);
@@ -105,7 +104,7 @@ private:
     pid_t process_ = 0;
 };
 
-// What is finished: results in place, and the marks of work that is complete. None may be made anew.
+// Finished results and the markers of complete work, none of which may be replaced.
 std::map<std::string, ino_t> finished(const fs::path& objects) {
     std::map<std::string, ino_t> files;
     std::error_code error;
@@ -119,19 +118,19 @@ std::map<std::string, ino_t> finished(const fs::path& objects) {
     return files;
 }
 
-// How often the manifest says of each item that it was made.
+// The number of manifest lines per item.
 std::map<std::string, int> made_lines(const fs::path& manifest) {
     std::map<std::string, int> times;
     std::ifstream file(manifest);
     for (std::string line; std::getline(file, line);) {
         const auto json = nlohmann::json::parse(line, nullptr, false);
-        if (json.is_discarded()) continue;  // cut short
+        if (json.is_discarded()) continue;  // truncated
         if (json.at("state") == "made") ++times[json.at("item")];
     }
     return times;
 }
 
-// A farm whose tool is a script that copies what it reads, and notes when it has.
+// A farm whose tool is a script that copies its input and records its completion.
 class KilledFarm : public testing::Test {
 protected:
     void SetUp() override {
@@ -159,7 +158,7 @@ protected:
         command_.insert(command_.end(), {"-o", objects_.string(), "-q"});
     }
 
-    // One of them, of a kind drawn at random; 0 where there is none.
+    // A process of a randomly chosen kind; 0 if there is none.
     static pid_t victim_of(const std::vector<pid_t>& processes, test::Random& random) {
         const std::size_t kind = test::below(random, 5);
         const std::string wanted = kind == 0 ? "mpirun\n" : kind == 1 ? "rs-encode\n" : "rs-farm\n";
@@ -175,8 +174,8 @@ protected:
         return static_cast<int>(std::ranges::count(lines, '\n'));
     }
 
-    // Kills something while the ranks begin, or when some more items are done, and a moment later. False where the farm
-    // was done before.
+    // Kills a process while the ranks start, or after some more items are done and a random delay. Returns false if the
+    // farm was done before.
     [[nodiscard]] bool kill_something(const Farm& farm, test::Random& random) const {
         const auto is_rank = [](pid_t process) { return name_of(process) == "rs-farm\n"; };
         const int wanted = test::below(random, 8) == 0 ? 0 : done() + static_cast<int>(test::below(random, 12));
@@ -232,7 +231,7 @@ TEST_F(KilledFarm, GoesOnWhereItWas) {
         expect_nothing_was_lost_or_made_twice(before);
         if (HasFatalFailure()) return;
         before = finished(objects_);
-        if (!killed) {  // all is made: from the beginning
+        if (!killed) {  // all done: start over
             finish_and_look();
             if (HasFatalFailure()) return;
             before.clear();

@@ -1,5 +1,5 @@
 #pragma once
-// rs-farm under mpirun, as root and on fewer processors than ranks, as tests run.
+// Runs rs-farm under mpirun, allowing root and more ranks than processors.
 
 #include "tests/support/run_tool.hpp"
 
@@ -10,7 +10,7 @@
 
 namespace rs::test {
 
-// False where it was not built, for there is no MPI.
+/// False if rs-farm was not built because MPI is missing.
 inline bool has_farm() {
     return std::filesystem::exists(std::string(RAYSPACE_TOOLS_DIR) + "/rs-farm") &&
            std::system("command -v mpirun >/dev/null") == 0;
@@ -20,9 +20,9 @@ inline void allow_mpi_here() {
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
     ::setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
-    ::setenv("OMPI_MCA_btl", "self,vader", 1);                        // of one machine
-    ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);  // which containers refuse
-    ::setenv("OMPI_MCA_plm_rsh_agent", "true", 1);                    // no ssh is looked for
+    ::setenv("OMPI_MCA_btl", "self,vader", 1);                        // single machine
+    ::setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 1);  // not permitted in containers
+    ::setenv("OMPI_MCA_plm_rsh_agent", "true", 1);                    // do not search for ssh
 }
 
 inline std::vector<std::string> farm_command(int ranks, const std::vector<std::string>& arguments) {
@@ -31,7 +31,7 @@ inline std::vector<std::string> farm_command(int ranks, const std::vector<std::s
     return command;
 }
 
-// 0 ranks: without mpirun.
+/// 0 ranks: without mpirun.
 inline ToolRun run_farm(const std::filesystem::path& scratch, int ranks, const std::vector<std::string>& arguments) {
     allow_mpi_here();
     if (ranks == 0) return run_tool(scratch, "rs-farm", arguments);

@@ -88,7 +88,7 @@ TEST(ToolMain, EscapedExceptionsAreErrors) {
     EXPECT_EQ(memory.err, "rs-test: error: out of memory\n");
 }
 
-// A child that stages a file and a folder, is interrupted by itself, and would otherwise wait for long.
+// A child process that stages a file and a folder, interrupts itself, and would otherwise wait for a long time.
 TEST(ToolMain, InterruptionLeavesNoPartialOutput) {
     for (const int signal : {SIGINT, SIGTERM}) {
         const test::TemporaryFolder folder;
