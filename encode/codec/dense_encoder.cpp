@@ -63,7 +63,7 @@ public:
             for (const auto& jobs : jobs_) count += static_cast<std::int64_t>(jobs.size());
             progress_->start("encoding", count + count / effort.sampled);
         }
-        // The first pass finds the probabilities, and so the prices of the second, and the global motion.
+        // The first pass measures the probabilities, which are the prices of the second pass, and the global motion.
         if (effort.sampled > 1) start_with_sources();
         run_pass(effort.first_pass, effort.sampled);
         for (std::size_t v = 0; v < work_.size(); ++v) set_global_motion(v);
@@ -77,7 +77,7 @@ public:
     }
 
 private:
-    // Rough prices for the first pass: zeros are likelier the higher the coefficient.
+    // Initial probabilities for the first pass: zeros are likelier the higher the coefficient.
     void start_probabilities() {
         namespace context = codec::context;
         auto& p = coded_.dense.probabilities;
@@ -97,7 +97,7 @@ private:
         }
     }
 
-    // Levels, references and steps.
+    // Assigns progressive levels, references and steps.
     void plan() {
         const double base = std::log2(std::max(settings_.step, 1.0)) * 8;
         for (const Ring& ring : object_.rings) {
@@ -154,7 +154,7 @@ private:
         return jobs;
     }
 
-    // What images are predicted from where not all their tiles are coded.
+    // Initialises the reference samples with the sources, for a pass that does not code all tiles.
     void start_with_sources() {
         for_each_index(work_.size(), [&](std::size_t v) {
             for (std::size_t p = 0; p < 3; ++p) work_[v].reconstruction[p] = sources_[v].planes[p];
@@ -167,7 +167,7 @@ private:
         });
     }
 
-    // Codes every `sampled`-th tile, and takes the probabilities from what was coded.
+    // Codes every `sampled`-th tile and updates the probabilities from the decisions.
     void run_pass(const UnitEffort& effort, int sampled) {
         const CostTable costs(coded_.dense.probabilities);
         for (int level = 0; level < kProgressiveLevels; ++level) {
@@ -188,7 +188,7 @@ private:
         train();
     }
 
-    // One per view; those of other levels stay empty.
+    // One task per view; tasks of other levels stay empty.
     std::vector<ImageTask> tasks_of_level(int level, const UnitEffort& effort) {
         std::vector<ImageTask> tasks(work_.size());
         for (std::size_t v = 0; v < work_.size(); ++v) {

@@ -1,5 +1,5 @@
 #pragma once
-// What an encoder of images gives.
+// Result of an image encoder, and its fidelity.
 
 #include "rayspace/codec/code/coded_images.hpp"
 
@@ -7,7 +7,7 @@ namespace rs::encode {
 
 struct EncodedImages {
     codec::CodedImages coded;
-    double psnr_db = 0;  // R, G, B of all samples whose alpha is 128 or more, against the sources
+    double psnr_db = 0;  // measure_coded_psnr() against the sources
 };
 
 }  // namespace rs::encode

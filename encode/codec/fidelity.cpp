@@ -13,7 +13,7 @@ namespace rs::encode {
 
 double coded_psnr(const std::vector<SourceImage>& sources, int width, int height, int alpha_bits,
                   const std::function<codec::ConstPlaneViews(std::size_t view)>& reconstruction) {
-    // Integer sums: the same on any number of threads.
+    // Integer sums do not depend on the number of threads.
     std::vector<std::array<std::int64_t, 2>> sums(sources.size());  // squared error, samples
     for_each_index(sources.size(), [&](std::size_t v) {
         const SourceImage& source = sources[v];

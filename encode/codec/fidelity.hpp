@@ -9,8 +9,9 @@
 
 namespace rs::encode {
 
-// dB, of R, G and B over all samples of the sources whose alpha is 128 or more. `reconstruction(view)`: the decoded
-// samples; called from several threads. The same on any number of threads.
+/// PSNR in dB of R, G and B over all samples of the sources with alpha of 128 or more. Does not depend on the number of
+/// threads.
+/// \param reconstruction  returns the decoded samples of a view; called from several threads.
 double coded_psnr(const std::vector<SourceImage>& sources, int width, int height, int alpha_bits,
                   const std::function<codec::ConstPlaneViews(std::size_t view)>& reconstruction);
 

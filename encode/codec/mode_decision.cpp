@@ -25,10 +25,10 @@ using codec::UnitPlace;
 constexpr int kMacroblockSamples = kMacroblock * kMacroblock;
 constexpr float kNever = std::numeric_limits<float>::max();
 
-// Up to this squared error, in squared steps, no coefficient of an orthonormal transform reaches half a step.
+// Residuals up to this squared error, in squared steps, have no coefficient that reaches half a step.
 constexpr float kNothingToCode = 0.25F;
 
-// One transform of a plane: what is wanted, predicted, and which samples are valid.
+// Target of one transform of a plane: source samples, prediction, and the mask of valid samples.
 struct TransformTarget {
     MaskedSamples samples;
     const std::uint8_t* predicted = nullptr;
@@ -40,7 +40,8 @@ struct TransformTarget {
     }
 };
 
-// Levels for the target; returns whether there are any. `reconstruction` receives the decoder's samples (size * size).
+// Quantises the target. Returns true if any level is not zero. `reconstruction` receives the decoder's samples (size *
+// size).
 bool code_transform(const TransformTarget& target, const QuantiserSettings& settings, const CostTable& costs,
                     int refits, codec::Levels& levels, int& last, std::uint8_t* reconstruction) {
     const int size = target.samples.size;
@@ -134,7 +135,7 @@ MaskedSamples ModeDecision::samples_of(const UnitPlace& place, int plane) const 
     return {wanted.row(place.y) + place.x, task_.source->valid.row(place.y) + place.x, wanted.width(), place.size};
 }
 
-// Enters what the candidate costs before anything is coded, and what all together looks like.
+// Estimates the candidate's cost before coding: its head cost and its total.
 void ModeDecision::weigh(const PredictionUnit& unit, UnitChoice& trial, Candidate& candidate) const {
     const UnitPlace place = place_of(unit);
     candidate.take(trial);
@@ -151,8 +152,7 @@ void ModeDecision::weigh(const PredictionUnit& unit, UnitChoice& trial, Candidat
     candidate.estimate = left + bit_cost() * bits.bits();
 }
 
-// Finds coefficients of the wanted sizes of transforms for the candidate; replaces `choice` and `best` by it where it
-// costs less.
+// Codes the candidate's residual with the given transform sizes. Replaces `choice` and `best` if it costs less.
 void ModeDecision::evaluate(const PredictionUnit& unit, const Candidate& candidate, Transforms transforms,
                             UnitChoice& trial, UnitChoice& choice, float& best) const {
     if (candidate.head_cost >= best) return;
@@ -219,7 +219,7 @@ void ModeDecision::evaluate(const PredictionUnit& unit, const Candidate& candida
     }
 }
 
-// Of the modes, the likeliest by Y alone.
+// Adds the intra modes of the lowest estimate, from Y alone.
 void ModeDecision::add_intra(const PredictionUnit& unit, UnitChoice& trial, Candidates& candidates) const {
     const UnitPlace place = place_of(unit);
     trial.source = Source::kIntra;
@@ -299,7 +299,7 @@ void ModeDecision::add_inter(const PredictionUnit& unit, const UnitChoice* aroun
     }
     for (int r = 0; r < references; ++r) add(r == 0 ? Source::kFirst : Source::kSecond);
     if (references < 2) return;
-    // Both: each once more, against the other.
+    // Bidirectional: refine each vector given the other's prediction.
     search.reach_x = 1;
     search.reach_y = 1;
     search.step = 1;

@@ -1,5 +1,5 @@
 #pragma once
-// How much the dense encoder tries. tests/bench/ENCODER.md has what every effort costs and gains.
+// Effort levels of the dense encoder's search. tests/bench/ENCODER.md lists the time and gain of each level.
 
 #include <algorithm>
 #include <array>
@@ -10,21 +10,21 @@ inline constexpr int kLeastEffort = 1;
 inline constexpr int kMostEffort = 9;
 inline constexpr int kUsualEffort = 5;
 
-// What is tried for each unit.
+/// Search effort per unit.
 struct UnitEffort {
-    int intra = 4;               // modes of intra prediction that are looked at closely
-    int coded = 7;               // predictions that are coded in full, of those that look best
-    int refits = 2;              // times a unit with samples that are not valid is coded anew
-    bool all_transforms = true;  // both sizes for each prediction; else small ones for the best prediction alone
-    bool all_splits = true;      // quarters even where the whole needs no coefficients
+    int intra = 4;               // intra modes that are evaluated with all planes
+    int coded = 7;               // predictions that are coded in full, best estimates first
+    int refits = 2;              // repetitions of the transform for units with invalid samples
+    bool all_transforms = true;  // both sizes for each prediction; else small ones for the best prediction only
+    bool all_splits = true;      // try splitting even if the whole unit needs no coefficients
     int motion_step = 1;         // MotionSearch::step
-    int fractions = 8;           // neighbours in halves and quarters of a sample: 8, or 4
+    int fractions = 8;           // MotionSearch::neighbours
 };
 
 struct SearchEffort {
     UnitEffort unit;
-    UnitEffort first_pass;  // of the pass that only finds the probabilities
-    int sampled = 1;        // the first pass takes every so many-th tile
+    UnitEffort first_pass;  // effort of the pass that only measures the probabilities
+    int sampled = 1;        // the first pass codes every `sampled`-th tile
 };
 
 constexpr SearchEffort search_effort(int effort) {

@@ -42,8 +42,8 @@ public:
     }
 
 private:
-    // Alpha levels of the whole tile, and the classes of its blocks (kept apart: the grid may not know what comes
-    // later).
+    // Computes alpha levels of the whole tile and the classes of its blocks. The classes are stored separately, since
+    // the grid must not contain blocks that are coded later.
     void classify(int width, int height) {
         const int full = (1 << task_.code->alpha_bits) - 1;
         for (int by = 0; by < height / kBlock; ++by) {
@@ -138,7 +138,7 @@ private:
     std::array<std::vector<codec::MotionVector>, 2>& motions_;
     TileState state_;
     std::array<std::array<AlphaClass, 8>, 8> classes_{};
-    // Of the four quarters, and of the whole.
+    // Choices of the four quarters and of the whole macroblock.
     std::array<std::unique_ptr<UnitChoice>, 5> choices_ = {
         std::make_unique<UnitChoice>(), std::make_unique<UnitChoice>(), std::make_unique<UnitChoice>(),
         std::make_unique<UnitChoice>(), std::make_unique<UnitChoice>()};

@@ -12,7 +12,7 @@ namespace rs::encode {
 inline constexpr int kMostCost = 60;
 inline constexpr int kOutsideCost = 2 * kMostCost;
 
-// The cost of a pixel at a depth against one neighbor is 0 .. kMostCost, or one of these.
+/// The cost of a pixel at a depth against one neighbor is 0 .. kMostCost, or one of these.
 inline constexpr std::uint8_t kUnknownMatch = 255;  // the pixel is transparent, or the point outside of the frame
 inline constexpr std::uint8_t kOutsideMatch = 254;  // the neighbor is transparent there
 

@@ -11,7 +11,7 @@
 
 namespace rs::encode {
 
-// A rectangle of pixels, [left, right) x [top, bottom).
+/// A rectangle of pixels, [left, right) x [top, bottom).
 struct ObjectBox {
     int left = 0, top = 0, right = 0, bottom = 0;
     [[nodiscard]] int width() const { return right - left; }

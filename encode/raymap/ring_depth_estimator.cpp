@@ -202,7 +202,7 @@ Status RingDepthEstimator::enforce_consistency(Progress* progress, std::vector<F
     std::vector<Image<float>> agreed(views_.size());
     for (const int first : {0, 1}) {
         const int of_these = (count() + 1 - first) / 2;
-        Status status = for_each_in_parallel(of_these, "depth that agrees", progress, [&](int m) -> Status {
+        Status status = for_each_in_parallel(of_these, "consistent depth", progress, [&](int m) -> Status {
             const int n = first + 2 * m;
             const WorkView& view = views_[static_cast<std::size_t>(n)].view;
             const Neighbours neighbours = neighbours_of(n);
@@ -254,16 +254,16 @@ void RingDepthEstimator::append_warnings(const ShapeMap& shape, std::vector<std:
         const DepthView& view = views_[n];
         const std::string& name = rig_.views[static_cast<std::size_t>(ring_.views[n])].file_path;
         if (object_box(view.view).empty()) {
-            warnings.push_back(name + " shows no object at all (its alpha is 0 everywhere)");
+            warnings.push_back(name + " shows no object (its alpha is 0 everywhere)");
         }
         if (shape.gaps[n].lines != 0) continue;
         missing += (missing.empty() ? "" : ", ") + sector_text(view, views_[(n + 1) % views_.size()]);
     }
     if (views_.size() == 1) {
-        warnings.push_back("there is one image; it is shown as it is from everywhere");
+        warnings.push_back("there is only one image; it is shown unchanged from all directions");
     } else if (!missing.empty()) {
         warnings.push_back("there are no images between " + missing +
-                           "; from there the nearest image is shown as it is");
+                           "; the nearest image is shown unchanged from there");
     }
 }
 

@@ -78,8 +78,8 @@ ShapeCell make_cell(std::vector<float>& found) {
     return cell;
 }
 
-// Tests which cells of a column lie in the hull at which depth. Each depth is computed when it is first asked for,
-// since the surfaces of a column have few.
+// Tests which cells of a column are inside the hull at which depth. Each depth is computed on first use, since the
+// surfaces of a column have few.
 class HullColumns {
 public:
     HullColumns(const LineGrid& grid, const SampledHull& hull)

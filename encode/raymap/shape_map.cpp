@@ -12,10 +12,10 @@ namespace {
 std::string lost_parts_text(const CompletedImages& completed, const Rig& rig) {
     const std::string first = rig.views[static_cast<std::size_t>(completed.begin()->first)].file_path;
     const std::string count = std::to_string(completed.size());
-    return (completed.size() == 1 ? "the cut-out of " + first + " lacks" : count + " cut-outs lack") +
-           " a large part that the images beside show" +
+    return (completed.size() == 1 ? "the mask of " + first + " lacks" : count + " masks lack") +
+           " a large part that neighbouring photos show" +
            (completed.size() == 1 ? "" : " (" + first + " is the first)") +
-           "; it is painted from those. Cut out whole it would be the photograph's own";
+           "; it is painted from these; correct the masks to use the photos' own pixels";
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ constexpr int kColours = 5;
 
 double azimuth_rad(const glm::dvec3& centre) {
     const double angle = std::atan2(centre.x, centre.z);
-    // As find_rings counts: a hair below zero is zero.
+    // As in find_rings, tiny negative angles count as zero.
     return angle < -1e-9 ? angle + 2 * kPi : std::max(angle, 0.0);
 }
 
@@ -30,7 +30,7 @@ std::vector<double> azimuths_of(const Rig& rig, const ViewRing& ring) {
     return azimuths;
 }
 
-// The plan's pixels from the object frame's (x, z).
+// Maps (x, z) of the object frame to the plan's pixels.
 struct Plan {
     double px_per_unit = 1;
     [[nodiscard]] std::string at(double x, double z) const {
@@ -47,7 +47,7 @@ std::string wedge(const Plan& plan, const MissingSector& sector, double inner, d
         const std::string r = two_decimals(radius * plan.px_per_unit);
         return "A" + r + " " + r + " 0 " + large + " " + sweep + " " + plan.polar(radius, to);
     };
-    // Angles grow against the clock on the plan, which SVG calls sweep 0.
+    // Angles grow counterclockwise on the plan, which is SVG's sweep 0.
     return "<path d=\"M" + plan.polar(inner, sector.from_rad) + "L" + plan.polar(outer, sector.from_rad) +
            arc(outer, "0", sector.to_rad) + "L" + plan.polar(inner, sector.to_rad) + arc(inner, "1", sector.from_rad) +
            "Z\" style=\"fill:var(--bad);fill-opacity:.25;stroke:var(--bad)\"/>\n";

@@ -33,7 +33,8 @@ struct EvaluateArguments {
     bool json = false;
 };
 
-// FOLDER/truth/0001.png, FOLDER/plane/0001.png, FOLDER/plane-error/0001.png, named by the view's number in the set.
+// Writes FOLDER/truth/0001.png, FOLDER/plane/0001.png and FOLDER/plane-error/0001.png, named by the view's index in the
+// set.
 class AnswerFolder {
 public:
     static Result<AnswerFolder> create(const std::string& path, const std::vector<Method>& methods) {
@@ -47,7 +48,7 @@ public:
         for (const std::string& name : names) {
             std::error_code error;
             if (!std::filesystem::create_directory(made.folder_.temporary_path() / name, error)) {
-                return Error{path + "/" + name + ": cannot be made: " + error.message()};
+                return Error{path + "/" + name + ": cannot be created: " + error.message()};
             }
         }
         return made;
@@ -70,7 +71,7 @@ public:
 private:
     AnswerFolder(StagedFolder folder, Method first) : folder_(std::move(folder)), first_(first) {}
     StagedFolder folder_;
-    Method first_;  // the truth is written once, with this method's answers
+    Method first_;  // ground truth is written once, with this method's renderings
 };
 
 void print_json(const EvaluateArguments& arguments, const HoldOut& hold_out, const std::vector<MethodScores>& scores) {
@@ -95,7 +96,7 @@ void print_json(const EvaluateArguments& arguments, const HoldOut& hold_out, con
 
 void print_table(const EvaluateArguments& arguments, const HoldOut& hold_out, const std::vector<MethodScores>& scores) {
     if (arguments.views) {
-        std::printf("%5s  %-24s", "view", "picture");
+        std::printf("%5s  %-24s", "view", "image");
         for (const MethodScores& method : scores) std::printf("  %8s dB", method.method.c_str());
         std::printf("\n");
         for (std::size_t n = 0; n < hold_out.held.size(); ++n) {
@@ -120,7 +121,7 @@ Status write_page(const EvaluateArguments& arguments, const CaptureSet& set, con
     BuildReport report;
     report.name = name_of(set);
     report.facts = {{"capture set", arguments.set},
-                    {"pictures", std::to_string(set.upright.views.size()) + (set.resampled ? ", made upright" : "")},
+                    {"images", std::to_string(set.upright.views.size()) + (set.resampled ? ", resampled upright" : "")},
                     {"reference planes", std::to_string(arguments.planes)}};
     report.rig = set.upright;
     if (Status status = add_captured_images(set, report); !status) return status;
@@ -182,26 +183,26 @@ void add_evaluate_command(CLI::App& app, std::function<Status()>& run) {
         app.add_subcommand("evaluate",
                            "Build objects from some views of a set, render the others, and print PSNR and SSIM against "
                            "their images.\nRGB premultiplied by alpha, 8 bit, over pixels where either image's "
-                           "alpha is above 0. A view that an object was built from is never scored");
+                           "alpha is above 0. Views used to build an object are never scored");
     command->add_option("SET", arguments->set, "capture set: a folder with transforms.json and its images")->required();
     command
         ->add_option("--hold-out", arguments->hold_out,
-                     "every-Nth: of each N neighbouring views of a ring the middle one is held out")
+                     "every-Nth: hold out the middle one of each N neighbouring views of a ring")
         ->capture_default_str();
     command
         ->add_option("--methods", arguments->methods,
-                     "who answers: photo (the nearest kept image, as it is), plane and shape (as --raymap of build)")
+                     "methods: photo (the nearest kept image, unchanged), plane and shape (as --raymap of build)")
         ->capture_default_str();
     command->add_option("--planes", arguments->planes, "reference planes about the axis, 3..64")->capture_default_str();
     command->add_option("-o,--output", arguments->output,
-                        "folder for the true images of the views held out, the answers and their errors, as PNG");
+                        "folder for ground truth, renderings and error maps of the held-out views, as PNG");
     command
         ->add_option("--report", arguments->report,
-                     "also write a page of it, PAGE.html: scores, some answers beside the truth, the cameras")
+                     "also write a report, PAGE.html: scores, some renderings beside ground truth, the cameras")
         ->check(ends_in({".html", ".htm"}));
-    command->add_flag("--views", arguments->views, "every view's PSNR too");
-    command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
-    command->add_flag("--json", arguments->json, "everything as JSON");
+    command->add_flag("--views", arguments->views, "also print the PSNR of every view");
+    command->add_flag("-q,--quiet", arguments->quiet, "suppress the progress bar");
+    command->add_flag("--json", arguments->json, "print all results as JSON");
     command->footer(
         "Examples:\n  rs-encode evaluate vase-set --report vase.html\n"
         "  rs-encode evaluate vase-set --hold-out every-4th --methods plane,shape -o vase-errors --json");

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Method kMethods[] = {Method::kPhoto, Method::kPlane, Method::kShape};
 
-// The image that a method gives for a view of the rig.
+// Renders a view of the rig by one method.
 using Answer = std::function<Result<Image<Rgba8>>(int view)>;
 
 Result<engine::Renderer> renderer_of_kept(const CaptureSet& set, const HoldOut& hold_out, MapKind kind, int planes,
@@ -27,7 +27,7 @@ Result<engine::Renderer> renderer_of_kept(const CaptureSet& set, const HoldOut& 
     options.raymap = kind;
     options.name = "kept views";
     RS_ASSIGN_OR_RETURN(BuiltObject built, build_object(with_views(set, hold_out.kept), options, progress));
-    // The renderer relies on what a reader checks.
+    // The renderer requires a validated object, which a file reader would return.
     RS_TRY(validate_object(built.object, set.folder.string()));
     return engine::Renderer::create(std::move(built.object));
 }
@@ -106,12 +106,12 @@ Result<std::vector<Method>> parse_methods(const std::string& text) {
         const std::string name = text.substr(begin, end - begin);
         const auto* const known = std::find_if(std::begin(kMethods), std::end(kMethods),
                                                [&](Method method) { return to_string(method) == name; });
-        const std::string problem = known == std::end(kMethods) ? "there is no method \"" + name + "\""
+        const std::string problem = known == std::end(kMethods) ? "\"" + name + "\" is not a method"
                                     : std::find(methods.begin(), methods.end(), *known) != methods.end()
-                                        ? name + " is given twice"
+                                        ? "\"" + name + "\" is repeated"
                                         : "";
         if (!problem.empty()) {
-            return Error{"--methods " + text + ": " + problem + "; give some of photo,plane,shape"};
+            return Error{"--methods " + text + ": " + problem + "; use some of photo,plane,shape"};
         }
         methods.push_back(*known);
         begin = end + 1;

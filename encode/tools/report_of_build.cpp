@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kCapturedShown = 8;
 constexpr int kHeldOutShown = 5;
-constexpr int kKept_px = 400;  // what is kept of an image until the page is written
+constexpr int kKept_px = 400;  // longer side of a thumbnail
 
 std::string caption_of(const CaptureSet& set, int view) {
     return "view " + std::to_string(view) + ", " + set.upright.views[static_cast<std::size_t>(view)].file_path;
@@ -24,7 +24,7 @@ std::string with_db(const std::string& text, double psnr_db) {
     return text + ", " + number.data();
 }
 
-// What was found column by column, as an image.
+// Transposes a map stored by columns.
 Image<float> transposed(const Image<float>& columns) {
     Image<float> image(columns.height(), columns.width());
     for (int y = 0; y < image.height(); ++y) {
@@ -71,8 +71,8 @@ std::vector<ImageRow> KeptAnswers::rows(const CaptureSet& set) && {
 void add_scores(const CaptureSet& set, const HoldOut& hold_out, const std::string& which,
                 std::vector<MethodScores> scores, KeptAnswers answers, BuildReport& report) {
     report.scores = std::move(scores);
-    report.hold_out = "Of " + std::to_string(set.upright.views.size()) + " views " + which + " was held out, " +
-                      std::to_string(hold_out.held.size()) + " in all.";
+    report.hold_out = "Of " + std::to_string(set.upright.views.size()) + " views, " + which + " was held out, " +
+                      std::to_string(hold_out.held.size()) + " in total.";
     report.held_out = std::move(answers).rows(set);
 }
 

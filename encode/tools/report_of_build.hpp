@@ -1,5 +1,5 @@
 #pragma once
-// Gathers what the page of a build or of an evaluation shows of a capture set (encode/report/build_report.hpp).
+// Collects the contents of build and evaluation reports (encode/report/build_report.hpp).
 
 #include "encode/raymap/shape_map.hpp"
 #include "encode/report/build_report.hpp"
@@ -15,18 +15,18 @@
 
 namespace rs::encode {
 
-// Some of the set's images, small. Fails as read_upright_image does.
+/// Adds thumbnails of some of the set's images. Fails as read_upright_image does.
 Status add_captured_images(const CaptureSet& set, BuildReport& report);
 
-// Of some views held out: the truth, each method's answer and its error, small.
+/// Thumbnails of ground truth, renderings and error maps of some held-out views.
 class KeptAnswers {
 public:
     KeptAnswers(const HoldOut& hold_out, const std::vector<Method>& methods);
 
-    // A LookAtAnswer: for several threads at once.
+    /// A LookAtAnswer. Thread-safe.
     Status keep(const AnsweredView& answered);
 
-    // One row for each view.
+    /// One row per view.
     [[nodiscard]] std::vector<ImageRow> rows(const CaptureSet& set) &&;
 
 private:
@@ -36,21 +36,21 @@ private:
         CaptionedImage answer;
         CaptionedImage error;
     };
-    std::map<std::pair<std::size_t, Method>, Kept> kept_;  // each has its place before answers come
+    std::map<std::pair<std::size_t, Method>, Kept> kept_;  // keys are inserted by the constructor
 };
 
-// Scores, and what was kept of the answers.
+/// Adds scores and thumbnails.
 void add_scores(const CaptureSet& set, const HoldOut& hold_out, const std::string& which,
                 std::vector<MethodScores> scores, KeptAnswers answers, BuildReport& report);
 
-// Builds objects from every other view, scores the rest and keeps some of the answers. A set with too few views is no
-// error: the report states it.
+/// Builds objects from every second view, scores the other views and adds thumbnails. A set with too few views is not
+/// an error: the report states the reason.
 Status add_held_out_views(const CaptureSet& set, int planes, BuildReport& report, Progress* progress);
 
-// Hull and depth of a few views, as build_object() found them.
+/// Adds hull and depth images of a few views from build_object().
 void add_depths(const CaptureSet& set, const std::vector<FoundDepth>& depths, BuildReport& report);
 
-// Writes the page and commits it.
+/// Writes the page and commits the file.
 Status write_report(StagedFile& file, const BuildReport& report);
 
 }  // namespace rs::encode

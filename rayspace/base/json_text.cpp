@@ -17,7 +17,8 @@ struct Refused {
     std::string why;
 };
 
-// Watches the parser for what nlohmann::json itself takes: deep brackets, and of keys that are there twice the last.
+// SAX observer that detects input accepted by nlohmann::json: deeply nested brackets, and repeated keys, of which it
+// keeps the last.
 class Watch {
 public:
     void see(int depth, json::parse_event_t event, const json& parsed) {
@@ -34,7 +35,7 @@ public:
     }
 
 private:
-    std::vector<std::set<std::string>> open_;  // the keys so far of each object
+    std::vector<std::set<std::string>> open_;  // keys so far of each open object
 };
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace rs {
 namespace {
 
-constexpr int kCompressionLevel = 19;  // above it libzstd makes decoders need larger windows
+constexpr int kCompressionLevel = 19;  // higher levels require larger decoder windows
 
 }  // namespace
 
@@ -18,7 +18,7 @@ std::vector<std::byte> zstd_frame(std::span<const std::uint8_t> bytes) {
     if (bytes.empty()) return {};
     std::vector<std::byte> frame(ZSTD_compressBound(bytes.size()));
     const std::size_t size = ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), kCompressionLevel);
-    RS_CHECK(!ZSTD_isError(size));  // it cannot lack room
+    RS_CHECK(!ZSTD_isError(size));  // the buffer is large enough
     frame.resize(size);
     return frame;
 }
@@ -31,7 +31,7 @@ std::optional<std::uint64_t> stated_zstd_bytes(std::span<const std::byte> bytes)
     return stated_bytes;
 }
 
-// libzstd would also take several frames, skippable ones and those of versions before the format was settled.
+// libzstd would also accept several frames, skippable ones and frames of early versions.
 Status check_zstd_frame(std::span<const std::byte> frame, std::uint64_t size_bytes, const char* what) {
     if (size_bytes == 0 && frame.empty()) return {};
     ByteReader start(frame);

@@ -8,11 +8,11 @@
 namespace rs::codec {
 namespace {
 
-constexpr int kSegment = 4;  // samples along an edge that are judged together
+constexpr int kSegment = 4;  // samples along an edge per decision
 
 struct Strength {
-    int most = 0;  // change of a sample, roughly
-    int bend = 0;  // an edge of rougher surroundings is left alone
+    int most = 0;  // approximate limit of a sample's change (tC of HEVC)
+    int bend = 0;  // edges in rougher surroundings are not filtered (beta of HEVC)
 };
 
 Strength strength_of(int step) {
@@ -20,7 +20,7 @@ Strength strength_of(int step) {
     return {(6 * q + 512) >> 10, q >> 4};
 }
 
-// Whether an edge between two blocks can come from coding.
+// True if an edge between two blocks can be a coding artefact.
 bool may_show(const BlockInfo& a, const BlockInfo& b) {
     if (a.source == Source::kNone || b.source == Source::kNone) return false;
     if (a.coded || b.coded || a.source != b.source || a.source == Source::kIntra) return true;
@@ -65,7 +65,7 @@ public:
         put(2, q[2], (p[0] + q[0] + q[1] + 3 * q[2] + 2 * q[3] + 4) >> 3);
     }
 
-    // `second_p`, `second_q`: the second samples too.
+    // `second_p`, `second_q`: also change the second samples.
     void smooth(int most, bool second_p, bool second_q) const {
         const int whole = (9 * (q[0] - p[0]) - 3 * (q[1] - p[1]) + 8) >> 4;
         if (std::abs(whole) >= 10 * most) return;
@@ -90,7 +90,7 @@ private:
     int q[4];
 };
 
-// `first`: the first sample behind the edge; `across` the edge, and `along` it.
+// Filters a segment. `first`: the first sample after the edge; `across` and `along`: strides across and along it.
 void filter_segment(std::uint8_t* first, std::ptrdiff_t across, std::ptrdiff_t along, const Strength& strength) {
     const Line begin(first, across);
     const Line end(first + (kSegment - 1) * along, across);

@@ -1,6 +1,6 @@
 #pragma once
-// The steps by which a tile of a dense image is decoded, for any Coder (syntax.hpp): one that reads, or one that also
-// looks at what is read.
+// Decoding steps of a tile of a dense image, for any reading Coder (syntax.hpp), such as a decoder or one that also
+// measures.
 
 #include "rayspace/codec/alpha_mask.hpp"
 #include "rayspace/codec/deblocking.hpp"
@@ -117,7 +117,8 @@ private:
         }
     }
 
-    // What is shown where no more than the mask is coded: in blocks that are not mixed, and have none beside them.
+    // Decodes the unit's mask. Alpha of blocks that are not mixed is written now; AlphaFinish changes the blocks near
+    // an edge.
     void mask(const PredictionUnit& unit, const UnitChoice& choice) {
         for (int i = 0; i < unit.blocks() * unit.blocks(); ++i) {
             const int bx = unit.bx + (i & (unit.blocks() - 1));

@@ -14,7 +14,7 @@ using namespace object_chunks;
 
 namespace {
 
-// Reads one object; holds what the steps share.
+// Reads one object; shares state between the steps.
 class ObjectReader {
 public:
     ObjectReader(const ContainerReader& container, const ReadObjectOptions& options)
@@ -31,8 +31,8 @@ public:
         return std::move(unread_.object);
     }
 
-    // Nothing that is large is read. What is small is bounded by what its chunks take: the text of a rig, which is
-    // parsed, is the worst.
+    // Measures without reading large chunks. The memory of small ones is bounded by their size; the worst case is the
+    // parsed text of a rig.
     Result<ReadingMemory> measure() {
         constexpr std::uint64_t kParsedOverText = 24;
         constexpr std::uint64_t kSmallThings_bytes = 1U << 20;
@@ -84,7 +84,8 @@ private:
         return container_.read(entry);
     }
 
-    // What the chunk states that it needs is held against the cap before it is allocated: a few bytes may state much.
+    // The memory stated by a chunk is checked against the limit before it is allocated, since a few bytes may state a
+    // lot.
     Status read_chunk(const ChunkKind& kind, std::uint32_t index) {
         const ChunkEntry* const entry = container_.find(kind.name, index);
         if (entry == nullptr) {
@@ -139,7 +140,8 @@ private:
         return check_memory();
     }
 
-    // The file holds the chunks of this object, in the format's order, and else only what may be skipped.
+    // Checks that the file contains the chunks of this object in the format's order, and otherwise only chunks that may
+    // be skipped.
     Status check_chunks() const {
         const std::vector<ChunkKey> expected = chunk_order(
             unread_.object,
@@ -164,9 +166,9 @@ private:
         return Error{container_.where() + ": has no chunk " + named(expected[next]) + " in its place"};
     }
 
-    // What the maps and images need, but for what their chunks state themselves.
+    // Checks the memory of maps and images, except memory stated by their own chunks.
     Status check_memory() {
-        // No product here reaches 2^64: every factor is capped by conventions.hpp.
+        // No product reaches 2^64, since every factor is limited by conventions.hpp.
         for (const Ring& ring : unread_.object.rings) {
             needed_bytes_ += sizeof(std::uint16_t) * static_cast<std::uint64_t>(ring.planes) *
                              static_cast<std::uint64_t>(ring.x_cells) * static_cast<std::uint64_t>(ring.u_cells);
@@ -187,7 +189,7 @@ private:
         return level_of(unread_.object, ring, n) <= options_.max_level;
     }
 
-    // What an image will take: a coded one is unpacked at full size, from planes that are a little larger.
+    // Memory of one image: coded ones are decoded at full size, from planes that are slightly larger.
     [[nodiscard]] std::uint64_t image_bytes() const {
         if (!unread_.coded) return raw_image_bytes(unread_.object.width, unread_.object.height);
         return codec::tile_table_bytes(*unread_.coded) + (options_.decode ? 2 * coded_planes_bytes() : 0);
@@ -210,7 +212,7 @@ private:
     const ContainerReader& container_;
     const ReadObjectOptions& options_;
     UnreadObject unread_;
-    std::uint64_t needed_bytes_ = 0;  // of the memory cap
+    std::uint64_t needed_bytes_ = 0;  // counted against memory_cap_bytes
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// validate_object(): the bounds that the renderer's arithmetic rests on; encode/FORMAT.md, section "Ranges".
+// validate_object(): bounds required by the renderer's arithmetic; encode/FORMAT.md, section "Ranges".
 #include "rayspace/format/chunk_table.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/format/object_ranges.hpp"

@@ -25,7 +25,7 @@ std::array<double, 2 * kWindowRadius + 1> gaussian_window() {
     return window;
 }
 
-// Separable, clipped at the edges and renormalised there.
+// Separable Gaussian, clipped at the edges and renormalised there.
 Image<float> blurred(const Image<float>& source) {
     static const auto kWindow = gaussian_window();
     Image<float> across(source.width(), source.height());

@@ -47,7 +47,7 @@ std::ptrdiff_t at(std::size_t i) {
 
 constexpr std::array kMagic = {std::byte{0x28}, std::byte{0xB5}, std::byte{0x2F}, std::byte{0xFD}};
 
-// Mutates what the first Zstandard frame of the bytes holds; false where there is none.
+// Mutates the content of the first Zstandard frame of the bytes; false if there is none.
 bool mutate_compressed(std::vector<std::byte>& bytes, Random& random) {
     const auto frame = std::search(bytes.begin(), bytes.end(), kMagic.begin(), kMagic.end());
     if (frame == bytes.end()) return false;
@@ -60,7 +60,7 @@ bool mutate_compressed(std::vector<std::byte>& bytes, Random& random) {
     std::memcpy(inside.data(), content->data(), inside.size());
     const std::size_t before = inside.size();
     mutate_bytes(inside, random);
-    if (below(random, 4) != 0) inside.resize(before);  // what the chunk says of the size stays true
+    if (below(random, 4) != 0) inside.resize(before);  // the size stated in the chunk stays valid
     std::vector<std::uint8_t> numbers(inside.size());
     if (!inside.empty()) std::memcpy(numbers.data(), inside.data(), inside.size());
     const std::vector<std::byte> again = zstd_frame(numbers);
@@ -69,7 +69,7 @@ bool mutate_compressed(std::vector<std::byte>& bytes, Random& random) {
     return true;
 }
 
-// Runs of letters and digits, of space, and single other characters.
+// Splits into runs of letters and digits, runs of space, and single other characters.
 std::vector<std::string> pieces_of(const std::string& text) {
     std::vector<std::string> pieces;
     const auto kind = [](char c) {
@@ -95,7 +95,7 @@ std::size_t below(Random& random, std::size_t count) {
 
 void mutate_bytes(std::vector<std::byte>& bytes, Random& random) {
     if (bytes.empty()) bytes.push_back(std::byte{0});
-    // Heads hold the sizes and counts.
+    // Prefer heads, which contain the sizes and counts.
     const auto place = [&] {
         return below(random, below(random, 2) == 0 ? std::min<std::size_t>(bytes.size(), 96) : bytes.size());
     };

@@ -1,4 +1,4 @@
-// Sets, scenes, recipes, models and photographs with faults: read, or refused with one line.
+// Faulty sets, scenes, recipes, models and photos: read, or rejected with one line.
 
 #include "capture/calibration/known/known_files.hpp"
 #include "capture/tracer/scene/mesh_file.hpp"
@@ -30,7 +30,7 @@ std::string one_line(const Result<T>& read) {
 }
 
 struct Kind {
-    std::string name;  // of the file
+    std::string name;  // file name
     std::string text;
     std::function<std::string(const fs::path&)> read;
 };

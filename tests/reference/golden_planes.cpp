@@ -10,7 +10,7 @@ namespace {
 using namespace object_chunks;
 using Numbers = std::vector<std::uint8_t>;
 
-// Nothing where the chunk is not there or damaged.
+// The payload; empty if the chunk is missing or damaged.
 Numbers payload_of(const ContainerReader& file, ChunkName name, std::uint32_t index) {
     const ChunkEntry* const entry = file.find(name, index);
     if (entry == nullptr) return {};

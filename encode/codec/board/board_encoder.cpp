@@ -22,7 +22,7 @@ namespace {
 using codec::BoardMotion;
 using codec::RecordClass;
 
-constexpr std::size_t kTrainingBlocks = 24000;  // of one kind, at most
+constexpr std::size_t kTrainingBlocks = 24000;  // per kind, at most
 constexpr int kReachDown_px = 6;
 
 enum class Cover : std::uint8_t { kEmpty, kMixed, kFull };
@@ -62,7 +62,7 @@ public:
         coded_.board.alpha = alpha_.samples;
         const auto is_reference = [&](std::size_t v) { return coded_.images[v].head.references() == 0; };
         const auto is_predicted = [&](std::size_t v) { return !is_reference(v); };
-        if (progress_ != nullptr) {  // predicted ones twice: for their motion, and for their records
+        if (progress_ != nullptr) {  // two steps per predicted image: motion and records
             const auto head_is = [](const codec::CodedImage& image) { return image.head.references() == 0; };
             const auto references = std::count_if(coded_.images.begin(), coded_.images.end(), head_is);
             progress_->start("encoding", 2 * static_cast<std::int64_t>(work_.size()) - references);
@@ -97,7 +97,7 @@ private:
         if (progress_ != nullptr) progress_->advance();
     }
 
-    // Levels and references.
+    // Assigns progressive levels and references.
     void plan() {
         for (const Ring& ring : object_.rings) {
             const int count = static_cast<int>(ring.views.size());
@@ -158,7 +158,7 @@ private:
         }
     }
 
-    // The classes, as a set of bits, that a block may have.
+    // The classes allowed for a block, as a bit set.
     [[nodiscard]] unsigned allowed(std::size_t v, const Block& block, bool predicted) const {
         const auto& classes = classes_of(v);
         unsigned may = 0;
@@ -182,7 +182,7 @@ private:
             std::as_const(work_[coded_.images[v].head.reference[static_cast<std::size_t>(reference)]].reconstruction));
     }
 
-    // On blocks spread evenly over the wanted images.
+    // Trains on blocks spread evenly over the images for which `wanted` is true.
     template <class Wanted>
     StageBooks train(const Wanted& wanted, bool predicted, int block_stages, int quarter_stages) {
         std::size_t count = 0;
@@ -231,7 +231,7 @@ private:
     }
 
     struct Chosen {
-        int number = 0;  // of the class
+        int number = 0;  // class number
         double cost = 0;
         StagedBlock staged;
     };
@@ -316,7 +316,7 @@ private:
     Progress* progress_;
     codec::CodedImages coded_;
     std::vector<BoardWorkImage> work_;
-    double lambda_ = 0;                // what a byte is worth in squared errors
+    double lambda_ = 0;                // squared error equivalent to one byte
     std::array<StageBooks, 2> books_;  // [of flat blocks, of predicted ones]
     AlphaBook alpha_;
 };

@@ -12,7 +12,7 @@ using codec::kQuarterDimensions;
 
 constexpr int kTrainingRounds = 2;
 constexpr int kRoundsPerStage = 5;
-constexpr double kPackedByte = 0.55;  // of a codebook's byte, in the file
+constexpr double kPackedByte = 0.55;  // bytes in the file per byte of a codebook
 
 struct Vector {
     std::array<std::int16_t, kBlockDimensions> values = {};

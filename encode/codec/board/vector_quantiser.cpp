@@ -21,7 +21,7 @@ struct BlockSums {
     std::vector<std::int64_t> errors;  // [entry]
 };
 
-// What the vectors of each entry's cell add up to.
+// Sums over the vectors in each entry's cell.
 BlockSums sum_cells(const TrainedBook& book, const WeightedVectors& vectors) {
     std::vector<Nearest> nearest(vectors.count());
     const auto dimensions = static_cast<std::size_t>(book.dimensions);
@@ -44,8 +44,8 @@ BlockSums sum_cells(const TrainedBook& book, const WeightedVectors& vectors) {
     return sums;
 }
 
-// Moves every entry but the first to the middle of its cell; an entry without vectors goes beside the one with the
-// largest error.
+// Moves every entry but the first to the centroid of its cell; an entry without vectors moves next to the entry with
+// the largest error.
 void move_entries(TrainedBook& book, const BlockSums& sums) {
     const auto dimensions = static_cast<std::size_t>(book.dimensions);
     std::vector<std::int64_t> errors = sums.errors;
@@ -60,7 +60,7 @@ void move_entries(TrainedBook& book, const BlockSums& sums) {
         }
         if (used > 0) continue;
         const auto worst = static_cast<std::size_t>(std::max_element(errors.begin(), errors.end()) - errors.begin());
-        if (errors[worst] == 0) {  // nothing is left to be made better
+        if (errors[worst] == 0) {  // no error left
             std::fill_n(book.entries.begin() + static_cast<std::ptrdiff_t>(entry * dimensions), dimensions,
                         std::int16_t{0});
             continue;
@@ -73,7 +73,7 @@ void move_entries(TrainedBook& book, const BlockSums& sums) {
     }
 }
 
-// Twice the entries, each beside the one it comes from.
+// Doubles the entries; each new entry starts near its parent.
 void split(TrainedBook& book) {
     const std::size_t before = book.entries.size();
     book.entries.resize(2 * before);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kDense_px = 2;     // radius of the square in which half of the background must be missing
 constexpr int kClosed_px = 3;    // half of the widest gap to close
-constexpr int kStraight_px = 4;  // radius of the majority filter that smooths outlines
+constexpr int kStraight_px = 4;  // radius of the majority filter that smooths contours
 constexpr int kStraightenings = 4;
 constexpr int kHalfSide_px = 5;  // half side of the smallest part
 constexpr double kMost = 0.7;    // share of a part that must not be occluded for all of it to be painted
@@ -86,7 +86,7 @@ Image<std::uint8_t> beside_object(const WorkView& view, const Image<std::uint8_t
     return kept;
 }
 
-// Smooths an outline with a majority filter.
+// Smooths a contour with a majority filter.
 Image<std::uint8_t> straightened(const WorkView& view, Image<std::uint8_t> mask) {
     for (int round = 0; round < kStraightenings; ++round) {
         const Image<std::uint8_t> near = dilated(mask, 1);

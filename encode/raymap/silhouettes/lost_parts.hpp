@@ -1,6 +1,6 @@
 #pragma once
 // Restores large parts that single masks lack, such as a black part before a black background that neighboring photos
-// show. Points that photos agree about (silhouette_repair.hpp) give the part's outline and depth; colours come from the
+// show. Points that photos agree about (silhouette_repair.hpp) give the part's contour and depth; colours come from the
 // nearest photos that show it.
 
 #include "encode/raymap/silhouettes/work_view.hpp"

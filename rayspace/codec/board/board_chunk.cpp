@@ -31,7 +31,7 @@ void for_classes(const BoardCode& code, const Work& work) {
     }
 }
 
-// All codebooks in the order of the file, each with the size that the classes need.
+// Visits all codebooks in file order, with the size required by the classes.
 template <class Code, class Work>  // work(book, bytes)
 void for_books(Code& code, const Work& work) {
     for (std::size_t kind = 0; kind < code.books.size(); ++kind) {

@@ -1,4 +1,4 @@
-// CODE: what the coded images of an object share; rayspace/codec/stream/coded_chunks.hpp has the payload.
+// Chunk CODE: data shared by the coded images of an object; payload in rayspace/codec/stream/coded_chunks.hpp.
 #include "rayspace/codec/stream/coded_chunks.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
 

@@ -1,4 +1,4 @@
-// foot: object.foot_q20, if it is known.
+// Chunk foot: object.foot_q20, if it is known.
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
 #include "rayspace/format/object_ranges.hpp"

@@ -1,4 +1,4 @@
-// HEAD: object.name, units_per_radius, width and height; as many (empty) views and rings as there will be.
+// Chunk HEAD: object.name, units_per_radius, width, height, and the numbers of views and rings, which it creates empty.
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
@@ -57,7 +57,7 @@ bool is_printable_utf8(const std::string& text) {
     const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
     if (std::any_of(text.begin(), text.end(), is_control)) return false;
     try {
-        (void)nlohmann::json(text).dump();  // throws on what is no UTF-8
+        (void)nlohmann::json(text).dump();  // throws if it is not UTF-8
         return true;
     } catch (const nlohmann::json::exception&) {
         return false;

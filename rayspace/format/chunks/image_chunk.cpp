@@ -1,4 +1,4 @@
-// PICT v: an image, coded if the object's are (rayspace/codec/stream/coded_chunks.hpp), else as its planes are.
+// Chunk PICT v: an image, coded (rayspace/codec/stream/coded_chunks.hpp) or as raw planes.
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/codec/stream/coded_chunks.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"

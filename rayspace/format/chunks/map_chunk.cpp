@@ -1,4 +1,4 @@
-// RMAP r: the cells of object.rings[r] as runs along u; the ring has its sizes from RING.
+// Chunk RMAP r: the cells of object.rings[r] as runs along u; the ring has its sizes from RING.
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/zstd_frame.hpp"
@@ -16,15 +16,16 @@ using namespace object_ranges;
 
 namespace {
 
-// The numbers of a map's frame and the runs that they are stand in memory at once.
+// Content of a map's frame and its runs are in memory at the same time.
 constexpr std::uint64_t kRunsOverContent = 2;
 
-// A few bytes may hold many runs: content_bytes is held against the memory cap before they are expanded.
+// Head of a coded map. A few bytes may contain many runs, so that content_bytes is checked against the memory limit
+// before decompression.
 struct CodedMap {
     std::size_t rows = 0;
     std::size_t runs = 0;
-    std::uint64_t content_bytes = 0;  // of the frame, while it is expanded
-    Bytes frame;                      // of the payload
+    std::uint64_t content_bytes = 0;  // decompressed size of the frame
+    Bytes frame;                      // part of the payload
 };
 
 Result<CodedMap> parse_map_head(Bytes payload, const Ring& ring) {
@@ -57,7 +58,7 @@ Status parse_map(Bytes payload, UnreadObject& unread, std::uint32_t index) {
     return map_coding::put_runs(map_coding::runs_of_residuals(plane, coded.rows, coded.runs), ring.u_cells, ring.cells);
 }
 
-// Depth of `line` at the ends of column xi of the map, the larger of the two, q50.
+// The larger depth of `line` at both ends of column xi of the map, q50.
 std::int64_t larger_depth_q50(const CapturedLine& line, const Ring& ring, int xi) {
     const auto depth_at = [&](int column) {
         const std::int64_t x_q20 = 2 * std::int64_t{ring.x_half_q20} * column / ring.x_cells - ring.x_half_q20;
@@ -66,8 +67,8 @@ std::int64_t larger_depth_q50(const CapturedLine& line, const Ring& ring, int xi
     return std::max(depth_at(xi), depth_at(xi + 1));
 }
 
-// Every cell is empty or names a view of the ring that has some of the cell before it. (Where a point comes closer to
-// the camera than the arithmetic can express, the renderer itself takes the ray for empty.)
+// Checks that every cell is empty or names a view of the ring with a part of the cell in front of it. (The renderer
+// treats rays as empty if the point is closer to the camera than its arithmetic can express.)
 Status check_cells(const RaySpaceObject& object, std::uint32_t index) {
     const Ring& ring = object.rings[index];
     constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();

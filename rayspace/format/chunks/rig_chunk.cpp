@@ -1,4 +1,4 @@
-// RIGJ: object.rig_json in a Zstandard frame; read as it is, too.
+// Chunk RIGJ: object.rig_json in a Zstandard frame; uncompressed text is read, too.
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/zstd_frame.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
@@ -19,7 +19,7 @@ Status parse_rig_text(Bytes payload, UnreadObject& unread, std::uint32_t) {
     if (payload.size() > kMaxRigJson_bytes)
         return out_of_range("the rig's length", payload.size(), 0, kMaxRigJson_bytes);
     const std::optional<std::uint64_t> expanded_bytes = stated_zstd_bytes(payload);
-    if (!expanded_bytes) {  // as it is
+    if (!expanded_bytes) {  // uncompressed
         unread.object.rig_json.assign(reinterpret_cast<const char*>(payload.data()), payload.size());
         return {};
     }

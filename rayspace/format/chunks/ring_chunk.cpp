@@ -1,5 +1,5 @@
-// RING r: everything of object.rings[r] but its cells and its shape map, and the lines of the ring's views. A view that
-// another ring has already is refused.
+// Chunk RING r: all of object.rings[r] except its cells and its shape map, and the lines of the ring's views. Views of
+// other rings are rejected.
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/zstd_frame.hpp"
@@ -35,7 +35,7 @@ CapturedLine get_line(ByteReader& in) {
     return line;
 }
 
-// The lines in what is left of a RING payload.
+// Parses the lines from the rest of a RING payload.
 Result<std::vector<CapturedLine>> parse_lines(ByteReader& in, std::size_t views, int planes, std::uint8_t coding) {
     std::vector<CapturedLine> lines(views * static_cast<std::size_t>(planes));
     const std::size_t plain_bytes = lines.size() * line_coding::kBytesPerLine;

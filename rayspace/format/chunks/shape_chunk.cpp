@@ -17,7 +17,7 @@ using namespace object_ranges;
 
 namespace {
 
-constexpr std::uint8_t kCoding = 2;  // those before were of files up to 2.2
+constexpr std::uint8_t kCoding = 2;  // format 2.3; lower codings are of files up to 2.2
 constexpr std::size_t kReserved_bytes = 1;
 constexpr std::size_t kFixed_bytes = 48;
 constexpr std::size_t kNormalLine_bytes = 16;
@@ -53,7 +53,7 @@ void get_numbers(ByteReader& in, ShapeMap& shape) {
     shape.depth_step_q24 = in.get<std::int32_t>();
 }
 
-// Gaps and how many lines they have together.
+// Reads the gaps; returns their total number of lines.
 Result<std::uint64_t> get_gaps(ByteReader& in, ShapeMap& shape) {
     std::uint32_t lines = 0;  // at most kMaxViews * kMaxGapLines
     for (ShapeGap& gap : shape.gaps) {
@@ -118,7 +118,7 @@ Status check_numbers(const ShapeMap& shape) {
 }
 
 Status check_normal_line(const NormalLine& line) {
-    // |l2| <= 1: it is the cosine of an angle.
+    // |l2| <= 1, since it is the cosine of an angle.
     if (!below(line.l2_q30, kOne_q30 + 1)) return Error{"the depth of one of its normal lines is out of range"};
     if (!below(line.q2_q16, kMaxPixels_q16)) return Error{"the columns of one of its normal lines are out of range"};
     if (!below(line.a_q20, kMaxDistance_q20) || !below(line.c_q20, kMaxDistance_q20)) {
@@ -150,7 +150,7 @@ Status check_gaps(const Ring& ring) {
     return {};
 }
 
-// What does not exist is 0, so that equal maps are equal in memory and the file need not hold it.
+// Unused values are 0, so that equal maps are equal in memory and the file need not store them.
 Status check_cell(const ShapeCell& cell) {
     if (!cell.has_surface() && cell.depth != 0) return Error{"has a depth and no surface"};
     if (cell.shown > ShapeCell::kByBoth) return Error{"is shown by images that its gap does not have"};

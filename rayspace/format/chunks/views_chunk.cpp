@@ -1,4 +1,4 @@
-// VIEW: what a view is without its lines. object.views has its size from HEAD.
+// Chunk VIEW: views without their lines. object.views has its size from HEAD.
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
 #include "rayspace/format/object_ranges.hpp"
@@ -47,7 +47,7 @@ Status check_view(const CapturedView& view) {
     }
     if (!below(view.height_q20, kMaxDistance_q20)) return Error{"its height is 256 object radii or more"};
     for (const CapturedLine& line : view.lines) {
-        // |l1| <= 1: it is the cosine of an angle.
+        // |l1| <= 1, since it is the cosine of an angle.
         if (!below(line.l0_q20, kMaxDistance_q20) || !below(line.l1_q30, kOne_q30 + 1)) {
             return Error{"the depth of one of its lines is out of range"};
         }

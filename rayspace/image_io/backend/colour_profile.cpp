@@ -17,7 +17,7 @@ struct CloseProfile {
 };
 using Profile = std::unique_ptr<std::remove_pointer_t<cmsHPROFILE>, CloseProfile>;
 
-// lcms takes counts of 32 bits.
+// Splits the pixels, since lcms counts in 32 bits.
 template <class Pixel>
 void transform(void* by, std::span<Pixel> pixels) {
     constexpr std::size_t kAtATime = 1 << 24;

@@ -1,4 +1,4 @@
-// The images' half of librayspace_image_io.so: OpenImageIO. See image_io.hpp for what the functions promise.
+// Image part of librayspace_image_io.so, with OpenImageIO. See image_io.hpp for the contracts.
 #include "rayspace/image_io/image_backend.hpp"
 
 #include "rayspace/base/conventions.hpp"
@@ -24,7 +24,7 @@
 namespace rs::image_io {
 namespace {
 
-// Libraries' messages run over several lines and repeat the file's name.
+// Joins a library's message, which may have several lines and repeat the file's name.
 std::string one_line(std::string message) {
     while (!message.empty() && (message.back() == '\n' || message.back() == ' ')) message.pop_back();
     std::replace_if(
@@ -45,7 +45,7 @@ auto guarded(const std::string& shown, Function&& function) -> decltype(function
 
 struct OpenedImage {
     std::unique_ptr<OIIO::ImageInput> input;
-    int width = 0;  // of the display window: what is to be seen of the file
+    int width = 0;  // display window: the visible part of the image
     int height = 0;
 };
 
@@ -61,8 +61,8 @@ Result<OpenedImage> open_image(const std::string& path, Need need, int max_side_
     RS_TRY(check_exr_header(path, max_side_px));
     RS_TRY(check_profile_integrity(path));
     OIIO::ImageSpec hints;
-    hints.attribute("oiio:UnassociatedAlpha", 1);  // colours under alpha 0 must survive
-    // What OpenImageIO 2.4 takes out of a profile passes through tables of its own that grow without a lock.
+    hints.attribute("oiio:UnassociatedAlpha", 1);  // keeps colours under alpha 0
+    // OpenImageIO 2.4 stores profile data in global tables without a lock.
     static std::mutex opening;
     auto input = [&] {
         const std::lock_guard lock(opening);
@@ -80,15 +80,15 @@ Result<OpenedImage> open_image(const std::string& path, Need need, int max_side_
     if (spec.deep || spec.depth > 1 || spec.nchannels < 1) {
         return Error{path + ": holds deep or volume data; convert it to an ordinary image"};
     }
-    input->threads(1);  // callers read many images at a time
+    input->threads(1);  // callers read images in parallel
     return OpenedImage{std::move(input), width, height};
 }
 
-// Which of the file's channels make a colour image.
+// The file's channels that make up a colour image.
 struct Channels {
     int count = 0;       // the first `count` channels are read
     int colours = 0;     // 1 or 3
-    bool alpha = false;  // right behind the colours
+    bool alpha = false;  // follows the colours
     bool straight = true;
 };
 
@@ -101,7 +101,7 @@ Channels choose_channels(const OIIO::ImageSpec& spec) {
     return chosen;
 }
 
-// The data window's first `channels` channels, interleaved.
+// Reads the data window's first `channels` channels, interleaved.
 template <class T>
 Result<std::vector<T>> read_samples(OpenedImage& opened, const std::string& path, int first, int channels) {
     const OIIO::ImageSpec spec = opened.input->spec();
@@ -111,14 +111,14 @@ Result<std::vector<T>> read_samples(OpenedImage& opened, const std::string& path
     if (!opened.input->read_image(0, 0, first, first + channels, type, samples.data())) {
         return Error{path + ": is damaged or cut short: " + one_line(opened.input->geterror())};
     }
-    // Some readers go on after damage and only leave a note.
+    // Some readers continue after damage and only record an error.
     if (opened.input->has_error()) {
         return Error{path + ": is damaged or cut short: " + one_line(opened.input->geterror())};
     }
     return samples;
 }
 
-// Calls set(x, y, sample pointer) for the part of the data window that lies inside the display window.
+// Calls set(x, y, sample pointer) for the part of the data window inside the display window.
 template <class T, class Set>
 void for_each_visible(const OpenedImage& opened, const std::vector<T>& samples, int channels, Set&& set) {
     const OIIO::ImageSpec& spec = opened.input->spec();
@@ -135,7 +135,7 @@ void for_each_visible(const OpenedImage& opened, const std::vector<T>& samples, 
 }
 
 std::uint8_t byte_from_unit(float v) {
-    // The comparison's form sends NaN to 0.
+    // The comparison maps NaN to 0.
     return v > 0 ? static_cast<std::uint8_t>(std::lround(std::min(v, 1.0F) * 255.0F)) : std::uint8_t{0};
 }
 
@@ -173,7 +173,7 @@ Result<ImageInfo> read_info(const std::string& path, int max_side_px) {
     });
 }
 
-// 8-bit files with straight alpha: nothing is computed, every value comes through as it is.
+// Reads 8-bit files with straight alpha; all values are unchanged.
 Result<Image<Rgba8>> read_bytes(OpenedImage& opened, const std::string& path, const Channels& channels) {
     RS_ASSIGN_OR_RETURN(const auto samples, read_samples<std::uint8_t>(opened, path, 0, channels.count));
     Image<Rgba8> image(opened.width, opened.height);
@@ -250,7 +250,7 @@ Result<std::vector<std::byte>> encode(const char* format, const OIIO::ImageSpec&
         if (!output) return Error{shown + ": cannot be encoded: " + one_line(OIIO::geterror())};
         OIIO::Filesystem::IOVecOutput memory;
         output->threads(1);
-        // A format writes nothing to the disk when it is given a proxy; the name only serves its messages.
+        // With a proxy nothing is written to the disk; the name only appears in messages.
         if (!output->set_ioproxy(&memory) || !output->open(shown, spec) ||
             !output->write_image(type, pixels, pixel_bytes, row_bytes) || !output->close()) {
             return Error{shown + ": cannot be encoded: " + one_line(output->geterror())};
@@ -264,8 +264,8 @@ Result<std::vector<std::byte>> encode_png(ConstImageView<Rgba8> image, const std
     OIIO::ImageSpec spec(image.width(), image.height(), 4, OIIO::TypeUInt8);
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    // Half of the time of the default level with a filter chosen for each row, and up to a tenth more of size.
-    constexpr int kFilterUp = 0x20;  // as libpng has it
+    // Takes half of the time of the default level with a filter chosen per row, for up to a tenth more bytes.
+    constexpr int kFilterUp = 0x20;  // PNG_FILTER_UP of libpng
     spec.attribute("png:compressionLevel", 4);
     spec.attribute("png:filter", kFilterUp);
     return encode("png", spec, OIIO::TypeUInt8, image.data(), sizeof(Rgba8),
@@ -305,7 +305,7 @@ Result<std::vector<std::byte>> encode_exr_channel(ConstImageView<float> channel,
 
 const Backend& table() {
     static const Backend backend = [] {
-        // Callers work on many images at a time; the libraries' own thread pools would only fight over the cores.
+        // Callers process images in parallel; the libraries' own thread pools would compete for the cores.
         OIIO::attribute("threads", 1);
         OIIO::attribute("exr_threads", -1);
         Backend made;

@@ -1,6 +1,6 @@
 #pragma once
-// Whether a PNG file arrived whole, found out before libpng sees it: libpng writes its complaints to stderr, and some
-// readers give out what they have of an image that is cut short. Part of librayspace_image_io.so.
+// Integrity check of a PNG file before libpng reads it, since libpng writes messages to stderr, and some readers return
+// truncated images. Part of librayspace_image_io.so.
 
 #include "rayspace/base/result.hpp"
 
@@ -8,8 +8,8 @@
 
 namespace rs::image_io {
 
-// Walks the chunks and verifies each one's checksum (PNG specification, section 5.3). Files that are no PNG pass: they
-// are not for this function to judge. Reads the file once, in small pieces.
+/// Verifies the checksum of every chunk (PNG specification, section 5.3). Files of other formats pass. Reads the file
+/// once, in small pieces.
 Status check_png_integrity(const std::string& path);
 
 }  // namespace rs::image_io

@@ -19,7 +19,7 @@ using Bytes = std::vector<unsigned char>;
 
 constexpr std::size_t kLargest_bytes = 16 << 20;
 constexpr std::size_t kHeader_bytes = 128;
-constexpr std::uint32_t kMost = 1000;  // tags, and texts of a tag
+constexpr std::uint32_t kMost = 1000;  // limit of tags, and of texts per tag
 
 bool has_at(std::span<const unsigned char> bytes, std::size_t at, std::string_view text) {
     return at + text.size() <= bytes.size() && std::memcmp(bytes.data() + at, text.data(), text.size()) == 0;
@@ -29,7 +29,7 @@ bool lies_inside(std::span<const unsigned char> bytes, std::uint64_t at, std::ui
     return at + count <= bytes.size();
 }
 
-// Texts in several languages: 12 bytes about each, which say where it is.
+// Checks a tag of texts in several languages: records of 12 bytes with the text's position.
 bool has_sound_texts(std::span<const unsigned char> icc, std::uint64_t tag_at) {
     constexpr std::uint64_t kFirstRecord = 16, kRecord_bytes = 12;
     if (!lies_inside(icc, tag_at, kFirstRecord)) return false;
@@ -43,7 +43,7 @@ bool has_sound_texts(std::span<const unsigned char> icc, std::uint64_t tag_at) {
     return true;
 }
 
-// Moves to behind the next marker, as libjpeg does: what is none is skipped. 0 at the file's end.
+// Reads the next marker as libjpeg does, skipping other bytes. Returns 0 at the end of the file.
 unsigned char next_marker(ByteSource& source) {
     unsigned char byte = 0;
     for (;;) {
@@ -57,17 +57,17 @@ unsigned char next_marker(ByteSource& source) {
     }
 }
 
-// The segments' parts in the order of their numbers; ends at the image's data.
+// Joins the profile's parts by their numbers; stops at the image data.
 bool jpeg_is_sound(ByteSource& source) {
     constexpr std::string_view kName("ICC_PROFILE\0", 12);
-    constexpr std::size_t kPartAt = kName.size() + 2;  // behind its number, and how many there are
+    constexpr std::size_t kPartAt = kName.size() + 2;  // after the part's number and the number of parts
     std::map<unsigned char, Bytes> parts;
     std::size_t together = 0;
     source.go_to(2);
     for (;;) {
         const unsigned char marker = next_marker(source);
         if (marker == 0 || marker == 0xDA || marker == 0xD9) break;
-        if (marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8)) continue;  // these stand alone
+        if (marker == 0x01 || (marker >= 0xD0 && marker <= 0xD8)) continue;  // no segment follows
         std::array<unsigned char, 2> length{};
         if (!source.take(length.data(), 2)) break;
         const std::size_t size = std::size_t{length[0]} << 8U | length[1];
@@ -122,14 +122,14 @@ bool png_is_sound(ByteSource& source) {
     return true;
 }
 
-// The first directory, which is the one that is read, of classic TIFF or of BigTIFF, in either order of bytes.
+// The first directory, which is the one that readers use, of classic TIFF or BigTIFF, in either byte order.
 class TiffDirectory {
 public:
     TiffDirectory(ByteSource& source, bool little_endian) : source_(source), little_endian_(little_endian) {}
 
     bool is_sound() {
         constexpr std::uint64_t kMostEntries = 0xFFFF;
-        Bytes head(14);  // version; in BigTIFF what sizes offsets have; offset
+        Bytes head(14);  // version; offset size (BigTIFF); offset
         source_.go_to(2);
         head.resize(source_.take_some(head.data(), head.size()));
         const bool is_big = number(head, 0, 2) == 43;
@@ -143,7 +143,7 @@ public:
             constexpr std::uint64_t kIccProfile = 34675, kByte = 1, kUndefined = 7;
             if (number(entries, at, 2) != kIccProfile) continue;
             const std::uint64_t type = number(entries, at + 2, 2), size = number(entries, at + 4, offset_bytes);
-            // libtiff makes bytes of other numbers.
+            // libtiff converts other types to bytes.
             if ((type != kByte && type != kUndefined) || size > kLargest_bytes) return false;
             Bytes profile(size);
             source_.go_to(number(entries, at + 4 + offset_bytes, offset_bytes));

@@ -84,7 +84,8 @@ public:
         const AVCodec* codec = nullptr;
         const int index = av_find_best_stream(format_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
         if (index == AVERROR_DECODER_NOT_FOUND) return Error{path_ + missing_decoder_message()};
-        if (index < 0) return Error{path_ + ": has no video; give a film of the turning object, or a folder of photos"};
+        if (index < 0)
+            return Error{path_ + ": has no video stream; use a video of the turning object, or a folder of photos"};
         stream_ = format_->streams[index];
         for (unsigned i = 0; i < format_->nb_streams; ++i) {
             if (static_cast<int>(i) != index) format_->streams[i]->discard = AVDISCARD_ALL;
@@ -133,7 +134,7 @@ private:
         return ": the installed FFmpeg has no decoder for " + codec + "; convert the film to H.264";
     }
     [[nodiscard]] std::string damage_message() const {
-        return ": is damaged (" + std::to_string(damaged_) + " frames cannot be decoded); copy the film again";
+        return ": is damaged (" + std::to_string(damaged_) + " frames cannot be decoded); copy the video again";
     }
 
     Status open_container() {
@@ -146,7 +147,7 @@ private:
         const int failure = avformat_open_input(&format, ("file:" + path_).c_str(), nullptr, nullptr);
         if (failure < 0) {
             return Error{path_ + ": cannot be read as a film (" + error_text(failure) +
-                         "); give a video file that is complete, or a folder of photos"};
+                         "); use a complete video file, or a folder of photos"};
         }
         format_.reset(format);
         if (const int found = avformat_find_stream_info(format, nullptr); found < 0) {
@@ -249,7 +250,7 @@ private:
         const double end_s = static_cast<double>(last_pts_ - start) * av_q2d(stream_->time_base);
         if (duration_s - end_s <= std::max(1.0, 0.1 * duration_s)) return {};
         return Error{path_ + ": is cut short (" + std::to_string(std::llround(end_s)) + " of " +
-                     std::to_string(std::llround(duration_s)) + " seconds are there); copy the film again"};
+                     std::to_string(std::llround(duration_s)) + " seconds are present); copy the video again"};
     }
 
     Status convert(Image<Rgba8>& to) {
@@ -257,7 +258,7 @@ private:
         if (frame_->width != stream_->codecpar->width || frame_->height != stream_->codecpar->height) {
             return Error{path_ + ": frame " + std::to_string(decoded_) + " is " + std::to_string(frame_->width) + "x" +
                          std::to_string(frame_->height) + ", others are " + std::to_string(stream_->codecpar->width) +
-                         "x" + std::to_string(stream_->codecpar->height) + "; cut the film there"};
+                         "x" + std::to_string(stream_->codecpar->height) + "; cut the video there"};
         }
         scaler_.reset(sws_getCachedContext(
             scaler_.release(), frame_->width, frame_->height, format, info_.width, info_.height, AV_PIX_FMT_RGBA,

@@ -1,4 +1,4 @@
-// The search of motion vectors against all vectors in reach.
+// Compares the motion search with an exhaustive search.
 
 #include "encode/codec/motion_search.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 using codec::MotionVector;
 
-// Smooth waves with noise; a part is transparent.
+// Smooth waves with noise; partly transparent.
 Image<Rgba8> waves(double phase, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     Image<Rgba8> image(64, 48);
@@ -41,7 +41,7 @@ float bits_of(MotionVector vector, MotionVector from) {
     return bits;
 }
 
-// Of one vector: prediction by the codec, valid samples, the mean with `other` where there is one.
+// Cost of one vector: prediction by the codec over valid samples, averaged with `other` if given.
 float cost_of(const MotionSearch& search, MotionVector vector, MotionVector from, const std::uint8_t* other) {
     std::vector<std::uint8_t> samples(static_cast<std::size_t>(search.size) * static_cast<std::size_t>(search.size));
     codec::predict_from_image(search.reference, search.x, search.y, vector, search.size, samples.data(), search.size);
@@ -86,7 +86,7 @@ TEST_P(MotionSearchTest, NoWholeVectorInReachIsBetter) {
             const int y0 = (start.y + 2) >> 2;
             for (int y = y0 - search_.reach_y; y <= y0 + search_.reach_y; ++y) {
                 for (int x = x0 - search_.reach_x; x <= x0 + search_.reach_x; ++x) {
-                    // Wholly inside of the image.
+                    // Only positions inside of the image.
                     if (search_.x + x < 0 || search_.y + y < 0 ||
                         search_.x + x + search_.size > search_.reference.width() ||
                         search_.y + y + search_.size > search_.reference.height()) {

@@ -1,4 +1,4 @@
-// The encoder's sums over samples against formulas written out, and what efforts do.
+// Compares the encoder's search kernels with plain formulas; compares effort levels.
 
 #include "encode/codec/search_kernels.hpp"
 
@@ -70,7 +70,7 @@ TEST(SearchKernels, SumsAreThoseOfTheFormulas) {
     }
 }
 
-// Entry (v, u) of a block is the sum over its samples times (-1)^(bits that v and y, u and x have in common).
+// Entry (v, u) of a block is the sum over its samples times (-1)^(number of common bits of v and y, and of u and x).
 TEST(SearchKernels, HadamardTransformsAreThoseOfTheFormula) {
     std::mt19937 random(2);
     for (int round = 0; round < 40; ++round) {
@@ -149,13 +149,13 @@ TEST(CostTable, LevelsCostWhatTheirDecisionsDo) {
     }
 }
 
-// On drawn images, which have little to choose from.
+// Uses drawn images, whose modes differ little.
 TEST(SearchEffort, MoreOfItGivesABetterBargain) {
     RaySpaceObject object = test::small_object({.views_per_ring = 12, .width = 160, .height = 96});
     const std::vector<Image<Rgba8>> images = test::drawn_images(object);
     std::vector<SourceImage> sources;
     for (const auto& image : images) sources.push_back(source_image(image, 2));
-    // Bytes, and the error as bytes of the same worth: a decibel is about a seventh of them.
+    // Bytes, plus the error as equivalent bytes: a decibel is about a seventh of the bytes.
     const auto price = [&](int effort) {
         DenseSettings settings;
         settings.step = 8;

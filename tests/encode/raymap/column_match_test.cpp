@@ -1,4 +1,4 @@
-// The loops along columns of the search for depth against the same written out.
+// Compares the column kernels of depth estimation with plain implementations.
 
 #include "encode/raymap/column_match.hpp"
 
@@ -94,7 +94,7 @@ TEST(ColumnMatch, DepthsCostWhatTheyAreAway) {
     EXPECT_GT(nearer, 1000);
 }
 
-// What one kind of neighbours says; nothing: -1, outside: -2.
+// Merged cost of one kind of neighbours; none: -1, outside: -2.
 int of_kind(const std::vector<int>& costs) {
     std::vector<int> known;
     bool outside = false;

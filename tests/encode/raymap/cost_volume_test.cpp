@@ -1,4 +1,4 @@
-// Which depths pixels may have, and what they cost.
+// Allowed depths of pixels and their costs.
 
 #include "encode/raymap/cost_volume.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 
 const DepthRange kRange{-1.03, 2.06 / 127, 128};
 
-// Of all levels, since nothing rules any out.
+// All levels are allowed, since the hull excludes none.
 CostVolume every_level(const WorkView& view) {
     return levels_within(SampledHull(VisualHull({}, 1), 0.05), view, kRange);
 }
@@ -31,7 +31,7 @@ TEST(CostVolume, HasTheLevelsThatTheHullAllows) {
     const std::vector<WorkView> views = drawn_views(drawn_ring(12, 3));
     const SampledHull hull(VisualHull(pointers(views), 1), 0.004);
     WorkView view = views[0];
-    // A corner of the image that no silhouette knows of.
+    // A corner of the image outside of every silhouette.
     for (int row = 0; row < 4; ++row) view.columns(row, 0) = {1, 2, 3, 255};
     const CostVolume volume = levels_within(hull, view, kRange);
     int between = 0;
@@ -99,12 +99,13 @@ TEST(CostVolume, ColoursFindTheDepthOfTheBalls) {
     CostVolume costs = levels_within(hull, views[0], kRange);
     match_colours(costs, views[0], {{&all[1], &all[59]}, {}}, kRange);
     const Image<float> levels = semi_global_levels(views[0], costs, {});
-    // The balls' shading turns with the viewer, so colours agree where the big ball's middle is: on the axis.
+    // The balls' shading rotates with the viewer, so that colours agree at the middle of the big ball, which is on the
+    // axis.
     EXPECT_NEAR(kRange.at(static_cast<double>(levels(50, 64))), 0, 0.08);
     EXPECT_TRUE(std::isnan(levels(0, 0)));
 }
 
-// One view of the striped ball, level.
+// A horizontal view of the striped ball.
 DepthView striped_view(double azimuth_deg, double elevation_deg) {
     Camera camera = drawn_ring(1, azimuth_deg, 3.5 * std::cos(radians(elevation_deg))).views[0].camera;
     camera.world_from_camera[3].y = 3.5 * std::sin(radians(elevation_deg));
@@ -126,7 +127,7 @@ TEST(CostVolume, LevelStripesHaveADepthOnlyAcrossRings) {
     const DepthView below = striped_view(1, 4);
     const DepthView above = striped_view(-2, 16);
     constexpr int kColumn = 64;
-    // How far from the ball's surface the farthest depth lies whose colour agrees nearly as well as any does.
+    // The largest distance from the ball's surface of a depth whose cost is close to the minimum.
     const auto doubt = [&](const Neighbours& neighbours, int row) {
         CostVolume volume = every_level(view);
         match_colours(volume, view, neighbours, kRange);
@@ -146,12 +147,12 @@ TEST(CostVolume, LevelStripesHaveADepthOnlyAcrossRings) {
     }
 }
 
-// Stripes that all images show alike say nothing about depth; what the neighbours were found to show does.
+// Stripes that look equal in all images do not determine depth; the neighbours' depth maps do.
 TEST(CostVolume, WhatNeighboursShowTellsTheDepth) {
     const WorkView view = striped_view(0, 10).view;
     const DepthView left = striped_view(-6, 10);
     DepthView right = striped_view(6, 10);
-    // One of them is wrong.
+    // One neighbour's depth is wrong.
     for (float& depth : right.depth.pixels()) depth += 0.5F;
     DepthView blind = left;
     for (float& depth : blind.depth.pixels()) depth = kNoDepth;

@@ -1,5 +1,5 @@
-// The page of a build: well-formed whatever texts it is given, plots whose points stand where their numbers say,
-// images that are what went in.
+// Build report: well-formed for any text, plots with points at the positions of their values, embedded images equal to
+// the input.
 
 #include "encode/report/build_report.hpp"
 #include "encode/report/ring_plan.hpp"
@@ -23,7 +23,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// Every tag is closed by its own kind, in order; the name of the first that is not, else "".
+// Checks that tags are balanced; returns the name of the first one that is not, else "".
 std::string unbalanced_tag(const std::string& markup) {
     static const std::regex kTag(R"(<(/?)([a-zA-Z0-9]+)((?:[^<>"]|"[^"<>]*")*?)(/?)>)");
     std::vector<std::string> open;
@@ -104,7 +104,7 @@ TEST(HtmlPage, AImageInsideIsTheImageScaledDown) {
     const auto bytes = encode_png(scaled_down(image, 150), "wide");
     ASSERT_TRUE(bytes.ok());
     EXPECT_THAT(text, HasSubstr("src=\"data:image/png;base64," + base64(*bytes) + "\""));
-    // The bytes are a file that can be read.
+    // The bytes are a readable file.
     const test::TemporaryFolder folder;
     std::ofstream(folder / "p.png", std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
@@ -124,10 +124,10 @@ TEST(ScaledDown, AveragesInLinearLightAndByAlpha) {
     const Image<Rgba8> small = scaled_down(image, 2);
     ASSERT_EQ(small.width(), 2);
     ASSERT_EQ(small.height(), 1);
-    EXPECT_EQ(small(0, 0), (Rgba8{188, 188, 188, 255}));  // half of white's light
-    EXPECT_EQ(small(1, 0), (Rgba8{90, 60, 30, 128}));     // the transparent half gives no colour
+    EXPECT_EQ(small(0, 0), (Rgba8{188, 188, 188, 255}));  // half of the light of white
+    EXPECT_EQ(small(1, 0), (Rgba8{90, 60, 30, 128}));     // the transparent half does not contribute
     EXPECT_EQ(scaled_down(image, 4), image);
-    // Sizes that do not divide: a constant stays what it is, to the last pixel.
+    // Sizes without a common factor: a constant image stays constant up to the last pixel.
     const Image<Rgba8> odd(101, 67, {77, 88, 99, 255});
     EXPECT_EQ(scaled_down(odd, 40), Image<Rgba8>(40, 27, {77, 88, 99, 255}));
 }
@@ -264,7 +264,7 @@ TEST(BuildReport, WhatIsEmptyIsNotShown) {
     EXPECT_EQ(unbalanced_tag(*page), "");
     EXPECT_THAT(*page, HasSubstr("vase &lt;1&gt;"));
     EXPECT_THAT(*page, HasSubstr("75.00"));  // per cent of the bytes in images
-    for (const char* heading : {"Warnings", "Captured", "Visual hull", "Depth found", "Views held out"}) {
+    for (const char* heading : {"Warnings", "Captured", "Visual hull", "Estimated depth", "Held-out views"}) {
         EXPECT_THAT(*page, Not(HasSubstr(std::string("<h2>") + heading))) << heading;
     }
 }
@@ -284,7 +284,8 @@ TEST(BuildReport, ShowsScoresAndImages) {
     ASSERT_TRUE(page.ok());
     EXPECT_EQ(unbalanced_tag(*page), "");
     EXPECT_EQ(occurrences(*page, "<img "), 7U);
-    for (const char* text : {"a gap &amp; a hole", "<h2>Visual hull", "<h2>Depth found", "27.25", "94.50", "<svg"}) {
+    for (const char* text :
+         {"a gap &amp; a hole", "<h2>Visual hull", "<h2>Estimated depth", "27.25", "94.50", "<svg"}) {
         EXPECT_THAT(*page, HasSubstr(text)) << text;
     }
     report.scores.clear();

@@ -9,7 +9,7 @@
 namespace rs::encode {
 namespace {
 
-// Asks every patch that a sample may belong to.
+// Tests every patch that may contain a sample.
 bool is_in_patch(const Image<std::uint8_t>& alpha, int radius, int x, int y) {
     const int side = 2 * radius + 1;
     for (int top = y - side + 1; top <= y; ++top) {
@@ -30,7 +30,7 @@ TEST(SoftCoverage, PatchesAreWhereAllSamplesAreSoft) {
     std::mt19937 random(1);
     for (const int radius : {1, 2, 4}) {
         Image<std::uint8_t> alpha(37, 29);
-        // Mostly soft, so that there are patches of all shapes.
+        // Mostly soft, so that patches of all shapes occur.
         for (std::uint8_t& a : alpha.pixels()) {
             const auto number = static_cast<int>(random() % 300);
             a = number < 4 * radius ? static_cast<std::uint8_t>(random() % 2 * 255)

@@ -10,7 +10,7 @@ namespace {
 using namespace rs;
 using testing::HasSubstr;
 
-// stderr is captured into a file here, so this is how logs and pipes see it: a line at every tenth.
+// stderr is captured into a file, as for logs and pipes: one line per tenth.
 std::string drawn_by(bool quiet, std::chrono::milliseconds silence) {
     testing::internal::CaptureStderr();
     {
@@ -18,7 +18,7 @@ std::string drawn_by(bool quiet, std::chrono::milliseconds silence) {
         bar.start("working", 200);
         for (int i = 0; i < 200; ++i) bar.advance();
         bar.finish();
-        bar.advance();  // after the end: nothing
+        bar.advance();  // no effect after the end
     }
     return testing::internal::GetCapturedStderr();
 }

@@ -20,7 +20,7 @@ using Lines = std::vector<CapturedLine>;
 std::int32_t CapturedLine::*const kFields[] = {&CapturedLine::l0_q20, &CapturedLine::l1_q30, &CapturedLine::q0_q16,
                                                &CapturedLine::q1_q16};
 
-// As encode/FORMAT.md tells it, "Coded lines", number by number; in arithmetic that cannot overflow.
+// Decodes by encode/FORMAT.md, "Coded lines", number by number, in arithmetic that cannot overflow.
 Lines decoded_from_the_document(const std::vector<std::uint8_t>& bytes, std::size_t views, int planes) {
     Lines lines(views * static_cast<std::size_t>(planes));
     const auto c = static_cast<__int128>(std::nearbyint(std::pow(2.0, 31) * std::cos(2 * kPi / planes)));
@@ -93,7 +93,7 @@ TEST(LineCoding, AnyBytesAreLines) {
     }
 }
 
-// What it is for: the lines of cameras are sines, and take less than a third of their plain size.
+// Lines of real cameras are sinusoidal and take less than a third of their plain size.
 TEST(LineCoding, LinesOfCamerasTakeFewBytes) {
     test::SmallObjectOptions options;
     options.views_per_ring = 36;

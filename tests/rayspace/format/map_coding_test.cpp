@@ -15,7 +15,7 @@ std::uint16_t number(const std::vector<std::uint8_t>& bytes, std::size_t n) {
     return static_cast<std::uint16_t>(bytes[2 * n] + 256 * bytes[2 * n + 1]);
 }
 
-// As encode/FORMAT.md tells it, "RMAP", number by number.
+// Decodes by encode/FORMAT.md, "RMAP", number by number.
 Runs decoded_from_the_document(const std::vector<std::uint8_t>& bytes, std::size_t rows, std::size_t runs) {
     Runs found;
     for (std::size_t row = 0; row < rows; ++row) found.counts.push_back(number(bytes, row));
@@ -62,7 +62,7 @@ TEST(MapCoding, RunsAreThoseOfTheDocument) {
     }
 }
 
-// Whatever the bytes are, they are runs; those that fill the rows are cells, the others are refused.
+// Any bytes decode to runs; those that fill the rows decode to cells, the others are rejected.
 TEST(MapCoding, AnyBytesAreRunsAndNeverWrittenBeyondTheCells) {
     std::mt19937 random(2);
     int accepted = 0, refused = 0;
@@ -75,7 +75,7 @@ TEST(MapCoding, AnyBytesAreRunsAndNeverWrittenBeyondTheCells) {
         const Runs found = map_coding::runs_of_residuals(bytes, rows, runs);
         std::size_t sum = 0;
         for (const std::uint16_t count : found.counts) sum += count;
-        // The document says nothing of counts that do not add up, but that they are refused.
+        // The document only states that counts that do not add up are rejected.
         ASSERT_TRUE(sum != runs || same(found, decoded_from_the_document(bytes, rows, runs))) << "trial " << trial;
         constexpr int kWidth = 3;
         std::vector<std::uint16_t> cells(rows * kWidth);

@@ -51,7 +51,7 @@ void put_number(Chunk& chunk, std::size_t offset, std::uint64_t number, std::siz
     test::put_number(chunk.payload, offset, number, size);
 }
 
-// The error that comes of reading a small object's file after `change`.
+// The error from reading a small object's file after `change`.
 std::string error_after(const std::function<void(Chunks&)>& change, const ReadObjectOptions& options = {}) {
     const TemporaryFolder folder;
     EXPECT_TRUE(write_object(folder / "a.rso", small_object()).ok());
@@ -293,7 +293,7 @@ TEST(ObjectFile, RigsMayBeTextOrFrames) {
 TEST(ObjectFile, MemoryIsCapped) {
     ReadObjectOptions options;
     options.memory_cap_bytes = 2000;
-    // The map takes 2048 bytes, each image 300; the map's runs are there twice while it is expanded.
+    // The map takes 2048 bytes, each image 300; the map's runs are in memory twice during decompression.
     const Ring small = small_object().rings[0];
     const std::uint64_t runs = map_coding::runs_of(small.cells, small.u_cells).views.size();
     const std::uint64_t expanding = 2 * map_coding::residual_bytes(64, runs);

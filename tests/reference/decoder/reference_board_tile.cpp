@@ -12,7 +12,7 @@ int signed_value(const Codebook& book, int at) {
     return value < 128 ? value : value - 256;
 }
 
-// The quarter of sample (x, y) of a block, and the sample's place in it.
+// The quarter of sample (x, y) of a block, and the sample's index in it.
 int quarter_of(int x, int y) {
     return 2 * (y / 4) + x / 4;
 }
@@ -86,7 +86,7 @@ void BoardTileDecoder::show(const Record& record) {
     }
 }
 
-// Of sample (x, y) of the block, before it is clamped.
+// The colour of sample (x, y) of the block, before clamping.
 int BoardTileDecoder::colour(const Record& record, int plane, int x, int y) const {
     int sum = record.kind.is_predicted ? nearest_sample(*record.reference, plane, record.x + x + record.motion.x,
                                                         record.y + y + record.motion.y)

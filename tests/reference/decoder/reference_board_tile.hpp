@@ -12,7 +12,7 @@ namespace rs::reference {
 
 class BoardTileDecoder {
 public:
-    // As of TileDecoder.
+    /// Parameters as in TileDecoder.
     BoardTileDecoder(const Code& code, std::array<const DecodedImage*, 2> references, int t, Bytes bytes,
                      DecodedImage& image);
 
@@ -23,7 +23,7 @@ private:
     struct Record {
         int x = 0, y = 0;
         BoardClass kind;
-        const DecodedImage* reference = nullptr;  // of a predicted one
+        const DecodedImage* reference = nullptr;  // predicted records only
         Vector motion;                            // whole samples
         std::array<int, 3> flat = {0, 0, 0};
         std::vector<int> block_index;                   // [stage]

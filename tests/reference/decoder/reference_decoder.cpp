@@ -18,7 +18,7 @@ Images decode_reference(int width, int height, std::span<const std::uint8_t> cod
         if (!error.empty()) return {"view " + std::to_string(view) + ": " + error, {}};
     }
 
-    // A reference's level is lower, so whatever an image needs has been decoded when its level comes.
+    // References have lower levels, so that they have been decoded before.
     Images result;
     result.views.resize(picts.size());
     for (int level = 0; level <= 3; ++level) {

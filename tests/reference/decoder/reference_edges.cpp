@@ -42,7 +42,7 @@ void put_line(const EdgeLine& samples, DecodedImage& image, const Edge& edge, in
     }
 }
 
-// "It is flat if for its first and for its last line": what is asked of each of the two.
+// "It is flat if for its first and for its last line": the condition for each of the two.
 bool is_flat(const EdgeLine& line, int t, int b) {
     const auto& [p, q] = line;
     return 2 * (line.bend_p() + line.bend_q()) < b >> 2 && std::abs(p[3] - p[0]) + std::abs(q[0] - q[3]) < b >> 3 &&

@@ -25,7 +25,7 @@ int clamp16(std::int64_t value) {
 int matrix(int n, int row, int column) {
     static constexpr std::array<int, 17> kCosines = {64, 90, 89, 87, 83, 80, 75, 70, 64, 57, 50, 43, 36, 25, 18, 9, 0};
     if (row == 0) return 64;
-    int angle = (2 * column + 1) * row * (16 / n) % 64;  // in 64ths of a turn
+    int angle = (2 * column + 1) * row * (16 / n) % 64;  // 64ths of a turn
     if (angle > 32) angle = 64 - angle;
     return angle <= 16 ? kCosines[static_cast<std::size_t>(angle)] : -kCosines[static_cast<std::size_t>(32 - angle)];
 }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr Whole kWidest_q20 = power(21) + power(16);  // "|.| < 2^21 + 2^16"
 
-// "The vertical plane of the ray." False: no ray.
+// "The vertical plane of the ray." Returns false if there is no ray.
 bool find_vertical_plane(const ShapeMap& shape, const engine::PlaneRegisters& plane, const PlaneRay& at,
                          ShapeRay& ray) {
     const Whole a = plane.a_q20;
@@ -33,7 +33,7 @@ bool find_vertical_plane(const ShapeMap& shape, const engine::PlaneRegisters& pl
     return true;
 }
 
-// A ring's views, gaps and lines under turning numbers: behind N - 1 comes 0 again.
+// A ring's views, gaps and lines with cyclic numbers: N - 1 is followed by 0.
 struct Turning {
     const Ring& ring;
     Whole N = static_cast<Whole>(ring.views.size());

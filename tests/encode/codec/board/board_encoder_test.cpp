@@ -1,5 +1,5 @@
-// The board profile: what the encoder writes is what its decoder shows, on any number of threads; codebooks are
-// trained; records keep to their classes.
+// Board profile: the decoder returns the encoder's reconstruction for any number of threads; codebooks are trained;
+// records use only their class's fields.
 
 #include "encode/codec/board/board_encoder.hpp"
 #include "encode/codec/board/board_block.hpp"
@@ -48,7 +48,7 @@ std::size_t record_bytes(const codec::CodedImages& coded) {
     return bytes;
 }
 
-// The error against the drawn images, measured on what the file gives back.
+// PSNR of the decoded file against the drawn images.
 double file_psnr(const std::filesystem::path& file) {
     const auto object = read_object(file);
     EXPECT_TRUE(object.ok()) << object.error().message;
@@ -76,7 +76,7 @@ TEST(BoardEncoder, WhatTheFileShowsIsNearTheSource) {
     ASSERT_TRUE(write_object(work / "fine.rso", fine).ok());
     const double found_db = file_psnr(work / "fine.rso");
     EXPECT_GT(found_db, 30);
-    EXPECT_GT(found_db, fine_db - 0.5);  // Y is truer than R, G and B together
+    EXPECT_GT(found_db, fine_db - 0.5);  // Y is more accurate than R, G and B together
     double coarse_db = 0;
     const RaySpaceObject coarse = board_object({.step = 80}, &coarse_db);
     EXPECT_LT(coarse_db, fine_db - 1);

@@ -1,4 +1,4 @@
-// Parts that cut-outs lack, found from a ball whose depths are known.
+// Finds parts that masks lack, from a ball with known depths.
 
 #include "encode/raymap/silhouettes/silhouette_repair.hpp"
 
@@ -17,11 +17,11 @@ namespace {
 constexpr int kViews = 12;
 constexpr double kTolerance = 0.02;
 
-// A ring about the ball with true depths, in images of which one lacks a part.
+// A ring about the ball with ground-truth depths; one image lacks a part.
 class SilhouetteRepair : public testing::Test {
 protected:
     static constexpr int kBitten = 6;
-    // Of the bitten image: a strip at the ball's left rim.
+    // The missing part of one image: a strip at the ball's left rim.
     static constexpr int kLeft = 20, kRight = 32, kTop = 40, kBottom = 64;
 
     SilhouetteRepair() {
@@ -101,8 +101,8 @@ TEST_F(SilhouetteRepair, WhatOneImageLacksIsFoundThereAlone) {
             EXPECT_EQ(count_of(missing), 0) << "image " << n;
             continue;
         }
-        int near = 0;  // a few pixels meet no point of the near side
-        // What is next to the object may be its rim.
+        int near = 0;  // pixels that show the near side; a few do not
+        // Pixels next to the object may belong to its rim.
         EXPECT_GT(count_of(missing), bitten_ / 2);
         for (int column = 0; column < missing.height(); ++column) {
             for (int row = 0; row < missing.width(); ++row) {
@@ -124,7 +124,7 @@ TEST_F(SilhouetteRepair, PointsThatOneNeighbourDoesNotShowSayNothing) {
         for (float& depth : ring_[n].depth.pixels()) depth += 0.5F;
     }
     const auto left = points();
-    std::size_t before = 0, after = 0;  // of images of which one neighbour has moved
+    std::size_t before = 0, after = 0;  // for images with one displaced neighbour
     for (std::size_t n = 1; n < kViews; n += 2) {
         before += agreed[n].size();
         after += left[n].size();
@@ -218,7 +218,7 @@ TEST(HalvedView, SeesPointsAtHalfTheirPlaceInMeansOfFourPixels) {
     const glm::dvec2 place(0.3, -0.2);
     EXPECT_NEAR(half.see(place).column, whole.see(place).column / 2, 1e-9);
     EXPECT_NEAR(half.row_of(0.4, 3), whole.row_of(0.4, 3) / 2, 1e-9);
-    EXPECT_EQ(half.at(5, 10).r, 53);  // of three
+    EXPECT_EQ(half.at(5, 10).r, 53);  // mean of three
     EXPECT_EQ(half.at(5, 10).a, 191);
     EXPECT_EQ(half.at(6, 10).r, 40);
 }

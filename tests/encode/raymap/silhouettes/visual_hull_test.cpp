@@ -1,4 +1,4 @@
-// The hull that silhouettes leave, and the lines of a shape map that heed it.
+// The visual hull of silhouettes, and the lines of a shape map inside it.
 
 #include "encode/raymap/silhouettes/visual_hull.hpp"
 
@@ -150,7 +150,7 @@ TEST(SampledHull, HasTheHeightsOfTheNextPointOfItsGrid) {
     }
 }
 
-// Where a cell of a map of cameras at one height lies when its line is that of `viewpoint`.
+// Positions of the cells of the line of `viewpoint`, for cameras at one height.
 class CellPlaces {
 public:
     CellPlaces(const ShapeMap& map, const glm::dvec2& viewpoint) : map_(map), viewpoint_(viewpoint) {}
@@ -182,8 +182,8 @@ private:
     glm::dvec2 viewpoint_;
 };
 
-// Each image's depths are as wrong as they can be: the far end of the search. From between two images such points
-// stand aside of the object.
+// Every depth is wrong by the maximum: the far end of the search range. Seen from between two images, such points lie
+// beside the object.
 TEST(ShapeLines, NothingFloatsBesideTheObjectWhereSilhouettesAgree) {
     const std::vector<WorkView> views = drawn_views(drawn_ring(12));
     const SampledHull hull(VisualHull(pointers(views), 1), 0.01);
@@ -227,7 +227,7 @@ TEST(ShapeLines, NothingFloatsBesideTheObjectWhereSilhouettesAgree) {
     EXPECT_GT(dropped, 20);
 }
 
-// A wall of gauze behind the object: halfway between two images it is also seen where one of them shows the object.
+// A translucent wall behind the object: halfway between two images it is visible where one of them shows the object.
 TEST(ShapeLines, NoImageHidesWhatStandsBehind) {
     std::vector<DepthView> gauze;
     for (const WorkView& view : drawn_views(drawn_ring(12))) {

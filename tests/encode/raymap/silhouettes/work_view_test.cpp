@@ -1,4 +1,4 @@
-// Images as the depth search sees them.
+// Preparation of working views for depth estimation.
 
 #include "encode/raymap/silhouettes/work_view.hpp"
 
@@ -53,7 +53,7 @@ TEST(WorkView, ReductionAveragesByAlpha) {
     EXPECT_EQ(view.at(1, 1), Rgba8{});
 }
 
-// An image of coarse stripes that are brighter than in another one, as gloss is.
+// Coarse stripes that are brighter than in another image, as with gloss.
 TEST(WorkView, WeakenedShadingKeepsDetail) {
     const auto view_of = [](int gloss) {
         WorkView view;
@@ -77,7 +77,7 @@ TEST(WorkView, WeakenedShadingKeepsDetail) {
             EXPECT_NEAR(glossy(x, y).g - dull(x, y).g, 15, 1) << x << " " << y;  // a quarter of 60
             EXPECT_EQ(dull(x, y).a, 255);
         }
-        // Two pixels farther on the pattern is the other way.
+        // Two pixels farther the pattern is inverted.
         for (int x = 12; x < 30; ++x) EXPECT_NEAR(std::abs(dull(x + 2, y).g - dull(x, y).g), 40, 5) << x << " " << y;
     }
 }
