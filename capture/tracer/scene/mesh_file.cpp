@@ -134,7 +134,7 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
         } else {
             importer.ReadFile(path.string(), 0);
         }
-        RS_ASSIGN_OR_RETURN(const const aiScene* read,
+        RS_ASSIGN_OR_RETURN(const aiScene* read,
                             post_processed(importer,
                                            aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
                                                aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices,
