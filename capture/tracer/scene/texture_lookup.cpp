@@ -7,13 +7,13 @@ namespace rs::capture {
 
 namespace {
 
-// The fraction of `coordinate` in [0, 1); coordinates so large that they have no fraction, and NaN, become 0.
+// Fraction of `coordinate` in [0, 1); 0 for NaN and for values too large to have a fraction.
 float repeat(float coordinate) {
     const float fraction = coordinate - std::floor(coordinate);
     return fraction >= 0.0F && fraction < 1.0F ? fraction : 0.0F;
 }
 
-// Of an image whose border goes on, half a pixel from its edge at the farthest.
+// Repeats a coordinate, or clamps it to the centres of the border pixels.
 float wrap_coordinate(float coordinate, bool repeats, int size) {
     if (repeats) return repeat(coordinate);
     const float half_px = 0.5F / static_cast<float>(size);

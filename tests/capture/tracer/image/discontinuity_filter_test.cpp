@@ -82,7 +82,7 @@ TEST(DiscontinuityFilter, KeepsEdgesOfPlacesNormalsAndColours) {
         };
     };
     for (const auto& change : std::vector<std::function<void(Guide&)>>{
-             [](Guide& guide) { guide.place.z = 0.7F; },
+             [](Guide& guide) { guide.position.z = 0.7F; },
              [](Guide& guide) {
                  guide.normal = {0.8F, 0, 0.6F};
              },

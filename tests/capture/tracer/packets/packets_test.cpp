@@ -205,13 +205,14 @@ Scene scene_of_all_details() {
     return scene;
 }
 
-void expect_whitted_gives_the_bits_of_single_rays(const Scene& scene, float environment, Seen seen, bool soft_shadows) {
+void expect_whitted_gives_the_bits_of_single_rays(const Scene& scene, float environment, CameraVisibility visibility,
+                                                  bool soft_shadows) {
     const auto rays = RayScene::create(scene);
     ASSERT_TRUE(rays);
     const LightSet lights(scene, environment > 0 ? constant_environment(environment) : Environment{},
                           {glm::vec3(0), 6.0F});
     const auto models = make_surface_models(scene.materials);
-    const LightTransport transport(scene, *rays, lights, models, seen);
+    const LightTransport transport(scene, *rays, lights, models, visibility);
     const WhittedTracer tracer(transport, IrradianceMap(lights.environment()), glm::vec3(0.1F), 8, soft_shadows);
     const Camera camera = look_at_camera({0.3, 1.2, 6}, {0, 0, 0}, radians(60), 61, 47);
     std::vector<CameraRay> many;
@@ -331,7 +332,7 @@ void expect_virtual_lights_give_the_bits_of_their_twin(const Scene& scene) {
         packet.lit[3] = 0;
         for (std::size_t from = 0; from < vertices.size(); from += 3) {
             LightLanes arrives;
-            const VirtualLight light = materials.virtual_light(vertices[from], flux, 1);
+            const VirtualLight light = materials.make_virtual_light(vertices[from], flux, 1);
             const bool some =
                 light_from_virtual(light, kBound, materials.tables(), packet.surfaces, packet.lit, arrives);
             bool some_expected = false;
