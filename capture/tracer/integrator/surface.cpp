@@ -83,13 +83,13 @@ Surface::Value Surface::evaluate(const glm::vec3& wi) const {
 bool Surface::sample(float u_lobe, const glm::vec2& u, SurfaceSample& drawn) const {
     if (is_specular()) return sample_specular(u_lobe, drawn);
     if (model_.kind == SurfaceKind::diffuse) {
-        drawn.direction = cosine_direction(u);
+        drawn.direction = sample_cosine_hemisphere(u);
         if (u_lobe < model_.translucency) drawn.direction.z = -drawn.direction.z;
     } else if (model_.kind == SurfaceKind::metal || u_lobe < coat_probability_) {
         const glm::vec3 normal = sample_visible_normal(wo_, model_.alpha, u);
         drawn.direction = 2.0F * glm::dot(wo_, normal) * normal - wo_;
     } else {
-        drawn.direction = cosine_direction(u);
+        drawn.direction = sample_cosine_hemisphere(u);
     }
     const Value value = evaluate(drawn.direction);
     if (!(value.pdf > 1e-12F)) return false;

@@ -55,7 +55,7 @@ std::optional<Photon> LightSet::emit(float u_source, const glm::vec2& u_place, c
             const Area& area = areas_[source.index];
             const glm::vec2 at = area.model->point(u_place);
             return Photon{area.centre + area.half_u * at.x + area.half_v * at.y,
-                          Frame(area.normal).to_world(cosine_direction(u_direction)), area.normal,
+                          Frame(area.normal).to_world(sample_cosine_hemisphere(u_direction)), area.normal,
                           area.radiance * (kPiF * area.area / probability)};
         }
         case SourceKind::emitters:
@@ -69,7 +69,7 @@ std::optional<Photon> LightSet::emit(float u_source, const glm::vec2& u_place, c
 
 // Emits from a disc outside the scene whose projection covers it.
 Photon LightSet::emit_distant(const glm::vec3& direction, const glm::vec3& irradiance, const glm::vec2& u) const {
-    const glm::vec2 at = disc_point(u) * extent_.radius;
+    const glm::vec2 at = sample_disc(u) * extent_.radius;
     const Frame frame(direction);
     return {extent_.centre - direction * (2.0F * extent_.radius) + frame.tangent * at.x + frame.bitangent * at.y,
             direction, glm::vec3(0.0F), irradiance * (kPiF * extent_.radius * extent_.radius)};
@@ -102,7 +102,7 @@ std::optional<Photon> LightSet::emit_emitter(float u_emitter, float probability,
     }
     const float pdf =
         brightness_[static_cast<std::size_t>(material)] / static_cast<float>(emitter_power_) * probability;
-    return Photon{point.position, Frame(normal).to_world(cosine_direction(u)), normal,
+    return Photon{point.position, Frame(normal).to_world(sample_cosine_hemisphere(u)), normal,
                   emission(material, point.uv) * ((both ? 2.0F : 1.0F) * kPiF / pdf)};
 }
 

@@ -105,7 +105,7 @@ bool LightSet::sample_centre(std::size_t index, const SurfaceLanes& surfaces, co
                 return true;
             }
             case SourceKind::local:
-                if (model_of(lights_[source.index]).is_even()) {
+                if (model_of(lights_[source.index]).is_isotropic()) {
                     return light_from_point(points_[source.index], positions, active, incident);
                 }
                 if (!cull_point_light(points_[source.index], surfaces, active, reached)) return false;

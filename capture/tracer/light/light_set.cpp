@@ -95,7 +95,7 @@ void LightSet::add_light(const Light& light) {
                        .least_attenuation = reach.least_attenuation,
                        .colour = kPiF * light.colour,
                        .power = power,
-                       .least_cos = reach.least_cos});
+                       .min_cos = reach.min_cos});
     switch (model.form) {
         case LightForm::kDistant:
             sources_.push_back({SourceKind::distant, index, power});
@@ -118,7 +118,7 @@ void LightSet::turn(float angle_rad) {
 
 void LightSet::place_lights(float turn_rad) {
     for (std::size_t i = 0; i < initial_lights_.size(); ++i) {
-        lights_[i] = turned_about_y(initial_lights_[i], static_cast<double>(turn_rad));
+        lights_[i] = rotate_about_y(initial_lights_[i], static_cast<double>(turn_rad));
         points_[i].location = lights_[i].location;
         points_[i].towards = glm::vec3(model_of(lights_[i]).axis(lights_[i]));
     }
@@ -149,7 +149,7 @@ float LightSet::estimate(const Source& source, const glm::vec3& position) const 
     const float distance2 = glm::dot(way, way);
     const float d = std::sqrt(distance2);
     if (!(d > 0.0F) || d > static_cast<float>(light.radius)) return 0.0F;
-    if (glm::dot(way, light.towards) < light.least_cos * d) return 0.0F;
+    if (glm::dot(way, light.towards) < light.min_cos * d) return 0.0F;
     return light.power / std::max(glm::dot(light.attenuation, glm::vec3(1.0F, d, distance2)), light.least_attenuation);
 }
 

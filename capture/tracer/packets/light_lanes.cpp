@@ -16,7 +16,7 @@ HWY_INLINE Mask is_reached(const PointLight& light, const Floats3& way, Floats d
     const Floats zero = number(0.0F), one = number(1.0F);
     Mask none = hn::Not(hn::Gt(distance, zero));
     none = hn::Or(none, hn::Gt(distance, number(static_cast<float>(light.radius))));
-    none = hn::Or(none, hn::Lt(dot(way, broadcast(light.towards)), number(light.least_cos) * distance));
+    none = hn::Or(none, hn::Lt(dot(way, broadcast(light.towards)), number(light.min_cos) * distance));
     const Floats falloff =
         greater(dot(broadcast(light.attenuation), {one, distance, distance2}), number(light.least_attenuation));
     return hn::AndNot(none, hn::Gt(number(light.power) / falloff, zero));

@@ -28,7 +28,7 @@ struct PointLight {
     // For LightSet's estimate.
     float power = 0;
     glm::vec3 towards{0};
-    float least_cos = -1;
+    float min_cos = -1;
 };
 
 // A rectangle or a disc, sampled at its centre.
