@@ -1,5 +1,5 @@
-// rs-showroom: writes our shop and museum as a VRML97 world that shows the procedural objects, or rooms that renderers
-// are measured with.
+// rs-showroom: writes a shop and a museum with the procedural objects as a VRML97 world, or benchmark rooms for
+// renderers.
 
 #include "datasets-synthetic/measuring/cabin.hpp"
 #include "datasets-synthetic/measuring/hall.hpp"
@@ -53,8 +53,8 @@ rs::Status run_measuring(const Options& options) {
 
 int main(int argc, char** argv) {
     CLI::App app(
-        "Writes a shop and a museum room (VRML97, textures, a way through them) that show the procedural objects, or a "
-        "room that renderers are measured with (glTF, a list of lights)",
+        "Writes a shop and a museum room with the procedural objects (VRML97, textures, a camera path), or a benchmark "
+        "room for renderers (glTF, a light list)",
         "rs-showroom");
     Options options;
     app.add_option("-o,--output", options.output,
@@ -66,10 +66,10 @@ int main(int argc, char** argv) {
         ->capture_default_str()
         ->check(CLI::IsMember({"showroom", "hall", "great-hall", "cabin"}));
     app.add_option("--objects", options.objects,
-                   "Folder of vase.rso, flower.rso, doll.rso, lamp.rso, lattice.rso and blocks.rso, as seen from the "
-                   "folder that is written")
+                   "Folder of vase.rso, flower.rso, doll.rso, lamp.rso, lattice.rso and blocks.rso, relative to the "
+                   "output folder")
         ->capture_default_str();
-    app.add_flag("--small", options.small, "Textures of a quarter of the resolution");
+    app.add_flag("--small", options.small, "Textures at a quarter of the resolution");
     app.footer(
         "Examples:\n  rs-showroom -o showroom && rs-view showroom/showroom.wrl --viewpoint museum -o museum.png\n"
         "  rs-view showroom/showroom.wrl --lights showroom/evening.json --exposure 3 --renderer path -o evening.png\n"

@@ -36,7 +36,7 @@ constexpr LightWords kSpotWords{
 
 class PointModel : public LightModel {
 public:
-    explicit PointModel(const LightWords& words_of_kind = kPointWords) : LightModel(LightForm::kPoint, words_of_kind) {}
+    explicit PointModel(const LightWords& kind_words = kPointWords) : LightModel(LightForm::kPoint, kind_words) {}
 
     [[nodiscard]] Status check(const Light&) const override { return {}; }
     [[nodiscard]] double strength(const Light&) const override { return kPi; }

@@ -165,7 +165,7 @@ TEST(EulumdatFile, IsReadByItsLinesAndMirroredByItsSymmetry) {
 
     const auto cut = parse_eulumdat(eulumdat(1, 4, lamps, "100\n50\n"), "a.ldt");
     ASSERT_FALSE(cut);
-    EXPECT_EQ(cut.error().message, "a.ldt: ends before line 52, an intensity; is it whole?");
+    EXPECT_EQ(cut.error().message, "a.ldt: ends before line 52, an intensity; check that it is complete");
     const auto odd = parse_eulumdat(eulumdat(4, 6, lamps, "1\n"), "a.ldt");
     ASSERT_FALSE(odd);
     EXPECT_NE(odd.error().message.find("a.ldt: line 4: 6 C planes cannot be mirrored"), std::string::npos);
