@@ -22,7 +22,7 @@ glm::dvec3 tidy(const glm::dvec3& normal) {
         if (std::abs(normal[i]) < kNoise) kept[i] = 0;
         if (1 - std::abs(normal[i]) < kNoise * kNoise) kept[i] = std::copysign(1.0, normal[i]);
     }
-    return unit_of(kept);
+    return unit_vector(kept);
 }
 
 }  // namespace

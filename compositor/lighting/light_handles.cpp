@@ -83,8 +83,8 @@ private:
     }
 
     void shape(const LightOutline& outline) {
-        const glm::dvec3 aim = unit_of(entry_.aim);
-        const AimedAxes axes = axes_of(aim, radians(entry_.turn_deg));
+        const glm::dvec3 aim = unit_vector(entry_.aim);
+        const AimedAxes axes = aimed_axes(aim, radians(entry_.turn_deg));
         const glm::dmat3 world_from_outline =
             (outline.to_scale ? 1 : kShape_px * px_) * glm::dmat3(axes.across, axes.along, aim);
         for (const std::vector<glm::dvec3>& points : outline.lines) {
@@ -154,7 +154,7 @@ Dome dome_of(const Camera& camera) {
 glm::dvec3 handle_place(const LightEntry& entry, const Camera& camera) {
     if (model_of(entry).words.has_place) return entry.location;
     const Dome dome = dome_of(camera);
-    return dome.middle - dome.radius * unit_of(entry.aim);
+    return dome.middle - dome.radius * unit_vector(entry.aim);
 }
 
 glm::dvec3 direction_of(HandlePart axis) {
@@ -167,7 +167,7 @@ glm::dvec3 axis_end(const LightEntry& entry, HandlePart axis, const Camera& came
 
 std::optional<glm::dvec3> aim_place(const LightEntry& entry, const Camera& camera) {
     if (const LightWords& words = model_of(entry).words; !words.has_place || !words.has_aim) return std::nullopt;
-    return entry.location + kAim_px * units_per_px(entry.location, camera) * unit_of(entry.aim);
+    return entry.location + kAim_px * units_per_px(entry.location, camera) * unit_vector(entry.aim);
 }
 
 std::vector<HandleStroke> light_strokes(const LightingState& state, std::optional<std::size_t> selected,

@@ -162,7 +162,7 @@ TEST(Shapes, KeptSurfacePointsAreUniformByArea) {
     int inner = 0;
     int kept = 0;
     while (kept < 20000) {
-        const SurfaceDraw draw = draw_point(disc, random);
+        const RejectionSample draw = sample_surface(disc, random);
         if (!draw.keep) continue;
         ASSERT_NEAR(disc.level(draw.point.position), 1.0F, 1e-4F);
         const vec3 p = draw.point.position;

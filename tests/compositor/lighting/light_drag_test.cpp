@@ -134,7 +134,7 @@ TEST(LightHandles, AreFoundWhereTheyAreDrawn) {
     // A large panel is grasped by its edge as well.
     state.entries[2].size = {2, 1};
     const LightEntry& panel = state.entries[2];
-    const AimedAxes axes = axes_of(unit_of(panel.aim), 0);
+    const AimedAxes axes = aimed_axes(unit_vector(panel.aim), 0);
     const glm::dvec3 edge = panel.location + axes.across + 0.3 * axes.along;
     EXPECT_EQ(handle_at(state, std::nullopt, camera, seen_at(camera, edge)), (HandleHit{2, HandlePart::kBody}));
 }

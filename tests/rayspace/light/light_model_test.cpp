@@ -96,7 +96,7 @@ TEST_P(EveryLight, EntriesComeBack) {
     EXPECT_EQ(same.radius, light_.radius);
     EXPECT_LT(glm::distance(same.colour, light_.colour), 1e-5F * glm::length(light_.colour));
     if (!model_.words.has_aim) return;
-    EXPECT_LT(glm::distance(model_.axis(light_), unit_of(entry_.aim)), 1e-12);
+    EXPECT_LT(glm::distance(model_.axis(light_), unit_vector(entry_.aim)), 1e-12);
     EXPECT_LT(glm::distance(model_.axis(same), model_.axis(light_)), 1e-9);
     EXPECT_NEAR(again.turn_deg, entry_.turn_deg, 1e-9);
     if (model_.words.turns) {
@@ -130,7 +130,7 @@ TEST_P(EveryLight, RefusesWhatCannotBe) {
 }
 
 TEST_P(EveryLight, TurnsAboutY) {
-    const Light turned = turned_about_y(light_, kPi / 2);
+    const Light turned = rotate_about_y(light_, kPi / 2);
     const auto expected = [](const glm::dvec3& v) { return glm::dvec3(v.z, v.y, -v.x); };
     EXPECT_LT(glm::distance(model_.axis(turned), expected(model_.axis(light_))), 1e-12);
     EXPECT_NEAR(model_.strength(turned), model_.strength(light_), 1e-12);
@@ -198,7 +198,7 @@ TEST_P(EveryLight, GoesNoFartherThanItSays) {
                                         static_cast<double>(reach.least_attenuation));
         EXPECT_LE(arrives, most / falloff * (1 + 1e-6));
         const double cosine = glm::dot(direction, model_.axis(light_));
-        const bool outside = d > reach.radius || cosine < static_cast<double>(reach.least_cos);
+        const bool outside = d > reach.radius || cosine < static_cast<double>(reach.min_cos);
         EXPECT_TRUE(!outside || arrives == 0) << d << " " << cosine;
     }
 }
@@ -214,8 +214,8 @@ TEST_P(EveryLight, IsEvenWhereItSaysSo) {
         least = std::min(least, arrives);
         if (arrives > 0) widest = std::min(widest, glm::dot(direction, model_.axis(light_)));
     }
-    EXPECT_EQ(least > 0.99F * on_axis, model_.is_even());
-    EXPECT_NEAR(widest, static_cast<double>(model_.reach(light_).least_cos), 0.06) << "no wider than need be";
+    EXPECT_EQ(least > 0.99F * on_axis, model_.is_isotropic());
+    EXPECT_NEAR(widest, static_cast<double>(model_.reach(light_).min_cos), 0.06) << "no wider than need be";
 }
 
 TEST_P(EveryLight, CoversItsArea) {
@@ -246,7 +246,7 @@ TEST_P(EveryLight, CoversItsArea) {
 }
 
 TEST_P(EveryLight, HasAnOutlineThatCanBeSeen) {
-    EXPECT_EQ(model_.outline(entry_).lines.empty(), model_.form == LightForm::kDistant || model_.is_even());
+    EXPECT_EQ(model_.outline(entry_).lines.empty(), model_.form == LightForm::kDistant || model_.is_isotropic());
     for (const std::vector<glm::dvec3>& line : model_.outline(entry_).lines) {
         EXPECT_GE(line.size(), 2U);
         for (const glm::dvec3& point : line) EXPECT_LT(glm::length(point), 2);

@@ -31,15 +31,15 @@ Accumulation samples_of(const Wall& wall, int count) {
     Accumulation result;
     result.sum = Image<RgbaF>(kSide, kSide);
     result.guides = Image<GuideSum>(kSide, kSide);
-    for (int sample = 0; sample < count; ++sample) {
+    for (int pass = 0; pass < count; ++pass) {
         for (int y = 0; y < kSide; ++y) {
             for (int x = 0; x < kSide; ++x) {
-                RadianceSample arrived;
-                arrived.met = arrived.guided = true;
-                arrived.guide = wall.surface(x, y);
+                RadianceSample sample;
+                sample.hit = sample.has_guide = true;
+                sample.guide = wall.surface(x, y);
                 const auto noise = static_cast<float>(wall.noisy ? random.real(0, 2) : 1);
-                arrived.radiance = wall.light(x, y) * noise * arrived.guide.colour;
-                result.add(x, y, arrived);
+                sample.radiance = wall.light(x, y) * noise * sample.guide.colour;
+                result.add(x, y, sample);
             }
         }
     }
@@ -82,7 +82,7 @@ TEST(DiscontinuityFilter, KeepsEdgesOfPlacesNormalsAndColours) {
         };
     };
     for (const auto& change : std::vector<std::function<void(Guide&)>>{
-             [](Guide& guide) { guide.place.z = 0.7F; },
+             [](Guide& guide) { guide.position.z = 0.7F; },
              [](Guide& guide) {
                  guide.normal = {0.8F, 0, 0.6F};
              },
@@ -137,7 +137,7 @@ TEST(DiscontinuityFilter, LeavesWhatHasNoSurfaceAndImagesWithoutGuides) {
 
 TEST(DiscontinuityFilter, TakesImagesOfAnySizeAndSamplesThatAreNoNumbers) {
     const Accumulation all = samples_of({plain, even}, 3);
-    const Image<RgbaF> narrow = filtered_mean(all.cut_out({20, 30, 27, 31}));
+    const Image<RgbaF> narrow = filtered_mean(all.crop({20, 30, 27, 31}));
     EXPECT_EQ(narrow.width(), 7);
     EXPECT_EQ(narrow.height(), 1);
     for (const RgbaF& p : narrow.pixels()) EXPECT_NEAR(p.g, 0.5F, 0.35F);

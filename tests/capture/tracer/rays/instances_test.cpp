@@ -120,7 +120,7 @@ TEST(Instances, MovesBuildNoTriangleTreeAgainAndGiveTheBitsOfANewScene) {
     Scene scene = moving_scene();
     Tracer tracer = tracer_of(scene);
     const Tracer::Builds before = tracer.builds();
-    EXPECT_EQ(before.of_triangles, 3);  // what stands still, and two parts
+    EXPECT_EQ(before.triangle_trees, 3);  // what stands still, and two parts
     for (int step = 1; step <= 20; ++step) {
         for (std::size_t i = 0; i < scene.instances.size(); ++i) {
             scene.instances[i].world_from_part =
@@ -129,10 +129,10 @@ TEST(Instances, MovesBuildNoTriangleTreeAgainAndGiveTheBitsOfANewScene) {
         }
         tracer.commit();
     }
-    EXPECT_EQ(tracer.builds().of_triangles, before.of_triangles);
-    EXPECT_EQ(tracer.builds().of_instances, before.of_instances + 20);
+    EXPECT_EQ(tracer.builds().triangle_trees, before.triangle_trees);
+    EXPECT_EQ(tracer.builds().instance_trees, before.instance_trees + 20);
     tracer.commit();  // nothing has moved
-    EXPECT_EQ(tracer.builds().of_instances, before.of_instances + 20);
+    EXPECT_EQ(tracer.builds().instance_trees, before.instance_trees + 20);
     const RenderOptions options = options_of(RenderMethod::kPath, 2);
     EXPECT_EQ(tracer.render(moving_camera(48), options).image, render(scene, moving_camera(48), options).image);
 }

@@ -1,4 +1,4 @@
-#include "rayspace/light/file_words.hpp"
+#include "rayspace/light/photometric_text.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -7,9 +7,9 @@
 namespace rs {
 namespace {
 
-constexpr std::string_view kSeparators = " \t\v\f,\x1a";  // DOS ended files by 0x1a
+constexpr std::string_view kSeparators = " \t\v\f,\x1a";  // 0x1a: end-of-file character of DOS
 
-// The length of the UTF-8 character at the beginning; 0 where there is none.
+// Length of the UTF-8 character at the beginning; 0 if invalid.
 std::size_t utf8_length(std::string_view bytes) {
     const auto lead = static_cast<unsigned char>(bytes.front());
     const std::size_t length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : (lead & 0xF0U) == 0xE0 ? 3 : 0;
@@ -52,7 +52,7 @@ std::string utf8_text(std::string_view bytes) {
         } else if (code < 0x80 || utf8) {
             text += c;
         } else if (code < 0xA0) {
-            text += '?';  // a control character of Latin-1, mostly a quotation mark of Windows
+            text += '?';  // Latin-1 control character, usually a Windows-1252 quotation mark
         } else {
             text += static_cast<char>(0xC0U | (code >> 6U));
             text += static_cast<char>(0x80U | (code & 0x3FU));
@@ -91,12 +91,12 @@ Error NumberStream::error(const std::string& problem) const {
 }
 
 Result<double> NumberStream::next(const std::string& what) {
-    if (!skip_spaces()) return error("the file ends where " + what + " should stand; is it whole?");
+    if (!skip_spaces()) return error("the file ends before " + what + "; check that it is complete");
     const std::string_view rest = lines_[line_].substr(column_);
     const std::string_view word = rest.substr(0, std::min(rest.find_first_of(kSeparators), rest.size()));
     double number = 0;
     if (!parse_number(word, number)) {
-        return error("'" + utf8_text(word.substr(0, 40)) + "' where " + what + " should stand");
+        return error("'" + utf8_text(word.substr(0, 40)) + "' is not a number; expected " + what);
     }
     column_ += word.size();
     return number;
@@ -111,7 +111,7 @@ Result<std::vector<double>> NumberStream::next(std::size_t count, const std::str
     return numbers;
 }
 
-Result<int> NumberStream::next_whole(const std::string& what, int least, int most) {
+Result<int> NumberStream::next_integer(const std::string& what, int least, int most) {
     RS_ASSIGN_OR_RETURN(const double number, next(what));
     if (number != std::floor(number) || number < least || number > most) {
         return error(what + " is " + std::to_string(number) + "; it must be a whole number, " + std::to_string(least) +

@@ -1,6 +1,6 @@
 #pragma once
-// The instances of a scene in Embree: each part is a tree of its own that is built once; above them stands one small
-// tree over the instances, and whoever moves an instance touches that only. Part of ray_scene.
+// Two-level acceleration structure for the instances of a scene: one tree per part, built once, and a small tree over
+// the instances, the only one rebuilt when instances move. Part of ray_scene.
 
 #include "capture/tracer/rays/mesh_tree.hpp"
 
@@ -10,25 +10,25 @@
 
 namespace rs::capture {
 
-// How an instance stands at one time.
-struct PlacedAt {
+// Transform of an instance at one time.
+struct InstanceTransform {
     glm::mat4 world_from_part;
-    glm::mat3 normals;  // the inverse of its upper left part, transposed
+    glm::mat3 normals;  // inverse transpose of its upper left part
 };
 
-class MovingParts {
+class InstanceTree {
 public:
-    // Refers to `scene`, whose matrices may change between calls of update().
-    static Result<MovingParts> build(RTCDeviceTy* device, const Scene& scene);
+    /// Keeps a reference to `scene`, whose instance matrices may change before calls of update().
+    static Result<InstanceTree> build(RTCDeviceTy* device, const Scene& scene);
 
-    // Takes the matrices of these instances from the scene. Not while rays are traced.
+    /// Reads the matrices of these instances from the scene. Not thread-safe with tracing.
     void update(std::span<const std::size_t> moved);
 
     [[nodiscard]] RTCSceneTy* embree() const { return top_.get(); }
-    [[nodiscard]] PlacedAt placed_at(std::size_t instance, float time) const;
-    // Whether anything moves while the shutter is open.
+    [[nodiscard]] InstanceTransform transform_at(std::size_t instance, float time) const;
+    // Returns true if any instance moves while the shutter is open.
     [[nodiscard]] bool blurred() const { return blurred_ > 0; }
-    [[nodiscard]] const glm::vec3& lower() const { return lower_; }  // of the boxes of all instances, moves included
+    [[nodiscard]] const glm::vec3& lower() const { return lower_; }  // bounds of all instances over the shutter time
     [[nodiscard]] const glm::vec3& upper() const { return upper_; }
     [[nodiscard]] bool empty() const { return lower_.x > upper_.x; }
     [[nodiscard]] std::int64_t top_builds() const { return top_builds_; }
@@ -36,7 +36,7 @@ public:
 private:
     struct Placement {
         glm::mat4 open{1.0F}, close{1.0F};
-        glm::mat3 normals{1.0F};  // at the opening
+        glm::mat3 normals{1.0F};  // for `open`
         bool blurred = false;
         glm::vec3 lower{1.0F}, upper{-1.0F};
     };
@@ -45,7 +45,7 @@ private:
     void commit();
 
     const Scene* scene_ = nullptr;
-    std::vector<MeshTree> trees_;  // of the parts
+    std::vector<MeshTree> trees_;  // [part]
     EmbreeScene top_;
     std::vector<Placement> placements_;
     int blurred_ = 0;

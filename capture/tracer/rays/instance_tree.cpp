@@ -1,4 +1,4 @@
-#include "capture/tracer/rays/moving_parts.hpp"
+#include "capture/tracer/rays/instance_tree.hpp"
 
 #include <embree3/rtcore.h>
 #include <oneapi/tbb/task_arena.h>
@@ -11,36 +11,36 @@ namespace rs::capture {
 
 namespace {
 
-glm::mat3 for_normals(const glm::dmat4& world_from_part) {
+glm::mat3 normal_matrix(const glm::dmat4& world_from_part) {
     return glm::mat3(glm::transpose(glm::inverse(glm::dmat3(world_from_part))));
 }
 
 }  // namespace
 
-Result<MovingParts> MovingParts::build(RTCDeviceTy* device, const Scene& scene) {
-    MovingParts moving;
-    moving.scene_ = &scene;
+Result<InstanceTree> InstanceTree::build(RTCDeviceTy* device, const Scene& scene) {
+    InstanceTree tree_set;
+    tree_set.scene_ = &scene;
     for (const Part& part : scene.parts) {
         RS_ASSIGN_OR_RETURN(MeshTree tree, MeshTree::build(device, part.meshes, scene));
-        moving.trees_.push_back(std::move(tree));
+        tree_set.trees_.push_back(std::move(tree));
     }
-    moving.top_.reset(rtcNewScene(device));
-    rtcSetSceneFlags(moving.top_.get(), RTC_SCENE_FLAG_ROBUST);
-    moving.placements_.resize(scene.instances.size());
+    tree_set.top_.reset(rtcNewScene(device));
+    rtcSetSceneFlags(tree_set.top_.get(), RTC_SCENE_FLAG_ROBUST);
+    tree_set.placements_.resize(scene.instances.size());
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
-        const MeshTree& tree = moving.trees_[scene.instances[i].part];
+        const MeshTree& tree = tree_set.trees_[scene.instances[i].part];
         if (tree.empty()) continue;
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
         rtcSetGeometryInstancedScene(geometry, tree.embree());
-        rtcAttachGeometryByID(moving.top_.get(), geometry, static_cast<unsigned>(i));
+        rtcAttachGeometryByID(tree_set.top_.get(), geometry, static_cast<unsigned>(i));
         rtcReleaseGeometry(geometry);
-        moving.place(i);
+        tree_set.place(i);
     }
-    moving.commit();
-    return moving;
+    tree_set.commit();
+    return tree_set;
 }
 
-void MovingParts::place(std::size_t instance) {
+void InstanceTree::place(std::size_t instance) {
     const Instance& from = scene_->instances[instance];
     const MeshTree& tree = trees_[from.part];
     if (tree.empty()) return;
@@ -49,7 +49,7 @@ void MovingParts::place(std::size_t instance) {
     to.blurred = from.at_close.has_value();
     to.open = glm::mat4(from.world_from_part);
     to.close = glm::mat4(from.at_close.value_or(from.world_from_part));
-    to.normals = for_normals(from.world_from_part);
+    to.normals = normal_matrix(from.world_from_part);
     to.lower = glm::vec3(std::numeric_limits<float>::infinity());
     to.upper = -to.lower;
     for (unsigned corner = 0; corner < 8; ++corner) {
@@ -70,8 +70,8 @@ void MovingParts::place(std::size_t instance) {
     rtcCommitGeometry(geometry);
 }
 
-void MovingParts::commit() {
-    // One thread, so that the tree does not depend on their number (ray_scene.cpp).
+void InstanceTree::commit() {
+    // One thread, so that the tree does not depend on the number of threads (ray_scene.cpp).
     tbb::task_arena one_thread(1);
     one_thread.execute([&] { rtcCommitScene(top_.get()); });
     ++top_builds_;
@@ -88,16 +88,16 @@ void MovingParts::commit() {
     }
 }
 
-void MovingParts::update(std::span<const std::size_t> moved) {
+void InstanceTree::update(std::span<const std::size_t> moved) {
     for (const std::size_t instance : moved) place(instance);
     if (!moved.empty()) commit();
 }
 
-PlacedAt MovingParts::placed_at(std::size_t instance, float time) const {
+InstanceTransform InstanceTree::transform_at(std::size_t instance, float time) const {
     const Placement& placement = placements_[instance];
     if (!placement.blurred) return {placement.open, placement.normals};
     const glm::mat4 at = placement.open * (1.0F - time) + placement.close * time;
-    return {at, for_normals(glm::dmat4(at))};
+    return {at, normal_matrix(glm::dmat4(at))};
 }
 
 }  // namespace rs::capture
