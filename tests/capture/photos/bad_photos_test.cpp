@@ -26,7 +26,7 @@ TEST_F(BadPhotos, BlurredImagesGetARemedy) {
     soft.grain = 0.4;  // all detail gone
     for (std::size_t i = 0; i < test::kViews; ++i) write(i, test::drawn_drum(soft, test::drum_model(), i));
     options_.calibration = CalibrationChoice::kTracks;
-    expect_error(AllOf(HasSubstr("points of the object can be followed"), HasSubstr("rs-capture board")));
+    expect_error(AllOf(HasSubstr("points of the object can be tracked"), HasSubstr("rs-capture board")));
 }
 
 TEST_F(BadPhotos, ARigOfOtherPhotographsIsRefused) {

@@ -99,7 +99,7 @@ TEST_F(PhotoCalibrationTest, WithoutPointsTheOutlinesAndThenAssumptionsAreTaken)
 
     options_.calibration = CalibrationChoice::kTracks;
     std::filesystem::remove_all(options_.output);
-    expect_error(AllOf(HasSubstr("points of the object can be followed"), HasSubstr("rs-capture board")));
+    expect_error(AllOf(HasSubstr("points of the object can be tracked"), HasSubstr("rs-capture board")));
 }
 
 TEST_F(PhotoCalibrationTest, AChoiceIsTakenOrFails) {
