@@ -41,7 +41,7 @@ public:
         : ConnectedComponents(mask, connectivity, cv::Rect({0, 0}, mask.size())) {}
 
     /// 4-connected components of the zero pixels of `mask`. Only the bounding box of the mask plus one pixel is
-    /// labelled, and its border stands for the image border: everything beyond it is zero, so that a component that
+    /// labelled, and its border represents the image border: everything beyond it is zero, so that a component that
     /// reaches the box border also reaches the image border. Pixels outside the box have label 0.
     static ConnectedComponents of_complement(const cv::Mat1b& mask) {
         const cv::Rect frame = box_around(mask, 1);

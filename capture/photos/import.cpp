@@ -59,13 +59,13 @@ PhotoRequest photo_request(const ImportOptions& options) {
 Status check_places(const ImportOptions& options) {
     std::error_code failure;
     const fs::path photos = fs::weakly_canonical(options.photos, failure);
-    if (failure) return Error{options.photos.string() + ": cannot be followed (" + failure.message() + ")"};
+    if (failure) return Error{options.photos.string() + ": cannot be resolved (" + failure.message() + ")"};
     const fs::path output = fs::weakly_canonical(options.output, failure);
-    if (failure) return Error{options.output.string() + ": cannot be followed (" + failure.message() + ")"};
+    if (failure) return Error{options.output.string() + ": cannot be resolved (" + failure.message() + ")"};
     const auto [rest, inner] = std::mismatch(output.begin(), output.end(), photos.begin(), photos.end());
     if (rest != output.end()) return {};
     return Error{options.output.string() + ": " + (photos == output ? "is" : "contains") +
-                 (is_film(options.photos) ? " the film " : " the folder of photographs ") + options.photos.string() +
+                 (is_film(options.photos) ? " the video " : " the folder of photos ") + options.photos.string() +
                  ", which would be replaced; give another place with -o"};
 }
 
@@ -135,7 +135,7 @@ Status check_count(const PhotoFolder& folder, const ImportOptions& options) {
                          (options.known.known.pose && options.known.known.angles_rad);
     if (count >= kFewest || is_told) return {};
     return Error{options.photos.string() + ": holds " + std::to_string(count) + (count == 1 ? " image" : " images") +
-                 "; a turn has 5 and more, better 36. With --calibration nominal what is there is taken for one"};
+                 "; a turn needs at least 5, better 36. With --calibration nominal any number is accepted"};
 }
 
 Result<ImportReport> import_checked(const ImportOptions& options, Progress* progress) {
@@ -145,7 +145,7 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
         return turned_beside(folder, "--masks " + options.segmentation.masks.string());
     }
     RS_TRY(check_count(folder, options));
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(options.output, "imported photographs"));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(options.output, "imported photos"));
     const fs::path set = staged.temporary_path();
     const fs::path cut = set / "cut";
     for (const fs::path& inner : {cut, set / "images"}) {

@@ -117,10 +117,9 @@ Status run_luminaire(const LuminaireCommandLine& given) {
 
 void add_luminaire_command(CLI::App& app, std::function<Status()>& run) {
     auto given = std::make_shared<LuminaireCommandLine>();
-    CLI::App* command =
-        app.add_subcommand("luminaire", "Tells how much light a measured luminaire gives, and where to");
+    CLI::App* command = app.add_subcommand("luminaire", "Print the light distribution of a measured luminaire");
     command->add_option("FILE", given->file, "IES (LM-63, all editions) or EULUMDAT (.ldt) file")->required();
-    command->add_flag("--json", given->json, "Print what was found as JSON");
+    command->add_flag("--json", given->json, "Print the results as JSON");
     command->add_option("-o,--output", given->plot, "Polar plot to write (.svg)")->check(ends_in({".svg"}));
     command->footer("Example: rs-capture luminaire downlight.ies -o downlight.svg");
     command->callback([given, &run] { run = [given] { return run_luminaire(*given); }; });

@@ -31,8 +31,8 @@
 namespace rs::capture {
 namespace {
 
-// Output folders must not swallow what they are made of.
-// Where `path` is once links are followed, and where its name is, which differs where it is a link itself.
+// The path with links resolved, and its location by name, which differs if the path itself is a link. Output folders
+// must not contain their inputs.
 std::vector<std::filesystem::path> places_of(const std::filesystem::path& path) {
     std::error_code ignored;
     const std::filesystem::path plain = path.has_filename() ? path : path.parent_path();  // "set/" is "set"
@@ -57,7 +57,7 @@ Status check_output_keeps(const std::filesystem::path& output, const std::filesy
     return {};
 }
 
-// What the command line gives; empty where the recipe decides.
+// Command-line options; empty if the recipe's value applies.
 struct Options {
     std::filesystem::path scene;
     std::filesystem::path output;
@@ -101,7 +101,7 @@ Status print_objects(bool as_json) {
     return {};
 }
 
-// CLI11's own reader takes "-1" for the largest number and "010" for 8.
+// Strict parser: CLI11's accepts "-1" as the largest number and "010" as 8.
 Result<std::uint64_t> parse_seed(const std::string& text) {
     std::uint64_t seed = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
@@ -111,7 +111,7 @@ Result<std::uint64_t> parse_seed(const std::string& text) {
     return seed;
 }
 
-// The value, or wrong usage of `option`.
+// The value; an error becomes a usage error of `option`.
 template <class T>
 T parsed(const std::string& option, const Result<T>& value) {
     if (!value) throw CLI::ValidationError(option, value.error().message);
@@ -125,13 +125,13 @@ Status check_usage(const Options& options) {
                       options.distance_radii || options.focal_widths;
     if (!options.poses.empty() && ring) {
         return Error{
-            "--poses: the file says where the cameras are; leave out --views, --size, --elevation, --first-angle, "
+            "--poses: the file defines the cameras; leave out --views, --size, --elevation, --first-angle, "
             "--distance and --focal-widths"};
     }
-    if (!options.as_photos.asked) return {};
+    if (!options.as_photos.is_enabled) return {};
     if (!options.poses.empty() || options.first_angle_deg != 0 || options.depth || options.format != "png") {
         return Error{
-            "--as-photos: the truth says where the camera is; leave out --poses, --first-angle, --depth and "
+            "--as-photos: the camera is generated; leave out --poses, --first-angle, --depth and "
             "--format"};
     }
     if (options.elevation_deg && !(*options.elevation_deg >= 0 && *options.elevation_deg <= 85)) {
@@ -143,7 +143,7 @@ Status check_usage(const Options& options) {
 Result<Rig> choose_rig(const Options& options, const SceneFile& file) {
     if (!options.poses.empty()) {
         RS_ASSIGN_OR_RETURN(Rig posed, read_rig(options.poses));
-        Rig rig;  // keys of the other set, such as its generator's, are not ours
+        Rig rig;  // keys of the other set, such as its generator's, are not copied
         for (const RigView& view : posed.views) {
             if (view.camera.width == 0 || view.camera.height == 0) {
                 return Error{options.poses.string() + ": has no image sizes; add \"w\" and \"h\""};
@@ -167,7 +167,7 @@ Result<Rig> choose_rig(const Options& options, const SceneFile& file) {
     return make_ring(ring);
 }
 
-// What a run has made, for its summary.
+// Results of a run, for the summary.
 struct Made {
     CaptureSetSummary summary;
     PixelSize size;
@@ -227,7 +227,8 @@ Result<Made> make_set(const Options& options, SceneFile file, Progress& progress
 
 Result<Made> make_photos(const Options& options, const SceneFile& file, Progress& progress) {
     if (file.toon) {
-        return Error{options.scene.string() + ": \"look\": \"toon\" is no photograph; leave out --as-photos"};
+        return Error{options.scene.string() +
+                     ": \"look\": \"toon\" cannot be rendered as photos; leave out --as-photos"};
     }
     PhotoOptions photos = options.as_photos.photos;
     SessionOptions& session = photos.session;
@@ -259,15 +260,14 @@ Status synthesise(const Options& options) {
         if (Status kept = check_output_keeps(options.output, input); !kept) return kept;
     }
     RS_ASSIGN_OR_RETURN(SceneFile file, load_scene_file(options.scene, synthetic::generate));
-    if (options.as_photos.asked && file.scene.has_surroundings()) {
-        return Error{
-            options.scene.string() +
-            ": photographs are taken in a studio of their own; leave out the recipe's \"room\", or --as-photos"};
+    if (options.as_photos.is_enabled && file.scene.has_surroundings()) {
+        return Error{options.scene.string() +
+                     ": photos are rendered in a built-in studio; leave out the recipe's \"room\", or --as-photos"};
     }
     const std::string scene_name = file.scene.name;
     ProgressBar progress(options.quiet);
-    RS_ASSIGN_OR_RETURN(const Made made, options.as_photos.asked ? make_photos(options, file, progress)
-                                                                 : make_set(options, std::move(file), progress));
+    RS_ASSIGN_OR_RETURN(const Made made, options.as_photos.is_enabled ? make_photos(options, file, progress)
+                                                                      : make_set(options, std::move(file), progress));
     progress.finish();
     if (made.summary.clipped_views > 0 && !options.quiet) {
         std::fprintf(
@@ -284,7 +284,7 @@ Status synthesise(const Options& options) {
 
 void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     const auto options = std::make_shared<Options>();
-    CLI::App* synth = app.add_subcommand("synth", "Trace images of a synthetic object on a turntable");
+    CLI::App* synth = app.add_subcommand("synth", "Render images of a synthetic object on a turntable");
     synth->footer(std::string(kExamples) + kAsPhotosExamples);
     synth->add_option("SCENE", options->scene, "Mesh or recipe");
     synth->add_option("-o,--output", options->output, "Capture set to write: a folder")->type_name("SET");
@@ -306,13 +306,13 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
                      "Cameras' height above the horizon (recipe, or 0; photos: 20)")
         ->check(within(-89.0, 89.0))
         ->type_name("DEG");
-    synth->add_option("--first-angle", options->first_angle_deg, "Turns the whole ring")
+    synth->add_option("--first-angle", options->first_angle_deg, "Rotates the whole ring")
         ->check(within(-360.0, 360.0))
         ->type_name("DEG");
     synth
         ->add_option_function<std::string>(
             "--seed", [options](const std::string& text) { options->seed = parsed("--seed", parse_seed(text)); },
-            "Seed of the images' noise; the object keeps the recipe's")
+            "Seed of the image noise; the object's seed is the recipe's")
         ->type_name("N");
     synth
         ->add_option("--distance", options->distance_radii,
@@ -326,10 +326,10 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
         ->check(CLI::IsMember({"png", "exr"}))
         ->capture_default_str();
     synth->add_flag("--no-filter", options->unfiltered,
-                    "Leave the samples' noise in the images; else it is smoothed where surfaces are alike,\n"
-                    "the less the more samples there are (cartoons never are)");
+                    "Do not denoise; by default noise is smoothed within similar surfaces,\n"
+                    "less so with more samples (toon images are never denoised)");
     synth->add_flag("--depth", options->depth, "Write true axial depth beside each image (EXR)");
-    synth->add_option("--threads", options->threads, "Threads; the images do not depend on it (0 = all)")
+    synth->add_option("--threads", options->threads, "Number of threads; does not affect the images (0 = all)")
         ->check(CLI::Range(0, 1024))
         ->type_name("N");
     synth->add_flag("--list", options->list, "List the procedural objects and stop");
@@ -338,7 +338,7 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     add_as_photos_options(*synth, options->as_photos);
     synth->callback([options, &run] {
         const Status usable = options->list ? Status{} : check_usage(*options);
-        if (!usable) throw CLI::ValidationError(usable.error().message);  // wrong usage, which is not a failure
+        if (!usable) throw CLI::ValidationError(usable.error().message);  // a usage error, not a failure
         run = [options] { return synthesise(*options); };
     });
 }

@@ -117,7 +117,7 @@ TEST_F(ImportFilm, ChoosesAmongPhotosOnRequest) {
     const test::ToolRun more = import_with("60");
     ASSERT_EQ(more.exit_code, 0) << more.err;
     EXPECT_EQ(nlohmann::json::parse(more.out).at("views"), kPhotos);
-    EXPECT_THAT(nlohmann::json::parse(more.out).at("notes").front().get<std::string>(), HasSubstr("all are taken"));
+    EXPECT_THAT(nlohmann::json::parse(more.out).at("notes").front().get<std::string>(), HasSubstr("all are used"));
 }
 
 }  // namespace

@@ -84,8 +84,7 @@ TEST_F(ImportTool, TakesTheRigOfATransformsJson) {
     EXPECT_NEAR(calibration.at("tilt_deg").at("value"), 20, 1e-4);
     EXPECT_NEAR(calibration.at("angles").at(5).at("value"), 150, 1e-4);
     const std::string page = text_of("page.html");
-    for (const char* part :
-         {"<html", "numbers that were given", "focal length, px", "620.0", "data:image/", "05.png"}) {
+    for (const char* part : {"<html", "given values", "focal length, px", "620.0", "data:image/", "05.png"}) {
         EXPECT_NE(page.find(part), std::string::npos) << part;
     }
     ASSERT_TRUE(read_rig(folder_ / "set").ok());
@@ -169,7 +168,8 @@ TEST_F(ImportTool, TakesBoardAndMasksAndWritesAPage) {
     EXPECT_EQ(json.at("backdrop"), "masks");
     EXPECT_NEAR(json.at("calibration").at("tilt_deg").at("value"), 38, 0.3);
     const std::string page = text_of("page.html");
-    for (const char* part : {"the printed board on the turntable", "<table", "<svg", "Mattes on magenta", "09.png"}) {
+    for (const char* part :
+         {"the printed board on the turntable", "<table", "<svg", "Alpha mattes over magenta", "09.png"}) {
         EXPECT_NE(page.find(part), std::string::npos) << part;
     }
     const auto rig = read_rig(folder_ / "set");

@@ -16,10 +16,11 @@
 namespace rs::capture {
 namespace {
 
-// Blocks: lens (f, cx, cy, k1, k2), pose (pan, tilt, roll), board (turning vector, middle, log of units per mm), angle.
+// Blocks: lens (f, cx, cy, k1, k2), pose (pan, tilt, roll), board (angle-axis vector, middle, log of units per mm),
+// angle.
 struct CornerResidual {
     BoardObservation seen;
-    double turns = 1;  // the angle is this many times its block
+    double turns = 1;  // the view's angle is this many times its parameter block
     double noise_px = 1;
 
     template <class T>
@@ -38,7 +39,7 @@ struct CornerResidual {
     }
 };
 
-// What lenses are like, as one weak observation each (the priors of bundle.hpp; the focal length within a factor e).
+// Weak lens prior: the standard deviations of bundle.hpp, and a factor of e for the focal length.
 struct BoardLensPrior {
     double f_px = 1, cx = 0, cy = 0, principal_px = 1;
 
@@ -55,12 +56,12 @@ struct BoardLensPrior {
     }
 };
 
-// A turn as Ceres sees it.
+// Parameter blocks of a turn for Ceres.
 struct Unknowns {
     std::array<double, 5> lens;
     std::array<double, 3> pose;
     std::array<double, 7> board;
-    std::vector<double> angles;  // [view]; kCommonStep: [0] alone, the step
+    std::vector<double> angles;  // [view]; kCommonStep: [0] only, the step
 
     Unknowns(const BoardTurn& turn, AngleFreedom freedom)
         : lens{turn.model.lens.f_px, turn.model.lens.cx, turn.model.lens.cy, turn.model.lens.k1, turn.model.lens.k2},
@@ -87,7 +88,7 @@ struct Unknowns {
     }
 };
 
-// Fills `problem`; the blocks stay owned by `unknowns`.
+// Fills `problem`; the parameter blocks are owned by `unknowns`.
 void pose_problem(ceres::Problem& problem, Unknowns& unknowns, const Lens& lens, std::span<const BoardObservation> seen,
                   const BoardBundleOptions& options) {
     const bool common = options.free.angles == AngleFreedom::kCommonStep;
@@ -140,7 +141,7 @@ std::optional<double> adjust(BoardTurn& turn, std::span<const BoardObservation> 
         ceres::Problem problem;
         pose_problem(problem, unknowns, turn.model.lens, seen, options);
         ceres::Solver::Options how;
-        how.linear_solver_type = ceres::DENSE_SCHUR;  // each observation knows one angle
+        how.linear_solver_type = ceres::DENSE_SCHUR;  // each observation depends on one angle
         how.max_num_iterations = options.most_iterations;
         how.function_tolerance = 1e-10;
         how.num_threads = 1;
@@ -188,7 +189,7 @@ ModelDeviations board_deviations(const BoardTurn& turn, std::span<const BoardObs
                                      static_cast<Eigen::Index>(jacobian.values.size()), jacobian.rows.data(),
                                      jacobian.cols.data(), jacobian.values.data());
     Eigen::MatrixXd information = Eigen::MatrixXd(Sparse(j.transpose() * j));
-    // Numbers of very different sizes: pixels and radians. Scaled to ones on the diagonal.
+    // The unknowns differ greatly in scale (pixels, radians), so the diagonal is normalized to ones.
     const Eigen::VectorXd size = information.diagonal().cwiseSqrt().cwiseMax(1e-300);
     information = size.cwiseInverse().asDiagonal() * information * size.cwiseInverse().asDiagonal();
     const Eigen::LLT<Eigen::MatrixXd> solver(information);

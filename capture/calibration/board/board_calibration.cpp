@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kCornerHeldOutEvery = 10;
 constexpr double kCornerOutlierDeviations = 5;
-constexpr double kLeastNoise_px = 0.01;  // below that corners are numerically exact
+constexpr double kLeastNoise_px = 0.01;  // below that the corners are numerically exact
 constexpr double kContradiction_rad = radians(15);
 
 struct Task {
@@ -24,7 +24,7 @@ struct Task {
     const BoardDesign& design;
     const KnownInputs& known;
     std::span<const std::string> names;
-    Lens lens;  // what is known, else ordinary
+    Lens lens;  // known values, otherwise defaults
     BoardBundleOptions options;
     std::vector<BoardObservation> used, held_out;
 };
@@ -72,7 +72,7 @@ Status check(const Task& task) {
     }
     if (task.options.free.angles == AngleFreedom::kEach && !without.empty()) {
         return Error{"board: too few corners are seen in " + list_of(task.names, without) +
-                     ", so nothing tells how far the object had turned there; leave those images out, or say that the "
+                     ", so the object's angle there is undetermined; leave those images out, or state that the "
                      "steps are equal or how large they are"};
     }
     return {};
@@ -90,7 +90,7 @@ void collect(Task& task) {
     }
 }
 
-// The step that explains the start's angles, known where the board is shown; from neighbours first, then from all.
+// The median step between neighbouring views that both show the board; nothing if there are none.
 std::optional<double> common_step(const Task& task, const std::vector<double>& angles_rad) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < task.views.size(); ++i) {
@@ -101,8 +101,8 @@ std::optional<double> common_step(const Task& task, const std::vector<double>& a
     return median(std::move(steps));
 }
 
-// with_known(), counting angles from the first view's; where they are known or share a step, the board turns along, so
-// that the views shown look as before.
+// Applies with_known(), with angles relative to the first view's. If angles or step are known, the board is rotated by
+// the mean difference, so that the projections of its corners do not change.
 Status apply_known(const Task& task, BoardTurn& turn) {
     const std::vector<double> measured = turn.model.angles_rad;
     KnownInputs known = task.known;
@@ -111,7 +111,7 @@ Status apply_known(const Task& task, BoardTurn& turn) {
     } else if (known.equal_steps && !known.step_rad) {
         known.step_rad = common_step(task, measured);
         if (!known.step_rad) {
-            return Error{"board: no two neighbouring views show it, so the step is not known; give the step"};
+            return Error{"board: no two neighbouring views show it, so the step is unknown; give the step"};
         }
     }
     turn.model = with_known(std::move(turn.model), known);
@@ -119,7 +119,7 @@ Status apply_known(const Task& task, BoardTurn& turn) {
     const std::vector<double>& angles = turn.model.angles_rad;
     std::size_t first = 0;
     while (!shows_board(task.views[first], task.design)) ++first;
-    // Turning by the mean difference; the first view's own alone would carry its error into all.
+    // Rotates by the mean difference; the difference of the first view alone would spread its error to all views.
     glm::dvec2 mean(0);
     for (std::size_t i = 0; i < angles.size(); ++i) {
         if (!shows_board(task.views[i], task.design)) continue;
@@ -144,7 +144,7 @@ Status apply_known(const Task& task, BoardTurn& turn) {
     return {};
 }
 
-// The best of several starts after a few rounds of adjustment.
+// The best of several starts after a few iterations of adjustment.
 Result<BoardTurn> best_start(const Task& task) {
     std::vector<double> focal_lengths{task.lens.f_px};
     if (!task.known.f_px) focal_lengths = likely_focal_lengths(task.views, task.design, task.lens);
@@ -173,10 +173,10 @@ Result<BoardTurn> best_start(const Task& task) {
     if (refused) return *refused;
     return Error{
         "board: no turn about one axis explains its corners; check that only the turntable turned, and that the board "
-        "lay still on it"};
+        "did not move on it"};
 }
 
-// Standard deviation of a coordinate, from the median length of residuals (Rayleigh's distribution).
+// Standard deviation of a coordinate, from the median length of the residuals (Rayleigh distribution).
 double robust_noise_px(const BoardTurn& turn, std::span<const BoardObservation> seen) {
     std::vector<double> lengths;
     for (const BoardObservation& one : seen) {
@@ -211,11 +211,12 @@ std::vector<std::string> warnings_about(const Task& task, const Calibration& c) 
     }
     if (c.deviations.f_px > 0.02 * c.model.lens.f_px) {
         warnings.emplace_back(
-            "the board hardly tells the focal length; photograph it from 20 to 60 degrees above, larger in the "
-            "picture");
+            "the board hardly determines the focal length; take photos of it from 20 to 60 degrees above, larger in "
+            "the "
+            "image");
     }
     if (c.deviations.cx > 0.02 * c.model.lens.width || c.deviations.cy > 0.02 * c.model.lens.width) {
-        warnings.emplace_back("a level board hardly tells the principal point; leave it at the image's middle");
+        warnings.emplace_back("a level board hardly determines the principal point; leave it at the image centre");
     }
     if (c.rms_px > 1.0) {
         warnings.emplace_back(
@@ -224,7 +225,7 @@ std::vector<std::string> warnings_about(const Task& task, const Calibration& c) 
     }
     if (task.known.counter_clockwise && *task.known.counter_clockwise != (c.step_rad > 0)) {
         warnings.emplace_back(std::string("the board turns ") + (c.step_rad > 0 ? "counter-clockwise" : "clockwise") +
-                              ", which is not what was given; the board is believed");
+                              ", which is not the direction given; that of the board is used");
     }
     return warnings;
 }
@@ -247,13 +248,13 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
     std::vector<BoardObservation> used = task.used;
     for (int round = 0; round < 4; ++round) {
         task.options.noise_px = robust_noise_px(turn, used);
-        // Observations lost to a poor start get another chance.
+        // Observations rejected because of a poor start are reconsidered.
         used = within(turn, task.used, kCornerOutlierDeviations * task.options.noise_px);
         if (!adjust(turn, used, task.options)) {
             return Error{"board: the adjustment fails; check that the images are of one turn and in order"};
         }
     }
-    std::vector<std::size_t> against;  // views of which nothing is left have no angle of their own
+    std::vector<std::size_t> against;  // views without inliers have no angle of their own
     for (std::size_t i = 0; i < views.size() && free.angles == AngleFreedom::kEach; ++i) {
         const bool left =
             std::any_of(used.begin(), used.end(), [&](const auto& one) { return one.view == static_cast<int>(i); });
@@ -262,9 +263,10 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
     if (!against.empty()) {
         return Error{
             "board: its corners in " + list_of(names, against) +
-            " contradict all others; leave those images out, or check that the board lay still on the turntable"};
+            " contradict all others; leave those images out, or check that the board did not move on the turntable"};
     }
-    // The residual variance, for the deviations: each observation has two coordinates, each unknown takes one.
+    // Residual variance, for the deviations: each observation has two coordinates, each unknown takes one degree of
+    // freedom.
     std::set<int> shown, corners;
     for (const BoardObservation& one : used) shown.insert(one.view);
     const double unknowns = 13 + (free.angles == AngleFreedom::kEach ? static_cast<double>(shown.size()) - 1 : 1);

@@ -20,7 +20,7 @@ namespace rs::capture {
 namespace {
 
 constexpr double kPoints_per_mm = 72.0 / 25.4;
-constexpr double kPaperEdge_mm = 8;  // printers leave that much white
+constexpr double kPaperEdge_mm = 8;  // unprintable margin of most printers
 constexpr double kSmallPrint_mm = 2.4;
 constexpr double kSmallPrintLine_mm = 2 * kSmallPrint_mm;  // with the gap above it
 
@@ -39,7 +39,7 @@ constexpr std::array<Paper, 8> kPapers{{{"a5", 148, 210},
 
 std::ostringstream plain_text() {
     std::ostringstream text;
-    text.imbue(std::locale::classic());  // points, not commas
+    text.imbue(std::locale::classic());  // decimal points, not commas
     text << std::fixed;
     text.precision(4);
     return text;
@@ -64,7 +64,7 @@ std::string small_print(const BoardDesign& design) {
            trimmed(design.square_mm) + " mm wide.";
 }
 
-// Room for the board on a sheet, the small print taken off.
+// Printable size of a sheet for the board, without the caption.
 glm::dvec2 room_mm(double width_mm, double height_mm) {
     return {width_mm - 2 * kPaperEdge_mm, height_mm - 2 * kPaperEdge_mm - kSmallPrintLine_mm};
 }
@@ -74,7 +74,7 @@ bool fits(const BoardDesign& design, double width_mm, double height_mm) {
     return board_width_mm(design) <= room.x && board_height_mm(design) <= room.y;
 }
 
-// The sheet's size as it is laid down, or nothing.
+// Sheet size in the orientation that fits the board, portrait preferred; nothing if neither does.
 std::optional<glm::dvec2> laid_paper(const BoardDesign& design, const Paper& paper) {
     if (fits(design, paper.width_mm, paper.height_mm)) return glm::dvec2(paper.width_mm, paper.height_mm);
     if (fits(design, paper.height_mm, paper.width_mm)) return glm::dvec2(paper.height_mm, paper.width_mm);
@@ -105,13 +105,13 @@ std::string does_not_fit(const BoardDesign& design, const Paper& paper) {
     return message;
 }
 
-// A PDF of one page: the objects one after the other and the table of where each begins.
+// A PDF of one page: header, objects, cross-reference table of their offsets, trailer.
 std::string pdf_file(double width_mm, double height_mm, const std::string& content) {
     std::ostringstream page = plain_text();
     page << "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 " << width_mm * kPoints_per_mm << " "
          << height_mm * kPoints_per_mm << "] /Contents 4 0 R /Resources << /Font << /F1 5 0 R >> >> >>";
     const std::array<std::string, 6> objects{
-        // PrintScaling keeps the viewer from shrinking the page.
+        // PrintScaling /None prevents viewers from shrinking the page.
         "<< /Type /Catalog /Pages 2 0 R /ViewerPreferences << /PrintScaling /None >> >>",
         "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
         page.str(),
@@ -162,7 +162,7 @@ Result<std::string> board_pdf(const BoardDesign& design, const std::string& pape
     content << "q\n"
             << kPoints_per_mm << " 0 0 " << -kPoints_per_mm << " " << left * kPoints_per_mm << " "
             << (sheet->y - top) * kPoints_per_mm << " cm\n0 g\n";  // from here in millimetres, y down
-    // One path for all, filled at once: where two rectangles touch, no hairline shows.
+    // All rectangles are one path, filled at once, so that no hairline shows where two touch.
     for (const InkRectangle& r : ink_of(design)) {
         content << r.x_mm << " " << r.y_mm << " " << r.width_mm << " " << r.height_mm << " re\n";
     }
@@ -226,7 +226,7 @@ Result<Image<Rgba8>> board_image(const BoardDesign& design, double dpi) {
         cv::putText(ink, text, {static_cast<int>(0.5 * border * px_per_mm), static_cast<int>(base_y)},
                     cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar(1), 1, cv::LINE_8);
     } catch (const cv::Exception& e) {
-        return Error{"board: the small print could not be drawn: " + std::string(e.what())};
+        return Error{"board: the caption could not be drawn: " + std::string(e.what())};
     }
     Image<Rgba8> image(width, height);
     for (int y = 0; y < height; ++y) {
@@ -245,7 +245,7 @@ Status write_board(const std::filesystem::path& path, const SheetOptions& option
         return write_png(path, image.view());
     }
     if (ending != ".pdf" && ending != ".svg") {
-        return Error{path.string() + ": a board is written as .pdf, .svg or .png; give a name that ends so"};
+        return Error{path.string() + ": unknown extension; a board is written as .pdf, .svg or .png"};
     }
     RS_ASSIGN_OR_RETURN(const std::string text,
                         ending == ".pdf" ? board_pdf(options.design, options.paper) : board_svg(options.design));

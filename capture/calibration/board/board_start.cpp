@@ -14,15 +14,15 @@
 namespace rs::capture {
 namespace {
 
-// The camera's pose relative to the board: p_in_camera = rotation * p_in_board + translation, mm, camera axes of
+// The camera's pose relative to the board: p_in_camera = rotation * p_in_board + translation, in mm, camera axes as in
 // turntable_model.hpp.
 struct BoardPose {
     Eigen::Matrix3d rotation;
     Eigen::Vector3d translation;
 };
 
-// From (u, v) in board sizes to directions (x, y, 1), y down, of a camera of focal length `unit_px`. Nothing where the
-// view does not show enough.
+// Homography from (u, v) in units of `unit_mm` to directions (x, y, 1), y down, of a camera of focal length `unit_px`.
+// Nothing if the view has too few corners.
 std::optional<Eigen::Matrix3d> homography(const BoardCorners& view, const BoardDesign& design, const Lens& lens,
                                           double unit_px, double unit_mm) {
     if (!shows_board(view, design)) return std::nullopt;
@@ -58,14 +58,14 @@ double board_size_mm(const BoardDesign& design) {
 }
 
 std::optional<BoardPose> pose_from(Eigen::Matrix3d h, double unit_mm) {
-    if (h(2, 2) < 0) h = -h;  // before the camera
+    if (h(2, 2) < 0) h = -h;  // in front of the camera
     Eigen::Matrix3d frame = h;
     frame.col(2) = h.col(0).cross(h.col(1));
     const Eigen::Matrix3d turned = nearest_rotation(frame);
     // Half the sum of the singular values of the first two columns.
     const double scale = turned.leftCols<2>().cwiseProduct(h.leftCols<2>()).sum() / 2;
     if (!(scale > 1e-12)) return std::nullopt;
-    const Eigen::Vector3d flip(1, -1, -1);  // from y down, z forward
+    const Eigen::Vector3d flip(1, -1, -1);  // from y down, z forward to y up, z backward
     BoardPose pose;
     pose.rotation.col(0) = flip.cwiseProduct(turned.col(0));
     pose.rotation.col(2) = flip.cwiseProduct(turned.col(1));
@@ -75,12 +75,12 @@ std::optional<BoardPose> pose_from(Eigen::Matrix3d h, double unit_mm) {
 }
 
 struct Axis {
-    Eigen::Vector3d direction;      // up, where the board's printed side looks
+    Eigen::Vector3d direction;      // up, the direction of the printed side
     Eigen::Vector3d closest_point;  // to the camera, mm
 };
 
 std::optional<Axis> axis_of(const std::vector<BoardPose>& poses) {
-    // Directions of the board circle about the axis, so they spread least along it.
+    // The board's directions rotate about the axis, so their scatter is smallest along it.
     Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
     Eigen::Vector3d face = Eigen::Vector3d::Zero();
     for (int k = 0; k < 3; ++k) {
@@ -96,8 +96,8 @@ std::optional<Axis> axis_of(const std::vector<BoardPose>& poses) {
     if (directions.info() != Eigen::Success || !(directions.eigenvalues()(1) > 1e-6)) return std::nullopt;
     Axis axis{directions.eigenvectors().col(0), {}};
     if (axis.direction.dot(face) < 0) axis.direction = -axis.direction;
-    // A point of the board that stands still, and where: rotation * b + translation = c for all views. Both may slide
-    // along the axis; of those solutions the shortest is taken.
+    // A point b of the board that is fixed in the camera frame, at c: rotation * b + translation = c for all views.
+    // Both may slide along the axis; the solution of minimum norm is taken.
     cv::Mat_<double> a(3 * static_cast<int>(poses.size()), 6, 0.0), rhs(a.rows, 1);
     for (int row = 0; row < a.rows; ++row) {
         const BoardPose& pose = poses[static_cast<std::size_t>(row / 3)];
@@ -141,7 +141,7 @@ bool shows_board(const BoardCorners& view, const BoardDesign& design) {
 std::vector<double> likely_focal_lengths(std::span<const BoardCorners> views, const BoardDesign& design,
                                          const Lens& lens) {
     const double side_px = std::max(lens.width, lens.height);
-    // With w = 1 / f^2 the images of the board's two directions are perpendicular and of one length: linear in w.
+    // With w = 1 / f^2 the images of the board's two directions are perpendicular and of equal length: linear in w.
     double square = 0, product = 0;
     for (const BoardCorners& view : views) {
         auto h = homography(view, design, lens, side_px, board_size_mm(design));
@@ -156,7 +156,7 @@ std::vector<double> likely_focal_lengths(std::span<const BoardCorners> views, co
         }
     }
     std::vector<double> likely;
-    // p / f^2 + q = 0, so f^2 = -p / q in the least squares' sense.
+    // p / f^2 + q = 0, so f^2 = -p / q in the least-squares sense.
     if (product > 0) {
         const double f2 = product / square;
         if (f2 > 0.04 && f2 < 900) likely.push_back(std::sqrt(f2) * side_px);

@@ -1,10 +1,10 @@
 #pragma once
-// First values for calibrating with a board, from the corners alone. Stands between detection and the bundle.
+// Initial values for calibrating with a board, from the corners alone. Runs between detection and bundle adjustment.
 //
 // Each view's homography from the board's plane to the image gives the camera's pose relative to the board once the
-// focal length is known, and the focal length itself follows from the homographies where the board is seen obliquely
-// (Zhang, "A flexible new technique for camera calibration", 2000). The board turns with the disc, so the axis is the
-// direction, and the line, that stands still relative to the camera.
+// focal length is known; the focal length follows from the homographies of oblique views (Zhang, "A flexible new
+// technique for camera calibration", 2000). The board turns with the disc, so the axis is the line that is fixed
+// relative to the camera.
 
 #include "capture/calibration/board/board_detection.hpp"
 #include "capture/calibration/model/turntable_model.hpp"
@@ -15,7 +15,7 @@
 
 namespace rs::capture {
 
-// Where the board lies: p_in_object = units_per_mm * object_from_board * p_in_board + middle, at angle 0.
+// Placement of the board at angle 0: p_in_object = units_per_mm * object_from_board * p_in_board + middle.
 struct BoardPlacement {
     glm::dmat3 object_from_board{1};
     glm::dvec3 middle{0};
@@ -29,16 +29,16 @@ struct BoardTurn {
 
 inline constexpr std::size_t kFewestCornersOfView = 6;
 
-// Enough corners, and not all on one line.
+// True if the view has enough corners that are not all on one line.
 bool shows_board(const BoardCorners& view, const BoardDesign& design);
 
-// Focal lengths to begin from, the likeliest first; `lens` gives the size and the principal point.
+// Candidate focal lengths in px, the likeliest first; `lens` gives the image size and the principal point.
 std::vector<double> likely_focal_lengths(std::span<const BoardCorners> views, const BoardDesign& design,
                                          const Lens& lens);
 
-// All numbers for a lens. Angles count from the first view that shows the board and are as near as can be to the view
-// before; those of views that do not show it are 0. Nothing where fewer than three views show the board or no axis is
-// found.
+// Estimates pose, angles and board placement for a lens. Angles are relative to the first view that shows the board and
+// differ by at most half a turn from that of the view before; those of views without the board are 0. Returns nothing
+// if fewer than three views show the board or no axis is found.
 std::optional<BoardTurn> board_start(std::span<const BoardCorners> views, const BoardDesign& design, const Lens& lens);
 
 }  // namespace rs::capture

@@ -45,9 +45,11 @@ constexpr std::size_t kMaxName_bytes = 4096;
 constexpr std::size_t kNumbersPerView = 21;
 constexpr double kMaxNumber = 1e9;
 constexpr double kRigidTolerance = 1e-3;
-constexpr double kSameIntrinsics = 1e-4;  // of f
+constexpr double kSameIntrinsics = 1e-4;  // relative to f
 
-// Words between blanks; a line ends at '\n' or "\r\n".
+// Splits a line at blanks; a line ends at '
+// ' or "\r
+// ".
 class Words {
 public:
     explicit Words(std::string_view line) : rest_(line) {}
@@ -93,7 +95,7 @@ Result<MiddleburyView> view_from(std::string_view line, const std::string& place
     Words words(line);
     MiddleburyView view;
     view.name = std::string(words.next());
-    if (view.name.empty()) return Error{place + " is empty; a view's name and 21 numbers belong there"};
+    if (view.name.empty()) return Error{place + " is empty; a view's name and 21 numbers are expected"};
     if (view.name.size() > kMaxName_bytes) return Error{place + ": the image's name is too long"};
     std::array<double, kNumbersPerView> numbers{};
     for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -102,14 +104,15 @@ Result<MiddleburyView> view_from(std::string_view line, const std::string& place
         if (!number) {
             return Error{place + ": number " + std::to_string(i + 1) +
                          (word.empty() ? " is missing" : " is not a finite number") +
-                         "; a view's name, k11..k33, r11..r33 and t1..t3 belong there"};
+                         "; a view's name, k11..k33, r11..r33 and t1..t3 are expected"};
         }
         numbers[i] = *number;
     }
     if (!words.next().empty()) return Error{place + " has more than a name and 21 numbers"};
 
     std::copy_n(numbers.begin(), 9, view.k.begin());
-    // p_in_camera = R p + t with y down and z forward: rows right, down, forward. Ours are right, up, back.
+    // p_in_camera = R p + t with y down and z forward: rows right, down, forward. The camera axes here are right, up,
+    // back.
     const auto row = [&](std::size_t r) {
         return glm::dvec3(numbers[9 + 3 * r], numbers[10 + 3 * r], numbers[11 + 3 * r]);
     };
@@ -130,14 +133,14 @@ Status set_lens(KnownInputs& known, const MiddleburyView& first, const std::stri
         return Error{where + ": K is not of the form fx s cx, 0 fy cy, 0 0 1"};
     }
     RS_ASSIGN_OR_RETURN(const auto f_px, common_focal_length(k[0], k[4], where));
-    if (std::abs(k[1]) > 1e-3 * f_px) return Error{where + ": K has skew, which no camera here has"};
+    if (std::abs(k[1]) > 1e-3 * f_px) return Error{where + ": K has skew, which is not supported"};
     known.f_px = f_px;
     known.principal_point = glm::dvec2(k[2] + 0.5, k[5] + 0.5);
     known.distortion = glm::dvec2(0);
     return {};
 }
 
-// Coefficients that NeRF tools write beside the intrinsics.
+// Distortion coefficients as NeRF tools write them beside the intrinsics.
 Result<glm::dvec2> distortion_of(const nlohmann::json& extras, const std::string& where) {
     const auto coefficient = [&](const char* key) -> Result<double> {
         if (!extras.contains(key)) return 0.0;
@@ -174,12 +177,12 @@ Result<KnownFile> middlebury_parameters_from(const std::string& text, const std:
         for (std::size_t k = 0; k < 9; ++k) {
             if (std::abs(views.back().k[k] - views[0].k[k]) > kSameIntrinsics * std::abs(views[0].k[0])) {
                 return Error{where + ": line " + std::to_string(i + 2) +
-                             ": K differs from the first view's; a turn is taken with one lens"};
+                             ": K differs from the first view's; all views of a turn must have one lens"};
             }
         }
     }
     if (rest.find_first_not_of(" \t\r\n") != std::string_view::npos) {
-        return Error{where + ": has more lines than the " + std::to_string(views.size()) + " views that line 1 says"};
+        return Error{where + ": has more lines than the " + std::to_string(views.size()) + " views that line 1 states"};
     }
     KnownFile file;
     RS_TRY(set_lens(file.known, views[0], where));
@@ -204,9 +207,9 @@ Result<KnownFile> read_known_rig(const std::filesystem::path& path, ImagePixels 
     const Camera& first = rig.views[0].camera;
     RS_ASSIGN_OR_RETURN(const auto f_px, common_focal_length(first.fl_x, first.fl_y, where));
     if (images.width > 0 && (first.width != images.width || first.height != images.height)) {
-        return Error{where + ": is of images of " + std::to_string(first.width) + " x " + std::to_string(first.height) +
-                     " pixels, these have " + std::to_string(images.width) + " x " + std::to_string(images.height) +
-                     "; use images of the size it was made for"};
+        return Error{where + ": is for images of " + std::to_string(first.width) + " x " +
+                     std::to_string(first.height) + " pixels, these have " + std::to_string(images.width) + " x " +
+                     std::to_string(images.height) + "; use images of the size it was made for"};
     }
     RS_ASSIGN_OR_RETURN(const auto distortion, distortion_of(rig.extras, where));
 
@@ -222,7 +225,7 @@ Result<KnownFile> read_known_rig(const std::filesystem::path& path, ImagePixels 
         RS_ASSIGN_OR_RETURN(const auto own, distortion_of(view.extras, where));
         if (!same || own != glm::dvec2(0)) {
             return Error{where + ": view " + std::to_string(i + 1) +
-                         " has a lens of its own; a turn is taken with one lens"};
+                         " has a lens of its own; all views of a turn must have one lens"};
         }
         cameras.push_back(camera.world_from_camera);
         file.images.push_back(view.file_path);
@@ -240,10 +243,9 @@ Result<KnownFile> read_known_file(const std::filesystem::path& path, ImagePixels
     if (ending == ".json" || std::filesystem::is_directory(path, failure)) return read_known_rig(path, images);
     if (ending == ".yml" || ending == ".yaml" || ending == ".xml") return read_opencv_intrinsics(path, images);
     if (ending == ".txt") return read_middlebury_parameters(path);
-    return Error{
-        path.string() +
-        ": what is known is read from a transforms.json, from *_par.txt (Middlebury) or from *.yml, *.yaml and "
-        "*.xml (OpenCV); give one of these"};
+    return Error{path.string() +
+                 ": unknown file type; give a transforms.json, a *_par.txt (Middlebury) or a *.yml, *.yaml or "
+                 "*.xml (OpenCV)"};
 }
 
 Result<KnownInputs> known_of_photographs(const KnownFile& file, const std::vector<std::string>& photographs) {
@@ -258,11 +260,11 @@ Result<KnownInputs> known_of_photographs(const KnownFile& file, const std::vecto
         const auto found = angle_of.find(std::filesystem::path(photograph).stem().string());
         if (found == angle_of.end()) {
             return Error{photograph + ": is not among the " + std::to_string(angle_of.size()) +
-                         " images that the given rig knows; take it out of the folder, or give its rig"};
+                         " images of the given rig; remove it from the folder, or give its rig"};
         }
         angles.push_back(found->second);
     }
-    // Angles count from the first photograph; the pose is of the camera and the table and stays.
+    // Angles are relative to the first photo; the pose of the camera in the table frame does not change.
     for (double& angle : angles) angle -= angle_of.at(std::filesystem::path(photographs.front()).stem().string());
     known.angles_rad = std::move(angles);
     return known;

@@ -20,8 +20,8 @@ constexpr std::array<const char*, 5> kMatrixNames = {"camera_matrix", "cameraMat
 constexpr std::array<const char*, 5> kCoefficientNames = {"distortion_coefficients", "Distortion_Coefficients",
                                                           "distCoeffs", "dist_coeffs", "D"};
 
-// cv::FileStorage recurses per level, whichever of its three languages the file is written in: brackets, indentation
-// and dashes of YAML, tags of XML. What nests more deeply than any file of intrinsics is refused before it is parsed.
+// cv::FileStorage recurses for each level in its three languages: brackets, indentation and dashes of YAML, tags of
+// XML. Files nested more deeply than any file of intrinsics are refused before parsing.
 bool nests_too_deeply(const std::string& text) {
     int brackets = 0;
     int tags = 0;
@@ -58,8 +58,8 @@ cv::FileNode first_of(const cv::FileStorage& file, const std::array<const char*,
     return {};
 }
 
-// The matrix' elements row by row. Read as the map that it is rather than as a cv::Mat, whose reader allocates what the
-// file says; so plain YAML of other tools (rows, cols, data) is read, too.
+// Matrix elements row by row. Parsed as a map instead of a cv::Mat, whose reader allocates whatever size the file
+// states; this also accepts plain YAML of other tools (rows, cols, data).
 struct Matrix {
     int rows = 0;
     int columns = 0;
@@ -90,7 +90,7 @@ Status check_size(const cv::FileStorage& file, const std::string& where, ImagePi
     const cv::FileNode height = file["image_height"];
     if (!width.isInt() || !height.isInt() || images.width <= 0) return {};
     if (static_cast<int>(width) == images.width && static_cast<int>(height) == images.height) return {};
-    return Error{where + ": is of images of " + std::to_string(static_cast<int>(width)) + " x " +
+    return Error{where + ": is for images of " + std::to_string(static_cast<int>(width)) + " x " +
                  std::to_string(static_cast<int>(height)) + " pixels, these have " + std::to_string(images.width) +
                  " x " + std::to_string(images.height) + "; calibrate with images of the same size"};
 }
@@ -125,7 +125,7 @@ Result<KnownFile> known_from(const cv::FileStorage& file, const std::string& whe
     if (matrix.rows != 3 || matrix.columns != 3) return Error{place + " must be 3 x 3"};
     if (k[3] != 0 || k[6] != 0 || k[7] != 0 || k[8] != 1) return Error{place + " is not fx 0 cx, 0 fy cy, 0 0 1"};
     RS_ASSIGN_OR_RETURN(const auto f_px, common_focal_length(k[0], k[4], place));
-    if (std::abs(k[1]) > 1e-3 * f_px) return Error{place + " has skew, which no camera here has"};
+    if (std::abs(k[1]) > 1e-3 * f_px) return Error{place + " has skew, which is not supported"};
     if (!(std::abs(k[2]) < 1e6 && std::abs(k[5]) < 1e6)) return Error{place + ": its principal point is out of range"};
     RS_TRY(check_size(file, where, images));
     RS_ASSIGN_OR_RETURN(const auto distortion, distortion_from(first_of(file, kCoefficientNames), where));
@@ -137,7 +137,7 @@ Result<KnownFile> known_from(const cv::FileStorage& file, const std::string& whe
     return result;
 }
 
-// OpenCV's messages have line breaks.
+// Replaces the line breaks in OpenCV's messages.
 std::string one_line(std::string text) {
     std::replace_if(
         text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
@@ -149,7 +149,7 @@ std::string one_line(std::string text) {
 Result<KnownFile> opencv_intrinsics_from(const std::string& text, const std::string& where, ImagePixels images) {
     if (text.size() > kMaxFile_bytes) return Error{where + ": is larger than 1 MB, too large for intrinsics"};
     if (text.find('\0') != std::string::npos) return Error{where + ": is not a text file"};
-    if (nests_too_deeply(text)) return Error{where + ": nests more deeply than intrinsics do; check the file"};
+    if (nests_too_deeply(text)) return Error{where + ": is nested too deeply for intrinsics; check the file"};
     try {
         const cv::FileStorage file(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
         if (!file.isOpened()) return Error{where + ": is not in OpenCV's YAML, XML or JSON"};

@@ -32,8 +32,8 @@ Matrix3d about(const Vector3d& axis, double angle_rad) {
     return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix();
 }
 
-// The direction in the world that looks most alike from all cameras, up in their images. Nothing where another one
-// looks as much alike: then nothing turns.
+// World direction that is most constant in all camera frames, pointing up in the images. Nothing if a second direction
+// is as constant: then the cameras do not rotate.
 std::optional<Vector3d> common_axis(const std::vector<Placed>& cameras) {
     Matrix3d mean = Matrix3d::Zero();
     for (const Placed& camera : cameras) mean += camera.orientation / static_cast<double>(cameras.size());
@@ -49,17 +49,18 @@ std::optional<Vector3d> common_axis(const std::vector<Placed>& cameras) {
     return mean.col(1).dot(axis) < 0 ? Vector3d(-axis) : axis;
 }
 
-// The angle about `axis` that takes orientation `from` nearest to `to`.
+// The angle about `axis` that rotates orientation `from` nearest to `to`.
 double angle_between(const Vector3d& axis, const Matrix3d& from, const Matrix3d& to) {
     const Matrix3d q = to * from.transpose();
     const Vector3d twist(q(2, 1) - q(1, 2), q(0, 2) - q(2, 0), q(1, 0) - q(0, 1));
     return std::atan2(axis.dot(twist), q.trace() - axis.dot(q * axis));
 }
 
-// `centre` = axis + turned by -angle (arm), in the plane across the axis as complex numbers, by least squares.
+// Least-squares circle `centre` = axis + arm rotated by -angle, in the plane perpendicular to the axis as complex
+// numbers.
 struct Circle {
-    Vector3d arm = Vector3d::Zero();  // from the axis to the camera at angle 0, across the axis
-    double misfit = 0;                // of the arm's length, heights included
+    Vector3d arm = Vector3d::Zero();  // from the axis to the camera at angle 0, perpendicular to the axis
+    double misfit = 0;                // relative to the arm's length, heights included
 };
 Circle fitted_circle(const std::vector<Placed>& cameras, const Vector3d& axis, const std::vector<double>& angles_rad) {
     using Complex = std::complex<double>;
@@ -91,7 +92,7 @@ Circle fitted_circle(const std::vector<Placed>& cameras, const Vector3d& axis, c
     return circle;
 }
 
-// Rz(roll) Rx(tilt) Ry(pan), taken apart.
+// Decomposes Rz(roll) Rx(tilt) Ry(pan).
 CameraPose pose_of(const Matrix3d& camera_from_table) {
     CameraPose pose;
     pose.tilt_rad = std::asin(std::clamp(camera_from_table(2, 1), -1.0, 1.0));
@@ -117,12 +118,13 @@ Result<TurnOfCameras> turn_of_cameras(std::span<const glm::dmat4> world_from_cam
     std::vector<Placed> cameras;
     for (const glm::dmat4& each : world_from_camera) cameras.push_back(placed(each));
     const auto axis = common_axis(cameras);
-    if (!axis) return Error{where + ": its cameras do not turn against each other; check that it is of a turntable"};
+    if (!axis)
+        return Error{where + ": its cameras have no rotation relative to each other; check that it is of a turntable"};
 
     TurnOfCameras turn;
     turn.angles_rad.push_back(0);
     for (std::size_t i = 1; i < cameras.size(); ++i) {
-        // The object turns by as much as the camera seems to turn the other way.
+        // The object turns by as much as the camera seems to turn in the opposite direction.
         const double angle = -angle_between(*axis, cameras[0].orientation, cameras[i].orientation);
         const double before = turn.angles_rad.back();
         turn.angles_rad.push_back(before + std::remainder(angle - before, 2 * kPi));
@@ -143,17 +145,18 @@ Result<TurnOfCameras> turn_of_cameras(std::span<const glm::dmat4> world_from_cam
     const Circle circle = fitted_circle(cameras, *axis, turn.angles_rad);
     turn.orientation_misfit_deg = degrees(std::sqrt(squares / static_cast<double>(cameras.size())));
     turn.place_misfit = circle.misfit;
-    // Written so that NaN is refused, too.
+    // Negated comparisons refuse NaN, too.
     if (!(turn.orientation_misfit_deg <= kMaxOrientationMisfit_deg)) {
         return Error{where + ": is not of a turntable: its cameras' directions are off a turn about a single axis by " +
                      with_digits(turn.orientation_misfit_deg, 2) + " degrees, most in view " +
                      std::to_string(worst + 1) + "; at most " + with_digits(kMaxOrientationMisfit_deg, 0) +
-                     " is taken"};
+                     " is allowed"};
     }
     if (!(turn.place_misfit <= kMaxPlaceMisfit)) {
-        return Error{where + ": is not of a turntable: its cameras' places are off a circle about a single axis by " +
+        return Error{where +
+                     ": is not of a turntable: its cameras' positions are off a circle about a single axis by " +
                      with_digits(100 * turn.place_misfit, 1) + " % of their distance; at most " +
-                     with_digits(100 * kMaxPlaceMisfit, 0) + " % is taken"};
+                     with_digits(100 * kMaxPlaceMisfit, 0) + " % is allowed"};
     }
 
     Matrix3d world_from_table;

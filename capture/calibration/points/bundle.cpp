@@ -40,7 +40,7 @@ std::optional<glm::dvec2> residual(const TurnProjection& turn, const glm::dvec3&
 
 namespace {
 
-// An observation and the ray that it saw; nothing where there is none.
+// An observation and its viewing ray; nothing if the distortion cannot be inverted.
 struct Sighting {
     const Observation* seen = nullptr;
     std::optional<glm::dvec3> ray;  // in the object's frame
@@ -92,14 +92,14 @@ std::optional<glm::dvec3> triangulated_by(const TurnProjection& turn, std::span<
     return p;
 }
 
-// The observations that agree with the point of two of them, for the pair with which most do.
+// The largest set of observations within limit_px of the point triangulated from two of them.
 Track agreeing(const TurnProjection& turn, const Track& track, double limit_px) {
     constexpr std::size_t kMostPairs = 24;
     const std::size_t count = track.seen.size();
     const std::vector<Sighting> sightings = sightings_of(turn, track);
     Track best;
     std::size_t tried = 0;
-    // Pairs of neighbours in the track first, then farther ones: near views share the most matches.
+    // Neighbours in the track first, then more distant pairs: near views share the most matches.
     for (std::size_t apart = 1; apart < count && tried < kMostPairs; ++apart) {
         for (std::size_t i = 0; i + apart < count && tried < kMostPairs; ++i, ++tried) {
             const std::array<Sighting, 2> pair{sightings[i], sightings[i + apart]};
@@ -117,7 +117,7 @@ Track agreeing(const TurnProjection& turn, const Track& track, double limit_px) 
     return best;
 }
 
-// [track]: what `make` makes of each, in order and without those of which it makes nothing.
+// Applies `make` to each track in parallel and collects the results in order; tracks without a result are dropped.
 template <class Make>
 Bundle gathered(const TurntableModel& model, std::span<const Track> tracks, const Make& make) {
     std::vector<std::optional<std::pair<Track, glm::dvec3>>> made(tracks.size());
@@ -153,7 +153,7 @@ Bundle make_bundle(const TurntableModel& model, std::span<const Track> tracks) {
 Bundle make_agreeing_bundle(const TurntableModel& model, std::span<const Track> tracks, double limit_px) {
     const TurnProjection turn(model);
     Bundle bundle = gathered(model, tracks, [&](const Track& track) -> std::optional<std::pair<Track, glm::dvec3>> {
-        // The point of two rays is less exact than that of all.
+        // A point from two rays is less accurate than one from all.
         Track kept = agreeing(turn, track, 1.5 * limit_px);
         if (kept.seen.size() < 3) return std::nullopt;
         const auto point = triangulated_by(turn, sightings_of(turn, kept));

@@ -15,16 +15,16 @@
 namespace rs::capture {
 namespace {
 
-// Finer than SIFT's usual 1.6: fur, leaves and thin glazes have twice the points, and alignment makes them exact.
+// Smaller than SIFT's default of 1.6: gives twice the points on fur, leaves and thin glazes; alignment makes them
+// accurate.
 constexpr double kFinestBlur_px = 1.2;
 
-// Beside the object so much is looked at, too: what features beside its outline are described by. The corner of it
-// stands where images halved four times have a pixel, so that features are found where they would be in the whole
-// image.
+// Margin around the object that is searched, too: the support of descriptors near the silhouette. Its corner is on a
+// pixel of images halved four times, so that features are the same as those of the whole image.
 constexpr int kBeside_px = 32;
 constexpr int kLattice_px = 16;
 
-// The part of an image that is looked at for features inside of `inside`.
+// The part of the image that is needed for features within `inside`.
 cv::Rect part_around(const cv::Mat1b& inside) {
     const cv::Rect box = box_of(inside);
     const cv::Point corner(std::max(0, box.x - kBeside_px) / kLattice_px * kLattice_px,
@@ -56,7 +56,7 @@ ViewFeatures features_of(const CalibrationImage& image, const FollowOptions& opt
     const int side = 2 * options.rim_px + 1;
     cv::erode(inside, inside, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}), {-1, -1}, 1,
               cv::BORDER_REPLICATE);
-    // SIFT's own limit would be filled by the backdrop: it counts before it looks at the mask.
+    // SIFT's own limit would be filled by the backdrop, because SIFT counts before it applies the mask.
     const auto sift = cv::SIFT::create(0, 4, 0.012, 12, kFinestBlur_px);
     std::vector<cv::KeyPoint> points;
     cv::Mat descriptors;
@@ -66,7 +66,7 @@ ViewFeatures features_of(const CalibrationImage& image, const FollowOptions& opt
     cv::KeyPointsFilter::retainBest(points, options.most_features);
     sift->compute(grey, points, descriptors);
 
-    // A place with two directions is two features there; keep the order OpenCV gives, which is deterministic.
+    // A point with two orientations yields two features; OpenCV's order, which is deterministic, is kept.
     ViewFeatures features;
     for (const cv::KeyPoint& point : points) {
         features.positions.emplace_back(part.x + static_cast<double>(point.pt.x) + 0.5,
@@ -77,7 +77,7 @@ ViewFeatures features_of(const CalibrationImage& image, const FollowOptions& opt
     return features;
 }
 
-// Sets of features, one per view at most.
+// Disjoint sets of features with at most one per view.
 class Chains {
 public:
     explicit Chains(const std::vector<int>& view_of) : parent_(view_of.size()), views_(view_of.size()) {
@@ -103,7 +103,7 @@ public:
 
 private:
     std::vector<std::size_t> parent_;
-    std::vector<std::vector<int>> views_;  // [root], ascending
+    std::vector<std::vector<int>> views_;  // [root], ascending view numbers
 };
 
 }  // namespace
@@ -120,20 +120,21 @@ std::vector<ViewFeatures> find_features(std::span<const CalibrationImage> turn, 
 
 namespace {
 
-// Of the likeness `product`, in descriptors' units.
+// Distance of two descriptors with inner product `product`, as a fraction of their length.
 double distance_of(std::int32_t product) {
     constexpr double kSame = static_cast<double>(kDescriptorUnit) * kDescriptorUnit;
     return std::sqrt(std::max(0.0, 2.0 - 2.0 * static_cast<double>(product) / kSame));
 }
 
-// The second best lies elsewhere: one corner often has several features, of two directions or scales.
+// The second best match must be at another position: one corner often has several features, of two orientations or
+// scales.
 constexpr double kElsewhere_px = 2;
 
 bool elsewhere(const ViewFeatures& view, std::size_t a, std::size_t b) {
     return glm::distance(view.positions[a], view.positions[b]) > kElsewhere_px;
 }
 
-// Of each feature of a pair's second view: the feature of the first that is most alike.
+// Best match in the first view of each feature of the second view.
 class BestOfSecond {
 public:
     explicit BestOfSecond(std::size_t count) : product_(count, 0), feature_(count, -1) {}
@@ -149,10 +150,10 @@ private:
     std::vector<int> feature_;
 };
 
-// The two best of one feature of the first view.
+// The two best matches of one feature of the first view.
 struct TwoBest {
     std::size_t best = 0;
-    std::int32_t product = 0;  // 0: there is none
+    std::int32_t product = 0;  // 0: no match
     std::int32_t next = 0;
 };
 
@@ -216,7 +217,7 @@ std::vector<FeatureMatch> match_guided(const ViewFeatures& first, const ViewFeat
     constexpr double kRounding_px = 1e-3;
     const std::size_t rows = first.positions.size(), columns = second.positions.size();
     if (rows < 2 || columns < 2) return {};
-    // From left to right, so that few are looked at.
+    // Sorted from left to right, so that few need be tested.
     std::vector<std::size_t> order(columns);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
@@ -233,7 +234,7 @@ std::vector<FeatureMatch> match_guided(const ViewFeatures& first, const ViewFeat
         near.clear();
         const double left = std::min(where->from.x, where->to.x) - band_px;
         const double right = std::max(where->from.x, where->to.x) + band_px;
-        // Most lie above or below the whole piece: of those no distance need be found.
+        // Most features are above or below the whole segment; their distance need not be computed.
         const double highest = std::min(where->from.y, where->to.y) - band_px - kRounding_px;
         const double lowest = std::max(where->from.y, where->to.y) + band_px + kRounding_px;
         auto at = std::lower_bound(order.begin(), order.end(), left,

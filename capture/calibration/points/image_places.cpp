@@ -16,21 +16,21 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kPriorShift = 0.05;  // of the image's width, one standard deviation
+constexpr double kPriorShift = 0.05;  // relative to the image width, one standard deviation
 constexpr double kPriorScale = 0.05;  // of the scale's logarithm
 constexpr double kPriorAngle_rad = 0.005;
 constexpr double kLongestLens_widths = 25;
 constexpr std::array<double, 2> kTriedFieldsOfView_deg{14, 28};
 constexpr std::array<double, 2> kTriedTilts_deg{5, 30};
-constexpr std::size_t kTriedTracks = 300;  // to choose among the attempts
-constexpr double kCoarsest = 0.03;         // of the image's width: where agreement begins
-constexpr double kFinestPlaces_px = 2;     // of the images that are looked at: where it ends
+constexpr std::size_t kTriedTracks = 300;  // used to choose among the attempts
+constexpr double kCoarsest = 0.03;         // first inlier limit, relative to the image width
+constexpr double kFinestPlaces_px = 2;     // last inlier limit, in px of the reduced images
 
 struct PlacedReprojection {
     Observation seen;
     glm::dvec2 middle;
 
-    // place: shift x, y in px, the scale's logarithm, and what the view's angle is off the common step.
+    // place: shift x, y in px, the scale's logarithm, and the deviation of the view's angle from the common step.
     template <class T>
     bool operator()(const T* lens, const T* pose, const T* step, const T* point, const T* place, T* residuals) const {
         using std::exp;
@@ -73,7 +73,7 @@ std::vector<Track> undone(std::span<const Track> tracks, const std::vector<Image
     return result;
 }
 
-// Improves model, points and places; `bundle` holds observations with their places undone.
+// Refines model, points and placements; `bundle` holds observations with their placements undone.
 bool adjust_places(Bundle& bundle, std::vector<ImagePlace>& places, double loss_px, const KnownInputs& known) {
     TurntableModel& model = bundle.model;
     const glm::dvec2 middle(model.lens.width / 2.0, model.lens.height / 2.0);
@@ -124,7 +124,7 @@ bool adjust_places(Bundle& bundle, std::vector<ImagePlace>& places, double loss_
         problem.SetParameterLowerBound(lens.data(), 0, 0.5 * model.lens.width);
         problem.SetParameterUpperBound(lens.data(), 0, std::max(kLongestLens_widths * model.lens.width, lens[0]));
     }
-    // The shifts show where the camera looks.
+    // The pan is constant, because shifts are equivalent to it.
     problem.SetManifold(pose.data(), new ceres::SubsetManifold(3, {0}));
     if (known.step_rad || known.angles_rad) problem.SetParameterBlockConstant(&step);
     ceres::Solver::Options solver;
@@ -155,7 +155,7 @@ struct Attempt {
     int agreeing = 0;
 };
 
-// From a coarse agreement to a fine one.
+// Refines the attempt with inlier limits halved from first_px down to last_px.
 bool improve(Attempt& attempt, std::span<const Track> tracks, double first_px, double last_px,
              const KnownInputs& known) {
     const glm::dvec2 middle(attempt.model.lens.width / 2.0, attempt.model.lens.height / 2.0);
@@ -169,7 +169,7 @@ bool improve(Attempt& attempt, std::span<const Track> tracks, double first_px, d
     return true;
 }
 
-// Equal steps in both senses, for without perspective they differ by little; lenses and heights of the camera.
+// Equal steps in both directions, which differ little without perspective; several focal lengths and tilts.
 std::vector<Attempt> attempts(const Lens& lens, std::size_t views, const KnownInputs& known) {
     std::vector<Attempt> all;
     for (const bool counter_clockwise : {false, true}) {
@@ -228,7 +228,7 @@ TurnImages put_back(const TurnImages& turn, std::span<const ImagePlace> places) 
     const glm::dvec2 middle = glm::dvec2(turn.width, turn.height) / (2 * reduction);
     for_each_index(places.size(), [&](std::size_t i) {
         const ImagePlace place{places[i].shift_px / reduction, places[i].scale};
-        const glm::dvec2 origin = place.seen({0.5, 0.5}, middle) - 0.5;  // where the first pixel's middle is seen
+        const glm::dvec2 origin = place.seen({0.5, 0.5}, middle) - 0.5;  // position of the first pixel's centre
         const cv::Matx23d seen(place.scale, 0, origin.x, 0, place.scale, origin.y);
         const auto warp = [&](Image<std::uint8_t>& plane) {
             const Image<std::uint8_t> from = plane;

@@ -1,6 +1,6 @@
 #pragma once
-// Images that were moved and scaled one by one (image_place.hpp): no turn before a still camera explains them,
-// until each is put back to where it was. Stands between tracks and track_calibration.
+// Estimates shift and scale of images that were moved and scaled individually (image_place.hpp): no turn in front of a
+// fixed camera explains them until this is undone. Runs between point tracking and track_calibration.
 
 #include "capture/calibration/model/calibration.hpp"
 #include "capture/calibration/model/image_place.hpp"
@@ -16,22 +16,23 @@ namespace rs::capture {
 
 struct PlacedTurn {
     std::vector<ImagePlace> places;  // [view]
-    TurntableModel model;            // of the images with their places undone, with equal steps
-    double agreeing = 0;             // share of the observations within a few pixels, places undone
+    TurntableModel model;            // of the images with their placements undone, with equal steps
+    double agreeing = 0;             // share of the observations within a few pixels of the model
 };
 
-// From tracks in px of the photographs, whose lens has `lens`' frame and middle. Several lenses, heights of the camera
-// and both senses of turning are tried. What shifts and scales cannot tell from another place of the axis, or of the
-// camera, is settled by the least of them. Nothing where no adjustment succeeds. Works on all cores.
+// `tracks` in px of the photos; `lens` gives the frame and its centre. Several focal lengths, tilts and both directions
+// of turning are tried. Ambiguities between shifts or scales and another position of the axis or the camera are
+// resolved by a prior towards the smallest shifts and scales. Nothing if no adjustment succeeds. Uses all cores.
 std::optional<PlacedTurn> find_places(std::span<const Track> tracks, const Lens& lens, std::size_t views, int reduction,
                                       const KnownInputs& known);
 
-// What `bundle`, of the images put back, shows of how far their places are still off: [view], to be taken before
-// theirs. `limit_px` is how far its observations may disagree. Nothing where the adjustment fails.
+// Estimates the remaining error of the placements from `bundle`, whose images have them undone: result[view], to be
+// composed with the current ones as the inner placement. `limit_px`: inlier limit of the observations. Nothing if the
+// adjustment fails.
 std::optional<std::vector<ImagePlace>> remaining_places(const Bundle& bundle, double limit_px,
                                                         const KnownInputs& known);
 
-// The images as a still camera would have seen them; what an image does not show is transparent.
+// Warps the images to those of a fixed camera; pixels that an image does not cover are transparent.
 TurnImages put_back(const TurnImages& turn, std::span<const ImagePlace> places);
 
 }  // namespace rs::capture

@@ -15,7 +15,7 @@
 namespace rs::capture {
 namespace {
 
-// Derivatives of the axis' position with respect to the camera's numbers, by differences.
+// Derivatives of the axis' position by the camera's numbers, by finite differences.
 std::array<double, kCameraNumbers> axis_slopes(const TurntableModel& model, double at_px) {
     std::array<double, kCameraNumbers> slopes{};
     for (std::size_t k = 0; k < slopes.size(); ++k) {
@@ -91,7 +91,7 @@ ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& p
         if (places.camera[k] >= 0) gradient(places.camera[k]) = slopes[k];
     }
     deviations.axis_position_px = of(gradient);
-    // Angles count from the mean of all views: the first view's own error would otherwise be in every other one.
+    // Angles are relative to the mean of all views; relative to the first view they would all contain its error.
     const std::size_t views = places.angles.size();
     for (std::size_t view = 0; view < views; ++view) {
         Eigen::VectorXd from_mean = Eigen::VectorXd::Zero(covariance.rows());
@@ -110,15 +110,15 @@ ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& p
 namespace {
 
 constexpr std::size_t kSharedErrors = 4;
-constexpr std::size_t kSectors = 12;  // sides of the object, each with errors of its own
-// By how much a sector's numbers follow its own errors, and so hide them, is undone to this part: all of it is right
-// where a sector errs as one, half of it where its tracks err each by itself.
+constexpr std::size_t kSectors = 12;  // sides of the object with a common error each
+// Exponent of the correction for a sector's numbers following its own errors: 1 is right where a sector has a single
+// error, 1/2 where its tracks have independent ones.
 constexpr double kUnhidden = 0.9;
-// Of the scatter, what is counted by sector; the rest is counted by track, for so few sectors cannot tell of every
-// number.
+// Share of the scatter that is computed by sector; the rest is computed by track, because so few sectors do not span
+// all numbers.
 constexpr double kShareOfSectors = 0.9;
 
-// By how much a point may seem to move, per px of shared error, seen `beside_rad` from the middle of its views.
+// Apparent movements of a point per px of shared error, at `beside_rad` from the middle of its views.
 std::array<Eigen::Vector2d, kSharedErrors> shared_errors(double beside_rad) {
     const double odd = std::sin(beside_rad), even = 1 - std::cos(beside_rad);
     return {Eigen::Vector2d(odd, 0), Eigen::Vector2d(0, odd), Eigen::Vector2d(even, 0), Eigen::Vector2d(0, even)};
@@ -133,11 +133,11 @@ double middle_angle(const TurntableModel& model, const Track& track) {
     return std::atan2(sine, cosine);
 }
 
-// What tracks show of the free numbers, their points eliminated.
+// Information and score of tracks about the free numbers, their points eliminated.
 struct Evidence {
     Eigen::MatrixXd information;
     Eigen::VectorXd score;
-    Eigen::MatrixXd shared;  // what each shared error of 1 px does to the score
+    Eigen::MatrixXd shared;  // effect of each shared error of 1 px on the score
 
     explicit Evidence(int n)
         : information(Eigen::MatrixXd::Zero(n, n)),
@@ -154,12 +154,12 @@ Eigen::Vector2d vector(const glm::dvec2& v) {
     return {v.x, v.y};
 }
 
-// One observation's residual and its derivatives, with those by the free numbers only.
+// Residual of one observation and its derivatives by the point and by the free numbers.
 struct Slopes {
     Eigen::Vector2d r;
     Eigen::Matrix<double, 2, 3, Eigen::RowMajor> by_point;
-    std::array<std::pair<int, Eigen::Vector2d>, kCameraNumbers + 1> by_number;  // place and derivative
-    std::size_t count = 0;                                                      // of by_number
+    std::array<std::pair<int, Eigen::Vector2d>, kCameraNumbers + 1> by_number;  // index and derivative
+    std::size_t count = 0;                                                      // of entries in by_number
 };
 
 std::optional<Slopes> slopes_of(const Reprojections& turn, const NumberPlaces& places, const glm::dvec3& point,
@@ -178,7 +178,7 @@ std::optional<Slopes> slopes_of(const Reprojections& turn, const NumberPlaces& p
     return slopes;
 }
 
-// Nothing where the track does not determine its point.
+// Nothing if the track does not determine its point.
 std::optional<Evidence> evidence_of(const Bundle& bundle, const Reprojections& turn, std::size_t track,
                                     const NumberPlaces& places, const BundleOptions& options, double middle_rad) {
     const TurntableModel& model = bundle.model;
@@ -190,8 +190,8 @@ std::optional<Evidence> evidence_of(const Bundle& bundle, const Reprojections& t
     for (const Observation& seen : bundle.tracks[track].seen) {
         const auto slopes = slopes_of(turn, places, bundle.points[track], seen);
         if (!slopes) continue;
-        // Cauchy's loss pulls at a residual with this weight, but gives way with its square (the mean over directions
-        // of its second derivative): what is far off hardly holds the numbers where they are.
+        // Cauchy's loss weights a residual with `pull`, but its second derivative (the mean over directions) is the
+        // square of that: outliers hardly contribute information.
         const double pull = 1 / (1 + slopes->r.squaredNorm() / (options.loss_px * options.loss_px));
         const double firmness = pull * pull;
         Eigen::Matrix2d whitening;
@@ -223,7 +223,7 @@ std::optional<Evidence> evidence_of(const Bundle& bundle, const Reprojections& t
     return evidence;
 }
 
-// What the adjustment is given beforehand of the lens: the diagonal of its information.
+// Information of the lens priors: the diagonal.
 Eigen::VectorXd prior_information(const TurntableModel& model, const NumberPlaces& places, double loss_px) {
     const std::array<double, 5> deviations{0, kPriorPrincipalPoint * model.lens.width,
                                            kPriorPrincipalPoint * model.lens.width, kPriorK1, kPriorK2};

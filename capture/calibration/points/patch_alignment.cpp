@@ -11,7 +11,7 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kFarthest_rad = 0.75;  // from the reference view; beyond, a surface is seen too aslant
+constexpr double kFarthest_rad = 0.75;  // from the reference view; beyond, the surface is too oblique
 constexpr double kMostCurvature = 0.1;  // 1/px
 constexpr std::size_t kFewestAligned = 3;
 
@@ -19,8 +19,9 @@ double nearest_turn(double angle_rad) {
     return std::remainder(angle_rad, 2 * kPi);
 }
 
-// A point with a piece of surface through it, as the reference camera sees it: two vectors across the line of sight and
-// one along it, each one (reduced) px long there, and how the surface falls back.
+// A point with a surface patch through it, in the reference camera's frame: two vectors perpendicular to the line of
+// sight and one along it, each one (reduced) px long at the point's depth, and the surface's slope and curvature in
+// depth.
 struct Facet {
     Observation reference;
     glm::dvec3 point{0.0};
@@ -51,10 +52,10 @@ std::optional<Facet> facet_of(const Bundle& bundle, std::size_t i, int reduction
     return facet;
 }
 
-// Where the facet is expected in a view, px of the reduced images.
+// Predicted warp of the facet in a view, px of the reduced images.
 std::optional<Warp> expected(const TurnProjection& projection, const Facet& facet, std::size_t view, int reduction) {
     const auto seen = [&](const glm::dvec3& p) { return projection.project(p, view); };
-    // Differences over a few px, like the patch: a quadratic is what the patch sees of it.
+    // Differences over a few px, about the extent of the patch: gives the quadratic that the patch observes.
     constexpr double kReach_px = 4;
     const auto centre = seen(facet.point);
     const auto left = seen(facet.at(-kReach_px, 0)), right = seen(facet.at(kReach_px, 0));
@@ -74,7 +75,7 @@ std::optional<Warp> expected(const TurnProjection& projection, const Facet& face
     return warp;
 }
 
-// [view][point]
+// Result: [view][point].
 std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const CalibrationImage> turn, int reduction,
                                                              const TurntableModel& model,
                                                              const std::vector<std::optional<Facet>>& facets,
@@ -106,7 +107,7 @@ std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const Cal
     return found;
 }
 
-// The facet's slope and curvature, from its alignments in all views.
+// Estimates the facet's slope and curvature from its alignments in all views.
 void shape(Facet& facet, const TurnProjection& projection, int reduction,
            const std::vector<std::vector<std::optional<Alignment>>>& found, std::size_t point) {
     constexpr double kSlopeInformation = 1e-3;  // towards facing the camera
@@ -156,8 +157,8 @@ std::vector<Track> aligned_tracks(std::span<const CalibrationImage> turn, int re
         }
     });
 
-    // First how the surface lies and is curved around each point, as all views together show; then, with that held,
-    // where it is.
+    // The first pass estimates slope and curvature of the surface around each point from all views; the second holds
+    // them constant and estimates the positions.
     std::vector<std::vector<std::optional<Alignment>>> found =
         align_all(turn, reduction, model, facets, patches, false);
     const TurnProjection projection(model);

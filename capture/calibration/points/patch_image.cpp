@@ -9,9 +9,9 @@
 namespace rs::capture {
 namespace {
 
-constexpr int kBorder_px = 2;  // of an image: nothing is looked at there
+constexpr int kBorder_px = 2;  // of an image; not used
 constexpr int kSolid_code = 250;
-constexpr int kAround_px = 5;  // slopes of samples beside solid pixels reach so far through the filter
+constexpr int kAround_px = 5;  // margin around solid pixels: reach of the filter and the differences
 constexpr std::array<float, 5> kSmoothing{0.03F, 0.235F, 0.47F, 0.235F, 0.03F};
 
 struct SolidBox {
@@ -106,7 +106,7 @@ bool PatchImage::is_solid(const glm::dvec2& p) const {
 
 SeenRow PatchImage::row(const Warp& warp, int j) const {
     SeenRow seen;
-    // From a corner up and left of the patch, so that small numbers are exact and truncation is rounding down.
+    // Relative to a corner up and left of the patch, so that numbers are positive and truncation rounds down.
     constexpr int kReach_px = 64;
     const glm::dvec2 corner = glm::floor(warp.centre) - static_cast<double>(kReach_px);
     const double y2 = 0.5 * j * j;

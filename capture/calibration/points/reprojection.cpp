@@ -31,7 +31,7 @@ std::optional<Reprojection> Reprojections::of(const glm::dvec3& p_in_object, con
     result.by_camera[CameraNumber::kK1] = f * r2 * outwards;
     result.by_camera[CameraNumber::kK2] = f * r2 * r2 * outwards;
 
-    // By x and y of the direction, then by the point in the camera.
+    // Derivatives by x and y of the direction, then by the point in the camera.
     const double by_r2 = lens_.k1 + 2 * r2 * lens_.k2;
     const double xy = f * 2 * by_r2 * x * y;
     const glm::dvec2 by_x = per_z * (weight * glm::dvec2(f * (radial + 2 * by_r2 * x * x), xy));

@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::array<double, 3> kFieldsOfView_deg{12, 28, 55};
 constexpr std::array<double, 3> kTilts_deg{2, 22, 50};
-constexpr std::size_t kMostTracks = 500;  // enough to choose a start ...
-constexpr std::size_t kFewTracks = 200;   // ... and to choose the finalists
-constexpr double kEnoughToChoose = 1e-4;  // of the cost
-constexpr double kLoss_px = 3;            // wrong matches are still among them
-constexpr std::size_t kFinalists = 4;     // of each sense of turning
+constexpr std::size_t kMostTracks = 500;  // used to choose a start
+constexpr std::size_t kFewTracks = 200;   // used to choose the finalists
+constexpr double kEnoughToChoose = 1e-4;  // function tolerance
+constexpr double kLoss_px = 3;            // large, because wrong matches are still included
+constexpr std::size_t kFinalists = 4;     // of each direction of turning
 constexpr std::array<double, 3> kLimits_px{8, 5, 3};
 
-// Evenly from all: the longest ones would be those that stand still with the light, or hop along a pattern.
+// An evenly spaced selection: the longest tracks would be those of highlights, or of jumps along a repetitive pattern.
 std::vector<Track> sampled(std::span<const Track> tracks, std::size_t count) {
     std::vector<Track> chosen;
     const std::size_t most = std::min(count, tracks.size());
@@ -94,7 +94,7 @@ std::optional<Start> find_start(std::span<const Track> tracks, std::span<const P
     const std::vector<Track> fewest = sampled(tracks, kFewTracks);
     std::vector<Hypothesis> tried = hypotheses(few, pairs, views, middle, known);
     BundleOptions options;
-    // Larger photographs have larger errors.
+    // Errors grow with the size of the photos.
     const double scale_px = std::max(1.0, std::max(middle.width, middle.height) / 1000.0);
     options.loss_px = kLoss_px * scale_px;
     options.most_iterations = 25;
@@ -107,7 +107,7 @@ std::optional<Start> find_start(std::span<const Track> tracks, std::span<const P
     std::vector<double> costs(tried.size(), 1e30);
     for_each_index(tried.size(), [&](std::size_t i) {
         bundles[i] = make_bundle(tried[i].model, fewest);
-        // Most tracks must be possible at all, else a rig that explains three of them would win.
+        // Most tracks must be triangulated, otherwise a rig that explains three of them would win.
         if (bundles[i].tracks.size() * 2 < fewest.size()) return;
         const auto cost = adjust(bundles[i], options);
         if (!cost) return;
@@ -115,7 +115,7 @@ std::optional<Start> find_start(std::span<const Track> tracks, std::span<const P
             static_cast<double>(fewest.size() - bundles[i].tracks.size()) / static_cast<double>(fewest.size());
         costs[i] = *cost + lost * 4 * options.loss_px * options.loss_px;
     });
-    // Among the best of them wrong matches are told from right ones, and who has the most right ones wins.
+    // Wrong matches are rejected for the finalists; the start with the most inliers is chosen.
     std::vector<std::size_t> order;
     for (const bool sense : {false, true}) {
         std::vector<std::size_t> of_sense;

@@ -15,12 +15,12 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kRatio = 0.8;            // Lowe: best distance over second best
-constexpr double kGuidedRatio = 0.9;      // among the few that the model allows
-constexpr double kEpipolarBand_px = 1.5;  // at 1000 px of the longer side; grows with the image
-constexpr int kFewestMatches = 12;        // below, a pair shows nothing
+constexpr double kRatio = 0.8;            // Lowe's ratio: best distance / second best
+constexpr double kGuidedRatio = 0.9;      // among the few candidates that the model allows
+constexpr double kEpipolarBand_px = 1.5;  // at 1000 px of the longer side; proportional to it
+constexpr int kFewestMatches = 12;        // pairs with fewer are ignored
 
-// Those that agree with one epipolar geometry (RANSAC with OpenCV's fixed seed).
+// Inliers of one epipolar geometry (RANSAC with OpenCV's fixed seed).
 std::vector<FeatureMatch> consistent(const std::vector<FeatureMatch>& matches, const ViewFeatures& a,
                                      const ViewFeatures& b, double band_px) {
     if (static_cast<int>(matches.size()) < kFewestMatches) return {};
@@ -58,7 +58,7 @@ void measure_motion(const ViewFeatures& a, const ViewFeatures& b, const std::vec
     pair.motion_y_px = median(std::move(dy));
 }
 
-// Views and the next few after each, around the end of the turn too; no pair twice.
+// Each view paired with the next few, also across the end of the turn; no pair twice.
 std::vector<PairOfViews> near_pairs(int count, int farthest_neighbour) {
     std::set<std::pair<int, int>> wanted;
     for (int i = 0; i < count; ++i) {
@@ -72,8 +72,8 @@ std::vector<PairOfViews> near_pairs(int count, int farthest_neighbour) {
     return pairs;
 }
 
-// Where a point seen at `p` in one view may appear in another: the projection of the part of its ray that lies within
-// the object's cylinder, nearly a straight piece.
+// Segment in the second view where a point seen at `p` in the first may appear: the projection of the part of its ray
+// within the object's cylinder, nearly straight.
 std::optional<Segment> ray_piece(const TurntableModel& model, int first, int second, const glm::dvec2& p,
                                  double radius) {
     const auto ray = table_ray(model.lens, model.pose, p);
@@ -94,7 +94,7 @@ std::optional<Segment> ray_piece(const TurntableModel& model, int first, int sec
     return piece;
 }
 
-// In px of the photographs.
+// Converts positions to px of the photos.
 ViewFeatures enlarged(ViewFeatures view, int reduction) {
     for (glm::dvec2& p : view.positions) p *= static_cast<double>(reduction);
     return view;
@@ -126,7 +126,7 @@ CalibrationImage calibration_image(ConstImageView<Rgba8> image, int reduction) {
 }
 
 struct PointFollower::State {
-    std::vector<ViewFeatures> views;  // in px of the photographs
+    std::vector<ViewFeatures> views;  // in px of the photos
     std::vector<PairOfViews> pairs;
     double band_px = 0;
 };
@@ -147,7 +147,7 @@ Result<PointFollower> PointFollower::look_at(std::span<const CalibrationImage> t
             state->views.push_back(enlarged(std::move(view), reduction));
         }
     } catch (const cv::Exception& escaped) {
-        return Error{std::string("the images' features cannot be found (OpenCV: ") + escaped.what() + ")"};
+        return Error{std::string("the images' features cannot be detected (OpenCV: ") + escaped.what() + ")"};
     }
     return PointFollower(std::move(state));
 }
@@ -169,7 +169,7 @@ Result<FollowedPoints> PointFollower::follow(Progress* progress) const {
         });
         found.tracks = chained(state_->views, found.pairs, matches);
     } catch (const cv::Exception& escaped) {
-        return Error{std::string("the images' features cannot be followed (OpenCV: ") + escaped.what() + ")"};
+        return Error{std::string("the images' features cannot be matched (OpenCV: ") + escaped.what() + ")"};
     }
     return found;
 }
@@ -189,7 +189,7 @@ Result<std::vector<Track>> PointFollower::follow_guided(const TurntableModel& mo
         });
         return chained(state_->views, state_->pairs, matches);
     } catch (const cv::Exception& escaped) {
-        return Error{std::string("the images' features cannot be followed (OpenCV: ") + escaped.what() + ")"};
+        return Error{std::string("the images' features cannot be matched (OpenCV: ") + escaped.what() + ")"};
     }
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLoose_px = 0.01;
 
-// Px by which one unit of each number moves the outline, roughly.
+// Approximate movement of the silhouette in px per unit of each number.
 Eigen::VectorXd px_per_unit(const TurntableModel& model, const NumberPlaces& places, double half_px) {
     const double f = model.lens.f_px;
     const double slope = half_px / f;

@@ -17,17 +17,17 @@ namespace {
 
 const SilhouetteDetail kDetail{600, 200};
 
-// What was found under wrong angles is off by more than it states; and it was found from the same outlines, which are
-// not to count twice.
+// Factor for deviations found under wrong angles, which are too small; also prevents the same silhouettes from counting
+// twice.
 constexpr double kWider = 3;
-constexpr double kDistortion = 0.1;  // k1 that lenses of photographs have
+constexpr double kDistortion = 0.1;  // standard deviation of k1 of typical lenses
 constexpr double kWorst_px = 1;      // of the turn
-// So that twice the deviations covered the errors on ten traced dolls and a lattice.
+// Chosen so that twice the deviations covered the errors on ten rendered dolls and a lattice.
 constexpr double kUntoldTogether = 3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// f, tilt, roll and the axis' position where outlines show nothing.
+// Deviations of f, tilt, roll and the axis' position if silhouettes do not determine them.
 std::array<double, SilhouetteParameters::kCount> unknown_deviations(const TurntableModel& model, double image_px) {
     std::array<double, SilhouetteParameters::kCount> all = kSilhouettePriors;
     all[SilhouetteParameters::kLogF] *= model.lens.f_px;
@@ -48,7 +48,7 @@ Eigen::MatrixXd expected(const TurntableModel& model, const NumberPlaces& places
     set(CameraNumber::kPan, std::min(kWider * deviations.axis_position_px, unknown[Name::kAxis]) / model.lens.f_px);
     set(CameraNumber::kTilt, std::min(kWider * deviations.tilt_rad, unknown[Name::kTilt]));
     set(CameraNumber::kRoll, std::min(kWider * deviations.roll_rad, unknown[Name::kRoll]));
-    // Angles count from the first view's, whose own error is in all of them.
+    // Angles are relative to the first view's, whose own error is common to all of them.
     const double variance = std::pow(radians(kAssumedAngle_deg), 2);
     for (const int i : places.angles) {
         for (const int j : places.angles) {
@@ -58,7 +58,7 @@ Eigen::MatrixXd expected(const TurntableModel& model, const NumberPlaces& places
     return covariance;
 }
 
-// What is not estimated is not known, either; and what is hardly surer than before has not been shown.
+// Sets the deviations of numbers to infinity that were not estimated or that are hardly better than their prior.
 void admit(ModelDeviations& deviations, const TurntableModel& model, const KnownInputs& known, double image_px) {
     const auto unknown = unknown_deviations(model, image_px);
     const auto told = [](double deviation, double before) {

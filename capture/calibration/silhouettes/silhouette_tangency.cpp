@@ -18,30 +18,30 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kHalf_code = 127.5;  // of alpha: there the outline runs
+constexpr double kHalf_code = 127.5;  // the contour is at this alpha value
 constexpr double kNearestPair_rad = 0.15;
 constexpr double kFarthestPair_rad = 2.6;
 constexpr std::size_t kFewestResiduals = 60;
 constexpr double kOutlierDeviations = 4;
 constexpr int kTangencyRounds = 4;
 constexpr int kStepsPerRound = 2;
-constexpr double kEnoughOfPlanes = 1e-3;  // of cost
-constexpr double kPlaneWidth = 0.3;       // of differences, in deviations: corners of hulls change little
+constexpr double kEnoughOfPlanes = 1e-3;  // function tolerance
+constexpr double kPlaneWidth = 0.3;  // of differences, in deviations; large, because vertices of hulls change little
 constexpr double kFinestPlanes_px = 0.005;
-// One view takes part in many pairs with nearly the same corner of its hull: so much of what its outline is worth.
+// Views take part in many pairs with nearly the same vertex of their hull, so each counts less than independent points.
 constexpr double kWorthOfHull = 0.13;
-// Outlines err together, too, in ways no residual shows, most of all those of a body that looks the same from all
-// sides; by how much more than they say, true errors on photographs with known truth tell.
+// Factor of common silhouette errors that no residual shows, largest for bodies of revolution; determined from the true
+// errors on photos with ground truth.
 constexpr double kUntold = 3;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 struct HullPoint {
-    glm::dvec2 plane{0.0};  // without distortion
+    glm::dvec2 plane{0.0};  // undistorted direction
     glm::dvec2 p{0.0};      // px
 };
 
-// Where alpha is half along every row and column, from the image's borders inwards, px of the reduced image.
-// Nothing where the object touches the border.
+// Positions where alpha crosses one half along every row and column, from the image borders inwards, px of the reduced
+// image. Nothing if the object touches the border.
 std::vector<glm::dvec2> outermost(const Image<std::uint8_t>& alpha) {
     std::vector<glm::dvec2> points;
     bool cut_off = false;
@@ -96,17 +96,17 @@ SilhouetteHull convex_hull(std::vector<HullPoint> points) {
     return corners;
 }
 
-// One side of a pencil of planes: the outermost that touches a hull, and the sine of the angle between the line of
-// sight to where it does and the pencil's axis.
+// The outermost plane of a pencil that touches a hull on one side, and the sine of the angle between the line of sight
+// to its point of contact and the pencil's axis.
 struct Tangent {
-    double slope = 0;  // tangent of the plane's angle from the pencil's middle
+    double slope = 0;  // tangent of the plane's angle to the pencil's middle
     double sine = 1;
 };
 
 struct Pencil {
     glm::dvec3 axis{0.0};    // from one camera centre to the other
-    glm::dvec3 middle{0.0};  // across it, towards the object
-    glm::dvec3 across{0.0};  // across both
+    glm::dvec3 middle{0.0};  // perpendicular to it, towards the object
+    glm::dvec3 across{0.0};  // perpendicular to both
 };
 
 std::optional<Tangent> tangent(const std::vector<glm::dvec3>& rays, const Pencil& pencil, double side) {
@@ -126,13 +126,13 @@ std::optional<Tangent> tangent(const std::vector<glm::dvec3>& rays, const Pencil
     return best;
 }
 
-// Robust.
+// Robust standard deviation: 1.4826 times the median absolute residual.
 double deviation_of(std::vector<double> residuals) {
     for (double& residual : residuals) residual = std::abs(residual);
     return 1.4826 * median(std::move(residuals));
 }
 
-// How far the hulls reach to either side, px.
+// Half the horizontal extent of all hulls, px.
 double half_width_px(std::span<const SilhouetteHull> hulls) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
     for (const SilhouetteHull& hull : hulls) {
@@ -144,8 +144,8 @@ double half_width_px(std::span<const SilhouetteHull> hulls) {
     return 0.5 * (high - low);
 }
 
-// By how much camera numbers that moved by `step` (the axis' position is known from outlines already) went farther than
-// their covariance would have them: the mean square in deviations, at least 1.
+// Mean square of the camera numbers' `step` in deviations of their covariance, at least 1. The pan is ignored, because
+// the axis' position was already estimated from silhouettes.
 double beyond_belief(const NumberPlaces& places, const Eigen::MatrixXd& covariance, const Eigen::VectorXd& step) {
     std::vector<int> chosen;
     for (std::size_t k = 0; k < kCameraNumbers; ++k) {
@@ -242,7 +242,7 @@ std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const Numbe
     }
     TangencyFit fit{numbers.at(z), numbers.told(covariance, adjustment.information(z), kUntold, disbelief, kNoLimit),
                     0};
-    // Judged at the end: where the model began wrong, outlines that agree well do not seem to.
+    // Checked at the end: with a wrong start, consistent silhouettes would appear inconsistent.
     fit.deviation_px = deviation_of(adjustment.residuals(z));
     if (!(fit.deviation_px <= worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;
     return fit;

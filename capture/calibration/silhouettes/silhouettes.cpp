@@ -24,10 +24,10 @@ constexpr std::array<double, 7> kTiltsCompared_deg = {-30, -15, -5, 0, 5, 15, 30
 constexpr std::size_t kBestTries = 4;
 constexpr double kSearchOutlier_px = 12;
 constexpr std::size_t kGroups = 6;            // of the jackknife
-constexpr double kGoodEnough_px = 1;          // of a start that needs no improvement, reduced px
-constexpr double kGoodSilhouettes_px = 0.35;  // good cut-outs leave no more, reduced px
-constexpr double kDisagree_px = 3;            // of a fit that is not to be believed, reduced px
-constexpr double kImprovement = 0.98;         // of the cost
+constexpr double kGoodEnough_px = 1;          // a start with smaller residuals needs no improvement, reduced px
+constexpr double kGoodSilhouettes_px = 0.35;  // residuals of good silhouettes, reduced px
+constexpr double kDisagree_px = 3;            // fits with larger residuals are rejected, reduced px
+constexpr double kImprovement = 0.98;         // required ratio of costs
 
 Lens scaled(const Lens& lens, double by) {
     Lens result = lens;
@@ -39,7 +39,7 @@ Lens scaled(const Lens& lens, double by) {
 
 Status check_start(std::span<const Image<std::uint8_t>> masks, const TurntableModel& start) {
     if (start.angles_rad.size() != masks.size()) {
-        return Error{"silhouettes: " + std::to_string(masks.size()) + " outlines but " +
+        return Error{"silhouettes: " + std::to_string(masks.size()) + " silhouettes but " +
                      std::to_string(start.angles_rad.size()) + " angles; give one angle per view"};
     }
     if (!(start.lens.f_px > 0) || start.lens.width <= 0 || start.lens.height <= 0) {
@@ -54,7 +54,7 @@ Status check_start(std::span<const Image<std::uint8_t>> masks, const TurntableMo
     return {};
 }
 
-// The best of a coarse grid over axis and tilt, each fitted with few rays, then the best of those with all.
+// Fits each point of a coarse grid over axis and tilt with few rays, then refines the best with all.
 SilhouetteFit search(SilhouetteProblem problem) {
     const double width_px = problem.turn->width_px();
     std::vector<SilhouetteFit> tries;
@@ -79,8 +79,8 @@ SilhouetteFit search(SilhouetteProblem problem) {
     return fit_silhouettes(problem, tries[0].at, {1, {}}, 10);
 }
 
-// The best fits with the tilt held at several values. Outlines may leave a whole valley of tilts open, with another
-// axis and lens for each, and the curvature at one place in it shows nothing of that.
+// The best fits with the tilt held at several values. Silhouettes may leave a valley of tilts with another axis and
+// lens for each, which the curvature at one point of it does not show.
 std::vector<SilhouetteFit> fits_along_tilts(SilhouetteProblem problem, const SilhouetteFit& fit,
                                             const RaySelection& rays) {
     std::vector<SilhouetteFit> fits;
@@ -95,7 +95,7 @@ std::vector<SilhouetteFit> fits_along_tilts(SilhouetteProblem problem, const Sil
     return fits;
 }
 
-// Where the best fit stands out by less than one standard error, the tilt nearest to the start is as good.
+// If the best fit is better by less than one standard error, the tilt nearest to the start is as good.
 SilhouetteFit nearest_to_start(const SilhouetteFit& fit, double fit_cost, const std::vector<SilhouetteFit>& along) {
     SilhouetteFit nearest = fit;
     for (const SilhouetteFit& each : along) {
@@ -106,8 +106,8 @@ SilhouetteFit nearest_to_start(const SilhouetteFit& fit, double fit_cost, const 
     return nearest;
 }
 
-// How far each number is off if one of the fits along the tilts is the truth: all the way where that fit is as good,
-// less by the standard errors that it is worse; for a cost that is a parabola this is one standard deviation.
+// Deviation of each number if one of the fits along the tilts is the truth: the full distance if that fit is as good,
+// less in proportion to the standard errors by which it is worse; for a parabolic cost this is one standard deviation.
 std::array<double, Parameters::kCount> valley(const SilhouetteFit& fit, double fit_cost,
                                               const std::vector<SilhouetteFit>& along) {
     std::array<double, Parameters::kCount> deviation{};
@@ -123,7 +123,7 @@ std::array<double, Parameters::kCount> valley(const SilhouetteFit& fit, double f
     return deviation;
 }
 
-// Fits without each of a few interleaved groups of views: honest about errors that neighbouring points share.
+// Jackknife over interleaved groups of views, which includes errors that neighbouring points share.
 std::array<double, Parameters::kCount> jackknife(const SilhouetteProblem& problem, const SilhouetteFit& fit) {
     const std::size_t views = problem.turn->views();
     const std::size_t groups = std::min(kGroups, views / 3);
@@ -163,7 +163,7 @@ ModelDeviations deviations_of(const SilhouetteFit& fit, const std::array<double,
         return sum;
     }();
     for (const double angle : model.angles_rad) {
-        // Assumed angles are as sure as nobody knows; estimated ones as sure as their common step.
+        // The accuracy of assumed angles is unknown; that of estimated ones follows from their common step.
         double deviation = angles_known ? 0 : std::numeric_limits<double>::infinity();
         if (fit.deviation[Parameters::kStep] > 0) deviation = of(Parameters::kStep) * std::abs(angle - mean_rad);
         deviations.angles_rad.push_back(deviation);
@@ -188,25 +188,26 @@ void warn(Calibration& calibration, const SilhouetteTurn& turn) {
     auto& warnings = calibration.warnings;
     if (std::isinf(d.tilt_rad)) {
         warnings.emplace_back(
-            "the outlines do not say how far the camera looks down (a round object looks alike from all sides): its "
-            "height is assumed; put a printed board under the object");
+            "the silhouettes do not determine how far the camera looks down (a round object looks the same from all "
+            "sides): its height is assumed; put a printed board under the object");
     } else if (seems_to_look_up(calibration)) {
         warnings.emplace_back(
-            "the outlines fit a camera that looks up from below; if it looks down, the object turns the other way: "
-            "give the other sense of turning");
+            "the silhouettes fit a camera that looks up from below; if it looks down, the object turns the other way: "
+            "give the other direction of turning");
     }
     if (!(d.f_px < 0.15 * calibration.model.lens.f_px)) {
         warnings.emplace_back(
-            "the outlines do not say what the lens is: its focal length is assumed; give it if it is known");
+            "the silhouettes do not determine the lens: its focal length is assumed; give it if it is known");
     }
     if (turn.touches_border()) {
-        warnings.emplace_back("the object reaches the border of the images: what is cut off there was not compared");
+        warnings.emplace_back("the object reaches the border of the images: regions outside were not compared");
     }
     for (std::size_t i = 0; i < calibration.views.size(); ++i) {
         const double limit = std::max(3 * calibration.rms_px, 2.0 * turn.reduction());
         if (calibration.views[i].rms_px > limit) {
-            warnings.push_back("the outline of view " + std::to_string(i + 1) +
-                               " does not fit the others; check its cut-out and whether the object stood still");
+            warnings.push_back(
+                "the silhouette of view " + std::to_string(i + 1) +
+                " does not fit the others; check its mask and whether the object moved on the turntable");
         }
     }
 }
@@ -223,7 +224,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     const TurntableModel held = with_known(start, known);
     RS_TRY(check_start(masks, held));
 
-    // Photograph px per px of the turn.
+    // Photo px per px of the turn.
     const double image_px = turn.reduction() * static_cast<double>(start.lens.width) / masks[0].width();
     SilhouetteProblem problem;
     problem.turn = &turn;
@@ -233,17 +234,17 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     problem.free = {pose_free, pose_free, pose_free, !known.f_px, !known.step_rad && !known.angles_rad};
 
     const auto disagreement = [&](double apart_px) {
-        return Error{"silhouettes: the outlines disagree by " + std::to_string(std::lround(apart_px * image_px)) +
-                     " pixels with every single turn; check the steps, the sense of turning and the cut-outs"};
+        return Error{"silhouettes: the silhouettes disagree by " + std::to_string(std::lround(apart_px * image_px)) +
+                     " pixels with every single turn; check the steps, the direction of turning and the masks"};
     };
     const SilhouetteFit best = search(problem);
     const double start_rms = rms_px(consistency_residuals_px(turn, problem.start, {}));
     if (start_rms > kGoodEnough_px && !(best.cost < kImprovement * silhouette_cost(problem, {}, {}))) {
         return Error{
-            "silhouettes: no axis, tilt, roll or focal length near the assumed ones makes the outlines agree "
-            "better; check the steps, the sense of turning and the cut-outs"};
+            "silhouettes: no axis, tilt, roll or focal length near the assumed ones makes the silhouettes agree "
+            "better; check the steps, the direction of turning and the masks"};
     }
-    // What follows finds out how sure this is; it mends no outlines that disagree so much.
+    // The following steps estimate the accuracy; they cannot repair silhouettes that disagree so much.
     const double best_rms = rms_px(consistency_residuals_px(turn, changed(problem.start, best.at), {}));
     if (best_rms > kDisagree_px) return disagreement(best_rms);
     const RaySelection half{2, {}};
@@ -258,7 +259,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     calibration.model.lens = scaled(calibration.model.lens, image_px);
     std::array<double, Parameters::kCount> spread = jackknife(problem, fit);
     const std::array<double, Parameters::kCount> open = valley(fit, best_cost, along);
-    // Outlines that fit worse than good ones should are surer of nothing.
+    // Silhouettes that fit worse than good ones make all numbers less certain.
     const double doubt = std::max(1.0, rms_px(residuals) / kGoodSilhouettes_px);
     for (std::size_t k = 0; k < Parameters::kCount; ++k) {
         spread[k] = std::max(spread[k], doubt * open[k]);

@@ -14,17 +14,17 @@ namespace {
 constexpr double kFewestAgreeing = 0.2;        // of all candidates
 constexpr double kFewestAgreeingOfView = 0.4;  // of the median over all views
 constexpr double kMostViewsApart = 0.15;
-constexpr double kLeastExplained = 0.6;  // of the shares' scatter, by one change
+constexpr double kLeastExplained = 0.6;  // of the shares' scatter, explained by one change
 constexpr double kLeastChange = 0.25;
-constexpr double kLargestRms = 0.004;        // of the image's longer side: 4 px of 1000
-constexpr double kMostUncertainLens = 0.25;  // deviation of f over f
+constexpr double kLargestRms = 0.004;        // relative to the image's longer side: 4 px of 1000
+constexpr double kMostUncertainLens = 0.25;  // deviation of f / f
 constexpr double kStepWarning_deg = 0.5;
 constexpr double kRepeat = 0.1;  // of the median step
 constexpr double kGap = 1.6;
-constexpr std::size_t kFewUneven = 4;  // steps that are named one by one
+constexpr std::size_t kFewUneven = 4;  // steps listed individually
 constexpr double kAxesApart_px = 0.5;
 
-// [view], of its candidates: those that agree with the rig.
+// [view]: share of its candidates that agree with the rig.
 std::vector<double> agreeing_shares(const Bundle& bundle, std::span<const int> candidates) {
     const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
     std::vector<double> shares;
@@ -54,8 +54,8 @@ std::string list_of(const std::vector<std::size_t>& views, std::span<const std::
     return listed(of_views, 3);
 }
 
-// The first view after something changed at one moment: the shares before it and after it are two different levels that
-// explain most of how shares differ. Nothing where they differ otherwise, as where two cameras take turns.
+// The first view after a single change: the shares before and after it have two levels that explain most of the
+// variance. Nothing if the shares vary otherwise, for example with two alternating cameras.
 std::optional<std::size_t> moment_of_change(std::span<const double> shares) {
     const auto count = static_cast<double>(shares.size());
     double mean = 0, scatter = 0;
@@ -104,20 +104,20 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
     const std::vector<std::size_t> apart = views_apart(bundle, candidates);
     const auto views = static_cast<double>(names.size());
     if (share < kFewestAgreeing || static_cast<double>(apart.size()) > kMostViewsApart * views) {
-        std::string text = "the images do not show one turn before a still camera: " + with_digits(100 * share, 0) +
+        std::string text = "the images do not show one turn before a fixed camera: " + with_digits(100 * share, 0) +
                            " % of the observations agree with the best one";
         if (!apart.empty()) text += ", and not those of " + list_of(apart, names);
         if (const auto moment = moment_of_change(agreeing_shares(bundle, candidates))) {
             text += "; was the camera or the tripod moved at about " + names[*moment] + "? Take the turn again";
         } else {
-            text += "; are they of one camera, one zoom and one object that stood still on the turntable?";
+            text += "; are they of one camera, one zoom and one object that did not move on the turntable?";
         }
         return Error{text};
     }
     const double longer = std::max(model.lens.width, model.lens.height);
     if (rms_px(bundle) > kLargestRms * longer) {
         return Error{"the best turn misses the observations by " + with_digits(rms_px(bundle), 1) +
-                     " px; are the images in the order they were taken, from one still camera?"};
+                     " px; are the images in the order they were taken, from one fixed camera?"};
     }
     const double usual = median_step(model.angles_rad);
     int against = 0;
@@ -149,7 +149,7 @@ std::vector<std::string> step_warnings(std::span<const double> angles, const Mod
     std::vector<std::string> lines;
     std::vector<std::size_t> uneven;  // steps to these views
     const double usual = degrees(median_step(angles));
-    const auto off = [&](std::size_t i) {  // how far step i - 1 -> i differs from the usual one, degrees forward
+    const auto off = [&](std::size_t i) {  // deviation of step i - 1 -> i from the usual one, degrees forward
         return (degrees(angles[i] - angles[i - 1]) - usual) * (usual < 0 ? -1 : 1);
     };
     const auto step_to = [&](std::size_t i) { return std::abs(usual) + off(i); };
@@ -161,7 +161,7 @@ std::vector<std::string> step_warnings(std::span<const double> angles, const Mod
         const double step = step_to(i);
         if (std::abs(off(i)) <= tolerance(i)) continue;
         if (std::abs(step) < kRepeat * std::abs(usual)) {
-            lines.push_back(names[i] + " stands where " + names[i - 1] + " does (" + with_digits(step, 2) +
+            lines.push_back(names[i] + " is at the angle of " + names[i - 1] + " (" + with_digits(step, 2) +
                             " degrees on); the turntable had not turned");
         } else if (i + 1 < angles.size() && std::abs(off(i) + off(i + 1)) <= tolerance(i)) {
             lines.push_back(names[i] + " is " + with_digits(std::abs(off(i)), 1) + " degrees off (" +
@@ -230,7 +230,7 @@ std::string place_warning(std::span<const ImagePlace> places) {
         most = std::max(most, place.scale);
     }
     return "the images were moved (by up to " + with_digits(shift_px, 0) + " px) and scaled (by up to " +
-           with_digits(100 * (most / least - 1), 0) + " %) one by one, as shops do; they are put back";
+           with_digits(100 * (most / least - 1), 0) + " %) individually, as shops do; this is undone";
 }
 
 std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPlace& of_silhouettes, int reduction) {
@@ -238,8 +238,9 @@ std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPl
     const double believed = 3 * std::hypot(of_tracks.deviation_px, of_silhouettes.deviation_px);
     if (!(apart > std::max(believed, kAxesApart_px * reduction))) return std::nullopt;
     return "the object's texture turns about an axis " + with_digits(apart, 1) +
-           " px beside that of its outlines, which is taken; stripes wound around the object mislead like this, but so "
-           "do cut-outs that lack the same side in all images: look at those, or put a printed board under the "
+           " px beside that of its silhouettes, which is used; stripes wound around the object have this effect, and "
+           "so "
+           "have masks that lack the same side in all images: check those, or put a printed board under the "
            "object";
 }
 

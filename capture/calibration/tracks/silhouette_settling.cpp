@@ -15,11 +15,11 @@
 namespace rs::capture {
 namespace {
 
-// Outlines of two views that agree no better than this are of fur, or cut out wrong, and would mislead.
+// Silhouette pairs that agree less are of fur, or segmented wrongly, and would mislead.
 constexpr double kWorstPairs_px = 0.15;
-constexpr double kWorstTogether_px = 0.5;  // of all views; cut-outs of real photographs stray by 0.3
+constexpr double kWorstTogether_px = 0.5;  // of all views; silhouettes of real photos deviate by 0.3
 
-// The points with the model; not where too few could be seen as they were.
+// Applies the model and triangulates the points again; returns false if fewer than `fewest_tracks` remain.
 bool move_to(const TurntableModel& model, Bundle& bundle, std::size_t fewest_tracks) {
     Bundle moved = make_bundle(model, bundle.tracks);
     if (moved.tracks.size() < fewest_tracks) return false;
@@ -27,7 +27,8 @@ bool move_to(const TurntableModel& model, Bundle& bundle, std::size_t fewest_tra
     return true;
 }
 
-// What a fit has found. The axis' position has been estimated from the same outlines before: it gets no surer.
+// Applies the result of a fit. The deviation of the axis' position does not decrease, because it was estimated from the
+// same silhouettes before.
 void take(const TurntableModel& model, const Eigen::MatrixXd& covariance, TrackSolution& solution,
           std::size_t fewest_tracks) {
     if (!move_to(model, solution.bundle, fewest_tracks)) return;
@@ -37,10 +38,10 @@ void take(const TurntableModel& model, const Eigen::MatrixXd& covariance, TrackS
     solution.covariance = covariance;
 }
 
-// Moves the axis to where tracks and outlines together see it, and the points with it. All else stays: texture that
-// glides alike around the whole object looks as if it turned about an axis beside the true one, and bending lens and
-// angles until it fits the true one only spreads the error. `deviations` are those of the bundle as it stands; the
-// position's is made that of both. A line for the photographer where they disagree.
+// Moves the axis to the combined estimate of tracks and silhouettes, and triangulates the points again. Other numbers
+// stay: texture that moves uniformly around the whole object seems to turn about an axis beside the true one, and
+// changing lens and angles to fit the true one would only spread the error. Updates the deviation of the axis'
+// position. Returns a warning if tracks and silhouettes disagree.
 std::optional<std::string> settle_axis(TrackSolution& solution, const TurnImages& turn, std::size_t fewest_tracks) {
     const NumberPlaces& places = solution.places;
     if (places.camera[CameraNumber::kPan] < 0) return std::nullopt;
@@ -61,8 +62,9 @@ std::optional<std::string> settle_axis(TrackSolution& solution, const TurnImages
     return axis_warning(of_tracks, *of_silhouettes, turn.reduction);
 }
 
-// Brings the whole model to where tracks and outlines together see it (silhouette_tangency.hpp), and the points with
-// it. The covariance is that of the tracks alone; the axis' position is known as the deviations state.
+// Moves the whole model to the combined estimate of tracks and silhouette pairs (silhouette_tangency.hpp), and
+// triangulates the points again. The covariance is that of the tracks, with the axis' position replaced by its
+// deviation.
 void settle_pairs(TrackSolution& solution, const TurnImages& turn, std::size_t fewest_tracks) {
     Eigen::MatrixXd& covariance = solution.covariance;
     const TurntableModel& found = solution.bundle.model;
@@ -76,13 +78,13 @@ void settle_pairs(TrackSolution& solution, const TurnImages& turn, std::size_t f
     if (fit) take(fit->model, fit->covariance, solution, fewest_tracks);
 }
 
-// How finely all outlines are compared with all others: the work grows with the square of the views.
+// Resolution at which all silhouettes are compared: the cost grows with the square of the number of views.
 SilhouetteDetail detail_of(std::size_t views) {
     const double fewer = std::min(1.0, 36.0 / static_cast<double>(views));
     return {views <= 72 ? 600 : 300, static_cast<std::size_t>(std::max(32.0, 400 * fewer * fewer))};
 }
 
-// The same with the outlines of all views together (coherence_fit.hpp).
+// The same with the silhouettes of all views together (coherence_fit.hpp).
 void settle_all(TrackSolution& solution, const TurnImages& turn, std::size_t fewest_tracks) {
     std::vector<Image<std::uint8_t>> masks;
     for (const CalibrationImage& image : turn.images) masks.push_back(image.alpha);

@@ -26,17 +26,17 @@ constexpr double kFewestAgreeingPlaced = 0.75;
 constexpr int kPlaceRounds = 1;
 constexpr double kLossDeviations = 2;
 constexpr double kTrackOutlierDeviations = 4;
-constexpr double kSharedError_px = 0.2;  // what the true errors on photographs with known truth require
+constexpr double kSharedError_px = 0.2;  // calibrated on photos with ground truth
 constexpr std::size_t kEnoughWideTracks = 80;
 constexpr double kWideArc_rad = 0.35;
-constexpr std::size_t kEnoughTracks = 2000;  // more would only take time
-constexpr int kObservationsPerView = 280;    // until so many, points are grown beside those there are
+constexpr std::size_t kEnoughTracks = 2000;  // more would only cost time
+constexpr int kObservationsPerView = 280;    // points are grown until each view has so many
 constexpr int kAlignmentRounds = 2;
-constexpr int kMostAlignmentRounds = 3;  // where points still grow
-constexpr double kRoom = 1.15;           // around the points known, for those not known yet
+constexpr int kMostAlignmentRounds = 3;  // while points are added
+constexpr double kRoom = 1.15;           // factor on the radius of the known points, for those not found yet
 constexpr double kLeastOutlierLimit_px = 0.8;
-constexpr double kAlignedLimit_px = 1;  // alignment that went to another place
-// Adjustments after which observations are chosen anew need not be exact.
+constexpr double kAlignedLimit_px = 1;  // larger residuals are alignments to another place
+// Adjustments followed by a new selection of observations need not be accurate.
 constexpr int kRoughIterations = 12;
 constexpr double kRoughlyEnough = 1e-4;
 
@@ -65,8 +65,8 @@ std::vector<ViewFit> fits(const Bundle& bundle) {
     return views;
 }
 
-// The representation whose image is the same but whose axis points the other way; an axis that lies sideways has no
-// upper end in the image, so the end that the camera looks down from is taken for it.
+// Of the two equivalent models with opposite axis directions, takes the one whose camera looks down if the axis is
+// sideways, because the image does not define an upper end then.
 void choose_upper_end(Bundle& bundle) {
     CameraPose& pose = bundle.model.pose;
     if (!lies_sideways(pose) || pose.tilt_rad >= 0) return;
@@ -77,7 +77,7 @@ void choose_upper_end(Bundle& bundle) {
     for (glm::dvec3& p : bundle.points) p = {-p.x, -p.y, p.z};
 }
 
-// Of the points, but for the farthest few, which may be wrong.
+// 98th percentile of the points' distances from the axis; the farthest few may be wrong.
 double farthest_radius(const Bundle& bundle) {
     std::vector<double> radii;
     for (const glm::dvec3& p : bundle.points) radii.push_back(std::hypot(p.x, p.z));
@@ -98,8 +98,8 @@ BundleOptions rough(BundleOptions options) {
     return options;
 }
 
-// From a start that is roughly right to a good bundle of features as they were detected and matched, which is enough
-// to judge it by; leaves in `options` the loss that fits them.
+// Iterates adjustment and outlier rejection from an approximate start, with the detected features; accurate enough for
+// plausibility checks. Sets the loss in `options` to fit the residuals.
 bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k1_is_free, BundleOptions& options) {
     constexpr int kMostRounds = 5;
     constexpr double kSameLoss = 0.02;
@@ -108,7 +108,7 @@ bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k
         options.free.k1 = round > 0 && k1_is_free;
         if (!adjust(bundle, rough(options))) return false;
         const double limit = outlier_limit(bundle, reduction);
-        // Observations lost to a poor start get another chance.
+        // Observations rejected because of a poor start are reconsidered.
         if (round + 1 < kMostRounds) {
             bundle = make_agreeing_bundle(bundle.model, tracks, limit);
         } else {
@@ -121,7 +121,7 @@ bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k
     return adjust(bundle, rough(options)).has_value();
 }
 
-// The way around the turn from which a track is seen.
+// Range of angles in which a track is seen, rad.
 double arc_rad(const TurntableModel& model, const Track& track) {
     const double first = model.angles_rad[static_cast<std::size_t>(track.seen.front().view)];
     double low = 0, high = 0;
@@ -148,8 +148,8 @@ void keep(Bundle& bundle, Condition condition) {
     bundle.points.resize(kept);
 }
 
-// What is seen only for a short way may be the crossing of two contours or the edge of a shadow, which glide over the
-// object and still look like a point for that long. Where enough others are there it is left out.
+// Drops tracks over short arcs if enough others exist: they may be crossings of two contours or shadow edges, which
+// move over the object but look like a point for a short time.
 void keep_wide_tracks(Bundle& bundle) {
     std::vector<double> arcs;
     for (const Track& track : bundle.tracks) arcs.push_back(arc_rad(bundle.model, track));
@@ -160,15 +160,15 @@ void keep_wide_tracks(Bundle& bundle) {
          [&, least = std::min(kWideArc_rad, sorted[kEnoughWideTracks])](std::size_t i) { return arcs[i] >= least; });
 }
 
-// Some of all kinds, where there are more than enough: the longest alone would be those seen most aslant.
+// Limits the number of tracks by an even selection; the longest alone would be those with oblique views.
 void keep_enough_tracks(Bundle& bundle) {
     const std::size_t count = bundle.tracks.size();
     if (count <= kEnoughTracks) return;
     keep(bundle, [&](std::size_t i) { return i * kEnoughTracks / count != (i + 1) * kEnoughTracks / count; });
 }
 
-// The same points observed anew, by alignment of their patches, and points beside them, until there are `most`
-// observations; leaves in `options` the loss that fits them. Nothing where no bundle of them can be had.
+// Refines all points by patch alignment, and adds points beside them until there are `most` observations; sets the loss
+// in `options` to fit the residuals. Nothing if the adjustment fails.
 std::optional<Bundle> refined(Bundle bundle, const TurnImages& turn, BundleOptions& options, int most) {
     for (int round = 0; round < kMostAlignmentRounds; ++round) {
         const std::size_t known = bundle.tracks.size();
@@ -188,7 +188,7 @@ std::optional<Bundle> refined(Bundle bundle, const TurnImages& turn, BundleOptio
     return bundle;
 }
 
-// Tracks that had no part in a model, with their points and outliers found as those were that had; the model stays.
+// Held-out tracks, with points and outliers determined as for the used tracks; the model is constant.
 Bundle judged_by(const TurntableModel& model, const Bundle& unseen, const TurnImages& turn, bool aligned) {
     Bundle bundle = make_agreeing_bundle(model, unseen.tracks, outlier_limit(unseen, turn.reduction));
     if (!aligned) return bundle;
@@ -197,16 +197,17 @@ Bundle judged_by(const TurntableModel& model, const Bundle& unseen, const TurnIm
     return refined(bundle, turn, held, 0).value_or(bundle);
 }
 
-// Where no turn before a still camera explains the points, nor a tripod that was moved once, `placed` becomes the best
-// one with images moved and scaled one by one. Null: they were, and are put back.
+// Calibrates for a fixed camera. If the points are explained neither by a turn nor by a tripod that was moved once,
+// `placed` becomes the best turn with images shifted and scaled individually. `placed` is null if that has already been
+// undone.
 Result<TrackCalibration> calibrate_still(const TurnImages& turn, const KnownInputs& known, Progress* progress,
                                          std::optional<PlacedTurn>* placed) {
     const std::size_t views = turn.images.size();
     if (views < kFewestViews) {
-        return Error{std::to_string(views) + " images do not make a turn that could be calibrated; take at least " +
+        return Error{std::to_string(views) + " images are too few to calibrate a turn; take at least " +
                      std::to_string(kFewestViews) + ", better 36"};
     }
-    if (progress != nullptr) progress->start("following points", 2 * static_cast<std::int64_t>(views));
+    if (progress != nullptr) progress->start("tracking points", 2 * static_cast<std::int64_t>(views));
     RS_ASSIGN_OR_RETURN(const PointFollower follower,
                         PointFollower::look_at(turn.images, turn.reduction, {}, progress));
     RS_ASSIGN_OR_RETURN(FollowedPoints followed, follower.follow(progress));
@@ -215,7 +216,7 @@ Result<TrackCalibration> calibrate_still(const TurnImages& turn, const KnownInpu
     const std::vector<Track>& tracks = result.followed.tracks;
     if (tracks.size() < kFewestTracks) {
         return Error{"only " + std::to_string(tracks.size()) +
-                     " points of the object can be followed over three images and more; an object with so little "
+                     " points of the object can be tracked over three or more images; an object with so little "
                      "texture needs a board under it (rs-capture board)"};
     }
     std::vector<Track> part, held_out;
@@ -243,7 +244,7 @@ Result<TrackCalibration> calibrate_still(const TurnImages& turn, const KnownInpu
     }
     const Bundle settled = bundle;
     const BundleOptions as_settled = options;
-    // Now that it is known where a point can be, more of them are found.
+    // With an approximate model, guided matching finds more tracks.
     RS_ASSIGN_OR_RETURN(const std::vector<Track> guided,
                         follower.follow_guided(bundle.model, kRoom * farthest_radius(bundle), 2.0 * turn.reduction));
     part.clear();
@@ -275,9 +276,10 @@ Result<TrackCalibration> calibrate_still(const TurnImages& turn, const KnownInpu
     calibration.model = bundle.model;
     calibration.deviations = std::move(solution.deviations);
     calibration.step_rad = median_step(bundle.model.angles_rad);
-    Bundle judged = settled;  // its observations, the better angles
+    Bundle judged = settled;  // the observations of the features with the refined model
     judged.model = bundle.model;
-    // Of images that were moved, angles and axis are only as the moves leave them.
+    // Angles and axis of images that were shifted individually depend on the estimated placements, so no warnings about
+    // them.
     if (placed != nullptr) {
         calibration.warnings = step_warnings(bundle.model.angles_rad, calibration.deviations, turn.names);
         if (axis_disagrees) calibration.warnings.push_back(*axis_disagrees);
@@ -312,7 +314,7 @@ Result<TrackCalibration> calibrate_placed(const TurnImages& turn, const KnownInp
     }
 }
 
-// No lens folds its own image over itself: what the distortion would explain then is something else.
+// True if the distortion folds the image over itself. No real lens does; the distortion then fits another effect.
 bool folds(const Lens& lens) {
     for (const double x : {0.0, static_cast<double>(lens.width)}) {
         for (const double y : {0.0, static_cast<double>(lens.height)}) {
@@ -332,8 +334,8 @@ Result<TrackCalibration> calibrate_with_tracks(const TurnImages& turn, const Kno
     found = calibrate_placed(turn, straight, progress);
     if (found) {
         found->calibration.warnings.emplace_back(
-            "the object's points do not show how the lens distorts, so it is taken not to; --known FILE gives what is "
-            "known of it");
+            "the object's points do not determine the lens distortion, so none is assumed; give known values with "
+            "--known FILE");
     }
     return found;
 }

@@ -316,7 +316,7 @@ private:
 
     const Survey& survey_;
     const BackgroundParameters& parameters_;
-    bool shows_motion_;  // enough frames to tell static pixels
+    bool shows_motion_;  // enough frames to identify static pixels
     ExposureNormalizedFrames frames_;
     BackgroundEstimate estimate_;
     BorderStatistics border_;

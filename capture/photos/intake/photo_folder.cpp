@@ -21,7 +21,7 @@ constexpr char lower(char c) {
 }
 
 // In order of preference. JPEG is first: equally many files of another format with the same names may be masks or
-// cut-outs.
+// foreground images.
 constexpr std::array<std::string_view, 14> kExtensions = {".jpg",  ".jpeg", ".png", ".tif", ".tiff", ".webp", ".heic",
                                                           ".heif", ".avif", ".bmp", ".exr", ".hdr",  ".tga",  ".ppm"};
 
@@ -163,12 +163,11 @@ std::string size_text(int width, int height) {
 
 Error turned_beside(const PhotoFolder& folder, const std::string& other) {
     const std::string states = folder.states_several()
-                                   ? "the photographs state several EXIF orientations"
-                                   : "the photographs' EXIF orientation is " + std::to_string(folder.orientation);
-    return Error{
-        other + ": " + states +
-        ", and whether this is of their pixels as they are stored or as they are shown cannot be told; turn the "
-        "pixels first, e.g. with exiftran -ai or mogrify -auto-orient, and then make this again"};
+                                   ? "the photos have several EXIF orientations"
+                                   : "the photos' EXIF orientation is " + std::to_string(folder.orientation);
+    return Error{other + ": " + states +
+                 ", so it is ambiguous whether the file refers to the stored or the displayed pixels; rotate the "
+                 "pixels first, e.g. with exiftran -ai or mogrify -auto-orient, and then create the file again"};
 }
 
 std::vector<std::string> file_names(const PhotoFolder& folder) {

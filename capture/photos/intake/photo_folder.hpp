@@ -54,12 +54,12 @@ struct PhotoFolder {
     bool has_alpha = false;  ///< all files have an alpha channel
     int focal_35mm = 0;      ///< EXIF, mm; 0 if unknown or not the same for all photos
     std::vector<std::string> selection_notes;  ///< on the selection of photos (photo_source.hpp)
-    /// Folder of extracted film frames; deleted with the last copy of this object. Null for photos.
+    /// Folder of extracted video frames; deleted with the last copy of this object. Null for photos.
     std::shared_ptr<const StagedFolder> temporary;
 
     /// EXIF orientation that is applied to a photo.
-    [[nodiscard]] int orientation_of(std::size_t photograph) const {
-        return own_orientations.empty() ? orientation : own_orientations[photograph];
+    [[nodiscard]] int orientation_of(std::size_t photo) const {
+        return own_orientations.empty() ? orientation : own_orientations[photo];
     }
     /// Converts a point of the displayed photo, in px, to px of the image in working size.
     [[nodiscard]] glm::dvec2 in_image(const glm::dvec2& shown_px) const {
@@ -68,7 +68,7 @@ struct PhotoFolder {
     }
     /// True if the files differ in their EXIF orientation.
     [[nodiscard]] bool states_several() const { return otherwise_turned > 0 || !own_orientations.empty(); }
-    /// True if the size of a mask or a camera does not tell if it refers to the stored pixels or to the displayed
+    /// True if it is ambiguous whether the size of a mask or a camera refers to the stored pixels or to the displayed
     /// photo.
     [[nodiscard]] bool turns_unnoticed() const {
         return states_several() || (orientation != 1 && (orientation < 5 || shown_width == shown_height));

@@ -20,7 +20,7 @@ FrameRequest frame_request(const std::optional<int>& frames, int by_default) {
 }
 
 Result<PhotoFolder> open_film(const PhotoRequest& request, Progress* progress) {
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(request.output, "imported photographs"));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(request.output, "imported photos"));
     const auto frames = std::make_shared<const StagedFolder>(std::move(staged));
     RS_ASSIGN_OR_RETURN(FilmFrames film,
                         write_film_frames(request.photos, frames->temporary_path(),
@@ -70,7 +70,7 @@ Result<PhotoFolder> open_photos(const PhotoRequest& request, Progress* progress)
     if (request.has_per_photo_options && (is_film(request.photos) || request.frames)) {
         return Error{request.photos.string() +
                      ": masks, angles and steps cannot be combined with a selection of frames; extract the photos "
-                     "from the film (ffmpeg -i FILM photos/%03d.png), or leave out --frames"};
+                     "from the video (ffmpeg -i FILM photos/%03d.png), or leave out --frames"};
     }
     if (is_film(request.photos)) return open_film(request, progress);
     Result<PhotoFolder> folder = open_photo_folder(request.photos, request.max_side_px);
@@ -80,7 +80,7 @@ Result<PhotoFolder> open_photos(const PhotoRequest& request, Progress* progress)
     const bool is_fewer_requested = request.frames && count > static_cast<std::size_t>(*request.frames);
     if (request.frames && !is_fewer_requested) {
         folder->selection_notes.push_back(request.photos.string() + ": holds " + std::to_string(count) +
-                                          " photos, no more than --frames; all are taken");
+                                          " photos, no more than --frames; all are used");
     }
     if (is_fewer_requested || (is_large && !request.frames)) {
         const FrameRequest frames = frame_request(request.frames, kMaxSelectedFrames);

@@ -15,8 +15,8 @@ namespace rs::capture {
 inline constexpr std::size_t kMaxPhotosWithoutSelection = 150;
 
 struct PhotoRequest {
-    std::filesystem::path photos;  // folder or film
-    std::filesystem::path output;  // extracted frames of a film are stored beside it during the import
+    std::filesystem::path photos;  // folder or video
+    std::filesystem::path output;  // extracted frames of a video are stored beside it during the import
     int max_side_px = kMaxImageSide_px;
     std::optional<int> frames;  // number of photos or frames to select
     // True if options describe single photos (masks, angles, steps), so that none may be left out.
@@ -28,7 +28,7 @@ bool is_film(const std::filesystem::path& photos);
 
 /// Opens the photos to import: all photos of a folder of up to kMaxPhotosWithoutSelection, otherwise those selected by
 /// select_frames(). Notes on the selection are in PhotoFolder::selection_notes.
-/// Errors: those of open_photo_folder() and write_film_frames(); a film or a frame count together with per-photo
+/// Errors: those of open_photo_folder() and write_film_frames(); a video or a frame count together with per-photo
 /// options.
 Result<PhotoFolder> open_photos(const PhotoRequest& request, Progress* progress);
 

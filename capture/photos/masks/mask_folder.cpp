@@ -22,7 +22,7 @@ constexpr int kObjectFrom = 128;  // least code that counts as object
 constexpr double kMinMaskScale = 1.0 / 16;
 constexpr double kMaxMaskScale = 2;
 
-// "3 of 12 masks (first 004.png)"; nothing where there is none.
+// "3 of 12 masks (first 004.png)"; nullopt if there are none.
 std::optional<std::string> count_text(const std::vector<std::filesystem::path>& files,
                                       const std::function<bool(std::size_t)>& holds) {
     std::size_t count = 0, first = 0;
@@ -142,9 +142,10 @@ Status MaskFolder::choose_channel(const std::filesystem::path& folder, const Sur
         return {};
     }
     if (const auto photos = count_text(files_, [&](std::size_t i) { return is_photo(survey.masks[i]); })) {
-        return Error{printable(folder.string() + ": " + *photos +
-                               " look like photos, not masks; give black and white masks, or cut-outs as PNG with "
-                               "transparency")};
+        return Error{
+            printable(folder.string() + ": " + *photos +
+                      " look like photos, not masks; give black and white masks, or foreground images as PNG with "
+                      "transparency")};
     }
     return {};
 }
@@ -155,7 +156,7 @@ void MaskFolder::choose_codes(const std::filesystem::path& folder, const Survey&
     if (white != 1 && (kind_ == MaskKind::kAlpha || white >= kObjectFrom)) white = 255;
     if (white != 255) {
         notes_.push_back(printable(folder.string() + ": masks hold 0 and " + std::to_string(white) + " only; " +
-                                   std::to_string(white) + " is taken as white"));
+                                   std::to_string(white) + " is read as white"));
     }
     const auto is_inverted = [&](std::size_t i) {
         return looks_inverted(Survey::channel(survey.masks[i], reads_alpha_), least_white(white));
@@ -206,7 +207,7 @@ void MaskFolder::note_grey(const std::filesystem::path& folder, const Survey& su
     const double share = static_cast<double>(grey) / static_cast<double>(pixels_from(total, 0));
     if (share <= kMuch) return;
     notes_.push_back(printable(folder.string() + ": " + std::to_string(std::lround(100 * share)) +
-                               " % of the masks are grey; codes from 128 are taken as object. Where grey is the "
+                               " % of the masks are grey; codes from 128 are read as object. If grey is the "
                                "object's alpha, give --masks-alpha"));
 }
 
@@ -220,7 +221,7 @@ Result<MaskFolder> MaskFolder::open(const std::filesystem::path& folder, const P
     RS_TRY(masks.check_sizes(folder, photos));
 
     Survey survey{std::vector<MaskStatistics>(masks.files_.size())};
-    // for_each_photo() counts pixels of the size that photos are worked on in; masks are read in their own size.
+    // for_each_photo() is given bytes per pixel of the working size; masks are read in their own size.
     double most_pixels = 0;
     for (const Size& size : masks.sizes_) most_pixels = std::max(most_pixels, 1.0 * size.width * size.height);
     const double bytes_per_px = std::ceil(kReadBytesPerPixel * most_pixels / (1.0 * photos.width * photos.height));

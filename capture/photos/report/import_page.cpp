@@ -106,7 +106,7 @@ std::string number(double value, int digits) {
 }
 
 std::string deviation(double value, int digits) {
-    return value == 0 ? "held" : number(value, digits);
+    return value == 0 ? "fixed" : number(value, digits);
 }
 
 std::string what_it_rests_on(CalibrationMethod method) {
@@ -114,25 +114,25 @@ std::string what_it_rests_on(CalibrationMethod method) {
         case CalibrationMethod::kBoard:
             return "the printed board on the turntable.";
         case CalibrationMethod::kGiven:
-            return "numbers that were given; nothing was estimated.";
+            return "given values; nothing was estimated.";
         case CalibrationMethod::kTracks:
-            return "points of the object followed around the turn.";
+            return "points of the object tracked around the turn.";
         case CalibrationMethod::kSilhouettes:
-            return "the outlines of the object alone, which know little of the lens, and of round bodies nothing of "
-                   "the steps.";
+            return "the silhouettes of the object alone, which hardly determine the lens, nor the steps of round "
+                   "bodies.";
         case CalibrationMethod::kNominal:
-            return "little but assumptions: equal steps, a level camera, and a usual lens where none is known.";
+            return "assumptions: equal steps, a level camera, and a typical lens if none is known.";
     }
     return "";
 }
 
 void add_summary(HtmlPage& page, const ImportReport& report) {
     page.paragraph(std::to_string(report.views) + " views of " + sizes_text(report.folder) +
-                   ". Calibration: " + to_string(report.method) + ". It rests on " + what_it_rests_on(report.method));
+                   ". Calibration: " + to_string(report.method) + ". Based on " + what_it_rests_on(report.method));
     if (report.notes.empty()) {
-        page.paragraph("There is nothing to warn of.");
+        page.paragraph("No warnings.");
     } else {
-        page.heading("What you should know");
+        page.heading("Warnings and notes");
         page.list(report.notes);
     }
 }
@@ -165,8 +165,7 @@ void add_estimates(HtmlPage& page, const Calibration& found) {
     if (found.observations == 0) return;
     const std::string points = found.points > 0 ? std::to_string(found.points) + " points in " : "";
     const std::string held_out =
-        found.held_out_rms_px ? ", " + number(*found.held_out_rms_px, 3) + " px where they took no part in the fit"
-                              : "";
+        found.held_out_rms_px ? ", " + number(*found.held_out_rms_px, 3) + " px for held-out observations" : "";
     page.paragraph(points + std::to_string(found.observations) + " observations; residuals " + number(found.rms_px, 3) +
                    " px RMS" + held_out + ".");
 }
@@ -200,13 +199,13 @@ void add_plots(HtmlPage& page, const Calibration& found) {
         count.y.push_back(found.views[i].observations);
     }
     page.heading("Angles and residuals");
-    page.drawing(svg_of({"Angles against equal steps", "photograph", "degrees", {value, above, below}}));
+    page.drawing(svg_of({"Angles against equal steps", "photo", "degrees", {value, above, below}}));
     if (found.observations == 0) return;
-    page.drawing(svg_of({"Residuals", "photograph", "px", {rms}, 900, 220}));
-    page.drawing(svg_of({"Observations", "photograph", "", {count}, 900, 220}));
+    page.drawing(svg_of({"Residuals", "photo", "px", {rms}, 900, 220}));
+    page.drawing(svg_of({"Observations", "photo", "", {count}, 900, 220}));
 }
 
-Status add_photographs(HtmlPage& page, const ImportReport& report) {
+Status add_photos(HtmlPage& page, const ImportReport& report) {
     std::vector<CaptionedImage> row;
     for (const int view : evenly_spread(static_cast<int>(report.folder.photos.size()), kAnnotated)) {
         const auto i = static_cast<std::size_t>(view);
@@ -214,11 +213,10 @@ Status add_photographs(HtmlPage& page, const ImportReport& report) {
         row.push_back({annotated_photo(photo, report, view), source_name(report, i)});
     }
     page.heading("The axis and the points");
-    page.paragraph(
-        report.calibration.tracks
-            ? "White: the turntable's axis. Points: where they were seen, and the way they went from the view "
-              "before; green where the model agrees within a pixel, red where it misses by two and more."
-            : "White: the turntable's axis.");
+    page.paragraph(report.calibration.tracks
+                       ? "White: the turntable's axis. Points: detected positions, with the motion from the previous "
+                         "view; green where the residual is below a pixel, red from two pixels on."
+                       : "White: the turntable's axis.");
     return page.images(row, kAnnotatedSide_px);
 }
 
@@ -229,7 +227,7 @@ Status add_mattes(HtmlPage& page, const ImportReport& report) {
         for (Rgba8& p : matte.pixels()) p = over(p, kMagenta);
         row.push_back({std::move(matte), source_name(report, static_cast<std::size_t>(view))});
     }
-    page.heading("Mattes on magenta");
+    page.heading("Alpha mattes over magenta");
     return page.images(row, 260);
 }
 

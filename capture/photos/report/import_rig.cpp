@@ -53,8 +53,8 @@ std::optional<double> ground_height(const PhotoCalibration& calibration) {
 }  // namespace
 
 std::string sizes_text(const PhotoFolder& folder) {
-    std::string text = size_text(folder.shown_width, folder.shown_height) + " photographs";
-    if (folder.reduction > 1) text += " taken as " + size_text(folder.width, folder.height);
+    std::string text = size_text(folder.shown_width, folder.shown_height) + " photos";
+    if (folder.reduction > 1) text += " reduced to " + size_text(folder.width, folder.height);
     return text;
 }
 

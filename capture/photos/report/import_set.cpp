@@ -33,7 +33,7 @@ Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFold
     std::vector<std::size_t> number(folder.photos.size(), 0);  // index in the set
     for (std::size_t i = 0, next = 0; i < folder.photos.size(); ++i) number[i] = is_left_out(report, i) ? 0 : next++;
     const Calibration& calibration = *report.calibration.calibration;
-    TurnSilhouette outline(report.frame.lens.width, report.frame.lens.height);
+    TurnSilhouette silhouette(report.frame.lens.width, report.frame.lens.height);
     std::mutex mutex;
     const auto work = [&](std::size_t i) -> Status {
         if (is_left_out(report, i)) return {};
@@ -44,12 +44,12 @@ Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFold
         TurnSilhouette own(upright.width(), upright.height());
         own.add(upright);
         const std::lock_guard lock(mutex);
-        outline.merge(own);
+        silhouette.merge(own);
         return {};
     };
     constexpr int kRectifyBytesPerPixel = kReadBytesPerPixel + 40;
     RS_TRY(for_each_photo(folder, kRectifyBytesPerPixel, "rectifying", progress, work));
-    return outline.visible();
+    return silhouette.visible();
 }
 
 Status write_as_they_are(const fs::path& set, const PhotoFolder& folder, const CutoutCache& cuts, Progress* progress) {

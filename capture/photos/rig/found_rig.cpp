@@ -70,8 +70,8 @@ void take_nominal(FoundRig& rig, const KnownInputs& given) {
     add_notes(rig, rig.nominal.notes);
     if (given.f_px || given.pose || given.angles_rad) {
         rig.notes.emplace_back(
-            "a nominal rig takes nothing of what was given as known; --fov, --degrees-per-view and --axis-x set its "
-            "numbers");
+            "a nominal rig ignores the values given by --known; --fov, --degrees-per-view and --axis-x set its "
+            "values");
     }
     rig.method = CalibrationMethod::kNominal;
     rig.step_deg = rig.nominal.step_deg;
@@ -94,7 +94,7 @@ Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, co
     const RigRequest request = in_image_px(given, folder);
     FoundRig rig;
     rig.nominal = find_nominal_turn(request, folder, turn);
-    // Evaluated on demand: calibration by object points or a board yields the sense of rotation itself.
+    // Evaluated on demand: calibration by object points or a board yields the direction of rotation itself.
     const auto nominal = [&]() -> const NominalTurn& {
         if (rig.nominal.turning_from.empty()) find_sense(request, folder, turn, rig.nominal);
         return rig.nominal;

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Fourth stage of an import: estimates lens, axis and angles of a turn from its cut-outs. Takes the most reliable
-/// calibration method that succeeds (photo_calibration.hpp), otherwise a nominal rig (nominal_rig.hpp). Runs between
-/// segment_turn() and write_import_set().
+/// Fourth stage of an import: estimates lens, axis and angles of a turn from its foreground images. Takes the most
+/// reliable calibration method that succeeds (photo_calibration.hpp), otherwise a nominal rig (nominal_rig.hpp). Runs
+/// between segment_turn() and write_import_set().
 
 #include "capture/calibration/known/known_files.hpp"
 #include "capture/photos/rig/nominal_rig.hpp"

@@ -57,14 +57,14 @@ void find_axis(const NominalTurnRequest& request, const PhotoFolder& folder, con
     if (!closed || !axis) {
         found.notes.push_back(std::string("the axis cannot be found ") +
                               (closed ? "(the object reaches the image's sides)" : "from less than a full turn") +
-                              "; the image's middle is taken, --axis-x PX sets it");
+                              "; the image centre is used, --axis-x PX sets it");
         return;
     }
     found.axis_x_px = axis->x_px;
     found.axis_spread_px = axis->spread_px;
     found.axis_from = "silhouettes";
     if (axis->spread_px > kDoubtfulSpread * folder.width) {
-        found.notes.push_back("the axis column is doubtful: the rows differ by " +
+        found.notes.push_back("the axis column is uncertain: the rows differ by " +
                               std::to_string(std::lround(axis->spread_px)) +
                               " px (camera not level, or steps uneven); --axis-x PX sets it");
     }
@@ -118,8 +118,8 @@ void find_sense(const NominalTurnRequest& request, const PhotoFolder& folder, co
         found.turning_from = "pictures";
     } else {
         found.notes.push_back(
-            "which way the object turns is not clear from the images; clockwise as seen from above is "
-            "assumed, --counter-clockwise says otherwise");
+            "the direction of rotation is not clear from the images; clockwise as seen from above is "
+            "assumed, --counter-clockwise sets the other");
     }
 }
 

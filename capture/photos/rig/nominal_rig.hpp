@@ -51,8 +51,8 @@ double distance_for_unit_radius(double extent_px, double fl_px);
 /// least one side of the axis.
 Rig make_nominal_rig(const NominalRigOptions& options, const TurnSilhouette::Box& visible);
 
-/// Axis column and sense of rotation, estimated from the cut-outs without calibration. Input of the nominal rig and
-/// start of calibration.
+/// Axis column and direction of rotation, estimated from the foreground images without calibration. Input of the
+/// nominal rig and start of calibration.
 struct NominalTurn {
     double fov_deg = kNominalFieldOfView_deg;  ///< horizontal
     std::string fov_from;                      ///< "given", "camera" (EXIF), "assumed"
@@ -77,7 +77,7 @@ struct NominalTurnRequest {
 NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn);
 
 /// Sets `turning` and `turning_from` of `found`, the result of find_nominal_turn() for the same turn. Compares the
-/// small cut-outs unless the request holds the sense of rotation.
+/// small foreground images unless the request holds the direction of rotation.
 void find_sense(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn,
                 NominalTurn& found);
 

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr int kSilhouetteSide_px = 640;
 
-// Reads the cut-outs, not the photos, so that no point of the background is tracked.
+// Reads the foreground images, not the photos, so that no point of the background is tracked.
 Result<TurnImages> read_turn(const PhotoFolder& folder, const CutoutCache& cuts, Progress* progress) {
     TurnImages turn;
     turn.width = folder.width;
@@ -33,7 +33,7 @@ Result<TurnImages> read_turn(const PhotoFolder& folder, const CutoutCache& cuts,
         turn.images[i] = calibration_image(cut, turn.reduction);
         return {};
     };
-    RS_TRY(for_each_photo(folder, kReadBytesPerPixel, "reading the cut-outs", progress, read));
+    RS_TRY(for_each_photo(folder, kReadBytesPerPixel, "reading the foreground images", progress, read));
     return turn;
 }
 
@@ -94,30 +94,30 @@ std::vector<int> steps_before(const std::vector<Image<std::uint8_t>>& masks) {
     return steps;
 }
 
-// Calibrates with silhouettes. An unknown sense of rotation is guessed first. The silhouettes refute the guess if they
-// fit only the other sense, or fit the guess only with a camera that looks up from below the turntable.
+// Calibrates with silhouettes. An unknown direction of rotation is guessed first. The silhouettes refute the guess if
+// they fit only the other sense, or fit the guess only with a camera that looks up from below the turntable.
 Result<Calibration> from_silhouettes(const TurnImages& turn, const CalibrationRequest& request) {
-    const Silhouettes outlines = silhouettes(turn);
+    const Silhouettes reduced = silhouettes(turn);
     // Size of the part of the photos that the silhouettes cover: its sides must be integer multiples of theirs.
     TurntableModel start = request.nominal();
-    start.lens.width = outlines.reduction * outlines.masks.front().width();
-    start.lens.height = outlines.reduction * outlines.masks.front().height();
+    start.lens.width = reduced.reduction * reduced.masks.front().width();
+    start.lens.height = reduced.reduction * reduced.masks.front().height();
     const KnownInputs& known = request.known;
-    if (const std::vector<int> steps = steps_before(outlines.masks);
-        steps.back() + 1 < static_cast<int>(steps.size())) {
+    if (const std::vector<int> steps = steps_before(reduced.masks); steps.back() + 1 < static_cast<int>(steps.size())) {
         const double whole_rad = start.angles_rad[1] * static_cast<double>(steps.size());
         for (std::size_t i = 0; i < steps.size(); ++i) start.angles_rad[i] = whole_rad * steps[i] / (steps.back() + 1);
     }
     // The last photo of a turn may be missing, so the step that closes the turn is a guess.
-    Result<Calibration> found = calibrate_with_silhouettes(outlines.masks, start, known);
+    Result<Calibration> found = calibrate_with_silhouettes(reduced.masks, start, known);
     const bool is_guessed = !known.counter_clockwise && !known.step_rad && !known.angles_rad;
     if (is_guessed && (!found || seems_to_look_up(*found))) {
         for (double& angle : start.angles_rad) angle = -angle;
         constexpr double kAsGood = 1.5;
-        Result<Calibration> other = calibrate_with_silhouettes(outlines.masks, start, known);
+        Result<Calibration> other = calibrate_with_silhouettes(reduced.masks, start, known);
         if (other && (!found || (!seems_to_look_up(*other) && other->rms_px < kAsGood * found->rms_px))) {
             found = std::move(other);
-            found->warnings.emplace_back("the images seem to turn the other way, but the outlines fit this one better");
+            found->warnings.emplace_back(
+                "the images seem to turn the other way, but the silhouettes fit this direction better");
         }
     }
     if (!found) return found;
@@ -152,13 +152,13 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const Cutou
     const std::size_t views = folder.photos.size();
     if (request.known.angles_rad && request.known.angles_rad->size() != views) {
         return Error{"the given rig has " + std::to_string(request.known.angles_rad->size()) + " views, the folder " +
-                     std::to_string(views) + " photographs; give a rig of these photographs"};
+                     std::to_string(views) + " photos; give a rig of these photos"};
     }
     RS_ASSIGN_OR_RETURN(TurnImages turn, read_turn(folder, cuts, progress));
     if (choice == CalibrationChoice::kBoard && !request.board) {
         return Error{
-            "calibration by a board was asked for, but the board is not described; say --board default for "
-            "what rs-capture board prints"};
+            "--calibration board: the board is not described; give --board default for "
+            "the default of rs-capture board"};
     }
     if (request.board && (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kBoard)) {
         Result<BoardCalibration> board = from_board(folder, request, turn.names, progress);
@@ -188,14 +188,14 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const Cutou
     }
     if (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kSilhouettes) {
         if (progress != nullptr) progress->start("fitting the silhouettes", 1);
-        Result<Calibration> outlines = from_silhouettes(turn, request);
+        Result<Calibration> found = from_silhouettes(turn, request);
         if (progress != nullptr) progress->advance();
-        if (outlines) {
-            result.calibration = std::move(*outlines);
+        if (found) {
+            result.calibration = std::move(*found);
             return result;
         }
-        if (choice == CalibrationChoice::kSilhouettes) return outlines.error();
-        result.notes.push_back("no calibration from silhouettes: " + outlines.error().message);
+        if (choice == CalibrationChoice::kSilhouettes) return found.error();
+        result.notes.push_back("no calibration from silhouettes: " + found.error().message);
     }
     return result;
 }

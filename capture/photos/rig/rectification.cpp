@@ -52,7 +52,7 @@ std::optional<Stretch> stretch_at(const TurntableModel& model, const glm::dvec2&
     return Stretch{std::sqrt(std::max(0.0, (sum - root) / 2)), std::sqrt((sum + root) / 2)};
 }
 
-std::vector<glm::dvec2> outline_points(const TurnSilhouette::Box& box) {
+std::vector<glm::dvec2> border_points(const TurnSilhouette::Box& box) {
     std::vector<glm::dvec2> points;
     for (int i = 0; i < kPointsPerEdge; ++i) {
         const double t = static_cast<double>(i) / (kPointsPerEdge - 1);
@@ -102,16 +102,16 @@ Result<UprightFrame> plan_upright_frame(const TurntableModel& model,
     std::vector<glm::dvec2> points;
     for (const TurnSilhouette::Box& box : object_boxes) {
         if (box.empty() || box.top >= box.bottom) continue;
-        const auto outline = outline_points(box);
-        points.insert(points.end(), outline.begin(), outline.end());
+        const auto border = border_points(box);
+        points.insert(points.end(), border.begin(), border.end());
     }
-    if (points.empty()) return Error{"rectification: no view shows the object; check the cut-outs"};
+    if (points.empty()) return Error{"rectification: no view shows the object; check the masks"};
     double full_detail_f_px = 0;
     for (const glm::dvec2& p : points) {
         const auto slopes = upright_slopes(model, p);
         const auto stretch = stretch_at(model, p);
         if (!slopes || !stretch) {
-            return Error{"rectification: an upright camera does not see what is at " + at(p) +
+            return Error{"rectification: an upright camera cannot see " + at(p) +
                          ": the camera looks too steeply down or the lens distortion is too strong there; check the "
                          "calibration, or take the images from lower down"};
         }

@@ -37,7 +37,7 @@ inline constexpr int kUprightMargin_px = 8;
 /// these limits; distortion that cannot be inverted within a box.
 Result<UprightFrame> plan_upright_frame(const TurntableModel& model, std::span<const TurnSilhouette::Box> object_boxes);
 
-/// Rectifies a photo's cut-out (sRGB, straight alpha, of the size of model.lens). Samples it once by
+/// Rectifies a photo's foreground image (sRGB, straight alpha, of the size of model.lens). Samples it once by
 /// sample_premultiplied(); the result is transparent outside the photo. bleed_colours() then extends the object's
 /// colours under alpha 0. `place` is the displacement of the photo from the image of the model's fixed camera. About
 /// 0.2 s per megapixel of the frame. Thread-safe.

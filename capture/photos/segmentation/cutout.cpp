@@ -19,7 +19,7 @@ constexpr int kHalfCovered = 128;  // alpha code
 constexpr float kUnmixMinAlpha = 0.1F;
 constexpr float kUnmixFullAlpha = 0.6F;
 
-// Composites the cut-out over a black layer of the given opacity, straight alpha.
+// Composites the foreground image over a black layer of the given opacity, straight alpha.
 void lay_over_shadow(Image<Rgba8>& cutout, const Image<std::uint8_t>& shadow) {
     RS_CHECK(cutout.width() == shadow.width() && cutout.height() == shadow.height());
     for (int y = 0; y < cutout.height(); ++y) {

@@ -23,8 +23,9 @@ Image<Rgba8> unmix(ConstImageView<Rgba8> photo, const AlphaEstimate& edge);
 /// beyond. Other pixels keep their values.
 void bleed_colours(Image<Rgba8>& image);
 
-/// The cut-out of one photo, in its size. A final alpha is taken over as it is; a binary mask gets a soft edge. The
-/// shadow layer of `segmentation` is composited below the object. Of `parameters` only `alpha` is used. Thread-safe.
+/// The foreground image of one photo, in its size. A final alpha is taken over as it is; a binary mask gets a soft
+/// edge. The shadow layer of `segmentation` is composited below the object. Of `parameters` only `alpha` is used.
+/// Thread-safe.
 Image<Rgba8> make_cutout(ConstImageView<Rgba8> photo, const Segmentation& segmentation,
                          const ForegroundParameters& parameters = {});
 

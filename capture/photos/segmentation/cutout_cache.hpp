@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Temporary storage of a turn's cut-outs between the stages of an import: files, compressed for speed by zstd.
+/// Temporary storage of a turn's foreground images between the stages of an import: files, compressed for speed by
+/// zstd.
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"

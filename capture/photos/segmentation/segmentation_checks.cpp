@@ -82,7 +82,7 @@ SegmentationFindings check_segmentation(const PhotoFolder& folder, const Segment
             found.problems.push_back(text + " and most of it never changes: background was kept; " + kRemedy);
         } else if (!is_given &&
                    static_cast<double>(at_border) > parameters.max_at_border * static_cast<double>(count)) {
-            found.problems.push_back(text + " and is cut off there; photograph it from farther away, or " + kRemedy);
+            found.problems.push_back(text + " and is cut off there; take the photos from farther away, or " + kRemedy);
         } else {
             found.notes.push_back(text + "; it will look cut off there");
         }

@@ -18,7 +18,7 @@ namespace {
 Status check(const SegmenterRequest& request) {
     const auto kind = request.kind;
     if (!request.masks.empty() && kind != SegmenterKind::kAuto && kind != SegmenterKind::kMasks) {
-        return Error{"--masks: has no effect with --segmenter " + to_string(kind) + "; leave one of them away"};
+        return Error{"--masks: has no effect with --segmenter " + to_string(kind) + "; leave one of them out"};
     }
     if (kind == SegmenterKind::kMasks && request.masks.empty()) {
         return Error{"--segmenter masks: needs a folder of masks; give it by --masks"};
@@ -32,10 +32,10 @@ Status check(const SegmenterRequest& request) {
             "RAYSPACE_SEGMENTATION_MODEL"};
     }
     if (!request.masks.empty() && request.background.kind) {
-        return Error{"--backdrop: has no effect with --masks; leave one of them away"};
+        return Error{"--backdrop: has no effect with --masks; leave one of them out"};
     }
     if (kind == SegmenterKind::kAlpha && request.background.kind && request.background.kind != BackgroundKind::kAlpha) {
-        return Error{"--backdrop: has no effect with --segmenter alpha; leave one of them away"};
+        return Error{"--backdrop: has no effect with --segmenter alpha; leave one of them out"};
     }
     return {};
 }
@@ -43,7 +43,7 @@ Status check(const SegmenterRequest& request) {
 Status refuse_shadow(const SegmenterRequest& request, SegmenterKind kind) {
     if (request.shadow == ShadowHandling::kRemove) return {};
     return Error{"--shadow keep: needs the background model, but the segmenter is " + to_string(kind) +
-                 "; give --segmenter background, or leave it away"};
+                 "; give --segmenter background, or leave it out"};
 }
 
 Result<ChosenSegmenter> by_masks(const SegmenterRequest& request, const Intake& intake, Progress* progress) {
@@ -86,7 +86,7 @@ Result<ChosenSegmenter> by_network(const SegmenterRequest& request, const Intake
                                    Progress* progress) {
     const bool keeps_shadow = request.shadow == ShadowHandling::kKeep;
     if (model == nullptr && keeps_shadow) {
-        return Error{"--shadow keep: the background could not be estimated; leave it away"};
+        return Error{"--shadow keep: the background could not be estimated; leave it out"};
     }
     RS_ASSIGN_OR_RETURN(const SegmentationNetwork network, SegmentationNetwork::load(request.network));
     RS_ASSIGN_OR_RETURN(NetworkMasks masks,
@@ -112,8 +112,9 @@ Result<ChosenSegmenter> by_network(const SegmenterRequest& request, const Intake
     } else {
         auto fused = std::make_shared<FusedSegmenter>(std::move(masks), background, std::move(region));
         chosen.background_share = fused->background_share();
-        chosen.notes.push_back("the background model decides in " + percent(chosen.background_share) +
-                               " of the image, where the network keeps static background; the network elsewhere");
+        chosen.notes.push_back(
+            "the background model is used in " + percent(chosen.background_share) +
+            " of the image, where the network keeps static background; the network is used elsewhere");
         chosen.segmenter = std::move(fused);
     }
     if (keeps_shadow) {

@@ -12,12 +12,13 @@
 
 namespace rs::capture {
 
-/// Accumulates the cut-outs of all views. Pixel coordinates are those of the cut-outs.
+/// Accumulates the foreground images of all views. Pixel coordinates are those of the foreground images.
 class TurnSilhouette {
 public:
     TurnSilhouette(int width, int height);
 
-    /// Adds the cut-out of one view, width x height px. Not thread-safe: use one object per thread and merge() them.
+    /// Adds the foreground image of one view, width x height px. Not thread-safe: use one object per thread and merge()
+    /// them.
     void add(ConstImageView<Rgba8> cutout);
     void merge(const TurnSilhouette& other);
 

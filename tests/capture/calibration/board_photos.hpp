@@ -1,5 +1,5 @@
 #pragma once
-// Drawn photographs of a drum that stands on a printed board, with exact truth.
+// Rendered photos of a drum on a printed board, with ground truth.
 
 #include "capture/calibration/board/board_sheet.hpp"
 #include "tests/capture/calibration/drawn_drum.hpp"
@@ -12,7 +12,7 @@ namespace rs::test {
 struct BoardPhotos {
     struct Photo {
         Image<Rgba8> image;  // opaque
-        Image<Rgba8> mask;   // white where the drum is
+        Image<Rgba8> mask;   // white inside the drum
     };
 
     BoardPhotos() {
@@ -65,7 +65,7 @@ private:
     static constexpr double kBackdrop = 0.3;
     static constexpr double kUnitsPerMm = 0.0026;
 
-    // Of a point of the disc; the board lies turned and off the middle.
+    // Maps a point of the disc to the board, which is rotated and off-centre.
     [[nodiscard]] double light_at(const glm::dvec3& p) const {
         const glm::dvec3 q = capture::turned(p - glm::dvec3(0.01, 0, -0.015), 0.3) / kUnitsPerMm;
         const double per_mm = kDpi / 25.4;

@@ -1,4 +1,4 @@
-// Photographs that make no turn, or hardly one: what is wrong and what to do is said, and nothing half done is left.
+// Photos that are not a turn, or hardly: errors state the problem and the remedy, and no partial output remains.
 
 #include "capture/photos/import.hpp"
 #include "rayspace/geometry/rig.hpp"
@@ -23,10 +23,10 @@ class BadPhotos : public test::DrumPhotos {};
 
 TEST_F(BadPhotos, BlurredImagesGetARemedy) {
     test::Drum soft;
-    soft.grain = 0.4;  // all detail gone
+    soft.grain = 0.4;  // no detail left
     for (std::size_t i = 0; i < test::kViews; ++i) write(i, test::drawn_drum(soft, test::drum_model(), i));
     options_.calibration = CalibrationChoice::kTracks;
-    expect_error(AllOf(HasSubstr("points of the object can be followed"), HasSubstr("rs-capture board")));
+    expect_error(AllOf(HasSubstr("points of the object can be tracked"), HasSubstr("rs-capture board")));
 }
 
 TEST_F(BadPhotos, ARigOfOtherPhotographsIsRefused) {
@@ -37,12 +37,12 @@ TEST_F(BadPhotos, ARigOfOtherPhotographsIsRefused) {
     options_.known = truth();
     options_.known.images.clear();
     options_.known.known.angles_rad->pop_back();
-    expect_error(AllOf(HasSubstr("17 views"), HasSubstr("18 photographs")));
+    expect_error(AllOf(HasSubstr("17 views"), HasSubstr("18 photos")));
 }
 
 TEST_F(BadPhotos, ALastImageThatClosesTheTurnIsLeftOut) {
     write_spotted();
-    // Not the first image again, or it would be known by its pixels: half a degree on.
+    // Half a degree beyond the first image, so that it is not detected as a repeat by its pixels.
     TurntableModel model = test::drum_model();
     model.angles_rad.push_back(-radians(360.5));
     write(test::kViews, test::drawn_drum({}, model, test::kViews));
@@ -69,7 +69,7 @@ TEST_F(BadPhotos, MovedTripodsAndMixedCamerasAreNamed) {
     }
     options_.calibration = CalibrationChoice::kTracks;
     expect_error(ContainsRegex("tripod moved at about (0[89]|10).png\\? Take the turn again"));
-    options_.calibration = CalibrationChoice::kAuto;  // goes on with less, and says so
+    options_.calibration = CalibrationChoice::kAuto;  // falls back to less, with a note
     const Result<ImportReport> report = import_photos(options_, nullptr);
     ASSERT_TRUE(report.ok()) << report.error().message;
     EXPECT_THAT(report->notes, Contains(AllOf(HasSubstr("no calibration from points"), HasSubstr("tripod moved"))));

@@ -1,5 +1,5 @@
 #pragma once
-// Cut-out of one photo by a segmenter, for tests.
+// Foreground image of one photo by a segmenter, for tests.
 
 #include "capture/photos/segmentation/cutout.hpp"
 #include "capture/photos/segmentation/segmenter.hpp"

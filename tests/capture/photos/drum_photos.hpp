@@ -1,5 +1,5 @@
 #pragma once
-// A folder of drawn photographs of a drum with alpha, and what must hold where importing them fails.
+// Folder of rendered photos of a drum with alpha, and the common expectations for failed imports.
 
 #include "capture/photos/import.hpp"
 #include "rayspace/image_io/image_io.hpp"
@@ -21,7 +21,7 @@ inline capture::TurntableModel drum_model() {
     return drum_turn(kViews, -radians(20));
 }
 
-// Cut out already.
+// Photos with alpha.
 inline const std::vector<Image<Rgba8>>& spotted() {
     static const auto kImages = [] {
         std::vector<Image<Rgba8>> images;
@@ -48,7 +48,7 @@ protected:
         std::filesystem::create_directory(folder_ / "photos");
         options_.photos = folder_ / "photos";
         options_.output = folder_ / "set";
-        options_.known.known.f_px = 620;  // keeps the search for a start short
+        options_.known.known.f_px = 620;  // shortens the search for a start
         options_.turning = capture::Turning::kClockwise;
     }
     void write(std::size_t view, const Image<Rgba8>& image) const {
@@ -61,7 +61,7 @@ protected:
     void write_plain() const {
         for (std::size_t i = 0; i < kViews; ++i) write(i, plain(i));
     }
-    // The rig that made the drawings, as another tool might give it.
+    // The rig of the renderings, as another tool might provide it.
     [[nodiscard]] capture::KnownFile truth() const {
         capture::KnownFile file;
         const capture::TurntableModel model = drum_model();

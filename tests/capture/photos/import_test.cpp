@@ -24,7 +24,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// photos/1.png .. N.png, drawn over white; no rig is looked for: a disc that always looks the same has none.
+// photos/1.png .. N.png, composited over white; no calibration: a disc that always looks the same does not allow one.
 class ImportTest : public testing::Test {
 protected:
     void SetUp() override {
@@ -42,7 +42,7 @@ protected:
     [[nodiscard]] std::filesystem::path photo(int number) const {
         return folder_ / "photos" / (std::to_string(number) + ".png");
     }
-    // Everything in the test's folder besides the photographs.
+    // All files in the test's folder except the photos.
     [[nodiscard]] bool output_is_clean() const {
         const std::filesystem::directory_iterator entries(folder_.path());
         return std::all_of(begin(entries), end(entries),
@@ -84,7 +84,7 @@ TEST_F(ImportTest, MakesACaptureSet) {
     }
 }
 
-// The same, as a phone keeps what it took on its side, with its lens.
+// The same, stored on its side with EXIF data, as a phone does.
 TEST_F(ImportTest, TurnsWhatAPhoneTookOnItsSide) {
     for (int i = 0; i < turn_.views; ++i) {
         const Image<Rgba8> shown = test::draw_view(turn_, i).photo;
@@ -130,7 +130,7 @@ TEST_F(ImportTest, RefusesMasksThatMayBeOfOtherPixels) {
     ASSERT_FALSE(report.ok());
     EXPECT_THAT(report.error().message, HasSubstr("EXIF orientation is 3"));
     EXPECT_TRUE(output_is_clean());
-    // One of them turned, which a tool that makes masks may have followed.
+    // One photo with another orientation, which a mask tool may have applied.
     for (int i = 0; i < turn_.views; ++i) {
         const std::filesystem::path jpeg = folder_ / "photos" / (std::to_string(i + 1) + ".jpg");
         ASSERT_TRUE(write_jpeg(jpeg, test::draw_view(turn_, i).photo, 98).ok());
@@ -163,7 +163,7 @@ TEST_F(ImportTest, LargePhotographsAreWorkedOnSmaller) {
     EXPECT_THAT(refused.error().message, HasSubstr("--max-side"));
 }
 
-// A piece of furniture that masks hold, too, and a flag at the border that changes.
+// A piece of furniture that is included in the masks, and a flag at the border that changes.
 TEST_F(ImportTest, RefusesStaticBackgroundAtTheBorderUnlessForced) {
     std::filesystem::create_directory(folder_ / "masks");
     options_.segmentation.masks = folder_ / "masks";
@@ -268,7 +268,7 @@ TEST_F(ImportTest, AViewWithItsOwnAlphaMayBeAllObject) {
     EXPECT_EQ(report->max_coverage, 1);
 }
 
-// Counts the photographs that were done under each label.
+// Counts the photos processed under each label.
 class Counts final : public Progress {
 public:
     void start(const std::string& label, std::int64_t total) override {
@@ -285,7 +285,7 @@ public:
 };
 
 TEST_F(ImportTest, StopsAtTheFirstFailureOfEitherPass) {
-    tbb::task_arena one_thread(1);  // photographs are then taken in their order
+    tbb::task_arena one_thread(1);  // photos are then processed in order
     write(1, Image<Rgba8>(turn_.width, turn_.height, turn_.backdrop));
     Counts cutting;
     ASSERT_FALSE(one_thread.execute([&] { return import_photos(options_, &cutting); }).ok());
@@ -300,7 +300,7 @@ TEST_F(ImportTest, StopsAtTheFirstFailureOfEitherPass) {
     EXPECT_EQ(looking.done, 0);
 }
 
-// Everything below `folder`.
+// All files below `folder`.
 std::vector<std::string> names_below(const std::filesystem::path& folder) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) names.push_back(entry.path());
@@ -310,7 +310,7 @@ std::vector<std::string> names_below(const std::filesystem::path& folder) {
 
 TEST_F(ImportTest, RefusesToReplaceItsOwnPhotographs) {
     ASSERT_TRUE(import_photos(options_, nullptr).ok());
-    // The images of a set are photographs with alpha: without the check they would be replaced by themselves.
+    // A set's images are photos with alpha: without the check they would be replaced by themselves.
     const std::filesystem::path set = options_.output;
     const auto before = names_below(folder_.path());
     std::filesystem::create_directory_symlink(set, folder_ / "link");
@@ -326,7 +326,7 @@ TEST_F(ImportTest, RefusesToReplaceItsOwnPhotographs) {
         ASSERT_FALSE(report.ok()) << photos << " " << output;
         EXPECT_THAT(report.error().message, HasSubstr(photos.string()));
         EXPECT_THAT(report.error().message, HasSubstr(output.string() + ": "));
-        EXPECT_THAT(report.error().message, HasSubstr("the folder of photographs"));
+        EXPECT_THAT(report.error().message, HasSubstr("the folder of photos"));
     }
     std::filesystem::remove(folder_ / "link");
     EXPECT_EQ(names_below(folder_.path()), before);

@@ -54,7 +54,7 @@ Result<FilmCopies> copy_frames(const fs::path& film, Progress* progress) {
     result.info = reader.info();
     constexpr std::int64_t kUnknownLength = 300;
     const std::int64_t estimate = result.info.frame_estimate;
-    if (progress != nullptr) progress->start("reading the film", estimate > 0 ? estimate : kUnknownLength);
+    if (progress != nullptr) progress->start("reading the video", estimate > 0 ? estimate : kUnknownLength);
     MeanFrame mean;
     Image<Rgba8> frame;
     for (;;) {
@@ -75,7 +75,7 @@ Result<FilmCopies> copy_frames(const fs::path& film, Progress* progress) {
     return result;
 }
 
-// Matches the exposure of a frame to the mean of the film, estimated on static pixels.
+// Matches the exposure of a frame to the mean of the video, estimated on static pixels.
 class ExposureNormalizer {
 public:
     ExposureNormalizer(const Image<LinearRgb>& mean, const Image<std::uint8_t>& moving)
@@ -143,12 +143,12 @@ std::vector<std::string> make_notes(const std::string& name, const FilmCopies& f
         notes.push_back(name + ": " + std::to_string(film.damaged) + " damaged frames were skipped");
     }
     if (film.info.is_hdr) {
-        notes.push_back(name + " is HDR, whose colours are not converted; film in SDR for true colours");
+        notes.push_back(name + " is HDR, whose colours are not converted; record in SDR for true colours");
     }
     constexpr float kMinReportedChange = 0.02F;
     if (largest_change > kMinReportedChange) {
         notes.push_back(name + ": the exposure of frames was corrected by up to " +
-                        std::to_string(std::lround(100 * largest_change)) + " %; lock it when filming");
+                        std::to_string(std::lround(100 * largest_change)) + " %; lock it when recording");
     }
     return notes;
 }
@@ -164,7 +164,7 @@ Result<FilmFrames> write_film_frames(const fs::path& film, const fs::path& folde
     result.selection = select_frames(copies->copies, request, progress);
     copies->copies.clear();
     if (std::ranges::count(result.selection.moving.pixels(), 0) == std::ssize(result.selection.moving.pixels())) {
-        return Error{film.string() + ": nothing moves in it; give a film of an object that turns"};
+        return Error{film.string() + ": nothing moves in it; give a video of an object that turns"};
     }
     ExposureNormalizer normalizer(copies->mean, result.selection.moving);
     RS_TRY(write_selected(film, folder, result.selection.frames, normalizer, progress));

@@ -1,5 +1,5 @@
 #pragma once
-// Writes selected frames of a turntable film to a folder of photos, the input of the other import stages.
+// Writes selected frames of a turntable video to a folder of photos, the input of the other import stages.
 
 #include "capture/photos/intake/film/frame_selection.hpp"
 #include "rayspace/base/progress.hpp"
@@ -11,7 +11,7 @@
 
 namespace rs::capture {
 
-/// Limit on the frames of a film; each takes 25 to 45 KB (FrameCopy).
+/// Limit on the frames of a video; each takes 25 to 45 KB (FrameCopy).
 inline constexpr int kMaxFilmFrames = 6000;
 
 struct FilmFrames {
@@ -19,14 +19,14 @@ struct FilmFrames {
     std::vector<std::string> notes;  // for the user, one line each
 };
 
-/// Decodes the film twice (VideoReader): once to select frames, once to write them to `folder` as frame-NNNNN.png,
-/// upright; NNNNN is the frame number in the film, from 1.
+/// Decodes the video twice (VideoReader): once to select frames, once to write them to `folder` as frame-NNNNN.png,
+/// upright; NNNNN is the frame number in the video, from 1.
 ///
 /// If static background is visible, the exposure of written frames is normalised: each channel is divided by its median
-/// ratio to the mean of the film (exposure_gain()), in linear light.
+/// ratio to the mean of the video (exposure_gain()), in linear light.
 ///
-/// Memory: 45 KB per frame of the film, plus that of VideoReader. Errors: those of VideoReader and write_png(), more
-/// than kMaxFilmFrames frames, a film without motion.
+/// Memory: 45 KB per frame of the video, plus that of VideoReader. Errors: those of VideoReader and write_png(), more
+/// than kMaxFilmFrames frames, a video without motion.
 Result<FilmFrames> write_film_frames(const std::filesystem::path& film, const std::filesystem::path& folder,
                                      const FrameRequest& request, Progress* progress);
 

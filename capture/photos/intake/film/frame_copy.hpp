@@ -27,7 +27,7 @@ FrameCopy make_frame_copy(ConstImageView<Rgba8> frame);
 /// \param copies  All of one size.
 void normalize_exposure(std::vector<FrameCopy>& copies);
 
-/// Mask of pixels whose luma changes during the film (255) and static ones (0), from the range between the 5th and the
+/// Mask of pixels whose luma changes during the video (255) and static ones (0), from the range between the 5th and the
 /// 95th percentile of luma over time.
 /// \param copies  At least one, all of one size, normalize_exposure() applied.
 Image<std::uint8_t> moving_region(const std::vector<FrameCopy>& copies);

@@ -1,5 +1,5 @@
 #pragma once
-// Selects the frames of a turntable film to import: one turn, evenly spaced by angle, the sharpest near each angle.
+// Selects the frames of a turntable video to import: one turn, evenly spaced by angle, the sharpest near each angle.
 
 #include "capture/photos/intake/film/frame_copy.hpp"
 #include "capture/photos/intake/film/turn_period.hpp"
@@ -25,7 +25,7 @@ struct FrameRequest {
 struct FrameSelection {
     std::vector<std::size_t> frames;  // selected indices, ascending
     TurnRange turn;
-    Image<std::uint8_t> moving;  // moving_region() of the film
+    Image<std::uint8_t> moving;  // moving_region() of the video
     bool is_speed_measured = false;
 };
 

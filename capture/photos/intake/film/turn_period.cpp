@@ -120,7 +120,7 @@ std::optional<Repeat> choose_repeat(const SelfSimilarity& similarity) {
         best = std::min(best, repeat->quality);
     }
     if (repeats.empty()) return std::nullopt;
-    // Objects with similar sides repeat too early from some poses: the median length decides.
+    // Objects with similar sides repeat too early from some poses: the median length is used.
     std::vector<std::size_t> lengths;
     for (const Repeat& repeat : repeats) lengths.push_back(repeat.to - repeat.from);
     const std::size_t typical = median(lengths);

@@ -19,7 +19,7 @@ namespace {
 constexpr double kTargetFlow_px = 3;  // between the frames of a pair
 constexpr std::size_t kMaxPairs = 400;
 constexpr std::size_t kMinPoints = 12;
-constexpr double kStillFraction = 0.12;  // of the change between frames that turn: below it, the object stands still
+constexpr double kStillFraction = 0.12;  // of the change between frames that turn: below it, the object does not turn
 constexpr double kSmoothingFraction = 1 / 16.0;  // Gaussian sigma in turning frames, about 22 degrees
 constexpr double kMaxRelativeError = 0.15;
 
@@ -141,7 +141,7 @@ PairMotion measure_motion(const FrameCopy& from, const FrameCopy& to, const Imag
     return motion;
 }
 
-// 80th percentile: a typical value while the object turns, even if it stands still for more than half of the film.
+// 80th percentile: a typical value while the object turns, even if it pauses for more than half of the video.
 double percentile_80(const std::vector<PairMotion>& motions, double PairMotion::*value) {
     std::vector<double> values;
     for (const PairMotion& motion : motions) values.push_back(motion.*value);

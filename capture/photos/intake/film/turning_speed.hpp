@@ -1,5 +1,5 @@
 #pragma once
-// Estimates the angular speed of the turntable in each frame of a film, up to a constant factor.
+// Estimates the angular speed of the turntable in each frame of a video, up to a constant factor.
 //
 // A point at (x, y, z) of an object that turns by w per frame about the vertical axis moves by w z in image x and, for
 // a camera that looks down by the angle e, by w x sin(e) in image y. So vertical motion grows linearly from the axis to

@@ -1,4 +1,4 @@
-// The board's corners in images that are drawn through the turntable's model, lens distortion included.
+// Corner detection in board images rendered through the turntable model, lens distortion included.
 
 #include "capture/calibration/board/board_calibration.hpp"
 #include "capture/calibration/board/board_sheet.hpp"
@@ -76,7 +76,7 @@ TEST(BoardDetectionOfHidden, ABlankBoardIsFoundByEitherDesign) {
         const Found found = compare(*seen, turn, design, 2);
         EXPECT_GE(found.count, 24U);
         EXPECT_LT(found.rms_px, 0.1);
-        // Without its marker a white square still is one, so only a missing black square takes a corner away.
+        // A white square without its marker is still white, so only a missing black square removes a corner.
         for (const SeenCorner& one : seen->corners) {
             const int x = one.corner % 8, y = one.corner / 8;
             for (const int dx : {0, 1}) {

@@ -18,7 +18,7 @@ struct Spot {
     double height = 0;  // grey values
 };
 
-// One in every square of `every_px`, drawn anew by each seed; of 30 px they stand alone.
+// One spot in every square of `every_px`, random for each seed; at 30 px the spots are isolated.
 std::vector<Spot> drawn_spots(unsigned seed, int every_px) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> within(-every_px / 6.0, every_px / 6.0), wide(1.8, 3.5), high(-60, 60);
@@ -49,7 +49,7 @@ CalibrationImage image_of(const std::vector<Spot>& spots, double gain = 1, doubl
     return image;
 }
 
-// A quarter turn: what is seen at (x, y) is then seen at (side - y, x).
+// Rotates by a quarter turn: (x, y) moves to (side - y, x).
 CalibrationImage quarter_turned(const CalibrationImage& image) {
     CalibrationImage turned = image;
     for (int y = 0; y < kSpotsSide_px; ++y) {
@@ -62,7 +62,7 @@ ViewFeatures features_in(const CalibrationImage& image, const FollowOptions& opt
     return find_features(std::vector{image}, options, nullptr).front();
 }
 
-// From `at` to the feature nearest to it.
+// Offset from `at` to the nearest feature.
 glm::dvec2 off(const ViewFeatures& features, const glm::dvec2& at) {
     const auto nearer = [&](const glm::dvec2& a, const glm::dvec2& b) {
         return glm::distance(a, at) < glm::distance(b, at);
@@ -73,7 +73,7 @@ glm::dvec2 off(const ViewFeatures& features, const glm::dvec2& at) {
 TEST(Features, SpotsAreFoundWhereTheyAreButNotAtTheObjectsRim) {
     const std::vector<Spot> spots = drawn_spots(1, 30);
     CalibrationImage image = image_of(spots);
-    const int object_from = static_cast<int>(spots[3].at.x) - 2;  // that spot is on the object, at its rim
+    const int object_from = static_cast<int>(spots[3].at.x) - 2;  // that spot is on the object, near its border
     for (int y = 0; y < kSpotsSide_px; ++y) std::fill_n(image.alpha.row(y), object_from, std::uint8_t{0});
     const FollowOptions options;
     const double rim = object_from + options.rim_px;
@@ -94,7 +94,7 @@ TEST(Features, SpotsAreFoundWhereTheyAreButNotAtTheObjectsRim) {
     for (const glm::dvec2& here : found) mean += here / count;
     for (const glm::dvec2& here : found) squares += glm::dot(here - mean, here - mean) / count;
     EXPECT_LT(std::sqrt(squares), 0.06);  // px
-    // OpenCV before 4.8 finds all of them a quarter of a pixel to the right and below; alignment has no part in that.
+    // OpenCV before 4.8 localizes all features a quarter of a pixel to the right and below; alignment is not affected.
     EXPECT_GT(std::min(mean.x, mean.y), -0.05);
     EXPECT_LT(std::max(mean.x, mean.y), 0.28);
     for (const glm::dvec2& p : features.positions) EXPECT_GE(p.x, rim);
@@ -131,7 +131,7 @@ TEST(Features, AreAlikeInOtherLightAndTurned) {
     expect_alike(features_in(image_of(spots, 0.6, 40)), [](const glm::dvec2& p) { return p; });
     expect_alike(features_in(quarter_turned(image)),
                  [](const glm::dvec2& p) { return glm::dvec2(kSpotsSide_px - p.y, p.x); });
-    // Of another image next to nothing is alike.
+    // Hardly any feature matches another image.
     EXPECT_LT(alike(first, features_in(image_of(drawn_spots(5, 12))), 0.8).size(), first.positions.size() / 10);
 }
 

@@ -1,4 +1,4 @@
-// Images of a turn that were moved and scaled one by one.
+// Images of a turn that were shifted and scaled individually.
 
 #include "capture/calibration/points/image_places.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-// What a shop's cropping does: no two neighbours alike.
+// Random placements as from a shop's cropping.
 std::vector<ImagePlace> drawn_places(std::size_t views, double width) {
     std::vector<ImagePlace> places;
     for (std::size_t i = 0; i < views; ++i) {
@@ -38,7 +38,7 @@ glm::dvec2 middle_of(const Lens& lens) {
     return {lens.width / 2.0, lens.height / 2.0};
 }
 
-// How far the found scales are off, but for a common factor.
+// Largest error of the estimated scales, except for a common factor.
 double worst_scale(const std::vector<ImagePlace>& found, const std::vector<ImagePlace>& truth) {
     double mean = 0;
     for (std::size_t i = 0; i < truth.size(); ++i) mean += std::log(found[i].scale / truth[i].scale);
@@ -88,7 +88,7 @@ TEST(ImagePlaces, AImageIsPutBack) {
     turn.width = 160;
     turn.height = 120;
     turn.reduction = 2;
-    // A spot at (40, 50) of the reduced image, as the place shows it.
+    // A spot at (40, 50) of the reduced image, transformed by the placement.
     const glm::dvec2 spot = ImagePlace{place.shift_px / 2.0, place.scale}.seen({40, 50}, {40, 30});
     CalibrationImage image{Image<std::uint8_t>(80, 60, 0), Image<std::uint8_t>(80, 60, 255)};
     for (int y = 0; y < 60; ++y) {
@@ -110,7 +110,7 @@ TEST(ImagePlaces, AImageIsPutBack) {
     }
     EXPECT_LT(glm::distance(sum / weight, glm::dvec2(40, 50)), 0.05);
     EXPECT_EQ(back.images[0].alpha(40, 30), 255);
-    EXPECT_EQ(back.images[0].alpha(0, 59), 0) << "an enlarged image does not show this corner";
+    EXPECT_EQ(back.images[0].alpha(0, 59), 0) << "an enlarged image does not cover this corner";
 }
 
 TEST(ImagePlaces, ATurnOfMovedImagesIsCalibrated) {

@@ -26,7 +26,7 @@ CalibrationImage noisy_disc(int width, int height, unsigned seed) {
     return image;
 }
 
-// What PatchImage holds, pixel by pixel as it is written down.
+// Reference implementation of PatchImage, pixel by pixel.
 struct PlainImage {
     Image<double> smooth;
     Image<std::uint8_t> alpha;
@@ -110,7 +110,7 @@ TEST(PatchImage, NothingIsSolidWhereThereIsNoObject) {
     EXPECT_FALSE(PatchImage(noisy_disc(40, 30, 3)).is_solid({1e9, -1e9}));
 }
 
-// Pixel by pixel, as it is written down.
+// Reference implementation, pixel by pixel.
 PatchEquations plain_patch_equations(std::span<const SeenRow> seen, std::span<const PatchRow> texture,
                                      std::span<const PatchRow> weight, float less, const glm::dvec2& deeper,
                                      bool curvature_is_known) {
@@ -162,7 +162,7 @@ TEST_P(PatchEquationsTest, AreThoseOfAllPixels) {
     const PatchEquations plain = plain_patch_equations(seen, texture, weight, kLess, warp.deeper, curvature_is_known);
     for (int k = 0; k < kPatchUnknowns; ++k) {
         for (int l = 0; l < kPatchUnknowns; ++l) {
-            // In proportion to the slopes' lengths.
+            // Relative to the lengths of the derivatives.
             const double size = std::sqrt(plain.normal(k, k) * plain.normal(l, l));
             EXPECT_NEAR(fast.normal(k, l), plain.normal(k, l), 1e-5 * size) << k << ", " << l;
         }

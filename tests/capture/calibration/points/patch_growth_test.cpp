@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kStep_px = 7;
 
-// One point before the axis, seen by the first views of a turn.
+// One point in front of the axis, visible in the first views of a turn.
 Bundle one_point(int views) {
     Bundle bundle;
     bundle.model = test::turn_model(36, radians(10));
@@ -61,7 +61,7 @@ TEST(PatchGrowth, NoPlaceGetsASecondPoint) {
     Bundle bundle = one_point(3);
     for (int round = 0; round < 4; ++round) grow(bundle, 1, 100000);
     EXPECT_GT(bundle.tracks.size(), 25U);
-    // No two points of the middle view lie in one square of a step.
+    // No two points of the middle view are in the same cell.
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
         for (std::size_t k = i + 1; k < bundle.tracks.size(); ++k) {
             const glm::dvec2 a = glm::floor(bundle.tracks[i].seen[1].p / kStep_px);
@@ -83,7 +83,7 @@ TEST(PatchGrowth, ThereAreNoMoreObservationsThanAskedFor) {
     ASSERT_GT(grown, before);
     grow(some, 1, before + grown / 3);
     EXPECT_NEAR(observation_count(some) - before, grown / 3, grown / 30);
-    // Evenly spread: some grew from early points, some from late ones.
+    // Evenly spaced: some candidates are neighbours of early points, some of late ones.
     const auto is_of_some = [&](const glm::dvec3& p) {
         return std::find(some.points.begin(), some.points.end(), p) != some.points.end();
     };

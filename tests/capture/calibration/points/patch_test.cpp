@@ -11,7 +11,7 @@ namespace rs::capture {
 namespace {
 
 constexpr int kTextureSide_px = 120;
-constexpr double kTextureNoise = 2;  // grey values, one deviation
+constexpr double kTextureNoise = 2;  // grey values, one standard deviation
 
 // Grey values of about 40..210 with detail in all directions.
 double texture(const glm::dvec2& p) {
@@ -19,12 +19,12 @@ double texture(const glm::dvec2& p) {
            20 * std::sin(0.85 * p.y + 0.1 * p.x + 2);
 }
 
-// What a camera sees of the texture: p_in_image = matrix * (p_in_texture - middle) + middle + shift.
+// View of the texture: p_in_image = matrix * (p_in_texture - middle) + middle + shift.
 struct Look {
     glm::dmat2 matrix{1.0};
     glm::dvec2 shift{0.0};
     double gain = 1;
-    double slope = 0;  // of the light, grey values per px to the right
+    double slope = 0;  // of the illumination, grey values per px to the right
     [[nodiscard]] glm::dvec2 seen(const glm::dvec2& p) const { return matrix * (p - middle()) + middle() + shift; }
     [[nodiscard]] glm::dvec2 shown(const glm::dvec2& p) const {
         return glm::inverse(matrix) * (p - middle() - shift) + middle();
@@ -70,7 +70,7 @@ TEST(Patch, AKnownWarpIsFoundToAFewHundredthsOfAPixel) {
         for (const glm::dvec2& place : places()) {
             const std::optional<Patch> patch = textured_patch(before, place);
             ASSERT_TRUE(patch.has_value());
-            Warp warp;  // as a first bundle expects it: a pixel and a half off, unturned
+            Warp warp;  // predicted by a first bundle: a pixel and a half off, not rotated
             warp.centre = look.seen(place) + glm::dvec2(1.2, -0.9);
             warp.deeper = {0.4, 0.1};
             const std::optional<Alignment> found = align(after, *patch, warp, curvature_is_known);
@@ -81,7 +81,7 @@ TEST(Patch, AKnownWarpIsFoundToAFewHundredthsOfAPixel) {
                 worst_matrix = std::max(worst_matrix, glm::length(found->matrix[k] - look.matrix[k]));
             }
         }
-        EXPECT_LT(std::sqrt(squares), 0.03) << curvature_is_known;  // of a coordinate
+        EXPECT_LT(std::sqrt(squares), 0.03) << curvature_is_known;  // per coordinate
         EXPECT_LT(worst_matrix, 0.04) << curvature_is_known;
     }
 }
@@ -101,14 +101,14 @@ TEST(Patch, NothingIsFoundWhereThereIsNoTexture) {
 
 TEST(Patch, NothingIsFoundThatIsNotWhereItIsExpected) {
     const PatchImage before = look_at({}, 7), after = look_at({}, 8);
-    const PatchImage covered = noisy_image(9, [](const glm::dvec2& p) {  // by what looks otherwise
+    const PatchImage covered = noisy_image(9, [](const glm::dvec2& p) {  // by another texture
         return 50 + 0.6 * texture(p) + 45 * std::sin(0.5 * p.x - 0.9 * p.y);
     });
     for (const glm::dvec2& place : places()) {
         const std::optional<Patch> patch = textured_patch(before, place);
         ASSERT_TRUE(patch.has_value());
         Warp warp;
-        warp.centre = place + glm::dvec2(3.4, 0);  // farther than it may move
+        warp.centre = place + glm::dvec2(3.4, 0);  // farther than the allowed movement
         const std::optional<Alignment> far = align(after, *patch, warp, true);
         EXPECT_TRUE(!far || glm::distance(far->seen.p, place) > 1);
         warp.centre = place;

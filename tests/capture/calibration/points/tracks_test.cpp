@@ -1,4 +1,4 @@
-// Points followed over drawn images whose every number is known, and the calibration that stands on them.
+// Tracking of points in synthetic images with ground truth, and the calibration based on them.
 
 #include "capture/calibration/points/tracks.hpp"
 
@@ -36,7 +36,7 @@ TurnImages images_of(const TurntableModel& model, const test::Drum& drum = {}) {
     return turn;
 }
 
-// What keeps the search for a start short where a test is not about it.
+// Restricts the start search in tests of other features.
 KnownInputs lens_and_sense() {
     KnownInputs known;
     known.f_px = 620;
@@ -53,7 +53,7 @@ const TurnImages& drum_images() {
     return kImages;
 }
 
-// Median over tracks of how far the point that explains them best under the true model misses them.
+// Median over tracks of the residual of the best point under the true model.
 double median_miss_px(const std::vector<Track>& tracks) {
     std::vector<double> misses;
     for (const Track& track : tracks) {
@@ -89,7 +89,7 @@ TEST(Tracks, FollowPointsOfADrum) {
         if (pair.matches == 0) continue;
         EXPECT_GT(pair.spread_x_px, pair.spread_y_px) << pair.first << " " << pair.second;
         const int apart = (pair.second - pair.first + 24) % 24;
-        if (apart <= 2) {  // clockwise: the front goes to the left
+        if (apart <= 2) {  // clockwise: the front moves to the left
             EXPECT_LT(pair.motion_x_px, 0) << pair.first << " " << pair.second;
         }
         closes = closes || (pair.first == 23 && pair.second == 0) || (pair.first == 0 && pair.second == 23);
@@ -148,7 +148,7 @@ TEST(Tracks, DoNotDependOnTheNumberOfThreads) {
 TEST(Tracks, NothingIsLookedForOnTheBackdrop) {
     TurnImages turn = drum_images();
     turn.images.resize(6);
-    for (CalibrationImage& image : turn.images) {  // a pattern beside the object
+    for (CalibrationImage& image : turn.images) {  // a texture outside the object
         for (int y = 0; y < 256; ++y) {
             for (int x = 0; x < 320; ++x) {
                 if (image.alpha(x, y) == 0) image.grey(x, y) = (x / 16 + y / 16) % 2 == 0 ? 110 : 140;
@@ -201,12 +201,12 @@ TEST(TrackCalibration, FindsTheTurnOfADrum) {
     EXPECT_LT(*calibration.held_out_rms_px, 0.5);
     EXPECT_GT(*calibration.held_out_rms_px, 0);
     EXPECT_TRUE(calibration.warnings.empty()) << calibration.warnings[0];
-    // The deviations own up to the errors.
+    // The deviations cover the errors.
     EXPECT_LT(std::abs(calibration.model.lens.f_px - expected.lens.f_px), 4 * calibration.deviations.f_px);
     EXPECT_LT(calibration.deviations.f_px, 0.05 * expected.lens.f_px);
 }
 
-// A lens that explains the points best but folds the image's corners over: something else bends their ways.
+// The best lens folds the image corners over: another effect than distortion causes the deviations.
 TEST(TrackCalibration, TakesNoLensThatFoldsItsImage) {
     TurntableModel bent = truth();
     bent.lens.k1 = -3;
@@ -214,7 +214,7 @@ TEST(TrackCalibration, TakesNoLensThatFoldsItsImage) {
     const auto found = calibrate_with_tracks(images_of(bent), lens_and_sense(), nullptr);
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_EQ(found->calibration.model.lens.k1, 0);
-    EXPECT_THAT(found->calibration.warnings, Contains(HasSubstr("do not show how the lens distorts")));
+    EXPECT_THAT(found->calibration.warnings, Contains(HasSubstr("do not determine the lens distortion")));
 }
 
 TEST(TrackCalibration, NamesTheViewsThatStandWrongOrAreBlurred) {

@@ -1,4 +1,4 @@
-// The axis from what the outlines of a turn cover together, of bodies without any symmetry whose axis is known.
+// Axis from the region that the silhouettes of a turn cover together, for asymmetric bodies with a known axis.
 
 #include "capture/calibration/silhouettes/silhouette_symmetry.hpp"
 
@@ -18,7 +18,7 @@ struct Ball {
     double radius = 0;
 };
 
-// Far from symmetrical: one arm, and a trunk beside the axis.
+// An asymmetric body: one arm, and a trunk beside the axis.
 std::vector<Ball> balls() {
     return {{{0.03, -0.24, 0.02}, 0.07},
             {{0.05, -0.30, -0.01}, 0.09},
@@ -35,7 +35,7 @@ TurntableModel turn_of_silhouettes(int views, double roll_rad = 0.01) {
     return model;
 }
 
-// `on_left_px`: by how much the cut-outs lack the left side of the object.
+// `on_left_px`: width that is missing at the left side of all masks.
 Image<std::uint8_t> covered_of(const TurntableModel& model, int on_left_px = 0) {
     std::vector<CalibrationImage> images;
     for (const double angle : model.angles_rad) {
@@ -130,7 +130,7 @@ TEST(SilhouetteSymmetry, DoesNotUseRowsCutOffByTheImage) {
     EXPECT_LT(std::abs(error_px(truth, *found)), std::max(0.4, 2 * found->deviation_px));
 }
 
-// What is lacking on one side is seen as an axis half as far beside: the sign of the measure.
+// A strip missing on one side shifts the axis by half its width; tests the sign of the measurement.
 TEST(SilhouetteSymmetry, FollowsWhatTheCutOutsLack) {
     const TurntableModel truth = turn_of_silhouettes(36);
     const auto whole = axis_of_silhouettes(covered_of(truth), 1, truth);

@@ -1,5 +1,5 @@
-// Camera and angles from tangent planes common to two outlines, of a cloud of points whose turn is known. The hull of a
-// cloud is a polyhedron, and tangent planes touch it at corners, so truth leaves no residual.
+// Camera and angles from common tangent planes of two silhouettes, for a point cloud with a known turn. The hull of a
+// cloud is a polyhedron, and tangent planes touch it at vertices, so the true model has no residual.
 
 #include "capture/calibration/silhouettes/silhouette_tangency.hpp"
 
@@ -38,7 +38,7 @@ std::vector<glm::dvec3> cloud() {
     return points;
 }
 
-// All points of the cloud as each view sees them: their hull is the outline's.
+// Projections of all points of the cloud into each view: their hull is that of the silhouette.
 std::vector<SilhouetteHull> hulls_of_cloud(const TurntableModel& model, double noise_px) {
     std::mt19937 random(7);
     const auto noise = [&] {
@@ -69,7 +69,7 @@ NumberPlaces all_places() {
     return {free, std::vector<bool>(kTangencyViews, true)};
 }
 
-// What tracks know: f to 1 %, k1 to 0.05, directions to 0.1 degrees, angles to 0.2 degrees each.
+// Covariance of typical tracks: f to 1 %, k1 to 0.05, directions to 0.1 degrees, angles to 0.2 degrees each.
 Eigen::MatrixXd roughly_known(const NumberPlaces& places, const TurntableModel& model) {
     Eigen::VectorXd deviation = Eigen::VectorXd::Constant(places.count, radians(0.2));
     deviation(places.camera[0]) = 0.01 * model.lens.f_px;
@@ -112,7 +112,7 @@ TEST(SilhouetteTangency, FitMendsFocalLengthAndAnglesThatDrift) {
     EXPECT_GT(3 * std::sqrt(fit->covariance(f, f)), std::abs(fit->model.lens.f_px - truth.lens.f_px));
 }
 
-// A start whose f and tilt are off by several of the deviations of roughly_known().
+// A start whose f and tilt are off by several deviations of roughly_known().
 TurntableModel far_start(const TurntableModel& truth) {
     TurntableModel start = truth;
     start.lens.f_px *= 1.05;

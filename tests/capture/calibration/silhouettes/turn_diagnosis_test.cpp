@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-// A turn judged as calibrate_with_tracks() judges one.
+// Runs the checks of calibrate_with_tracks() on a turn.
 struct Judged {
     Status accepted;
     std::vector<std::string> warnings;
@@ -79,7 +79,7 @@ TEST(TurnDiagnosis, NamesAStepGapAndImageTakenTwice) {
 
     truth = equal;
     for (std::size_t i = 5; i < 30; ++i) truth.angles_rad[i] += radians(10);  // the turntable had not turned
-    EXPECT_THAT(judge(truth, truth).warnings, Contains(HasSubstr("005.jpg stands where 004.jpg does")));
+    EXPECT_THAT(judge(truth, truth).warnings, Contains(HasSubstr("005.jpg is at the angle of 004.jpg")));
     EXPECT_THAT(repeated_views(truth.angles_rad), ElementsAre(5));
 
     truth = equal;
@@ -87,7 +87,7 @@ TEST(TurnDiagnosis, NamesAStepGapAndImageTakenTwice) {
     EXPECT_THAT(judge(truth, truth).warnings, Contains(HasSubstr("from 008.jpg to 009.jpg is 12.0 degrees")));
 }
 
-// As of every n-th frame of a film.
+// As with every n-th frame of a video.
 TEST(TurnDiagnosis, ManyUnevenStepsAreOneLine) {
     TurntableModel truth = test::turn_model(36, radians(10));
     for (std::size_t i = 1; i < truth.angles_rad.size(); i += 2) truth.angles_rad[i] += radians(2);
@@ -137,7 +137,7 @@ TEST(TurnDiagnosis, NamesAViewWhoseObjectWasMoved) {
     EXPECT_THAT(judged.warnings, Contains(AllOf(HasSubstr("020.jpg does not fit"), HasSubstr("leave it out"))));
 }
 
-// From view `from` on the camera stands elsewhere.
+// The camera is moved from view `from` on.
 Judged with_moved_tripod(std::size_t from) {
     const TurntableModel truth = test::turn_model(36, radians(10));
     test::ModelOfView models(36, truth);

@@ -64,7 +64,7 @@ TEST(BackgroundModel, DarkRoomIsNotBlack) {
             }
         }
         EXPECT_EQ(estimate_background(survey_of(photos), {}, "x")->kind, kind);
-        photos.resize(3);  // too few to tell static pixels
+        photos.resize(3);  // too few to identify static pixels
         EXPECT_EQ(estimate_background(survey_of(photos), {}, "x")->kind, BackgroundKind::kBlack);
     }
 }

@@ -1,4 +1,4 @@
-// Frame selection on synthetic films with known angles.
+// Frame selection on synthetic videos with known angles.
 
 #include "capture/photos/intake/film/frame_selection.hpp"
 
@@ -14,7 +14,7 @@
 namespace rs::capture {
 namespace {
 
-// Synthetic film with the angle of each frame.
+// Synthetic video with the angle of each frame.
 struct Film {
     std::vector<double> angles_deg;
     std::vector<FrameCopy> copies;
@@ -115,7 +115,7 @@ TEST(FrameSelection, FollowsTheTrendWhereTheCameraIsLevel) {
 }
 
 TEST(FrameSelection, RemovesFramesWithoutRotation) {
-    // Stands still for 60 frames, turns by 420 degrees in 280, and stands still again.
+    // Pauses for 60 frames, turns by 420 degrees in 280, and pauses again.
     Film film = make_film(
         400, [](std::size_t i) { return 1.5 * static_cast<double>(std::clamp<std::size_t>(i, 60, 340) - 60); });
     const FrameSelection selection = select_frames(film.copies, {}, nullptr);

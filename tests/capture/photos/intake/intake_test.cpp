@@ -25,8 +25,8 @@ TEST(Intake, ReportsIgnoredFiles) {
     ASSERT_TRUE(found.ok()) << found.error().message;
     const Result<Intake> taken = take_in(std::move(*found), nullptr);
     ASSERT_TRUE(taken.ok()) << taken.error().message;
-    EXPECT_THAT(taken->notes, testing::ElementsAre("left aside, not an image: 1.cr2",
-                                                   "left aside, there in another format, too: 1.png and 2 more"));
+    EXPECT_THAT(taken->notes, testing::ElementsAre("ignored, not an image: 1.cr2",
+                                                   "ignored, present in another format, too: 1.png and 2 more"));
 }
 
 }  // namespace

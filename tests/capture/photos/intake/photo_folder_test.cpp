@@ -57,7 +57,7 @@ TEST(NaturalOrder, IsTotal) {
 TEST(PhotoFolder, ListsImagesOnlyInOrder) {
     const test::TemporaryFolder folder;
     for (const char* name : {"10.png", "9.png", "2.PNG"}) {
-        // The writer chooses the format by itself; the name's case is what is tested.
+        // The writer detects the format from the lower-case extension; the test is about the case of the name.
         write_image(folder / "x.png", 4, 3);
         std::filesystem::rename(folder / "x.png", folder / name);
     }
@@ -124,10 +124,10 @@ TEST(PhotoFolder, TurnsAllAsMostWantToBeShown) {
     EXPECT_EQ(found->otherwise_turned, 1);
 }
 
-// An editor saved one of images that are stored on their side upright, with its pixels turned.
+// An editor saved one of several images that are stored on their side upright, with rotated pixels.
 TEST(PhotoFolder, TurnsEachAsItStatesWhereOnlySomeLieOnTheirSide) {
     const test::TemporaryFolder folder;
-    // White at the top: stored at the left, as the row of a file of orientation 6 is a column of what it shows.
+    // White at the top: stored at the left, because orientation 6 displays stored rows as columns.
     Image<Rgba8> lying(48, 32, Rgba8{9, 9, 9, 255}), upright(32, 48, Rgba8{9, 9, 9, 255});
     for (int y = 0; y < 32; ++y) {
         for (int x = 0; x < 16; ++x) lying(x, y) = {255, 255, 255, 255};
@@ -137,7 +137,7 @@ TEST(PhotoFolder, TurnsEachAsItStatesWhereOnlySomeLieOnTheirSide) {
     }
     for (const char* name : {"1.jpg", "3.jpg", "4.jpg"}) {
         ASSERT_TRUE(write_jpeg(folder / name, lying, 90).ok());
-        // The last is of a camera that looks down and does not know where up is.
+        // The last photo is of a camera that looks down and cannot sense its orientation.
         test::add_exif(folder / name, std::string_view(name) == "4.jpg" ? 8 : 6);
     }
     ASSERT_TRUE(write_jpeg(folder / "2.jpg", upright, 90).ok());
@@ -170,7 +170,7 @@ TEST(PhotoFolder, SaysWhatPhotographsShowWhenTheyAreTurned) {
         EXPECT_EQ(found->shown_width, orientation == 6 ? 32 : 48);
         EXPECT_EQ(found->shown_height, orientation == 6 ? 48 : 32);
         EXPECT_EQ(found->width, found->shown_width);
-        // A mask of 48 x 32 tells by its size that it is not of what the third shows; of the second it does not.
+        // By its size, a mask of 48 x 32 does not fit the displayed third photo; for the second it is ambiguous.
         EXPECT_EQ(found->turns_unnoticed(), orientation == 3);
     }
     const Error error = turned_beside(*open_photo_folder(folder.path()), "--masks there");
@@ -187,14 +187,14 @@ TEST(PhotoFolder, MakesLargePhotographsSmaller) {
         return *found;
     };
     EXPECT_EQ(opened(kMaxImageSide_px).width, 400);
-    EXPECT_EQ(opened(320).width, 400) << "to a quarter more they stay";
+    EXPECT_EQ(opened(320).width, 400) << "up to a quarter larger is not reduced";
     EXPECT_EQ(opened(320).reduction, 1);
     const PhotoFolder small = opened(128);
     EXPECT_EQ(small.reduction, 3.125);
     EXPECT_EQ(small.width, 128);
-    EXPECT_EQ(small.height, 121);  // 121.92: what is left over goes
+    EXPECT_EQ(small.height, 121);  // 121.92: the remainder is cropped
     EXPECT_EQ(small.shown_width, 400);
-    EXPECT_EQ(small.in_image({200, 190.5}), glm::dvec2(64, 60.5)) << "the middle stays the middle";
+    EXPECT_EQ(small.in_image({200, 190.5}), glm::dvec2(64, 60.5)) << "the centre is unchanged";
     EXPECT_EQ(small.in_image({200 + 31.25, 190.5 - 62.5}), glm::dvec2(74, 40.5));
 }
 
@@ -212,7 +212,7 @@ TEST(PhotoFolder, LeavesAPixelOfAThinPhotograph) {
 TEST(PhotoFolder, TakesPhotographsThatAreLargerThanImages) {
     const test::TemporaryFolder folder;
     write_image(folder / "1.png", kMaxImageSide_px, 64);
-    // write_png() writes none as large: its header is made to claim so, which is all that is read here.
+    // write_png() cannot write images as large; only the header is modified, because only that is read.
     const auto claim = [&](std::uint32_t width) {
         auto png = read_file(folder / "1.png", 1 << 20);
         ASSERT_TRUE(png.ok()) << png.error().message;

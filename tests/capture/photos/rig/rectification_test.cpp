@@ -77,7 +77,7 @@ TEST(Rectification, EqualsTheImageOfAnUprightCamera) {
     const double psnr_db = psnr_of_rectification(crooked_model());
     EXPECT_GT(psnr_db, 45);
     RecordProperty("psnr_db", std::to_string(psnr_db));
-    // The score can tell: half a degree of tilt is plainly worse.
+    // The score is sensitive: half a degree of tilt is clearly worse.
     TurntableModel wrong = crooked_model();
     const Image<Rgba8> photo = drawn(wrong.lens, wrong.pose);
     wrong.pose.tilt_rad += radians(0.5);
@@ -93,7 +93,7 @@ TEST(Rectification, AMovedPhotographIsPutBack) {
     const auto frame = plan_upright_frame(model, std::array{visible_box(photo)});
     ASSERT_TRUE(frame.ok());
     const ImagePlace place{{13, -8}, 0.9};
-    Lens moved = model.lens;  // a place is another lens: nothing is resampled
+    Lens moved = model.lens;  // a shift is equivalent to another lens: exact without resampling
     const glm::dvec2 principal =
         place.seen({moved.cx, moved.cy}, glm::dvec2(model.lens.width, model.lens.height) / 2.0);
     moved.f_px *= place.scale;
@@ -193,7 +193,7 @@ TEST(Rectification, ContinuesColoursBeyondTheEdge) {
     const Image<Rgba8> upright = rectified(model, *frame, photo);
     int hidden = 0;
     for (const Rgba8& pixel : upright.pixels()) {
-        // No rim, neither dark nor bright: at every coverage it is the object's colour, and so under alpha 0.
+        // No rim, neither dark nor bright: pixels of every coverage, also of alpha 0, have the object's colour.
         if (pixel.a > 0 || pixel.r > 0) {
             EXPECT_NEAR(pixel.r, 200, 1);
             EXPECT_NEAR(pixel.g, 120, 1);
@@ -204,7 +204,7 @@ TEST(Rectification, ContinuesColoursBeyondTheEdge) {
     EXPECT_GT(hidden, 500);
 }
 
-// A soft spot where the calibrated camera sees the point; small, because perspective moves the centroid of a wide one.
+// A soft spot at the point's projection; small, because perspective shifts the centroid of a wide one.
 Image<Rgba8> spot(const TurntableModel& model, const glm::dvec2& p) {
     Image<Rgba8> photo(model.lens.width, model.lens.height);
     for (int y = 0; y < photo.height(); ++y) {
@@ -235,7 +235,7 @@ TEST(Rectification, TheRigSeesPointsWhereTheRectifiedImagesShowThem) {
     EXPECT_EQ(rig.object_radius, 1);
     const double distance = std::hypot(rig.views[0].camera.centre().x, rig.views[0].camera.centre().z);
     const double camera_height = rig.views[0].camera.centre().y;
-    EXPECT_GT(camera_height, 0.2 * distance);  // it looks down
+    EXPECT_GT(camera_height, 0.2 * distance);  // the camera looks down
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
         const Camera& camera = rig.views[i].camera;
         EXPECT_TRUE(is_upright(camera));
@@ -243,7 +243,7 @@ TEST(Rectification, TheRigSeesPointsWhereTheRectifiedImagesShowThem) {
         EXPECT_NEAR(glm::length(glm::cross(camera.forward(), glm::dvec3(camera.centre().x, 0, camera.centre().z))), 0,
                     1e-12);
         for (const glm::dvec3& p : {glm::dvec3(0.1, -0.25, 0.05), glm::dvec3(-0.08, -0.36, 0.1)}) {
-            // In units of the camera's distance, seen by the crooked camera, against object radii, seen by the rig.
+            // In units of the camera's distance, in the distorted camera; in object radii in the rig.
             const auto seen = project(model.lens, model.pose, turned(p, model.angles_rad[i]));
             ASSERT_TRUE(seen.has_value());
             const glm::dvec2 shown = centroid(rectified(model, *frame, spot(model, *seen)));
@@ -261,7 +261,7 @@ TEST(Rectification, TheRigKnowsTheGround) {
     const TurnSilhouette::Box visible{60, 300, 30, 250};
     EXPECT_EQ(make_rig(model, *frame, visible).foot_height, std::nullopt);
     const Rig rig = make_rig(model, *frame, visible, -0.37);
-    // Where the axis meets the ground, in the photograph's camera and in the rig's.
+    // Intersection of the axis and the ground, in the photo's camera and in the rig's.
     const auto seen = project(Lens(frame->lens), {}, {0, -0.37, 0});
     ASSERT_TRUE(seen.has_value() && rig.foot_height.has_value());
     const glm::dvec3 ground(0, *rig.foot_height, 0);

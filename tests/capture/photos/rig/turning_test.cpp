@@ -15,7 +15,7 @@ constexpr double kDiscRadius_px = 90;
 constexpr double kHeight_px = 130;
 constexpr double kAxis_px = 120;
 
-// An upright textured cylinder from far away, seen from `elevation_deg` above. Nearer means lower in the image.
+// An upright textured cylinder at a large distance, from `elevation_deg` above. Nearer points are lower in the image.
 Image<Rgba8> cylinder(double turned_rad, double elevation_deg, double contrast) {
     const double e = radians(elevation_deg);
     Image<Rgba8> image(240, 220);
@@ -55,13 +55,13 @@ TEST(FindTurning, ReadsBothSensesFromAboveAndFromTheSide) {
 
 TEST(FindTurning, WhatComesNearerSinks) {
     const TurningEvidence evidence = find_turning(turn(-1, 12), kAxis_px, kDiscRadius_px, kStep_rad, true);
-    // A point at x goes towards the camera by x times the step, and sin(12 degrees) of that is seen as sinking.
+    // A point at x approaches the camera by x times the step; sin(12 degrees) of that is downward motion.
     EXPECT_NEAR(evidence.sink_slope, radians(360.0 / kTurning_views) * std::sin(radians(12)), 0.01);
     EXPECT_GT(evidence.sink_slope, 8 * evidence.sink_slope_error);
 }
 
-// The step says how far patches go, not the number of views. Texture that repeats is found in wrong places where the
-// search goes too far, and not found at all where it ends too early.
+// The search range depends on the step, not on the number of views. Repetitive texture is matched at wrong positions if
+// the range is too large, and not matched at all if it is too small.
 TEST(FindTurning, SearchesAsFarAsAStepOfAPartOfATurnGoes) {
     const double step_rad = radians(5);
     std::vector<Image<Rgba8>> views = turn(-1, 12, 120, step_rad);

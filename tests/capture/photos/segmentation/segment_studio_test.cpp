@@ -317,7 +317,7 @@ TEST(ForegroundMask, VisibleBackgroundIsCertainWhateverItsColour) {
     EXPECT_EQ(foreground_score(photo, plate, {})(10, 10), -kCertainScore);
 }
 
-// No shadow falls above the ground that the object stands on.
+// No shadow falls above the ground below the object.
 TEST(ForegroundMask, AmbiguousPixelsAboveShadowsAreRatherForeground) {
     CleanPlateView plate = studio_plate();
     const LinearRgb background = plate.background.light(10, 10);

@@ -16,7 +16,7 @@ using testing::IsEmpty;
 
 constexpr int kChecked_width = 100, kChecked_height = 80;
 
-// Cut-outs in which something covers columns 20 to 59 of the lower border, in one colour or in changing ones.
+// Foreground images in which something covers columns 20 to 59 of the lower border, in one colour or in changing ones.
 std::vector<Image<Rgba8>> cutouts_at_border(int count, bool changes) {
     std::vector<Image<Rgba8>> cutouts;
     for (int i = 0; i < count; ++i) {
