@@ -14,10 +14,10 @@ namespace {
 
 // Bends a normal until it faces the viewer. Interpolated normals may face away near silhouettes.
 glm::vec3 facing_normal(const glm::vec3& normal, const glm::vec3& to_viewer) {
-    constexpr float kMinCos = 0.01F;
+    constexpr float kMinViewerCos = 0.01F;
     const float cos_viewer = glm::dot(normal, to_viewer);
-    if (cos_viewer >= kMinCos) return normal;
-    return glm::normalize(normal + to_viewer * (kMinCos - cos_viewer));
+    if (cos_viewer >= kMinViewerCos) return normal;
+    return glm::normalize(normal + to_viewer * (kMinViewerCos - cos_viewer));
 }
 
 glm::vec3 surface_colour(const Scene& scene, const Material& material, const SurfacePoint& point) {
