@@ -41,8 +41,8 @@ Result<RaySpaceNode> parse_object_argument(const std::string& text, const glm::d
         std::vector<double> numbers;
         if (!parse_numbers(std::string_view(text).substr(sign + 1), numbers) || numbers.size() < 3 ||
             numbers.size() > 5) {
-            return Error{text +
-                         ": is no object with a place; write FILE.rso@X,Y,Z or FILE.rso@X,Y,Z,TURN_DEGREES,SCALE"};
+            return Error{
+                text + ": is not an object with a position; write FILE.rso@X,Y,Z or FILE.rso@X,Y,Z,TURN_DEGREES,SCALE"};
         }
         transform.translation = {numbers[0], numbers[1], numbers[2]};
         if (numbers.size() > 3) transform.angle_rad = radians(numbers[3]);

@@ -217,8 +217,8 @@ private:
         if (part == 1 && count == 0) return;
         if (index > count || index < -count) {
             constexpr std::array kWhat{"vertices", "texture coordinates", "normals"};
-            throw MalformedLine{"the corner " + in_quotes(corner) + " asks for one of " + std::to_string(count) + " " +
-                                kWhat.at(part) + " before it; mend the number"};
+            throw MalformedLine{"the corner " + in_quotes(corner) + " exceeds the " + std::to_string(count) + " " +
+                                kWhat.at(part) + " before it; correct the index"};
         }
     }
 

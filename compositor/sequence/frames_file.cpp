@@ -90,7 +90,7 @@ Result<SequenceFiles> frames_from_json(const std::string& text, const fs::path& 
 Result<SequenceFiles> find_sequence(const fs::path& folder) {
     std::error_code error;
     if (!fs::exists(folder, error))
-        return Error{printable(folder.string()) + ": there is no such folder; mend the name"};
+        return Error{printable(folder.string()) + ": the folder does not exist; correct the name"};
     if (!fs::is_directory(folder, error) && lower_case_extension(folder) == ".obj") {
         SequenceFiles files;
         files.file = folder;

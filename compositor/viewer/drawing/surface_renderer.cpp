@@ -213,10 +213,10 @@ Status SurfaceRenderer::move(std::size_t node, const std::optional<glm::dmat4>& 
 Status SurfaceRenderer::set_lights(const Scene& scene, const ShadowPlan& shadows) {
     take_lights(scene, scene_);
     shadows_ = shadows;
-    if (Status status = create_caster_programs(); !status) return status;
+    RS_TRY(create_caster_programs());
     summarize_lights();
     for (Item& item : items_) {
-        if (Status status = update_item(item); !status) return status;
+        RS_TRY(update_item(item));
     }
     return {};
 }

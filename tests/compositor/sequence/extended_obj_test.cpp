@@ -73,7 +73,7 @@ TEST(ExtendedObj, DamagedLinesAreRefusedWithFileAndLine) {
         {"f 1 2", "corners"},
         {"f 1 2 9", "asks for one of 8 vertices"},
         {"f 1 2 -9", "asks for one of 8 vertices"},
-        {"f 1//1 2//1 3//3", "asks for one of 2 normals"},
+        {"f 1//1 2//1 3//3", "exceeds the 2 normals"},
         {"f 1 2 0", "not an index"},
         {"f 1 2 3/", "not an index"},
         {"f 1 2 3/1/1/1", "too many parts"},

@@ -177,7 +177,7 @@ TEST(VrmlFile, TheSurroundingsAreRead) {
     EXPECT_EQ(scene.viewpoints[0].description, "a");
     EXPECT_EQ(scene.viewpoints[0].field_of_view_rad, 1);
     EXPECT_LT(glm::distance(glm::dvec3(scene.viewpoints[0].world_from_camera[3]), glm::dvec3(0, 2, 5)), 1e-6);
-    // It looks along -X.
+    // The view direction is -X.
     EXPECT_LT(glm::distance(-glm::dvec3(scene.viewpoints[0].world_from_camera[2]), glm::dvec3(-1, 0, 0)), 1e-6);
     EXPECT_LT(glm::distance(glm::dvec3(scene.viewpoints[1].world_from_camera[3]), glm::dvec3(0, 0, 10)), 1e-6);
     EXPECT_TRUE(scene_of("").navigation.headlight);

@@ -163,7 +163,7 @@ TEST(VrmlGraph, RefusesWithTheLine) {
         {"Collision { collide true }", "line 2: collide takes SFBool"},
         {"Inline { url \"a\n\n", "line 2: the text that begins here has no end"},
         {"Shape { appearance Appearance { texture PixelTexture { image 100000 100000 3 0 } } }", "cannot be read"},
-        {"PROTO P [ field SFFlaot r 1 ] { Group { } }", "line 2: 'SFFlaot' is no type"},
+        {"PROTO P [ field SFFlaot r 1 ] { Group { } }", "line 2: 'SFFlaot' is not a field type"},
         {"PROTO P [ field SFFloat r 1 field SFFloat r 1 ] { Group { } }", "two fields 'r'"},
     };
     for (const auto& [body, expected] : cases) {
