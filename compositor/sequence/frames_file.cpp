@@ -42,7 +42,7 @@ std::vector<fs::path> take_files(JsonObject& object, const char* key, std::size_
 }
 
 // Map of a project folder with a single map.
-Result<std::optional<fs::path>> only_map(const fs::path& folder) {
+Result<std::optional<fs::path>> find_single_map(const fs::path& folder) {
     std::error_code error;
     std::vector<fs::path> maps;
     for (fs::directory_iterator i(folder / "maps", error), end; !error && i != end; i.increment(error)) {
@@ -103,7 +103,7 @@ Result<SequenceFiles> find_sequence(const fs::path& folder) {
         if (!file && fs::exists(folder / place, error)) file = folder / place;
     }
     if (!file) {
-        RS_ASSIGN_OR_RETURN(std::optional<fs::path> map, only_map(folder));
+        RS_ASSIGN_OR_RETURN(std::optional<fs::path> map, find_single_map(folder));
         file = std::move(map);
     }
     if (!file) {

@@ -144,7 +144,7 @@ private:
             RS_ASSIGN_OR_RETURN(const ResolvedReference named, find(path, line, own));
             instanced.insert(named.object);
             const std::optional<std::uint32_t> slot = slot_of(named, line.material, line.pose);
-            if (!slot) return too_many(path);
+            if (!slot) return limit_error(path);
             frame.poses.push_back({*slot, false, line.pose});
         }
         // Objects of the frame's file without an instance line keep their position.
@@ -152,14 +152,14 @@ private:
             const ModelObject& object = own->objects[i];
             if (instanced.contains(&object) || object.parts.empty()) continue;
             const std::optional<std::uint32_t> slot = slot_of({own, &object, nullptr, {}}, "-", {});
-            if (!slot) return too_many(path);
+            if (!slot) return limit_error(path);
             frame.poses.push_back({*slot, true, {}});
         }
         sequence_.frames.push_back(std::move(frame));
         return {};
     }
 
-    static Error too_many(const fs::path& path) {
+    static Error limit_error(const fs::path& path) {
         return Error{printable(path.string()) + ": shows more than " + std::to_string(kMaxMovingNodes) +
                      " parts at once; make objects of fewer materials"};
     }

@@ -46,7 +46,7 @@ public:
     explicit ObjectsInMemory(std::optional<Rgba8> colour = std::nullopt) : colour_(colour) {}
     Result<std::int64_t> most_bytes(const std::filesystem::path& /*file*/) override { return std::int64_t{8} << 20; }
     Result<compositor::ViewableObject> read(const std::filesystem::path& /*file*/, std::int64_t /*most_bytes*/,
-                                            const ProgressCallback& /*tell*/) override {
+                                            const ProgressCallback& /*on_progress*/) override {
         return compositor::make_viewable(drum_object(colour_));
     }
 

@@ -61,9 +61,9 @@ public:
     }
 
     Result<compositor::ViewableObject> read(const std::filesystem::path& file, std::int64_t most_bytes,
-                                            const ProgressCallback& tell) override {
+                                            const ProgressCallback& on_progress) override {
         log_->add(most_bytes);
-        tell(0.5F);
+        on_progress(0.5F);
         std::this_thread::sleep_for(options_.reading);
         {
             const std::lock_guard lock(log_->mutex);
