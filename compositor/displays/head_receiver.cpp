@@ -79,15 +79,15 @@ Result<HeadReceiver> HeadReceiver::listen(const UdpPlace& place) {
     asio::error_code failed;
     const asio::ip::address address = asio::ip::make_address(place.address, failed);
     if (failed) return Error{printable(place.text()) + ": has no IPv4 or IPv6 address"};
-    const asio::ip::udp::endpoint here(address, place.port);
+    const asio::ip::udp::endpoint local(address, place.port);
     std::unique_ptr<Socket> socket;
     try {
         socket = std::make_unique<Socket>();
-    } catch (const std::system_error& no_context) {
-        return cannot_listen(place, no_context.code());
+    } catch (const std::system_error& error) {
+        return cannot_listen(place, error.code());
     }
-    socket->udp.open(here.protocol(), failed);
-    if (!failed) socket->udp.bind(here, failed);
+    socket->udp.open(local.protocol(), failed);
+    if (!failed) socket->udp.bind(local, failed);
     if (!failed) socket->udp.non_blocking(true, failed);
     UdpPlace got = place;
     if (!failed) got.port = socket->udp.local_endpoint(failed).port();

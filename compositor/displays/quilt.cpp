@@ -20,8 +20,8 @@ Result<QuiltLayout> parse_quilt(const std::string& text, int tile_width, int til
     if (!has_x || rows.ec != std::errc{} || rows.ptr != end || layout.columns < 1 || layout.rows < 1) {
         return Error{option + " '" + printable(text) + "': must be COLUMNSxROWS, such as 5x9"};
     }
-    constexpr int kMostTiles = kMaxImageSide_px;
-    if (layout.columns > kMostTiles / tile_width || layout.rows > kMostTiles / tile_height) {
+    constexpr int kMaxTileCount = kMaxImageSide_px;
+    if (layout.columns > kMaxTileCount / tile_width || layout.rows > kMaxTileCount / tile_height) {
         return Error{option + " " + text + ": tiles of " + std::to_string(tile_width) + "x" +
                      std::to_string(tile_height) + " make an image of more than " + std::to_string(kMaxImageSide_px) +
                      " pixels across; take fewer or smaller ones"};

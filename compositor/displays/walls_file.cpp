@@ -12,12 +12,12 @@
 namespace rs::compositor {
 namespace {
 
-constexpr std::uint64_t kMostWalls_bytes = std::uint64_t{4} << 20;
-constexpr std::uint64_t kMostHeads_bytes = std::uint64_t{64} << 20;
-constexpr std::size_t kMostWalls = 64;
-constexpr std::size_t kMostHeads = 100000;
-constexpr double kFarthest_m = 1e4;
-constexpr double kFarthestPlace = 1e6;  // scene units
+constexpr std::uint64_t kMaxWallsFile_bytes = std::uint64_t{4} << 20;
+constexpr std::uint64_t kMaxHeadsFile_bytes = std::uint64_t{64} << 20;
+constexpr std::size_t kMaxWalls = 64;
+constexpr std::size_t kMaxHeads = 100000;
+constexpr double kMaxWallCoordinate_m = 1e4;
+constexpr double kMaxRoomPosition = 1e6;  // scene units
 constexpr double kMaxTurn_deg = 36000;
 constexpr double kFitRatio = 0.8;  // fraction of the table's shorter side
 
@@ -26,7 +26,7 @@ double angle(JsonObject& object, const char* key) {
 }
 
 glm::dvec3 corner(JsonObject& object, const char* key) {
-    return object.take(key).triple(-kFarthest_m, kFarthest_m);
+    return object.take(key).triple(-kMaxWallCoordinate_m, kMaxWallCoordinate_m);
 }
 
 // Valid in a file name: letters, digits, '-', '_', '.'; no leading '-' or '.'.
@@ -79,7 +79,7 @@ Head take_tracker(JsonObject object) {
 
 RoomPlace take_place(JsonObject object) {
     RoomPlace place;
-    place.position = object.take("position").triple(-kFarthestPlace, kFarthestPlace);
+    place.position = object.take("position").triple(-kMaxRoomPosition, kMaxRoomPosition);
     place.heading_rad = angle(object, "heading_deg");
     object.expect_all_taken();
     return place;
@@ -131,7 +131,7 @@ Result<WallDisplay> walls_from_json(const std::string& text, const std::filesyst
     return read_json(text, path.string(), [](JsonObject& top) {
         WallDisplay display;
         const JsonValue walls = top.take("walls");
-        const std::size_t count = walls.list_size(1, kMostWalls);
+        const std::size_t count = walls.list_size(1, kMaxWalls);
         std::set<std::string> names;
         for (std::size_t i = 0; i < count; ++i) {
             display.walls.push_back(take_wall(JsonObject(walls.item(i))));
@@ -155,14 +155,14 @@ Result<WallDisplay> walls_from_json(const std::string& text, const std::filesyst
 }
 
 Result<WallDisplay> read_walls(const std::filesystem::path& path) {
-    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMostWalls_bytes));
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMaxWallsFile_bytes));
     return walls_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 
 Result<std::vector<Head>> heads_from_json(const std::string& text, const std::filesystem::path& path) {
     return read_json(text, path.string(), [](JsonObject& top) {
         const JsonValue list = top.take("heads");
-        const std::size_t count = list.list_size(1, kMostHeads);
+        const std::size_t count = list.list_size(1, kMaxHeads);
         std::vector<Head> heads;
         for (std::size_t i = 0; i < count; ++i) heads.push_back(take_head(JsonObject(list.item(i))));
         return heads;
@@ -170,7 +170,7 @@ Result<std::vector<Head>> heads_from_json(const std::string& text, const std::fi
 }
 
 Result<std::vector<Head>> read_heads(const std::filesystem::path& path) {
-    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMostHeads_bytes));
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMaxHeadsFile_bytes));
     return heads_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 

@@ -16,8 +16,8 @@ Error no_context(const std::string& reason) {
                  "; install Mesa's EGL (Debian: libegl1 libegl-mesa0 libgl1-mesa-dri), which needs no GPU or display"};
 }
 
-void GLAPIENTRY note_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum severity, GLsizei length,
-                             const GLchar* message, const void* user) {
+void GLAPIENTRY record_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum severity, GLsizei length,
+                               const GLchar* message, const void* user) {
     if (type != GL_DEBUG_TYPE_ERROR && severity != GL_DEBUG_SEVERITY_HIGH) return;
     auto& errors = *static_cast<std::vector<std::string>*>(const_cast<void*>(user));
     errors.emplace_back(message, static_cast<std::size_t>(length));
@@ -65,10 +65,10 @@ std::vector<EGLDisplay> gpu_displays() {
     const bool lists_devices =
         has("EGL_EXT_device_base") || (has("EGL_EXT_device_enumeration") && has("EGL_EXT_device_query"));
     if (!lists_devices || !has("EGL_EXT_platform_device")) return displays;
-    constexpr EGLint kMostDevices = 64;
-    std::array<EGLDeviceEXT, kMostDevices> devices{};
+    constexpr EGLint kMaxDevices = 64;
+    std::array<EGLDeviceEXT, kMaxDevices> devices{};
     EGLint count = 0;
-    if (!eglQueryDevicesEXT(kMostDevices, devices.data(), &count)) return displays;
+    if (!eglQueryDevicesEXT(kMaxDevices, devices.data(), &count)) return displays;
     for (EGLint n = 0; n < count; ++n) {
         const EGLDeviceEXT device = devices[static_cast<std::size_t>(n)];
         const char* const extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
@@ -95,7 +95,7 @@ struct Context::State {
         if (options.debug) {
             glEnable(GL_DEBUG_OUTPUT);
             glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-            glDebugMessageCallback(note_message, &errors);
+            glDebugMessageCallback(record_message, &errors);
         }
         glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
         glEnable(GL_FRAMEBUFFER_SRGB);

@@ -36,8 +36,8 @@ public:
     [[nodiscard]] const std::string& device_name() const;
     /// OpenGL errors since the last call, one line each.
     [[nodiscard]] std::vector<std::string> take_errors();
-    /// GL objects that exist, such as "2 textures", whoever created them. Queries some thousand names: takes
-    /// milliseconds; for tests.
+    /// GL objects that exist, such as "2 textures", including those created elsewhere. Queries some thousand names:
+    /// takes milliseconds; for tests.
     [[nodiscard]] std::vector<std::string> names_alive() const;
 
 private:

@@ -65,7 +65,7 @@ Status show_frame(const Sequence& sequence, std::size_t frame, const std::option
         for (const std::size_t node : sequence.slots[slot].geometry) {
             std::optional<glm::dmat4> matrix = moved.geometry[slot];
             if (matrix) *matrix = *matrix * sequence.scene.geometry[node].world_from_node;
-            if (Status status = compositor.move_geometry(node, matrix); !status) return status;
+            RS_TRY(compositor.move_geometry(node, matrix));
         }
     }
     for (const auto& [node, chain] : moved.objects) showroom.move_object(node, chain);
@@ -75,11 +75,11 @@ Status show_frame(const Sequence& sequence, std::size_t frame, const std::option
 
 Status SequencePlayer::draw(std::size_t number, const Camera& camera) {
     const auto weather = weather_of(*sequence_, options_);
-    if (Status status = show_frame(*sequence_, number, weather, compositor_, *showroom_); !status) return status;
+    RS_TRY(show_frame(*sequence_, number, weather, compositor_, *showroom_));
     if (options_.tracing) {
-        if (Status status = trace(number, camera); !status) return status;
+        RS_TRY(trace(number, camera));
     }
-    if (Status status = showroom_->update(camera.centre(), 1 / sequence_->frames_per_second); !status) return status;
+    RS_TRY(showroom_->update(camera.centre(), 1 / sequence_->frames_per_second));
     for (std::string& warning : showroom_->take_warnings()) warnings_.push_back(std::move(warning));
     return compositor_.draw(camera);
 }
@@ -101,7 +101,7 @@ Status SequencePlayer::trace(std::size_t number, const Camera& camera) {
     // Ray-space objects cannot move in a tracer, so it is rebuilt.
     const MovedSlots moved = moved_slots(*sequence_, number);
     if (!tracer_ || !moved.objects.empty()) {
-        if (Status status = make_tracer(); !status) return status;
+        RS_TRY(make_tracer());
     }
     const auto begin = std::chrono::steady_clock::now();
     for (std::size_t slot = 0; slot < sequence_->slots.size(); ++slot) {

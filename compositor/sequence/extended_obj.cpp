@@ -13,7 +13,7 @@
 namespace rs::compositor {
 namespace {
 
-constexpr double kFarthest = 1e6;  // coordinates, scales
+constexpr double kMaxObjCoordinate = 1e6;  // coordinates, scales
 constexpr double kMinScale = 1e-6;
 constexpr double kMaxTurns_deg = 36000;
 constexpr std::size_t kMaxQuoted_chars = 40;
@@ -112,9 +112,9 @@ private:
         InstanceLine instance;
         instance.line = line_;
         instance.id = std::string(words[1]);
-        instance.pose.move = triple(values.subspan(2, 3), kFarthest);
+        instance.pose.move = triple(values.subspan(2, 3), kMaxObjCoordinate);
         instance.pose.turn_deg = triple(values.subspan(5, 3), kMaxTurns_deg);
-        instance.pose.scale = triple(values.subspan(8, 3), kFarthest);
+        instance.pose.scale = triple(values.subspan(8, 3), kMaxObjCoordinate);
         for (int axis = 0; axis < 3; ++axis) {
             if (std::abs(instance.pose.scale[axis]) < kMinScale) {
                 throw MalformedLine{"the scale " + in_quotes(words[static_cast<std::size_t>(8 + axis)]) +
@@ -133,8 +133,8 @@ private:
         if (result_.camera) throw MalformedLine{"there are two cameras; keep one"};
         const std::span<const std::string_view> values(words);
         SequenceCamera camera;
-        camera.pose.eye = triple(values.subspan(1, 3), kFarthest);
-        camera.pose.at = triple(values.subspan(4, 3), kFarthest);
+        camera.pose.eye = triple(values.subspan(1, 3), kMaxObjCoordinate);
+        camera.pose.at = triple(values.subspan(4, 3), kMaxObjCoordinate);
         camera.fov_x_rad = radians(number(words[7], 1, 150, true));
         if (glm::distance(camera.pose.eye, camera.pose.at) < 1e-6) {
             throw MalformedLine{"the eye and the point looked at are the same; move one"};
@@ -203,7 +203,7 @@ private:
                     throw MalformedLine{"the corner " + in_quotes(words[i]) + " has too many parts; write 1/2/3"};
             }
         }
-        note_object();
+        register_object();
     }
 
     static void check_index(std::string_view text, long long count, std::size_t part, std::string_view corner) {
@@ -217,12 +217,12 @@ private:
         if (part == 1 && count == 0) return;
         if (index > count || index < -count) {
             constexpr std::array kWhat{"vertices", "texture coordinates", "normals"};
-            throw MalformedLine{"the corner " + in_quotes(corner) + " asks for one of " + std::to_string(count) + " " +
-                                kWhat.at(part) + " before it; mend the number"};
+            throw MalformedLine{"the corner " + in_quotes(corner) + " exceeds the " + std::to_string(count) + " " +
+                                kWhat.at(part) + " before it; correct the index"};
         }
     }
 
-    void note_object() {
+    void register_object() {
         const auto owner = owner_of_node_.find(node_);
         if (owner == owner_of_node_.end()) {
             owner_of_node_.emplace(node_, object_);

@@ -42,7 +42,7 @@ std::vector<fs::path> take_files(JsonObject& object, const char* key, std::size_
 }
 
 // Map of a project folder with a single map.
-Result<std::optional<fs::path>> only_map(const fs::path& folder) {
+Result<std::optional<fs::path>> find_single_map(const fs::path& folder) {
     std::error_code error;
     std::vector<fs::path> maps;
     for (fs::directory_iterator i(folder / "maps", error), end; !error && i != end; i.increment(error)) {
@@ -90,7 +90,7 @@ Result<SequenceFiles> frames_from_json(const std::string& text, const fs::path& 
 Result<SequenceFiles> find_sequence(const fs::path& folder) {
     std::error_code error;
     if (!fs::exists(folder, error))
-        return Error{printable(folder.string()) + ": there is no such folder; mend the name"};
+        return Error{printable(folder.string()) + ": the folder does not exist; correct the name"};
     if (!fs::is_directory(folder, error) && lower_case_extension(folder) == ".obj") {
         SequenceFiles files;
         files.file = folder;
@@ -103,7 +103,7 @@ Result<SequenceFiles> find_sequence(const fs::path& folder) {
         if (!file && fs::exists(folder / place, error)) file = folder / place;
     }
     if (!file) {
-        RS_ASSIGN_OR_RETURN(std::optional<fs::path> map, only_map(folder));
+        RS_ASSIGN_OR_RETURN(std::optional<fs::path> map, find_single_map(folder));
         file = std::move(map);
     }
     if (!file) {

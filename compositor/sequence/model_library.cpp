@@ -67,7 +67,7 @@ Result<Model> read_model_objects(const std::filesystem::path& path, const Extend
         const auto owner = object_of_node.find(parts.nodes[i]);
         if (owner == object_of_node.end()) {
             return Error{printable(path.string() + ": the object '" + parts.nodes[i] +
-                                   "' is not named by a line of its own; export the file again")};
+                                   "' has no `o` or `g` line; export the file again")};
         }
         ModelObject& object = model.objects[owner->second];
         GeometryNode& part = parts.scene.geometry[i];

@@ -37,9 +37,9 @@ std::optional<SequenceCamera> camera_of(const Sequence& sequence, std::size_t fr
 Scene scene_at(const Sequence& sequence, std::size_t frame) {
     Scene scene = sequence.scene;
     const MovedSlots moved = moved_slots(sequence, frame);
-    std::vector<bool> gone_objects(scene.objects.size());
+    std::vector<bool> hidden_objects(scene.objects.size());
     for (const auto& [node, chain] : moved.objects) {
-        gone_objects[node] = !chain;
+        hidden_objects[node] = !chain;
         if (chain) scene.objects[node].chain = *chain;
     }
     std::erase_if(scene.geometry,
@@ -48,7 +48,7 @@ Scene scene_at(const Sequence& sequence, std::size_t frame) {
         if (node.moving) node.world_from_node = *moved.geometry[*node.moving] * node.world_from_node;
     }
     std::size_t i = 0;
-    std::erase_if(scene.objects, [&](const RaySpaceNode&) { return gone_objects[i++]; });
+    std::erase_if(scene.objects, [&](const RaySpaceNode&) { return hidden_objects[i++]; });
     return scene;
 }
 

@@ -144,7 +144,7 @@ private:
             RS_ASSIGN_OR_RETURN(const ResolvedReference named, find(path, line, own));
             instanced.insert(named.object);
             const std::optional<std::uint32_t> slot = slot_of(named, line.material, line.pose);
-            if (!slot) return too_many(path);
+            if (!slot) return limit_error(path);
             frame.poses.push_back({*slot, false, line.pose});
         }
         // Objects of the frame's file without an instance line keep their position.
@@ -152,14 +152,14 @@ private:
             const ModelObject& object = own->objects[i];
             if (instanced.contains(&object) || object.parts.empty()) continue;
             const std::optional<std::uint32_t> slot = slot_of({own, &object, nullptr, {}}, "-", {});
-            if (!slot) return too_many(path);
+            if (!slot) return limit_error(path);
             frame.poses.push_back({*slot, true, {}});
         }
         sequence_.frames.push_back(std::move(frame));
         return {};
     }
 
-    static Error too_many(const fs::path& path) {
+    static Error limit_error(const fs::path& path) {
         return Error{printable(path.string()) + ": shows more than " + std::to_string(kMaxMovingNodes) +
                      " parts at once; make objects of fewer materials"};
     }
@@ -167,7 +167,7 @@ private:
     // Resolves the object of a line: in its own file, then in the models, then in the base; indices refer to the first
     // of these that has objects.
     Result<ResolvedReference> find(const fs::path& path, const InstanceLine& line, const Model* own) {
-        const auto wrong = [&](const std::string& what) {
+        const auto line_error = [&](const std::string& what) {
             return Error{printable(path.lexically_normal().string()) + ":" + std::to_string(line.line) + ": " + what};
         };
         if (is_object_file(line.id)) return find_object_file(path, line);
@@ -192,16 +192,16 @@ private:
             if (named.object != nullptr) break;
         }
         if (named.object == nullptr) {
-            return wrong("there is no object '" + printable(line.id) + "'" +
-                         (number ? " (there are " + std::to_string(before) + ", counted from 0)" : "") +
-                         "; mend the name, or add its file to \"models\"");
+            return line_error("there is no object '" + printable(line.id) + "'" +
+                              (number ? " (there are " + std::to_string(before) + ", counted from 0)" : "") +
+                              "; correct the name, or add its file to \"models\"");
         }
         if (line.material != "-" && line.material != "-1") {
             named.material = named.model->material(line.material);
             if (named.material == nullptr) {
-                return wrong("there is no material '" + printable(line.material) + "' (there are " +
-                             std::to_string(named.model->materials.size()) +
-                             ", counted from 0); correct it, or give - for the object's own");
+                return line_error("there is no material '" + printable(line.material) + "' (there are " +
+                                  std::to_string(named.model->materials.size()) +
+                                  ", counted from 0); correct it, or give - for the object's own");
             }
         }
         if (base_ != nullptr && named.model == base_) instanced_in_base_.insert(named.object);
@@ -209,19 +209,19 @@ private:
     }
 
     static Result<ResolvedReference> find_object_file(const fs::path& path, const InstanceLine& line) {
-        const auto wrong = [&](const std::string& what) {
+        const auto line_error = [&](const std::string& what) {
             return Error{printable(path.lexically_normal().string()) + ":" + std::to_string(line.line) + ": " + what};
         };
         const glm::dvec3& scale = line.pose.scale;
         if (scale.x != scale.y || scale.y != scale.z || scale.x < 0) {
-            return wrong("a ray-space object keeps its shape; give it three equal scales above 0");
+            return line_error("a ray-space object keeps its shape; give it three equal scales above 0");
         }
         ResolvedReference named;
         named.file = path.parent_path() / line.id;
         std::error_code error;
         if (!fs::is_regular_file(named.file, error)) {
-            return wrong("there is no object " + printable(named.file.lexically_normal().string()) +
-                         "; make it with rs-encode build, or mend the name");
+            return line_error("there is no object " + printable(named.file.lexically_normal().string()) +
+                              "; make it with rs-encode build, or correct the name");
         }
         return named;
     }

@@ -57,14 +57,12 @@ void refine(TracedRenderer& renderer, const Camera& camera, FirstGridSelector& g
             const std::atomic<bool>& stop, const std::function<void(Image<Rgba8> image, int passes)>& publish) {
     const TracedMethod method = renderer.method();
     double begin = 0;
-    const auto measured = [&](int side) {
-        grid.record_time(method, camera.width, camera.height, side, clock() - begin);
-    };
+    const auto record = [&](int side) { grid.record_time(method, camera.width, camera.height, side, clock() - begin); };
     for (int side = grid.side(method, camera.width, camera.height); side > 1; side /= 2) {
         begin = clock();
         std::optional<Image<Rgba8>> coarse = renderer.coarse_image(camera, side, &stop);
         if (!coarse) return;
-        measured(side);
+        record(side);
         publish(std::move(*coarse), 0);
         if (stop) return;
     }
@@ -73,7 +71,7 @@ void refine(TracedRenderer& renderer, const Camera& camera, FirstGridSelector& g
         begin = clock();
         if (!renderer.add_pass(nullptr, &stop)) return;
         Image<Rgba8> image = renderer.image();
-        measured(1);
+        record(1);
         publish(std::move(image), renderer.passes());
     }
 }

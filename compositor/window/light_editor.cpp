@@ -178,7 +178,7 @@ Status LightDesk::load() {
     Scene tried = *base_;
     LightList whole = list;
     whole.replace = true;
-    if (Status added = add_lights(tried, std::move(whole), profile); !added) return added;
+    RS_TRY(add_lights(tried, std::move(whole), profile));
     LightingState state = state_of(list, edits_.state().exposure_ev);
     if (!list.replace) {
         const LightingState& now = edits_.state();

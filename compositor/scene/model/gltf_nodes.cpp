@@ -23,7 +23,7 @@ using nlohmann::json;
 
 constexpr int kMaxHeight = 500;
 constexpr std::size_t kMaxNodes = 100'000;
-constexpr double kFarthestNode = 1e9;
+constexpr double kMaxNodePosition = 1e9;
 
 // JSON of a .glb (glTF 2.0, 4.4): a header of 12 bytes, then the chunk's length and type.
 std::string json_text(std::span<const std::byte> bytes, const std::string& file) {
@@ -60,7 +60,7 @@ private:
 
     [[nodiscard]] static double number(const json& parent, const char* key, double otherwise) {
         if (!parent.is_object() || !parent.contains(key) || !parent[key].is_number()) return otherwise;
-        return std::clamp(parent[key].get<double>(), -kFarthestNode, kFarthestNode);
+        return std::clamp(parent[key].get<double>(), -kMaxNodePosition, kMaxNodePosition);
     }
 
     template <std::size_t count>
@@ -68,7 +68,8 @@ private:
                                                            std::array<double, count> values) {
         const json& given = list(parent, key);
         for (std::size_t i = 0; given.size() == count && i < count; ++i) {
-            if (given[i].is_number()) values[i] = std::clamp(given[i].get<double>(), -kFarthestNode, kFarthestNode);
+            if (given[i].is_number())
+                values[i] = std::clamp(given[i].get<double>(), -kMaxNodePosition, kMaxNodePosition);
         }
         return values;
     }
@@ -168,8 +169,8 @@ private:
         if (!extras.is_object() || !extras.contains("RaySpaceRoom")) return;
         const std::string place = "nodes[" + std::to_string(i) + "].extras.RaySpaceRoom";
         JsonObject fields(JsonValue(extras["RaySpaceRoom"], path_.string(), place));
-        const glm::dvec3 centre = fields.take("centre").triple(-kFarthestNode, kFarthestNode);
-        const glm::dvec3 half = fields.take("size").triple(0, kFarthestNode) * 0.5;
+        const glm::dvec3 centre = fields.take("centre").triple(-kMaxNodePosition, kMaxNodePosition);
+        const glm::dvec3 half = fields.take("size").triple(0, kMaxNodePosition) * 0.5;
         Room room;
         if (fields.has("description")) room.description = fields.take("description").text();
         fields.expect_all_taken();
@@ -224,7 +225,7 @@ private:
         const glm::dvec3 towards = -glm::dvec3(world_from_node[2]);
         if (glm::length(towards) > 0) light.towards = glm::normalize(towards);
         light.attenuation = {0, 0, 1};
-        light.radius = number(given, "range", kFarthestNode);
+        light.radius = number(given, "range", kMaxNodePosition);
         if (light.kind == LightKind::kSpot && given.contains("spot")) {
             light.beam_width_rad = number(given["spot"], "innerConeAngle", 0);
             light.cut_off_rad = std::clamp(number(given["spot"], "outerConeAngle", kPi / 4), 0.0, kPi / 2);

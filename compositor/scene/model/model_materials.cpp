@@ -18,7 +18,7 @@
 namespace rs::compositor::model {
 namespace {
 
-constexpr float kMostRelief = 1000;
+constexpr float kMaxBumpScale = 1000;
 
 template <class T>
 std::optional<T> property(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
@@ -131,7 +131,7 @@ std::shared_ptr<const NormalMap> ModelMaterials::relief(const aiMaterial& source
         if (!read) continue;
         float strength = property<float>(source, AI_MATKEY_GLTF_TEXTURE_SCALE(type, 0)).value_or(1);
         strength = property<float>(source, AI_MATKEY_OBJ_BUMPMULT(type, 0)).value_or(strength);
-        strength = std::isfinite(strength) ? std::clamp(strength, -kMostRelief, kMostRelief) : 1;
+        strength = std::isfinite(strength) ? std::clamp(strength, -kMaxBumpScale, kMaxBumpScale) : 1;
         return type == aiTextureType_HEIGHT ? normal_map_of_heights(*read, strength) : normal_map(*read, strength);
     }
     return nullptr;

@@ -8,7 +8,7 @@
 //     RaySpace {
 //         exposedField MFString url          []     # the .rso file; the first counts
 //         exposedField SFFloat  size         1      # object radius in node units, > 0
-//         exposedField SFBool   standing     TRUE   # its foot stands at the origin; else the middle of its capture
+//         exposedField SFBool   standing     TRUE   # foot at the origin; else the centre of its capture
 //         exposedField SFString description  ""
 //     }
 //     RaySpaceRoom {

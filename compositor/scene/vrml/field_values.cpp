@@ -30,7 +30,7 @@ public:
 
     Value read() {
         const Token first = lexer_.peek();
-        if (!spec_.many && first.kind == TokenKind::open_list) throw wrong_type();
+        if (!spec_.many && first.kind == TokenKind::open_list) throw type_error();
         if (!spec_.many || !lexer_.take_kind(TokenKind::open_list)) {
             read_single();
             return std::move(value_);
@@ -45,7 +45,7 @@ public:
     }
 
 private:
-    [[nodiscard]] MalformedVrml wrong_type() const {
+    [[nodiscard]] MalformedVrml type_error() const {
         return lexer_.error(field_ + " takes " + field_type_name(spec_) + ", not " + quote(lexer_.peek()) +
                             "; correct it");
     }
@@ -68,13 +68,13 @@ private:
 
     void read_bool() {
         const bool yes = lexer_.peek().text == "TRUE";
-        if (lexer_.peek().kind != TokenKind::word || (!yes && lexer_.peek().text != "FALSE")) throw wrong_type();
+        if (lexer_.peek().kind != TokenKind::word || (!yes && lexer_.peek().text != "FALSE")) throw type_error();
         lexer_.take();
         value_.numbers.push_back(yes ? 1 : 0);
     }
 
     void read_text() {
-        if (lexer_.peek().kind != TokenKind::text) throw wrong_type();
+        if (lexer_.peek().kind != TokenKind::text) throw type_error();
         const Token token = lexer_.take();
         if (token.text.size() > kMaxString_bytes) {
             throw lexer_.error(token.line, "a text of " + std::to_string(token.text.size()) + " bytes; shorten it");
@@ -84,7 +84,7 @@ private:
 
     long take_integer() {
         long value = 0;
-        if (lexer_.peek().kind != TokenKind::number || !parse_integer(lexer_.peek().text, value)) throw wrong_type();
+        if (lexer_.peek().kind != TokenKind::number || !parse_integer(lexer_.peek().text, value)) throw type_error();
         lexer_.take();
         return value;
     }
@@ -96,7 +96,7 @@ private:
 
     void read_number() {
         float value = 0;
-        if (lexer_.peek().kind != TokenKind::number) throw wrong_type();
+        if (lexer_.peek().kind != TokenKind::number) throw type_error();
         if (!parse_float(lexer_.peek().text, value)) {
             throw lexer_.error(field_ + ": " + quote(lexer_.peek()) + " is not a number in range; correct it");
         }

@@ -321,7 +321,8 @@ private:
             const Token type = lexer_.expect(TokenKind::word, "a type");
             const Token name = lexer_.expect(TokenKind::word, "a name");
             FieldSpec spec;
-            if (!parse_field_type(type.text, spec)) throw lexer_.error(type.line, quote(type) + " is no type");
+            if (!parse_field_type(type.text, spec))
+                throw lexer_.error(type.line, quote(type) + " is not a field type; correct it");
             if (is_event) {
                 prototype.events.emplace(name.text);
                 continue;

@@ -104,7 +104,7 @@ NodePointer GraphBuilder::copy_node(const NodePointer& from, InstantiationState&
         });
     }
     NodePointer made =
-        pattern.instance_of != nullptr ? instantiate(*pattern.instance_of, node->fields) : finished(node, {});
+        pattern.instance_of != nullptr ? instantiate(*pattern.instance_of, node->fields) : finish_node(node, {});
     copies.made[from.get()] = made;
     return made;
 }

@@ -111,10 +111,10 @@ Token Lexer::expect(TokenKind kind, const char* what) {
 
 std::string quote(const Token& token) {
     if (token.kind == TokenKind::end) return "the end of the file";
-    constexpr std::size_t kMost = 40;
+    constexpr std::size_t kMaxQuoted = 40;
     std::string result = "'";
-    for (const char c : token.text.substr(0, kMost)) result += c >= ' ' && c < '\x7f' ? c : '?';
-    return result + (token.text.size() > kMost ? "...'" : "'");
+    for (const char c : token.text.substr(0, kMaxQuoted)) result += c >= ' ' && c < '\x7f' ? c : '?';
+    return result + (token.text.size() > kMaxQuoted ? "...'" : "'");
 }
 
 std::string unescape(std::string_view text) {

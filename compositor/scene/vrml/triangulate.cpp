@@ -167,7 +167,7 @@ void set_field(SoField& field, const Value& value) {
 
 class CoinShape {
 public:
-    CoinShape(const Node& geometry, const ShapeCheck& check) : check_(check), node_(fresh(geometry)) {
+    CoinShape(const Node& geometry, const ShapeCheck& check) : check_(check), node_(new_coin_node(geometry)) {
         const IndexedLists& lists = check.lists;
         if (geometry.type != "IndexedFaceSet" && geometry.type != "IndexedLineSet") return;
         set_list("coordIndex", lists.coord);
@@ -179,7 +179,7 @@ public:
     [[nodiscard]] SoNode* get() const { return node_; }
 
 private:
-    SoNode* fresh(const Node& from) const {
+    SoNode* new_coin_node(const Node& from) const {
         auto* node = static_cast<SoNode*>(SoType::fromName(("VRML" + from.type).c_str()).createInstance());
         for (const auto& [name, spec] : from.spec->fields) {
             SoField* field = node->getField(name.c_str());
@@ -191,7 +191,7 @@ private:
                 set_field(*field, value);
                 continue;
             }
-            if (!value.nodes.empty()) static_cast<SoSFNode*>(field)->setValue(fresh(*value.nodes.front()));
+            if (!value.nodes.empty()) static_cast<SoSFNode*>(field)->setValue(new_coin_node(*value.nodes.front()));
         }
         return node;
     }

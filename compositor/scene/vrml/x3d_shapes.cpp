@@ -25,7 +25,7 @@ Value value_of(Indices numbers) {
 }
 
 // Colours without alpha; null if there are none.
-NodePointer plain_colours(const Node& geometry) {
+NodePointer opaque_colours(const Node& geometry) {
     const NodePointer colours = geometry.has("color") ? geometry.node("color") : nullptr;
     if (!colours || colours->type != "ColorRGBA") return nullptr;
     auto plain = new_node("Color", colours->line);
@@ -45,7 +45,7 @@ Indices all_points(const Node& geometry) {
 }
 
 // Consecutive runs of the given lengths, each followed by -1.
-Indices runs(const Indices& points, const Indices& counts) {
+Indices make_runs(const Indices& points, const Indices& counts) {
     Indices made;
     std::size_t next = 0;
     for (const double count : counts) {
@@ -95,7 +95,7 @@ Indices face_list(const Node& geometry) {
     if (type.ends_with("TriangleSet")) return faces_of(points, 3);
     const bool fans = type.ends_with("FanSet");
     if (indexed) return triangles_of(points, fans);
-    return triangles_of(runs(points, geometry.field(fans ? "fanCount" : "stripCount").numbers), fans);
+    return triangles_of(make_runs(points, geometry.field(fans ? "fanCount" : "stripCount").numbers), fans);
 }
 
 NodePointer rectangle(const Node& geometry) {
@@ -117,7 +117,7 @@ NodePointer rectangle(const Node& geometry) {
 
 NodePointer to_vrml97(const Node& geometry) {
     if (geometry.type == "Rectangle2D") return rectangle(geometry);
-    const NodePointer colours = plain_colours(geometry);
+    const NodePointer colours = opaque_colours(geometry);
     const bool is_line_set = geometry.type == "LineSet";
     const bool is_faces = geometry.type.ends_with("TriangleSet") || geometry.type.ends_with("FanSet") ||
                           geometry.type.ends_with("StripSet") || geometry.type.ends_with("QuadSet");
@@ -126,7 +126,7 @@ NodePointer to_vrml97(const Node& geometry) {
     if (is_line_set) {
         made->type = "IndexedLineSet";
         made->fields.erase("vertexCount");
-        made->fields["coordIndex"] = value_of(runs(all_points(geometry), geometry.field("vertexCount").numbers));
+        made->fields["coordIndex"] = value_of(make_runs(all_points(geometry), geometry.field("vertexCount").numbers));
     } else if (is_faces) {
         made->type = "IndexedFaceSet";
         for (const char* field : {"index", "fanCount", "stripCount"}) made->fields.erase(field);

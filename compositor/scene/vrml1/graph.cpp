@@ -78,7 +78,7 @@ private:
             for (const TreePointer& child : node->children) walk(child, state);
             state.matrix = matrix;
         } else if (type == "LOD") {
-            if (!node->children.empty()) walk_apart({node->children.front()}, state);
+            if (!node->children.empty()) walk_separator({node->children.front()}, state);
         } else if (type == "WWWInline") {
             if (node->text("name").empty()) return;
             place(*node, state, {make_node(builder_, "Inline", node->line, {{"url", words(node->text("name"))}})});
@@ -89,13 +89,13 @@ private:
         } else if (type.ends_with("Light")) {
             add_light(*node, state);
         } else if (!node->children.empty()) {
-            walk_apart(node->children, state);  // Separator, WWWAnchor, and unknown nodes
+            walk_separator(node->children, state);  // Separator, WWWAnchor, and unknown nodes
         } else if (std::vector<NodePointer> shapes = shapes_.shapes_of(node, state); !shapes.empty()) {
             place(*node, state, std::move(shapes));
         }
     }
 
-    void walk_apart(const std::vector<TreePointer>& children, const State& state) {
+    void walk_separator(const std::vector<TreePointer>& children, const State& state) {
         State own = state;
         const std::size_t scopes = scopes_.size();
         for (const TreePointer& child : children) walk(child, own);

@@ -27,7 +27,7 @@ bool is_given(const std::vector<double>& indices) {
     return !indices.empty() && !(indices.size() == 1 && indices.front() == -1);
 }
 
-double hint_is(const TreePointer& hints, const char* field, const char* word) {
+double has_hint(const TreePointer& hints, const char* field, const char* word) {
     return hints && hints->text(field) == word ? 1 : 0;
 }
 
@@ -39,7 +39,7 @@ std::size_t count_faces(const std::vector<double>& indices) {
 }
 
 // 0, 1, 2, ... per corner, -1 at the end of each face: for lists with one value per corner.
-std::vector<double> in_turn(const std::vector<double>& indices, std::size_t available) {
+std::vector<double> corner_indices(const std::vector<double>& indices, std::size_t available) {
     std::vector<double> made;
     std::size_t next = 0;
     for (const double index : indices) {
@@ -48,7 +48,7 @@ std::vector<double> in_turn(const std::vector<double>& indices, std::size_t avai
     return made;
 }
 
-std::vector<double> face_by_face(const std::vector<double>& indices, std::size_t available) {
+std::vector<double> face_indices(const std::vector<double>& indices, std::size_t available) {
     std::vector<double> made;
     for (std::size_t i = 0; i < count_faces(indices); ++i) {
         made.push_back(static_cast<double>(i % std::max<std::size_t>(available, 1)));
@@ -170,7 +170,8 @@ void ShapeBuilder::add_colours(Fields& fields, const Tree& shape, const State& s
     if (indexed && is_given(given)) {
         fields["colorIndex"] = numbers(given);
     } else if (!indexed || !by_corner) {
-        fields["colorIndex"] = numbers(by_corner ? in_turn(indices, available) : face_by_face(indices, available));
+        fields["colorIndex"] =
+            numbers(by_corner ? corner_indices(indices, available) : face_indices(indices, available));
     }
 }
 
@@ -188,9 +189,9 @@ void ShapeBuilder::add_normals(Fields& fields, const Tree& shape, const State& s
     } else if (binding.starts_with("PER_FACE") || binding.starts_with("PER_PART")) {
         const bool indexed = binding.ends_with("_INDEXED") && is_given(given);
         fields["normalPerVertex"] = numbers({0});
-        fields["normalIndex"] = numbers(indexed ? given : face_by_face(indices, available));
+        fields["normalIndex"] = numbers(indexed ? given : face_indices(indices, available));
     } else if (binding == "PER_VERTEX") {
-        fields["normalIndex"] = numbers(in_turn(indices, available));
+        fields["normalIndex"] = numbers(corner_indices(indices, available));
     } else if (is_given(given)) {
         fields["normalIndex"] = numbers(given);
     }
@@ -203,13 +204,13 @@ NodePointer ShapeBuilder::faces_of(const TreePointer& node, const State& state, 
     if (known) return known;
     const NodePointer coordinates = list_node(state.coordinates, "Coordinate", "point", "point");
     if (!coordinates) return nullptr;
-    const bool ordered = hint_is(state.hints, "vertexOrdering", "COUNTERCLOCKWISE") != 0 ||
-                         hint_is(state.hints, "vertexOrdering", "CLOCKWISE") != 0;
+    const bool ordered = has_hint(state.hints, "vertexOrdering", "COUNTERCLOCKWISE") != 0 ||
+                         has_hint(state.hints, "vertexOrdering", "CLOCKWISE") != 0;
     Fields fields{{"coord", nodes({coordinates})},
                   {"coordIndex", node->field("coordIndex")},
-                  {"solid", numbers({ordered ? hint_is(state.hints, "shapeType", "SOLID") : 0.0})},
-                  {"ccw", numbers({1 - hint_is(state.hints, "vertexOrdering", "CLOCKWISE")})},
-                  {"convex", numbers({1 - hint_is(state.hints, "faceType", "UNKNOWN_FACE_TYPE")})},
+                  {"solid", numbers({ordered ? has_hint(state.hints, "shapeType", "SOLID") : 0.0})},
+                  {"ccw", numbers({1 - has_hint(state.hints, "vertexOrdering", "CLOCKWISE")})},
+                  {"convex", numbers({1 - has_hint(state.hints, "faceType", "UNKNOWN_FACE_TYPE")})},
                   {"creaseAngle", numbers({state.hints ? state.hints->number("creaseAngle") : 0.5})}};
     add_colours(fields, *node, state, colours);
     add_normals(fields, *node, state);

@@ -43,7 +43,7 @@ public:
     }
 
 private:
-    [[nodiscard]] MalformedVrml wrong_type(const char* what) const {
+    [[nodiscard]] MalformedVrml type_error(const char* what) const {
         return lexer_.error(name_ + " takes " + what + ", not " + quote(lexer_.peek()) + "; correct it");
     }
 
@@ -69,13 +69,13 @@ private:
     void read_bool() {
         const std::string_view text = lexer_.peek().text;
         const bool yes = text == "TRUE" || text == "1";
-        if (!is_name(lexer_.peek()) || (!yes && text != "FALSE" && text != "0")) throw wrong_type("TRUE or FALSE");
+        if (!is_name(lexer_.peek()) || (!yes && text != "FALSE" && text != "0")) throw type_error("TRUE or FALSE");
         lexer_.take();
         value_.numbers.push_back(yes ? 1 : 0);
     }
 
     void read_text() {
-        if (lexer_.peek().kind != TokenKind::text && !is_name(lexer_.peek())) throw wrong_type("a text");
+        if (lexer_.peek().kind != TokenKind::text && !is_name(lexer_.peek())) throw type_error("a text");
         const Token token = lexer_.take();
         if (token.text.size() > kMaxString_bytes) {
             throw lexer_.error(token.line, "a text of " + std::to_string(token.text.size()) + " bytes; shorten it");
@@ -87,7 +87,7 @@ private:
     void read_words() {
         bool open = false;
         do {
-            if (!is_name(lexer_.peek())) throw wrong_type("a word");
+            if (!is_name(lexer_.peek())) throw type_error("a word");
             std::string word;
             for (const char c : lexer_.take().text) {
                 if (c != '(' && c != ')' && c != '|') {
@@ -100,13 +100,13 @@ private:
             if (!word.empty()) value_.texts.push_back(word);
             if (value_.texts.size() > 16) throw lexer_.error(name_ + " has too many words; correct it");
         } while (open);
-        if (value_.texts.empty()) throw wrong_type("a word");
+        if (value_.texts.empty()) throw type_error("a word");
     }
 
     long take_integer() {
         long value = 0;
         if (lexer_.peek().kind != TokenKind::number || !vrml::parse_integer(lexer_.peek().text, value)) {
-            throw wrong_type("whole numbers");
+            throw type_error("whole numbers");
         }
         lexer_.take();
         return value;
@@ -115,7 +115,7 @@ private:
     void read_number() {
         float value = 0;
         if (lexer_.peek().kind != TokenKind::number || !vrml::parse_float(lexer_.peek().text, value)) {
-            throw wrong_type("numbers");
+            throw type_error("numbers");
         }
         lexer_.take();
         value_.numbers.push_back(static_cast<double>(value));

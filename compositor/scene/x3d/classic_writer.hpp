@@ -24,7 +24,7 @@ public:
     [[nodiscard]] std::string take() { return std::move(text_); }
 
 private:
-    enum class Place {
+    enum class Context {
         kIgnored,  // with its content
         kRoot,
         kStatements,  // sequence of nodes: a Scene, or the body of a PROTO
@@ -36,7 +36,7 @@ private:
         kValue,        // field that contains nodes
     };
     struct Frame {
-        Place place = Place::kIgnored;
+        Context context = Context::kIgnored;
         const vrml::NodeSpec* spec = nullptr;  // of a node; null if unknown
         const std::map<std::string, vrml::FieldSpec, std::less<>>* interface =
             nullptr;                 // of a PROTO, or of the instance's

@@ -51,8 +51,8 @@ Status LitGeometry::create_floor(const ShadowPlan& plan) {
 Status LitGeometry::rebuild_lighting(bool shadows, const ShownNodes& nodes) {
     RS_ASSIGN_OR_RETURN(auto maps, create_maps(scene_, nodes, shadows));
     const ShadowPlan plan = plan_of(maps);
-    if (Status status = surfaces_.set_lights(scene_, plan); !status) return status;
-    if (Status status = create_floor(plan); !status) return status;
+    RS_TRY(surfaces_.set_lights(scene_, plan));
+    RS_TRY(create_floor(plan));
     if (maps && shadows_) maps->reuse_shells(*shadows_);
     shadows_ = std::move(maps);
     return {};
@@ -70,7 +70,7 @@ Status LitGeometry::set_shadows(bool shadows, const ShownNodes& nodes) {
 Status LitGeometry::move(std::size_t node, const std::optional<glm::dmat4>& world_from_node) {
     if (surfaces_.is_at(node, world_from_node)) return {};
     if (shadows_) shadows_->invalidate(surfaces_.caster_bounds(node));
-    if (Status status = surfaces_.move(node, world_from_node); !status) return status;
+    RS_TRY(surfaces_.move(node, world_from_node));
     if (shadows_) shadows_->invalidate(surfaces_.caster_bounds(node));
     return {};
 }

@@ -18,7 +18,7 @@ namespace {
 constexpr float kDepthWriteAlpha = 0.5F;  // pixels of at least this alpha write depth
 
 // Returns the texture, reallocated if smaller than width x height.
-gl::Texture& large_enough(std::optional<gl::Texture>& texture, int width, int height, gl::TexelKind kind) {
+gl::Texture& ensure_size(std::optional<gl::Texture>& texture, int width, int height, gl::TexelKind kind) {
     if (!texture || texture->width() < width || texture->height() < height) {
         texture.emplace(std::max(texture ? texture->width() : 0, width),
                         std::max(texture ? texture->height() : 0, height), kind);
@@ -43,8 +43,8 @@ int margin_of(const ObjectView& view) {
         }
     }
     constexpr double kBetweenTexels = 1.5;
-    constexpr double kMost = 64;
-    return static_cast<int>(std::ceil(std::min(farthest, kMost) + kBetweenTexels));
+    constexpr double kMaxMargin = 64;
+    return static_cast<int>(std::ceil(std::min(farthest, kMaxMargin) + kBetweenTexels));
 }
 
 std::optional<gl::VertexArray> triangles(const std::vector<glm::vec3>& corners,
@@ -86,10 +86,10 @@ void ObjectRenderer::upload(std::size_t node, const ObjectView& view, ConstImage
     textures.filled_last ^= 1;
     const int width = image.width();
     const int height = image.height();
-    large_enough(textures.in_turns[textures.filled_last], width, height, gl::TexelKind::kColour).upload(image);
+    ensure_size(textures.in_turns[textures.filled_last], width, height, gl::TexelKind::kColour).upload(image);
     if (depth_ != ObjectDepth::kPixel) return;
     RS_CHECK(depths.width() == width && depths.height() == height);
-    large_enough(textures.depths[textures.filled_last], width, height, gl::TexelKind::kFloat).upload(depths);
+    ensure_size(textures.depths[textures.filled_last], width, height, gl::TexelKind::kFloat).upload(depths);
 }
 
 const gl::Program& ObjectRenderer::set_up(const std::vector<gl::Program>& programs, const ObjectView& view,

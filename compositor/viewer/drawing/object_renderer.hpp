@@ -32,7 +32,7 @@ public:
     /// Renders nodes 0 .. nodes - 1.
     static Result<ObjectRenderer> create(std::size_t nodes, ObjectDepth depth = ObjectDepth::kPlane);
 
-    /// Uploads the image of a node for the next draw(). Each node has two textures used in turn, so that one can be
+    /// UploadCache the image of a node for the next draw(). Each node has two textures used in turn, so that one can be
     /// filled while the GPU reads the other.
     /// \param image at least 1 x 1 px, rendered for `view`.
     /// \param depths for ObjectDepth::kPixel: axial depths of the image's size, in the units of the object's rig

@@ -37,7 +37,7 @@ std::shared_ptr<const gl::VertexArray> upload(const Mesh& mesh) {
 }
 
 // Cache of uploads: meshes and images shared by several nodes are uploaded once.
-class Uploads {
+class UploadCache {
 public:
     std::shared_ptr<const gl::VertexArray> mesh(const std::shared_ptr<const Mesh>& mesh) {
         auto& uploaded = meshes_[mesh.get()];
@@ -172,7 +172,7 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const Shadow
     SurfaceRenderer renderer(scene, shadows);
     RS_TRY(renderer.create_caster_programs());
     renderer.summarize_lights();
-    Uploads uploads;
+    UploadCache uploads;
     renderer.item_of_node_.resize(scene.geometry.size());
     for (std::size_t i = 0; i < scene.geometry.size(); ++i) {
         const GeometryNode& node = scene.geometry[i];
@@ -213,10 +213,10 @@ Status SurfaceRenderer::move(std::size_t node, const std::optional<glm::dmat4>& 
 Status SurfaceRenderer::set_lights(const Scene& scene, const ShadowPlan& shadows) {
     take_lights(scene, scene_);
     shadows_ = shadows;
-    if (Status status = create_caster_programs(); !status) return status;
+    RS_TRY(create_caster_programs());
     summarize_lights();
     for (Item& item : items_) {
-        if (Status status = update_item(item); !status) return status;
+        RS_TRY(update_item(item));
     }
     return {};
 }

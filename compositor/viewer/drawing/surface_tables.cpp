@@ -23,9 +23,9 @@ bool cone_may_meet(const Light& light, const BoundingBox& box) {
 }
 
 // Triangle corners and normals of a node in world coordinates, as in its shader.
-class SurfaceInWorld {
+class WorldSurface {
 public:
-    explicit SurfaceInWorld(const GeometryNode& node) : mesh_(*node.mesh) {
+    explicit WorldSurface(const GeometryNode& node) : mesh_(*node.mesh) {
         const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(node.world_from_node)));
         for (const MeshVertex& vertex : mesh_.vertices) {
             places_.emplace_back(node.world_from_node * glm::dvec4(vertex.position, 1));
@@ -127,7 +127,7 @@ SurfaceLights lights_near(const Scene& scene, const GeometryNode& node, const Bo
 
 SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world) {
     SurfaceLights found;
-    const SurfaceInWorld surface(node);
+    const WorldSurface surface(node);
     for (const std::uint32_t i : lights_that_reach(scene, node, box_in_world)) {
         const Light& light = scene.lights[i];
         const bool directional = light.kind == LightKind::kDirectional;

@@ -37,13 +37,14 @@ public:
     }
 
     Result<ViewableObject> read(const std::filesystem::path& file, std::int64_t most_bytes,
-                                const ProgressCallback& tell) override {
+                                const ProgressCallback& on_progress) override {
         if (background_ && !slowed_) {  // always called on the same thread
             slowed_ = true;
             static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kLowPriority));
         }
         try {
-            return arena_.execute([&]() -> Result<ViewableObject> { return read_in_arena(file, most_bytes, tell); });
+            return arena_.execute(
+                [&]() -> Result<ViewableObject> { return read_in_arena(file, most_bytes, on_progress); });
         } catch (const std::bad_alloc&) {
             return Error{file.string() + ": not enough memory; lower the budget (--memory)"};
         }
@@ -51,18 +52,18 @@ public:
 
 private:
     Result<ViewableObject> read_in_arena(const std::filesystem::path& file, std::int64_t most_bytes,
-                                         const ProgressCallback& tell) const {
-        tell(kBegun);
+                                         const ProgressCallback& on_progress) const {
+        on_progress(kBegun);
         RS_ASSIGN_OR_RETURN(const auto container, ContainerReader::open(file));
         // The file may have changed since peak_bytes() was computed.
         RS_ASSIGN_OR_RETURN(RaySpaceObject object,
                             read_object(container, {.memory_cap_bytes = static_cast<std::uint64_t>(most_bytes)}));
-        tell(kRead);
+        on_progress(kRead);
         std::shared_ptr<const RaySpaceObject> for_board = engine_->as_board_draws(object);
         object.coded.reset();  // already unpacked
         RS_ASSIGN_OR_RETURN(ViewableObject viewable, make_viewable(std::move(object)));
         viewable.for_board = std::move(for_board);
-        tell(1);
+        on_progress(1);
         return viewable;
     }
 

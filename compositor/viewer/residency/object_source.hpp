@@ -26,7 +26,7 @@ public:
     using ProgressCallback = std::function<void(float)>;
     /// Fails if it would need more memory than `most_bytes`.
     virtual Result<ViewableObject> read(const std::filesystem::path& file, std::int64_t most_bytes,
-                                        const ProgressCallback& tell) = 0;
+                                        const ProgressCallback& on_progress) = 0;
 };
 
 /// Source of .rso files, prepared for `engine`.

@@ -31,7 +31,7 @@ RowRange occupied_rows(const Image<std::uint8_t>& alpha, std::uint8_t least) {
 }
 
 // Largest width of the rows in pixels, from the first to the last solid pixel.
-int widest(const Image<std::uint8_t>& alpha, RowRange rows) {
+int max_width(const Image<std::uint8_t>& alpha, RowRange rows) {
     int width = 0;
     for (int y = rows.begin; y < rows.end; ++y) {
         int first = 0;
@@ -198,7 +198,7 @@ UprightExtent estimated_extent(const RaySpaceObject& object) {
         // The rim farthest from the horizon is the near one, or the far one if an end of the object lies beyond the
         // horizon (e.g. a foot above the camera).
         const auto height_of_end = [&](int row, RowRange end_rows, bool beyond_horizon) {
-            const double radius_px = widest(alpha, end_rows) / 2.0;
+            const double radius_px = max_width(alpha, end_rows) / 2.0;
             const double radius = std::min(radius_px / scale.focal_px * scale.axis_depth, 1.0);
             return scale.height_at(row, scale.axis_depth + (beyond_horizon ? radius : -radius));
         };

@@ -65,7 +65,7 @@ bool overlap(const gl::TexelArea& a, const gl::TexelArea& b) {
     return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
-gl::TexelArea around(const gl::TexelArea& a, const gl::TexelArea& b) {
+gl::TexelArea bounding_area(const gl::TexelArea& a, const gl::TexelArea& b) {
     const int x = std::min(a.x, b.x);
     const int y = std::min(a.y, b.y);
     return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
@@ -76,7 +76,7 @@ void add_area(gl::TexelArea area, std::vector<gl::TexelArea>& areas) {
     for (;;) {
         const auto other = std::ranges::find_if(areas, [&](const gl::TexelArea& a) { return overlap(a, area); });
         if (other == areas.end()) break;
-        area = around(area, *other);
+        area = bounding_area(area, *other);
         areas.erase(other);
     }
     areas.push_back(area);

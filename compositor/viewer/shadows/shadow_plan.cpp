@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kWidestCone_rad = kPi / 3;
 constexpr double kMargin_texels = 2;  // border of the maps for interpolation between texels
-constexpr int kSideStep = 64;
-constexpr int kSmallestSide = 64;
+constexpr int kMapSideStep = 64;
+constexpr int kMinMapSide = 64;
 
 ShadowShape shape_of_light(const Light& light) {
     if (!(std::max({light.colour.r, light.colour.g, light.colour.b}) > 0)) return ShadowShape::kNone;
@@ -41,7 +41,7 @@ glm::dmat3 axes_along(const glm::dvec3& z) {
 int side_for(int maps, int largest) {
     if (maps == 0) return 0;
     const double side = std::sqrt(static_cast<double>(kMaxShadowTexels) / maps);
-    return std::clamp(static_cast<int>(side) / kSideStep * kSideStep, kSmallestSide, largest);
+    return std::clamp(static_cast<int>(side) / kMapSideStep * kMapSideStep, kMinMapSide, largest);
 }
 
 // Projection whose clip x, y and w are right, up and axial coordinates relative to `eye`.

@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// The simple example of the format, with texture coordinates that are numbered but not written.
+// Basic example of the format, with texture indices but no texture coordinates.
 constexpr const char* kCube = R"(mtllib res1.mtl
 o Cube
 v 2.448335 2.024842 -5.542307
@@ -73,7 +73,7 @@ TEST(ExtendedObj, DamagedLinesAreRefusedWithFileAndLine) {
         {"f 1 2", "corners"},
         {"f 1 2 9", "asks for one of 8 vertices"},
         {"f 1 2 -9", "asks for one of 8 vertices"},
-        {"f 1//1 2//1 3//3", "asks for one of 2 normals"},
+        {"f 1//1 2//1 3//3", "exceeds the 2 normals"},
         {"f 1 2 0", "not an index"},
         {"f 1 2 3/", "not an index"},
         {"f 1 2 3/1/1/1", "too many parts"},
@@ -83,7 +83,7 @@ TEST(ExtendedObj, DamagedLinesAreRefusedWithFileAndLine) {
     for (const auto& [line, what] : damaged) {
         SCOPED_TRACE(line);
         const auto read = parse(std::string("# a comment\n") + line + "\n");
-        if (std::string(line) == "f 1 2 3/") {  // an empty part is nothing
+        if (std::string(line) == "f 1 2 3/") {  // an empty part is allowed
             EXPECT_TRUE(read);
             continue;
         }
@@ -121,7 +121,7 @@ TEST(ExtendedObj, LinesMayGoOnBehindABackslash) {
     EXPECT_THAT(read.error().message, StartsWith("scene.obj:20: "));
 }
 
-// Against matrices put together step by step by glm: out of the middle, scale, turns, to the place.
+// Against glm: from the centre, scale, rotations, translation.
 TEST(ExtendedObj, MatricesScaleThenTurnThenMoveAboutTheMiddle) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> number(-50, 50);
@@ -140,7 +140,7 @@ TEST(ExtendedObj, MatricesScaleThenTurnThenMoveAboutTheMiddle) {
             for (int row = 0; row < 4; ++row) EXPECT_NEAR(matrix[column][row], expected[column][row], 1e-6);
         }
     }
-    // A quarter about X, then one about Y: Z goes to -Y, which stays; X goes to -Z.
+    // A quarter turn about X, then about Y: Z goes to -Y, which stays; X goes to -Z.
     const glm::dmat3 turned = turn_matrix({90, 90, 0});
     EXPECT_LT(glm::distance(turned * glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0)), 1e-12);
     EXPECT_LT(glm::distance(turned * glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1)), 1e-12);

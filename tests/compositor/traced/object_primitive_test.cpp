@@ -1,4 +1,4 @@
-// A ball that is known exactly, as a ray-space object that answers rays.
+// A sphere with known geometry as a ray-space object that answers rays.
 
 #include "compositor/traced/object_primitive.hpp"
 
@@ -30,7 +30,7 @@ NodeTransform somewhere() {
     return place;
 }
 
-// Level rays from all around, at the height of the captures, are answered where the ball is.
+// Horizontal rays from all sides, at the height of the captures, hit the sphere.
 TEST(ObjectRays, AnswerWhereTheBallIsAndPassWhereItIsNot) {
     const PlacedObject placed = test::placed_at(ball(), somewhere());
     const ObjectRays rays(placed, 0.25F);
@@ -47,7 +47,7 @@ TEST(ObjectRays, AnswerWhereTheBallIsAndPassWhereItIsNot) {
         const glm::dvec3 world_from = placed.world_from_object.point(from);
         const glm::dvec3 world_along = placed.world_from_object.direction(along);
         const auto answer = rays.answer(glm::vec3(world_from), glm::vec3(world_along));
-        const bool inner = expected && expected->leaves - expected->enters > 0.35;  // not at its rim
+        const bool inner = expected && expected->leaves - expected->enters > 0.35;  // not at its edge
         if (!inner) {
             const bool outside = !test::hit({sphere.centre, sphere.radius + 0.1}, from, along);
             missed += outside;
@@ -86,7 +86,7 @@ TEST(ObjectRays, StandInTheirBoxAndNotBehindTheOrigin) {
     }
 }
 
-// A wall behind the ball, a light before it: the shadow is the ball's.
+// A wall behind the sphere, a light in front of it: the shadow is the sphere's.
 TEST(ObjectRays, ThrowTheShadowOfTheBall) {
     capture::Scene scene;
     capture::Mesh wall;

@@ -1,4 +1,4 @@
-// Rooms by traced light, against formulas and against themselves.
+// Traced rooms, against formulas and for consistency.
 
 #include "compositor/traced/tracer_scene.hpp"
 #include "tests/compositor/traced/small_room.hpp"
@@ -13,11 +13,11 @@ namespace rs::compositor {
 namespace {
 
 TEST(TracerScene, LightsShineAsTheRasterFormulaHasThem) {
-    // A white matte surface shows colour * attenuation * cos of each punctual light, and what walls reflect besides:
-    // here a single wall, which reflects nothing onto itself.
+    // A white diffuse surface has radiance colour * attenuation * cos per punctual light, plus interreflection, which a
+    // single wall does not have.
     Scene scene;
     scene.geometry = {box_node({40, 0.2, 40}, {0, -0.1, 0}, glm::vec3(0.5F))};
-    Light vrml;  // as VRML97 has it
+    Light vrml;  // attenuation of VRML97
     vrml.kind = LightKind::kPoint;
     vrml.location = {0, 2, 0};
     vrml.colour = {0.8F, 0.4F, 0.2F};
@@ -78,7 +78,7 @@ TEST(TracedRenderer, AreasAreSeenFromTheSideTheyShineTo) {
     renderer->begin_image(looking_from({0, 2, 0}, {0, 5, 0}, 5));
     ASSERT_TRUE(renderer->add_pass());
     EXPECT_EQ(renderer->radiance()(2, 2), (RgbaF{3, 3, 3, 1}));
-    renderer->begin_image(looking_from({0, 7, 0.01}, {0, 4, 0}, 5));  // the floor's light passes
+    renderer->begin_image(looking_from({0, 7, 0.01}, {0, 4, 0}, 5));  // the floor's light is not blocked
     ASSERT_TRUE(renderer->add_pass());
     EXPECT_LT(renderer->radiance()(2, 2).r, 1.5F);
 }
@@ -98,7 +98,7 @@ TEST(TracedRenderer, AnEvenEnvironmentLightsEverySideAlike) {
         for (const glm::dvec3& eye : {glm::dvec3(0, 0, 1.2), glm::dvec3(0, 1.2, 0), glm::dvec3(-0.62, -0.62, 0.2)}) {
             renderer->begin_image(looking_from(eye, {0, 0, 0}, 9));
             for (int pass = 0; pass < 64; ++pass) ASSERT_TRUE(renderer->add_pass());
-            const Image<RgbaF> shown_pixels = renderer->radiance();  // all of them of the box
+            const Image<RgbaF> shown_pixels = renderer->radiance();  // all pixels show the box
             RgbaF shown{};
             for (const RgbaF& p : shown_pixels.pixels()) {
                 ASSERT_EQ(p.a, 1);
@@ -126,7 +126,7 @@ TEST(TracedRenderer, PassesGiveTheSameBitsInAnyNumberOfThreads) {
     };
     const Image<RgbaF> one = traced(1);
     const Image<RgbaF> four = traced(4);
-    // And as one image of seven samples.
+    // Same as one image of seven samples.
     TracerScene room = make_tracer_scene(small_room());
     auto tracer = capture::Tracer::create(std::move(room.scene));
     ASSERT_TRUE(tracer);
@@ -180,7 +180,7 @@ TEST(TracedRenderer, PartsHaveTheBytesOfTheWhole) {
 TEST(TracerScene, WhatMayMoveIsAPartThatNodesShare) {
     Scene scene = moving_room();
     scene.geometry.push_back(scene.geometry[3]);
-    scene.geometry.back().material.diffuse = glm::vec3(0.5F);  // looks otherwise
+    scene.geometry.back().material.diffuse = glm::vec3(0.5F);  // a different material
     const TracerScene room = make_tracer_scene(scene);
     EXPECT_EQ(room.scene.meshes.size(), 1U);
     EXPECT_EQ(room.scene.parts.size(), 2U);
@@ -189,7 +189,7 @@ TEST(TracerScene, WhatMayMoveIsAPartThatNodesShare) {
     EXPECT_EQ(room.scene.instances[1].part, room.scene.instances[2].part);
 }
 
-// What moves looks as what was read at its new place.
+// Moved nodes equal nodes read at the new position.
 TEST(TracedRenderer, MovedNodesLookAsReadThere) {
     const Camera camera = looking_from({3, 3, 5}, {0, 0.4, 0}, 64);
     const auto image_of = [&](TracedRenderer& renderer) {
@@ -224,7 +224,7 @@ TEST(TracedRenderer, MovedNodesLookAsReadThere) {
     }
     EXPECT_GT(other, 200);
     EXPECT_LT(wrong, 10);
-    // While the shutter is open a shadow's edge goes on: images become grey there.
+    // The edge of a shadow moves while the shutter is open: images become grey there.
     ASSERT_TRUE(moved->move(7, way, glm::translate(way, {0.5, 0, 0})));
     const Image<RgbaF> blurred = image_of(*moved);
     EXPECT_NE(blurred, after);
@@ -244,7 +244,7 @@ TEST(TracedRenderer, ExposureCountsInStops) {
     EXPECT_NEAR(linear(brighter->image()(1, 1).g) / linear(plain->image()(1, 1).g), 2, 0.1);
 }
 
-// Whatever is changed of the light, and back again, the bits are those of a renderer that began with it.
+// After changes of the lights and back, the bits equal those of a new renderer.
 TEST(TracedRenderer, EditedLightGivesTheImagesOfASceneThatHasIt) {
     const Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 33);
     Scene first = small_room();

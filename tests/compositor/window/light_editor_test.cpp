@@ -1,5 +1,5 @@
-// Light that is edited in a window on a virtual display: handles are dragged, both renderers follow, undo and profiles
-// give the same images back. Skipped where there is no Xvfb.
+// Light editing in a window on a virtual display: handles are dragged, both renderers follow, undo and saved lists
+// restore the images. Skipped without Xvfb.
 
 #include "compositor/viewer/views/framing.hpp"
 #include "compositor/window/visit.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kLampIes = "TILT=NONE\n1 -1 1 3 2 1 2 0 0 0 1 1 9\n0 45 90\n0 90\n179 100 0\n179 200 0\n";
 
-// A floor, a block on it, a spot above.
+// Floor with a block and a spot above.
 Scene room_with_a_block() {
     Scene scene;
     scene.lights = {point_light({0.5, 1.5, 0.5}, glm::vec3(2))};
@@ -90,7 +90,7 @@ protected:
         visit_->window().inject(ButtonEvent{Button::kLeft, false, at});
         ASSERT_TRUE(step());
     }
-    // In a few frames, as a hand does.
+    // In several frames, as by hand.
     void drag(const glm::dvec2& from, const glm::dvec2& to) {
         visit_->window().inject(ButtonEvent{Button::kLeft, true, from});
         ASSERT_TRUE(step());
@@ -104,7 +104,7 @@ protected:
     }
     [[nodiscard]] const LightEntry& light(std::size_t i = 0) { return desk().edits().state().entries.at(i); }
     LightDesk& desk() { return visit_->lights(); }
-    // Waits for a whole pass by the light as it is now.
+    // Waits for a complete pass with the current light.
     Image<Rgba8> traced() {
         const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(3);
         do {
@@ -116,7 +116,7 @@ protected:
 
     static inline std::unique_ptr<test::VirtualDisplay> display_;
     test::TemporaryFolder work_;
-    std::optional<std::vector<std::string>> left_;  // of OpenGL, when the window was gone
+    std::optional<std::vector<std::string>> left_;  // errors and objects of OpenGL after the window was destroyed
     std::unique_ptr<Visit> visit_;
     Camera camera_;
 };
@@ -139,7 +139,7 @@ TEST_F(LightInWindow, AnAxisIsDraggedAndUndone) {
     press(Key::kRedo);
     ASSERT_TRUE(step());
     EXPECT_EQ(visit_->image(), after);
-    EXPECT_EQ(visit_->visitor().eye, glm::dvec3(1, 2, 5));  // nobody looked around
+    EXPECT_EQ(visit_->visitor().eye, glm::dvec3(1, 2, 5));  // the camera did not move
 }
 
 TEST_F(LightInWindow, OverTheBlockItSnapsToItsFace) {
@@ -155,7 +155,7 @@ TEST_F(LightInWindow, OverTheBlockItSnapsToItsFace) {
 TEST_F(LightInWindow, ACloserLookIsNoDragAndAClickBesideDeselects) {
     click(seen_at(light().location));
     const glm::dvec3 place = light().location;
-    drag(seen_at(place), seen_at(place) + glm::dvec2(2, 2));  // a hand shakes
+    drag(seen_at(place), seen_at(place) + glm::dvec2(2, 2));  // jitter of a hand
     EXPECT_EQ(light().location, place);
     EXPECT_FALSE(desk().edits().can_undo());
     click({12, 230});
@@ -173,7 +173,7 @@ TEST_F(LightInWindow, TheRefinementFollowsAndUndoGivesItsBytesBack) {
     EXPECT_LT(glm::distance(light().location, place + glm::dvec3(0, 0.5, 0)), 1e-6);
     const Image<Rgba8> moved = traced();
     EXPECT_NE(moved, before);
-    // Back in raster, the light is where it was dragged to; undone, the bytes are those of before.
+    // Back in raster, the light is at its dragged position; after undo, the bytes equal those before.
     press(Key::kTrace);
     ASSERT_TRUE(step());
     EXPECT_NE(visit_->image(), raster);
@@ -208,7 +208,7 @@ TEST_F(LightInWindow, AProfileComesBackToTheSameImage) {
     EXPECT_EQ(visit_->image(), lit);
     ASSERT_EQ(desk().edits().state().entries.size(), 3U);
     EXPECT_EQ(light(1), state.entries[1]);
-    // A profile that is wrong changes nothing.
+    // An invalid list changes nothing.
     for (const char* wrong : {"{\"lights\": [{\"kind\": \"candle\"}]}", "{",
                               "{\"lights\": [{\"kind\": "
                               "\"directional\", \"aim\": [0, 1, 0], "

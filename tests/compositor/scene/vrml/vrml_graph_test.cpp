@@ -26,7 +26,7 @@ std::string reading_error(const std::string& body) {
     return graph ? "no error" : graph.error().message;
 }
 
-// "Group { children [ Shape { } ] }", the fields that are given in alphabetical order.
+// "Group { children [ Shape { } ] }", given fields in alphabetical order.
 std::string to_text(const std::vector<NodePointer>& nodes) {
     std::ostringstream text;
     const char* between = "";
@@ -163,7 +163,7 @@ TEST(VrmlGraph, RefusesWithTheLine) {
         {"Collision { collide true }", "line 2: collide takes SFBool"},
         {"Inline { url \"a\n\n", "line 2: the text that begins here has no end"},
         {"Shape { appearance Appearance { texture PixelTexture { image 100000 100000 3 0 } } }", "cannot be read"},
-        {"PROTO P [ field SFFlaot r 1 ] { Group { } }", "line 2: 'SFFlaot' is no type"},
+        {"PROTO P [ field SFFlaot r 1 ] { Group { } }", "line 2: 'SFFlaot' is not a field type"},
         {"PROTO P [ field SFFloat r 1 field SFFloat r 1 ] { Group { } }", "two fields 'r'"},
     };
     for (const auto& [body, expected] : cases) {
@@ -190,7 +190,7 @@ TEST(VrmlGraph, RefusesWhatNestsOrUnfoldsTooFar) {
     EXPECT_THAT(reading_error(repeated("Group { children ", 300)), HasSubstr("deep"));
     EXPECT_THAT(reading_error(repeated("PROTO P [ ] { ", 300)), HasSubstr("deep"));
     EXPECT_EQ(reading_error("Vendor { x " + repeated("[", 100000) + repeated("]", 100000) + " }"), "no error");
-    // Each doubles the one before.
+    // Each level doubles the one before.
     std::string doubling = "DEF N0 Group { } ";
     std::string prototypes = "PROTO P0 [ ] { Group { } } ";
     std::string deep = "DEF D0 Group { } ";
@@ -204,7 +204,7 @@ TEST(VrmlGraph, RefusesWhatNestsOrUnfoldsTooFar) {
     EXPECT_THAT(reading_error(doubling), HasSubstr("expand to too many nodes"));
     EXPECT_THAT(reading_error(prototypes + "P63 { }"), HasSubstr("expand to too many nodes"));
     EXPECT_THAT(reading_error(deep), HasSubstr("more than 1000 deep"));
-    // Without limits these would take 2^64 nodes, and a stack as deep as the text is long.
+    // Without limits these would expand to 2^64 nodes, or need a stack as deep as the text is long.
     std::string fields = "PROTO P0 [ field SFFloat r 1 ] { Shape { geometry Sphere { radius IS r } } } ";
     std::string chain = fields;
     for (int i = 1; i < 2000; ++i) {
@@ -215,7 +215,7 @@ TEST(VrmlGraph, RefusesWhatNestsOrUnfoldsTooFar) {
     }
     EXPECT_THAT(reading_error(fields + "P63 { }"), HasSubstr("expand to too many nodes"));
     EXPECT_THAT(reading_error(chain + "P1999 { }"), HasSubstr("deep"));
-    // A large list that each instance of a PROTO would copy; what is the same in all of them is there once.
+    // Large list that each instance of a PROTO would copy; parts that do not differ are shared.
     const std::string list = "[ field SFFloat r 1 field MFVec3f l [ " + repeated("1 2 3 ", 100000) +
                              "] ] { Shape { geometry PointSet { coord ";
     const std::string copied = "PROTO L " + list + "Coordinate { point IS l } } } }\n";

@@ -84,7 +84,7 @@ TEST(ShownParts, AnEmptyImageHasNone) {
     EXPECT_TRUE(coverage_mesh(coverage_bands(Image<Rgba8>(40, 40), 3), glm::dmat3(1)).corners.empty());
 }
 
-// Above 0 on one side of the line from a to b, below on the other.
+// Positive on one side of the line from a to b, negative on the other.
 double side_of_line(const glm::vec3& a, const glm::vec3& b, const glm::vec3& p) {
     return static_cast<double>(b.x - a.x) * (p.y - a.y) - static_cast<double>(b.y - a.y) * (p.x - a.x);
 }

@@ -1,4 +1,4 @@
-// Which objects are in memory: budget, order, hysteresis, failures.
+// ObjectCache: budget, order, hysteresis, failures.
 
 #include "compositor/viewer/residency/object_cache.hpp"
 
@@ -25,12 +25,12 @@ std::vector<std::filesystem::path> files(int count) {
     return names;
 }
 
-// Objects that fit beside the one that is being read.
+// Memory of `objects` objects in addition to the one being read.
 std::int64_t room_for(int objects) {
     return objects * SlowSource::object_bytes() + SlowSource::reading_bytes();
 }
 
-// A store with somebody who uses its objects.
+// A cache with a user of its objects.
 class StoreVisitor {
 public:
     StoreVisitor(int count, std::int64_t budget_bytes, test::SlowSourceOptions options = {})
@@ -109,7 +109,7 @@ TEST(ObjectCache, ReadsTheMostWantedFirstAndEachOnce) {
 }
 
 TEST(ObjectCache, NothingIsReadBeforeItIsWanted) {
-    // One thread reads, in the order in which it begins: what was read too early would stand first.
+    // A single reader thread gives a deterministic order: an early read would come first.
     for (int trial = 0; trial < 50; ++trial) {
         StoreVisitor visitor(3, room_for(1));
         visitor.store.set_priorities(distances({9, 8, 0}));

@@ -1,4 +1,4 @@
-// What reading an object takes in memory, measured, against what was foreseen.
+// Measured memory of loading an object against the estimate.
 
 #include "compositor/viewer/residency/object_source.hpp"
 
@@ -26,7 +26,7 @@ std::int64_t allocated_bytes() {
     return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
 }
 
-// Most bytes that were allocated while `work` ran, beyond those before.
+// Peak of the bytes allocated by `work`.
 template <class Work>
 std::int64_t most_allocated(const Work& work) {
     std::atomic<bool> done = false;
@@ -41,7 +41,7 @@ std::int64_t most_allocated(const Work& work) {
     return most;
 }
 
-// With a shape map, which boards do not take, or without.
+// With a shape map, which boards do not support, or without.
 RaySpaceObject ball(bool coded, bool shape) {
     test::RingObjectOptions options = test::sphere_options();
     options.width = 200;
@@ -90,7 +90,7 @@ TEST_P(FileObjectSource, TakeNoMoreThanForeseenAndNotMuchLess) {
     EXPECT_LE(*foreseen, (with_board && coded ? 5 * kept : 5 * kept / 2));
     EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
     EXPECT_EQ(progress.back(), 1);
-    // A file that has grown since.
+    // The file has grown since it was measured.
     EXPECT_FALSE(source->read(folder / "ball.rso", *foreseen / 8, [](float) {}));
 }
 

@@ -1,4 +1,4 @@
-// How visitors move: every key and drag does what people expect, and nothing else.
+// Navigation: effect of every key and drag.
 
 #include "compositor/viewer/views/navigation.hpp"
 
@@ -32,7 +32,7 @@ TEST(Walking, KeysMoveAlongTheGroundWhateverThePitch) {
     right.seconds = 0.1;
     right.right = 1;
     expect_near(moved(visitor, NavigationMode::kWalk, right, kSettings).eye, {1.2, 1.6, 5});
-    visitor.heading_rad = kPi / 2;  // looks along -X; to the right is -Z
+    visitor.heading_rad = kPi / 2;  // facing -X; the right is -Z
     expect_near(moved(visitor, NavigationMode::kWalk, right, kSettings).eye, {1, 1.6, 4.8});
 }
 
@@ -92,7 +92,7 @@ TEST(Panning, MovesTheSceneWithTheHand) {
     NavigationInput pan;
     pan.pan_px = {10, 20};
     const Visitor next = moved({}, NavigationMode::kWalk, pan, kSettings);
-    EXPECT_LT(next.eye.x, 0);  // the scene goes to the right
+    EXPECT_LT(next.eye.x, 0);  // the scene moves to the right
     EXPECT_GT(next.eye.y, 0);  // and down
     EXPECT_EQ(next.eye.z, 0);
 }
@@ -116,7 +116,7 @@ TEST(Visitors, ComeFromViewpointsAndGiveThemBack) {
     EXPECT_NEAR(back.pivot_distance, 5, kNear);
 }
 
-// A viewpoint that looks straight down: where its image's upper edge is, there goes who walks forward.
+// For a viewpoint that looks straight down, forward is towards the upper image edge.
 TEST(Visitors, FromAboveKnowWhereForwardIs) {
     Viewpoint above;
     above.world_from_camera =

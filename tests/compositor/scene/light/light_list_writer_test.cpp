@@ -1,4 +1,4 @@
-// Lists of lights are written as they were read, and a scene's own lights as lists that give the same light.
+// Light lists survive writing and reading, and a scene's own lights survive as lists.
 
 #include "compositor/scene/light/raster_lights.hpp"
 #include "compositor/scene/light/scene_lights.hpp"
@@ -35,7 +35,7 @@ void expect_same_light(const Light& a, const Light& b) {
     EXPECT_EQ(a.least_attenuation, b.least_attenuation);
     EXPECT_EQ(a.radius, b.radius);
     if (a.kind != LightKind::kSpot) return;
-    EXPECT_DOUBLE_EQ(a.cut_off_rad, b.cut_off_rad);  // degrees do not hit every double
+    EXPECT_DOUBLE_EQ(a.cut_off_rad, b.cut_off_rad);  // not every double is representable in degrees
     EXPECT_DOUBLE_EQ(a.beam_width_rad, b.beam_width_rad);
 }
 
@@ -65,7 +65,7 @@ TEST(LightListText, EveryWordComesBack) {
     ASSERT_EQ(again->entries.size(), 6U);
     for (std::size_t i = 0; i < 6; ++i) {
         LightEntry expected = list->entries[i];
-        expected.luminaire = again->entries[i].luminaire;  // read anew
+        expected.luminaire = again->entries[i].luminaire;  // read again
         EXPECT_EQ(again->entries[i], expected) << i;
     }
     EXPECT_TRUE(again->replace && again->headlight);
@@ -74,7 +74,7 @@ TEST(LightListText, EveryWordComesBack) {
     EXPECT_EQ(again->environment_entry->turn_deg, 12.3);
     EXPECT_TRUE(again->environment_entry->seen);
     EXPECT_EQ(light_list_to_json(*again, scratch / "a.json").value(), *written);
-    // Elsewhere, files are named from there.
+    // File names are relative to the list's folder.
     const auto elsewhere = light_list_to_json(*list, scratch / "lamps" / "b.json");
     ASSERT_TRUE(elsewhere);
     EXPECT_NE(elsewhere->find(R"("file":"a.ies")"), std::string::npos) << *elsewhere;
@@ -135,7 +135,7 @@ Shape { geometry Box { size 2 2 2 } appearance Appearance { material Material {}
         EXPECT_EQ(again.geometry[n].lights, scene->geometry[n].lights);
     }
     EXPECT_EQ(again.navigation.headlight, scene->navigation.headlight);
-    // And once more, from what it has become: the scopes are still those of the file.
+    // Second export, after the import: scopes are still those of the file.
     EXPECT_EQ(light_list_to_json(lights_in_force(again), "own.json").value(), *text);
     // A scope that the scene does not have changes nothing.
     list->entries[0].scope = 7;
@@ -161,7 +161,7 @@ TEST(RasterLights, OfTheSameFileAreEachTheirOwn) {
     for (std::size_t i = 0; i < 2; ++i) expect_same_light(lights.at(i), punctual_of(scene.lights[i]));
 }
 
-// In a box of 24 square metres whose walls reflect half.
+// In a box of 24 square metres with reflectance 1/2.
 TEST(RasterLights, WallsReflectWhatLightsOfCandelasGive) {
     Scene scene;
     GeometryNode room;
@@ -172,15 +172,15 @@ TEST(RasterLights, WallsReflectWhatLightsOfCandelasGive) {
         scene.lights = {lamp};
         return reflected_light(scene);
     };
-    EXPECT_NEAR(reflected().x, 4 * 3.0 / 24, 1e-6);  // flux 4 pi I over the surface, and over pi
+    EXPECT_NEAR(reflected().x, 4 * 3.0 / 24, 1e-6);  // flux 4 pi I over the surface and pi
     EXPECT_NEAR(reflected().y, 4 * 6.0 / 24, 1e-6);
     EXPECT_EQ(reflected().z, 0);
     lamp.kind = LightKind::kSpot;
     lamp.cut_off_rad = lamp.beam_width_rad = kPi / 2;
     EXPECT_NEAR(reflected().x, 2 * 3.0 / 24, 1e-6);
-    lamp.beam_width_rad = 0;  // a straight line from the axis: the integral of (1 - 2 a / pi) sin a is 1 - 2 / pi
+    lamp.beam_width_rad = 0;  // linear falloff from the axis: the integral of (1 - 2 a / pi) sin a is 1 - 2 / pi
     EXPECT_NEAR(reflected().x, 2 * 3.0 / 24 * (1 - 2 / kPi), 1e-6);
-    lamp.least_attenuation = 1;  // as VRML97's, whose ambient part is their own
+    lamp.least_attenuation = 1;  // as VRML97 lights, which have an ambient part
     EXPECT_EQ(reflected(), glm::vec3(0));
     lamp = directional_light({0, -1, 0}, glm::vec3(5));
     EXPECT_EQ(reflected(), glm::vec3(0));

@@ -17,8 +17,8 @@ using Json = nlohmann::ordered_json;
 
 // Integers are written without ".0".
 Json json_of(double number) {
-    constexpr double kMostDigits = 1e15;
-    const bool whole = number == std::floor(number) && std::abs(number) < kMostDigits;
+    constexpr double kMaxExactInteger = 1e15;
+    const bool whole = number == std::floor(number) && std::abs(number) < kMaxExactInteger;
     const bool minus_zero = number == 0 && std::signbit(number);
     return whole && !minus_zero ? Json(static_cast<std::int64_t>(number)) : Json(number);
 }
