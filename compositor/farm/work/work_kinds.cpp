@@ -5,7 +5,7 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image_io/image_io.hpp"
-#include "rayspace/image_io/photograph_size.hpp"
+#include "rayspace/image_io/photo_size.hpp"
 
 #include <algorithm>
 #include <charconv>
