@@ -127,7 +127,7 @@ public:
     void adapt(int context, int bit) {
         State& state = states_[static_cast<std::size_t>(context)];
         state.zero = codec::adapt_probability(state.zero, codec::kAdaptationShifts[state.uses], bit);
-        state.uses = codec::one_more(state.uses);
+        state.uses = codec::increment_uses(state.uses);
     }
 
 private:
