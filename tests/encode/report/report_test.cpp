@@ -95,7 +95,7 @@ TEST(HtmlPage, IsWellFormedAndHoldsWhatWasAdded) {
 TEST(HtmlPage, AImageInsideIsTheImageScaledDown) {
     Image<Rgba8> image(600, 300, {200, 100, 50, 255});
     const std::vector<CaptionedImage> row{{image, "wide \"one\""}, {Image<Rgba8>(20, 40, {1, 2, 3, 255}), "small"}};
-    HtmlPage page("pictures");
+    HtmlPage page("images");
     ASSERT_TRUE(page.images(row, 150).ok());
     const std::string text = page.text();
     EXPECT_EQ(unbalanced_tag(text), "");
@@ -250,7 +250,7 @@ TEST(RingPlan, ShowsEveryCameraWhereItStands) {
 BuildReport small_report() {
     BuildReport report;
     report.name = "vase <1>";
-    report.facts = {{"pictures", "12 of 48x40"}};
+    report.facts = {{"images", "12 of 48x40"}};
     report.stages = {{"RS map", 0.25}};
     report.chunks = {{"PICT", 12, 3000}, {"RMAP", 1, 1000}};
     report.rig = make_ring({.count = 12, .fl_px = 60, .width = 48, .height = 40});
