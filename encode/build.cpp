@@ -59,7 +59,7 @@ std::string to_string(MapKind kind) {
     return kind == MapKind::kPlane ? "plane" : "shape";
 }
 
-std::optional<MapKind> map_kind_from(const std::string& name) {
+std::optional<MapKind> parse_map_kind(const std::string& name) {
     for (const MapKind kind : {MapKind::kPlane, MapKind::kShape}) {
         if (name == to_string(kind)) return kind;
     }
@@ -116,7 +116,7 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
         RS_TRY(read_all_images(set, object, progress));
     }
     if (has_shape) {
-        RS_ASSIGN_OR_RETURN(FoundShapes shapes,
+        RS_ASSIGN_OR_RETURN(ShapeMapOutput shapes,
                             add_shape_maps(set, rig, rings, options.shape, options.raw_images, object, progress));
         built.warnings.insert(built.warnings.end(), shapes.warnings.begin(), shapes.warnings.end());
         built.depths = std::move(shapes.samples);

@@ -21,7 +21,7 @@ enum class MapKind {
 
 /// The names used by `--raymap`: "plane" and "shape".
 std::string to_string(MapKind kind);
-std::optional<MapKind> map_kind_from(const std::string& name);
+std::optional<MapKind> parse_map_kind(const std::string& name);
 
 /// The default plane map of each kind. Beside a shape map it is coarser, since it only fills the rays without a
 /// surface.
@@ -38,7 +38,7 @@ struct BuildOptions {
 struct BuiltObject {
     RaySpaceObject object;
     std::vector<std::string> warnings;  // one line each, with a remedy
-    std::vector<FoundDepth> depths;     // of a few views, if there is a shape map
+    std::vector<DepthPreview> depths;   // of a few views, if there is a shape map
     CompletedImages completed;          // to be assigned to CaptureSet::completed before encode_images()
 };
 

@@ -33,9 +33,10 @@ double soft_share(const std::vector<SourceImage>& sources) {
     std::atomic<std::int64_t> soft = 0;
     std::atomic<std::int64_t> shown = 0;
     for_each_index(sources.size(), [&](std::size_t v) {
-        const Image<std::uint8_t> patches = soft_patches(sources[v].coverage, kSoftRadius_px);
+        const Image<std::uint8_t> patches = find_soft_patches(sources[v].coverage, kSoftRadius_px);
         soft += std::ranges::count(patches.pixels(), 255);
-        shown += std::ranges::count_if(sources[v].coverage.pixels(), [](int alpha) { return alpha >= kFaintest; });
+        shown +=
+            std::ranges::count_if(sources[v].coverage.pixels(), [](int alpha) { return alpha >= kMinVisibleAlpha; });
     });
     return static_cast<double>(soft) / static_cast<double>(std::max<std::int64_t>(shown, 1));
 }
@@ -88,16 +89,16 @@ public:
 
     Result<EncodedImages> for_size(std::uint64_t bytes) {
         // Doubling the step removes about two thirds of the bytes. `too_large` is the monotonic condition here.
-        const auto too_large = [&](const EncodedImages& e) { return coded_bytes(e.coded) > bytes; };
+        const auto too_large = [&](const EncodedImages& e) { return count_coded_bytes(e.coded) > bytes; };
         const auto off = [&](const EncodedImages& e) {
-            return 6 * std::log2(static_cast<double>(coded_bytes(e.coded)) /
+            return 6 * std::log2(static_cast<double>(count_coded_bytes(e.coded)) /
                                  static_cast<double>(std::max<std::uint64_t>(bytes, 1)));
         };
         // The coarsest step that is too large; the next one is within the limit.
         const Result<EncodedImages> last = search(too_large, off);
         const int next = last ? found_ + 1 : kFinest;
         if (next > kCoarsest) {
-            return Error{"--size: the images take " + std::to_string(coded_bytes(last->coded)) +
+            return Error{"--size: the images take " + std::to_string(count_coded_bytes(last->coded)) +
                          " bytes with the coarsest quantiser, more than the " + std::to_string(bytes) +
                          " allowed; use fewer or smaller images"};
         }
@@ -158,11 +159,11 @@ private:
 
 }  // namespace
 
-double step_of_quality(double quality) {
+double quantiser_step_of_quality(double quality) {
     return 2 * std::exp2((kMaxQuality - quality) / 14);
 }
 
-std::uint64_t coded_bytes(const codec::CodedImages& coded) {
+std::uint64_t count_coded_bytes(const codec::CodedImages& coded) {
     std::uint64_t bytes = codec::code_payload(coded).size();
     for (std::size_t v = 0; v < coded.images.size(); ++v) bytes += codec::coded_image_payload(coded, v).size();
     return bytes;
@@ -182,7 +183,7 @@ Result<EncodedImages> encode_images(const CaptureSet& set, const RaySpaceObject&
     GoalSearch search(object, sources, goal, alpha_bits, progress);
     if (goal.images_bytes) return search.for_size(*goal.images_bytes);
     if (goal.psnr_db) return search.for_psnr(*goal.psnr_db);
-    return search.at_step(step_of_quality(goal.quality));
+    return search.at_step(quantiser_step_of_quality(goal.quality));
 }
 
 }  // namespace rs::encode

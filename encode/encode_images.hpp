@@ -19,14 +19,14 @@ struct ImageGoal {
     std::optional<std::uint64_t> images_bytes;  // upper limit of chunks CODE and PICT together
     std::optional<double> psnr_db;              // lower limit of EncodedImages::psnr_db
     double quality = 75;                        // kMinQuality .. kMaxQuality
-    int effort = kUsualEffort;                  // dense encoder only: kLeastEffort .. kMostEffort
+    int effort = kDefaultEffort;                // dense encoder only: kLeastEffort .. kMaxEffort
 };
 inline constexpr double kMinQuality = 1;
 inline constexpr double kMaxQuality = 100;
 
 /// The quantiser step of a quality: 2 at quality 100, doubled for every 14 less. BoardSettings::step defines its
 /// meaning for board objects.
-double step_of_quality(double quality);
+double quantiser_step_of_quality(double quality);
 
 /// Encodes the images of `set`. A goal of fidelity or size takes up to about six encodings. Fails if an image cannot be
 /// read or the goal cannot be reached. Memory: about 10 bytes per sample, and twice the bytes of the result per sample.
@@ -36,6 +36,6 @@ Result<EncodedImages> encode_images(const CaptureSet& set, const RaySpaceObject&
                                     std::optional<int> alpha_bits, Progress* progress = nullptr);
 
 /// The size of chunks CODE and PICT in the file.
-std::uint64_t coded_bytes(const codec::CodedImages& coded);
+std::uint64_t count_coded_bytes(const codec::CodedImages& coded);
 
 }  // namespace rs::encode

@@ -51,9 +51,9 @@ private:
     std::array<float, static_cast<std::size_t>(codec::context::kBlockKinds* kPlaces)> last_{};
 };
 
-class Estimator {
+class CostEstimator {
 public:
-    explicit Estimator(const CostTable& costs) : costs_(costs) {}
+    explicit CostEstimator(const CostTable& costs) : costs_(costs) {}
     int bit(int context, int value) {
         bits_ += costs_.of(context, value);
         return value;

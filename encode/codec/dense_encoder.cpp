@@ -1,7 +1,6 @@
 #include "encode/codec/dense_encoder.hpp"
 
 #include "encode/codec/coders.hpp"
-#include "encode/codec/fidelity.hpp"
 #include "encode/codec/ring_references.hpp"
 #include "encode/codec/source_image.hpp"
 #include "encode/codec/tile_encoder.hpp"
@@ -42,7 +41,7 @@ public:
         coded_.tile_height_log2 = settings.tile_height_log2;
         coded_.dense.chroma_step_offset = settings.chroma_offset;
         coded_.dense.probabilities.fill(2048);
-        if (coded_.dense.has_edge_alpha()) coded_.dense.edge_alpha = usual_edge_alpha(sources);
+        if (coded_.dense.has_edge_alpha()) coded_.dense.edge_alpha = estimate_edge_alpha(sources);
         start_probabilities();
         coded_.levels.assign(object.views.size(), 0);
         coded_.images.resize(object.views.size());
@@ -70,9 +69,9 @@ public:
         run_pass(effort.unit, 1);
         write_tiles();
         if (progress_ != nullptr) progress_->finish();
-        const double psnr_db =
-            coded_psnr(sources_, object_.width, object_.height, settings_.alpha_bits,
-                       [&](std::size_t v) { return codec::views_of(std::as_const(work_[v].reconstruction)); });
+        const double psnr_db = measure_coded_psnr(
+            sources_, object_.width, object_.height, settings_.alpha_bits,
+            [&](std::size_t v) { return codec::plane_views(std::as_const(work_[v].reconstruction)); });
         return {std::move(coded_), psnr_db};
     }
 
@@ -201,9 +200,9 @@ private:
             task.reach = work_[v].reach;
             const float step = static_cast<float>(codec::step_q4(task.head.step)) / 16.0F;
             task.lambda = settings_.lambda_factor * kPlaneWeights[0] * step * step;
-            task.out = codec::views_of(work_[v].reconstruction);
+            task.out = codec::plane_views(work_[v].reconstruction);
             for (std::size_t r = 0; r < static_cast<std::size_t>(task.head.references()); ++r) {
-                task.references[r] = codec::views_of(std::as_const(work_[task.head.reference[r]].reconstruction));
+                task.references[r] = codec::plane_views(std::as_const(work_[task.head.reference[r]].reconstruction));
             }
         }
         return tasks;

@@ -56,7 +56,7 @@ private:
     public:
         Candidate& add() { return all_[count_++]; }
         // The `count` candidates of the lowest estimate, best first.
-        std::span<const Candidate*> likeliest(int count);
+        std::span<const Candidate*> select_best(int count);
 
     private:
         std::array<Candidate, 3 + codec::kIntraModes> all_;
@@ -65,11 +65,11 @@ private:
     };
     enum class Transforms : std::uint8_t { kLarge, kSmall, kBoth };  // kLarge: as large as the unit
 
-    [[nodiscard]] codec::UnitPlace place_of(const codec::PredictionUnit& unit) const;
-    [[nodiscard]] MaskedSamples samples_of(const codec::UnitPlace& place, int plane) const;
+    [[nodiscard]] codec::UnitPosition position_of(const codec::PredictionUnit& unit) const;
+    [[nodiscard]] MaskedSamples target_samples(const codec::UnitPosition& place, int plane) const;
     // The sum of absolute differences equivalent to one bit.
     [[nodiscard]] float bit_cost() const { return std::sqrt(task_.lambda / kPlaneWeights[0]); }
-    void weigh(const codec::PredictionUnit& unit, codec::UnitChoice& trial, Candidate& candidate) const;
+    void estimate_cost(const codec::PredictionUnit& unit, codec::UnitChoice& trial, Candidate& candidate) const;
     void evaluate(const codec::PredictionUnit& unit, const Candidate& candidate, Transforms transforms,
                   codec::UnitChoice& trial, codec::UnitChoice& choice, float& best) const;
     void add_intra(const codec::PredictionUnit& unit, codec::UnitChoice& trial, Candidates& candidates) const;

@@ -22,7 +22,7 @@ struct MotionSearch {
     float bit_cost = 0;     // sum of absolute differences equivalent to one bit of a vector
 };
 
-struct FoundMotion {
+struct MotionMatch {
     codec::MotionVector vector;
     float cost = 0;  // sum of absolute differences of Y over the valid samples, and the vector's bits
 };
@@ -30,7 +30,7 @@ struct FoundMotion {
 /// Finds the best vector around any of `starts`, first in whole samples, then in half and quarter samples (if enabled).
 /// \param from   predictor that the vector is coded against.
 /// \param other  if not null, size x size samples of Y; their mean with the prediction is compared.
-FoundMotion find_motion(const MotionSearch& search, std::span<const codec::MotionVector> starts,
-                        codec::MotionVector from, const std::uint8_t* other = nullptr);
+MotionMatch search_motion(const MotionSearch& search, std::span<const codec::MotionVector> starts,
+                          codec::MotionVector from, const std::uint8_t* other = nullptr);
 
 }  // namespace rs::encode

@@ -2,7 +2,7 @@
 // Rate-distortion optimised quantisation of one transform.
 
 #include "encode/codec/coders.hpp"
-#include "rayspace/codec/levels.hpp"
+#include "rayspace/codec/kernels/transform.hpp"
 
 #include <cstdint>
 

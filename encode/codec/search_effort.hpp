@@ -7,8 +7,8 @@
 namespace rs::encode {
 
 inline constexpr int kLeastEffort = 1;
-inline constexpr int kMostEffort = 9;
-inline constexpr int kUsualEffort = 5;
+inline constexpr int kMaxEffort = 9;
+inline constexpr int kDefaultEffort = 5;
 
 /// Search effort per unit.
 struct UnitEffort {
@@ -35,16 +35,16 @@ constexpr SearchEffort search_effort(int effort) {
     constexpr UnitEffort kMore{4, 4, 1, false, true, 1, 8};
     constexpr UnitEffort kMuch{4, 5, 2, true, true, 1, 8};
     constexpr UnitEffort kAll{};
-    constexpr std::array<SearchEffort, kMostEffort> kEfforts = {{{kLeast, kLeast, 8},
-                                                                 {kLess, kLeast, 8},
-                                                                 {kSome, kLeast, 4},
-                                                                 {kSome, kLess, 4},
-                                                                 {kUsual, kLess, 4},
-                                                                 {kUsual, kSome, 2},
-                                                                 {kMore, kSome, 2},
-                                                                 {kMuch, kUsual, 1},
-                                                                 {kAll, kAll, 1}}};
-    return kEfforts[static_cast<std::size_t>(std::clamp(effort, kLeastEffort, kMostEffort) - 1)];
+    constexpr std::array<SearchEffort, kMaxEffort> kEfforts = {{{kLeast, kLeast, 8},
+                                                                {kLess, kLeast, 8},
+                                                                {kSome, kLeast, 4},
+                                                                {kSome, kLess, 4},
+                                                                {kUsual, kLess, 4},
+                                                                {kUsual, kSome, 2},
+                                                                {kMore, kSome, 2},
+                                                                {kMuch, kUsual, 1},
+                                                                {kAll, kAll, 1}}};
+    return kEfforts[static_cast<std::size_t>(std::clamp(effort, kLeastEffort, kMaxEffort) - 1)];
 }
 
 }  // namespace rs::encode

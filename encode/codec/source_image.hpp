@@ -24,7 +24,7 @@ SourceImage source_image(ConstImageView<Rgba8> image, int alpha_bits);
 void set_alpha_bits(SourceImage& source, int alpha_bits);
 
 /// Mean distance of alpha from 0 or 255 beside the edges of 1-bit masks.
-codec::EdgeAlpha usual_edge_alpha(const std::vector<SourceImage>& sources);
+codec::EdgeAlpha estimate_edge_alpha(const std::vector<SourceImage>& sources);
 
 /// Weights of squared errors of Y, U and V in the sum of squared errors of R, G and B (BT.601), without the cross
 /// terms: 3, 1.772^2 + 0.344^2, 1.402^2 + 0.714^2.

@@ -81,9 +81,9 @@ private:
         }
         const ModeDecision search(task_, costs_, state_, left_, top_);
 
-        Estimator whole_bits(costs_);
+        CostEstimator whole_bits(costs_);
         codec::syntax::split(whole_bits, state_.grid, bx, by, false);
-        Estimator split_bits(costs_);
+        CostEstimator split_bits(costs_);
         codec::syntax::split(split_bits, state_.grid, bx, by, true);
 
         const PredictionUnit whole{bx, by, kMacroblock};

@@ -14,7 +14,7 @@
 
 namespace rs::encode {
 
-inline constexpr double kHalfWidth = kDeepest;  // of the ranges of p and depth
+inline constexpr double kHalfWidth = kMaxDepth;  // of the ranges of p and depth
 inline constexpr int kDepths = 256;
 inline constexpr double kDepthStep = 2 * kHalfWidth / (kDepths - 1);
 

@@ -20,11 +20,11 @@ std::string lost_parts_text(const CompletedImages& completed, const Rig& rig) {
 
 }  // namespace
 
-Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
-                                   const ShapeOptions& options, bool keep_images, RaySpaceObject& object,
-                                   Progress* progress) {
+Result<ShapeMapOutput> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
+                                      const ShapeOptions& options, bool keep_images, RaySpaceObject& object,
+                                      Progress* progress) {
     RS_CHECK(set.completed.empty());
-    FoundShapes found;
+    ShapeMapOutput found;
     const auto keep = [&](int v, const Image<Rgba8>& image) {
         if (keep_images) object.images[static_cast<std::size_t>(v)] = planar_from_rgba(image);
     };
@@ -65,7 +65,7 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
         std::vector<SurfaceLayer> layers = {estimators[r].surfaces()};
         RingDepthEstimator soft(whole, rig, rings[r], options, Layer::kSoft);
         if (estimators[r].has_soft_pixels()) {
-            std::vector<FoundDepth> unused;
+            std::vector<DepthPreview> unused;
             RS_TRY(soft.read_photos(progress, [](int, const Image<Rgba8>&) {}));
             soft.choose_hull({});
             RS_TRY(soft.match_colors(progress));

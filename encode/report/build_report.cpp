@@ -32,7 +32,7 @@ Status add_captured(HtmlPage& page, const BuildReport& report) {
 void add_rings(HtmlPage& page, const BuildReport& report) {
     if (report.rig.views.empty()) return;
     page.heading("The cameras from above");
-    page.drawing(svg_of_rings(report.rig));
+    page.drawing(draw_ring_plan(report.rig));
     std::vector<std::string> missing = describe_missing_sectors(report.rig);
     if (missing.empty()) {
         page.paragraph("No sector is missing.");

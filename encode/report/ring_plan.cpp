@@ -64,7 +64,7 @@ std::string camera_mark(const Plan& plan, const Camera& camera, double size, con
 
 }  // namespace
 
-std::vector<MissingSector> missing_sectors(const std::vector<double>& azimuths_rad) {
+std::vector<MissingSector> find_missing_sectors(const std::vector<double>& azimuths_rad) {
     const std::size_t count = azimuths_rad.size();
     if (count < 3) return {};
     std::vector<double> steps;
@@ -80,7 +80,7 @@ std::vector<MissingSector> missing_sectors(const std::vector<double>& azimuths_r
     return missing;
 }
 
-std::string svg_of_rings(const Rig& rig) {
+std::string draw_ring_plan(const Rig& rig) {
     double farthest = rig.object_radius;
     for (const RigView& view : rig.views) {
         farthest = std::max(farthest, std::hypot(view.camera.centre().x, view.camera.centre().z));
@@ -100,7 +100,7 @@ std::string svg_of_rings(const Rig& rig) {
             const glm::dvec3 centre = rig.views[static_cast<std::size_t>(view)].camera.centre();
             radius += std::hypot(centre.x, centre.z) / static_cast<double>(rings[r].views.size());
         }
-        for (const MissingSector& sector : missing_sectors(azimuths_of(rig, rings[r]))) {
+        for (const MissingSector& sector : find_missing_sectors(azimuths_of(rig, rings[r]))) {
             svg += wedge(plan, sector, std::min(rig.object_radius, radius), radius);
         }
         const std::string colour = "var(--s" + std::to_string(r % kColours) + ")";
@@ -118,7 +118,7 @@ std::vector<std::string> describe_missing_sectors(const Rig& rig) {
     std::vector<std::string> lines;
     const std::vector<ViewRing> rings = find_rings(rig);
     for (std::size_t r = 0; r < rings.size(); ++r) {
-        for (const MissingSector& sector : missing_sectors(azimuths_of(rig, rings[r]))) {
+        for (const MissingSector& sector : find_missing_sectors(azimuths_of(rig, rings[r]))) {
             lines.push_back("from " + two_decimals(degrees(sector.from_rad)) + " to " +
                             two_decimals(degrees(sector.to_rad)) + " degrees (ring " + std::to_string(r + 1) + ")");
         }

@@ -29,7 +29,7 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    void note();
+    void record();
 
     Progress& shown_;
     std::vector<StageTime> stages_;

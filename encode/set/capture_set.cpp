@@ -89,8 +89,8 @@ Result<std::vector<PixelBox>> measure_images(const CaptureSet& set, Progress* pr
         const auto n = static_cast<std::size_t>(i);
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, read_captured_image(set, i));
         const Camera& captured = set.captured.views[n].camera;
-        const auto box =
-            set.resampled ? occupied_box_seen_by(set.upright.views[n].camera, captured, image) : occupied_box(image);
+        const auto box = set.resampled ? project_occupied_box(set.upright.views[n].camera, captured, image)
+                                       : find_occupied_box(image);
         if (!box) {
             return Error{
                 image_path(set.folder, set.captured.views[n]).string() +
@@ -233,10 +233,10 @@ Result<Image<Rgba8>> read_upright_image(const CaptureSet& set, int view) {
     Result<Image<Rgba8>> image = read_captured_image(set, view);
     if (!image || !set.resampled) return image;
     const auto i = static_cast<std::size_t>(view);
-    return resampled_image(set.upright.views[i].camera, set.captured.views[i].camera, *image);
+    return resample_image(set.upright.views[i].camera, set.captured.views[i].camera, *image);
 }
 
-CaptureSet with_views(const CaptureSet& set, std::span<const int> views) {
+CaptureSet select_views(const CaptureSet& set, std::span<const int> views) {
     RS_CHECK(!views.empty());
     CaptureSet chosen = set;
     const auto choose = [&](const Rig& from, Rig& to) {

@@ -55,6 +55,6 @@ Result<Image<Rgba8>> read_upright_image(const CaptureSet& set, int view);
 /// A subset of the views, in the given order. Radius, image size and framing stay those of the whole set, so that views
 /// remain comparable; no image is read.
 /// \param views  indices into the rig, each at most once, at least one.
-CaptureSet with_views(const CaptureSet& set, std::span<const int> views);
+CaptureSet select_views(const CaptureSet& set, std::span<const int> views);
 
 }  // namespace rs::encode

@@ -6,7 +6,7 @@ namespace rs::encode {
 namespace {
 
 bool is_soft(std::uint8_t alpha) {
-    return alpha >= kFaintest && alpha <= 255 - kFaintest;
+    return alpha >= kMinVisibleAlpha && alpha <= 255 - kMinVisibleAlpha;
 }
 
 // Summed-area table of set samples.
@@ -49,7 +49,7 @@ Image<std::uint8_t> where(const Image<std::uint8_t>& set, int radius, const Hold
 
 }  // namespace
 
-Image<std::uint8_t> soft_patches(ConstImageView<std::uint8_t> alpha, int radius) {
+Image<std::uint8_t> find_soft_patches(ConstImageView<std::uint8_t> alpha, int radius) {
     Image<std::uint8_t> soft(alpha.width(), alpha.height());
     for (int y = 0; y < alpha.height(); ++y) {
         for (int x = 0; x < alpha.width(); ++x) soft(x, y) = is_soft(alpha(x, y)) ? 255 : 0;

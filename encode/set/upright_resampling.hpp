@@ -19,14 +19,14 @@ struct PixelBox {
 };
 
 /// The bounding box of pixels with alpha above 0.
-PixelBox occupied_box(ConstImageView<Rgba8> image);
+PixelBox find_occupied_box(ConstImageView<Rgba8> image);
 
 /// The bounding box of an image's visible pixels, in pixels of another camera at the same centre. nullopt if part of it
 /// is behind that camera.
-std::optional<PixelBox> occupied_box_seen_by(const Camera& to, const Camera& from, ConstImageView<Rgba8> image);
+std::optional<PixelBox> project_occupied_box(const Camera& to, const Camera& from, ConstImageView<Rgba8> image);
 
 /// Resamples the image of `from` to `to` (same centre): Catmull-Rom on premultiplied linear light, transparent outside
 /// of the frame. For scales near 1: there is no prefilter.
-Image<Rgba8> resampled_image(const Camera& to, const Camera& from, ConstImageView<Rgba8> image);
+Image<Rgba8> resample_image(const Camera& to, const Camera& from, ConstImageView<Rgba8> image);
 
 }  // namespace rs::encode

@@ -5,7 +5,7 @@
 #include "encode/report/stage_clock.hpp"
 #include "encode/set/capture_set.hpp"
 #include "encode/tools/profile_options.hpp"
-#include "encode/tools/report_of_build.hpp"
+#include "encode/tools/report_contents.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
@@ -56,7 +56,7 @@ long long peak_memory_bytes() {
 Result<BuildOptions> options_of(const BuildArguments& arguments) {
     BuildOptions options;
     options.name = arguments.name;
-    const std::optional<MapKind> kind = map_kind_from(arguments.raymap);
+    const std::optional<MapKind> kind = parse_map_kind(arguments.raymap);
     if (!kind) {
         return Error{"--raymap " + arguments.raymap +
                      ": is not a kind of RS map; use shape or plane (--cells sets its size)"};
@@ -142,7 +142,7 @@ Status run_build(const BuildArguments& arguments) {
         page = std::move(created);
     }
     if (options.name.empty()) options.name = name_of(set);
-    RS_ASSIGN_OR_RETURN(const std::optional<ImageGoal> goal, goal_of(arguments.profile));
+    RS_ASSIGN_OR_RETURN(const std::optional<ImageGoal> goal, parse_goal(arguments.profile));
     options.raw_images = !goal.has_value();
     if (set.resampled) std::cerr << "rs-encode: the cameras are pitched; their images are resampled to upright ones\n";
     RS_ASSIGN_OR_RETURN(BuiltObject built, build_object(set, options, &progress));
@@ -172,8 +172,8 @@ Status run_build(const BuildArguments& arguments) {
         report.rig = set.upright;
         built.object.images.clear();  // frees memory for the objects to be scored
         if (Status status = add_captured_images(set, report); !status) return status;
-        add_depths(set, built.depths, report);
-        if (Status status = add_held_out_views(set, options.map.planes, report, &bar); !status) return status;
+        add_depth_images(set, built.depths, report);
+        if (Status status = add_evaluation(set, options.map.planes, report, &bar); !status) return status;
         if (Status status = write_report(*page, report); !status) return status;
     }
     print_summary(arguments, options, built.object, summary);

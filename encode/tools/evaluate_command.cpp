@@ -1,7 +1,7 @@
 #include "encode/tools/commands.hpp"
 
 #include "encode/tools/evaluation.hpp"
-#include "encode/tools/report_of_build.hpp"
+#include "encode/tools/report_contents.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -35,11 +35,11 @@ struct EvaluateArguments {
 
 // Writes FOLDER/truth/0001.png, FOLDER/plane/0001.png and FOLDER/plane-error/0001.png, named by the view's index in the
 // set.
-class AnswerFolder {
+class EvaluationFolder {
 public:
-    static Result<AnswerFolder> create(const std::string& path, const std::vector<Method>& methods) {
+    static Result<EvaluationFolder> create(const std::string& path, const std::vector<Method>& methods) {
         RS_ASSIGN_OR_RETURN(StagedFolder folder, StagedFolder::create(path, "answers of methods"));
-        AnswerFolder made(std::move(folder), methods.front());
+        EvaluationFolder made(std::move(folder), methods.front());
         std::vector<std::string> names{"truth"};
         for (const Method method : methods) {
             names.push_back(to_string(method));
@@ -54,7 +54,7 @@ public:
         return made;
     }
 
-    [[nodiscard]] Status write(const AnsweredView& answered) const {
+    [[nodiscard]] Status write(const EvaluatedView& answered) const {
         const std::string name = numbered_image_name(static_cast<std::size_t>(answered.view));
         const std::string method = to_string(answered.method);
         const std::filesystem::path& root = folder_.temporary_path();
@@ -69,7 +69,7 @@ public:
     Status commit() { return folder_.commit(); }
 
 private:
-    AnswerFolder(StagedFolder folder, Method first) : folder_(std::move(folder)), first_(first) {}
+    EvaluationFolder(StagedFolder folder, Method first) : folder_(std::move(folder)), first_(first) {}
     StagedFolder folder_;
     Method first_;  // ground truth is written once, with this method's renderings
 };
@@ -117,7 +117,7 @@ void print_table(const EvaluateArguments& arguments, const HoldOut& hold_out, co
 }
 
 Status write_page(const EvaluateArguments& arguments, const CaptureSet& set, const HoldOut& hold_out,
-                  const std::vector<MethodScores>& scores, KeptAnswers answers, StagedFile& file) {
+                  const std::vector<MethodScores>& scores, EvaluationThumbnails answers, StagedFile& file) {
     BuildReport report;
     report.name = name_of(set);
     report.facts = {{"capture set", arguments.set},
@@ -141,9 +141,9 @@ Status run_evaluate(const EvaluateArguments& arguments) {
     ProgressBar progress(arguments.quiet);
     RS_ASSIGN_OR_RETURN(const CaptureSet set, open_capture_set(arguments.set, &progress));
     RS_ASSIGN_OR_RETURN(const HoldOut hold_out, choose_hold_out(set.upright, every, arguments.set));
-    std::optional<AnswerFolder> folder;
+    std::optional<EvaluationFolder> folder;
     if (!arguments.output.empty()) {
-        RS_ASSIGN_OR_RETURN(AnswerFolder created, AnswerFolder::create(arguments.output, options.methods));
+        RS_ASSIGN_OR_RETURN(EvaluationFolder created, EvaluationFolder::create(arguments.output, options.methods));
         folder = std::move(created);
     }
     std::optional<StagedFile> page;
@@ -151,8 +151,8 @@ Status run_evaluate(const EvaluateArguments& arguments) {
         RS_ASSIGN_OR_RETURN(StagedFile created, StagedFile::create(arguments.report));
         page = std::move(created);
     }
-    KeptAnswers answers(hold_out, options.methods);
-    const LookAtAnswer look = [&](const AnsweredView& answered) -> Status {
+    EvaluationThumbnails answers(hold_out, options.methods);
+    const EvaluationSink look = [&](const EvaluatedView& answered) -> Status {
         if (page) {
             if (Status status = answers.keep(answered); !status) return status;
         }

@@ -26,7 +26,7 @@ Result<engine::Renderer> renderer_of_kept(const CaptureSet& set, const HoldOut& 
     options.map.planes = planes;
     options.raymap = kind;
     options.name = "kept views";
-    RS_ASSIGN_OR_RETURN(BuiltObject built, build_object(with_views(set, hold_out.kept), options, progress));
+    RS_ASSIGN_OR_RETURN(BuiltObject built, build_object(select_views(set, hold_out.kept), options, progress));
     // The renderer requires a validated object, which a file reader would return.
     RS_TRY(validate_object(built.object, set.folder.string()));
     return engine::Renderer::create(std::move(built.object));
@@ -42,7 +42,7 @@ Result<Image<Rgba8>> rendered(const engine::Renderer& renderer, const CaptureSet
 }
 
 Result<MethodScores> score(const CaptureSet& set, const HoldOut& hold_out, Method method, const Answer& answer,
-                           const LookAtAnswer& look, Progress* progress) {
+                           const EvaluationSink& look, Progress* progress) {
     MethodScores scores;
     scores.method = to_string(method);
     scores.views.resize(hold_out.held.size());
@@ -65,7 +65,7 @@ Result<MethodScores> score(const CaptureSet& set, const HoldOut& hold_out, Metho
     return scores;
 }
 
-Result<MethodScores> score_photo(const CaptureSet& set, const HoldOut& hold_out, const LookAtAnswer& look,
+Result<MethodScores> score_photo(const CaptureSet& set, const HoldOut& hold_out, const EvaluationSink& look,
                                  Progress* progress) {
     const Answer nearest = [&](int view) {
         return read_upright_image(set, nearest_kept_view(set.upright, hold_out, view));
@@ -74,7 +74,7 @@ Result<MethodScores> score_photo(const CaptureSet& set, const HoldOut& hold_out,
 }
 
 Result<MethodScores> score_object(const CaptureSet& set, const HoldOut& hold_out, Method method, int planes,
-                                  const LookAtAnswer& look, Progress* progress) {
+                                  const EvaluationSink& look, Progress* progress) {
     const auto begun = std::chrono::steady_clock::now();
     const MapKind kind = method == Method::kPlane ? MapKind::kPlane : MapKind::kShape;
     RS_ASSIGN_OR_RETURN(const engine::Renderer renderer, renderer_of_kept(set, hold_out, kind, planes, progress));
@@ -120,7 +120,7 @@ Result<std::vector<Method>> parse_methods(const std::string& text) {
 }
 
 Result<std::vector<MethodScores>> evaluate(const CaptureSet& set, const HoldOut& hold_out,
-                                           const EvaluationOptions& options, const LookAtAnswer& look,
+                                           const EvaluationOptions& options, const EvaluationSink& look,
                                            Progress* progress) {
     std::vector<MethodScores> all;
     for (const Method method : options.methods) {

@@ -32,7 +32,7 @@ struct EvaluationOptions {
     int planes = 12;  // reference planes of the objects; cells as in usual_plane_map()
 };
 
-struct AnsweredView {
+struct EvaluatedView {
     Method method = Method::kPhoto;
     std::size_t number = 0;  // in HoldOut::held
     int view = 0;            // HoldOut::held[number]
@@ -41,14 +41,14 @@ struct AnsweredView {
     double psnr_db = 0;
 };
 /// Called from several threads at once.
-using LookAtAnswer = std::function<Status(const AnsweredView&)>;
+using EvaluationSink = std::function<Status(const EvaluatedView&)>;
 
 /// Evaluates each method on the views hold_out.held, in their order. Fails as build_object, read_upright_image and
 /// `look` do.
 /// \param hold_out  split of the set's rig.
 /// \param look      receives each rendering, from several threads; may be empty.
 Result<std::vector<MethodScores>> evaluate(const CaptureSet& set, const HoldOut& hold_out,
-                                           const EvaluationOptions& options, const LookAtAnswer& look = {},
+                                           const EvaluationOptions& options, const EvaluationSink& look = {},
                                            Progress* progress = nullptr);
 
 }  // namespace rs::encode

@@ -61,7 +61,7 @@ void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
         "a shadow, else 1 for a --psnr below 31 or a quality below 54");
 }
 
-Result<std::optional<ImageGoal>> goal_of(const ProfileArguments& arguments) {
+Result<std::optional<ImageGoal>> parse_goal(const ProfileArguments& arguments) {
     if (arguments.profile == "raw") return std::optional<ImageGoal>();
     if (arguments.profile != "dense" && arguments.profile != "board") {
         return Error{"--profile " + arguments.profile + ": is not a profile; use dense, board or raw"};
@@ -70,7 +70,7 @@ Result<std::optional<ImageGoal>> goal_of(const ProfileArguments& arguments) {
         return Error{"--alpha-bits " + std::to_string(*arguments.alpha_bits) + ": must be 1.." +
                      std::to_string(codec::kMaxAlphaBits)};
     }
-    if (arguments.effort < kLeastEffort || arguments.effort > kMostEffort) {
+    if (arguments.effort < kLeastEffort || arguments.effort > kMaxEffort) {
         return Error{"--effort " + std::to_string(arguments.effort) + ": must be 1..9"};
     }
     ImageGoal goal;

@@ -23,6 +23,6 @@ struct ProfileArguments {
 void add_profile_options(CLI::App& command, ProfileArguments& arguments);
 
 /// Converts the options; nullopt for raw images.
-Result<std::optional<ImageGoal>> goal_of(const ProfileArguments& arguments);
+Result<std::optional<ImageGoal>> parse_goal(const ProfileArguments& arguments);
 
 }  // namespace rs::encode

@@ -29,7 +29,7 @@ inline std::uint32_t decoder_probability(std::uint16_t zero_q16) {
 }
 
 /// Updates the probability of a 0 after a decision.
-inline std::uint16_t adapted(std::uint16_t zero_q16, unsigned shift, int bit) {
+inline std::uint16_t adapt_probability(std::uint16_t zero_q16, unsigned shift, int bit) {
     const std::uint32_t p = zero_q16;
     const std::uint32_t more = p + ((65536U - p) >> shift);
     const std::uint32_t less = p - (p >> shift);
@@ -37,7 +37,7 @@ inline std::uint16_t adapted(std::uint16_t zero_q16, unsigned shift, int bit) {
 }
 
 /// The number of decisions of a context, after one more, saturated.
-inline std::uint8_t one_more(std::uint8_t uses) {
+inline std::uint8_t increment_uses(std::uint8_t uses) {
     return static_cast<std::uint8_t>(uses + (uses < kMostUses ? 1 : 0));
 }
 

@@ -38,11 +38,11 @@ inline int smooth_alpha(const EdgeAlpha& edge, int mask, int sum) {
 }
 
 /// The references' alpha at sample (x, y) of the image, interpolated between samples; -1 if the unit has no references.
-int interpolated_alpha(Source source, const std::array<MotionVector, 2>& motion,
-                       const std::array<ConstPlaneViews, 2>& references, int x, int y);
+int interpolate_alpha(Source source, const std::array<MotionVector, 2>& motion,
+                      const std::array<ConstPlaneViews, 2>& references, int x, int y);
 
 /// The first index of context::kMask.
-constexpr int predicted_mask(int alpha) {
+constexpr int mask_context(int alpha) {
     if (alpha < 0) return 0;
     if (alpha == 0) return 1;
     return alpha < 64 ? 2 : alpha < 112 ? 3 : alpha < 144 ? 4 : alpha < 192 ? 5 : alpha < 255 ? 6 : 7;
@@ -72,7 +72,7 @@ public:
                 if (grid_.at(bx, by).source == Source::kNone) continue;
                 if (bits_ > 1) {
                     if (grid_.at(bx, by).alpha == AlphaClass::kMixed) refine(bx, by);
-                } else if (!alone(bx, by)) {
+                } else if (!is_uniform(bx, by)) {
                     smooth(bx, by);
                 }
             }
@@ -81,7 +81,7 @@ public:
 
 private:
     // True if a block is not mixed and its neighbours in the tile have the same class.
-    [[nodiscard]] bool alone(int bx, int by) const {
+    [[nodiscard]] bool is_uniform(int bx, int by) const {
         const AlphaClass own = grid_.at(bx, by).alpha;
         if (own == AlphaClass::kMixed) return false;
         for (int y = std::max(by - 1, 0); y <= std::min(by + 1, place_.height / kBlock - 1); ++y) {
@@ -127,7 +127,7 @@ private:
             for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
                 const int mask = mask_.at(x, y);
                 const int interpolated =
-                    interpolated_alpha(info.source, info.motion, references_, place_.left + x, place_.top + y);
+                    interpolate_alpha(info.source, info.motion, references_, place_.left + x, place_.top + y);
                 const int predicted = interpolated < 0 ? 0 : interpolated < 32 || interpolated > 223 ? 1 : 2;
                 const int sum = mask_sum(mask_, x, y, place_.width, place_.height);
                 const int neighbours = (depths_.at(x - 1, y) != 0 ? 1 : 0) + (depths_.at(x, y - 1) != 0 ? 1 : 0);

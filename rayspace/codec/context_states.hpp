@@ -28,8 +28,8 @@ public:
 
     void adapt(int context, int bit) {
         const auto c = static_cast<std::size_t>(context);
-        zero_q16_[c] = adapted(zero_q16_[c], shifts_[uses_[c]], bit);
-        uses_[c] = one_more(uses_[c]);
+        zero_q16_[c] = adapt_probability(zero_q16_[c], shifts_[uses_[c]], bit);
+        uses_[c] = increment_uses(uses_[c]);
     }
 
 private:

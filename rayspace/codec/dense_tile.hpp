@@ -18,10 +18,10 @@ using PlaneViews = std::array<ImageView<std::uint8_t>, 4>;
 using ConstPlaneViews = std::array<ConstImageView<std::uint8_t>, 4>;
 using Planes = std::array<Image<std::uint8_t>, 4>;
 
-inline PlaneViews views_of(Planes& planes) {
+inline PlaneViews plane_views(Planes& planes) {
     return {planes[0].view(), planes[1].view(), planes[2].view(), planes[3].view()};
 }
-inline ConstPlaneViews views_of(const Planes& planes) {
+inline ConstPlaneViews plane_views(const Planes& planes) {
     return {planes[0].view(), planes[1].view(), planes[2].view(), planes[3].view()};
 }
 

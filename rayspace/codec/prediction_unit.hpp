@@ -59,7 +59,7 @@ template <class Coder, class Predicted>
 void code_block_alpha(Coder& coder, AlphaLevels& alpha, int bits, int bx, int by, const Predicted& predicted) {
     for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
         for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
-            // The sample to the upper right stands for itself only where it has been coded.
+            // The upper right sample is used only if it has been coded, else the one above.
             const bool later = (x & (kBlock - 1)) == kBlock - 1;
             const int north = alpha.at(x, y - 1);
             alpha.at(x, y) = static_cast<std::uint8_t>(
@@ -69,12 +69,12 @@ void code_block_alpha(Coder& coder, AlphaLevels& alpha, int bits, int bx, int by
     }
 }
 
-/// Codes a mixed block's mask. predicted(x, y): the context class of the references' alpha (predicted_mask).
+/// Codes a mixed block's mask. predicted(x, y): the context class of the references' alpha (mask_context).
 template <class Coder, class Predicted>
 void code_block_mask(Coder& coder, AlphaLevels& mask, int bx, int by, const Predicted& predicted) {
     for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
         for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
-            // The sample to the upper right stands for itself only where it has been coded.
+            // The upper right sample is used only if it has been coded, else the one above.
             const int north = mask.at(x, y - 1);
             const int north_east = (x & (kBlock - 1)) == kBlock - 1 ? north : mask.at(x + 1, y - 1);
             const int before = mask.at(x - 1, y) + 2 * north + 4 * mask.at(x - 1, y - 1) + 8 * north_east +
@@ -126,7 +126,7 @@ void code_prediction(Coder& coder, const TileGrid& grid, const PredictionUnit& u
     for (int r = 0; r < 2; ++r) {
         if (!uses(choice.source, r)) continue;
         const auto n = static_cast<std::size_t>(r);
-        const MotionVector from = predicted_motion(grid, unit, r, around.global_motion[n]);
+        const MotionVector from = predict_motion(grid, unit, r, around.global_motion[n]);
         const auto off = syntax::motion(coder, unit, {choice.motion[n].x - from.x, choice.motion[n].y - from.y});
         const auto component = [](int value) {
             return static_cast<std::int16_t>(std::clamp(value, -kMaxMotion_q2, kMaxMotion_q2));

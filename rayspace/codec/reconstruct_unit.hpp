@@ -10,7 +10,7 @@
 
 namespace rs::codec {
 
-struct UnitPlace {
+struct UnitPosition {
     int x = 0;  // first sample in the image
     int y = 0;
     int size = kMacroblock;
@@ -18,14 +18,14 @@ struct UnitPlace {
     bool has_above = false;
 };
 
-inline UnitPlace place_of_unit(const TileGrid& grid, const PredictionUnit& unit, int tile_left, int tile_top) {
+inline UnitPosition unit_position(const TileGrid& grid, const PredictionUnit& unit, int tile_left, int tile_top) {
     return {tile_left + unit.bx * kBlock, tile_top + unit.by * kBlock, unit.size,
             grid.at(unit.bx - 1, unit.by).source != Source::kNone,
             grid.at(unit.bx, unit.by - 1).source != Source::kNone};
 }
 
 /// Records a decoded unit in the grid, for the contexts of later units.
-inline void enter_unit(TileGrid& grid, const PredictionUnit& unit, const UnitChoice& choice) {
+inline void record_unit(TileGrid& grid, const PredictionUnit& unit, const UnitChoice& choice) {
     for (int i = 0; i < unit.blocks() * unit.blocks(); ++i) {
         BlockInfo& info = grid.at(unit.bx + (i & (unit.blocks() - 1)), unit.by + i / unit.blocks());
         info.source = choice.source;
@@ -36,15 +36,15 @@ inline void enter_unit(TileGrid& grid, const PredictionUnit& unit, const UnitCho
 }
 
 /// The references' alpha level at sample (x, y); -1 if the unit has no references.
-int predicted_alpha(const UnitChoice& choice, const std::array<ConstPlaneViews, 2>& references, int x, int y,
-                    int alpha_bits);
+int predict_alpha(const UnitChoice& choice, const std::array<ConstPlaneViews, 2>& references, int x, int y,
+                  int alpha_bits);
 
 /// Predicts one plane (0 .. 2) at `place` into `out`.
-void predict_unit(const UnitChoice& choice, const UnitPlace& place, int plane,
+void predict_unit(const UnitChoice& choice, const UnitPosition& place, int plane,
                   const std::array<ConstPlaneViews, 2>& references, ImageView<std::uint8_t> out);
 
 /// Reconstructs Y, U and V: prediction plus residual.
-void reconstruct_unit(const UnitChoice& choice, const UnitPlace& place, int step, const DenseCode& code,
+void reconstruct_unit(const UnitChoice& choice, const UnitPosition& place, int step, const DenseCode& code,
                       const std::array<ConstPlaneViews, 2>& references, const PlaneViews& out);
 
 /// Adds the residual of one transform to `size` x `size` samples.

@@ -8,7 +8,6 @@
 #include "rayspace/codec/code/contexts.hpp"
 #include "rayspace/codec/code/tile_grid.hpp"
 #include "rayspace/codec/kernels/transform.hpp"
-#include "rayspace/codec/levels.hpp"
 
 #include <algorithm>
 #include <bit>

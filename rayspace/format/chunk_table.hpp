@@ -15,7 +15,7 @@ namespace rs::object_chunks {
 std::span<const ChunkKind> chunk_table();
 
 /// The largest number of chunks of a kind in an object: 1, or one per ring or view.
-std::size_t count_of(OneFor each, const RaySpaceObject& object);
+std::size_t max_chunk_count(ChunkScope each, const RaySpaceObject& object);
 
 struct ChunkKey {
     ChunkName name{};

@@ -63,7 +63,7 @@ constexpr std::uint32_t unfolded(std::uint32_t folded_difference) {
 
 }  // namespace
 
-std::vector<std::uint8_t> residual_plane(std::span<const CapturedLine> lines, int planes) {
+std::vector<std::uint8_t> encode_residuals(std::span<const CapturedLine> lines, int planes) {
     std::vector<std::uint8_t> plane(lines.size() * kBytesPerLine);
     std::size_t row = 0;  // rows of lines.size() bytes
     for (const Field& field : kFields) {
@@ -79,7 +79,7 @@ std::vector<std::uint8_t> residual_plane(std::span<const CapturedLine> lines, in
     return plane;
 }
 
-void put_residuals(std::span<const std::uint8_t> plane, int planes, std::span<CapturedLine> lines) {
+void decode_residuals(std::span<const std::uint8_t> plane, int planes, std::span<CapturedLine> lines) {
     RS_CHECK(plane.size() == lines.size() * kBytesPerLine);
     std::size_t row = 0;
     for (const Field& field : kFields) {

@@ -16,9 +16,9 @@ inline constexpr std::size_t kBytesPerLine = 16;
 
 /// Encodes the residuals, kBytesPerLine per line, without loss for any values. lines[n * planes + k] is line k of the
 /// ring's n-th view; planes kMinPlanes..kMaxPlanes.
-std::vector<std::uint8_t> residual_plane(std::span<const CapturedLine> lines, int planes);
+std::vector<std::uint8_t> encode_residuals(std::span<const CapturedLine> lines, int planes);
 
 /// Decodes the residuals; any bytes, kBytesPerLine per line, are valid.
-void put_residuals(std::span<const std::uint8_t> plane, int planes, std::span<CapturedLine> lines);
+void decode_residuals(std::span<const std::uint8_t> plane, int planes, std::span<CapturedLine> lines);
 
 }  // namespace rs::line_coding

@@ -52,7 +52,7 @@ std::uint64_t residual_bytes(std::uint64_t rows, std::uint64_t runs) {
     return 2 * rows + 4 * runs;
 }
 
-Runs runs_of(std::span<const std::uint16_t> cells, int u_cells) {
+Runs encode_runs(std::span<const std::uint16_t> cells, int u_cells) {
     const auto width = static_cast<std::size_t>(u_cells);
     RS_CHECK(cells.size() % width == 0);
     Runs runs;
@@ -70,7 +70,7 @@ Runs runs_of(std::span<const std::uint16_t> cells, int u_cells) {
     return runs;
 }
 
-std::vector<std::uint8_t> residual_plane(const Runs& runs) {
+std::vector<std::uint8_t> encode_residuals(const Runs& runs) {
     const std::size_t rows = runs.counts.size();
     const std::size_t count = runs.views.size();
     std::vector<std::uint8_t> plane(residual_bytes(rows, count));
@@ -85,7 +85,7 @@ std::vector<std::uint8_t> residual_plane(const Runs& runs) {
     return plane;
 }
 
-Runs runs_of_residuals(std::span<const std::uint8_t> plane, std::size_t rows, std::size_t runs) {
+Runs decode_run_residuals(std::span<const std::uint8_t> plane, std::size_t rows, std::size_t runs) {
     RS_CHECK(plane.size() == residual_bytes(rows, runs));
     const auto number = [&](std::size_t n) { return static_cast<std::uint16_t>(plane[2 * n] | plane[2 * n + 1] << 8); };
     Runs found{std::vector<std::uint16_t>(rows), std::vector<std::uint16_t>(runs), std::vector<std::uint16_t>(runs)};
@@ -101,7 +101,7 @@ Runs runs_of_residuals(std::span<const std::uint8_t> plane, std::size_t rows, st
     return found;
 }
 
-Status put_runs(const Runs& runs, int u_cells, std::span<std::uint16_t> cells) {
+Status decode_runs(const Runs& runs, int u_cells, std::span<std::uint16_t> cells) {
     const auto width = static_cast<std::size_t>(u_cells);
     RS_CHECK(cells.size() == runs.counts.size() * width);
     std::size_t run = 0;

@@ -22,13 +22,13 @@ struct Runs {
 std::uint64_t residual_bytes(std::uint64_t rows, std::uint64_t runs);
 
 /// Run-length encodes whole rows of u_cells cells, 1 .. 65535.
-Runs runs_of(std::span<const std::uint16_t> cells, int u_cells);
-std::vector<std::uint8_t> residual_plane(const Runs& runs);
+Runs encode_runs(std::span<const std::uint16_t> cells, int u_cells);
+std::vector<std::uint8_t> encode_residuals(const Runs& runs);
 
-/// The inverse of residual_plane; any residual_bytes() bytes are valid.
-Runs runs_of_residuals(std::span<const std::uint8_t> plane, std::size_t rows, std::size_t runs);
+/// The inverse of encode_residuals; any residual_bytes() bytes are valid.
+Runs decode_run_residuals(std::span<const std::uint8_t> plane, std::size_t rows, std::size_t runs);
 
 /// The inverse of runs_of. Fails if the runs do not cover each row of u_cells exactly, or a length is 0.
-Status put_runs(const Runs& runs, int u_cells, std::span<std::uint16_t> cells);
+Status decode_runs(const Runs& runs, int u_cells, std::span<std::uint16_t> cells);
 
 }  // namespace rs::map_coding

@@ -35,7 +35,7 @@ inline bool is_consistent(std::int32_t cells_per_unit_q12, int cells, double hal
 }
 
 /// [view]: true for views of the first `rings` rings, whose view lists must have been checked.
-inline std::vector<bool> is_in_ring(const RaySpaceObject& object, std::size_t rings) {
+inline std::vector<bool> ring_membership(const RaySpaceObject& object, std::size_t rings) {
     std::vector<bool> is_in(object.views.size());
     for (std::size_t r = 0; r < rings; ++r) {
         for (const std::uint16_t view : object.rings[r].views) is_in[view] = true;

@@ -126,8 +126,8 @@ public:
     [[nodiscard]] std::uint32_t probability(int context) const { return codec::decoder_probability(of(context).zero); }
     void adapt(int context, int bit) {
         State& state = states_[static_cast<std::size_t>(context)];
-        state.zero = codec::adapted(state.zero, codec::kAdaptationShifts[state.uses], bit);
-        state.uses = codec::one_more(state.uses);
+        state.zero = codec::adapt_probability(state.zero, codec::kAdaptationShifts[state.uses], bit);
+        state.uses = codec::increment_uses(state.uses);
     }
 
 private:
@@ -214,7 +214,7 @@ ShapeCell pass_cell(Bits& bits, const Neighbourhood& around, ShapeCell cell) {
 
 }  // namespace
 
-std::vector<std::byte> coded_cells(const ShapeMap& shape) {
+std::vector<std::byte> encode_cells(const ShapeMap& shape) {
     Writer bits;
     Neighbourhood around(shape);
     for (const ShapeCell& cell : shape.cells) {
@@ -224,7 +224,7 @@ std::vector<std::byte> coded_cells(const ShapeMap& shape) {
     return bits.finish();
 }
 
-void put_cells(std::span<const std::byte> bytes, ShapeMap& shape) {
+void decode_cells(std::span<const std::byte> bytes, ShapeMap& shape) {
     Reader bits(bytes);
     Neighbourhood around(shape);
     for (ShapeCell& cell : shape.cells) {
@@ -233,7 +233,7 @@ void put_cells(std::span<const std::byte> bytes, ShapeMap& shape) {
     }
 }
 
-void settle_depths(ShapeMap& shape, int tolerance) {
+void snap_depths(ShapeMap& shape, int tolerance) {
     if (tolerance == 0) return;
     Neighbourhood around(shape);
     for (ShapeCell& cell : shape.cells) {

@@ -10,12 +10,12 @@
 namespace rs::shape_coding {
 
 /// Encodes the cells of a valid map. Deterministic.
-std::vector<std::byte> coded_cells(const ShapeMap& shape);
+std::vector<std::byte> encode_cells(const ShapeMap& shape);
 
 /// Decodes into shape.cells, which has its size. Any bytes decode to valid cells.
-void put_cells(std::span<const std::byte> bytes, ShapeMap& shape);
+void decode_cells(std::span<const std::byte> bytes, ShapeMap& shape);
 
 /// Replaces each depth by its prediction, which takes almost no bits, if that is at most `tolerance` steps away.
-void settle_depths(ShapeMap& shape, int tolerance);
+void snap_depths(ShapeMap& shape, int tolerance);
 
 }  // namespace rs::shape_coding

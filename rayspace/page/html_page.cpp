@@ -21,8 +21,8 @@ h1 { font-size: 1.6em; } h2 { font-size: 1.15em; margin: 2em 0 .4em; border-bott
 table { border-collapse: collapse; margin: .6em 0; display: block; overflow-x: auto; }
 th, td { padding: .2em 1em .2em 0; text-align: left; border-bottom: 1px solid var(--rule); }
 th.number, td.number { text-align: right; font-variant-numeric: tabular-nums; }
-.pictures { display: flex; flex-wrap: wrap; gap: 10px; margin: .6em 0; }
-.pictures.line { flex-wrap: nowrap; } .pictures.line figure { flex: 0 1 auto; min-width: 0; }
+.images { display: flex; flex-wrap: wrap; gap: 10px; margin: .6em 0; }
+.images.line { flex-wrap: nowrap; } .images.line figure { flex: 0 1 auto; min-width: 0; }
 figure { margin: 0; } figure img { display: block; background: var(--tile); max-width: 100%; height: auto; }
 figcaption { font-size: .85em; color: var(--faint); }
 .drawing svg { max-width: 100%; height: auto; }

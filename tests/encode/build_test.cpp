@@ -126,15 +126,15 @@ TEST(BuildErrors, AImageThatShowsWhatIsStraightBelowIsRefused) {
 TEST(UprightResampling, TheSameCameraGivesTheSameImage) {
     const Camera camera = test::drawn_ring(8).views[1].camera;
     const Image<Rgba8> image = test::drawn_image(camera);
-    EXPECT_GT(compare_images_psnr(resampled_image(camera, camera, image), image).psnr_db(), 55);
+    EXPECT_GT(compare_images_psnr(resample_image(camera, camera, image), image).psnr_db(), 55);
 }
 
 TEST(UprightResampling, OccupiedBoxIsTight) {
     Image<Rgba8> image(10, 8);
-    EXPECT_TRUE(occupied_box(image).empty());
+    EXPECT_TRUE(find_occupied_box(image).empty());
     image(3, 2).a = 1;
     image(6, 5).a = 255;
-    const PixelBox box = occupied_box(image);
+    const PixelBox box = find_occupied_box(image);
     EXPECT_EQ(box.x0, 3);
     EXPECT_EQ(box.y0, 2);
     EXPECT_EQ(box.x1, 7);

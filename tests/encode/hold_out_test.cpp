@@ -95,7 +95,7 @@ TEST(WithViews, KeepsWhatTheWholeSetHas) {
     test::write_drawn_set(folder / "set", rig);
     const Result<CaptureSet> all = open_capture_set(folder / "set");
     ASSERT_TRUE(all.ok()) << all.error().message;
-    const CaptureSet some = with_views(*all, std::vector<int>{1, 6});
+    const CaptureSet some = select_views(*all, std::vector<int>{1, 6});
     ASSERT_EQ(some.upright.views.size(), 2U);
     EXPECT_EQ(some.upright.object_radius, all->upright.object_radius);
     EXPECT_EQ(some.width, all->width);
@@ -109,7 +109,7 @@ TEST(WithViews, KeepsWhatTheWholeSetHas) {
     CaptureSet completed = *all;
     completed.completed = {{3, Image<Rgba8>(2, 2)}, {6, Image<Rgba8>(1, 1)}};
     EXPECT_EQ(read_upright_image(completed, 6)->width(), 1);
-    const CaptureSet some_completed = with_views(completed, std::vector<int>{1, 6});
+    const CaptureSet some_completed = select_views(completed, std::vector<int>{1, 6});
     EXPECT_EQ(some_completed.completed.size(), 1U);
     EXPECT_EQ(read_upright_image(some_completed, 1)->width(), 1);
     EXPECT_EQ(read_upright_image(some_completed, 0)->width(), all->width);
@@ -136,7 +136,7 @@ TEST(Evaluation, ScoresOnlyWhatWasHeldOutAgainstItsOwnImage) {
 
     std::mutex mutex;
     std::multiset<int> looked;
-    const auto look = [&](const AnsweredView& answered) -> Status {
+    const auto look = [&](const EvaluatedView& answered) -> Status {
         const std::lock_guard lock(mutex);
         looked.insert(answered.view);
         EXPECT_EQ(answered.view, hold_out.held[answered.number]);
@@ -174,7 +174,7 @@ TEST(Evaluation, WhatLookingFailsWithIsReturned) {
     EvaluationOptions options;
     options.methods = {Method::kPhoto};
     const auto scores = evaluate(*set, *choose_hold_out(set->upright, 2, "set"), options,
-                                 [](const AnsweredView&) -> Status { return Error{"no room"}; });
+                                 [](const EvaluatedView&) -> Status { return Error{"no room"}; });
     ASSERT_FALSE(scores.ok());
     EXPECT_EQ(scores.error().message, "no room");
 }

@@ -127,7 +127,7 @@ TEST(FuzzReplay, Ply) {
     replay("ply", fuzz::fuzz_ply);
 }
 TEST(FuzzReplay, Image) {
-    replay("picture", fuzz::fuzz_image);
+    replay("image", fuzz::fuzz_image);
 }
 TEST(FuzzReplay, Film) {
     replay("film", fuzz::fuzz_film);
@@ -200,7 +200,7 @@ TEST(FuzzReplay, SeedsAreValid) {
             ++seeds;
         }
     }
-    for (const fs::path& file : corpus("picture")) {
+    for (const fs::path& file : corpus("image")) {
         if (file.filename().string().rfind("seed-", 0) != 0) continue;
         EXPECT_TRUE(read_image(file).ok()) << file;
         ++seeds;

@@ -52,9 +52,9 @@ bool mutate_compressed(std::vector<std::byte>& bytes, Random& random) {
     const auto frame = std::search(bytes.begin(), bytes.end(), kMagic.begin(), kMagic.end());
     if (frame == bytes.end()) return false;
     const std::vector<std::byte> rest(frame, bytes.end());
-    const auto size = stated_zstd_bytes(rest);
+    const auto size = read_zstd_content_size(rest);
     if (!size || *size > (std::uint64_t{1} << 24)) return false;
-    const auto content = zstd_content(rest, *size, "it");
+    const auto content = decompress_zstd(rest, *size, "it");
     if (!content) return false;
     std::vector<std::byte> inside(content->size());
     std::memcpy(inside.data(), content->data(), inside.size());
@@ -63,7 +63,7 @@ bool mutate_compressed(std::vector<std::byte>& bytes, Random& random) {
     if (below(random, 4) != 0) inside.resize(before);  // the size stated in the chunk stays valid
     std::vector<std::uint8_t> numbers(inside.size());
     if (!inside.empty()) std::memcpy(numbers.data(), inside.data(), inside.size());
-    const std::vector<std::byte> again = zstd_frame(numbers);
+    const std::vector<std::byte> again = compress_zstd(numbers);
     bytes.erase(frame, bytes.end());
     bytes.insert(bytes.end(), again.begin(), again.end());
     return true;
@@ -174,7 +174,7 @@ void mutate_chunks(std::vector<fuzz::SoupChunk>& chunks, Random& random) {
     }
 }
 
-std::string mutated_text(const std::string& text, Random& random) {
+std::string mutate_text(const std::string& text, Random& random) {
     std::vector<std::string> pieces = pieces_of(text);
     for (std::size_t n = 1 + below(random, 3); n > 0 && !pieces.empty(); --n) {
         std::size_t one = below(random, pieces.size());

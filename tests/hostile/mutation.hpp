@@ -23,6 +23,6 @@ void mutate_bytes(std::vector<std::byte>& bytes, Random& random);
 void mutate_chunks(std::vector<fuzz::SoupChunk>& chunks, Random& random);
 
 /// Changes, removes, doubles and exchanges numbers, words, brackets, quotes and lines of a text.
-std::string mutated_text(const std::string& text, Random& random);
+std::string mutate_text(const std::string& text, Random& random);
 
 }  // namespace rs::test

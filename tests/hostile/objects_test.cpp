@@ -42,7 +42,7 @@ std::vector<std::vector<SoupChunk>> sound_objects() {
 }
 
 // Renders from the front, close by, far below and nearly overhead; returns the first difference, if any.
-std::string drawn_alike(const RaySpaceObject& object, const engine::Renderer& renderer) {
+std::string find_difference(const RaySpaceObject& object, const engine::Renderer& renderer) {
     for (const glm::dvec3 eye :
          {glm::dvec3(0, 0, 3), glm::dvec3(-1.1, 0.4, -0.6), glm::dvec3(40, -30, 2), glm::dvec3(0.2, 2.5, 0.3)}) {
         const Camera camera = look_at_camera(eye * object.units_per_radius, glm::dvec3(0), 0.8, 40, 33);
@@ -93,7 +93,7 @@ TEST(HostileObjects, AreRefusedOrDrawnAlike) {
         const bool is_coded = coded->images.empty() || coded->images.front().empty();
         const auto renderer = engine::Renderer::create(is_coded ? std::move(*coded) : *object);
         if (!renderer) return of_one_line(renderer.error());
-        return drawn_alike(*object, *renderer);
+        return find_difference(*object, *renderer);
     });
     EXPECT_GT(trials, 20);
 }

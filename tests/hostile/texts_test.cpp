@@ -112,7 +112,7 @@ TEST(HostileTexts, AreReadOrRefused) {
         test::Random random(seed);
         const Kind& kind = all[test::below(random, all.size())];
         const fs::path path = folder / kind.name;
-        if (!write_file(path, test::mutated_text(kind.text, random))) return "the disk is full";
+        if (!write_file(path, test::mutate_text(kind.text, random))) return "the disk is full";
         const std::string wrong = kind.read(path);
         return wrong.empty() ? "" : kind.name + ": " + wrong;
     });

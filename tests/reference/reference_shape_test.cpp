@@ -183,7 +183,7 @@ TEST(ReferenceShape, CellsOfAnyBytesAreReadTheSame) {
         std::vector<std::byte> bytes(random() % 80);
         for (std::byte& byte : bytes) byte = static_cast<std::byte>(i % 2 == 0 ? random() : random() & random());
         ShapeMap shape = ring.shape;
-        shape_coding::put_cells(bytes, shape);
+        shape_coding::decode_cells(bytes, shape);
         const auto surfaces = std::ranges::count_if(shape.cells, &ShapeCell::has_surface);
         put_number(payload, kSurfacesAt, static_cast<std::uint64_t>(surfaces), 4);
         put_number(payload, kCellBytesAt, bytes.size(), 4);

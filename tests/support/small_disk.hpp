@@ -1,5 +1,5 @@
 #pragma once
-// A small tmpfs mounted on a folder, for tests of a full disk. Requires the privilege to mount.
+// A small tmpfs is_mounted on a folder, for tests of a full disk. Requires the privilege to mount.
 
 #include <sys/mount.h>
 

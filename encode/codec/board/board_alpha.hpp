@@ -9,8 +9,8 @@
 
 namespace rs::encode {
 
-struct AlphaBook {
-    TrainedBook book;  // `samples` minus 128
+struct AlphaCodebook {
+    Codebook book;  // `samples` minus 128
     std::vector<std::uint8_t>
         samples;  // as stored: [entry * 16 + 4 row + column], values that alpha_bits can represent
     int alpha_bits = 2;
@@ -20,6 +20,6 @@ struct AlphaBook {
 };
 
 /// Trains the codebook on the quarters of partly covered blocks. Entry 0 is fully covered, entry 1 fully transparent.
-AlphaBook train_alpha(const std::vector<SourceImage>& sources, int alpha_bits);
+AlphaCodebook train_alpha(const std::vector<SourceImage>& sources, int alpha_bits);
 
 }  // namespace rs::encode

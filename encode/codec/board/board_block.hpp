@@ -13,7 +13,7 @@
 namespace rs::encode {
 
 /// Integer weights of squared errors of Y, U, V: kPlaneWeights, doubled.
-inline constexpr std::array<std::int16_t, 3> kWholePlaneWeights = {6, 7, 5};
+inline constexpr std::array<std::int16_t, 3> kIntegerPlaneWeights = {6, 7, 5};
 
 struct BlockResidual {
     std::array<std::array<std::int16_t, 64>, 3> left;  // remaining error of Y, U, V; 0 where the sample is not valid
@@ -24,9 +24,9 @@ struct BlockResidual {
 };
 
 /// Residuals of the block at (x, y): source minus prediction. `colour`: Y, U, V.
-BlockResidual residual_of_flat(const SourceImage& source, int x, int y, const std::array<std::uint8_t, 3>& colour);
-BlockResidual residual_of_predicted(const SourceImage& source, int x, int y, const codec::ConstPlaneViews& reference,
-                                    int from_x, int from_y);
+BlockResidual compute_flat_residual(const SourceImage& source, int x, int y, const std::array<std::uint8_t, 3>& colour);
+BlockResidual compute_prediction_residual(const SourceImage& source, int x, int y,
+                                          const codec::ConstPlaneViews& reference, int from_x, int from_y);
 
 /// The mean colour of the block's valid samples; grey if there are none.
 std::array<std::uint8_t, 3> mean_colour(const SourceImage& source, int x, int y);

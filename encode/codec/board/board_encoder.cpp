@@ -4,7 +4,6 @@
 #include "encode/codec/board/board_block.hpp"
 #include "encode/codec/board/board_classes.hpp"
 #include "encode/codec/board/board_stages.hpp"
-#include "encode/codec/fidelity.hpp"
 #include "encode/codec/motion_search.hpp"
 #include "encode/codec/ring_references.hpp"
 #include "rayspace/base/parallel_loop.hpp"
@@ -52,7 +51,7 @@ public:
         coded_.board.classes = {kFlatClasses, kPredictedClasses};
         coded_.levels.assign(object.views.size(), 0);
         coded_.images.resize(object.views.size());
-        lambda_ = settings.lambda_factor * kWholePlaneWeights[0] * settings.step * settings.step * 8;
+        lambda_ = settings.lambda_factor * kIntegerPlaneWeights[0] * settings.step * settings.step * 8;
         plan();
         for_images([](std::size_t) { return true; }, [&](std::size_t v) { look_at_blocks(v); });
     }
@@ -69,7 +68,7 @@ public:
         }
 
         books_[0] = train(is_reference, false, 1, 4);
-        coded_.board.books[0] = stored_books(books_[0]);
+        coded_.board.books[0] = pack_codebooks(books_[0]);
         for_images(is_reference, [&](std::size_t v) { encode_image(v); });
 
         for_images(is_predicted, [&](std::size_t v) {
@@ -77,12 +76,12 @@ public:
             advance();
         });
         books_[1] = train(is_predicted, true, 2, 3);
-        coded_.board.books[1] = stored_books(books_[1]);
+        coded_.board.books[1] = pack_codebooks(books_[1]);
         for_images(is_predicted, [&](std::size_t v) { encode_image(v); });
         if (progress_ != nullptr) progress_->finish();
-        const double psnr_db =
-            coded_psnr(sources_, object_.width, object_.height, settings_.alpha_bits,
-                       [&](std::size_t v) { return codec::views_of(std::as_const(work_[v].reconstruction)); });
+        const double psnr_db = measure_coded_psnr(
+            sources_, object_.width, object_.height, settings_.alpha_bits,
+            [&](std::size_t v) { return codec::plane_views(std::as_const(work_[v].reconstruction)); });
         return {std::move(coded_), psnr_db};
     }
 
@@ -173,18 +172,18 @@ private:
 
     [[nodiscard]] BlockResidual residual_of(std::size_t v, int x, int y, const Block& block, bool predicted) const {
         const SourceImage& source = sources_[v];
-        if (!predicted) return residual_of_flat(source, x, y, mean_colour(source, x, y));
-        return residual_of_predicted(source, x, y, reference_of(v, block.motion.reference), x + block.motion.x,
-                                     y + block.motion.y);
+        if (!predicted) return compute_flat_residual(source, x, y, mean_colour(source, x, y));
+        return compute_prediction_residual(source, x, y, reference_of(v, block.motion.reference), x + block.motion.x,
+                                           y + block.motion.y);
     }
     [[nodiscard]] codec::ConstPlaneViews reference_of(std::size_t v, int reference) const {
-        return codec::views_of(
+        return codec::plane_views(
             std::as_const(work_[coded_.images[v].head.reference[static_cast<std::size_t>(reference)]].reconstruction));
     }
 
     // Trains on blocks spread evenly over the images for which `wanted` is true.
     template <class Wanted>
-    StageBooks train(const Wanted& wanted, bool predicted, int block_stages, int quarter_stages) {
+    StageCodebooks train(const Wanted& wanted, bool predicted, int block_stages, int quarter_stages) {
         std::size_t count = 0;
         for (std::size_t v = 0; v < work_.size(); ++v) {
             if (wanted(v)) for_blocks(v, [&](int, int, const Block&) { ++count; });
@@ -218,7 +217,7 @@ private:
                 search.reach_y = kReachDown_px;
                 search.fractions = false;
                 const codec::MotionVector none;
-                const FoundMotion found = find_motion(search, {&none, 1}, none);
+                const MotionMatch found = search_motion(search, {&none, 1}, none);
                 Block tried = block;
                 tried.motion = {r, found.vector.x >> 2, found.vector.y >> 2};
                 const std::int64_t error = residual_of(v, x, y, tried, true).error();
@@ -241,13 +240,14 @@ private:
         for (const bool predicted : {false, true}) {
             const unsigned may = allowed(v, block, predicted);
             if (may == 0 || (predicted && !block.has_motion)) continue;
-            const StageBooks& books = books_[predicted ? 1 : 0];
+            const StageCodebooks& books = books_[predicted ? 1 : 0];
             Chosen chosen;
-            chosen.staged = walk_stages(books, residual_of(v, x, y, block, predicted));
-            chosen.number = cheapest_class(chosen.staged, classes_of(v), may, lambda_);
+            chosen.staged = quantise_stages(books, residual_of(v, x, y, block, predicted));
+            chosen.number = select_class(chosen.staged, classes_of(v), may, lambda_);
             const RecordClass& record_class = classes_of(v)[static_cast<std::size_t>(chosen.number)];
-            chosen.cost = static_cast<double>(chosen.staged.error[static_cast<std::size_t>(stages_of(record_class))]) +
-                          lambda_ * record_class.bytes();
+            chosen.cost =
+                static_cast<double>(chosen.staged.error[static_cast<std::size_t>(count_stages(record_class))]) +
+                lambda_ * record_class.bytes();
             if (best.number == 0 || chosen.cost < best.cost) best = chosen;
         }
         return best;
@@ -305,7 +305,7 @@ private:
             std::array<codec::ConstPlaneViews, 2> references;
             for (int r = 0; r < image.head.references(); ++r)
                 references[static_cast<std::size_t>(r)] = reference_of(v, r);
-            codec::decode_tile(coded_, v, t, references, nullptr, codec::views_of(work_[v].reconstruction));
+            codec::decode_tile(coded_, v, t, references, nullptr, codec::plane_views(work_[v].reconstruction));
         }
         advance();
     }
@@ -316,9 +316,9 @@ private:
     Progress* progress_;
     codec::CodedImages coded_;
     std::vector<BoardWorkImage> work_;
-    double lambda_ = 0;                // squared error equivalent to one byte
-    std::array<StageBooks, 2> books_;  // [of flat blocks, of predicted ones]
-    AlphaBook alpha_;
+    double lambda_ = 0;                    // squared error equivalent to one byte
+    std::array<StageCodebooks, 2> books_;  // [of flat blocks, of predicted ones]
+    AlphaCodebook alpha_;
 };
 
 }  // namespace

@@ -17,9 +17,9 @@ namespace rs::encode {
 
 inline constexpr int kMaxStages = codec::kMaxBlockStages + codec::kMaxQuarterStages;
 
-struct StageBooks {
-    std::vector<TrainedBook> block;
-    std::vector<TrainedBook> quarter;
+struct StageCodebooks {
+    std::vector<Codebook> block;
+    std::vector<Codebook> quarter;
     [[nodiscard]] int count() const { return static_cast<int>(block.size() + quarter.size()); }
 };
 
@@ -30,13 +30,13 @@ struct StagedBlock {
 };
 
 /// Quantises a block with the nearest entry of each stage in turn.
-StagedBlock walk_stages(const StageBooks& books, BlockResidual residual);
+StagedBlock quantise_stages(const StageCodebooks& books, BlockResidual residual);
 
 /// The number of stages of a class.
-int stages_of(const codec::RecordClass& record_class);
+int count_stages(const codec::RecordClass& record_class);
 /// The class of the lowest cost, error + lambda * bytes, among those with bit c set in `may`.
-int cheapest_class(const StagedBlock& staged, const std::array<codec::RecordClass, codec::kBoardClasses>& classes,
-                   unsigned may, double lambda);
+int select_class(const StagedBlock& staged, const std::array<codec::RecordClass, codec::kBoardClasses>& classes,
+                 unsigned may, double lambda);
 
 struct TrainingBlock {
     BlockResidual residual;
@@ -46,10 +46,10 @@ struct TrainingBlock {
 /// Trains `block_stages` and `quarter_stages` codebooks for blocks of the given classes. Later rounds train each stage
 /// on the blocks that use it. Entries that do not save lambda for each byte they take are removed.
 /// \param share  number of `blocks` relative to all blocks of the kind.
-StageBooks train_stages(std::span<const TrainingBlock> blocks,
-                        const std::array<codec::RecordClass, codec::kBoardClasses>& classes, int block_stages,
-                        int quarter_stages, double lambda, double share);
+StageCodebooks train_stages(std::span<const TrainingBlock> blocks,
+                            const std::array<codec::RecordClass, codec::kBoardClasses>& classes, int block_stages,
+                            int quarter_stages, double lambda, double share);
 
-codec::Books stored_books(const StageBooks& books);
+codec::Books pack_codebooks(const StageCodebooks& books);
 
 }  // namespace rs::encode

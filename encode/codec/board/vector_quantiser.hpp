@@ -30,7 +30,7 @@ struct WeightedVectors {
 };
 
 /// Entry e begins at [e * dimensions]; its components are within -128 .. 127.
-struct TrainedBook {
+struct Codebook {
     int dimensions = 0;
     std::vector<std::int16_t> entries;
     [[nodiscard]] std::size_t count() const {
@@ -47,18 +47,18 @@ struct Nearest {
     std::int64_t distance = 0;
 };
 /// The nearest entry; of entries at the same distance, the first. The book must not be empty.
-Nearest nearest_entry(const TrainedBook& book, const std::int16_t* values, const std::int16_t* weights);
+Nearest find_nearest_entry(const Codebook& book, const std::int16_t* values, const std::int16_t* weights);
 
 /// Trains a codebook. Entry 0 is zero, so that a stage can leave a vector unchanged. Runs on the threads of the calling
 /// tbb arena.
 /// \param entries  a power of two; with fewer vectors some entries are zero.
-TrainedBook train_book(const WeightedVectors& vectors, std::size_t entries);
+Codebook train_codebook(const WeightedVectors& vectors, std::size_t entries);
 
 /// Runs further iterations of an existing book on other vectors.
-void refine_book(TrainedBook& book, const WeightedVectors& vectors, int rounds);
+void refine_codebook(Codebook& book, const WeightedVectors& vectors, int rounds);
 
 /// Zeroes the entries whose gain is below `cost`: the squared error by which they are nearer to their vectors than the
 /// next best entry. Returns the number of remaining entries.
-std::size_t prune_book(TrainedBook& book, const WeightedVectors& vectors, double cost);
+std::size_t prune_codebook(Codebook& book, const WeightedVectors& vectors, double cost);
 
 }  // namespace rs::encode

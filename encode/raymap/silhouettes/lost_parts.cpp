@@ -127,7 +127,7 @@ std::optional<glm::dvec3> colour_at(const Image<Rgba8>& image, double x, double 
 
 }  // namespace
 
-Image<float> lost_part(const WorkView& view, const Image<float>& missing) {
+Image<float> select_lost_part(const WorkView& view, const Image<float>& missing) {
     // A part needs at least half of a dense square of missing pixels.
     constexpr int kFewest = (2 * kHalfSide_px + 1) * (2 * kHalfSide_px + 1) / 4;
     if (count_depths(missing) < kFewest) {
@@ -208,7 +208,7 @@ LostPartPainter::LostPartPainter(const WorkView& view, const Image<float>& part,
 
 std::optional<glm::dvec3> LostPartPainter::seen_by(const Painter& from, const Spot& spot, bool hidden) const {
     const WorkView& view = from.seen->view;
-    const std::optional<SeenPoint> at = view.see(spot.place, spot.height);
+    const std::optional<ProjectedPoint> at = view.see(spot.place, spot.height);
     if (!at) return std::nullopt;
     if (!hidden) {
         const double depth = view.ray_of(at->whole_column() + 0.5).depth_of(spot.place);

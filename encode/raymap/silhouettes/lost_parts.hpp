@@ -20,7 +20,7 @@ namespace rs::encode {
 /// missing (at least half of them) or object, with at least half of its border at the object, and with its gaps closed.
 /// kNoDepth elsewhere. Narrow strips along an edge come from an inaccurate rig; separate components do not belong to
 /// the object.
-Image<float> lost_part(const WorkView& view, const Image<float>& missing);
+Image<float> select_lost_part(const WorkView& view, const Image<float>& missing);
 
 /// The area of a part relative to the object's area in the view.
 double share_of(const Image<float>& part, const WorkView& view);

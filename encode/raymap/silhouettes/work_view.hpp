@@ -40,7 +40,7 @@ struct HorizontalRay {
 };
 
 /// Largest distance of a depth from the foot, to either side; slightly more than the object radius.
-inline constexpr double kDeepest = 1 + 1.0 / 32;
+inline constexpr double kMaxDepth = 1 + 1.0 / 32;
 
 /// The depth hypotheses of a search: level n, 0 <= n < count, is at low + n * step object radii from a ray's foot.
 struct DepthRange {
@@ -52,13 +52,13 @@ struct DepthRange {
 };
 
 /// The projection of a place of the ground plan, shared by all points above it.
-struct SeenColumn {
+struct ProjectedColumn {
     double axial = 0;   // depth along the optical axis; behind the camera where <= 0
     double column = 0;  // px
 };
 
 /// The projection of a point, px.
-struct SeenPoint {
+struct ProjectedPoint {
     double column = 0, row = 0;
     [[nodiscard]] int whole_column() const { return static_cast<int>(column); }
     [[nodiscard]] int whole_row() const { return static_cast<int>(row); }
@@ -81,18 +81,18 @@ struct WorkView {
     [[nodiscard]] glm::dvec3 place() const { return {centre, centre_y}; }
     /// The ray through a column; `column` + 0.5 is its middle.
     [[nodiscard]] HorizontalRay ray_of(double column) const;
-    [[nodiscard]] SeenColumn see(const glm::dvec2& place) const {
+    [[nodiscard]] ProjectedColumn see(const glm::dvec2& place) const {
         const glm::dvec2 from_centre = place - centre;
         const double axial = glm::dot(from_centre, forward);
         return {axial, cx + fl_x * glm::dot(from_centre, right) / axial};
     }
     /// nullopt where the projection is outside of the frame.
-    [[nodiscard]] std::optional<SeenPoint> see(const glm::dvec2& place, double y) const {
-        const SeenColumn seen = see(place);
+    [[nodiscard]] std::optional<ProjectedPoint> see(const glm::dvec2& place, double y) const {
+        const ProjectedColumn seen = see(place);
         if (seen.axial <= 0) return std::nullopt;
         const double row = row_of(y, seen.axial);
         if (!(seen.column >= 0 && seen.column < width && row >= 0 && row < height)) return std::nullopt;
-        return SeenPoint{seen.column, row};
+        return ProjectedPoint{seen.column, row};
     }
     /// The row of height y at an axial depth, and the inverse.
     [[nodiscard]] double row_of(double y, double axial) const { return cy - fl_y * (y - centre_y) / axial; }
@@ -124,7 +124,7 @@ inline std::ptrdiff_t count_depths(const Image<float>& depths) {
 WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> image, int reduction);
 
 /// Downsamples a view once more, by two.
-WorkView halved(const WorkView& view);
+WorkView halve(const WorkView& view);
 
 /// 255 where coverage is soft over 5x5 pixels (soft_coverage.hpp) and below one half, else 0; transposed as
 /// WorkView::columns is. Such pixels are a surface of their own: shadows that were segmented with the object, gauze.

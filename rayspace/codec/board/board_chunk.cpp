@@ -70,7 +70,7 @@ void put_board_code(const BoardCode& code, ByteWriter& out) {
     for_books(code, [&](const auto& book, std::size_t) {
         for (const auto number : book) bytes.push_back(static_cast<std::uint8_t>(number));
     });
-    out.put(zstd_frame(bytes));
+    out.put(compress_zstd(bytes));
 }
 
 Status take_board_code(ByteReader& in, BoardCode& code) {
@@ -89,7 +89,7 @@ Status take_board_code(ByteReader& in, BoardCode& code) {
     if (!in.ok()) return Error{"is too short"};
     std::size_t size = 0;
     for_books(code, [&](const auto&, std::size_t bytes) { size += bytes; });
-    RS_ASSIGN_OR_RETURN(const std::vector<std::uint8_t> bytes, zstd_content(in.take(in.left()), size, kBooksName));
+    RS_ASSIGN_OR_RETURN(const std::vector<std::uint8_t> bytes, decompress_zstd(in.take(in.left()), size, kBooksName));
     code.books = {};
     code.alpha.clear();
     auto next = bytes.begin();

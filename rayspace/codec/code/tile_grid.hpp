@@ -58,8 +58,8 @@ struct PredictionUnit {
 
 /// Predicts a vector: the median of the vectors of the left and upper blocks and `global`; the vector of the only one
 /// of both blocks that uses the reference; `global` if neither does.
-inline MotionVector predicted_motion(const TileGrid& grid, const PredictionUnit& unit, int reference,
-                                     MotionVector global) {
+inline MotionVector predict_motion(const TileGrid& grid, const PredictionUnit& unit, int reference,
+                                   MotionVector global) {
     const BlockInfo& left = grid.at(unit.bx - 1, unit.by);
     const BlockInfo& above = grid.at(unit.bx, unit.by - 1);
     const bool of_left = uses(left.source, reference);

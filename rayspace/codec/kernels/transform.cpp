@@ -92,7 +92,7 @@ void inverse_transform(const std::int16_t* coefficients, int size, int used, std
     }
 }
 
-std::int16_t dequantised(int level, int step, int size) {
+std::int16_t dequantise(int level, int step, int size) {
     // step_q4 / 16 * 16 for size 8; half of that, with halves rounded up, for size 16.
     const int product = std::clamp(level, -32767, 32767) * step_q4(step);
     return clamped(size == 8 ? product : (product + 1) >> 1);

@@ -23,8 +23,16 @@ constexpr int step_q4(int index) {
     return kMantissas[index & 7] << (index >> 3);
 }
 
+/// Quantised coefficients ("levels") of one transform, with a margin of two zero rows and columns so that neighbours
+/// need no bounds checks.
+struct Levels {
+    static constexpr int kStride = kLargestTransform + 2;
+    std::int16_t at[(kLargestTransform + 2) * kStride] = {};
+    int used = 0;  // all non-zero levels are in the first `used` rows and columns
+};
+
 /// The coefficient of a level (|level| <= 32767) at a quantiser step, in the scale of inverse_transform: orthonormal
 /// coefficients times 16 (size 8) or 8 (size 16).
-std::int16_t dequantised(int level, int step, int size);
+std::int16_t dequantise(int level, int step, int size);
 
 }  // namespace rs::codec

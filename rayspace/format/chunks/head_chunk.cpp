@@ -25,8 +25,8 @@ Payload head_payload(const RaySpaceObject& object, std::uint32_t) {
     return out.bytes();
 }
 
-Status parse_head(Bytes payload, UnreadObject& unread, std::uint32_t) {
-    RaySpaceObject& object = unread.object;
+Status parse_head(Bytes payload, PartialObject& partial, std::uint32_t) {
+    RaySpaceObject& object = partial.object;
     ByteReader in(payload);
     const auto width = in.get<std::uint32_t>();
     const auto height = in.get<std::uint32_t>();
@@ -87,7 +87,7 @@ Status check_head(const RaySpaceObject& object, std::uint32_t) {
 }
 
 std::int64_t held_by_head(const RaySpaceObject& object, std::uint32_t) {
-    return held_by(object.views) + held_by(object.rings) + held_by(object.images);
+    return heap_bytes_of(object.views) + heap_bytes_of(object.rings) + heap_bytes_of(object.images);
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ ChunkKind head_chunk() {
             .payload = head_payload,
             .parse = parse_head,
             .validate = check_head,
-            .held_bytes = held_by_head};
+            .heap_bytes = held_by_head};
 }
 
 }  // namespace rs::object_chunks

@@ -44,18 +44,19 @@ Result<CodedMap> parse_map_head(Bytes payload, const Ring& ring) {
     return coded;
 }
 
-Result<ChunkMemory> map_memory(Bytes payload, UnreadObject& unread, std::uint32_t index) {
-    RS_ASSIGN_OR_RETURN(const auto coded, parse_map_head(payload, unread.object.rings[index]));
-    return ChunkMemory{.passing_bytes = kRunsOverContent * coded.content_bytes};
+Result<ChunkMemory> map_memory(Bytes payload, PartialObject& partial, std::uint32_t index) {
+    RS_ASSIGN_OR_RETURN(const auto coded, parse_map_head(payload, partial.object.rings[index]));
+    return ChunkMemory{.temporary_bytes = kRunsOverContent * coded.content_bytes};
 }
 
-Status parse_map(Bytes payload, UnreadObject& unread, std::uint32_t index) {
-    Ring& ring = unread.object.rings[index];
+Status parse_map(Bytes payload, PartialObject& partial, std::uint32_t index) {
+    Ring& ring = partial.object.rings[index];
     RS_ASSIGN_OR_RETURN(const auto coded, parse_map_head(payload, ring));
     std::vector<std::uint8_t> plane;
-    if (Status s = expand_zstd_frame(coded.frame, coded.content_bytes, "its runs", plane); !s) return s;
+    if (Status s = decompress_zstd_frame(coded.frame, coded.content_bytes, "its runs", plane); !s) return s;
     ring.cells.resize(coded.rows * static_cast<std::size_t>(ring.u_cells));
-    return map_coding::put_runs(map_coding::runs_of_residuals(plane, coded.rows, coded.runs), ring.u_cells, ring.cells);
+    return map_coding::decode_runs(map_coding::decode_run_residuals(plane, coded.rows, coded.runs), ring.u_cells,
+                                   ring.cells);
 }
 
 // The larger depth of `line` at both ends of column xi of the map, q50.
@@ -98,13 +99,13 @@ Status check_cells(const RaySpaceObject& object, std::uint32_t index) {
 }
 
 std::int64_t held_by_map(const RaySpaceObject& object, std::uint32_t index) {
-    return held_by(object.rings[index].cells);
+    return heap_bytes_of(object.rings[index].cells);
 }
 
 }  // namespace
 
 Payload map_payload(const map_coding::Runs& runs) {
-    const std::vector<std::byte> frame = zstd_frame(map_coding::residual_plane(runs));
+    const std::vector<std::byte> frame = compress_zstd(map_coding::encode_residuals(runs));
     ByteWriter out;
     out.reserve(sizeof(std::uint32_t) + frame.size());
     out.put(static_cast<std::uint32_t>(runs.views.size()));
@@ -113,18 +114,18 @@ Payload map_payload(const map_coding::Runs& runs) {
 }
 
 Payload map_payload(const Ring& ring) {
-    return map_payload(map_coding::runs_of(ring.cells, ring.u_cells));
+    return map_payload(map_coding::encode_runs(ring.cells, ring.u_cells));
 }
 
 ChunkKind map_chunk() {
     return {.name = kMap,
-            .each = OneFor::ring,
+            .each = ChunkScope::ring,
             .stage = ReadStage::maps,
             .payload = [](const RaySpaceObject& object, std::uint32_t r) { return map_payload(object.rings[r]); },
             .memory = map_memory,
             .parse = parse_map,
             .validate = check_cells,
-            .held_bytes = held_by_map};
+            .heap_bytes = held_by_map};
 }
 
 }  // namespace rs::object_chunks

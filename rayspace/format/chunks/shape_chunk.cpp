@@ -157,14 +157,14 @@ Status check_cell(const ShapeCell& cell) {
     return {};
 }
 
-Result<ChunkMemory> shape_memory(Bytes payload, UnreadObject& unread, std::uint32_t index) {
-    RS_ASSIGN_OR_RETURN(const auto coded, parse_shape_head(payload, unread.object.rings[index]));
+Result<ChunkMemory> shape_memory(Bytes payload, PartialObject& partial, std::uint32_t index) {
+    RS_ASSIGN_OR_RETURN(const auto coded, parse_shape_head(payload, partial.object.rings[index]));
     return ChunkMemory{.kept_bytes = coded.cells * sizeof(ShapeCell)};
 }
 
-Status parse_shape(Bytes payload, UnreadObject& unread, std::uint32_t index) {
-    const auto coded = parse_shape_head(payload, unread.object.rings[index]);
-    return coded ? parse_shape_cells(*coded, unread.object.rings[index].shape) : coded.error();
+Status parse_shape(Bytes payload, PartialObject& partial, std::uint32_t index) {
+    const auto coded = parse_shape_head(payload, partial.object.rings[index]);
+    return coded ? parse_shape_cells(*coded, partial.object.rings[index].shape) : coded.error();
 }
 
 Status check_shape_of_ring(const RaySpaceObject& object, std::uint32_t index) {
@@ -174,7 +174,7 @@ Status check_shape_of_ring(const RaySpaceObject& object, std::uint32_t index) {
 
 std::int64_t held_by_shape(const RaySpaceObject& object, std::uint32_t index) {
     const ShapeMap& shape = object.rings[index].shape;
-    return held_by(shape.gaps) + held_by(shape.normal_lines) + held_by(shape.cells);
+    return heap_bytes_of(shape.gaps) + heap_bytes_of(shape.normal_lines) + heap_bytes_of(shape.cells);
 }
 
 }  // namespace
@@ -182,7 +182,7 @@ std::int64_t held_by_shape(const RaySpaceObject& object, std::uint32_t index) {
 Payload shape_payload(const Ring& ring) {
     const ShapeMap& shape = ring.shape;
     RS_CHECK(!shape.empty());
-    const Payload cells = shape_coding::coded_cells(shape);
+    const Payload cells = shape_coding::encode_cells(shape);
     ByteWriter out;
     out.put(kCoding);
     out.put(static_cast<std::uint8_t>(shape.jump));
@@ -251,7 +251,7 @@ Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Rin
 
 Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape) {
     shape.cells.assign(static_cast<std::size_t>(coded.cells), ShapeCell{});
-    shape_coding::put_cells(coded.bytes, shape);
+    shape_coding::decode_cells(coded.bytes, shape);
     const std::uint64_t found = surfaces_of(shape);
     if (found != coded.surfaces) {
         return Error{"claims " + std::to_string(coded.surfaces) + " cells with a surface, but has " +
@@ -281,14 +281,14 @@ Status check_shape(const Ring& ring) {
 
 ChunkKind shape_chunk() {
     return {.name = kShape,
-            .each = OneFor::ring,
+            .each = ChunkScope::ring,
             .stage = ReadStage::maps,
-            .is_there = [](const RaySpaceObject& object, std::uint32_t r) { return !object.rings[r].shape.empty(); },
+            .is_present = [](const RaySpaceObject& object, std::uint32_t r) { return !object.rings[r].shape.empty(); },
             .payload = [](const RaySpaceObject& object, std::uint32_t r) { return shape_payload(object.rings[r]); },
             .memory = shape_memory,
             .parse = parse_shape,
             .validate = check_shape_of_ring,
-            .held_bytes = held_by_shape};
+            .heap_bytes = held_by_shape};
 }
 
 }  // namespace rs::object_chunks

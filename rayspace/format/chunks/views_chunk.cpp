@@ -23,8 +23,8 @@ Payload views_payload(const RaySpaceObject& object, std::uint32_t) {
     return out.bytes();
 }
 
-Status parse_views(Bytes payload, UnreadObject& unread, std::uint32_t) {
-    std::vector<CapturedView>& views = unread.object.views;
+Status parse_views(Bytes payload, PartialObject& partial, std::uint32_t) {
+    std::vector<CapturedView>& views = partial.object.views;
     if (payload.size() != views.size() * kView_bytes) {
         return wrong_size(payload.size(), views.size() * kView_bytes);
     }
@@ -68,7 +68,7 @@ Status check_views(const RaySpaceObject& object, std::uint32_t) {
 
 std::int64_t held_by_views(const RaySpaceObject& object, std::uint32_t) {
     std::int64_t bytes = 0;
-    for (const CapturedView& view : object.views) bytes += held_by(view.lines);
+    for (const CapturedView& view : object.views) bytes += heap_bytes_of(view.lines);
     return bytes;
 }
 
@@ -79,7 +79,7 @@ ChunkKind views_chunk() {
             .payload = views_payload,
             .parse = parse_views,
             .validate = check_views,
-            .held_bytes = held_by_views};
+            .heap_bytes = held_by_views};
 }
 
 }  // namespace rs::object_chunks

@@ -17,7 +17,7 @@ class ColourProfile {
 public:
     /// Creates the transform; nullopt if the bytes are not a profile of RGB images, or if all colours are within two
     /// 8-bit codes of sRGB.
-    static std::optional<ColourProfile> unlike_srgb(std::span<const std::byte> icc);
+    static std::optional<ColourProfile> create_unless_srgb(std::span<const std::byte> icc);
 
     ColourProfile(ColourProfile&& other) noexcept
         : of_codes_(std::exchange(other.of_codes_, nullptr)), of_floats_(std::exchange(other.of_floats_, nullptr)) {}

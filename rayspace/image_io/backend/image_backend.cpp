@@ -156,7 +156,7 @@ RgbaF pixel_of(const T* sample, const Channels& channels) {
 std::optional<ColourProfile> profile_of(const OpenedImage& opened) {
     const OIIO::ParamValue* const icc = opened.input->spec().find_attribute("ICCProfile");
     if (icc == nullptr || icc->type().basetype != OIIO::TypeDesc::UINT8) return std::nullopt;
-    return ColourProfile::unlike_srgb({static_cast<const std::byte*>(icc->data()), icc->type().size()});
+    return ColourProfile::create_unless_srgb({static_cast<const std::byte*>(icc->data()), icc->type().size()});
 }
 
 Result<ImageInfo> read_info(const std::string& path, int max_side_px) {

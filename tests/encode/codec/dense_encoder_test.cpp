@@ -316,8 +316,8 @@ TEST_F(Goals, SizeIsKeptAndUsed) {
     goal.images_bytes = 4000;
     const auto encoded = encode(goal);
     ASSERT_TRUE(encoded.ok()) << encoded.error().message;
-    EXPECT_LE(coded_bytes(encoded->coded), 4000U);
-    EXPECT_GE(coded_bytes(encoded->coded), 3000U);
+    EXPECT_LE(count_coded_bytes(encoded->coded), 4000U);
+    EXPECT_GE(count_coded_bytes(encoded->coded), 3000U);
 }
 
 TEST_F(Goals, WhatCannotBeReachedIsSaid) {

@@ -80,7 +80,7 @@ TEST_P(MotionSearchTest, NoWholeVectorInReachIsBetter) {
     const MotionVector from{5, -3};
     for (const std::uint8_t* mixed : {static_cast<const std::uint8_t*>(nullptr), other.data()}) {
         for (const MotionVector start : {MotionVector{0, 0}, MotionVector{9, -6}, MotionVector{-64, 0}}) {
-            const FoundMotion found = find_motion(search_, std::vector{start}, from, mixed);
+            const MotionMatch found = search_motion(search_, std::vector{start}, from, mixed);
             float least = std::numeric_limits<float>::infinity();
             const int x0 = (start.x + 2) >> 2;
             const int y0 = (start.y + 2) >> 2;
@@ -111,7 +111,7 @@ TEST_P(MotionSearchTest, AQuarterOfASampleIsFound) {
         Image<std::uint8_t>& y_plane = moved.planes[0];
         codec::predict_from_image(search_.reference, search_.x, search_.y, truth, search_.size,
                                   y_plane.row(search_.y) + search_.x, y_plane.view().stride());
-        const FoundMotion found = find_motion(search_, std::vector{MotionVector{0, 0}}, {0, 0});
+        const MotionMatch found = search_motion(search_, std::vector{MotionVector{0, 0}}, {0, 0});
         EXPECT_EQ(found.vector, truth);
         EXPECT_EQ(found.cost, 0);
     }

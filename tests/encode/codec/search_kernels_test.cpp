@@ -138,12 +138,12 @@ TEST(CostTable, LevelsCostWhatTheirDecisionsDo) {
         const int near = static_cast<int>(random() % 5);
         const bool must_be = random() % 2 == 0;
         const int level = static_cast<int>(random() % 40) + (must_be ? 1 : 0);
-        Estimator bits(costs);
+        CostEstimator bits(costs);
         codec::syntax::magnitude(bits, kind, band, near, must_be, level);
         ASSERT_NEAR(costs.level(kind, band, near, must_be, level), bits.bits() + (level != 0 ? 1.0F : 0.0F), 1e-4);
         const int size = (kind & 2) != 0 ? 16 : 8;
         const int place = static_cast<int>(random() % static_cast<unsigned>(size * size));
-        Estimator of_place(costs);
+        CostEstimator of_place(costs);
         codec::syntax::last_place(of_place, kind, size, place);
         ASSERT_NEAR(costs.last_place(kind, place), of_place.bits(), 1e-4);
     }
@@ -165,9 +165,9 @@ TEST(SearchEffort, MoreOfItGivesABetterBargain) {
         for (const auto& image : encoded.coded.images) bytes += static_cast<double>(image.bytes.size());
         return bytes * std::pow(10.0, -encoded.psnr_db / 16);
     };
-    const double most = price(kMostEffort);
+    const double most = price(kMaxEffort);
     EXPECT_LT(most, price(kLeastEffort));
-    EXPECT_LT(price(kUsualEffort), 1.1 * most);
+    EXPECT_LT(price(kDefaultEffort), 1.1 * most);
     EXPECT_LT(price(kLeastEffort), 1.3 * most);
 }
 

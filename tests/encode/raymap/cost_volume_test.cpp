@@ -18,7 +18,7 @@ const DepthRange kRange{-1.03, 2.06 / 127, 128};
 
 // All levels are allowed, since the hull excludes none.
 CostVolume every_level(const WorkView& view) {
-    return levels_within(SampledHull(VisualHull({}, 1), 0.05), view, kRange);
+    return create_volume(SampledHull(VisualHull({}, 1), 0.05), view, kRange);
 }
 
 std::vector<DepthView> without_depths(const std::vector<WorkView>& views) {
@@ -33,7 +33,7 @@ TEST(CostVolume, HasTheLevelsThatTheHullAllows) {
     WorkView view = views[0];
     // A corner of the image outside of every silhouette.
     for (int row = 0; row < 4; ++row) view.columns(row, 0) = {1, 2, 3, 255};
-    const CostVolume volume = levels_within(hull, view, kRange);
+    const CostVolume volume = create_volume(hull, view, kRange);
     int between = 0;
     std::size_t levels = 0;
     for (int column = volume.box.left; column < volume.box.right; ++column) {
@@ -74,8 +74,8 @@ TEST(CostVolume, OfAMaskOnlyItsPixelsAreSearched) {
     for (int row = 0; row < view.height / 2; ++row) {
         for (int column = 0; column < view.width; column += 3) only(row, column) = 255;
     }
-    const CostVolume all = levels_within(hull, view, kRange);
-    const CostVolume some = levels_within(hull, view, kRange, &only);
+    const CostVolume all = create_volume(hull, view, kRange);
+    const CostVolume some = create_volume(hull, view, kRange, &only);
     int searched = 0;
     for (int column = all.box.left; column < all.box.right; ++column) {
         for (int row = all.box.top; row < all.box.bottom; ++row) {
@@ -96,7 +96,7 @@ TEST(CostVolume, ColoursFindTheDepthOfTheBalls) {
     const std::vector<WorkView> views = drawn_views(drawn_ring(60));
     const std::vector<DepthView> all = without_depths(views);
     const SampledHull hull(VisualHull(pointers(views), 1), 0.005);
-    CostVolume costs = levels_within(hull, views[0], kRange);
+    CostVolume costs = create_volume(hull, views[0], kRange);
     match_colours(costs, views[0], {{&all[1], &all[59]}, {}}, kRange);
     const Image<float> levels = semi_global_levels(views[0], costs, {});
     // The balls' shading rotates with the viewer, so that colours agree at the middle of the big ball, which is on the
@@ -169,11 +169,11 @@ TEST(CostVolume, WhatNeighboursShowTellsTheDepth) {
         const std::vector<int> of_left = costs({{&left}, {}});
         const auto least = std::min_element(of_left.begin(), of_left.end()) - of_left.begin();
         EXPECT_NEAR(static_cast<double>(least), truth, 2) << row;
-        EXPECT_EQ(of_left[at_truth + 30], kMostCost) << row;
-        EXPECT_EQ(of_left[at_truth - 15], kMostCost) << row;
+        EXPECT_EQ(of_left[at_truth + 30], kMaxCost) << row;
+        EXPECT_EQ(of_left[at_truth - 15], kMaxCost) << row;
         for (const Neighbours& both : {Neighbours{{&left, &right}, {}}, Neighbours{{&right}, {&left}}}) {
             EXPECT_LT(costs(both)[at_truth], 10) << row;
-            EXPECT_EQ(costs(both).front(), kMostCost) << row;
+            EXPECT_EQ(costs(both).front(), kMaxCost) << row;
         }
         EXPECT_GT(costs({{&right}, {}})[at_truth], 50) << row;
         for (const int cost : costs({{&blind}, {}})) EXPECT_EQ(cost, 0);

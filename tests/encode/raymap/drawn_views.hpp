@@ -42,7 +42,7 @@ inline std::vector<const WorkView*> pointers(const std::vector<WorkView>& views)
 /// Plain version of heights_above: tests one point against every silhouette.
 inline bool is_allowed(const std::vector<WorkView>& views, const glm::dvec2& place, double y, int margin) {
     for (const WorkView& view : views) {
-        const SeenColumn seen = view.see(place);
+        const ProjectedColumn seen = view.see(place);
         if (seen.axial <= 0 || seen.column < 0 || seen.column >= view.width) continue;
         const double row = view.row_of(y, seen.axial);
         if (row < 0 || row >= view.height) continue;

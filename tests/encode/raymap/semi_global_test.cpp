@@ -43,7 +43,7 @@ Pixels random_pixels(int width, int height, int levels, std::mt19937_64& random)
             pixel = {static_cast<std::uint32_t>(made.volume.costs.size()), static_cast<std::uint16_t>(first),
                      static_cast<std::uint16_t>(count)};
             for (int n = 0; n < count; ++n) {
-                made.volume.costs.push_back(static_cast<std::uint8_t>(random() % kMostCost));
+                made.volume.costs.push_back(static_cast<std::uint8_t>(random() % kMaxCost));
             }
         }
     }

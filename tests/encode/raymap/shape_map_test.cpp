@@ -126,7 +126,7 @@ TEST(ShapeMap, APartThatOneCutOutLacksIsNotLostSeenFromElsewhere) {
 }
 
 // Makes a square of an image of a set transparent.
-void cut_away(const std::filesystem::path& image_file, int left, int top, int side) {
+void make_transparent(const std::filesystem::path& image_file, int left, int top, int side) {
     Result<Image<Rgba8>> image = read_image(image_file);
     ASSERT_TRUE(image.ok());
     for (int y = top; y < top + side; ++y) {
@@ -139,7 +139,7 @@ TEST(ShapeMap, ALargePartThatFewCutOutsLackIsPaintedFromThoseBeside) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", drawn_ring(24), mottled_ball);
     test::write_drawn_set(folder / "whole", drawn_ring(24), mottled_ball);
-    for (const char* const lacking : {"7.png", "15.png"}) cut_away(folder / "set" / lacking, 48, 40, 32);
+    for (const char* const lacking : {"7.png", "15.png"}) make_transparent(folder / "set" / lacking, 48, 40, 32);
     const BuiltObject built = build(folder / "set");
     std::vector<int> completed;
     for (const auto& [view, image] : built.completed) completed.push_back(view);
@@ -176,7 +176,7 @@ TEST(ShapeMap, ExactSilhouettesAreNotSearchedForWhatTheyLack) {
     build(folder / "set", MapKind::kShape, &whole);
     EXPECT_THAT(whole.labels, Contains("depth"));
     EXPECT_THAT(whole.labels, Not(Contains("depth at half size")));
-    cut_away(folder / "set" / "7.png", 20, 56, 32);
+    make_transparent(folder / "set" / "7.png", 20, 56, 32);
     build(folder / "set", MapKind::kShape, &lacking);
     EXPECT_THAT(lacking.labels, Contains("depth at half size"));
     // Inaccurate cameras: the silhouettes agree within some pixels only.
@@ -195,7 +195,7 @@ TEST(ShapeMap, ExactSilhouettesAreNotSearchedForWhatTheyLack) {
 TEST(ShapeMap, WhereManyCutOutsSeemToLackAPartTheRigIsAtFault) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", drawn_ring(24), mottled_ball);
-    const auto cut = [&](int view) { cut_away(folder / "set" / (std::to_string(view) + ".png"), 40, 32, 48); };
+    const auto cut = [&](int view) { make_transparent(folder / "set" / (std::to_string(view) + ".png"), 40, 32, 48); };
     for (const int view : {0, 5, 10, 14}) cut(view);
     EXPECT_EQ(build(folder / "set").completed.size(), 4U);
     cut(19);

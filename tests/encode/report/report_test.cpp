@@ -95,7 +95,7 @@ TEST(HtmlPage, IsWellFormedAndHoldsWhatWasAdded) {
 TEST(HtmlPage, AImageInsideIsTheImageScaledDown) {
     Image<Rgba8> image(600, 300, {200, 100, 50, 255});
     const std::vector<CaptionedImage> row{{image, "wide \"one\""}, {Image<Rgba8>(20, 40, {1, 2, 3, 255}), "small"}};
-    HtmlPage page("pictures");
+    HtmlPage page("images");
     ASSERT_TRUE(page.images(row, 150).ok());
     const std::string text = page.text();
     EXPECT_EQ(unbalanced_tag(text), "");
@@ -217,24 +217,24 @@ TEST(LinePlot, LongNamesGetRoom) {
 TEST(RingPlan, AMissingImageOfAnEvenTurnIsSeen) {
     std::vector<double> azimuths;
     for (int n = 0; n < 36; ++n) azimuths.push_back(radians(10.0 * n));
-    EXPECT_TRUE(missing_sectors(azimuths).empty());
+    EXPECT_TRUE(find_missing_sectors(azimuths).empty());
     azimuths.erase(azimuths.begin() + 5);
-    const auto one = missing_sectors(azimuths);
+    const auto one = find_missing_sectors(azimuths);
     ASSERT_EQ(one.size(), 1U);
     EXPECT_NEAR(degrees(one[0].from_rad), 40, 1e-9);
     EXPECT_NEAR(degrees(one[0].to_rad), 60, 1e-9);
     azimuths.resize(20);  // up to 200 degrees: the rest of the turn is missing, across +Z
-    const auto two = missing_sectors(azimuths);
+    const auto two = find_missing_sectors(azimuths);
     ASSERT_EQ(two.size(), 2U);
     EXPECT_NEAR(degrees(two[1].from_rad), 200, 1e-9);
     EXPECT_NEAR(degrees(two[1].to_rad), 360, 1e-9);
-    EXPECT_TRUE(missing_sectors({0, 1}).empty());
+    EXPECT_TRUE(find_missing_sectors({0, 1}).empty());
 }
 
 TEST(RingPlan, ShowsEveryCameraWhereItStands) {
     Rig rig = make_ring({.count = 12, .distance = 3.5, .fl_px = 60, .width = 48, .height = 40});
     rig.object_radius = 1;
-    std::string svg = svg_of_rings(rig);
+    std::string svg = draw_ring_plan(rig);
     EXPECT_EQ(unbalanced_tag(svg), "") << svg;
     EXPECT_EQ(occurrences(svg, "<path"), 12U);
     // 340 px with a margin of 26: the first camera, on +Z, is at the bottom, the fourth, on +X, to the right.
@@ -242,7 +242,7 @@ TEST(RingPlan, ShowsEveryCameraWhereItStands) {
     EXPECT_THAT(svg, HasSubstr("<path d=\"M314.00 170.00L"));
     EXPECT_TRUE(describe_missing_sectors(rig).empty());
     rig.views.erase(rig.views.begin() + 3);
-    EXPECT_EQ(occurrences(svg_of_rings(rig), "var(--bad)"), 2U);
+    EXPECT_EQ(occurrences(draw_ring_plan(rig), "var(--bad)"), 2U);
     ASSERT_EQ(describe_missing_sectors(rig).size(), 1U);
     EXPECT_EQ(describe_missing_sectors(rig)[0], "from 60.00 to 120.00 degrees (ring 1)");
 }
@@ -250,7 +250,7 @@ TEST(RingPlan, ShowsEveryCameraWhereItStands) {
 BuildReport small_report() {
     BuildReport report;
     report.name = "vase <1>";
-    report.facts = {{"pictures", "12 of 48x40"}};
+    report.facts = {{"images", "12 of 48x40"}};
     report.stages = {{"RS map", 0.25}};
     report.chunks = {{"PICT", 12, 3000}, {"RMAP", 1, 1000}};
     report.rig = make_ring({.count = 12, .fl_px = 60, .width = 48, .height = 40});

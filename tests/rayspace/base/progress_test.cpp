@@ -11,7 +11,7 @@ using namespace rs;
 using testing::HasSubstr;
 
 // stderr is captured into a file, as for logs and pipes: one line per tenth.
-std::string drawn_by(bool quiet, std::chrono::milliseconds silence) {
+std::string capture_output(bool quiet, std::chrono::milliseconds silence) {
     testing::internal::CaptureStderr();
     {
         ProgressBar bar(quiet, silence);
@@ -24,15 +24,15 @@ std::string drawn_by(bool quiet, std::chrono::milliseconds silence) {
 }
 
 TEST(ProgressBar, ShortWorkShowsNothing) {
-    EXPECT_EQ(drawn_by(false, std::chrono::hours(1)), "");
+    EXPECT_EQ(capture_output(false, std::chrono::hours(1)), "");
 }
 
 TEST(ProgressBar, QuietShowsNothing) {
-    EXPECT_EQ(drawn_by(true, std::chrono::milliseconds(0)), "");
+    EXPECT_EQ(capture_output(true, std::chrono::milliseconds(0)), "");
 }
 
 TEST(ProgressBar, LongWorkShowsEveryTenthOnce) {
-    const std::string text = drawn_by(false, std::chrono::milliseconds(0));
+    const std::string text = capture_output(false, std::chrono::milliseconds(0));
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10) << text;
     EXPECT_THAT(text, HasSubstr("working: 10 %"));
     EXPECT_THAT(text, HasSubstr("working: 100 %"));

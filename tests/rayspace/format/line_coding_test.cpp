@@ -72,10 +72,10 @@ TEST(LineCoding, ComesBackAsTheDocumentSays) {
                 line.*field = random.whole(0, 4) == 0 ? kEnds[random.whole(0, 4)] : random.whole(kEnds[0], kEnds[4]);
             }
         }
-        const std::vector<std::uint8_t> plane = line_coding::residual_plane(lines, planes);
+        const std::vector<std::uint8_t> plane = line_coding::encode_residuals(lines, planes);
         ASSERT_EQ(plane.size(), lines.size() * line_coding::kBytesPerLine);
         Lines back(lines.size());
-        line_coding::put_residuals(plane, planes, back);
+        line_coding::decode_residuals(plane, planes, back);
         EXPECT_EQ(back, lines);
         EXPECT_EQ(decoded_from_the_document(plane, 5, planes), lines) << planes;
     }
@@ -87,9 +87,9 @@ TEST(LineCoding, AnyBytesAreLines) {
         std::vector<std::uint8_t> plane(static_cast<std::size_t>(planes) * 3 * line_coding::kBytesPerLine);
         for (std::uint8_t& byte : plane) byte = static_cast<std::uint8_t>(random.whole(0, 255));
         Lines lines(static_cast<std::size_t>(planes) * 3);
-        line_coding::put_residuals(plane, planes, lines);
+        line_coding::decode_residuals(plane, planes, lines);
         EXPECT_EQ(decoded_from_the_document(plane, 3, planes), lines);
-        EXPECT_EQ(line_coding::residual_plane(lines, planes), plane);
+        EXPECT_EQ(line_coding::encode_residuals(lines, planes), plane);
     }
 }
 
@@ -99,7 +99,7 @@ TEST(LineCoding, LinesOfCamerasTakeFewBytes) {
     options.views_per_ring = 36;
     options.planes = 12;
     const RaySpaceObject object = test::small_object(options);
-    const std::vector<std::uint8_t> plane = line_coding::residual_plane(lines_of(object), 12);
+    const std::vector<std::uint8_t> plane = line_coding::encode_residuals(lines_of(object), 12);
     for (std::size_t field : {0U, 2U}) {  // constant over a view's planes
         for (std::size_t i = 0; i < 36 * 12; ++i) {
             if (i % 12 != 0) {

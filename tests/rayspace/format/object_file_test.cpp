@@ -227,7 +227,7 @@ TEST(ObjectFile, NumbersAreCheckedBeforeTheyAllocate) {
     const auto map = [](const std::function<void(map_coding::Runs&)>& change) {
         return error_after([&](Chunks& chunks) {
             const Ring small = small_object().rings[0];
-            map_coding::Runs runs = map_coding::runs_of(small.cells, small.u_cells);
+            map_coding::Runs runs = map_coding::encode_runs(small.cells, small.u_cells);
             change(runs);
             find(chunks, "RMAP").payload = object_chunks::map_payload(runs);
         });
@@ -275,7 +275,7 @@ TEST(ObjectFile, RigsMayBeTextOrFrames) {
         });
     };
     const auto frame = [](const std::string& text) {
-        const auto bytes = zstd_frame({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+        const auto bytes = compress_zstd({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
         return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     };
     const std::string text = test::small_object().rig_json;
@@ -295,7 +295,7 @@ TEST(ObjectFile, MemoryIsCapped) {
     options.memory_cap_bytes = 2000;
     // The map takes 2048 bytes, each image 300; the map's runs are in memory twice during decompression.
     const Ring small = small_object().rings[0];
-    const std::uint64_t runs = map_coding::runs_of(small.cells, small.u_cells).views.size();
+    const std::uint64_t runs = map_coding::encode_runs(small.cells, small.u_cells).views.size();
     const std::uint64_t expanding = 2 * map_coding::residual_bytes(64, runs);
     EXPECT_THAT(error_after([](Chunks& chunks) { find(chunks, "RIGJ").payload.clear(); }, options),
                 HasSubstr("needs 1 MiB of memory, more than"));

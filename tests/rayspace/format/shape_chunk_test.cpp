@@ -122,7 +122,7 @@ TEST(ShapeChunk, DepthsSettleOnTheirPredictions) {
         std::fill(shape.cells.begin(), shape.cells.end(), ShapeCell{});
         constexpr int kDepths[] = {100, 101, 103, 102, 104};
         for (std::size_t i = 0; i < 5; ++i) shape.cells[i] = {static_cast<std::uint8_t>(kDepths[i]), 1};
-        shape_coding::settle_depths(shape, tolerance);
+        shape_coding::snap_depths(shape, tolerance);
         std::vector<int> depths;
         for (std::size_t i = 0; i < 6; ++i) depths.push_back(shape.cells[i].depth);
         return depths;

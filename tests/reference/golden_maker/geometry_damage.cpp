@@ -38,7 +38,7 @@ map_coding::Runs runs_in(const Bytes& map, std::size_t rows) {
     constexpr std::size_t kFrame = 4;
     const Bytes content = content_of(Bytes(map.begin() + kFrame, map.end()));
     const std::span plane(reinterpret_cast<const std::uint8_t*>(content.data()), content.size());
-    return map_coding::runs_of_residuals(plane, rows, (plane.size() - 2 * rows) / 4);
+    return map_coding::decode_run_residuals(plane, rows, (plane.size() - 2 * rows) / 4);
 }
 Damage map(const std::string& name, const std::string& words, const std::function<void(map_coding::Runs&)>& change,
            const std::string& base = kBase) {

@@ -162,20 +162,20 @@ TEST(VectorQuantiser, FindsCentresAndIgnoresWhatDoesNotMatter) {
                                                               : static_cast<int>(random() % 400) - 200);
         }
     }
-    const TrainedBook book = train_book(vectors, 32);
+    const Codebook book = train_codebook(vectors, 32);
     ASSERT_EQ(book.count(), 32U);
     for (std::size_t d = 0; d < 16; ++d) EXPECT_EQ(book.entries[d], 0);
     for (const auto& centre : centres) {
         std::int16_t values[16];
         const std::int16_t weights[16] = {6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6};
         for (std::size_t d = 0; d < 16; ++d) values[d] = static_cast<std::int16_t>(centre[d]);
-        EXPECT_LE(nearest_entry(book, values, weights).distance, 6 * 16 * 2);
+        EXPECT_LE(find_nearest_entry(book, values, weights).distance, 6 * 16 * 2);
     }
 }
 
 TEST(VectorQuantiser, NearestIsTheFirstOfTheNearest) {
     std::mt19937 random(6);
-    TrainedBook book;
+    Codebook book;
     book.dimensions = 96;
     for (int i = 0; i < 96 * 64; ++i)
         book.entries.push_back(static_cast<std::int16_t>(static_cast<int>(random() % 7) - 3));
@@ -200,7 +200,7 @@ TEST(VectorQuantiser, NearestIsTheFirstOfTheNearest) {
                 best_distance = distance;
             }
         }
-        const Nearest found = nearest_entry(book, values, weights);
+        const Nearest found = find_nearest_entry(book, values, weights);
         EXPECT_EQ(found.index, best);
         EXPECT_EQ(found.distance, best_distance);
     }

@@ -57,7 +57,7 @@ TEST_F(LostPart, IsFoundWithItsGapsAndThoseBesideTheObject) {
         return c >= kLeft + 2 && c < kTo && r >= kTop + 2 && r < kBottom - 2 && c != 40 &&
                !(c > 43 && c < 46 && r == 30);
     });
-    const Image<float> part = lost_part(view_, missing_);
+    const Image<float> part = select_lost_part(view_, missing_);
     for_each([&](int c, int r) {
         const bool inside = c >= kLeft && c < kTo - 2 && r >= kTop && r < kBottom;
         if (inside) {
@@ -72,19 +72,19 @@ TEST_F(LostPart, HasSmoothDepths) {
     miss(bitten);
     missing_(30, 40) = 0.9F;
     missing_(33, 45) = -0.9F;
-    const Image<float> part = lost_part(view_, missing_);
+    const Image<float> part = select_lost_part(view_, missing_);
     EXPECT_EQ(part(30, 40), 0.25F);
     EXPECT_EQ(part(33, 45), 0.25F);
 }
 
 TEST_F(LostPart, IsNothingWhereFewPointsAreMissing) {
     miss([](int c, int r) { return bitten(c, r) && c % 2 == 0 && r % 2 == 0; });
-    EXPECT_EQ(count_of(lost_part(view_, missing_)), 0);
+    EXPECT_EQ(count_of(select_lost_part(view_, missing_)), 0);
 }
 
 TEST_F(LostPart, IsNoStripAlongARim) {
     miss([](int c, int r) { return c >= kFrom && c < kTo && r >= kFrom - 5 && r < kFrom; });
-    EXPECT_EQ(count_of(lost_part(view_, missing_)), 0);
+    EXPECT_EQ(count_of(select_lost_part(view_, missing_)), 0);
 }
 
 TEST_F(LostPart, DoesNotFloat) {
@@ -92,10 +92,10 @@ TEST_F(LostPart, DoesNotFloat) {
         return [left](int c, int r) { return c >= left && c < left + 14 && r >= kTop + 4 && r < kTop + 18; };
     };
     miss(square(kTo - 14));
-    EXPECT_EQ(count_of(lost_part(view_, missing_)), 0);  // the object is at none of its sides
+    EXPECT_EQ(count_of(select_lost_part(view_, missing_)), 0);  // the object is at none of its sides
     missing_ = Image<float>(kSide, kSide, kNoDepth);
     miss([](int c, int r) { return c < kFrom && r >= 20 && r < 40; });
-    EXPECT_EQ(count_of(lost_part(view_, missing_)), 0);  // the object is at one of its sides
+    EXPECT_EQ(count_of(select_lost_part(view_, missing_)), 0);  // the object is at one of its sides
 }
 
 // A ring about a ball, with images twice as large as the views; one lacks its middle.

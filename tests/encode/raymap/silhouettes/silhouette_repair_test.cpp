@@ -67,7 +67,7 @@ protected:
         const SampledHull searched(VisualHull(silhouettes(), searched_margin), 0.01);
         std::vector<std::vector<RuledOutPoint>> found;
         for (int n = 0; n < kViews; ++n) {
-            found.push_back(ruled_out(ring_[static_cast<std::size_t>(n)], beside(n), kTolerance, searched, hull));
+            found.push_back(find_ruled_out(ring_[static_cast<std::size_t>(n)], beside(n), kTolerance, searched, hull));
         }
         return found;
     }
@@ -158,7 +158,7 @@ TEST_F(SilhouetteRepair, SoftPixelsSayNothing) {
 
 TEST_F(SilhouetteRepair, WhatMayLieBeforeTheObjectIsNotMissing) {
     const WorkView& view = ring_[0].view;
-    const PlaceInSpace beside{{1.05, 0}, 0}, before{{0, 0}, 0};
+    const SpacePoint beside{{1.05, 0}, 0}, before{{0, 0}, 0};
     const auto missing = [&](const RuledOutPoint& point) {
         return count_of(missing_depths(view, std::vector<std::vector<RuledOutPoint>>{{point}}));
     };
@@ -172,7 +172,7 @@ TEST_F(SilhouetteRepair, WhatLeavesTheFrameMayBeObject) {
     const WorkView& view = ring_[0].view;
     const auto missing_at = [&](double column) {
         const HorizontalRay ray = view.ray_of(column);
-        const PlaceInSpace point{ray.place_at(0), 0};
+        const SpacePoint point{ray.place_at(0), 0};
         return count_of(missing_depths(view, std::vector<std::vector<RuledOutPoint>>{{{point, point, point}}}));
     };
     EXPECT_EQ(missing_at(1.5), 1);
@@ -197,13 +197,13 @@ TEST_F(SilhouetteRepair, FillsBlocksOfTwoAndWhatIsNextToThem) {
 TEST(HalvedView, DropsWhatIsLeftOverAndFillsUpToTheEdge) {
     const Camera camera = drawn_ring(8).views[1].camera;
     WorkView odd = make_work_view(camera, Image<Rgba8>(7, 5, {40, 80, 120, 255}), 1);
-    const WorkView half = halved(odd);
+    const WorkView half = halve(odd);
     EXPECT_EQ(half.width, 3);
     EXPECT_EQ(half.height, 2);
     for (Rgba8& pixel : odd.columns.pixels()) pixel.a = 0;
     fill_missing(odd, Image<float>(2, 3, 0.0F));
     EXPECT_TRUE(std::ranges::all_of(odd.columns.pixels(), [](const Rgba8& pixel) { return pixel.a == 255; }));
-    EXPECT_EQ(halved(make_work_view(camera, Image<Rgba8>(1, 1), 1)).width, 0);
+    EXPECT_EQ(halve(make_work_view(camera, Image<Rgba8>(1, 1), 1)).width, 0);
 }
 
 TEST(HalvedView, SeesPointsAtHalfTheirPlaceInMeansOfFourPixels) {
@@ -212,7 +212,7 @@ TEST(HalvedView, SeesPointsAtHalfTheirPlaceInMeansOfFourPixels) {
     image(10, 21) = {80, 80, 120, 255};
     image(11, 20) = {0, 0, 0, 0};
     const WorkView whole = make_work_view(camera, image, 1);
-    const WorkView half = halved(whole);
+    const WorkView half = halve(whole);
     EXPECT_EQ(half.width, 64);
     EXPECT_EQ(half.height, 56);
     const glm::dvec2 place(0.3, -0.2);

@@ -132,7 +132,7 @@ TEST(SampledHull, HasTheHeightsOfTheNextPointOfItsGrid) {
         const VisualHull hull(pointers(views), 1, tolerated);
         const SampledHull sampled(hull, kSpacing);
         std::mt19937 random(4);
-        std::uniform_real_distribution<double> along(-kDeepest, kDeepest);
+        std::uniform_real_distribution<double> along(-kMaxDepth, kMaxDepth);
         std::vector<Interval> wanted;
         int with_some = 0;
         for (int n = 0; n < 3000; ++n) {
@@ -160,7 +160,7 @@ public:
         double y = 0;
     };
     [[nodiscard]] Point at(int p_cell, int band, double depth) const {
-        const double p = -kDeepest + (p_cell + 0.5) * 2 * kDeepest / map_.p_cells;
+        const double p = -kMaxDepth + (p_cell + 0.5) * 2 * kMaxDepth / map_.p_cells;
         const double sine = p / glm::length(viewpoint_);
         const glm::dvec2 inwards = -glm::normalize(viewpoint_);
         const glm::dvec2 along = inwards * std::sqrt(1 - sine * sine) + glm::dvec2(-inwards.y, inwards.x) * sine;
@@ -207,7 +207,7 @@ TEST(ShapeLines, NothingFloatsBesideTheObjectWhereSilhouettesAgree) {
     ASSERT_EQ(all.gaps[0].lines, 1) << "which looks from halfway";
     const std::uint32_t line = all.gaps[0].first_line;
     const auto allowed = [&](int pi, int hi) {
-        for (double depth = -kDeepest; depth <= kDeepest; depth += 0.01) {
+        for (double depth = -kMaxDepth; depth <= kMaxDepth; depth += 0.01) {
             const CellPlaces::Point point = places.at(pi, hi, depth);
             if (is_allowed(views, point.place, point.y, 2)) return true;
         }
@@ -255,7 +255,7 @@ TEST(ShapeLines, NoImageHidesWhatStandsBehind) {
                     std::ldexp(map.depth_low_q20, -20) + cell.depth * std::ldexp(map.depth_step_q24, -24);
                 const CellPlaces::Point point = places.at(pi, hi, depth);
                 const bool hides = std::any_of(gauze.begin(), gauze.begin() + 2, [&](const DepthView& image) {
-                    const SeenColumn seen = image.view.see(point.place);
+                    const ProjectedColumn seen = image.view.see(point.place);
                     const double row = image.view.row_of(point.y, seen.axial);
                     return seen.column >= 0 && seen.column < image.view.width && row >= 0 && row < image.view.height &&
                            std::isnan(image.depth(static_cast<int>(row), static_cast<int>(seen.column)));

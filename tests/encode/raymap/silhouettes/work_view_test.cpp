@@ -33,7 +33,7 @@ TEST(WorkView, PixelsGoToPointsAndBack) {
             const HorizontalRay ray = view.ray_of(column);
             EXPECT_NEAR(glm::dot(ray.foot, ray.along), 0, 1e-12);
             for (const double depth : {-0.8, 0.0, 0.7}) {
-                const SeenColumn seen = view.see(ray.foot + depth * ray.along);
+                const ProjectedColumn seen = view.see(ray.foot + depth * ray.along);
                 EXPECT_NEAR(seen.column, column, 1e-9);
                 EXPECT_NEAR(seen.axial, (ray.to_foot + depth) / ray.horizontal_per_axial, 1e-12);
                 EXPECT_NEAR(view.row_of(view.height_of(17.25, seen.axial), seen.axial), 17.25, 1e-9);

@@ -1,4 +1,4 @@
-#include "encode/tools/report_of_build.hpp"
+#include "encode/tools/report_contents.hpp"
 
 #include <algorithm>
 #include <array>
@@ -35,13 +35,13 @@ Image<float> transposed(const Image<float>& columns) {
 
 }  // namespace
 
-KeptAnswers::KeptAnswers(const HoldOut& hold_out, const std::vector<Method>& methods) {
+EvaluationThumbnails::EvaluationThumbnails(const HoldOut& hold_out, const std::vector<Method>& methods) {
     for (const int n : evenly_spread(static_cast<int>(hold_out.held.size()), kHeldOutShown)) {
         for (const Method method : methods) kept_[{static_cast<std::size_t>(n), method}] = {};
     }
 }
 
-Status KeptAnswers::keep(const AnsweredView& answered) {
+Status EvaluationThumbnails::keep(const EvaluatedView& answered) {
     const auto place = kept_.find({answered.number, answered.method});
     if (place == kept_.end()) return {};
     const std::string name = to_string(answered.method);
@@ -53,7 +53,7 @@ Status KeptAnswers::keep(const AnsweredView& answered) {
     return {};
 }
 
-std::vector<ImageRow> KeptAnswers::rows(const CaptureSet& set) && {
+std::vector<ImageRow> EvaluationThumbnails::rows(const CaptureSet& set) && {
     std::vector<ImageRow> rows;
     std::size_t row_of = 0;
     for (auto& [key, kept] : kept_) {
@@ -69,7 +69,7 @@ std::vector<ImageRow> KeptAnswers::rows(const CaptureSet& set) && {
 }
 
 void add_scores(const CaptureSet& set, const HoldOut& hold_out, const std::string& which,
-                std::vector<MethodScores> scores, KeptAnswers answers, BuildReport& report) {
+                std::vector<MethodScores> scores, EvaluationThumbnails answers, BuildReport& report) {
     report.scores = std::move(scores);
     report.hold_out = "Of " + std::to_string(set.upright.views.size()) + " views, " + which + " was held out, " +
                       std::to_string(hold_out.held.size()) + " in total.";
@@ -84,7 +84,7 @@ Status add_captured_images(const CaptureSet& set, BuildReport& report) {
     return {};
 }
 
-Status add_held_out_views(const CaptureSet& set, int planes, BuildReport& report, Progress* progress) {
+Status add_evaluation(const CaptureSet& set, int planes, BuildReport& report, Progress* progress) {
     const Result<HoldOut> hold_out = choose_hold_out(set.upright, 2, set.folder.string());
     if (!hold_out) {
         report.why_no_scores = hold_out.error().message;
@@ -92,18 +92,18 @@ Status add_held_out_views(const CaptureSet& set, int planes, BuildReport& report
     }
     EvaluationOptions options;
     options.planes = planes;
-    KeptAnswers answers(*hold_out, options.methods);
+    EvaluationThumbnails answers(*hold_out, options.methods);
     RS_ASSIGN_OR_RETURN(
         std::vector<MethodScores> scores,
         evaluate(
-            set, *hold_out, options, [&](const AnsweredView& answered) { return answers.keep(answered); }, progress));
+            set, *hold_out, options, [&](const EvaluatedView& answered) { return answers.keep(answered); }, progress));
     add_scores(set, *hold_out, "every 2nd", std::move(scores), std::move(answers), report);
     return {};
 }
 
-void add_depths(const CaptureSet& set, const std::vector<FoundDepth>& depths, BuildReport& report) {
+void add_depth_images(const CaptureSet& set, const std::vector<DepthPreview>& depths, BuildReport& report) {
     constexpr float kShown = 1;  // object radii to either side of the foot
-    for (const FoundDepth& found : depths) {
+    for (const DepthPreview& found : depths) {
         const std::string caption = caption_of(set, found.view);
         report.hull_images.push_back(
             {scaled_down(depth_image(transposed(found.hull), -kShown, kShown), kKept_px), caption});

@@ -19,12 +19,12 @@ namespace rs::encode {
 Status add_captured_images(const CaptureSet& set, BuildReport& report);
 
 /// Thumbnails of ground truth, renderings and error maps of some held-out views.
-class KeptAnswers {
+class EvaluationThumbnails {
 public:
-    KeptAnswers(const HoldOut& hold_out, const std::vector<Method>& methods);
+    EvaluationThumbnails(const HoldOut& hold_out, const std::vector<Method>& methods);
 
-    /// A LookAtAnswer. Thread-safe.
-    Status keep(const AnsweredView& answered);
+    /// A EvaluationSink. Thread-safe.
+    Status keep(const EvaluatedView& answered);
 
     /// One row per view.
     [[nodiscard]] std::vector<ImageRow> rows(const CaptureSet& set) &&;
@@ -41,14 +41,14 @@ private:
 
 /// Adds scores and thumbnails.
 void add_scores(const CaptureSet& set, const HoldOut& hold_out, const std::string& which,
-                std::vector<MethodScores> scores, KeptAnswers answers, BuildReport& report);
+                std::vector<MethodScores> scores, EvaluationThumbnails answers, BuildReport& report);
 
 /// Builds objects from every second view, scores the other views and adds thumbnails. A set with too few views is not
 /// an error: the report states the reason.
-Status add_held_out_views(const CaptureSet& set, int planes, BuildReport& report, Progress* progress);
+Status add_evaluation(const CaptureSet& set, int planes, BuildReport& report, Progress* progress);
 
 /// Adds hull and depth images of a few views from build_object().
-void add_depths(const CaptureSet& set, const std::vector<FoundDepth>& depths, BuildReport& report);
+void add_depth_images(const CaptureSet& set, const std::vector<DepthPreview>& depths, BuildReport& report);
 
 /// Writes the page and commits the file.
 Status write_report(StagedFile& file, const BuildReport& report);

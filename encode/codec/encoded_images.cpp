@@ -1,4 +1,4 @@
-#include "encode/codec/fidelity.hpp"
+#include "encode/codec/encoded_images.hpp"
 
 #include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/codec/prediction_unit.hpp"
@@ -11,8 +11,8 @@
 
 namespace rs::encode {
 
-double coded_psnr(const std::vector<SourceImage>& sources, int width, int height, int alpha_bits,
-                  const std::function<codec::ConstPlaneViews(std::size_t view)>& reconstruction) {
+double measure_coded_psnr(const std::vector<SourceImage>& sources, int width, int height, int alpha_bits,
+                          const std::function<codec::ConstPlaneViews(std::size_t view)>& reconstruction) {
     // Integer sums do not depend on the number of threads.
     std::vector<std::array<std::int64_t, 2>> sums(sources.size());  // squared error, samples
     for_each_index(sources.size(), [&](std::size_t v) {

@@ -17,13 +17,13 @@ inline constexpr int kDefaultMaxSide_px = 2048;
 
 /// Photos are reduced only if a side is longer than requested by more than this factor, since a slight reduction only
 /// blurs.
-inline constexpr double kReducedFrom = 1.25;
+inline constexpr double kMinReduction = 1.25;
 
 /// The reduction factor along a side: photo pixels per pixel of the working image, whose longer side is `max_side_px`;
 /// 1 if the photo is not reduced.
 inline double photograph_reduction(int width, int height, int max_side_px) {
     const int longer = std::max(width, height);
-    if (longer <= kReducedFrom * max_side_px && longer <= kMaxImageSide_px) return 1;
+    if (longer <= kMinReduction * max_side_px && longer <= kMaxImageSide_px) return 1;
     return static_cast<double>(longer) / max_side_px;
 }
 
