@@ -162,7 +162,7 @@ TEST(LightWarnings, NameLightsThatNobodySees) {
     scene.lights = {lamp, buried, dark, sun};
     const auto warnings = light_warnings(scene);
     ASSERT_EQ(warnings.size(), 2U);
-    EXPECT_NE(warnings[0].find("light 2 'buried' stands inside of a solid"), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[0].find("light 2 'buried' is inside a solid"), std::string::npos) << warnings[0];
     EXPECT_NE(warnings[1].find("light 3 'lamp' has no power"), std::string::npos) << warnings[1];
     EXPECT_EQ(light_warning(scene, 0), "");
     // A mirrored box is as solid.
