@@ -1,4 +1,4 @@
-// Handles are found where they are drawn, and drags move lights by what the pointer says.
+// Handles are hit where they are drawn, and drags move lights with the pointer.
 
 #include "compositor/lighting/light_drag.hpp"
 
@@ -9,7 +9,7 @@
 namespace rs::compositor {
 namespace {
 
-// Neither level nor straight ahead.
+// A camera in general position.
 Camera some_camera() {
     return look_at_camera({3, 2.5, 6}, {0.2, 1, -0.4}, radians(55), 640, 480);
 }
@@ -20,7 +20,7 @@ glm::dvec2 seen_at(const Camera& camera, const glm::dvec3& place) {
 
 const SurfaceAt kNothing = [](const glm::dvec2&) { return std::nullopt; };
 
-// A plane, seen from any camera.
+// Depths of a plane for any camera.
 SurfaceAt plane(const Camera& camera, const glm::dvec3& through, const glm::dvec3& normal) {
     return [=](const glm::dvec2& at) -> std::optional<SurfacePoint> {
         const glm::dvec3 ray = camera.ray(at.x, at.y);
@@ -59,17 +59,17 @@ TEST(LightDrag, OverSurfacesItSnapsAndTurns) {
     spot.location = {0.5, 1.2, 0};
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0.1, 1, 0.2));
     const SurfaceAt floor = plane(camera, {0, 0, 0}, normal);
-    // It is grasped a little beside its middle, and stays so.
+    // A grab offset from the handle's centre is preserved.
     const LightDrag drag(spot, HandlePart::kBody, camera, seen_at(camera, spot.location) + glm::dvec2(3, -4), 0.01);
     const glm::dvec2 there = seen_at(camera, {0, 0, 0});
     const LightEntry moved = drag.drag_to(there + glm::dvec2(3, -4), camera, floor);
     EXPECT_LT(glm::distance(moved.location, 0.01 * normal), 1e-9);
     EXPECT_LT(glm::distance(moved.aim, normal), 1e-12);
-    // Points have no aim to turn.
+    // Point lights have no aim.
     const LightEntry point{.location = spot.location};
     const LightDrag of_point(point, HandlePart::kBody, camera, seen_at(camera, point.location), 0.01);
     EXPECT_EQ(of_point.to(there, camera, floor).aim, point.aim);
-    // Where nothing is seen, it goes on as far away as it was.
+    // Over the background the light keeps its depth.
     const LightEntry lost = of_point.to({100, 90}, camera, kNothing);
     EXPECT_LT(glm::distance(seen_at(camera, lost.location), glm::dvec2(100, 90)), 1e-9);
     EXPECT_NEAR(camera.project(lost.location).z, camera.project(point.location).z, 1e-9);
@@ -132,7 +132,7 @@ TEST(LightHandles, AreFoundWhereTheyAreDrawn) {
         }
     }
     EXPECT_FALSE(handle_at(state, std::nullopt, camera, {5, 470}));
-    // A large panel is grasped by its edge as well.
+    // A large panel can also be grabbed by its edge.
     state.entries[2].size = {2, 1};
     const LightEntry& panel = state.entries[2];
     const AimedAxes axes = aimed_axes(unit_vector(panel.aim), 0);
