@@ -158,7 +158,7 @@ TEST_F(View, SavedLightsGiveTheSameImage) {
                          {"kind": "disc", "name": "off", "location": [0, 1, 0], "aim": [0, -1, 0], "size": 0.1, "lumens": 0}]})");
     test::ToolRun run = view({in("hall.wrl"), "--lights", in("lamp.json"), "--save-lights", in("all.json")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("'buried' stands inside of a solid"));
+    EXPECT_THAT(run.err, HasSubstr("'buried' is inside a solid"));
     EXPECT_THAT(run.err, HasSubstr("'off' has no power"));
     run = view({in("hall.wrl"), "--lights", in("lamp.json"), "-o", in("a.png")});
     if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;

@@ -1,4 +1,4 @@
-// The street as files: the same bytes every time, objects that stand apart, traffic that keeps its distance.
+// Street files: deterministic bytes, separate objects, traffic that keeps its distance.
 
 #include "datasets-synthetic/street/street.hpp"
 #include "datasets-synthetic/street/traffic.hpp"
@@ -88,7 +88,7 @@ TEST(Street, VehiclesStandOnTheirWheels) {
     }
 }
 
-// Ninety seconds: nobody drives through the one ahead, or over the crossing while others do.
+// Ninety seconds without collisions between vehicles or on the crossing.
 TEST(Street, TrafficKeepsItsDistance) {
     Scenario scenario = default_scenario();
     scenario.seconds = 90;

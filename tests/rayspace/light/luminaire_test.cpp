@@ -1,4 +1,4 @@
-// Photometric files: every edition and arrangement, against numbers that another program computed.
+// Photometric files of all editions and layouts against reference values of another program.
 
 #include "rayspace/light/luminaire.hpp"
 
@@ -148,7 +148,7 @@ TEST(EulumdatFile, IsReadByItsLinesAndMirroredByItsSymmetry) {
     const auto at = [](const Luminaire& lamp, double horizontal_deg) {
         return candela_in_plane(lamp.web, horizontal_deg, radians(45)) / 3;
     };
-    // Planes 270, 0 and 90; 180 is as 0.
+    // Planes 270, 0 and 90; 180 equals 0.
     const auto fore = parse_eulumdat(eulumdat(3, 4, lamps, "9 \n1\n0\n9\n2\n0\n9\n3\n0\n"), "a.ldt");
     ASSERT_TRUE(fore) << fore.error().message;
     EXPECT_NEAR(at(*fore, 270), 1, 1e-9);

@@ -1,4 +1,4 @@
-// What the filter takes away, what it leaves, and where it goes as samples are added.
+// Denoising filter: noise reduction, preservation of edges, convergence as samples are added.
 
 #include "capture/tracer/image/discontinuity_filter.hpp"
 #include "tests/support/random.hpp"
@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kSide = 96;
 
-// A wall at z = 0, seen from a distance of 10, of what `surface` makes of it; each sample is `light` times its colour,
-// times a number between 0 and 2 where there is noise.
+// A wall at z = 0 at distance 10 with guides from `surface`; each sample is `light` times its colour, times a random
+// number between 0 and 2 if noisy.
 struct Wall {
     std::function<Guide(int x, int y)> surface;
     std::function<float(int x, int y)> light;
@@ -47,7 +47,7 @@ Accumulation samples_of(const Wall& wall, int count) {
     return result;
 }
 
-// Root of the mean squared difference from what all samples together go to.
+// RMS difference from the expected value.
 double rms_error(const Image<RgbaF>& image, const Wall& wall) {
     double squares = 0;
     for (int y = 0; y < kSide; ++y) {
@@ -114,7 +114,7 @@ TEST(DiscontinuityFilter, GoesToTheMeanAsSamplesAreAdded) {
         EXPECT_LT(error, count == 1024 ? 0.5 * before : before) << count;
         before = error;
     }
-    // Of the pattern that groups of virtual lights would leave.
+    // Pattern of interleaved groups of virtual lights.
     const Wall pattern{plain, [](int x, int y) { return x % 4 == 1 && y % 4 == 2 ? 1.3F : 1.0F; }, false};
     EXPECT_LT(rms_error(filtered_mean(samples_of(pattern, 4)), pattern), 1e-5);
 }
@@ -147,7 +147,7 @@ TEST(DiscontinuityFilter, TakesImagesOfAnySizeAndSamplesThatAreNoNumbers) {
     const Image<RgbaF> filtered = filtered_mean(broken);
     EXPECT_TRUE(std::isnan(filtered(40, 40).g));
     for (int x = 30; x < 50; ++x) EXPECT_NEAR(filtered(x, 41).g, 0.5F, 0.1F);
-    // A part is what it is in the whole.
+    // A part has the same result as in the whole image.
     const Image<RgbaF> whole = filtered_mean(all), part = filtered_mean(all, {60, 50, 90, 200});
     for (int y = 50; y < kSide; ++y) {
         for (int x = 60; x < 90; ++x) ASSERT_EQ(whole(x, y), part(x, y));
@@ -172,7 +172,7 @@ TEST(DiscontinuityFilter, LooksNoFartherThanItSaysAndNeedsNoThreads) {
     }
 }
 
-// Strip by strip, and no seams: each part has the bits that it has by itself.
+// Large images are filtered in strips without seams: each part is bit-identical to filtering it separately.
 TEST(DiscontinuityFilter, TakesLargeImagesAStripAtATime) {
     constexpr int kWidth = 1200, kHeight = 1000;
     rs::test::Random random(9);

@@ -1,4 +1,4 @@
-// Rays in packets beside single rays: the same bits, on what stands still, moves, has holes, mirrors and refracts.
+// Packets against single rays: bit-identical for static and moving objects, holes, mirrors and glass.
 
 #include "capture/tracer/integrator/gather_packet.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
@@ -51,7 +51,7 @@ void expect_the_bits_of_single_rays(const Scene& scene) {
     rs::test::Random random(3);
     const auto number = [&](double low, double high) { return static_cast<float>(random.real(low, high)); };
     std::vector<RayScene::Ray> asked;
-    for (int i = 0; i < 4013; ++i) {  // not a number of whole packets
+    for (int i = 0; i < 4013; ++i) {  // not a multiple of the packet size
         const glm::vec3 from(number(-3, 3), number(0, 3), number(2, 6));
         const glm::vec3 at(number(-3, 3), number(-1, 1), number(-3, 3));
         asked.push_back({from, glm::normalize(at - from), number(0, 1), std::numeric_limits<float>::infinity()});
@@ -95,7 +95,7 @@ TEST(Packets, GiveTheBitsOfSingleRays) {
     expect_the_bits_of_single_rays(scene);
 }
 
-// Neighbours that go to one lamp, which kept Embree busy for ever where all that stands in the way are instances.
+// Coherent shadow rays to one lamp, for which Embree did not return with instances as the only occluders.
 TEST(Packets, OfNeighboursComeBackFromInstances) {
     Scene scene = scene_of_all_kinds();
     for (Instance& instance : scene.instances) instance.at_close.reset();
@@ -116,7 +116,7 @@ TEST(Packets, OfNeighboursComeBackFromInstances) {
     }
 }
 
-// A ball that shines without a mesh.
+// An emissive ball without a mesh.
 class ShiningBall final : public RayPrimitive {
 public:
     [[nodiscard]] Box bounds() const override { return {kMiddle - kRadius, kMiddle + kRadius}; }
@@ -132,8 +132,8 @@ private:
     static constexpr float kRadius = 0.4F;
 };
 
-// Beside all kinds: relief, a border that goes on, vertices with colours, light that comes through, sides that are not
-// there, what shines, a part that is mirrored, and every kind of light.
+// All surface kinds with normal maps, clamped textures, vertex colours, translucency, one-sided and emissive surfaces,
+// a mirrored part, and every kind of light.
 Scene scene_of_all_details() {
     Scene scene = scene_of_all_kinds();
     Texture stripes;
@@ -238,7 +238,7 @@ void expect_whitted_gives_the_bits_of_single_rays(const Scene& scene, float envi
     }
     EXPECT_GT(sum, 100);
     for (std::size_t i = 0; i < met.size(); ++i) EXPECT_GT(met[i], 20) << "material " << i;
-    // Whole packets, parts of them, and none.
+    // Full, partial and empty packets.
     for (const std::size_t at_once : {many.size(), std::size_t{256}, std::size_t{1}, std::size_t{15}, std::size_t{17},
                                       std::size_t{65}, std::size_t{0}}) {
         std::vector<CameraRay> asked = many;
@@ -264,7 +264,7 @@ TEST(Packets, OfWhittedGiveTheBitsOfSingleRays) {
     }
 }
 
-// Light that came from the surface's viewer and goes to `out` instead: f, without a cosine, as a viewer there has it.
+// BSDF value, without a cosine, for light from the surface's viewer direction scattered to `out`.
 glm::vec3 sent(const LightTransport& transport, const LightTransport::Vertex& from, const glm::vec3& out) {
     const SurfaceModel& model = transport.model_of(from.point);
     const glm::vec3& colour = from.surface.colour();
