@@ -2,7 +2,7 @@
 // Photographs as shops show them: each moved and scaled by itself, so that the object fills the frame and is in its
 // middle.
 
-#include "capture/calibration/model/image_place.hpp"
+#include "capture/calibration/model/image_placement.hpp"
 #include "capture/tracer/image/ray_image.hpp"
 #include "rayspace/image/image.hpp"
 
