@@ -1,8 +1,8 @@
 #include "capture/photos/import.hpp"
 
-#include "capture/photos/intake/film/frame_selection.hpp"
 #include "capture/photos/intake/intake.hpp"
 #include "capture/photos/intake/photo_source.hpp"
+#include "capture/photos/intake/video/frame_selection.hpp"
 #include "capture/photos/report/import_set.hpp"
 #include "capture/photos/segmentation/segment_turn.hpp"
 #include "capture/photos/segmentation/segmentation_checks.hpp"
@@ -56,7 +56,7 @@ PhotoRequest photo_request(const ImportOptions& options) {
 
 // Rejects an output folder that is or contains the photos: an existing set at `output` is replaced completely, so
 // photos inside it would be lost.
-Status check_places(const ImportOptions& options) {
+Status check_paths(const ImportOptions& options) {
     std::error_code failure;
     const fs::path photos = fs::weakly_canonical(options.photos, failure);
     if (failure) return Error{options.photos.string() + ": cannot be resolved (" + failure.message() + ")"};
@@ -65,7 +65,7 @@ Status check_places(const ImportOptions& options) {
     const auto [rest, inner] = std::mismatch(output.begin(), output.end(), photos.begin(), photos.end());
     if (rest != output.end()) return {};
     return Error{options.output.string() + ": " + (photos == output ? "is" : "contains") +
-                 (is_film(options.photos) ? " the video " : " the folder of photos ") + options.photos.string() +
+                 (is_video(options.photos) ? " the video " : " the folder of photos ") + options.photos.string() +
                  ", which would be replaced; give another place with -o"};
 }
 
@@ -139,10 +139,10 @@ Status check_count(const PhotoFolder& folder, const ImportOptions& options) {
 }
 
 Result<ImportReport> import_checked(const ImportOptions& options, Progress* progress) {
-    RS_TRY(check_places(options));
+    RS_TRY(check_paths(options));
     RS_ASSIGN_OR_RETURN(PhotoFolder folder, open_photos(photo_request(options), progress));
-    if (!options.segmentation.masks.empty() && folder.turns_unnoticed()) {
-        return turned_beside(folder, "--masks " + options.segmentation.masks.string());
+    if (!options.segmentation.masks.empty() && folder.has_ambiguous_orientation()) {
+        return ambiguous_orientation_error(folder, "--masks " + options.segmentation.masks.string());
     }
     RS_TRY(check_count(folder, options));
     RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(options.output, "imported photos"));
@@ -152,14 +152,14 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
         RS_TRY(make_folder(inner, options.output));
     }
 
-    RS_ASSIGN_OR_RETURN(Intake intake, take_in(std::move(folder), progress));
+    RS_ASSIGN_OR_RETURN(Intake intake, run_intake(std::move(folder), progress));
 
     RS_ASSIGN_OR_RETURN(ChosenSegmenter chosen,
                         choose_segmenter(options.segmentation, intake, options.photos.string(), progress));
     intake.survey = Survey{};  // frees memory; the survey is not needed any more
 
-    const CutoutCache cutouts(cut, intake.folder.width, intake.folder.height);
-    RS_ASSIGN_OR_RETURN(SegmentedTurn turn, segment_turn(intake.folder, *chosen.segmenter, cutouts, progress,
+    const ForegroundCache foregrounds(cut, intake.folder.width, intake.folder.height);
+    RS_ASSIGN_OR_RETURN(SegmentedTurn turn, segment_turn(intake.folder, *chosen.segmenter, foregrounds, progress,
                                                          options.segmentation.parameters.foreground));
     chosen.segmenter.reset();
     SegmentationFindings findings =
@@ -167,11 +167,11 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
     chosen.notes.insert(chosen.notes.end(), findings.notes.begin(), findings.notes.end());
     RS_TRY(settle(options, findings.problems, chosen.notes));
 
-    RS_ASSIGN_OR_RETURN(FoundRig rig, find_rig(options, intake.folder, turn, cutouts, progress));
+    RS_ASSIGN_OR_RETURN(FoundRig rig, find_rig(options, intake.folder, turn, foregrounds, progress));
     RS_TRY(settle(options, calibration_problems(rig), rig.notes));
 
     RS_ASSIGN_OR_RETURN(ImportReport report,
-                        write_import_set(set, intake.folder, turn, cutouts,
+                        write_import_set(set, intake.folder, turn, foregrounds,
                                          report_of(options, intake, chosen, turn, std::move(rig)), progress));
     std::error_code failure;
     fs::remove_all(cut, failure);

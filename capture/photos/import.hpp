@@ -3,7 +3,7 @@
 /// The whole import: photos or a video of one turn -> a capture set (RGBA images and transforms.json). Seven stages:
 ///
 ///   open_photos()        folder or video -> photos                        intake/photo_source.hpp
-///   take_in()            photos -> those of the turn, small copies        intake/intake.hpp
+///   run_intake()            photos -> those of the turn, small copies        intake/intake.hpp
 ///   choose_segmenter()   small copies -> segmenter                        segmentation/segmenter_choice.hpp
 ///   segment_turn()       photos, segmenter -> foreground images                    segmentation/segment_turn.hpp
 ///   check_segmentation() foreground images -> problems              segmentation/segmentation_checks.hpp
@@ -29,8 +29,8 @@ struct ImportOptions : RigRequest {
     bool force = false;  ///< write a set whose checks failed; their findings become notes
     /// Larger photos are reduced first (open_photo_folder()); kMinSide_px .. kMaxImageSide_px.
     int max_side_px = kDefaultMaxSide_px;
-    // Number of frames of a video, or of photos of a larger folder, to select: kMinSelectedFrames .. kMaxSelectedFrames
-    // (intake/film/frame_selection.hpp). Empty: see intake/photo_source.hpp.
+    /// Number of frames of a video, or of photos of a larger folder, to select: kMinSelectedFrames ..
+    /// kMaxSelectedFrames (intake/video/frame_selection.hpp). Empty: see intake/photo_source.hpp.
     std::optional<int> frames;
 };
 

@@ -10,7 +10,7 @@
 
 namespace rs::capture {
 
-// Accepts a number in [low, high]; CLI::Range alone accepts NaN.
+/// Accepts a number in [low, high]; CLI::Range alone accepts NaN.
 CLI::Validator within(double low, double high);
 
 struct AsPhotosOptions {
@@ -18,13 +18,13 @@ struct AsPhotosOptions {
     PhotoOptions photos;  // options specific to --as-photos; the rest is copied from the other options of `synth`
 };
 
-// Adds the options; without --as-photos each of them is a usage error. `options` must outlive `synth`.
+/// Adds the options; without --as-photos each of them is a usage error. `options` must outlive `synth`.
 void add_as_photos_options(CLI::App& synth, AsPhotosOptions& options);
 
-// Image files named by the options.
+/// Image files named by the options.
 std::vector<std::filesystem::path> input_files(const AsPhotosOptions& options);
 
-// Appended to `synth --help`.
+/// Appended to `synth --help`.
 extern const char* const kAsPhotosExamples;
 
 }  // namespace rs::capture

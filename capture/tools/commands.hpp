@@ -9,13 +9,13 @@
 
 namespace rs::capture {
 
-// Writes a printable calibration board for the turntable.
+/// Writes a printable calibration board for the turntable.
 void add_board_command(CLI::App& app, std::function<Status()>& run);
-// Imports photos of an object on a turntable: segmented and calibrated, as a capture set.
+/// Imports photos of an object on a turntable: segmented and calibrated, as a capture set.
 void add_import_command(CLI::App& app, std::function<Status()>& run);
-// Prints the contents of a photometric file (IES, EULUMDAT), as numbers and as a polar plot.
+/// Prints the contents of a photometric file (IES, EULUMDAT), as numbers and as a polar plot.
 void add_luminaire_command(CLI::App& app, std::function<Status()>& run);
-// Renders a scene from a ring of cameras or from given poses, as a capture set.
+/// Renders a scene from a ring of cameras or from given poses, as a capture set.
 void add_synth_command(CLI::App& app, std::function<Status()>& run);
 
 }  // namespace rs::capture

@@ -1,9 +1,9 @@
 #include "capture/tools/commands.hpp"
 
 #include "capture/photos/import.hpp"
-#include "capture/photos/intake/film/frame_selection.hpp"
 #include "capture/photos/intake/photo_folder.hpp"
 #include "capture/photos/intake/photo_source.hpp"
+#include "capture/photos/intake/video/frame_selection.hpp"
 #include "capture/photos/report/import_page.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
@@ -180,11 +180,11 @@ void print_summary(const std::string& output, const ImportReport& report) {
 
 // Rejects options for single photos if frames are selected during the import.
 Status check_frames_usage(const ImportCommandLine& given) {
-    const bool has_film = is_film(given.import.photos);
-    if (!has_film && !given.import.frames) return {};
+    const bool has_video = is_video(given.import.photos);
+    if (!has_video && !given.import.frames) return {};
     const std::string remedy =
-        has_film ? "cannot be used with a video; extract its frames first (ffmpeg -i FILM photos/%03d.png)"
-                 : "needs all photos of the folder; leave out --frames";
+        has_video ? "cannot be used with a video; extract its frames first (ffmpeg -i FILM photos/%03d.png)"
+                  : "needs all photos of the folder; leave out --frames";
     if (!given.known.empty()) return Error{"--known " + given.known + ": " + remedy};
     if (!given.import.segmentation.masks.empty())
         return Error{"--masks " + given.import.segmentation.masks.string() + ": " + remedy};
@@ -228,8 +228,8 @@ Status run_import(const ImportCommandLine& given) {
     }
     if (!given.known.empty()) {
         RS_ASSIGN_OR_RETURN(const PhotoFolder folder, open_photo_folder(options.photos));
-        if (folder.orientation != 1 || folder.states_several()) {
-            return turned_beside(folder, "--known " + given.known);
+        if (folder.orientation != 1 || folder.has_several_orientations()) {
+            return ambiguous_orientation_error(folder, "--known " + given.known);
         }
         RS_ASSIGN_OR_RETURN(KnownFile known, read_known_file(given.known, {folder.shown_width, folder.shown_height}));
         options.known = std::move(known);

@@ -33,7 +33,7 @@ namespace {
 
 // The path with links resolved, and its location by name, which differs if the path itself is a link. Output folders
 // must not contain their inputs.
-std::vector<std::filesystem::path> places_of(const std::filesystem::path& path) {
+std::vector<std::filesystem::path> locations_of(const std::filesystem::path& path) {
     std::error_code ignored;
     const std::filesystem::path plain = path.has_filename() ? path : path.parent_path();  // "set/" is "set"
     const std::filesystem::path folder = plain.has_parent_path() ? plain.parent_path() : std::filesystem::path(".");
@@ -45,10 +45,10 @@ bool is_within(const std::filesystem::path& path, const std::filesystem::path& f
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-Status check_output_keeps(const std::filesystem::path& output, const std::filesystem::path& input) {
+Status check_output_excludes(const std::filesystem::path& output, const std::filesystem::path& input) {
     if (input.empty()) return {};
-    for (const std::filesystem::path& folder : places_of(output)) {
-        for (const std::filesystem::path& place : places_of(input)) {
+    for (const std::filesystem::path& folder : locations_of(output)) {
+        for (const std::filesystem::path& place : locations_of(input)) {
             if (!is_within(place, folder)) continue;
             return Error{output.string() + ": writing the set would replace this folder and " + input.string() +
                          " with it; give another -o"};
@@ -168,14 +168,14 @@ Result<Rig> choose_rig(const Options& options, const SceneFile& file) {
 }
 
 // Results of a run, for the summary.
-struct Made {
+struct RunResult {
     CaptureSetSummary summary;
     PixelSize size;
     double object_radius = 0;
     int samples_per_pixel = 0;
 };
 
-void print_summary(const Options& options, const std::string& scene_name, const Made& made, double total_s) {
+void print_summary(const Options& options, const std::string& scene_name, const RunResult& made, double total_s) {
     if (options.json) {
         const nlohmann::json report = {{"set", options.output.string()},
                                        {"scene", scene_name},
@@ -197,7 +197,7 @@ void print_summary(const Options& options, const std::string& scene_name, const 
                 100.0 * made.summary.mean_coverage, total_s);
 }
 
-Result<Made> make_set(const Options& options, SceneFile file, Progress& progress) {
+Result<RunResult> make_set(const Options& options, SceneFile file, Progress& progress) {
     RS_ASSIGN_OR_RETURN(Rig rig, choose_rig(options, file));
     rig.object_radius = file.object_radius;
     rig.foot_height = file.ground_height;
@@ -222,10 +222,10 @@ Result<Made> make_set(const Options& options, SceneFile file, Progress& progress
     RS_ASSIGN_OR_RETURN(const CaptureSetSummary summary,
                         write_capture_set(tracer, rig, set, options.output, &progress));
     const Camera& camera = rig.views.front().camera;
-    return Made{summary, {camera.width, camera.height}, file.object_radius, set.render.samples_per_pixel};
+    return RunResult{summary, {camera.width, camera.height}, file.object_radius, set.render.samples_per_pixel};
 }
 
-Result<Made> make_photos(const Options& options, const SceneFile& file, Progress& progress) {
+Result<RunResult> make_photos(const Options& options, const SceneFile& file, Progress& progress) {
     if (file.toon) {
         return Error{options.scene.string() +
                      ": \"look\": \"toon\" cannot be rendered as photos; leave out --as-photos"};
@@ -246,7 +246,7 @@ Result<Made> make_photos(const Options& options, const SceneFile& file, Progress
     photos.threads = options.threads;
     RS_ASSIGN_OR_RETURN(const CaptureSetSummary summary,
                         write_photo_session(file.scene, file.object_radius, photos, options.output, &progress));
-    return Made{summary, size, file.object_radius, photos.samples_per_pixel};
+    return RunResult{summary, size, file.object_radius, photos.samples_per_pixel};
 }
 
 Status synthesise(const Options& options) {
@@ -257,7 +257,7 @@ Status synthesise(const Options& options) {
     std::vector<std::filesystem::path> inputs = input_files(options.as_photos);
     inputs.insert(inputs.end(), {options.scene, options.poses});
     for (const std::filesystem::path& input : inputs) {
-        if (Status kept = check_output_keeps(options.output, input); !kept) return kept;
+        if (Status kept = check_output_excludes(options.output, input); !kept) return kept;
     }
     RS_ASSIGN_OR_RETURN(SceneFile file, load_scene_file(options.scene, synthetic::generate));
     if (options.as_photos.is_enabled && file.scene.has_surroundings()) {
@@ -266,8 +266,9 @@ Status synthesise(const Options& options) {
     }
     const std::string scene_name = file.scene.name;
     ProgressBar progress(options.quiet);
-    RS_ASSIGN_OR_RETURN(const Made made, options.as_photos.is_enabled ? make_photos(options, file, progress)
-                                                                      : make_set(options, std::move(file), progress));
+    RS_ASSIGN_OR_RETURN(const RunResult made, options.as_photos.is_enabled
+                                                  ? make_photos(options, file, progress)
+                                                  : make_set(options, std::move(file), progress));
     progress.finish();
     if (made.summary.clipped_views > 0 && !options.quiet) {
         std::fprintf(

@@ -25,7 +25,7 @@ inline constexpr std::array<NamedDictionary, 8> kDictionaries{{{"4x4_50", cv::ar
                                                                {"5x5_250", cv::aruco::DICT_5X5_250, 5, 250},
                                                                {"5x5_1000", cv::aruco::DICT_5X5_1000, 5, 1000}}};
 
-// Null if no dictionary has that name.
+/// Null if no dictionary has that name.
 inline const NamedDictionary* find_dictionary(const std::string& name) {
     for (const NamedDictionary& dictionary : kDictionaries) {
         if (name == dictionary.name) return &dictionary;

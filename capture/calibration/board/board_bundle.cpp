@@ -99,7 +99,8 @@ void pose_problem(ceres::Problem& problem, Unknowns& unknowns, const Lens& lens,
         problem.AddResidualBlock(new ceres::AutoDiffCostFunction<CornerResidual, 2, 5, 3, 7, 1>(new CornerResidual{
                                      one, common ? static_cast<double>(one.view) : 1.0, options.noise_px}),
                                  loss, unknowns.lens.data(), unknowns.pose.data(), unknowns.board.data(), angle);
-        if (!common && (free.angles == AngleFreedom::kHeld || one.view == 0)) problem.SetParameterBlockConstant(angle);
+        if (!common && (free.angles == AngleFreedom::kConstant || one.view == 0))
+            problem.SetParameterBlockConstant(angle);
     }
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<BoardLensPrior, 5, 5>(
                                  new BoardLensPrior{1.3 * std::max(lens.width, lens.height), 0.5 * lens.width,
@@ -142,7 +143,7 @@ std::optional<double> adjust(BoardTurn& turn, std::span<const BoardObservation> 
         pose_problem(problem, unknowns, turn.model.lens, seen, options);
         ceres::Solver::Options how;
         how.linear_solver_type = ceres::DENSE_SCHUR;  // each observation depends on one angle
-        how.max_num_iterations = options.most_iterations;
+        how.max_num_iterations = options.max_iterations;
         how.function_tolerance = 1e-10;
         how.num_threads = 1;
         how.logging_type = ceres::SILENT;
@@ -156,8 +157,8 @@ std::optional<double> adjust(BoardTurn& turn, std::span<const BoardObservation> 
     }
 }
 
-ModelDeviations board_deviations(const BoardTurn& turn, std::span<const BoardObservation> seen,
-                                 const BoardBundleOptions& options) {
+ModelDeviations board_standard_deviations(const BoardTurn& turn, std::span<const BoardObservation> seen,
+                                          const BoardBundleOptions& options) {
     const std::size_t views = turn.model.angles_rad.size();
     ModelDeviations deviations;
     deviations.angles_rad.assign(views, std::numeric_limits<double>::infinity());
@@ -169,7 +170,7 @@ ModelDeviations board_deviations(const BoardTurn& turn, std::span<const BoardObs
     ceres::Problem::EvaluateOptions order;
     std::vector<bool> is_seen(views, false);
     for (const BoardObservation& one : seen) is_seen[static_cast<std::size_t>(one.view)] = true;
-    const NumberPlaces places(options.free, is_seen);
+    const ParameterIndices places(options.free, is_seen);
     const auto is_free = [](int place) { return place >= 0; };
     if (std::any_of(places.camera.begin(), places.camera.begin() + 5, is_free)) {
         order.parameter_blocks.push_back(unknowns.lens.data());
@@ -199,8 +200,8 @@ ModelDeviations board_deviations(const BoardTurn& turn, std::span<const BoardObs
     covariance = size.cwiseInverse().asDiagonal() * covariance * size.cwiseInverse().asDiagonal();
 
     const Lens& lens = turn.model.lens;
-    return deviations_of(turn.model, places, covariance,
-                         0.5 * (lies_sideways(turn.model.pose) ? lens.width : lens.height));
+    return standard_deviations(turn.model, places, covariance,
+                               0.5 * (has_sideways_axis(turn.model.pose) ? lens.width : lens.height));
 }
 
 }  // namespace rs::capture

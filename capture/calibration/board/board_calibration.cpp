@@ -43,7 +43,7 @@ std::string list_of(std::span<const std::string> names, const std::vector<std::s
 std::vector<std::size_t> views_without_board(const Task& task) {
     std::vector<std::size_t> without;
     for (std::size_t i = 0; i < task.views.size(); ++i) {
-        if (!shows_board(task.views[i], task.design)) without.push_back(i);
+        if (!has_board(task.views[i], task.design)) without.push_back(i);
     }
     return without;
 }
@@ -81,7 +81,7 @@ Status check(const Task& task) {
 void collect(Task& task) {
     int count = 0;
     for (std::size_t i = 0; i < task.views.size(); ++i) {
-        if (!shows_board(task.views[i], task.design)) continue;
+        if (!has_board(task.views[i], task.design)) continue;
         for (const SeenCorner& seen : task.views[i].corners) {
             const bool out = ++count % kCornerHeldOutEvery == 0;
             (out ? task.held_out : task.used)
@@ -94,16 +94,16 @@ void collect(Task& task) {
 std::optional<double> common_step(const Task& task, const std::vector<double>& angles_rad) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < task.views.size(); ++i) {
-        if (!shows_board(task.views[i - 1], task.design) || !shows_board(task.views[i], task.design)) continue;
+        if (!has_board(task.views[i - 1], task.design) || !has_board(task.views[i], task.design)) continue;
         steps.push_back(std::remainder(angles_rad[i] - angles_rad[i - 1], 2 * kPi));
     }
     if (steps.empty()) return std::nullopt;
     return median(std::move(steps));
 }
 
-// Applies with_known(), with angles relative to the first view's. If angles or step are known, the board is rotated by
+// Applies apply_known(), with angles relative to the first view's. If angles or step are known, the board is rotated by
 // the mean difference, so that the projections of its corners do not change.
-Status apply_known(const Task& task, BoardTurn& turn) {
+Status apply_known_angles(const Task& task, BoardTurn& turn) {
     const std::vector<double> measured = turn.model.angles_rad;
     KnownInputs known = task.known;
     if (known.angles_rad) {
@@ -114,22 +114,22 @@ Status apply_known(const Task& task, BoardTurn& turn) {
             return Error{"board: no two neighbouring views show it, so the step is unknown; give the step"};
         }
     }
-    turn.model = with_known(std::move(turn.model), known);
+    turn.model = apply_known_angles(std::move(turn.model), known);
     if (!known.angles_rad && !known.step_rad) return {};
     const std::vector<double>& angles = turn.model.angles_rad;
     std::size_t first = 0;
-    while (!shows_board(task.views[first], task.design)) ++first;
+    while (!has_board(task.views[first], task.design)) ++first;
     // Rotates by the mean difference; the difference of the first view alone would spread its error to all views.
     glm::dvec2 mean(0);
     for (std::size_t i = 0; i < angles.size(); ++i) {
-        if (!shows_board(task.views[i], task.design)) continue;
+        if (!has_board(task.views[i], task.design)) continue;
         const double d = measured[i] - angles[i];
         mean += glm::dvec2(std::cos(d), std::sin(d));
     }
     const double by = std::atan2(mean.y, mean.x);
-    if (task.options.free.angles == AngleFreedom::kHeld) {
+    if (task.options.free.angles == AngleFreedom::kConstant) {
         for (std::size_t i = 0; i < angles.size(); ++i) {
-            if (!shows_board(task.views[i], task.design)) continue;
+            if (!has_board(task.views[i], task.design)) continue;
             const double off = std::remainder(measured[i] - angles[i] - by, 2 * kPi);
             if (std::abs(off) < kContradiction_rad) continue;
             return Error{"board: it turned by " + std::to_string(degrees(measured[i] - measured[first])) +
@@ -147,19 +147,19 @@ Status apply_known(const Task& task, BoardTurn& turn) {
 // The best of several starts after a few iterations of adjustment.
 Result<BoardTurn> best_start(const Task& task) {
     std::vector<double> focal_lengths{task.lens.f_px};
-    if (!task.known.f_px) focal_lengths = likely_focal_lengths(task.views, task.design, task.lens);
+    if (!task.known.f_px) focal_lengths = estimate_focal_lengths(task.views, task.design, task.lens);
     BoardBundleOptions options = task.options;
     options.noise_px = 1;
-    options.most_iterations = 25;
+    options.max_iterations = 25;
     std::optional<BoardTurn> best;
     std::optional<Error> refused;
     double least = 0;
     for (const double f_px : focal_lengths) {
         Lens lens = task.lens;
         lens.f_px = f_px;
-        std::optional<BoardTurn> turn = board_start(task.views, task.design, lens);
+        std::optional<BoardTurn> turn = initialize_board_turn(task.views, task.design, lens);
         if (!turn) continue;
-        if (Status applied = apply_known(task, *turn); !applied) {
+        if (Status applied = apply_known_angles(task, *turn); !applied) {
             if (!refused) refused = applied.error();
             continue;
         }
@@ -237,9 +237,9 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
                                               std::span<const std::string> names) {
     Task task{views, design, known, names, {}, {}, {}, {}};
     const double assumed_f_px = 1.3 * std::max(width, height);
-    task.lens = with_known(Lens{width, height, assumed_f_px, 0.5 * width, 0.5 * height, 0, 0}, known);
+    task.lens = apply_known_angles(Lens{width, height, assumed_f_px, 0.5 * width, 0.5 * height, 0, 0}, known);
     BundleFreedom& free = task.options.free;
-    free = freedom_beside(known);
+    free = free_parameters_beside(known);
     free.k1 = free.k2 = !known.distortion;
     RS_TRY(check(task));
     collect(task);
@@ -278,7 +278,7 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
     Calibration& c = result.calibration;
     c.method = CalibrationMethod::kBoard;
     c.model = turn.model;
-    c.deviations = board_deviations(turn, used, task.options);
+    c.deviations = board_standard_deviations(turn, used, task.options);
     for (const BoardCorners& view : views) {
         for (const SeenCorner& seen : view.corners) corners.insert(seen.corner);
     }

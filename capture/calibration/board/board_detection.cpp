@@ -163,11 +163,11 @@ struct CornerSearch {
 
     std::optional<glm::dvec2> refined(int corner, const cv::Matx33d& h) const {
         const int x = corner % (design.squares_x - 1), y = corner / (design.squares_x - 1);
-        return refined_corner(smooth, h, square_is_black(x, y), 0.5 * (1 - design.marker_share));
+        return refine_corner(smooth, h, square_is_black(x, y), 0.5 * (1 - design.marker_share));
     }
 
     // Refines all corners that are not found yet and have enough matches near them. Returns the number of new corners.
-    int look_around(const std::vector<Match>& matches, std::size_t count, double reach, double limit_px) {
+    int find_near(const std::vector<Match>& matches, std::size_t count, double reach, double limit_px) {
         std::map<int, glm::dvec2> fresh;
         for (int corner = 0; corner < corner_count(design); ++corner) {
             if (found.contains(corner) || !corner_is_printed(design, corner)) continue;
@@ -210,7 +210,7 @@ struct CornerSearch {
     // Removes matches that disagree with their neighbours, the worst first because it may cause the disagreement of
     // others. The remaining corners are refined again with a homography of corners, which is more accurate than that of
     // markers.
-    void refine_again() {
+    void reject_and_refine() {
         std::vector<Match> agreed = as_matches();
         while (!agreed.empty()) {
             std::vector<double> off(agreed.size());
@@ -248,12 +248,12 @@ BoardCorners corners_in(const cv::Mat1b& grey, const BoardDesign& design) {
     }
     cv::GaussianBlur(smooth, smooth, {0, 0}, kSmoothing_px, kSmoothing_px, cv::BORDER_REPLICATE);
     CornerSearch search{smooth, design, {}};
-    search.look_around(markers, kNearest, kMarkerNeighbourhood, kMarkerLimit_px);
+    search.find_near(markers, kNearest, kMarkerNeighbourhood, kMarkerLimit_px);
     for (int pass = 0; pass < 2; ++pass) {  // the second pass finds corners that a poor neighbour spoiled in the first
         for (int round = 0; round < kMostRounds; ++round) {
-            if (search.look_around(search.as_matches(), kNearest, kNeighbourhood, kCornerLimit_px) == 0) break;
+            if (search.find_near(search.as_matches(), kNearest, kNeighbourhood, kCornerLimit_px) == 0) break;
         }
-        search.refine_again();
+        search.reject_and_refine();
     }
     BoardCorners seen;
     for (const auto& [corner, p] : search.found) seen.corners.push_back({corner, p + glm::dvec2(0.5)});
@@ -266,7 +266,7 @@ Result<BoardCorners> detect_board(ConstImageView<std::uint8_t> grey, const Board
     RS_TRY(check_board_design(design));
     if (grey.width() < 8 || grey.height() < 8) return BoardCorners{};
     try {
-        return corners_in(mat_over(grey), design);
+        return corners_in(mat_view(grey), design);
     } catch (const cv::Exception& e) {
         return Error{"the board cannot be detected: " + std::string(e.what()) +
                      "; check that the image can be shown by other programs"};

@@ -26,18 +26,18 @@ struct SeenCorner {
     glm::dvec2 p;    // px, centres at +0.5
 };
 
-// The corners of one view in ascending order of their numbers; empty if no board is detected.
+/// The corners of one view in ascending order of their numbers; empty if no board is detected.
 struct BoardCorners {
     std::vector<SeenCorner> corners;
 };
 
-// Fails only if OpenCV throws or the design is invalid; a view without a board is not an error. Thread-safe.
+/// Fails only if OpenCV throws or the design is invalid; a view without a board is not an error. Thread-safe.
 Result<BoardCorners> detect_board(ConstImageView<std::uint8_t> grey, const BoardDesign& design);
-// Converts the image to luma; alpha is ignored.
+/// Converts the image to luma; alpha is ignored.
 Result<BoardCorners> detect_board(ConstImageView<Rgba8> image, const BoardDesign& design);
 
-// Detects the board in all views in parallel on the calling tbb arena; load(i) returns image i and is called from any
-// thread. The result does not depend on the number of threads.
+/// Detects the board in all views in parallel on the calling tbb arena; load(i) returns image i and is called from any
+/// thread. The result does not depend on the number of threads.
 Result<std::vector<BoardCorners>> detect_boards(int views, const std::function<Result<Image<Rgba8>>(int)>& load,
                                                 const BoardDesign& design, Progress* progress);
 

@@ -65,28 +65,28 @@ std::string small_print(const BoardDesign& design) {
 }
 
 // Printable size of a sheet for the board, without the caption.
-glm::dvec2 room_mm(double width_mm, double height_mm) {
+glm::dvec2 printable_size_mm(double width_mm, double height_mm) {
     return {width_mm - 2 * kPaperEdge_mm, height_mm - 2 * kPaperEdge_mm - kSmallPrintLine_mm};
 }
 
 bool fits(const BoardDesign& design, double width_mm, double height_mm) {
-    const glm::dvec2 room = room_mm(width_mm, height_mm);
+    const glm::dvec2 room = printable_size_mm(width_mm, height_mm);
     return board_width_mm(design) <= room.x && board_height_mm(design) <= room.y;
 }
 
 // Sheet size in the orientation that fits the board, portrait preferred; nothing if neither does.
-std::optional<glm::dvec2> laid_paper(const BoardDesign& design, const Paper& paper) {
+std::optional<glm::dvec2> oriented_paper_mm(const BoardDesign& design, const Paper& paper) {
     if (fits(design, paper.width_mm, paper.height_mm)) return glm::dvec2(paper.width_mm, paper.height_mm);
     if (fits(design, paper.height_mm, paper.width_mm)) return glm::dvec2(paper.height_mm, paper.width_mm);
     return std::nullopt;
 }
 
-std::string does_not_fit(const BoardDesign& design, const Paper& paper) {
+std::string too_small_paper_message(const BoardDesign& design, const Paper& paper) {
     double square_mm = 0;
     glm::ivec2 squares(0);
     for (const bool sideways : {false, true}) {
-        const glm::dvec2 room =
-            sideways ? room_mm(paper.height_mm, paper.width_mm) : room_mm(paper.width_mm, paper.height_mm);
+        const glm::dvec2 room = sideways ? printable_size_mm(paper.height_mm, paper.width_mm)
+                                         : printable_size_mm(paper.width_mm, paper.height_mm);
         square_mm = std::max(square_mm, std::min(room.x / design.squares_x, room.y / design.squares_y));
         const glm::ivec2 here(std::min<int>(design.squares_x, static_cast<int>(room.x / design.square_mm)),
                               std::min<int>(design.squares_y, static_cast<int>(room.y / design.square_mm)));
@@ -99,8 +99,8 @@ std::string does_not_fit(const BoardDesign& design, const Paper& paper) {
         message += ", or " + std::to_string(squares.x) + "x" + std::to_string(squares.y) + " squares of " +
                    trimmed(design.square_mm) + " mm";
     }
-    const auto larger =
-        std::find_if(kPapers.begin(), kPapers.end(), [&](const Paper& p) { return laid_paper(design, p).has_value(); });
+    const auto larger = std::find_if(kPapers.begin(), kPapers.end(),
+                                     [&](const Paper& p) { return oriented_paper_mm(design, p).has_value(); });
     if (larger != kPapers.end()) message += ", or --paper " + std::string(larger->name);
     return message;
 }
@@ -154,8 +154,8 @@ Result<std::string> board_pdf(const BoardDesign& design, const std::string& pape
         for (const std::string& name : paper_names()) names += (names.empty() ? "" : ", ") + name;
         return Error{"board: no paper '" + paper_name + "'; give one of " + names};
     }
-    const auto sheet = laid_paper(design, *paper);
-    if (!sheet) return Error{does_not_fit(design, *paper)};
+    const auto sheet = oriented_paper_mm(design, *paper);
+    if (!sheet) return Error{too_small_paper_message(design, *paper)};
     const double left = 0.5 * (sheet->x - board_width_mm(design));
     const double top = 0.5 * (sheet->y - board_height_mm(design) - kSmallPrintLine_mm);
     std::ostringstream content = plain_text();
@@ -163,7 +163,7 @@ Result<std::string> board_pdf(const BoardDesign& design, const std::string& pape
             << kPoints_per_mm << " 0 0 " << -kPoints_per_mm << " " << left * kPoints_per_mm << " "
             << (sheet->y - top) * kPoints_per_mm << " cm\n0 g\n";  // from here in millimetres, y down
     // All rectangles are one path, filled at once, so that no hairline shows where two touch.
-    for (const InkRectangle& r : ink_of(design)) {
+    for (const InkRectangle& r : ink_rectangles(design)) {
         content << r.x_mm << " " << r.y_mm << " " << r.width_mm << " " << r.height_mm << " re\n";
     }
     content << "f\nQ\nBT\n/F1 " << kSmallPrint_mm * kPoints_per_mm << " Tf\n"
@@ -183,7 +183,7 @@ Result<std::string> board_svg(const BoardDesign& design) {
         << "mm\" viewBox=\"" << -border << " " << -border << " " << width << " " << height << "\">\n<rect x=\""
         << -border << "\" y=\"" << -border << "\" width=\"" << width << "\" height=\"" << height
         << "\" fill=\"#fff\"/>\n<path d=\"";
-    for (const InkRectangle& r : ink_of(design)) {
+    for (const InkRectangle& r : ink_rectangles(design)) {
         svg << "M" << r.x_mm << " " << r.y_mm << "h" << r.width_mm << "v" << r.height_mm << "h" << -r.width_mm << "z\n";
     }
     svg << "\"/>\n<text x=\"0\" y=\"" << board_height_mm(design) + kSmallPrintLine_mm
@@ -205,7 +205,7 @@ Result<Image<Rgba8>> board_image(const BoardDesign& design, double dpi) {
     const int width = static_cast<int>(width_px);
     const int height = static_cast<int>(height_px);
     cv::Mat1f ink(height, width, 0.0F);
-    for (const InkRectangle& r : ink_of(design)) {
+    for (const InkRectangle& r : ink_rectangles(design)) {
         const double x0 = (r.x_mm + border) * px_per_mm, x1 = x0 + r.width_mm * px_per_mm;
         const double y0 = (r.y_mm + border) * px_per_mm, y1 = y0 + r.height_mm * px_per_mm;
         for (int y = static_cast<int>(y0); y < std::min<double>(height, y1); ++y) {

@@ -22,16 +22,17 @@ struct SheetOptions {
     double dpi = 300;          // PNG only
 };
 
-// Errors: a design that check_board_design() refuses; an unknown paper; a board that does not fit the paper (the
-// message states what would fit).
+/// Errors: a design that check_board_design() refuses; an unknown paper; a board that does not fit the paper (the
+/// message states what would fit).
 Result<std::string> board_pdf(const BoardDesign& design, const std::string& paper);
 Result<std::string> board_svg(const BoardDesign& design);
 
-// Edges are antialiased by pixel coverage, so sizes are exact even if a square is not a whole number of pixels: pixel p
-// covers [p, p + 1) * 25.4 / dpi millimetres from the border's outer edge. Error if a side exceeds kMaxImageSide_px.
+/// Edges are antialiased by pixel coverage, so sizes are exact even if a square is not a whole number of pixels: pixel
+/// p covers [p, p + 1) * 25.4 / dpi millimetres from the border's outer edge. Error if a side exceeds kMaxImageSide_px.
 Result<Image<Rgba8>> board_image(const BoardDesign& design, double dpi);
 
-// Writes the format given by the extension: .pdf, .svg or .png. Errors: those above, another extension, a failed write.
+/// Writes the format given by the extension: .pdf, .svg or .png. Errors: those above, another extension, a failed
+/// write.
 Status write_board(const std::filesystem::path& path, const SheetOptions& options);
 
 }  // namespace rs::capture

@@ -175,7 +175,7 @@ glm::dvec2 corner_mm(const BoardDesign& design, int corner) {
     return design.square_mm * glm::dvec2(x + 1 - 0.5 * design.squares_x, y + 1 - 0.5 * design.squares_y);
 }
 
-std::vector<InkRectangle> ink_of(const BoardDesign& design) {
+std::vector<InkRectangle> ink_rectangles(const BoardDesign& design) {
     std::vector<InkRectangle> ink;
     const int n = marker_cells_across(design);
     const double cell_mm = design.square_mm * design.marker_share / n;

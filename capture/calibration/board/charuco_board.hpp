@@ -32,13 +32,13 @@ struct BoardDesign {
     bool operator==(const BoardDesign&) const = default;
 };
 
-// Parses "squares=9x9,square-mm=18,marker=0.7,dictionary=4x4_50,blank-mm=0" in any order; omitted keys keep their
-// defaults, and "default" or an empty text is the default board. `squares=9` is 9x9. The error contains the invalid
-// word and the valid values.
+/// Parses "squares=9x9,square-mm=18,marker=0.7,dictionary=4x4_50,blank-mm=0" in any order; omitted keys keep their
+/// defaults, and "default" or an empty text is the default board. `squares=9` is 9x9. The error contains the invalid
+/// word and the valid values.
 Result<BoardDesign> parse_board_design(const std::string& text);
 std::string to_string(const BoardDesign& design);  // the format that parse_board_design() reads
 
-// Errors: numbers out of range, too few markers in the dictionary, a blank that leaves fewer than 8 corners.
+/// Errors: numbers out of range, too few markers in the dictionary, a blank that leaves fewer than 8 corners.
 Status check_board_design(const BoardDesign& design);
 
 // The functions below expect a valid design.
@@ -47,7 +47,7 @@ bool square_is_printed(const BoardDesign& design, int x, int y);
 bool square_is_black(int x, int y);
 int marker_of_square(const BoardDesign& design, int x, int y);  // -1 if it is black or not printed
 
-// Cell (x, y) of a marker is result[y * n + x], n = marker_cells_across(), including the black border; true if black.
+/// Cell (x, y) of a marker is result[y * n + x], n = marker_cells_across(), including the black border; true if black.
 int marker_cells_across(const BoardDesign& design);
 std::vector<bool> black_marker_cells(const BoardDesign& design, int marker);
 
@@ -57,11 +57,11 @@ inline int corner_count(const BoardDesign& design) {
 bool corner_is_printed(const BoardDesign& design, int corner);
 glm::dvec2 corner_mm(const BoardDesign& design, int corner);  // board frame
 
-// A black rectangle; millimetres from the top left corner of the board, y down.
+/// A black rectangle; millimetres from the top left corner of the board, y down.
 struct InkRectangle {
     double x_mm = 0, y_mm = 0, width_mm = 0, height_mm = 0;
 };
-// All black areas as rectangles that do not overlap.
-std::vector<InkRectangle> ink_of(const BoardDesign& design);
+/// All black areas as rectangles that do not overlap.
+std::vector<InkRectangle> ink_rectangles(const BoardDesign& design);
 
 }  // namespace rs::capture

@@ -25,7 +25,7 @@ struct Window {
     }
 };
 
-cv::Point2d mapped(const cv::Matx33d& h, double x, double y) {
+cv::Point2d apply_homography(const cv::Matx33d& h, double x, double y) {
     const cv::Vec3d p = h * cv::Vec3d(x, y, 1);
     return {p[0] / p[2], p[1] / p[2]};
 }
@@ -37,7 +37,7 @@ bool fill(Window& window, const cv::Mat1f& grey, const cv::Matx33d& h, const glm
     auto out = window.grey.begin();
     for (int y = -window.half; y <= window.half; ++y) {
         for (int x = -window.half; x <= window.half; ++x) {
-            const cv::Point2d p = mapped(h, centre.x + x * window.pitch, centre.y + y * window.pitch);
+            const cv::Point2d p = apply_homography(h, centre.x + x * window.pitch, centre.y + y * window.pitch);
             if (!(p.x >= 0 && p.y >= 0 && p.x < grey.cols - 1 && p.y < grey.rows - 1)) return false;
             const int x0 = static_cast<int>(p.x), y0 = static_cast<int>(p.y);
             const float fx = static_cast<float>(p.x - x0), fy = static_cast<float>(p.y - y0);
@@ -51,7 +51,7 @@ bool fill(Window& window, const cv::Mat1f& grey, const cv::Matx33d& h, const glm
 
 // True if the samples within `band` of the edges and those inside the black squares match a chessboard: as a whole, and
 // in each of sixteen sectors, so that neither a missing square nor an object in front of part of an arm passes.
-bool looks_right(const Window& window, bool first_is_black, double band) {
+bool matches_chessboard(const Window& window, bool first_is_black, double band) {
     struct Sum {
         double n = 0, v = 0;
     };
@@ -112,11 +112,11 @@ std::optional<glm::dvec2> offset(const Window& window, double band) {
 
 }  // namespace
 
-std::optional<glm::dvec2> refined_corner(const cv::Mat1f& grey, const cv::Matx33d& h, bool first_is_black,
-                                         double margin) {
+std::optional<glm::dvec2> refine_corner(const cv::Mat1f& grey, const cv::Matx33d& h, bool first_is_black,
+                                        double margin) {
     // The shorter edge in the image limits the resolution of a square.
-    const double side_x = cv::norm(mapped(h, 0.5, 0) - mapped(h, -0.5, 0));
-    const double side_y = cv::norm(mapped(h, 0, 0.5) - mapped(h, 0, -0.5));
+    const double side_x = cv::norm(apply_homography(h, 0.5, 0) - apply_homography(h, -0.5, 0));
+    const double side_y = cv::norm(apply_homography(h, 0, 0.5) - apply_homography(h, 0, -0.5));
     const double longest = std::max(side_x, side_y);
     if (!(std::isfinite(longest) && std::min(side_x, side_y) > 2)) return std::nullopt;
     Window window;
@@ -136,8 +136,8 @@ std::optional<glm::dvec2> refined_corner(const cv::Mat1f& grey, const cv::Matx33
         if (!(glm::length(centre) < kMost)) return std::nullopt;
         if (glm::length(*step) * longest < 2e-3) break;
     }
-    if (!fill(window, grey, h, centre) || !looks_right(window, first_is_black, band)) return std::nullopt;
-    const cv::Point2d p = mapped(h, centre.x, centre.y);
+    if (!fill(window, grey, h, centre) || !matches_chessboard(window, first_is_black, band)) return std::nullopt;
+    const cv::Point2d p = apply_homography(h, centre.x, centre.y);
     return glm::dvec2(p.x, p.y);
 }
 

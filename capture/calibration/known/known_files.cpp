@@ -1,6 +1,6 @@
 #include "capture/calibration/known/known_files.hpp"
 
-#include "capture/calibration/model/turn_of_cameras.hpp"
+#include "capture/calibration/model/turntable_fit.hpp"
 #include "capture/calibration/model/turntable_model.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -30,8 +30,8 @@ Result<double> common_focal_length(double fx_px, double fy_px, const std::string
     return f_px;
 }
 
-Status set_turn(KnownInputs& known, std::span<const glm::dmat4> world_from_camera, const std::string& where) {
-    RS_ASSIGN_OR_RETURN(const auto turn, turn_of_cameras(world_from_camera, where));
+Status set_turntable(KnownInputs& known, std::span<const glm::dmat4> world_from_camera, const std::string& where) {
+    RS_ASSIGN_OR_RETURN(const auto turn, fit_turn_to_cameras(world_from_camera, where));
     known.pose = turn.pose;
     known.angles_rad = turn.angles_rad;
     known.counter_clockwise = median_step(turn.angles_rad) > 0;
@@ -191,7 +191,7 @@ Result<KnownFile> middlebury_parameters_from(const std::string& text, const std:
         cameras.push_back(view.world_from_camera);
         file.images.push_back(std::move(view.name));
     }
-    RS_TRY(set_turn(file.known, cameras, where));
+    RS_TRY(set_turntable(file.known, cameras, where));
     return file;
 }
 
@@ -233,7 +233,7 @@ Result<KnownFile> read_known_rig(const std::filesystem::path& path, ImagePixels 
     file.known.f_px = f_px;
     file.known.principal_point = glm::dvec2(first.cx, first.cy);
     file.known.distortion = distortion;
-    RS_TRY(set_turn(file.known, cameras, where));
+    RS_TRY(set_turntable(file.known, cameras, where));
     return file;
 }
 
@@ -248,7 +248,7 @@ Result<KnownFile> read_known_file(const std::filesystem::path& path, ImagePixels
                  "*.xml (OpenCV)"};
 }
 
-Result<KnownInputs> known_of_photographs(const KnownFile& file, const std::vector<std::string>& photographs) {
+Result<KnownInputs> known_inputs_of(const KnownFile& file, const std::vector<std::string>& photographs) {
     KnownInputs known = file.known;
     if (!known.angles_rad || file.images.empty()) return known;
     std::map<std::string, double> angle_of;

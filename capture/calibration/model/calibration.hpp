@@ -2,7 +2,7 @@
 // Result of calibrating a turn with any method: the model, the accuracy of each number, and warnings for the
 // photographer.
 
-#include "capture/calibration/model/image_place.hpp"
+#include "capture/calibration/model/image_placement.hpp"
 #include "capture/calibration/model/turntable_model.hpp"
 
 #include <limits>
@@ -12,7 +12,7 @@
 
 namespace rs::capture {
 
-// From the most to the least accurate.
+/// From the most to the least accurate.
 enum class CalibrationMethod {
     kBoard,        // a printed board on the turntable
     kGiven,        // lens, pose and angles are all known
@@ -22,8 +22,8 @@ enum class CalibrationMethod {
 };
 std::string to_string(CalibrationMethod method);  // "board", "given", "tracks", "silhouettes", "nominal"
 
-// One standard deviation each, in the unit of the number; 0 if the number was given and held constant, infinity if its
-// error is unknown.
+/// One standard deviation each, in the unit of the number; 0 if the number was given and held constant, infinity if its
+/// error is unknown.
 struct ModelDeviations {
     double f_px = std::numeric_limits<double>::infinity();
     double cx = std::numeric_limits<double>::infinity();
@@ -39,7 +39,7 @@ struct ModelDeviations {
     std::vector<double> angles_rad;               // [view]; relative to the mean of all views
 };
 
-// Fit of one view.
+/// Fit of one view.
 struct ViewFit {
     int observations = 0;
     double rms_px = 0;  // root mean square of the residual lengths; 0 without observations
@@ -48,8 +48,8 @@ struct ViewFit {
 struct Calibration {
     CalibrationMethod method = CalibrationMethod::kNominal;
     TurntableModel model;
-    // [view]; empty unless the photos were shifted and scaled individually. The model, points and residuals refer to
-    // the photos with this undone.
+    /// [view]; empty unless the photos were shifted and scaled individually. The model, points and residuals refer to
+    /// the photos with this undone.
     std::vector<ImagePlace> places;
     ModelDeviations deviations;
     int points = 0;
@@ -61,7 +61,7 @@ struct Calibration {
     std::vector<std::string> warnings;      // one line each, something that a photographer can act on
 };
 
-// Known values: every number that is set is held constant, not estimated.
+/// Known values: every number that is set is held constant, not estimated.
 struct KnownInputs {
     std::optional<double> f_px;
     std::optional<glm::dvec2> principal_point;  // default: the image centre, unless estimate_principal_point
@@ -74,8 +74,8 @@ struct KnownInputs {
     bool equal_steps = false;  // one common step for all views
 };
 
-// Replaces assumed numbers by known ones. `model` has an angle for each view.
-Lens with_known(Lens lens, const KnownInputs& known);
-TurntableModel with_known(TurntableModel model, const KnownInputs& known);
+/// Replaces assumed numbers by known ones. `model` has an angle for each view.
+Lens apply_known(Lens lens, const KnownInputs& known);
+TurntableModel apply_known(TurntableModel model, const KnownInputs& known);
 
 }  // namespace rs::capture

@@ -5,8 +5,8 @@
 
 namespace rs::capture {
 
-// lens: f, cx, cy, k1, k2; pose: pan, tilt, roll; point: X, Y, Z of the object at angle 0. Writes pixel x, y. Returns
-// false if the point is not in front of the camera.
+/// lens: f, cx, cy, k1, k2; pose: pan, tilt, roll; point: X, Y, Z of the object at angle 0. Writes pixel x, y. Returns
+/// false if the point is not in front of the camera.
 template <class T>
 bool project_turned(const T* lens, const T* pose, const T& angle_rad, const T* point, T* pixel) {
     using std::cos;

@@ -110,12 +110,12 @@ std::optional<double> axis_row(const Lens& lens, const CameraPose& pose, double 
     return axis_crossing(lens, pose, 0, x_px);
 }
 
-bool lies_sideways(const CameraPose& pose) {
+bool has_sideways_axis(const CameraPose& pose) {
     return std::abs(std::sin(pose.roll_rad)) > std::abs(std::cos(pose.roll_rad));
 }
 
 std::optional<double> axis_position(const Lens& lens, const CameraPose& pose, double at_px) {
-    return lies_sideways(pose) ? axis_row(lens, pose, at_px) : axis_column(lens, pose, at_px);
+    return has_sideways_axis(pose) ? axis_row(lens, pose, at_px) : axis_column(lens, pose, at_px);
 }
 
 double median_step(std::span<const double> angles_rad) {

@@ -48,24 +48,24 @@ struct TurntableModel {
     std::vector<double> angles_rad;  // [view], the first is 0
 };
 
-// camera_from_table rotation without the translation: p_in_camera = result * (p_in_table - (0, 0, 1)).
+/// camera_from_table rotation without the translation: p_in_camera = result * (p_in_table - (0, 0, 1)).
 glm::dmat3 camera_rotation(const CameraPose& pose);
 
-// Rotates a point of the object frame (at angle 0) by angle_rad about the axis.
+/// Rotates a point of the object frame (at angle 0) by angle_rad about the axis.
 glm::dvec3 turned(const glm::dvec3& p_in_object, double angle_rad);
 
-// Projects a point of the table frame (already turned) to px; nothing if it is not in front of the camera.
+/// Projects a point of the table frame (already turned) to px; nothing if it is not in front of the camera.
 std::optional<glm::dvec2> project(const Lens& lens, const CameraPose& pose, const glm::dvec3& p_in_table);
 
-// The undistorted direction x, y (at -Z = 1, y down) that appears at pixel position `p`, by Newton's method; nothing if
-// the distortion cannot be inverted there (beyond the radius where it folds back).
+/// The undistorted direction x, y (at -Z = 1, y down) that appears at pixel position `p`, by Newton's method; nothing
+/// if the distortion cannot be inverted there (beyond the radius where it folds back).
 std::optional<glm::dvec2> undistorted(const Lens& lens, const glm::dvec2& p);
 
-// The ray through pixel position `p` in the table frame, from (0, 0, 1), unit length; in the object frame of view i it
-// is rotated by -angle_i.
+/// The ray through pixel position `p` in the table frame, from (0, 0, 1), unit length; in the object frame of view i it
+/// is rotated by -angle_i.
 std::optional<glm::dvec3> table_ray(const Lens& lens, const CameraPose& pose, const glm::dvec2& p);
 
-// table_ray() for many pixels, each ray rotated by `turn_rad` about the axis; the rotation is computed once.
+/// table_ray() for many pixels, each ray rotated by `turn_rad` about the axis; the rotation is computed once.
 class TableRays {
 public:
     TableRays(const Lens& lens, const CameraPose& pose, double turn_rad = 0);
@@ -76,22 +76,22 @@ private:
     glm::dmat3 from_camera_;
 };
 
-// The pinhole camera of one view in the object's frame (its world). Distances are scaled by `scale`, and table height
-// `origin_height` becomes Y = 0. The lens distortion is left out.
+/// The pinhole camera of one view in the object's frame (its world). Distances are scaled by `scale`, and table height
+/// `origin_height` becomes Y = 0. The lens distortion is left out.
 Camera object_camera(const TurntableModel& model, std::size_t view, double scale = 1, double origin_height = 0);
 
-// The column at which the axis crosses row `y_px` of the undistorted image (for an axis nearer to upright than to
-// sideways), and the same with columns and rows exchanged. Nothing if they do not cross in front of the camera.
+/// The column at which the axis crosses row `y_px` of the undistorted image (for an axis nearer to upright than to
+/// sideways), and the same with columns and rows exchanged. Nothing if they do not cross in front of the camera.
 std::optional<double> axis_column(const Lens& lens, const CameraPose& pose, double y_px);
 std::optional<double> axis_row(const Lens& lens, const CameraPose& pose, double x_px);
 
-// True if the axis is nearer to sideways than to upright in the image.
-bool lies_sideways(const CameraPose& pose);
+/// True if the axis is nearer to sideways than to upright in the image.
+bool has_sideways_axis(const CameraPose& pose);
 
-// axis_column() at row at_px; axis_row() at column at_px for a sideways axis.
+/// axis_column() at row at_px; axis_row() at column at_px for a sideways axis.
 std::optional<double> axis_position(const Lens& lens, const CameraPose& pose, double at_px);
 
-// The median step from view to view, signed; 0 for fewer than two views.
+/// The median step from view to view, signed; 0 for fewer than two views.
 double median_step(std::span<const double> angles_rad);
 
 }  // namespace rs::capture

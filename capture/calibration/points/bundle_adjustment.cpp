@@ -34,9 +34,9 @@ public:
         : model_(model), angles_(free.angles), camera_{&model.lens.f_px,     &model.lens.cx,      &model.lens.cy,
                                                        &model.lens.k1,       &model.lens.k2,      &model.pose.pan_rad,
                                                        &model.pose.tilt_rad, &model.pose.roll_rad} {
-        const std::array<bool, kCameraNumbers> is_free{
+        const std::array<bool, kCameraParameters> is_free{
             free.f, free.principal_point, free.principal_point, free.k1, free.k2, free.pan, free.tilt, free.roll};
-        for (std::size_t k = 0; k < kCameraNumbers; ++k) {
+        for (std::size_t k = 0; k < kCameraParameters; ++k) {
             if (!is_free[k]) continue;
             places_.push_back(k);
             values_.push_back(*camera_[k]);
@@ -52,7 +52,7 @@ public:
     // Null if the view's angle is constant.
     [[nodiscard]] double* angle(int view) {
         if (angles_ == AngleFreedom::kCommonStep) return &step_rad_;
-        if (angles_ == AngleFreedom::kHeld || view == 0) return nullptr;
+        if (angles_ == AngleFreedom::kConstant || view == 0) return nullptr;
         return &model_.angles_rad[static_cast<std::size_t>(view)];
     }
     // Rotation of a view per unit of angle(view).
@@ -69,7 +69,7 @@ public:
 private:
     TurntableModel& model_;
     AngleFreedom angles_;
-    std::array<double*, kCameraNumbers> camera_;  // pointers into the model
+    std::array<double*, kCameraParameters> camera_;  // pointers into the model
     std::vector<std::size_t> places_;
     std::vector<double> values_;
     double step_rad_ = 0;
@@ -175,8 +175,8 @@ public:
         std::fill_n(jacobians[0], off.size() * places_.size(), 0.0);
         for (std::size_t column = 0; column < places_.size(); ++column) {
             const std::size_t place = places_[column];
-            if (place < CameraNumber::kCx || place > CameraNumber::kK2) continue;
-            const std::size_t row = place - CameraNumber::kCx;
+            if (place < CameraParameter::kCx || place > CameraParameter::kK2) continue;
+            const std::size_t row = place - CameraParameter::kCx;
             jacobians[0][row * places_.size() + column] = per_deviation_[row];
         }
         return true;
@@ -230,8 +230,8 @@ std::optional<double> adjust(Bundle& bundle, const BundleOptions& options) {
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::DENSE_SCHUR;
     solver.linear_solver_ordering = ordering;
-    solver.max_num_iterations = options.most_iterations;
-    solver.function_tolerance = options.enough;
+    solver.max_num_iterations = options.max_iterations;
+    solver.function_tolerance = options.function_tolerance;
     solver.num_threads = 1;
     solver.logging_type = ceres::SILENT;
     silence_ceres();

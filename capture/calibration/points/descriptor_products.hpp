@@ -12,10 +12,10 @@ namespace rs::capture {
 inline constexpr std::size_t kDescriptorNumbers = 128;
 inline constexpr int kDescriptorUnit = 4096;  // length of a descriptor; the product of two equal ones is its square
 
-// Descriptors, kDescriptorNumbers integers each, one after the other.
+/// Descriptors, kDescriptorNumbers integers each, one after the other.
 using Descriptors = std::vector<std::int16_t>;
 
-// Descriptors in the layout of the right factor: elements 2 k and 2 k + 1 of feature c are packed in pair(k)[c].
+/// Descriptors in the layout of the right factor: elements 2 k and 2 k + 1 of feature c are packed in pair(k)[c].
 class PackedDescriptors {
 public:
     explicit PackedDescriptors(std::span<const std::int16_t> descriptors);
@@ -28,15 +28,15 @@ private:
     std::vector<std::int32_t> pairs_;
 };
 
-// Inner products of one descriptor with all: products[c], stride() of them.
+/// Inner products of one descriptor with all: products[c], stride() of them.
 void descriptor_products(std::span<const std::int16_t> descriptor, const PackedDescriptors& with,
                          std::span<std::int32_t> products);
 
-// The same for four consecutive descriptors: products[r * stride() + c].
+/// The same for four consecutive descriptors: products[r * stride() + c].
 void four_descriptor_products(std::span<const std::int16_t> four, const PackedDescriptors& with,
                               std::span<std::int32_t> products);
 
-// Inner product of two descriptors.
+/// Inner product of two descriptors.
 std::int32_t descriptor_product(std::span<const std::int16_t> a, std::span<const std::int16_t> b);
 
 }  // namespace rs::capture

@@ -26,7 +26,7 @@ constexpr int kLattice_px = 16;
 
 // The part of the image that is needed for features within `inside`.
 cv::Rect part_around(const cv::Mat1b& inside) {
-    const cv::Rect box = box_of(inside);
+    const cv::Rect box = bounding_box(inside);
     const cv::Point corner(std::max(0, box.x - kBeside_px) / kLattice_px * kLattice_px,
                            std::max(0, box.y - kBeside_px) / kLattice_px * kLattice_px);
     const cv::Point end(std::min(inside.cols, box.br().x + kBeside_px), std::min(inside.rows, box.br().y + kBeside_px));
@@ -50,10 +50,10 @@ Descriptors root_sift(const cv::Mat1f& sift) {
     return roots;
 }
 
-ViewFeatures features_of(const CalibrationImage& image, const FollowOptions& options) {
+ViewFeatures features_of(const CalibrationImage& image, const TrackingOptions& options) {
     cv::Mat inside;
-    cv::threshold(mat_over(image.alpha), inside, 250, 255, cv::THRESH_BINARY);
-    const int side = 2 * options.rim_px + 1;
+    cv::threshold(mat_view(image.alpha), inside, 250, 255, cv::THRESH_BINARY);
+    const int side = 2 * options.margin_px + 1;
     cv::erode(inside, inside, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}), {-1, -1}, 1,
               cv::BORDER_REPLICATE);
     // SIFT's own limit would be filled by the backdrop, because SIFT counts before it applies the mask.
@@ -61,9 +61,9 @@ ViewFeatures features_of(const CalibrationImage& image, const FollowOptions& opt
     std::vector<cv::KeyPoint> points;
     cv::Mat descriptors;
     const cv::Rect part = part_around(inside);
-    const cv::Mat grey = mat_over(image.grey)(part);
+    const cv::Mat grey = mat_view(image.grey)(part);
     sift->detect(grey, points, inside(part));
-    cv::KeyPointsFilter::retainBest(points, options.most_features);
+    cv::KeyPointsFilter::retainBest(points, options.max_features);
     sift->compute(grey, points, descriptors);
 
     // A point with two orientations yields two features; OpenCV's order, which is deterministic, is kept.
@@ -108,7 +108,7 @@ private:
 
 }  // namespace
 
-std::vector<ViewFeatures> find_features(std::span<const CalibrationImage> turn, const FollowOptions& options,
+std::vector<ViewFeatures> find_features(std::span<const CalibrationImage> turn, const TrackingOptions& options,
                                         Progress* progress) {
     std::vector<ViewFeatures> views(turn.size());
     for_each_index(turn.size(), [&](std::size_t i) {
@@ -130,7 +130,7 @@ double distance_of(std::int32_t product) {
 // scales.
 constexpr double kElsewhere_px = 2;
 
-bool elsewhere(const ViewFeatures& view, std::size_t a, std::size_t b) {
+bool is_distinct(const ViewFeatures& view, std::size_t a, std::size_t b) {
     return glm::distance(view.positions[a], view.positions[b]) > kElsewhere_px;
 }
 
@@ -176,7 +176,7 @@ double Segment::distance(const glm::dvec2& p) const {
     return glm::distance(p, from + t * along);
 }
 
-std::vector<FeatureMatch> alike(const ViewFeatures& first, const ViewFeatures& second, double ratio) {
+std::vector<FeatureMatch> match_features(const ViewFeatures& first, const ViewFeatures& second, double ratio) {
     const std::size_t rows = first.positions.size(), columns = second.positions.size();
     if (rows < 2 || columns < 2) return {};
     const std::size_t stride = second.packed.stride();
@@ -205,7 +205,7 @@ std::vector<FeatureMatch> alike(const ViewFeatures& first, const ViewFeatures& s
                 }
             }
             for (std::size_t j = 0; j < columns; ++j) {
-                if (row[j] > two.next && elsewhere(second, j, two.best)) two.next = row[j];
+                if (row[j] > two.next && is_distinct(second, j, two.best)) two.next = row[j];
             }
         }
     }
@@ -213,7 +213,7 @@ std::vector<FeatureMatch> alike(const ViewFeatures& first, const ViewFeatures& s
 }
 
 std::vector<FeatureMatch> match_guided(const ViewFeatures& first, const ViewFeatures& second, double ratio,
-                                       const MayAppear& may_appear, double band_px) {
+                                       const SearchSegment& search_segment, double band_px) {
     constexpr double kRounding_px = 1e-3;
     const std::size_t rows = first.positions.size(), columns = second.positions.size();
     if (rows < 2 || columns < 2) return {};
@@ -229,7 +229,7 @@ std::vector<FeatureMatch> match_guided(const ViewFeatures& first, const ViewFeat
     BestOfSecond of_second(columns);
     std::vector<std::pair<std::size_t, std::int32_t>> near;  // feature of the second view, product
     for (std::size_t i = 0; i < rows; ++i) {
-        const auto where = may_appear(first.positions[i]);
+        const auto where = search_segment(first.positions[i]);
         if (!where) continue;
         near.clear();
         const double left = std::min(where->from.x, where->to.x) - band_px;
@@ -254,14 +254,14 @@ std::vector<FeatureMatch> match_guided(const ViewFeatures& first, const ViewFeat
             }
         }
         for (const auto& [j, product] : near) {
-            if (product > two.next && elsewhere(second, j, two.best)) two.next = product;
+            if (product > two.next && is_distinct(second, j, two.best)) two.next = product;
         }
     }
     return mutual(of_first, of_second, ratio);
 }
 
-std::vector<Track> chained(std::span<const ViewFeatures> views, std::span<const PairOfViews> pairs,
-                           std::span<const std::vector<FeatureMatch>> matches) {
+std::vector<Track> build_tracks(std::span<const ViewFeatures> views, std::span<const MatchedPair> pairs,
+                                std::span<const std::vector<FeatureMatch>> matches) {
     std::vector<std::size_t> first_of_view;
     std::vector<int> view_of;
     for (std::size_t view = 0; view < views.size(); ++view) {
@@ -270,7 +270,7 @@ std::vector<Track> chained(std::span<const ViewFeatures> views, std::span<const 
     }
     struct Link {
         std::size_t a = 0, b = 0;
-        float likeness = 0;
+        float similarity = 0;
     };
     std::vector<Link> links;
     for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
@@ -278,10 +278,11 @@ std::vector<Track> chained(std::span<const ViewFeatures> views, std::span<const 
         const std::size_t second = first_of_view[static_cast<std::size_t>(pairs[pair].second)];
         for (const FeatureMatch& match : matches[pair]) {
             links.push_back({first + static_cast<std::size_t>(match.first),
-                             second + static_cast<std::size_t>(match.second), match.likeness});
+                             second + static_cast<std::size_t>(match.second), match.similarity});
         }
     }
-    std::stable_sort(links.begin(), links.end(), [](const Link& a, const Link& b) { return a.likeness > b.likeness; });
+    std::stable_sort(links.begin(), links.end(),
+                     [](const Link& a, const Link& b) { return a.similarity > b.similarity; });
     Chains chains(view_of);
     for (const Link& link : links) chains.join(link.a, link.b);
 

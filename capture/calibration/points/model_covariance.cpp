@@ -16,15 +16,15 @@ namespace rs::capture {
 namespace {
 
 // Derivatives of the axis' position by the camera's numbers, by finite differences.
-std::array<double, kCameraNumbers> axis_slopes(const TurntableModel& model, double at_px) {
-    std::array<double, kCameraNumbers> slopes{};
+std::array<double, kCameraParameters> axis_slopes(const TurntableModel& model, double at_px) {
+    std::array<double, kCameraParameters> slopes{};
     for (std::size_t k = 0; k < slopes.size(); ++k) {
         const double step = k < 3 ? 1e-3 : 1e-6;
         std::array<double, 2> value{};
         for (std::size_t side = 0; side < 2; ++side) {
             Lens lens = model.lens;
             CameraPose pose = model.pose;
-            const std::array<double*, kCameraNumbers> numbers{
+            const std::array<double*, kCameraParameters> numbers{
                 &lens.f_px, &lens.cx, &lens.cy, &lens.k1, &lens.k2, &pose.pan_rad, &pose.tilt_rad, &pose.roll_rad};
             *numbers[k] += side == 0 ? -step : step;
             value[side] = axis_position(lens, pose, at_px).value_or(0);
@@ -36,10 +36,10 @@ std::array<double, kCameraNumbers> axis_slopes(const TurntableModel& model, doub
 
 }  // namespace
 
-NumberPlaces::NumberPlaces(const BundleFreedom& free, const std::vector<bool>& is_seen) {
-    const std::array<bool, kCameraNumbers> camera_free{
+ParameterIndices::ParameterIndices(const BundleFreedom& free, const std::vector<bool>& is_seen) {
+    const std::array<bool, kCameraParameters> camera_free{
         free.f, free.principal_point, free.principal_point, free.k1, free.k2, free.pan, free.tilt, free.roll};
-    for (std::size_t k = 0; k < kCameraNumbers; ++k) camera[k] = camera_free[k] ? count++ : -1;
+    for (std::size_t k = 0; k < kCameraParameters; ++k) camera[k] = camera_free[k] ? count++ : -1;
     for (std::size_t view = 0; view < is_seen.size(); ++view) {
         const bool is_free = free.angles == AngleFreedom::kEach && view > 0 && is_seen[view];
         angles.push_back(is_free ? count++ : -1);
@@ -47,10 +47,10 @@ NumberPlaces::NumberPlaces(const BundleFreedom& free, const std::vector<bool>& i
     if (free.angles == AngleFreedom::kCommonStep) step = count++;
 }
 
-TurntableModel stepped(TurntableModel model, const NumberPlaces& places, const Eigen::VectorXd& step) {
-    const std::array<double*, kCameraNumbers> numbers{&model.lens.f_px,     &model.lens.cx,      &model.lens.cy,
-                                                      &model.lens.k1,       &model.lens.k2,      &model.pose.pan_rad,
-                                                      &model.pose.tilt_rad, &model.pose.roll_rad};
+TurntableModel apply_step(TurntableModel model, const ParameterIndices& places, const Eigen::VectorXd& step) {
+    const std::array<double*, kCameraParameters> numbers{&model.lens.f_px,     &model.lens.cx,      &model.lens.cy,
+                                                         &model.lens.k1,       &model.lens.k2,      &model.pose.pan_rad,
+                                                         &model.pose.tilt_rad, &model.pose.roll_rad};
     for (std::size_t k = 0; k < numbers.size(); ++k) {
         if (places.camera[k] >= 0) *numbers[k] += step(places.camera[k]);
     }
@@ -61,8 +61,8 @@ TurntableModel stepped(TurntableModel model, const NumberPlaces& places, const E
     return model;
 }
 
-ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& places,
-                              const Eigen::MatrixXd& covariance, double at_px) {
+ModelDeviations standard_deviations(const TurntableModel& model, const ParameterIndices& places,
+                                    const Eigen::MatrixXd& covariance, double at_px) {
     if (covariance.size() == 0 && places.count > 0) {
         ModelDeviations unknown;
         unknown.angles_rad.assign(model.angles_rad.size(), std::numeric_limits<double>::infinity());
@@ -76,13 +76,13 @@ ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& p
         return place < 0 ? 0.0 : std::sqrt(std::max(0.0, covariance(place, place)));
     };
     ModelDeviations deviations;
-    deviations.f_px = one(CameraNumber::kF);
-    deviations.cx = one(CameraNumber::kCx);
-    deviations.cy = one(CameraNumber::kCy);
-    deviations.k1 = one(CameraNumber::kK1);
-    deviations.k2 = one(CameraNumber::kK2);
-    deviations.tilt_rad = one(CameraNumber::kTilt);
-    deviations.roll_rad = one(CameraNumber::kRoll);
+    deviations.f_px = one(CameraParameter::kF);
+    deviations.cx = one(CameraParameter::kCx);
+    deviations.cy = one(CameraParameter::kCy);
+    deviations.k1 = one(CameraParameter::kK1);
+    deviations.k2 = one(CameraParameter::kK2);
+    deviations.tilt_rad = one(CameraParameter::kTilt);
+    deviations.roll_rad = one(CameraParameter::kRoll);
     deviations.axis_direction_rad =
         std::hypot(deviations.tilt_rad, std::cos(model.pose.tilt_rad) * deviations.roll_rad);
     const auto slopes = axis_slopes(model, at_px);
@@ -158,11 +158,11 @@ Eigen::Vector2d vector(const glm::dvec2& v) {
 struct Slopes {
     Eigen::Vector2d r;
     Eigen::Matrix<double, 2, 3, Eigen::RowMajor> by_point;
-    std::array<std::pair<int, Eigen::Vector2d>, kCameraNumbers + 1> by_number;  // index and derivative
-    std::size_t count = 0;                                                      // of entries in by_number
+    std::array<std::pair<int, Eigen::Vector2d>, kCameraParameters + 1> by_number;  // index and derivative
+    std::size_t count = 0;                                                         // of entries in by_number
 };
 
-std::optional<Slopes> slopes_of(const Reprojections& turn, const NumberPlaces& places, const glm::dvec3& point,
+std::optional<Slopes> slopes_of(const Reprojections& turn, const ParameterIndices& places, const glm::dvec3& point,
                                 const Observation& seen) {
     const auto reprojection = turn.of(point, seen);
     if (!reprojection) return std::nullopt;
@@ -172,7 +172,7 @@ std::optional<Slopes> slopes_of(const Reprojections& turn, const NumberPlaces& p
     const auto add = [&](int place, const glm::dvec2& slope) {
         if (place >= 0) slopes.by_number[slopes.count++] = {place, vector(slope)};
     };
-    for (std::size_t k = 0; k < kCameraNumbers; ++k) add(places.camera[k], reprojection->by_camera[k]);
+    for (std::size_t k = 0; k < kCameraParameters; ++k) add(places.camera[k], reprojection->by_camera[k]);
     add(places.angles[static_cast<std::size_t>(seen.view)], reprojection->by_angle);
     add(places.step, static_cast<double>(seen.view) * reprojection->by_angle);
     return slopes;
@@ -180,7 +180,7 @@ std::optional<Slopes> slopes_of(const Reprojections& turn, const NumberPlaces& p
 
 // Nothing if the track does not determine its point.
 std::optional<Evidence> evidence_of(const Bundle& bundle, const Reprojections& turn, std::size_t track,
-                                    const NumberPlaces& places, const BundleOptions& options, double middle_rad) {
+                                    const ParameterIndices& places, const BundleOptions& options, double middle_rad) {
     const TurntableModel& model = bundle.model;
     Evidence evidence(places.count);
     Eigen::MatrixXd across = Eigen::MatrixXd::Zero(places.count, 3);  // numbers by point
@@ -224,7 +224,7 @@ std::optional<Evidence> evidence_of(const Bundle& bundle, const Reprojections& t
 }
 
 // Information of the lens priors: the diagonal.
-Eigen::VectorXd prior_information(const TurntableModel& model, const NumberPlaces& places, double loss_px) {
+Eigen::VectorXd prior_information(const TurntableModel& model, const ParameterIndices& places, double loss_px) {
     const std::array<double, 5> deviations{0, kPriorPrincipalPoint * model.lens.width,
                                            kPriorPrincipalPoint * model.lens.width, kPriorK1, kPriorK2};
     Eigen::VectorXd information = Eigen::VectorXd::Zero(places.count);
@@ -242,7 +242,7 @@ std::size_t sector_at(double angle_rad) {
 }  // namespace
 
 Eigen::MatrixXd bundle_covariance(const Bundle& bundle, const BundleOptions& options, double shared_error_px) {
-    const NumberPlaces places(options.free, std::vector<bool>(bundle.model.angles_rad.size(), true));
+    const ParameterIndices places(options.free, std::vector<bool>(bundle.model.angles_rad.size(), true));
     const Reprojections turn(bundle.model);
     const int n = places.count;
     Evidence all(n);
@@ -276,10 +276,10 @@ Eigen::MatrixXd bundle_covariance(const Bundle& bundle, const BundleOptions& opt
     return covariance + moved * moved.transpose();
 }
 
-ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& options, double at_px,
-                                  double shared_error_px) {
-    const NumberPlaces places(options.free, std::vector<bool>(bundle.model.angles_rad.size(), true));
-    return deviations_of(bundle.model, places, bundle_covariance(bundle, options, shared_error_px), at_px);
+ModelDeviations bundle_standard_deviations(const Bundle& bundle, const BundleOptions& options, double at_px,
+                                           double shared_error_px) {
+    const ParameterIndices places(options.free, std::vector<bool>(bundle.model.angles_rad.size(), true));
+    return standard_deviations(bundle.model, places, bundle_covariance(bundle, options, shared_error_px), at_px);
 }
 
 }  // namespace rs::capture

@@ -13,24 +13,24 @@
 
 namespace rs::capture {
 
-// Indices of a model's numbers among the unknowns, camera first, then angles or the step; -1: held constant.
-struct NumberPlaces {
-    std::array<int, kCameraNumbers> camera{};
+/// Indices of a model's numbers among the unknowns, camera first, then angles or the step; -1: held constant.
+struct ParameterIndices {
+    std::array<int, kCameraParameters> camera{};
     std::vector<int> angles;  // [view]; -1 for the first view always, and for all views if a common step is estimated
     int step = -1;
     int count = 0;
 
-    // is_seen[view]: the angle of a view without observations is held constant.
-    NumberPlaces(const BundleFreedom& free, const std::vector<bool>& is_seen);
+    /// is_seen[view]: the angle of a view without observations is held constant.
+    ParameterIndices(const BundleFreedom& free, const std::vector<bool>& is_seen);
 };
 
-// `model` with `step` added to the numbers at `places`.
-TurntableModel stepped(TurntableModel model, const NumberPlaces& places, const Eigen::VectorXd& step);
+/// `model` with `step` added to the numbers at `places`.
+TurntableModel apply_step(TurntableModel model, const ParameterIndices& places, const Eigen::VectorXd& step);
 
-// Deviations are 0 for constants, and all are infinite if `covariance` is empty. Unknowns of `covariance` beyond
-// places.count are ignored. `at_px` is the row (column for a sideways axis) at which the axis' position is evaluated.
-ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& places,
-                              const Eigen::MatrixXd& covariance, double at_px);
+/// Deviations are 0 for constants, and all are infinite if `covariance` is empty. Unknowns of `covariance` beyond
+/// places.count are ignored. `at_px` is the row (column for a sideways axis) at which the axis' position is evaluated.
+ModelDeviations standard_deviations(const TurntableModel& model, const ParameterIndices& places,
+                                    const Eigen::MatrixXd& covariance, double at_px);
 
 // Covariance of a bundle.
 //
@@ -48,14 +48,14 @@ ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& p
 //   cosine of the angle between a view and the middle of the views that see the point.
 // Treating observations as independent (s^2 H^-1) would underestimate the deviations by a factor of two to five.
 
-// Covariance of the free numbers, in the order of NumberPlaces (model_covariance.hpp), every view being seen; empty if
-// there are no more tracks than numbers, or the tracks do not determine them.
+/// Covariance of the free numbers, in the order of ParameterIndices (model_covariance.hpp), every view being seen;
+/// empty if there are no more tracks than numbers, or the tracks do not determine them.
 Eigen::MatrixXd bundle_covariance(const Bundle& bundle, const BundleOptions& options, double shared_error_px = 0);
 
-// Deviations at the optimum that adjust() found with the same options; 0 for constants. `at_px` is the row (column for
-// a sideways axis) at which the axis' position is evaluated. All are infinite if the observations do not determine the
-// free numbers.
-ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& options, double at_px,
-                                  double shared_error_px = 0);
+/// Deviations at the optimum that adjust() found with the same options; 0 for constants. `at_px` is the row (column for
+/// a sideways axis) at which the axis' position is evaluated. All are infinite if the observations do not determine the
+/// free numbers.
+ModelDeviations bundle_standard_deviations(const Bundle& bundle, const BundleOptions& options, double at_px,
+                                           double shared_error_px = 0);
 
 }  // namespace rs::capture

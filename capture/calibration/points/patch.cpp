@@ -179,7 +179,7 @@ std::optional<Alignment> aligned(const PatchImage& image, const Patch& patch, Wa
 
 }  // namespace
 
-std::optional<Patch> textured_patch(const PatchImage& image, glm::dvec2 centre) {
+std::optional<Patch> extract_patch(const PatchImage& image, glm::dvec2 centre) {
     Warp warp;
     warp.centre = centre;
     Patch patch;

@@ -40,7 +40,7 @@ struct Facet {
 std::optional<Facet> facet_of(const Bundle& bundle, std::size_t i, int reduction) {
     const TurntableModel& model = bundle.model;
     Facet facet;
-    facet.reference = middle_of_arc(model, bundle.tracks[i]);
+    facet.reference = reference_observation(model, bundle.tracks[i]);
     facet.point = bundle.points[i];
     const auto view = static_cast<std::size_t>(facet.reference.view);
     const Camera camera = object_camera(model, view);
@@ -130,7 +130,7 @@ void shape(Facet& facet, const TurnProjection& projection, int reduction,
 
 }  // namespace
 
-const Observation& middle_of_arc(const TurntableModel& model, const Track& track) {
+const Observation& reference_observation(const TurntableModel& model, const Track& track) {
     glm::dvec2 sum(0.0);
     const auto angle = [&](const Observation& seen) { return model.angles_rad[static_cast<std::size_t>(seen.view)]; };
     for (const Observation& seen : track.seen) sum += glm::dvec2(std::cos(angle(seen)), std::sin(angle(seen)));
@@ -140,8 +140,8 @@ const Observation& middle_of_arc(const TurntableModel& model, const Track& track
     });
 }
 
-std::vector<Track> aligned_tracks(std::span<const CalibrationImage> turn, int reduction, const Bundle& bundle,
-                                  std::size_t known) {
+std::vector<Track> align_tracks(std::span<const CalibrationImage> turn, int reduction, const Bundle& bundle,
+                                std::size_t known) {
     const TurntableModel& model = bundle.model;
     const std::size_t points = bundle.points.size();
     std::vector<std::optional<Facet>> facets(points);
@@ -152,7 +152,7 @@ std::vector<Track> aligned_tracks(std::span<const CalibrationImage> turn, int re
         const PatchImage image(turn[view]);
         for (std::size_t i = 0; i < points; ++i) {
             if (!facets[i] || facets[i]->reference.view != static_cast<int>(view)) continue;
-            patches[i] = textured_patch(image, facets[i]->reference.p * (1.0 / reduction));
+            patches[i] = extract_patch(image, facets[i]->reference.p * (1.0 / reduction));
             if (!patches[i]) facets[i].reset();
         }
     });

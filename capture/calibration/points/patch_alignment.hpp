@@ -15,17 +15,17 @@
 
 namespace rs::capture {
 
-// Weight of a detected observation relative to aligned ones.
+/// Weight of a detected observation relative to aligned ones.
 inline constexpr double kDetectedWeight = 0.3;
 
-// The reference observation of a track: the one nearest to the middle of the arc it is seen from.
-const Observation& middle_of_arc(const TurntableModel& model, const Track& track);
+/// The reference observation of a track: the one nearest to the middle of the arc it is seen from.
+const Observation& reference_observation(const TurntableModel& model, const Track& track);
 
-// The tracks of the bundle's points, in their order, with the reference observation unchanged and the others from
-// alignment. If alignment succeeds in fewer than three views, the first `known` points keep their own observations,
-// with kDetectedWeight; others are left out. Positions in px of the photos, `turn` reduced by `reduction`. Runs in
-// parallel; the result does not depend on the number of threads.
-std::vector<Track> aligned_tracks(std::span<const CalibrationImage> turn, int reduction, const Bundle& bundle,
-                                  std::size_t known);
+/// The tracks of the bundle's points, in their order, with the reference observation unchanged and the others from
+/// alignment. If alignment succeeds in fewer than three views, the first `known` points keep their own observations,
+/// with kDetectedWeight; others are left out. Positions in px of the photos, `turn` reduced by `reduction`. Runs in
+/// parallel; the result does not depend on the number of threads.
+std::vector<Track> align_tracks(std::span<const CalibrationImage> turn, int reduction, const Bundle& bundle,
+                                std::size_t known);
 
 }  // namespace rs::capture

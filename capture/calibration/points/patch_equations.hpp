@@ -9,8 +9,8 @@
 
 namespace rs::capture {
 
-// The unknowns are the warp's centre x, y and its matrix row by row, the gain minus 1, illumination as a plane (1, i,
-// j), and the curvatures for i^2 / 2, j^2 / 2, i j.
+/// The unknowns are the warp's centre x, y and its matrix row by row, the gain minus 1, illumination as a plane (1, i,
+/// j), and the curvatures for i^2 / 2, j^2 / 2, i j.
 inline constexpr int kPatchUnknowns = 13;
 inline constexpr int kFlatPatchUnknowns = 10;  // without the curvatures
 
@@ -19,18 +19,18 @@ struct PatchEquations {
     using Vector = Eigen::Matrix<double, kPatchUnknowns, 1>;
     Matrix normal = Matrix::Zero();
     Vector right_side = Vector::Zero();
-    // Weighted sums of squares of the residual with gain 1 and of the texture; sum of the weights.
+    /// Weighted sums of squares of the residual with gain 1 and of the texture; sum of the weights.
     double squares = 0;
     double texture = 0;
     double weights = 0;
 };
 
-// Accumulates the sums row by row; equations() assembles the result.
+/// Accumulates the sums row by row; equations() assembles the result.
 class PatchSums {
 public:
-    // If the curvature is known its equations stay zero.
+    /// If the curvature is known its equations stay zero.
     explicit PatchSums(bool curvature_is_known);
-    // `weight`: 0 for invalid pixels. `less` is subtracted from the image values to keep numbers small.
+    /// `weight`: 0 for invalid pixels. `less` is subtracted from the image values to keep numbers small.
     void add(int j, const SeenRow& seen, const PatchRow& texture, const PatchRow& weight, float less);
     [[nodiscard]] PatchEquations equations(const glm::dvec2& deeper) const;
 

@@ -68,14 +68,14 @@ void grow(Bundle& bundle, int reduction, int most) {
     for (const Track& track : bundle.tracks) occupied.take(track);
     Bundle grown;
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
-        const auto view = static_cast<std::size_t>(middle_of_arc(model, bundle.tracks[i]).view);
+        const auto view = static_cast<std::size_t>(reference_observation(model, bundle.tracks[i]).view);
         const Camera camera = object_camera(model, view);
         const double depth = glm::dot(bundle.points[i] - camera.centre(), camera.forward());
         const double step = kStep_px * reduction * depth / camera.fl_x;
         for (const glm::dvec3& aside : {-camera.right(), camera.right(), -camera.up(), camera.up()}) {
             const glm::dvec3 point = bundle.points[i] + aside * step;
             auto track = expected_track(turn, point, bundle.tracks[i]);
-            if (!track || !occupied.is_free(middle_of_arc(model, *track))) continue;
+            if (!track || !occupied.is_free(reference_observation(model, *track))) continue;
             occupied.take(*track);
             grown.tracks.push_back(std::move(*track));
             grown.points.push_back(point);

@@ -8,10 +8,10 @@
 
 namespace rs::capture {
 
-// Appends for each track of the bundle candidates one step to the left and right of it, above and below, in the view in
-// the middle of its arc (middle_of_arc): at the same depth in that view, and with observations predicted by the model
-// in the same views. Skips positions that already have a point or are outside the image. If the bundle would exceed
-// `most` tracks, an evenly spaced selection of the candidates is added. `reduction` as in patch_alignment.hpp.
+/// Appends for each track of the bundle candidates one step to the left and right of it, above and below, in the view
+/// in the middle of its arc (reference_observation): at the same depth in that view, and with observations predicted by
+/// the model in the same views. Skips positions that already have a point or are outside the image. If the bundle would
+/// exceed `most` tracks, an evenly spaced selection of the candidates is added. `reduction` as in patch_alignment.hpp.
 void grow(Bundle& bundle, int reduction, int most);
 
 }  // namespace rs::capture

@@ -16,26 +16,26 @@
 
 namespace rs::capture {
 
-// The order of the camera's numbers.
-struct CameraNumber {
+/// The order of the camera's numbers.
+struct CameraParameter {
     enum Place : std::size_t { kF, kCx, kCy, kK1, kK2, kPan, kTilt, kRoll, kCount };
 };
-inline constexpr std::size_t kCameraNumbers = CameraNumber::kCount;
+inline constexpr std::size_t kCameraParameters = CameraParameter::kCount;
 
-// Residual and derivatives, multiplied by the observation's weight; px, and px per unit of the number.
+/// Residual and derivatives, multiplied by the observation's weight; px, and px per unit of the number.
 struct Reprojection {
     glm::dvec2 residual{0.0};
-    std::array<glm::dvec2, kCameraNumbers> by_camera{};
+    std::array<glm::dvec2, kCameraParameters> by_camera{};
     glm::dvec2 by_angle{0.0};  // by the angle of the observation's view
     std::array<glm::dvec2, 3> by_point{};
 };
 
-// Evaluates many points and views of one model with precomputed rotations.
+/// Evaluates many points and views of one model with precomputed rotations.
 class Reprojections {
 public:
     explicit Reprojections(const TurntableModel& model);
 
-    // Nothing if the point (of the object at angle 0) is not in front of the camera.
+    /// Nothing if the point (of the object at angle 0) is not in front of the camera.
     [[nodiscard]] std::optional<Reprojection> of(const glm::dvec3& p_in_object, const Observation& seen) const;
 
     [[nodiscard]] const TurnProjection& turn() const { return turn_; }

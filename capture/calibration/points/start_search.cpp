@@ -39,9 +39,9 @@ glm::dvec2 middle_of(std::span<const Track> tracks) {
     return sum / std::max(1.0, count);
 }
 
-bool moves_up_and_down(std::span<const PairOfViews> pairs) {
+bool moves_up_and_down(std::span<const MatchedPair> pairs) {
     double along_x = 0, along_y = 0;
-    for (const PairOfViews& pair : pairs) {
+    for (const MatchedPair& pair : pairs) {
         along_x += pair.spread_x_px * pair.matches;
         along_y += pair.spread_y_px * pair.matches;
     }
@@ -53,7 +53,7 @@ struct Hypothesis {
     bool counter_clockwise = false;
 };
 
-std::vector<Hypothesis> hypotheses(std::span<const Track> tracks, std::span<const PairOfViews> pairs, int views,
+std::vector<Hypothesis> hypotheses(std::span<const Track> tracks, std::span<const MatchedPair> pairs, int views,
                                    const Lens& middle, const KnownInputs& known) {
     const glm::dvec2 centre = middle_of(tracks);
     std::vector<double> rolls{0};
@@ -88,8 +88,8 @@ std::vector<Hypothesis> hypotheses(std::span<const Track> tracks, std::span<cons
 
 }  // namespace
 
-std::optional<Start> find_start(std::span<const Track> tracks, std::span<const PairOfViews> pairs, int views,
-                                const Lens& middle, const KnownInputs& known) {
+std::optional<Start> find_initial_model(std::span<const Track> tracks, std::span<const MatchedPair> pairs, int views,
+                                        const Lens& middle, const KnownInputs& known) {
     const std::vector<Track> few = sampled(tracks, kMostTracks);
     const std::vector<Track> fewest = sampled(tracks, kFewTracks);
     std::vector<Hypothesis> tried = hypotheses(few, pairs, views, middle, known);
@@ -97,11 +97,11 @@ std::optional<Start> find_start(std::span<const Track> tracks, std::span<const P
     // Errors grow with the size of the photos.
     const double scale_px = std::max(1.0, std::max(middle.width, middle.height) / 1000.0);
     options.loss_px = kLoss_px * scale_px;
-    options.most_iterations = 25;
-    options.enough = kEnoughToChoose;
+    options.max_iterations = 25;
+    options.function_tolerance = kEnoughToChoose;
     options.free.f = !known.f_px;
     options.free.pan = options.free.tilt = options.free.roll = !known.pose;
-    options.free.angles = known.step_rad || known.angles_rad ? AngleFreedom::kHeld : AngleFreedom::kCommonStep;
+    options.free.angles = known.step_rad || known.angles_rad ? AngleFreedom::kConstant : AngleFreedom::kCommonStep;
 
     std::vector<Bundle> bundles(tried.size());
     std::vector<double> costs(tried.size(), 1e30);
@@ -131,12 +131,12 @@ std::optional<Start> find_start(std::span<const Track> tracks, std::span<const P
         Bundle& bundle = bundles[order[k]];
         BundleOptions own = options;
         for (const double limit_px : kLimits_px) {
-            Bundle next = make_agreeing_bundle(bundle.model, few, limit_px * scale_px);
+            Bundle next = make_robust_bundle(bundle.model, few, limit_px * scale_px);
             own.loss_px = 0.5 * limit_px * scale_px;
             if (next.tracks.size() < 10 || !adjust(next, own)) return;
             bundle = std::move(next);
         }
-        agreeing[k] = observation_count(make_agreeing_bundle(bundle.model, few, kLimits_px.back() * scale_px));
+        agreeing[k] = observation_count(make_robust_bundle(bundle.model, few, kLimits_px.back() * scale_px));
     });
     if (order.empty()) return std::nullopt;
     const auto best = static_cast<std::size_t>(std::max_element(agreeing.begin(), agreeing.end()) - agreeing.begin());
@@ -144,7 +144,7 @@ std::optional<Start> find_start(std::span<const Track> tracks, std::span<const P
     Start start{bundles[order[best]].model, agreeing[best], 0};
     for (std::size_t k = 0; k < order.size(); ++k) {
         if (tried[order[k]].counter_clockwise != tried[order[best]].counter_clockwise) {
-            start.other_sense = std::max(start.other_sense, agreeing[k]);
+            start.agreeing_opposite = std::max(start.agreeing_opposite, agreeing[k]);
         }
     }
     return start;

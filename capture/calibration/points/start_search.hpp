@@ -11,11 +11,12 @@ namespace rs::capture {
 struct Start {
     TurntableModel model;  // after bundles with one common step
     int agreeing = 0;      // observations within a few pixels of it
-    int other_sense = 0;   // the largest `agreeing` of models with the other direction; 0 if the direction was given
+    int agreeing_opposite =
+        0;  // the largest `agreeing` of models with the other direction; 0 if the direction was given
 };
 
-// `tracks` in px of the photos. Nothing if no start explains them.
-std::optional<Start> find_start(std::span<const Track> tracks, std::span<const PairOfViews> pairs, int views,
-                                const Lens& middle, const KnownInputs& known);
+/// `tracks` in px of the photos. Nothing if no start explains them.
+std::optional<Start> find_initial_model(std::span<const Track> tracks, std::span<const MatchedPair> pairs, int views,
+                                        const Lens& middle, const KnownInputs& known);
 
 }  // namespace rs::capture

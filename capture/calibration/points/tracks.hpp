@@ -19,13 +19,13 @@
 
 namespace rs::capture {
 
-// One photo prepared for calibration. All images of a turn have one size.
+/// One photo prepared for calibration. All images of a turn have one size.
 struct CalibrationImage {
     Image<std::uint8_t> grey;   // sRGB luma
     Image<std::uint8_t> alpha;  // of the object; same size
 };
 
-// Input of calibration for one turn.
+/// Input of calibration for one turn.
 struct TurnImages {
     std::vector<CalibrationImage> images;  // [view], in the order they were taken
     std::vector<std::string> names;        // [view], used in messages
@@ -34,7 +34,7 @@ struct TurnImages {
     int height = 0;                        // of the photos, px
 };
 
-// `image` (straight alpha) with both sides divided by `reduction` >= 1 by averaging.
+/// `image` (straight alpha) with both sides divided by `reduction` >= 1 by averaging.
 CalibrationImage calibration_image(ConstImageView<Rgba8> image, int reduction);
 
 struct Observation {
@@ -46,7 +46,7 @@ struct Track {
     std::vector<Observation> seen;  // in ascending order of views, one per view, at least two
 };
 
-struct PairOfViews {
+struct MatchedPair {
     int first = 0;
     int second = 0;
     int matches = 0;         // consistent with one epipolar geometry
@@ -56,41 +56,42 @@ struct PairOfViews {
     double spread_y_px = 0;
 };
 
-struct FollowedPoints {
+struct TrackedPoints {
     std::vector<Track> tracks;  // of at least three views
     std::vector<int> features;  // [view]
-    std::vector<PairOfViews> pairs;
+    std::vector<MatchedPair> pairs;
 };
 
-struct FollowOptions {
-    int most_features = 1500;    // per view
-    int farthest_neighbour = 4;  // views i and i + 1 .. this are matched, also across the end of the turn
-    int rim_px = 4;  // distance from the silhouette within which features are ignored: the backdrop shows through there
+struct TrackingOptions {
+    int max_features = 1500;    // per view
+    int max_view_distance = 4;  // views i and i + 1 .. this are matched, also across the end of the turn
+    int margin_px =
+        4;  // distance from the silhouette within which features are ignored: the backdrop shows through there
 };
 
-// Holds the features of all views. Runs in parallel; results do not depend on the number of threads.
-class PointFollower {
+/// Holds the features of all views. Runs in parallel; results do not depend on the number of threads.
+class PointTracker {
 public:
-    // Detects the features. `turn` is reduced by `reduction`; all other positions are in px of the photos. One step of
-    // `progress` per view. Fails only if OpenCV does.
-    static Result<PointFollower> look_at(std::span<const CalibrationImage> turn, int reduction,
-                                         const FollowOptions& options, Progress* progress);
-    PointFollower(PointFollower&& other) noexcept;
-    ~PointFollower();
+    /// Detects the features. `turn` is reduced by `reduction`; all other positions are in px of the photos. One step of
+    /// `progress` per view. Fails only if OpenCV does.
+    static Result<PointTracker> detect(std::span<const CalibrationImage> turn, int reduction,
+                                       const TrackingOptions& options, Progress* progress);
+    PointTracker(PointTracker&& other) noexcept;
+    ~PointTracker();
 
-    // Matching without a model: matches that pass Lowe's ratio test and are consistent with the epipolar geometry of
-    // their two views. One step of `progress` per view.
-    [[nodiscard]] Result<FollowedPoints> follow(Progress* progress) const;
+    /// Matching without a model: matches that pass Lowe's ratio test and are consistent with the epipolar geometry of
+    /// their two views. One step of `progress` per view.
+    [[nodiscard]] Result<TrackedPoints> track(Progress* progress) const;
 
-    // Guided matching with an approximate model of a turn of an object within `radius` of the axis (units of the
-    // model): the most similar of the features within band_px of where a point can appear. Gives more and longer
-    // tracks, also on repetitive patterns.
-    [[nodiscard]] Result<std::vector<Track>> follow_guided(const TurntableModel& model, double radius,
-                                                           double band_px) const;
+    /// Guided matching with an approximate model of a turn of an object within `radius` of the axis (units of the
+    /// model): the most similar of the features within band_px of where a point can appear. Gives more and longer
+    /// tracks, also on repetitive patterns.
+    [[nodiscard]] Result<std::vector<Track>> track_guided(const TurntableModel& model, double radius,
+                                                          double band_px) const;
 
 private:
     struct State;
-    explicit PointFollower(std::unique_ptr<State> state);
+    explicit PointTracker(std::unique_ptr<State> state);
     std::unique_ptr<State> state_;
 };
 

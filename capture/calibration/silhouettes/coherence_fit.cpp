@@ -1,7 +1,7 @@
 #include "capture/calibration/silhouettes/coherence_fit.hpp"
 
 #include "capture/calibration/silhouettes/consistency_residuals.hpp"
-#include "capture/calibration/silhouettes/loose_numbers.hpp"
+#include "capture/calibration/silhouettes/free_parameters.hpp"
 #include "capture/calibration/silhouettes/silhouette_adjustment.hpp"
 
 #include <Eigen/Dense>
@@ -21,14 +21,15 @@ constexpr double kOutlier_px = 1;  // of the turn
 // Lower limit of the deviation: smaller residuals are those of bodies that look the same from all sides, and carry no
 // more information.
 constexpr double kFinest_px = 0.12;
-// A view whose contradiction is weaker by more than this does not become the strongest for a similar model.
+// A view whose contradiction is weaker by more than this does not become the strongest for a similar
+// model.
 constexpr double kVerdictMargin_px = 1.5;
 constexpr std::size_t kMostVerdicts = 8;
 // A few rays locate the optimum approximately, all rays refine it.
 constexpr std::size_t kCoarseRaysPerView = 100;
 // If silhouettes leave more than this share of the angles' variance, the body looks the same from all sides. Such
 // silhouettes are not used: their small errors have been observed to distort lens and tilt.
-constexpr double kTellsOfAngles = 0.5;
+constexpr double kMaxAngleVarianceShare = 0.5;
 
 // Consistency residuals of a selection of rays, searched near `depths` once these are filled in.
 SilhouetteComparison consistency_comparison(const FreeParameters& numbers, const SilhouetteTurn& turn, double image_px,
@@ -43,9 +44,9 @@ SilhouetteComparison consistency_comparison(const FreeParameters& numbers, const
     };
     // Compares only the views that contradict a ray: accurate enough for derivatives.
     const auto beside = [&turn, &rays, &depths, in_turn](const Eigen::VectorXd& z) -> SilhouetteResiduals {
-        auto verdicts = ray_verdicts(turn, in_turn(z), rays, depths, kVerdictMargin_px, kMostVerdicts);
+        auto verdicts = find_contradictions(turn, in_turn(z), rays, depths, kVerdictMargin_px, kMostVerdicts);
         return [&turn, &rays, in_turn, verdicts = std::move(verdicts)](const Eigen::VectorXd& there) {
-            return residuals_by_verdicts(turn, in_turn(there), rays, verdicts);
+            return residuals_from_contradictions(turn, in_turn(there), rays, verdicts);
         };
     };
     return {residuals, Eigen::VectorXd::Constant(numbers.count(), kWidth), beside};
@@ -59,7 +60,7 @@ std::size_t most_rays_of_a_view(const SilhouetteTurn& turn) {
 
 }  // namespace
 
-std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const NumberPlaces& places,
+std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const ParameterIndices& places,
                                           const Eigen::MatrixXd& covariance, const SilhouetteTurn& turn,
                                           double image_px, const CoherenceOptions& options) {
     if (places.count == 0 || covariance.rows() != places.count || !covariance.allFinite()) return std::nullopt;
@@ -86,10 +87,11 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
     rays.beside = nullptr;
     SilhouetteAdjustment found(rays, errors);
     const Eigen::MatrixXd information = found.information(z);
-    CoherenceFit fit{numbers.at(z), numbers.told(covariance, information, options.untold_together, 1, 1), 0};
+    CoherenceFit fit{numbers.at(z),
+                     numbers.updated_covariance(covariance, information, options.common_error_factor, 1, 1), 0};
     fit.consistency_residual_px = image_px * rms_px(found.residuals(z));
     if (!(fit.consistency_residual_px <= options.worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;
-    if (!(numbers.angles_left(information) <= kTellsOfAngles)) return std::nullopt;
+    if (!(numbers.remaining_angle_variance(information) <= kMaxAngleVarianceShare)) return std::nullopt;
     return fit;
 }
 

@@ -16,37 +16,39 @@ struct RaySelection {
     std::vector<char> left_out;  // [view]: views excluded with their rays and silhouettes; empty: none
 };
 
-// Depth of each ray's best point, in distances from the camera.
+/// Depth of each ray's best point, in distances from the camera.
 using RayDepths = std::vector<double>;
 
-// The residual of each selected ray, >= 0, view by view in the order of SilhouetteTurn::edges(); rays that do not exist
-// because of the lens distortion have a large constant residual. `model` is in px of `turn` and has an angle for each
-// of its views. Runs on the calling tbb arena; the result does not depend on the number of threads. About 10 ms for 36
-// views on 2 cores. `depths`, if given and empty, is filled in; otherwise it must be of a similar model, and only
-// depths near it are searched, in a third of the time.
+/// The residual of each selected ray, >= 0, view by view in the order of SilhouetteTurn::edges(); rays that do not
+/// exist because of the lens distortion have a large constant residual. `model` is in px of `turn` and has an angle for
+/// each of its views. Runs on the calling tbb arena; the result does not depend on the number of threads. About 10 ms
+/// for 36 views on 2 cores. `depths`, if given and empty, is filled in; otherwise it must be of a similar model, and
+/// only depths near it are searched, in a third of the time.
 std::vector<double> consistency_residuals_px(const SilhouetteTurn& turn, const TurntableModel& model,
                                              const RaySelection& rays, RayDepths* depths = nullptr);
 
-// The depth that determines a ray's residual, and the few views that contradict the ray the most there.
-struct RayVerdict {
+/// The depth that determines a ray's residual, and the few views that contradict the ray the most there.
+struct RayContradictions {
     double depth = 0;                // 0: there is no ray
     std::vector<std::size_t> views;  // in descending order of contradiction
 };
 
-// Verdicts for the residuals of `model`, searched near `depths`. The views are those within `margin_px` of the
-// strongest contradiction, at most `most`.
-std::vector<RayVerdict> ray_verdicts(const SilhouetteTurn& turn, const TurntableModel& model, const RaySelection& rays,
-                                     const RayDepths& depths, double margin_px, std::size_t most);
+/// Verdicts for the residuals of `model`, searched near `depths`. The views are those within `margin_px` of the
+/// strongest contradiction, at most `most`.
+std::vector<RayContradictions> find_contradictions(const SilhouetteTurn& turn, const TurntableModel& model,
+                                                   const RaySelection& rays, const RayDepths& depths, double margin_px,
+                                                   std::size_t most);
 
-// Residuals of a model similar to that of the verdicts, computed from the verdicts' views near their depths only, in a
-// tenth of the time.
-std::vector<double> residuals_by_verdicts(const SilhouetteTurn& turn, const TurntableModel& model,
-                                          const RaySelection& rays, const std::vector<RayVerdict>& verdicts);
+/// Residuals of a model similar to that of the verdicts, computed from the verdicts' views near their depths only, in a
+/// tenth of the time.
+std::vector<double> residuals_from_contradictions(const SilhouetteTurn& turn, const TurntableModel& model,
+                                                  const RaySelection& rays,
+                                                  const std::vector<RayContradictions>& verdicts);
 
-// Root mean square; 0 if empty.
+/// Root mean square; 0 if empty.
 double rms_px(const std::vector<double>& residuals);
 
-// The view of each residual, in the same order.
+/// The view of each residual, in the same order.
 std::vector<std::size_t> views_of_rays(const SilhouetteTurn& turn, const RaySelection& rays);
 
 }  // namespace rs::capture

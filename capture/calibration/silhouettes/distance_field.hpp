@@ -16,13 +16,13 @@ namespace rs::capture {
 
 class DistanceField {
 public:
-    // `distance_px` has at least 2x2 samples. Distances beyond the 16-bit range (256 px) are clamped.
+    /// `distance_px` has at least 2x2 samples. Distances beyond the 16-bit range (256 px) are clamped.
     explicit DistanceField(ConstImageView<float> distance_px);
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
 
-    // Bilinear interpolation; `x` in 0..width - 1, `y` in 0..height - 1, sample 0 at 0.
+    /// Bilinear interpolation; `x` in 0..width - 1, `y` in 0..height - 1, sample 0 at 0.
     [[nodiscard]] float at(float x, float y) const {
         const int left = static_cast<int>(x) < width_ - 1 ? static_cast<int>(x) : width_ - 2;
         const int top = static_cast<int>(y) < height_ - 1 ? static_cast<int>(y) : height_ - 2;

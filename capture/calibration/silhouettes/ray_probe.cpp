@@ -51,24 +51,24 @@ RayProbe::RayProbe(const SilhouetteTurn& turn, const Lens& lens, const std::vect
             static_cast<float>(lens.k1), static_cast<float>(lens.k2)},
       sights_(sights),
       directions_(sights.size()),
-      heeded_(sights.size()),
-      deciding_(sights.size()),
+      active_(sights.size()),
+      compared_(sights.size()),
       bounds_(sights.size()) {
-    std::iota(heeded_.begin(), heeded_.end(), std::size_t{0});
+    std::iota(active_.begin(), active_.end(), std::size_t{0});
     sight_of_.assign(turn.views(), sights.size());
     for (std::size_t j = 0; j < sights.size(); ++j) sight_of_[sights[j].view] = j;
 }
 
-void RayProbe::heed_only(const std::vector<std::size_t>& views) {
-    heeded_.clear();
+void RayProbe::set_active_views(const std::vector<std::size_t>& views) {
+    active_.clear();
     for (const std::size_t view : views) {
-        if (sight_of_[view] < sights_.size()) heeded_.push_back(sight_of_[view]);
+        if (sight_of_[view] < sights_.size()) active_.push_back(sight_of_[view]);
     }
 }
 
 void RayProbe::aim(const glm::dvec3& direction) {
-    for (const std::size_t j : heeded_) directions_[j] = sights_[j].camera_from_table * direction;
-    deciding_ = heeded_.size();
+    for (const std::size_t j : active_) directions_[j] = sights_[j].camera_from_table * direction;
+    compared_ = active_.size();
 }
 
 double RayProbe::best(const glm::dvec3& direction, double reach, double& known_depth) {
@@ -102,7 +102,7 @@ double RayProbe::best(const glm::dvec3& direction, double reach, double& known_d
     return std::max(most, found);
 }
 
-double RayProbe::best_beside(const glm::dvec3& direction, double reach, double known_depth) {
+double RayProbe::best_near(const glm::dvec3& direction, double reach, double known_depth) {
     aim(direction);
     const float here = least_over_views(known_depth, kBehind);
     if (here >= 0) return here;
@@ -114,11 +114,11 @@ double RayProbe::best_beside(const glm::dvec3& direction, double reach, double k
     return best(direction, reach, known_depth);
 }
 
-std::vector<std::size_t> RayProbe::strongest(const glm::dvec3& direction, double depth, double margin_px,
-                                             std::size_t most) {
+std::vector<std::size_t> RayProbe::strongest_contradictions(const glm::dvec3& direction, double depth, double margin_px,
+                                                            std::size_t most) {
     aim(direction);
     std::vector<std::pair<float, std::size_t>> views;
-    for (const std::size_t j : heeded_) views.emplace_back(distance(j, depth), sights_[j].view);
+    for (const std::size_t j : active_) views.emplace_back(distance(j, depth), sights_[j].view);
     std::sort(views.begin(), views.end());
     std::vector<std::size_t> strong;
     for (const auto& [distance_px, view] : views) {
@@ -131,11 +131,11 @@ std::vector<std::size_t> RayProbe::strongest(const glm::dvec3& direction, double
 // Minimum over the views; may stop at the first value below `floor`.
 float RayProbe::least_over_views(double depth, float floor) {
     float least = std::numeric_limits<float>::max();
-    for (std::size_t i = 0; i < deciding_; ++i) {
-        least = std::min(least, distance(heeded_[i], depth));
+    for (std::size_t i = 0; i < compared_; ++i) {
+        least = std::min(least, distance(active_[i], depth));
         if (least < floor || least == kBehind) {
             // A view that contradicts one point is likely to contradict the next ones; it is moved to the front.
-            if (i > 0) std::swap(heeded_[i], heeded_[i / 2]);
+            if (i > 0) std::swap(active_[i], active_[i / 2]);
             return least;
         }
     }
@@ -150,8 +150,8 @@ float RayProbe::apart_px(const Seen& a, const Seen& b) {
 void RayProbe::keep_deciding(double low, double high) {
     const double middle = 0.5 * (low + high);
     float most = 0;  // upper bound of the minimum over views in the interval, at most 0
-    for (std::size_t i = 0; i < deciding_; ++i) {
-        const std::size_t j = heeded_[i];
+    for (std::size_t i = 0; i < compared_; ++i) {
+        const std::size_t j = active_[i];
         const Seen a = seen(j, low), b = seen(j, middle), c = seen(j, high);
         if (!a.before_camera || !b.before_camera || !c.before_camera) return;
         const float way_px = std::max(apart_px(a, b), apart_px(b, c));
@@ -161,18 +161,18 @@ void RayProbe::keep_deciding(double low, double high) {
         most = std::min(most, bounds_[i].second);
     }
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < deciding_; ++i) {
+    for (std::size_t i = 0; i < compared_; ++i) {
         if (bounds_[i].first > most) continue;
-        std::swap(heeded_[i], heeded_[kept]);
+        std::swap(active_[i], active_[kept]);
         bounds_[kept++] = bounds_[i];
     }
-    deciding_ = kept;
+    compared_ = kept;
 }
 
 // Golden-section search for the maximum and its depth; stops at any value above 0.
 std::pair<float, double> RayProbe::refined(double low, double high, int rounds) {
     constexpr double kGolden = 0.6180339887498949;
-    if (deciding_ > kFewViews) keep_deciding(low, high);
+    if (compared_ > kFewViews) keep_deciding(low, high);
     double a = high - kGolden * (high - low);
     double b = low + kGolden * (high - low);
     float at_a = least_over_views(a, kBehind);
@@ -184,14 +184,14 @@ std::pair<float, double> RayProbe::refined(double low, double high, int rounds) 
             b = a;
             at_b = at_a;
             a = high - kGolden * (high - low);
-            if (i % kPruneEvery == kPruneEvery - 1 && deciding_ > kFewViews) keep_deciding(low, high);
+            if (i % kPruneEvery == kPruneEvery - 1 && compared_ > kFewViews) keep_deciding(low, high);
             at_a = least_over_views(a, at_b);
         } else {
             low = a;
             a = b;
             at_a = at_b;
             b = low + kGolden * (high - low);
-            if (i % kPruneEvery == kPruneEvery - 1 && deciding_ > kFewViews) keep_deciding(low, high);
+            if (i % kPruneEvery == kPruneEvery - 1 && compared_ > kFewViews) keep_deciding(low, high);
             at_b = least_over_views(b, at_a);
         }
     }

@@ -13,39 +13,40 @@
 
 namespace rs::capture {
 
-// Transform from points centre + depth * direction on the rays of one view to the camera of another view.
+/// Transform from points centre + depth * direction on the rays of one view to the camera of another view.
 struct Sight {
     std::size_t view = 0;
     glm::dvec3 centre{0};            // centre of the ray's view, in this view's camera axes
     glm::dmat3 camera_from_table{};  // rotation from the ray's table frame to this view's camera axes
 };
 
-// Sights of all views except `view` and those left out (empty: none). Views near a right angle to the ray contradict it
-// earliest and are first.
+/// Sights of all views except `view` and those left out (empty: none). Views near a right angle to the ray contradict
+/// it earliest and are first.
 std::vector<Sight> sights_of(const TurntableModel& model, std::size_t view, const std::vector<char>& left_out);
 
-// Not thread-safe; use one per thread.
+/// Not thread-safe; use one per thread.
 class RayProbe {
 public:
-    // `sights` and `turn` are kept by reference; `lens` is in px of `turn`.
+    /// `sights` and `turn` are kept by reference; `lens` is in px of `turn`.
     RayProbe(const SilhouetteTurn& turn, const Lens& lens, const std::vector<Sight>& sights);
 
-    // Restricts all further calls to these views.
-    void heed_only(const std::vector<std::size_t>& views);
+    /// Restricts all further calls to these views.
+    void set_active_views(const std::vector<std::size_t>& views);
 
-    // Maximum over depths within `reach` of the axis of the minimum over views of the signed distance, px; any value >=
-    // 0 if there is one, because then no view contradicts the ray. `known_depth` receives the depth; if it is above 0,
-    // only depths near it are searched. The result does not depend on earlier calls, except for rounding of equal
-    // distances.
+    /// Maximum over depths within `reach` of the axis of the minimum over views of the signed distance, px; any value
+    /// >= 0 if there is one, because then no view contradicts the ray. `known_depth` receives the depth; if it is above
+    /// 0, only depths near it are searched. The result does not depend on earlier calls, except for rounding of equal
+    /// distances.
     double best(const glm::dvec3& direction, double reach, double& known_depth);
 
-    // The same for an accurately known depth, with the active views; falls back to best() if the maximum is not near
-    // it.
-    double best_beside(const glm::dvec3& direction, double reach, double known_depth);
+    /// The same for an accurately known depth, with the active views; falls back to best() if the maximum is not near
+    /// it.
+    double best_near(const glm::dvec3& direction, double reach, double known_depth);
 
-    // The views whose silhouettes are farthest from the ray's point at `depth`, in descending order of distance
-    // outside: within margin_px of the farthest, at most `most`.
-    std::vector<std::size_t> strongest(const glm::dvec3& direction, double depth, double margin_px, std::size_t most);
+    /// The views whose silhouettes are farthest from the ray's point at `depth`, in descending order of distance
+    /// outside: within margin_px of the farthest, at most `most`.
+    std::vector<std::size_t> strongest_contradictions(const glm::dvec3& direction, double depth, double margin_px,
+                                                      std::size_t most);
 
 private:
     static constexpr float kBehind = std::numeric_limits<float>::lowest();
@@ -83,8 +84,8 @@ private:
     const std::vector<Sight>& sights_;
     std::vector<std::size_t> sight_of_;            // [view]; sights_.size() if none
     std::vector<glm::dvec3> directions_;           // [sight], valid for the active ones
-    std::vector<std::size_t> heeded_;              // sights, those that contradicted recently first
-    std::size_t deciding_ = 0;                     // number of leading active sights that are compared
+    std::vector<std::size_t> active_;              // sights, those that contradicted recently first
+    std::size_t compared_ = 0;                     // number of leading active sights that are compared
     std::vector<std::pair<float, float>> bounds_;  // [index in active_], scratch of keep_deciding()
 };
 

@@ -67,9 +67,9 @@ private:
 
 }  // namespace
 
-void SilhouetteAdjustment::expect(const SilhouetteErrors& errors, double disbelief) {
+void SilhouetteAdjustment::expect(const SilhouetteErrors& errors, double prior_scale) {
     errors_ = errors;
-    disbelief_ = disbelief;
+    disbelief_ = prior_scale;
 }
 
 const std::vector<double>& SilhouetteAdjustment::residuals(const Eigen::VectorXd& z) {

@@ -6,7 +6,7 @@
 // others. Silhouettes leave residuals r, px. With S the mean of r^2 / (1 + r^2 / outlier_px^2) (Geman and McClure,
 // 1987), n the number of independent points that the silhouettes are worth and s their deviation_px,
 //
-//     cost = n S / s^2 + |z|^2 / disbelief,    or n (1 + log(S / s^2)) for the first term where is_least and S > s^2,
+//     cost = n S / s^2 + |z|^2 / prior_scale,    or n (1 + log(S / s^2)) for the first term where is_least and S > s^2,
 //
 // is twice the negative log likelihood except for a constant; the second form is that of an unknown deviation.
 
@@ -18,11 +18,11 @@
 
 namespace rs::capture {
 
-// Errors of neighbouring silhouette points are correlated: a view counts as this many independent points, however many
-// are compared.
+/// Errors of neighbouring silhouette points are correlated: a view counts as this many independent points, however many
+/// are compared.
 inline constexpr double kIndependentPerView = 24;
 
-// Error model of the silhouettes.
+/// Error model of the silhouettes.
 struct SilhouetteErrors {
     double independent = 0;  // number of independent points
     double outlier_px = 0;   // Geman-McClure scale: larger residuals have little weight
@@ -30,38 +30,38 @@ struct SilhouetteErrors {
     bool is_least = false;  // the deviation is estimated from the residuals, with deviation_px as lower limit
 };
 
-// Residuals in px as a function of the numbers z; their number does not depend on z.
+/// Residuals in px as a function of the numbers z; their number does not depend on z.
 using SilhouetteResiduals = std::function<std::vector<double>(const Eigen::VectorXd& z)>;
 
 struct SilhouetteComparison {
     SilhouetteResiduals residuals;
-    // Step of each number for central differences: larger than the discretization steps of the residuals.
+    /// Step of each number for central differences: larger than the discretization steps of the residuals.
     Eigen::VectorXd widths;
-    // Optional faster approximation of the residuals near z, which assumes that the views that determine them at z
-    // still do.
+    /// Optional faster approximation of the residuals near z, which assumes that the views that determine them at z
+    /// still do.
     std::function<SilhouetteResiduals(const Eigen::VectorXd& z)> beside = nullptr;
 };
 
-// Caches the last residuals and derivatives. Not thread-safe; the comparison may use several threads.
+/// Caches the last residuals and derivatives. Not thread-safe; the comparison may use several threads.
 class SilhouetteAdjustment {
 public:
     SilhouetteAdjustment(SilhouetteComparison comparison, const SilhouetteErrors& errors)
         : comparison_(std::move(comparison)), errors_(errors) {}
 
-    // Replaces the error model. `disbelief`: factor of the prior variances, initially 1.
-    void expect(const SilhouetteErrors& errors, double disbelief);
+    /// Replaces the error model. `prior_scale`: factor of the prior variances, initially 1.
+    void expect(const SilhouetteErrors& errors, double prior_scale);
 
     const std::vector<double>& residuals(const Eigen::VectorXd& z);
     const Eigen::MatrixXd& slopes(const Eigen::VectorXd& z);  // Jacobian of the residuals, by central differences
     double cost(const Eigen::VectorXd& z);
 
-    // Minimizes the cost from z by Ceres' Levenberg-Marquardt with at most `most_steps` iterations; stops if an
-    // iteration gains less than `enough`. Returns false and leaves z unchanged if residuals are not finite.
-    // Deterministic.
+    /// Minimizes the cost from z by Ceres' Levenberg-Marquardt with at most `most_steps` iterations; stops if an
+    /// iteration gains less than `enough`. Returns false and leaves z unchanged if residuals are not finite.
+    /// Deterministic.
     bool improve(Eigen::VectorXd& z, int most_steps, double enough);
 
-    // Information of the silhouettes alone about the numbers: half the Hessian of their part of the cost, [number,
-    // number].
+    /// Information of the silhouettes alone about the numbers: half the Hessian of their part of the cost, [number,
+    /// number].
     Eigen::MatrixXd information(const Eigen::VectorXd& z);
 
 private:

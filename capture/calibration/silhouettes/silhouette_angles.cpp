@@ -23,7 +23,7 @@ constexpr double kWider = 3;
 constexpr double kDistortion = 0.1;  // standard deviation of k1 of typical lenses
 constexpr double kWorst_px = 1;      // of the turn
 // Chosen so that twice the deviations covered the errors on ten rendered dolls and a lattice.
-constexpr double kUntoldTogether = 3;
+constexpr double kCommonErrorFactor = 3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -35,7 +35,7 @@ std::array<double, SilhouetteParameters::kCount> unknown_deviations(const Turnta
     return all;
 }
 
-Eigen::MatrixXd expected(const TurntableModel& model, const NumberPlaces& places, const ModelDeviations& deviations,
+Eigen::MatrixXd expected(const TurntableModel& model, const ParameterIndices& places, const ModelDeviations& deviations,
                          double image_px) {
     using Name = SilhouetteParameters;
     const auto unknown = unknown_deviations(model, image_px);
@@ -43,11 +43,11 @@ Eigen::MatrixXd expected(const TurntableModel& model, const NumberPlaces& places
     const auto set = [&](std::size_t number, double deviation) {
         if (const int k = places.camera[number]; k >= 0) covariance(k, k) = deviation * deviation;
     };
-    set(CameraNumber::kF, std::min(kWider * deviations.f_px, unknown[Name::kLogF]));
-    set(CameraNumber::kK1, kDistortion);
-    set(CameraNumber::kPan, std::min(kWider * deviations.axis_position_px, unknown[Name::kAxis]) / model.lens.f_px);
-    set(CameraNumber::kTilt, std::min(kWider * deviations.tilt_rad, unknown[Name::kTilt]));
-    set(CameraNumber::kRoll, std::min(kWider * deviations.roll_rad, unknown[Name::kRoll]));
+    set(CameraParameter::kF, std::min(kWider * deviations.f_px, unknown[Name::kLogF]));
+    set(CameraParameter::kK1, kDistortion);
+    set(CameraParameter::kPan, std::min(kWider * deviations.axis_position_px, unknown[Name::kAxis]) / model.lens.f_px);
+    set(CameraParameter::kTilt, std::min(kWider * deviations.tilt_rad, unknown[Name::kTilt]));
+    set(CameraParameter::kRoll, std::min(kWider * deviations.roll_rad, unknown[Name::kRoll]));
     // Angles are relative to the first view's, whose own error is common to all of them.
     const double variance = std::pow(radians(kAssumedAngle_deg), 2);
     for (const int i : places.angles) {
@@ -61,17 +61,17 @@ Eigen::MatrixXd expected(const TurntableModel& model, const NumberPlaces& places
 // Sets the deviations of numbers to infinity that were not estimated or that are hardly better than their prior.
 void admit(ModelDeviations& deviations, const TurntableModel& model, const KnownInputs& known, double image_px) {
     const auto unknown = unknown_deviations(model, image_px);
-    const auto told = [](double deviation, double before) {
-        return deviation < kToldNothing * before ? deviation : kInfinity;
+    const auto limited = [](double deviation, double before) {
+        return deviation < kUndeterminedShare * before ? deviation : kInfinity;
     };
-    deviations.f_px = told(deviations.f_px, unknown[SilhouetteParameters::kLogF]);
-    deviations.tilt_rad = told(deviations.tilt_rad, unknown[SilhouetteParameters::kTilt]);
-    deviations.roll_rad = told(deviations.roll_rad, unknown[SilhouetteParameters::kRoll]);
+    deviations.f_px = limited(deviations.f_px, unknown[SilhouetteParameters::kLogF]);
+    deviations.tilt_rad = limited(deviations.tilt_rad, unknown[SilhouetteParameters::kTilt]);
+    deviations.roll_rad = limited(deviations.roll_rad, unknown[SilhouetteParameters::kRoll]);
     deviations.axis_direction_rad = std::hypot(deviations.tilt_rad, deviations.roll_rad);
-    deviations.axis_position_px = told(deviations.axis_position_px, unknown[SilhouetteParameters::kAxis]);
-    for (double& angle : deviations.angles_rad) angle = told(angle, radians(kAssumedAngle_deg));
+    deviations.axis_position_px = limited(deviations.axis_position_px, unknown[SilhouetteParameters::kAxis]);
+    for (double& angle : deviations.angles_rad) angle = limited(angle, radians(kAssumedAngle_deg));
     if (!known.distortion) {
-        deviations.k1 = told(deviations.k1, kDistortion);
+        deviations.k1 = limited(deviations.k1, kDistortion);
         deviations.k2 = kInfinity;
     }
     if (!known.principal_point) deviations.cx = deviations.cy = kInfinity;
@@ -79,9 +79,8 @@ void admit(ModelDeviations& deviations, const TurntableModel& model, const Known
 
 }  // namespace
 
-std::optional<SilhouetteAngles> angles_of_silhouettes(std::span<const Image<std::uint8_t>> masks,
-                                                      const TurntableModel& model, const ModelDeviations& deviations,
-                                                      const KnownInputs& known) {
+std::optional<SilhouetteAngles> estimate_angles(std::span<const Image<std::uint8_t>> masks, const TurntableModel& model,
+                                                const ModelDeviations& deviations, const KnownInputs& known) {
     if (known.angles_rad || known.step_rad || known.equal_steps) return std::nullopt;
     const auto turn = SilhouetteTurn::of(masks, kDetail);
     if (!turn || turn->touches_border()) return std::nullopt;
@@ -90,13 +89,13 @@ std::optional<SilhouetteAngles> angles_of_silhouettes(std::span<const Image<std:
     free.f = !known.f_px;
     free.k1 = !known.distortion;
     free.pan = free.tilt = free.roll = !known.pose;
-    const NumberPlaces places(free, std::vector<bool>(model.angles_rad.size(), true));
-    const CoherenceOptions options{kWorst_px * image_px, places.count, kUntoldTogether};
+    const ParameterIndices places(free, std::vector<bool>(model.angles_rad.size(), true));
+    const CoherenceOptions options{kWorst_px * image_px, places.count, kCommonErrorFactor};
     const auto fit =
         fit_coherence(model, places, expected(model, places, deviations, image_px), *turn, image_px, options);
     if (!fit) return std::nullopt;
-    const double at_px = 0.5 * (lies_sideways(fit->model.pose) ? model.lens.width : model.lens.height);
-    SilhouetteAngles found{fit->model, deviations_of(fit->model, places, fit->covariance, at_px)};
+    const double at_px = 0.5 * (has_sideways_axis(fit->model.pose) ? model.lens.width : model.lens.height);
+    SilhouetteAngles found{fit->model, standard_deviations(fit->model, places, fit->covariance, at_px)};
     admit(found.deviations, model, known, image_px);
     return found;
 }

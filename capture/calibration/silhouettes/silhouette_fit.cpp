@@ -83,7 +83,7 @@ SilhouetteFit fit_silhouettes(const SilhouetteProblem& problem, const Silhouette
     for (std::size_t k = 0; k < free.size(); ++k) {
         const double share = left(static_cast<Eigen::Index>(k));
         fit.deviation[free[k]] =
-            share < kToldNothing ? share * kSilhouettePriors[free[k]] : std::numeric_limits<double>::infinity();
+            share < kUndeterminedShare ? share * kSilhouettePriors[free[k]] : std::numeric_limits<double>::infinity();
     }
     return fit;
 }

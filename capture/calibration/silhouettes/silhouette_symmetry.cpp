@@ -174,7 +174,7 @@ std::vector<double> gaps(const std::vector<double>& angles_rad) {
 
 // An edge at radius 1 that comes within angle d of the silhouette in the nearest view loses d^2 / 2. Returns the
 // deviation of half the difference of both sides' losses if all rows show the same edge at a random angle.
-double missed(const std::vector<double>& gaps_rad) {
+double missed_rim_deviation(const std::vector<double>& gaps_rad) {
     double mean2 = 0, mean4 = 0;
     for (const double gap : gaps_rad) {
         const double share = gap / (2 * kPi), half = 0.5 * gap;
@@ -225,7 +225,7 @@ TurntableModel moved(TurntableModel model, double u) {
 
 }  // namespace
 
-Image<std::uint8_t> covered_together(std::span<const CalibrationImage> images) {
+Image<std::uint8_t> union_of_alphas(std::span<const CalibrationImage> images) {
     Image<std::uint8_t> covered = images.front().alpha;
     for (const CalibrationImage& image : images.subspan(1)) {
         for (int y = 0; y < covered.height(); ++y) {
@@ -235,8 +235,8 @@ Image<std::uint8_t> covered_together(std::span<const CalibrationImage> images) {
     return covered;
 }
 
-std::optional<AxisPlace> axis_of_silhouettes(ConstImageView<std::uint8_t> covered, int reduction,
-                                             const TurntableModel& start) {
+std::optional<AxisPosition> axis_from_silhouettes(ConstImageView<std::uint8_t> covered, int reduction,
+                                                  const TurntableModel& start) {
     const std::vector<double> gaps_rad = gaps(start.angles_rad);
     if (*std::max_element(gaps_rad.begin(), gaps_rad.end()) > kWidestGap * 2 * kPi) return std::nullopt;
     // For a camera that looks down, an axis at a wrong position also seems inclined, so the measurement is repeated
@@ -251,10 +251,10 @@ std::optional<AxisPlace> axis_of_silhouettes(ConstImageView<std::uint8_t> covere
     const glm::dvec3 middle = camera_rotation(model.pose) * direction(0, reading->v);
     if (!(middle.z < -1e-3)) return std::nullopt;
     const Lens& lens = model.lens;
-    AxisPlace place;
-    place.at_px = lies_sideways(model.pose) ? lens.cx - lens.f_px * middle.x / middle.z
-                                            : lens.cy + lens.f_px * middle.y / middle.z;
-    const double deviation = std::hypot(reading->offset.deviation, missed(gaps_rad) * reading->radius);
+    AxisPosition place;
+    place.at_px = has_sideways_axis(model.pose) ? lens.cx - lens.f_px * middle.x / middle.z
+                                                : lens.cy + lens.f_px * middle.y / middle.z;
+    const double deviation = std::hypot(reading->offset.deviation, missed_rim_deviation(gaps_rad) * reading->radius);
     const auto here = axis_position(lens, model.pose, place.at_px);
     const auto beside = axis_position(lens, moved(model, deviation).pose, place.at_px);
     if (!here || !beside || !std::isfinite(deviation)) return std::nullopt;
@@ -263,7 +263,7 @@ std::optional<AxisPlace> axis_of_silhouettes(ConstImageView<std::uint8_t> covere
     return place;
 }
 
-AxisPlace agreed_axis(const AxisPlace& of_tracks, const AxisPlace& of_silhouettes) {
+AxisPosition combine_axes(const AxisPosition& of_tracks, const AxisPosition& of_silhouettes) {
     const double apart = of_silhouettes.position_px - of_tracks.position_px;
     const double silhouettes2 = of_silhouettes.deviation_px * of_silhouettes.deviation_px;
     const double stated2 = of_tracks.deviation_px * of_tracks.deviation_px;
@@ -273,7 +273,7 @@ AxisPlace agreed_axis(const AxisPlace& of_tracks, const AxisPlace& of_silhouette
     return {of_tracks.at_px, of_tracks.position_px + apart * tracks2 / sum, std::sqrt(tracks2 * silhouettes2 / sum)};
 }
 
-std::optional<TurntableModel> with_axis_at(TurntableModel model, const AxisPlace& place) {
+std::optional<TurntableModel> move_axis_to(TurntableModel model, const AxisPosition& place) {
     constexpr double kStep_rad = 1e-5;
     for (int round = 0; round < 10; ++round) {
         CameraPose beside = model.pose;

@@ -1,6 +1,6 @@
 #include "capture/calibration/silhouettes/silhouette_tangency.hpp"
 
-#include "capture/calibration/silhouettes/loose_numbers.hpp"
+#include "capture/calibration/silhouettes/free_parameters.hpp"
 #include "capture/calibration/silhouettes/silhouette_adjustment.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
@@ -32,7 +32,7 @@ constexpr double kFinestPlanes_px = 0.005;
 constexpr double kWorthOfHull = 0.13;
 // Factor of common silhouette errors that no residual shows, largest for bodies of revolution; determined from the true
 // errors on photos with ground truth.
-constexpr double kUntold = 3;
+constexpr double kPairErrorFactor = 3;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 struct HullPoint {
@@ -146,10 +146,10 @@ double half_width_px(std::span<const SilhouetteHull> hulls) {
 
 // Mean square of the camera numbers' `step` in deviations of their covariance, at least 1. The pan is ignored, because
 // the axis' position was already estimated from silhouettes.
-double beyond_belief(const NumberPlaces& places, const Eigen::MatrixXd& covariance, const Eigen::VectorXd& step) {
+double excess_variance(const ParameterIndices& places, const Eigen::MatrixXd& covariance, const Eigen::VectorXd& step) {
     std::vector<int> chosen;
-    for (std::size_t k = 0; k < kCameraNumbers; ++k) {
-        if (k != CameraNumber::kPan && places.camera[k] >= 0) chosen.push_back(places.camera[k]);
+    for (std::size_t k = 0; k < kCameraParameters; ++k) {
+        if (k != CameraParameter::kPan && places.camera[k] >= 0) chosen.push_back(places.camera[k]);
     }
     if (chosen.empty()) return 1;
     const Eigen::MatrixXd among = covariance(chosen, chosen);
@@ -219,7 +219,7 @@ std::vector<double> tangency_residuals(const TurntableModel& model, std::span<co
     return residuals;
 }
 
-std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const NumberPlaces& places,
+std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const ParameterIndices& places,
                                         const Eigen::MatrixXd& covariance, std::span<const SilhouetteHull> hulls,
                                         double worst_px) {
     if (places.count == 0 || covariance.rows() != places.count || !covariance.allFinite()) return std::nullopt;
@@ -233,15 +233,16 @@ std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const Numbe
          Eigen::VectorXd::Constant(numbers.count(), kPlaneWidth)},
         errors);
     Eigen::VectorXd z = Eigen::VectorXd::Zero(numbers.count());
-    double disbelief = 1;
+    double prior_scale = 1;
     for (int round = 0; round < kTangencyRounds; ++round) {
         errors.outlier_px = kOutlierDeviations * deviation_of(adjustment.residuals(z));
-        adjustment.expect(errors, disbelief);
+        adjustment.expect(errors, prior_scale);
         if (!adjustment.improve(z, kStepsPerRound, kEnoughOfPlanes)) return std::nullopt;
-        disbelief = beyond_belief(places, covariance, numbers.step(z));
+        prior_scale = excess_variance(places, covariance, numbers.step(z));
     }
-    TangencyFit fit{numbers.at(z), numbers.told(covariance, adjustment.information(z), kUntold, disbelief, kNoLimit),
-                    0};
+    TangencyFit fit{
+        numbers.at(z),
+        numbers.updated_covariance(covariance, adjustment.information(z), kPairErrorFactor, prior_scale, kNoLimit), 0};
     // Checked at the end: with a wrong start, consistent silhouettes would appear inconsistent.
     fit.deviation_px = deviation_of(adjustment.residuals(z));
     if (!(fit.deviation_px <= worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;

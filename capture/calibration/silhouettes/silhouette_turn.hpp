@@ -21,8 +21,8 @@ struct SilhouetteDetail {
 
 class SilhouetteTurn {
 public:
-    // Coverage 0..255, all views of one size. They are reduced by the integer factor that `detail` requires, and
-    // cropped to the turn's box. Errors: fewer than 6 views, different sizes, a view that is empty or full.
+    /// Coverage 0..255, all views of one size. They are reduced by the integer factor that `detail` requires, and
+    /// cropped to the turn's box. Errors: fewer than 6 views, different sizes, a view that is empty or full.
     static Result<SilhouetteTurn> of(std::span<const Image<std::uint8_t>> masks, const SilhouetteDetail& detail = {});
 
     [[nodiscard]] std::size_t views() const { return distances_.size(); }
@@ -30,11 +30,11 @@ public:
     [[nodiscard]] double width_px() const { return box_high_.x - box_low_.x; }  // of the turn's box
     [[nodiscard]] bool touches_border() const { return open_[0] || open_[1] || open_[2] || open_[3]; }
 
-    // Points of the silhouette of a view with subpixel accuracy, evenly spaced around it, none on the image border.
+    /// Points of the silhouette of a view with subpixel accuracy, evenly spaced around it, none on the image border.
     [[nodiscard]] std::span<const glm::dvec2> edges(std::size_t view) const { return edges_[view]; }
 
-    // Signed distance in px from the silhouette of `view`, positive inside. Beyond a border that the object touches the
-    // image is extended by its edge values: regions outside the image contradict nothing.
+    /// Signed distance in px from the silhouette of `view`, positive inside. Beyond a border that the object touches
+    /// the image is extended by its edge values: regions outside the image contradict nothing.
     [[nodiscard]] float distance(std::size_t view, float x, float y) const {
         float outside = 0;
         x -= origin_.x + 0.5F;

@@ -81,8 +81,8 @@ SilhouetteFit search(SilhouetteProblem problem) {
 
 // The best fits with the tilt held at several values. Silhouettes may leave a valley of tilts with another axis and
 // lens for each, which the curvature at one point of it does not show.
-std::vector<SilhouetteFit> fits_along_tilts(SilhouetteProblem problem, const SilhouetteFit& fit,
-                                            const RaySelection& rays) {
+std::vector<SilhouetteFit> fit_fixed_tilts(SilhouetteProblem problem, const SilhouetteFit& fit,
+                                           const RaySelection& rays) {
     std::vector<SilhouetteFit> fits;
     if (!problem.free[Parameters::kTilt]) return fits;
     problem.free[Parameters::kTilt] = false;
@@ -108,8 +108,8 @@ SilhouetteFit nearest_to_start(const SilhouetteFit& fit, double fit_cost, const 
 
 // Deviation of each number if one of the fits along the tilts is the truth: the full distance if that fit is as good,
 // less in proportion to the standard errors by which it is worse; for a parabolic cost this is one standard deviation.
-std::array<double, Parameters::kCount> valley(const SilhouetteFit& fit, double fit_cost,
-                                              const std::vector<SilhouetteFit>& along) {
+std::array<double, Parameters::kCount> tilt_valley_deviations(const SilhouetteFit& fit, double fit_cost,
+                                                              const std::vector<SilhouetteFit>& along) {
     std::array<double, Parameters::kCount> deviation{};
     for (const SilhouetteFit& each : along) {
         for (std::size_t k = 0; k < Parameters::kCount; ++k) {
@@ -118,13 +118,15 @@ std::array<double, Parameters::kCount> valley(const SilhouetteFit& fit, double f
         }
     }
     for (std::size_t k = 0; k < Parameters::kCount; ++k) {
-        if (deviation[k] > kToldNothing * kSilhouettePriors[k]) deviation[k] = std::numeric_limits<double>::infinity();
+        if (deviation[k] > kUndeterminedShare * kSilhouettePriors[k])
+            deviation[k] = std::numeric_limits<double>::infinity();
     }
     return deviation;
 }
 
 // Jackknife over interleaved groups of views, which includes errors that neighbouring points share.
-std::array<double, Parameters::kCount> jackknife(const SilhouetteProblem& problem, const SilhouetteFit& fit) {
+std::array<double, Parameters::kCount> jackknife_deviations(const SilhouetteProblem& problem,
+                                                            const SilhouetteFit& fit) {
     const std::size_t views = problem.turn->views();
     const std::size_t groups = std::min(kGroups, views / 3);
     std::vector<Parameters> without;
@@ -145,8 +147,8 @@ std::array<double, Parameters::kCount> jackknife(const SilhouetteProblem& proble
     return deviation;
 }
 
-ModelDeviations deviations_of(const SilhouetteFit& fit, const std::array<double, Parameters::kCount>& spread,
-                              const TurntableModel& model, const KnownInputs& known, double image_px) {
+ModelDeviations standard_deviations(const SilhouetteFit& fit, const std::array<double, Parameters::kCount>& spread,
+                                    const TurntableModel& model, const KnownInputs& known, double image_px) {
     const auto of = [&](Parameters::Name name) { return std::max(fit.deviation[name], spread[name]); };
     ModelDeviations deviations;
     deviations.f_px = of(Parameters::kLogF) * model.lens.f_px;
@@ -190,7 +192,7 @@ void warn(Calibration& calibration, const SilhouetteTurn& turn) {
         warnings.emplace_back(
             "the silhouettes do not determine how far the camera looks down (a round object looks the same from all "
             "sides): its height is assumed; put a printed board under the object");
-    } else if (seems_to_look_up(calibration)) {
+    } else if (is_seen_from_below(calibration)) {
         warnings.emplace_back(
             "the silhouettes fit a camera that looks up from below; if it looks down, the object turns the other way: "
             "give the other direction of turning");
@@ -214,14 +216,14 @@ void warn(Calibration& calibration, const SilhouetteTurn& turn) {
 
 }  // namespace
 
-bool seems_to_look_up(const Calibration& found) {
+bool is_seen_from_below(const Calibration& found) {
     return found.model.pose.tilt_rad < -std::max(2 * found.deviations.tilt_rad, radians(3));
 }
 
 Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_t>> masks, const TurntableModel& start,
                                                const KnownInputs& known) {
     RS_ASSIGN_OR_RETURN(auto turn, SilhouetteTurn::of(masks));
-    const TurntableModel held = with_known(start, known);
+    const TurntableModel held = apply_known(start, known);
     RS_TRY(check_start(masks, held));
 
     // Photo px per px of the turn.
@@ -249,7 +251,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     if (best_rms > kDisagree_px) return disagreement(best_rms);
     const RaySelection half{2, {}};
     const double best_cost = silhouette_cost(problem, best.at, half);
-    const std::vector<SilhouetteFit> along = fits_along_tilts(problem, best, half);
+    const std::vector<SilhouetteFit> along = fit_fixed_tilts(problem, best, half);
     SilhouetteFit fit = nearest_to_start(best, best_cost, along);
     Calibration calibration;
     calibration.method = CalibrationMethod::kSilhouettes;
@@ -257,16 +259,16 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     std::vector<double> residuals = consistency_residuals_px(turn, of_turn, {});
     calibration.model = of_turn;
     calibration.model.lens = scaled(calibration.model.lens, image_px);
-    std::array<double, Parameters::kCount> spread = jackknife(problem, fit);
-    const std::array<double, Parameters::kCount> open = valley(fit, best_cost, along);
+    std::array<double, Parameters::kCount> spread = jackknife_deviations(problem, fit);
+    const std::array<double, Parameters::kCount> open = tilt_valley_deviations(fit, best_cost, along);
     // Silhouettes that fit worse than good ones make all numbers less certain.
     const double doubt = std::max(1.0, rms_px(residuals) / kGoodSilhouettes_px);
     for (std::size_t k = 0; k < Parameters::kCount; ++k) {
         spread[k] = std::max(spread[k], doubt * open[k]);
         fit.deviation[k] *= doubt;
     }
-    calibration.deviations = deviations_of(fit, spread, calibration.model, known, image_px);
-    if (auto found = angles_of_silhouettes(masks, calibration.model, calibration.deviations, known)) {
+    calibration.deviations = standard_deviations(fit, spread, calibration.model, known, image_px);
+    if (auto found = estimate_angles(masks, calibration.model, calibration.deviations, known)) {
         calibration.model = std::move(found->model);
         calibration.deviations = std::move(found->deviations);
         of_turn = calibration.model;

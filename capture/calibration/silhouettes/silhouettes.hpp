@@ -17,19 +17,19 @@
 
 namespace rs::capture {
 
-// `masks`: coverage 0..255 per view, of the size of start.lens or smaller by a common factor (about 300 px of object
-// are enough). `start`: lens with an assumed f, a pose, one angle per view; in px of the photos. Numbers in `known`
-// replace the start's and are held constant. The first stage estimates the common step of equally spaced views, within
-// about 3 % of the start's; the second estimates individual angles and the distortion, if the silhouettes determine
-// them and they are neither known nor required to be equal. The principal point is not estimated.
-//
-// Fails if masks and start do not fit together, if no model near the start makes the silhouettes consistent, or if the
-// start cannot be improved although it does not fit. Runs on the calling tbb arena, deterministic; about 15 s for 36
-// views on 2 cores.
+/// `masks`: coverage 0..255 per view, of the size of start.lens or smaller by a common factor (about 300 px of object
+/// are enough). `start`: lens with an assumed f, a pose, one angle per view; in px of the photos. Numbers in `known`
+/// replace the start's and are held constant. The first stage estimates the common step of equally spaced views, within
+/// about 3 % of the start's; the second estimates individual angles and the distortion, if the silhouettes determine
+/// them and they are neither known nor required to be equal. The principal point is not estimated.
+///
+/// Fails if masks and start do not fit together, if no model near the start makes the silhouettes consistent, or if the
+/// start cannot be improved although it does not fit. Runs on the calling tbb arena, deterministic; about 15 s for 36
+/// views on 2 cores.
 Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_t>> masks, const TurntableModel& start,
                                                const KnownInputs& known);
 
-// True if the silhouettes fit a camera that looks up from below, so that the other direction of turning is likelier.
-bool seems_to_look_up(const Calibration& found);
+/// True if the silhouettes fit a camera that looks up from below, so that the other direction of turning is likelier.
+bool is_seen_from_below(const Calibration& found);
 
 }  // namespace rs::capture

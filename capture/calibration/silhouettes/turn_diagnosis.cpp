@@ -25,7 +25,7 @@ constexpr std::size_t kFewUneven = 4;  // steps listed individually
 constexpr double kAxesApart_px = 0.5;
 
 // [view]: share of its candidates that agree with the rig.
-std::vector<double> agreeing_shares(const Bundle& bundle, std::span<const int> candidates) {
+std::vector<double> inlier_shares(const Bundle& bundle, std::span<const int> candidates) {
     const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
     std::vector<double> shares;
     for (std::size_t view = 0; view < kept.size(); ++view) {
@@ -35,9 +35,9 @@ std::vector<double> agreeing_shares(const Bundle& bundle, std::span<const int> c
 }
 
 // Views whose candidates mostly disagree with the rig.
-std::vector<std::size_t> views_apart(const Bundle& bundle, std::span<const int> candidates) {
+std::vector<std::size_t> disagreeing_views(const Bundle& bundle, std::span<const int> candidates) {
     const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
-    const std::vector<double> shares = agreeing_shares(bundle, candidates);
+    const std::vector<double> shares = inlier_shares(bundle, candidates);
     const double least = kFewestAgreeingOfView * median(shares);
     std::vector<std::size_t> apart;
     for (std::size_t view = 0; view < kept.size(); ++view) {
@@ -56,7 +56,7 @@ std::string list_of(const std::vector<std::size_t>& views, std::span<const std::
 
 // The first view after a single change: the shares before and after it have two levels that explain most of the
 // variance. Nothing if the shares vary otherwise, for example with two alternating cameras.
-std::optional<std::size_t> moment_of_change(std::span<const double> shares) {
+std::optional<std::size_t> first_view_after_change(std::span<const double> shares) {
     const auto count = static_cast<double>(shares.size());
     double mean = 0, scatter = 0;
     for (const double share : shares) mean += share / count;
@@ -101,13 +101,13 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
     double offered = 0;
     for (const int count : candidates) offered += count;
     const double share = observation_count(bundle) / std::max(1.0, offered);
-    const std::vector<std::size_t> apart = views_apart(bundle, candidates);
+    const std::vector<std::size_t> apart = disagreeing_views(bundle, candidates);
     const auto views = static_cast<double>(names.size());
     if (share < kFewestAgreeing || static_cast<double>(apart.size()) > kMostViewsApart * views) {
         std::string text = "the images do not show one turn before a fixed camera: " + with_digits(100 * share, 0) +
                            " % of the observations agree with the best one";
         if (!apart.empty()) text += ", and not those of " + list_of(apart, names);
-        if (const auto moment = moment_of_change(agreeing_shares(bundle, candidates))) {
+        if (const auto moment = first_view_after_change(inlier_shares(bundle, candidates))) {
             text += "; was the camera or the tripod moved at about " + names[*moment] + "? Take the turn again";
         } else {
             text += "; are they of one camera, one zoom and one object that did not move on the turntable?";
@@ -140,8 +140,8 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
     return {};
 }
 
-bool changes_at_one_moment(const Bundle& bundle, std::span<const int> candidates) {
-    return moment_of_change(agreeing_shares(bundle, candidates)).has_value();
+bool has_single_change(const Bundle& bundle, std::span<const int> candidates) {
+    return first_view_after_change(inlier_shares(bundle, candidates)).has_value();
 }
 
 std::vector<std::string> step_warnings(std::span<const double> angles, const ModelDeviations& deviations,
@@ -207,7 +207,7 @@ std::vector<std::string> image_warnings(const Bundle& bundle, std::span<const in
         }
     }
     const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
-    for (const std::size_t view : views_apart(bundle, candidates)) {
+    for (const std::size_t view : disagreeing_views(bundle, candidates)) {
         if (candidates[view] < kFewestObservations) {
             lines.push_back(
                 names[view] + " shows only " + std::to_string(candidates[view]) +
@@ -233,7 +233,8 @@ std::string place_warning(std::span<const ImagePlace> places) {
            with_digits(100 * (most / least - 1), 0) + " %) individually, as shops do; this is undone";
 }
 
-std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPlace& of_silhouettes, int reduction) {
+std::optional<std::string> axis_warning(const AxisPosition& of_tracks, const AxisPosition& of_silhouettes,
+                                        int reduction) {
     const double apart = std::abs(of_tracks.position_px - of_silhouettes.position_px);
     const double believed = 3 * std::hypot(of_tracks.deviation_px, of_silhouettes.deviation_px);
     if (!(apart > std::max(believed, kAxesApart_px * reduction))) return std::nullopt;

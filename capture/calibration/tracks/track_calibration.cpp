@@ -1,12 +1,12 @@
 #include "capture/calibration/tracks/track_calibration.hpp"
 
-#include "capture/calibration/points/image_places.hpp"
 #include "capture/calibration/points/model_covariance.hpp"
 #include "capture/calibration/points/patch_alignment.hpp"
 #include "capture/calibration/points/patch_growth.hpp"
+#include "capture/calibration/points/placement_estimation.hpp"
 #include "capture/calibration/points/start_search.hpp"
 #include "capture/calibration/silhouettes/turn_diagnosis.hpp"
-#include "capture/calibration/tracks/silhouette_settling.hpp"
+#include "capture/calibration/tracks/silhouette_refinement.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ constexpr std::size_t kEnoughTracks = 2000;  // more would only cost time
 constexpr int kObservationsPerView = 280;    // points are grown until each view has so many
 constexpr int kAlignmentRounds = 2;
 constexpr int kMostAlignmentRounds = 3;  // while points are added
-constexpr double kRoom = 1.15;           // factor on the radius of the known points, for those not found yet
+constexpr double kRadiusMargin = 1.15;   // factor on the radius of the known points, for those not found yet
 constexpr double kLeastOutlierLimit_px = 0.8;
 constexpr double kAlignedLimit_px = 1;  // larger residuals are alignments to another place
 // Adjustments followed by a new selection of observations need not be accurate.
@@ -67,9 +67,9 @@ std::vector<ViewFit> fits(const Bundle& bundle) {
 
 // Of the two equivalent models with opposite axis directions, takes the one whose camera looks down if the axis is
 // sideways, because the image does not define an upper end then.
-void choose_upper_end(Bundle& bundle) {
+void choose_axis_direction(Bundle& bundle) {
     CameraPose& pose = bundle.model.pose;
-    if (!lies_sideways(pose) || pose.tilt_rad >= 0) return;
+    if (!has_sideways_axis(pose) || pose.tilt_rad >= 0) return;
     pose.tilt_rad = -pose.tilt_rad;
     pose.pan_rad = -pose.pan_rad;
     pose.roll_rad += pose.roll_rad > 0 ? -kPi : kPi;
@@ -89,12 +89,12 @@ double farthest_radius(const Bundle& bundle) {
 const char* const kNoSolution = "the bundle adjustment fails; are the images in order?";
 
 Lens known_lens(const TurnImages& turn, const KnownInputs& known) {
-    return with_known(Lens{turn.width, turn.height, 0, turn.width / 2.0, turn.height / 2.0, 0, 0}, known);
+    return apply_known(Lens{turn.width, turn.height, 0, turn.width / 2.0, turn.height / 2.0, 0, 0}, known);
 }
 
 BundleOptions rough(BundleOptions options) {
-    options.most_iterations = kRoughIterations;
-    options.enough = kRoughlyEnough;
+    options.max_iterations = kRoughIterations;
+    options.function_tolerance = kRoughlyEnough;
     return options;
 }
 
@@ -110,7 +110,7 @@ bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k
         const double limit = outlier_limit(bundle, reduction);
         // Observations rejected because of a poor start are reconsidered.
         if (round + 1 < kMostRounds) {
-            bundle = make_agreeing_bundle(bundle.model, tracks, limit);
+            bundle = make_robust_bundle(bundle.model, tracks, limit);
         } else {
             drop_outliers(bundle, limit);
         }
@@ -150,7 +150,7 @@ void keep(Bundle& bundle, Condition condition) {
 
 // Drops tracks over short arcs if enough others exist: they may be crossings of two contours or shadow edges, which
 // move over the object but look like a point for a short time.
-void keep_wide_tracks(Bundle& bundle) {
+void drop_short_arcs(Bundle& bundle) {
     std::vector<double> arcs;
     for (const Track& track : bundle.tracks) arcs.push_back(arc_rad(bundle.model, track));
     std::vector<double> sorted = arcs;
@@ -161,7 +161,7 @@ void keep_wide_tracks(Bundle& bundle) {
 }
 
 // Limits the number of tracks by an even selection; the longest alone would be those with oblique views.
-void keep_enough_tracks(Bundle& bundle) {
+void limit_track_count(Bundle& bundle) {
     const std::size_t count = bundle.tracks.size();
     if (count <= kEnoughTracks) return;
     keep(bundle, [&](std::size_t i) { return i * kEnoughTracks / count != (i + 1) * kEnoughTracks / count; });
@@ -174,9 +174,9 @@ std::optional<Bundle> refined(Bundle bundle, const TurnImages& turn, BundleOptio
         const std::size_t known = bundle.tracks.size();
         grow(bundle, turn.reduction, most);
         if (round >= kAlignmentRounds && bundle.tracks.size() == known) break;
-        const std::vector<Track> tracks = aligned_tracks(turn.images, turn.reduction, bundle, known);
-        bundle = make_agreeing_bundle(bundle.model, tracks, kAlignedLimit_px * turn.reduction);
-        keep_wide_tracks(bundle);
+        const std::vector<Track> tracks = align_tracks(turn.images, turn.reduction, bundle, known);
+        bundle = make_robust_bundle(bundle.model, tracks, kAlignedLimit_px * turn.reduction);
+        drop_short_arcs(bundle);
         for (int again = 0; again < 2; ++again) {
             options.loss_px = std::max(0.05 * turn.reduction, kLossDeviations * robust_deviation_px(bundle));
             if (!adjust(bundle, rough(options))) return std::nullopt;
@@ -189,31 +189,30 @@ std::optional<Bundle> refined(Bundle bundle, const TurnImages& turn, BundleOptio
 }
 
 // Held-out tracks, with points and outliers determined as for the used tracks; the model is constant.
-Bundle judged_by(const TurntableModel& model, const Bundle& unseen, const TurnImages& turn, bool aligned) {
-    Bundle bundle = make_agreeing_bundle(model, unseen.tracks, outlier_limit(unseen, turn.reduction));
+Bundle evaluate_held_out(const TurntableModel& model, const Bundle& unseen, const TurnImages& turn, bool aligned) {
+    Bundle bundle = make_robust_bundle(model, unseen.tracks, outlier_limit(unseen, turn.reduction));
     if (!aligned) return bundle;
     BundleOptions held;
-    held.free = {.f = false, .pan = false, .tilt = false, .roll = false, .angles = AngleFreedom::kHeld};
+    held.free = {.f = false, .pan = false, .tilt = false, .roll = false, .angles = AngleFreedom::kConstant};
     return refined(bundle, turn, held, 0).value_or(bundle);
 }
 
 // Calibrates for a fixed camera. If the points are explained neither by a turn nor by a tripod that was moved once,
 // `placed` becomes the best turn with images shifted and scaled individually. `placed` is null if that has already been
 // undone.
-Result<TrackCalibration> calibrate_still(const TurnImages& turn, const KnownInputs& known, Progress* progress,
-                                         std::optional<PlacedTurn>* placed) {
+Result<TrackCalibration> calibrate_fixed_images(const TurnImages& turn, const KnownInputs& known, Progress* progress,
+                                                std::optional<PlacementEstimate>* placed) {
     const std::size_t views = turn.images.size();
     if (views < kFewestViews) {
         return Error{std::to_string(views) + " images are too few to calibrate a turn; take at least " +
                      std::to_string(kFewestViews) + ", better 36"};
     }
     if (progress != nullptr) progress->start("tracking points", 2 * static_cast<std::int64_t>(views));
-    RS_ASSIGN_OR_RETURN(const PointFollower follower,
-                        PointFollower::look_at(turn.images, turn.reduction, {}, progress));
-    RS_ASSIGN_OR_RETURN(FollowedPoints followed, follower.follow(progress));
+    RS_ASSIGN_OR_RETURN(const PointTracker tracker, PointTracker::detect(turn.images, turn.reduction, {}, progress));
+    RS_ASSIGN_OR_RETURN(TrackedPoints tracked, tracker.track(progress));
     TrackCalibration result;
-    result.followed = std::move(followed);
-    const std::vector<Track>& tracks = result.followed.tracks;
+    result.tracked = std::move(tracked);
+    const std::vector<Track>& tracks = result.tracked.tracks;
     if (tracks.size() < kFewestTracks) {
         return Error{"only " + std::to_string(tracks.size()) +
                      " points of the object can be tracked over three or more images; an object with so little "
@@ -223,37 +222,39 @@ Result<TrackCalibration> calibrate_still(const TurnImages& turn, const KnownInpu
     split(tracks, part, held_out);
 
     if (progress != nullptr) progress->start("solving for axis, lens and angles", 3);
-    const auto start = find_start(part, result.followed.pairs, static_cast<int>(views), known_lens(turn, known), known);
+    const auto start =
+        find_initial_model(part, result.tracked.pairs, static_cast<int>(views), known_lens(turn, known), known);
     if (!start) return Error{"no turn of equal steps explains how the object's points move"};
     if (progress != nullptr) progress->advance();
 
     BundleOptions options;
-    options.free = freedom_beside(known);
-    Bundle bundle = make_agreeing_bundle(start->model, part, 4.0 * turn.reduction);
+    options.free = free_parameters_beside(known);
+    Bundle bundle = make_robust_bundle(start->model, part, 4.0 * turn.reduction);
     if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
-    choose_upper_end(bundle);
+    choose_axis_direction(bundle);
     if (progress != nullptr) progress->advance();
-    const double at_px = 0.5 * (lies_sideways(bundle.model.pose) ? turn.width : turn.height);
+    const double at_px = 0.5 * (has_sideways_axis(bundle.model.pose) ? turn.width : turn.height);
     const std::vector<int> candidates = observations_per_view(part, views);
-    Status accepted = accept(bundle, bundle_deviations(bundle, options, at_px), candidates, turn.names);
+    Status accepted = accept(bundle, bundle_standard_deviations(bundle, options, at_px), candidates, turn.names);
     if (!accepted) {
-        if (placed != nullptr && !changes_at_one_moment(bundle, candidates)) {
-            *placed = find_places(tracks, known_lens(turn, known), views, turn.reduction, known);
+        if (placed != nullptr && !has_single_change(bundle, candidates)) {
+            *placed = estimate_placements(tracks, known_lens(turn, known), views, turn.reduction, known);
         }
         return accepted.error();
     }
     const Bundle settled = bundle;
     const BundleOptions as_settled = options;
     // With an approximate model, guided matching finds more tracks.
-    RS_ASSIGN_OR_RETURN(const std::vector<Track> guided,
-                        follower.follow_guided(bundle.model, kRoom * farthest_radius(bundle), 2.0 * turn.reduction));
+    RS_ASSIGN_OR_RETURN(
+        const std::vector<Track> guided,
+        tracker.track_guided(bundle.model, kRadiusMargin * farthest_radius(bundle), 2.0 * turn.reduction));
     part.clear();
     held_out.clear();
     split(guided, part, held_out);
-    bundle = make_agreeing_bundle(bundle.model, part, outlier_limit(bundle, turn.reduction));
+    bundle = make_robust_bundle(bundle.model, part, outlier_limit(bundle, turn.reduction));
     if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
-    const Bundle unseen = make_agreeing_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
-    keep_enough_tracks(bundle);
+    const Bundle unseen = make_robust_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
+    limit_track_count(bundle);
     std::optional<Bundle> finest = refined(bundle, turn, options, kObservationsPerView * static_cast<int>(views));
     const bool is_aligned = finest && finest->tracks.size() >= kFewestTracks / 2;
     if (is_aligned) {
@@ -264,10 +265,10 @@ Result<TrackCalibration> calibrate_still(const TurnImages& turn, const KnownInpu
         if (!adjust(bundle, options)) return Error{kNoSolution};
     }
     TrackSolution solution{
-        std::move(bundle), NumberPlaces(options.free, std::vector<bool>(views, true)), {}, at_px, {}};
+        std::move(bundle), ParameterIndices(options.free, std::vector<bool>(views, true)), {}, at_px, {}};
     solution.covariance = bundle_covariance(solution.bundle, options, kSharedError_px * turn.reduction);
-    solution.deviations = deviations_of(solution.bundle.model, solution.places, solution.covariance, at_px);
-    const auto axis_disagrees = settle_with_silhouettes(solution, turn, kFewestTracks / 2);
+    solution.deviations = standard_deviations(solution.bundle.model, solution.places, solution.covariance, at_px);
+    const auto axis_disagrees = refine_with_silhouettes(solution, turn, kFewestTracks / 2);
     bundle = std::move(solution.bundle);
     if (progress != nullptr) progress->advance();
 
@@ -284,28 +285,29 @@ Result<TrackCalibration> calibrate_still(const TurnImages& turn, const KnownInpu
         calibration.warnings = step_warnings(bundle.model.angles_rad, calibration.deviations, turn.names);
         if (axis_disagrees) calibration.warnings.push_back(*axis_disagrees);
     }
-    const auto of_images = image_warnings(judged, candidates, result.followed.features, turn.names);
+    const auto of_images = image_warnings(judged, candidates, result.tracked.features, turn.names);
     calibration.warnings.insert(calibration.warnings.end(), of_images.begin(), of_images.end());
     calibration.points = static_cast<int>(bundle.tracks.size());
     calibration.observations = observation_count(bundle);
     calibration.rms_px = rms_px(bundle);
-    calibration.held_out_rms_px = rms_px(judged_by(bundle.model, unseen, turn, is_aligned));
+    calibration.held_out_rms_px = rms_px(evaluate_held_out(bundle.model, unseen, turn, is_aligned));
     calibration.views = fits(bundle);
     result.bundle = std::move(bundle);
     return result;
 }
 
 Result<TrackCalibration> calibrate_placed(const TurnImages& turn, const KnownInputs& known, Progress* progress) {
-    std::optional<PlacedTurn> placed;
-    Result<TrackCalibration> still = calibrate_still(turn, known, progress, &placed);
+    std::optional<PlacementEstimate> placed;
+    Result<TrackCalibration> still = calibrate_fixed_images(turn, known, progress, &placed);
     if (!placed || placed->agreeing < kFewestAgreeingPlaced) return still;
     std::vector<ImagePlace> places = std::move(placed->places);
     for (int round = 0;; ++round) {
-        Result<TrackCalibration> found = calibrate_still(put_back(turn, places), known, progress, nullptr);
+        Result<TrackCalibration> found =
+            calibrate_fixed_images(undo_placements(turn, places), known, progress, nullptr);
         if (!found) return still;
         found->calibration.places = places;
         const auto remaining =
-            round < kPlaceRounds ? remaining_places(found->bundle, turn.reduction, known) : std::nullopt;
+            round < kPlaceRounds ? estimate_remaining_placements(found->bundle, turn.reduction, known) : std::nullopt;
         if (!remaining) {
             found->calibration.warnings.push_back(place_warning(places));
             return found;
@@ -315,7 +317,7 @@ Result<TrackCalibration> calibrate_placed(const TurnImages& turn, const KnownInp
 }
 
 // True if the distortion folds the image over itself. No real lens does; the distortion then fits another effect.
-bool folds(const Lens& lens) {
+bool folds_image(const Lens& lens) {
     for (const double x : {0.0, static_cast<double>(lens.width)}) {
         for (const double y : {0.0, static_cast<double>(lens.height)}) {
             if (!undistorted(lens, {x, y})) return true;
@@ -328,7 +330,7 @@ bool folds(const Lens& lens) {
 
 Result<TrackCalibration> calibrate_with_tracks(const TurnImages& turn, const KnownInputs& known, Progress* progress) {
     Result<TrackCalibration> found = calibrate_placed(turn, known, progress);
-    if (!found || known.distortion || !folds(found->calibration.model.lens)) return found;
+    if (!found || known.distortion || !folds_image(found->calibration.model.lens)) return found;
     KnownInputs straight = known;
     straight.distortion = glm::dvec2(0);
     found = calibrate_placed(turn, straight, progress);

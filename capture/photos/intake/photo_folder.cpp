@@ -101,7 +101,7 @@ Status choose_orientations(PhotoFolder& found, const std::vector<ImageInfo>& inf
                          size_text(found.shown_width, found.shown_height) +
                          (is_turned ? ", turned as EXIF states" : "") + "; all images of a turn must have one size"};
         }
-        found.otherwise_turned += infos[i].orientation != orientation ? 1 : 0;
+        found.other_orientation_count += infos[i].orientation != orientation ? 1 : 0;
         if (of_size.size() > 1) found.own_orientations.push_back(orientation);
     }
     return {};
@@ -161,8 +161,8 @@ std::string size_text(int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
-Error turned_beside(const PhotoFolder& folder, const std::string& other) {
-    const std::string states = folder.states_several()
+Error ambiguous_orientation_error(const PhotoFolder& folder, const std::string& other) {
+    const std::string states = folder.has_several_orientations()
                                    ? "the photos have several EXIF orientations"
                                    : "the photos' EXIF orientation is " + std::to_string(folder.orientation);
     return Error{other + ": " + states +

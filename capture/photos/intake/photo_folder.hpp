@@ -31,7 +31,7 @@ bool natural_less(std::string_view a, std::string_view b);
 bool is_image_name(const std::filesystem::path& name);
 
 /// Photos of one turn. Photos are displayed in the size shown_width x shown_height, after the EXIF orientation is
-/// applied. read_photograph() returns images in the working size, width x height.
+/// applied. read_photo() returns images in the working size, width x height.
 struct PhotoFolder {
     std::vector<std::filesystem::path> photos;  ///< full paths, in natural order of their file names
     std::vector<std::string> ignored;           ///< names of other entries, also folders; without hidden ones
@@ -41,15 +41,15 @@ struct PhotoFolder {
     /// EXIF orientation of the stored pixels (ImageInfo::orientation), the same for all photos because the camera is
     /// fixed. If files differ, it is the most frequent one: a camera that looks down cannot sense its orientation.
     int orientation = 1;
-    int otherwise_turned = 0;  ///< number of files with another orientation
+    int other_orientation_count = 0;  ///< number of files with another orientation
     /// [photo]: set if some photos are stored on their side and others upright, as an editor saves them. Each is the
-    /// most frequent orientation of the photos stored in the same size, and otherwise_turned counts the files that
-    /// differ from it. Empty: `orientation` applies to all.
+    /// most frequent orientation of the photos stored in the same size, and other_orientation_count counts the files
+    /// that differ from it. Empty: `orientation` applies to all.
     std::vector<int> own_orientations;
     int shown_width = 0;     ///< px, of all photos as displayed
     int shown_height = 0;    ///< px
     double reduction = 1;    ///< displayed pixels per pixel of the working size
-    int width = 0;           ///< px, working size: the images of read_photograph(), centred in the displayed photo
+    int width = 0;           ///< px, working size: the images of read_photo(), centred in the displayed photo
     int height = 0;          ///< px
     bool has_alpha = false;  ///< all files have an alpha channel
     int focal_35mm = 0;      ///< EXIF, mm; 0 if unknown or not the same for all photos
@@ -67,20 +67,22 @@ struct PhotoFolder {
         return 0.5 * image + (shown_px - 0.5 * shown) / reduction;
     }
     /// True if the files differ in their EXIF orientation.
-    [[nodiscard]] bool states_several() const { return otherwise_turned > 0 || !own_orientations.empty(); }
+    [[nodiscard]] bool has_several_orientations() const {
+        return other_orientation_count > 0 || !own_orientations.empty();
+    }
     /// True if it is ambiguous whether the size of a mask or a camera refers to the stored pixels or to the displayed
     /// photo.
-    [[nodiscard]] bool turns_unnoticed() const {
-        return states_several() || (orientation != 1 && (orientation < 5 || shown_width == shown_height));
+    [[nodiscard]] bool has_ambiguous_orientation() const {
+        return has_several_orientations() || (orientation != 1 && (orientation < 5 || shown_width == shown_height));
     }
 };
 
 /// Text of a size: "4000x3000".
 std::string size_text(int width, int height);
 
-/// Error for photos with turns_unnoticed() that come with `other`, a file that refers to pixels: it may refer to the
-/// stored or the displayed ones.
-Error turned_beside(const PhotoFolder& folder, const std::string& other);
+/// Error for photos with has_ambiguous_orientation() that come with `other`, a file that refers to pixels: it may refer
+/// to the stored or the displayed ones.
+Error ambiguous_orientation_error(const PhotoFolder& folder, const std::string& other);
 
 /// File names of the photos, without the folder.
 std::vector<std::string> file_names(const PhotoFolder& folder);

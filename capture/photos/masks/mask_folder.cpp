@@ -254,7 +254,7 @@ Result<Image<std::uint8_t>> MaskFolder::read(std::size_t i) const {
         Image<std::uint8_t> resized(shown_.width, shown_.height);
         cv::Mat1b to(shown_.height, shown_.width, resized.data());
         const bool is_smaller = shown_.width < mask.width() && shown_.height < mask.height();
-        cv::resize(mat_over(mask), to, to.size(), 0, 0, is_smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
+        cv::resize(mat_view(mask), to, to.size(), 0, 0, is_smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
         mask = std::move(resized);
     }
     if (kind_ == MaskKind::kBinary) {

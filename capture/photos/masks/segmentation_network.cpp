@@ -185,7 +185,7 @@ Result<Instance> make_instance(const std::filesystem::path& path, const NetworkS
 cv::Mat network_input(ConstImageView<Rgba8> photo, const cv::Size& size, const NetworkSettings& settings) {
     cv::Mat resized;
     const bool is_smaller = size.width < photo.width() && size.height < photo.height();
-    cv::resize(mat_over(photo), resized, size, 0, 0, is_smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
+    cv::resize(mat_view(photo), resized, size, 0, 0, is_smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
     const int shape[] = {1, 3, size.height, size.width};
     cv::Mat input(4, shape, CV_32F);
     for (int channel = 0; channel < 3; ++channel) {

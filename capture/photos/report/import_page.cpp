@@ -1,7 +1,7 @@
 #include "capture/photos/report/import_page.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
-#include "capture/photos/intake/photograph.hpp"
+#include "capture/photos/intake/photo_reader.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/page/html_page.hpp"
@@ -89,7 +89,7 @@ Image<Rgba8> annotated_photo(ConstImageView<Rgba8> photo, const ImportReport& re
     Image<Rgba8> small = scaled_down(photo, kAnnotatedSide_px);
     for (Rgba8& p : small.pixels()) p = over(p, {128, 128, 128, 255});
     const double scale = static_cast<double>(small.width()) / photo.width();
-    cv::Mat image = writable_mat_over(small);
+    cv::Mat image = writable_mat_view(small);
     if (report.calibration.tracks) draw_points(image, *report.calibration.tracks, view, scale);
     draw_axis(image, report, view, scale);
     return small;
@@ -109,7 +109,7 @@ std::string deviation(double value, int digits) {
     return value == 0 ? "fixed" : number(value, digits);
 }
 
-std::string what_it_rests_on(CalibrationMethod method) {
+std::string basis_of(CalibrationMethod method) {
     switch (method) {
         case CalibrationMethod::kBoard:
             return "the printed board on the turntable.";
@@ -128,7 +128,7 @@ std::string what_it_rests_on(CalibrationMethod method) {
 
 void add_summary(HtmlPage& page, const ImportReport& report) {
     page.paragraph(std::to_string(report.views) + " views of " + sizes_text(report.folder) +
-                   ". Calibration: " + to_string(report.method) + ". Based on " + what_it_rests_on(report.method));
+                   ". Calibration: " + to_string(report.method) + ". Based on " + basis_of(report.method));
     if (report.notes.empty()) {
         page.paragraph("No warnings.");
     } else {
@@ -209,7 +209,7 @@ Status add_photos(HtmlPage& page, const ImportReport& report) {
     std::vector<CaptionedImage> row;
     for (const int view : evenly_spread(static_cast<int>(report.folder.photos.size()), kAnnotated)) {
         const auto i = static_cast<std::size_t>(view);
-        RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photograph(report.folder, i));
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photo(report.folder, i));
         row.push_back({annotated_photo(photo, report, view), source_name(report, i)});
     }
     page.heading("The axis and the points");
@@ -220,7 +220,7 @@ Status add_photos(HtmlPage& page, const ImportReport& report) {
     return page.images(row, kAnnotatedSide_px);
 }
 
-Status add_mattes(HtmlPage& page, const ImportReport& report) {
+Status add_alpha_mattes(HtmlPage& page, const ImportReport& report) {
     std::vector<CaptionedImage> row;
     for (const int view : evenly_spread(static_cast<int>(report.small_cut_outs.size()), kMattes)) {
         Image<Rgba8> matte = report.small_cut_outs[static_cast<std::size_t>(view)];
@@ -241,7 +241,7 @@ Result<std::string> import_page(const std::filesystem::path& photos, const Impor
         add_plots(page, *report.calibration.calibration);
     }
     RS_TRY(add_photographs(page, report));
-    RS_TRY(add_mattes(page, report));
+    RS_TRY(add_alpha_mattes(page, report));
     return page.text();
 }
 

@@ -28,8 +28,9 @@ std::vector<TurnSilhouette::Box> boxes_put_back(std::vector<TurnSilhouette::Box>
 }
 
 // Writes the rectified images of all views that are not left out. Returns the box of the object over all of them.
-Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFolder& folder, const CutoutCache& cuts,
-                                            const ImportReport& report, Progress* progress) {
+Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFolder& folder,
+                                            const ForegroundCache& foregrounds, const ImportReport& report,
+                                            Progress* progress) {
     std::vector<std::size_t> number(folder.photos.size(), 0);  // index in the set
     for (std::size_t i = 0, next = 0; i < folder.photos.size(); ++i) number[i] = is_left_out(report, i) ? 0 : next++;
     const Calibration& calibration = *report.calibration.calibration;
@@ -37,7 +38,7 @@ Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFold
     std::mutex mutex;
     const auto work = [&](std::size_t i) -> Status {
         if (is_left_out(report, i)) return {};
-        RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, cuts.get(i));
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, foregrounds.get(i));
         const Image<Rgba8> upright = rectified(calibration.model, report.frame, image,
                                                calibration.places.empty() ? ImagePlace{} : calibration.places[i]);
         if (Status status = write_png(set / set_image_name(number[i]), upright); !status) return status;
@@ -52,9 +53,10 @@ Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFold
     return silhouette.visible();
 }
 
-Status write_as_they_are(const fs::path& set, const PhotoFolder& folder, const CutoutCache& cuts, Progress* progress) {
+Status write_as_they_are(const fs::path& set, const PhotoFolder& folder, const ForegroundCache& foregrounds,
+                         Progress* progress) {
     const auto write = [&](std::size_t i) -> Status {
-        const Result<Image<Rgba8>> image = cuts.get(i);
+        const Result<Image<Rgba8>> image = foregrounds.get(i);
         return image ? write_png(set / set_image_name(i), *image) : Status(image.error());
     };
     return for_each_photo(folder, kReadBytesPerPixel, "writing the images", progress, write);
@@ -63,17 +65,18 @@ Status write_as_they_are(const fs::path& set, const PhotoFolder& folder, const C
 }  // namespace
 
 Result<ImportReport> write_import_set(const fs::path& set, const PhotoFolder& folder, const SegmentedTurn& turn,
-                                      const CutoutCache& cuts, ImportReport report, Progress* progress) {
+                                      const ForegroundCache& foregrounds, ImportReport report, Progress* progress) {
     report.views = static_cast<int>(report.folder.photos.size() - report.left_out.size());
     Rig rig;
     if (const auto& calibration = report.calibration.calibration) {
         RS_ASSIGN_OR_RETURN(const UprightFrame frame,
                             plan_upright_frame(calibration->model, boxes_put_back(turn.boxes, *calibration)));
         report.frame = frame;
-        RS_ASSIGN_OR_RETURN(const TurnSilhouette::Box visible, write_rectified(set, folder, cuts, report, progress));
+        RS_ASSIGN_OR_RETURN(const TurnSilhouette::Box visible,
+                            write_rectified(set, folder, foregrounds, report, progress));
         rig = calibrated_import_rig(report, visible);
     } else {
-        RS_TRY(write_as_they_are(set, folder, cuts, progress));
+        RS_TRY(write_as_they_are(set, folder, foregrounds, progress));
         rig = nominal_import_rig(report, turn.silhouette.visible());
     }
     report.fl_px = rig.views.front().camera.fl_x;

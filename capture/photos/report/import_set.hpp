@@ -17,7 +17,7 @@ namespace rs::capture {
 /// the previous stages; returns it with the numbers of the set added. Errors: those of plan_upright_frame(), unreadable
 /// foreground images, failures of the disk.
 Result<ImportReport> write_import_set(const std::filesystem::path& set, const PhotoFolder& folder,
-                                      const SegmentedTurn& turn, const CutoutCache& cuts, ImportReport report,
-                                      Progress* progress);
+                                      const SegmentedTurn& turn, const ForegroundCache& foregrounds,
+                                      ImportReport report, Progress* progress);
 
 }  // namespace rs::capture

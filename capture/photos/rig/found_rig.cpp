@@ -26,7 +26,7 @@ RigRequest in_image_px(RigRequest given, const PhotoFolder& folder) {
 
 Result<KnownInputs> known_inputs(const RigRequest& request, const std::function<const NominalTurn&()>& nominal,
                                  const PhotoFolder& folder) {
-    Result<KnownInputs> known = known_of_photographs(request.known, file_names(folder));
+    Result<KnownInputs> known = known_inputs_of(request.known, file_names(folder));
     if (!known) return known;
     if (request.fov_deg) {
         known->f_px = 0.5 * folder.shown_width / folder.reduction / std::tan(0.5 * radians(*request.fov_deg));
@@ -41,7 +41,7 @@ TurntableModel nominal_model(const KnownInputs& known, const NominalTurn& nomina
     const double assumed_f_px = 0.5 * width / std::tan(0.5 * radians(kNominalFieldOfView_deg));
     TurntableModel model;
     model.lens =
-        with_known(Lens{folder.width, folder.height, assumed_f_px, 0.5 * width, 0.5 * folder.height, 0, 0}, known);
+        apply_known(Lens{folder.width, folder.height, assumed_f_px, 0.5 * width, 0.5 * folder.height, 0, 0}, known);
     model.pose.pan_rad = std::atan((model.lens.cx - nominal.axis_x_px) / model.lens.f_px);
     for (std::size_t i = 0; i < folder.photos.size(); ++i) {
         model.angles_rad.push_back(sense(nominal) * static_cast<double>(i) * radians(nominal.step_deg));
@@ -90,18 +90,18 @@ void take_calibrated(FoundRig& rig, const PhotoFolder& folder) {
 }  // namespace
 
 Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, const SegmentedTurn& turn,
-                          const CutoutCache& cuts, Progress* progress) {
+                          const ForegroundCache& foregrounds, Progress* progress) {
     const RigRequest request = in_image_px(given, folder);
     FoundRig rig;
     rig.nominal = find_nominal_turn(request, folder, turn);
     // Evaluated on demand: calibration by object points or a board yields the direction of rotation itself.
     const auto nominal = [&]() -> const NominalTurn& {
-        if (rig.nominal.turning_from.empty()) find_sense(request, folder, turn, rig.nominal);
+        if (rig.nominal.turning_from.empty()) estimate_turning(request, folder, turn, rig.nominal);
         return rig.nominal;
     };
     RS_ASSIGN_OR_RETURN(const KnownInputs known, known_inputs(request, nominal, folder));
     RS_ASSIGN_OR_RETURN(PhotoCalibration calibration,
-                        calibrate_photos(folder, cuts,
+                        calibrate_photos(folder, foregrounds,
                                          {request.calibration, known, request.board,
                                           [&] { return nominal_model(known, nominal(), folder); }},
                                          progress));

@@ -100,8 +100,8 @@ NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFold
     return found;
 }
 
-void find_sense(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn,
-                NominalTurn& found) {
+void estimate_turning(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn,
+                      NominalTurn& found) {
     found.turning_from = "assumed";
     if (request.turning) {
         found.turning = *request.turning;

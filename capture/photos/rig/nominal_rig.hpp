@@ -61,7 +61,7 @@ struct NominalTurn {
     double axis_spread_px = 0;                 ///< spread of the axis column over the rows
     std::string axis_from;                     ///< "silhouettes", "given", "image middle"
     Turning turning = Turning::kClockwise;
-    std::string turning_from;        ///< "images", "given", "assumed"; empty before find_sense()
+    std::string turning_from;        ///< "images", "given", "assumed"; empty before estimate_turning()
     std::vector<std::string> notes;  ///< doubtful values, one line each
 };
 
@@ -78,7 +78,7 @@ NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFold
 
 /// Sets `turning` and `turning_from` of `found`, the result of find_nominal_turn() for the same turn. Compares the
 /// small foreground images unless the request holds the direction of rotation.
-void find_sense(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn,
-                NominalTurn& found);
+void estimate_turning(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn,
+                      NominalTurn& found);
 
 }  // namespace rs::capture

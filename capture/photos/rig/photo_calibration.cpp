@@ -3,7 +3,7 @@
 #include "capture/calibration/silhouettes/silhouettes.hpp"
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/intake/bounded_work.hpp"
-#include "capture/photos/intake/photograph.hpp"
+#include "capture/photos/intake/photo_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 constexpr int kSilhouetteSide_px = 640;
 
 // Reads the foreground images, not the photos, so that no point of the background is tracked.
-Result<TurnImages> read_turn(const PhotoFolder& folder, const CutoutCache& cuts, Progress* progress) {
+Result<TurnImages> read_turn(const PhotoFolder& folder, const ForegroundCache& foregrounds, Progress* progress) {
     TurnImages turn;
     turn.width = folder.width;
     turn.height = folder.height;
@@ -29,7 +29,7 @@ Result<TurnImages> read_turn(const PhotoFolder& folder, const CutoutCache& cuts,
     turn.images.resize(folder.photos.size());
     for (const fs::path& photo : folder.photos) turn.names.push_back(photo.filename().string());
     const auto read = [&](std::size_t i) -> Status {
-        RS_ASSIGN_OR_RETURN(const Image<Rgba8> cut, cuts.get(i));
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> cut, foregrounds.get(i));
         turn.images[i] = calibration_image(cut, turn.reduction);
         return {};
     };
@@ -39,7 +39,7 @@ Result<TurnImages> read_turn(const PhotoFolder& folder, const CutoutCache& cuts,
 
 Result<BoardCalibration> from_board(const PhotoFolder& folder, const CalibrationRequest& request,
                                     const std::vector<std::string>& names, Progress* progress) {
-    const auto load = [&](int i) { return read_photograph(folder, static_cast<std::size_t>(i)); };
+    const auto load = [&](int i) { return read_photo(folder, static_cast<std::size_t>(i)); };
     RS_ASSIGN_OR_RETURN(const std::vector<BoardCorners> views,
                         detect_boards(static_cast<int>(folder.photos.size()), load, *request.board, progress));
     return calibrate_with_board(views, *request.board, folder.width, folder.height, request.known, names);
@@ -80,7 +80,7 @@ std::vector<int> steps_before(const std::vector<Image<std::uint8_t>>& masks) {
     constexpr double kRepeatRatio = 0.2;  // of the change of the silhouettes before and after
     std::vector<double> change;           // [view], to the next view
     for (std::size_t i = 0; i + 1 < masks.size(); ++i) {
-        change.push_back(cv::norm(mat_over(masks[i]), mat_over(masks[i + 1]), cv::NORM_L1));
+        change.push_back(cv::norm(mat_view(masks[i]), mat_view(masks[i + 1]), cv::NORM_L1));
     }
     std::vector<int> steps(masks.size());
     std::iota(steps.begin(), steps.end(), 0);
@@ -110,11 +110,11 @@ Result<Calibration> from_silhouettes(const TurnImages& turn, const CalibrationRe
     // The last photo of a turn may be missing, so the step that closes the turn is a guess.
     Result<Calibration> found = calibrate_with_silhouettes(reduced.masks, start, known);
     const bool is_guessed = !known.counter_clockwise && !known.step_rad && !known.angles_rad;
-    if (is_guessed && (!found || seems_to_look_up(*found))) {
+    if (is_guessed && (!found || is_seen_from_below(*found))) {
         for (double& angle : start.angles_rad) angle = -angle;
         constexpr double kAsGood = 1.5;
         Result<Calibration> other = calibrate_with_silhouettes(reduced.masks, start, known);
-        if (other && (!found || (!seems_to_look_up(*other) && other->rms_px < kAsGood * found->rms_px))) {
+        if (other && (!found || (!is_seen_from_below(*other) && other->rms_px < kAsGood * found->rms_px))) {
             found = std::move(other);
             found->warnings.emplace_back(
                 "the images seem to turn the other way, but the silhouettes fit this direction better");
@@ -132,7 +132,7 @@ std::optional<Calibration> given(const CalibrationRequest& request, std::size_t 
     if (!known.f_px || !known.pose || !(known.angles_rad || known.step_rad)) return std::nullopt;
     Calibration calibration;
     calibration.method = CalibrationMethod::kGiven;
-    calibration.model = with_known(request.nominal(), known);
+    calibration.model = apply_known(request.nominal(), known);
     calibration.step_rad = median_step(calibration.model.angles_rad);
     calibration.views.resize(views);
     ModelDeviations& held = calibration.deviations;
@@ -144,7 +144,7 @@ std::optional<Calibration> given(const CalibrationRequest& request, std::size_t 
 
 }  // namespace
 
-Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const CutoutCache& cuts,
+Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const ForegroundCache& foregrounds,
                                           const CalibrationRequest& request, Progress* progress) {
     PhotoCalibration result;
     const CalibrationChoice choice = request.choice;
@@ -154,7 +154,7 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const Cutou
         return Error{"the given rig has " + std::to_string(request.known.angles_rad->size()) + " views, the folder " +
                      std::to_string(views) + " photos; give a rig of these photos"};
     }
-    RS_ASSIGN_OR_RETURN(TurnImages turn, read_turn(folder, cuts, progress));
+    RS_ASSIGN_OR_RETURN(TurnImages turn, read_turn(folder, foregrounds, progress));
     if (choice == CalibrationChoice::kBoard && !request.board) {
         return Error{
             "--calibration board: the board is not described; give --board default for "

@@ -46,9 +46,9 @@ struct CalibrationRequest {
     std::function<TurntableModel()> nominal;
 };
 
-/// Calibrates the turn. `cuts` holds the foreground images of `folder` from segment_turn(). Errors: an unreadable
-/// image, known angles for another number of photos, the failure of a method other than kAuto.
-Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const CutoutCache& cuts,
+/// Calibrates the turn. `foregrounds` holds the foreground images of `folder` from segment_turn(). Errors: an
+/// unreadable image, known angles for another number of photos, the failure of a method other than kAuto.
+Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const ForegroundCache& foregrounds,
                                           const CalibrationRequest& request, Progress* progress);
 
 }  // namespace rs::capture

@@ -1,7 +1,7 @@
 #include "capture/photos/rig/rectification.hpp"
 
 #include "capture/photos/rig/nominal_rig.hpp"
-#include "capture/photos/segmentation/cutout.hpp"
+#include "capture/photos/segmentation/foreground_image.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/premultiplied_sampling.hpp"
 

@@ -55,13 +55,14 @@ std::optional<cv::Point> find_patch(const cv::Mat1b& from, const cv::Mat1b& to, 
     const cv::Rect window = everywhere & cv::Rect(at.x - reach.width, at.y - reach.height,
                                                   kCompared_px + 2 * reach.width, kCompared_px + 2 * reach.height);
     if (window.width <= kCompared_px || window.height <= kCompared_px) return std::nullopt;
-    cv::Mat1f likeness;
-    cv::matchTemplate(to(window), from(cv::Rect(at, cv::Size(kCompared_px, kCompared_px))), likeness,
+    cv::Mat1f similarity;
+    cv::matchTemplate(to(window), from(cv::Rect(at, cv::Size(kCompared_px, kCompared_px))), similarity,
                       cv::TM_CCOEFF_NORMED);
     double best = 0;
     cv::Point where;
-    cv::minMaxLoc(likeness, nullptr, &best, nullptr, &where);
-    const bool at_edge = where.x == 0 || where.y == 0 || where.x == likeness.cols - 1 || where.y == likeness.rows - 1;
+    cv::minMaxLoc(similarity, nullptr, &best, nullptr, &where);
+    const bool at_edge =
+        where.x == 0 || where.y == 0 || where.x == similarity.cols - 1 || where.y == similarity.rows - 1;
     if (!(best >= kMinMatch) || at_edge) return std::nullopt;
     return window.tl() + where;
 }

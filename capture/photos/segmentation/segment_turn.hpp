@@ -5,7 +5,7 @@
 
 #include "capture/photos/foreground/foreground_parameters.hpp"
 #include "capture/photos/intake/photo_folder.hpp"
-#include "capture/photos/segmentation/cutout_cache.hpp"
+#include "capture/photos/segmentation/foreground_cache.hpp"
 #include "capture/photos/segmentation/segmenter.hpp"
 #include "capture/photos/segmentation/turn_silhouette.hpp"
 #include "rayspace/base/progress.hpp"
@@ -35,9 +35,10 @@ struct SegmentedTurn {
 /// File name of view 0, 1, ... within a set: "images/0000.png".
 std::string set_image_name(std::size_t view);
 
-/// Segments all photos and puts their foreground images into `cutouts`. Errors: a photo that cannot be read or has
+/// Segments all photos and puts their foreground images into `foregrounds`. Errors: a photo that cannot be read or has
 /// changed its size, one that shows no object or, unless its alpha is given, nothing but the object; the segmenter's.
-Result<SegmentedTurn> segment_turn(const PhotoFolder& folder, const Segmenter& segmenter, const CutoutCache& cutouts,
-                                   Progress* progress, const ForegroundParameters& parameters = {});
+Result<SegmentedTurn> segment_turn(const PhotoFolder& folder, const Segmenter& segmenter,
+                                   const ForegroundCache& foregrounds, Progress* progress,
+                                   const ForegroundParameters& parameters = {});
 
 }  // namespace rs::capture

@@ -25,7 +25,7 @@ SegmentationFindings check_segmentation(const PhotoFolder& folder, const Segment
 
 /// True if most of what reaches the image border in most of the foreground images (all of one size) never changes:
 /// background that was kept. False for fewer than six foreground images.
-bool is_static_at_border(std::span<const Image<Rgba8>> cutouts);
+bool is_static_at_border(std::span<const Image<Rgba8>> foregrounds);
 
 /// Photos whose silhouette area, `coverage` in order of a full turn, deviates from the mean of its neighbours by more
 /// than a rotating flat plate's could: by sin(step) of the largest area, with a margin.

@@ -4,7 +4,7 @@
 ///
 /// Automatic choice: mask files if given; the photos' alpha if they have one; the network fused with the background
 /// model if a network is configured and the background is not black (networks lose black on black); else the background
-/// model. Runs between take_in() and segment_turn().
+/// model. Runs between run_intake() and segment_turn().
 
 #include "capture/photos/background/background_model.hpp"
 #include "capture/photos/intake/intake.hpp"

@@ -19,7 +19,7 @@ public:
 
     /// Adds the foreground image of one view, width x height px. Not thread-safe: use one object per thread and merge()
     /// them.
-    void add(ConstImageView<Rgba8> cutout);
+    void add(ConstImageView<Rgba8> foreground);
     void merge(const TurnSilhouette& other);
 
     /// Bounding box [left, right) x [top, bottom).

@@ -15,7 +15,8 @@
 // cx, cy, k1, k2, pan_rad, tilt_rad, roll_rad and angles_rad as in capture/calibration/model/turntable_model.hpp;
 // "distance" and "camera_height" of the camera's centre from axis and origin, in the scene's unit; exposures; dimming
 // (of the lights); "plate", the turntable's disc; the board's corners in the object's frame; the options; and, for
-// recentred photos, "places": for every view scale and shift_px as in capture/calibration/model/image_place.hpp.
+// recentred photos, "places": for every view scale and shift_px as in
+// capture/calibration/model/image_placement.hpp.
 // The cameras are those before recentring.
 
 #include "capture/tracer/scene/scene.hpp"

@@ -2,7 +2,7 @@
 // Synthetic turns of a board with ground truth, for tests of board calibration.
 
 #include "capture/calibration/board/board_detection.hpp"
-#include "capture/calibration/board/board_start.hpp"
+#include "capture/calibration/board/board_initialization.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <cmath>

@@ -77,12 +77,12 @@ inline std::vector<capture::Track> tracks_of(const capture::TurntableModel& mode
 }
 
 // Pairs of neighbouring views as a matcher would report them.
-inline std::vector<capture::PairOfViews> pairs_of(const std::vector<capture::Track>& tracks) {
-    std::map<std::pair<int, int>, capture::PairOfViews> pairs;
+inline std::vector<capture::MatchedPair> pairs_of(const std::vector<capture::Track>& tracks) {
+    std::map<std::pair<int, int>, capture::MatchedPair> pairs;
     for (const capture::Track& track : tracks) {
         for (std::size_t i = 1; i < track.seen.size(); ++i) {
             const capture::Observation &a = track.seen[i - 1], &b = track.seen[i];
-            capture::PairOfViews& pair = pairs[{a.view, b.view}];
+            capture::MatchedPair& pair = pairs[{a.view, b.view}];
             pair.first = a.view;
             pair.second = b.view;
             ++pair.matches;
@@ -90,7 +90,7 @@ inline std::vector<capture::PairOfViews> pairs_of(const std::vector<capture::Tra
             pair.spread_y_px += std::abs(b.p.y - a.p.y);
         }
     }
-    std::vector<capture::PairOfViews> all;
+    std::vector<capture::MatchedPair> all;
     for (auto& [views, pair] : pairs) {
         pair.spread_x_px /= pair.matches;
         pair.spread_y_px /= pair.matches;

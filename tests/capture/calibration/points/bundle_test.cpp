@@ -43,7 +43,7 @@ TEST(Bundle, RecoversTheModelOfExactPoints) {
     Bundle rough = bundle;
     ASSERT_TRUE(adjust(rough, all_free()).has_value());
     bundle = rough;
-    options.most_iterations = 200;
+    options.max_iterations = 200;
     ASSERT_TRUE(adjust(bundle, options).has_value());
     EXPECT_LT(rms_px(bundle), 0.002);
     EXPECT_NEAR(bundle.model.lens.f_px, truth.lens.f_px, 0.2);
@@ -78,7 +78,7 @@ TEST(Bundle, HoldsWhatIsNotFree) {
     Bundle bundle = make_bundle(start, tracks);
     BundleOptions options;
     options.free.f = options.free.roll = false;
-    options.free.angles = AngleFreedom::kHeld;
+    options.free.angles = AngleFreedom::kConstant;
     ASSERT_TRUE(adjust(bundle, options).has_value());
     EXPECT_EQ(bundle.model.lens.f_px, 1650);
     EXPECT_EQ(bundle.model.pose.roll_rad, 0.015);
@@ -155,11 +155,11 @@ TEST(Bundle, TriangulatesOnlyWhatRaysDetermine) {
     const auto tracks = test::tracks_of(model, points, 0, 5);
     ASSERT_EQ(tracks.size(), points.size());
     for (std::size_t i = 0; i < tracks.size(); ++i) {
-        const auto p = triangulated(model, tracks[i]);
+        const auto p = triangulate(model, tracks[i]);
         ASSERT_TRUE(p.has_value());
         EXPECT_LT(glm::distance(*p, points[i].p), 1e-6);
     }
-    EXPECT_FALSE(triangulated(model, Track{{tracks[0].seen[0]}}).has_value());
+    EXPECT_FALSE(triangulate(model, Track{{tracks[0].seen[0]}}).has_value());
 }
 
 TEST(Bundle, DropsOutliersAndWhatTheyLeaveTooShort) {
@@ -197,7 +197,7 @@ TEST(Bundle, KeepsTheObservationsThatAgree) {
             tracks[i].seen[k].p += glm::dvec2(25 + 5 * static_cast<double>(k), -30);
         }
     }
-    const Bundle bundle = make_agreeing_bundle(model, tracks, 2);
+    const Bundle bundle = make_robust_bundle(model, tracks, 2);
     ASSERT_EQ(bundle.tracks.size(), tracks.size());
     EXPECT_EQ(observation_count(bundle), observation_count(make_bundle(model, clean)) - wrong);
     EXPECT_LT(rms_px(bundle), 0.2);
@@ -205,7 +205,7 @@ TEST(Bundle, KeepsTheObservationsThatAgree) {
     Track nonsense;  // no three observations agree on a point
     for (int k = 0; k < 4; ++k)
         nonsense.seen.push_back({k, {100.0 + 200 * k, k % 2 == 0 ? 100 : 700}, glm::dmat2(1.0)});
-    EXPECT_TRUE(make_agreeing_bundle(model, std::vector<Track>{nonsense}, 2).tracks.empty());
+    EXPECT_TRUE(make_robust_bundle(model, std::vector<Track>{nonsense}, 2).tracks.empty());
 }
 
 TEST(Bundle, CountsObservationsOfEachView) {

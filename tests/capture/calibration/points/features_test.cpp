@@ -58,7 +58,7 @@ CalibrationImage quarter_turned(const CalibrationImage& image) {
     return turned;
 }
 
-ViewFeatures features_in(const CalibrationImage& image, const FollowOptions& options = {}) {
+ViewFeatures features_in(const CalibrationImage& image, const TrackingOptions& options = {}) {
     return find_features(std::vector{image}, options, nullptr).front();
 }
 
@@ -75,8 +75,8 @@ TEST(Features, SpotsAreFoundWhereTheyAreButNotAtTheObjectsRim) {
     CalibrationImage image = image_of(spots);
     const int object_from = static_cast<int>(spots[3].at.x) - 2;  // that spot is on the object, near its border
     for (int y = 0; y < kSpotsSide_px; ++y) std::fill_n(image.alpha.row(y), object_from, std::uint8_t{0});
-    const FollowOptions options;
-    const double rim = object_from + options.rim_px;
+    const TrackingOptions options;
+    const double rim = object_from + options.margin_px;
     const ViewFeatures features = features_in(image, options);
     ASSERT_FALSE(features.positions.empty());
     int looked_for = 0;
@@ -118,7 +118,7 @@ TEST(Features, AreAlikeInOtherLightAndTurned) {
     const CalibrationImage image = image_of(spots);
     const ViewFeatures first = features_in(image);
     const auto expect_alike = [&](const ViewFeatures& second, const auto& place) {
-        const std::vector<FeatureMatch> matches = alike(first, second, 0.8);
+        const std::vector<FeatureMatch> matches = match_features(first, second, 0.8);
         std::size_t right = 0;
         for (const FeatureMatch& match : matches) {
             const glm::dvec2 expected = place(first.positions[static_cast<std::size_t>(match.first)]);
@@ -132,7 +132,8 @@ TEST(Features, AreAlikeInOtherLightAndTurned) {
     expect_alike(features_in(quarter_turned(image)),
                  [](const glm::dvec2& p) { return glm::dvec2(kSpotsSide_px - p.y, p.x); });
     // Hardly any feature matches another image.
-    EXPECT_LT(alike(first, features_in(image_of(drawn_spots(5, 12))), 0.8).size(), first.positions.size() / 10);
+    EXPECT_LT(match_features(first, features_in(image_of(drawn_spots(5, 12))), 0.8).size(),
+              first.positions.size() / 10);
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ Bundle one_point(int views) {
     bundle.points = {{0, -std::tan(radians(20)), 0.1}};
     Track track;
     for (int view = 0; view < views; ++view) {
-        track.seen.push_back({view, *projected(bundle.model, bundle.points[0], view)});
+        track.seen.push_back({view, *project_point(bundle.model, bundle.points[0], view)});
     }
     bundle.tracks = {track};
     return bundle;
@@ -39,7 +39,7 @@ TEST(PatchGrowth, PointsComeOneStepBesideAsFarFromTheCamera) {
         grow(bundle, reduction, 1000);
         ASSERT_EQ(bundle.tracks.size(), 5U);
         ASSERT_EQ(bundle.points.size(), 5U);
-        const Observation middle = middle_of_arc(bundle.model, bundle.tracks[0]);
+        const Observation middle = reference_observation(bundle.model, bundle.tracks[0]);
         ASSERT_EQ(middle.view, 2);
         glm::dvec2 sum(0.0);
         for (std::size_t i = 1; i < 5; ++i) {
@@ -49,7 +49,7 @@ TEST(PatchGrowth, PointsComeOneStepBesideAsFarFromTheCamera) {
             EXPECT_NEAR(glm::length(aside), kStep_px * reduction, 0.05 * kStep_px * reduction);
             sum += aside;
             for (const Observation& seen : bundle.tracks[i].seen) {
-                const auto expected = projected(bundle.model, bundle.points[i], seen.view);
+                const auto expected = project_point(bundle.model, bundle.points[i], seen.view);
                 EXPECT_LT(glm::distance(*expected, seen.p), 1e-9);
             }
         }
@@ -99,11 +99,11 @@ TEST(PatchGrowth, ThereAreNoMoreObservationsThanAskedFor) {
 
 TEST(PatchGrowth, NothingGrowsBesideTheImage) {
     Bundle bundle = one_point(3);
-    const Observation middle = middle_of_arc(bundle.model, bundle.tracks[0]);
+    const Observation middle = reference_observation(bundle.model, bundle.tracks[0]);
     bundle.model.lens.width = static_cast<int>(middle.p.x) + 1;  // the point is in the last column
     grow(bundle, 1, 1000);
     for (const Track& track : bundle.tracks) {
-        EXPECT_LT(middle_of_arc(bundle.model, track).p.x, bundle.model.lens.width);
+        EXPECT_LT(reference_observation(bundle.model, track).p.x, bundle.model.lens.width);
     }
     EXPECT_LT(bundle.tracks.size(), 5U);
 }

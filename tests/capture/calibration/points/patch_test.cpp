@@ -47,7 +47,7 @@ PatchImage noisy_image(unsigned seed, const Grey& grey) {
     return PatchImage(image);
 }
 
-PatchImage look_at(const Look& look, unsigned seed) {
+PatchImage detect(const Look& look, unsigned seed) {
     return noisy_image(seed, [&](const glm::dvec2& p) {
         return look.gain * texture(look.shown(p)) + look.slope * (p.x - kTextureSide_px / 2.0);
     });
@@ -62,13 +62,13 @@ std::vector<glm::dvec2> places() {
 }
 
 TEST(Patch, AKnownWarpIsFoundToAFewHundredthsOfAPixel) {
-    const PatchImage before = look_at({}, 1);
+    const PatchImage before = detect({}, 1);
     const Look look{glm::dmat2({0.93, 0.06}, {-0.08, 1.05}), {0.63, -0.41}, 0.8, 0.25};
-    const PatchImage after = look_at(look, 2);
+    const PatchImage after = detect(look, 2);
     for (const bool curvature_is_known : {true, false}) {
         double squares = 0, worst_matrix = 0;
         for (const glm::dvec2& place : places()) {
-            const std::optional<Patch> patch = textured_patch(before, place);
+            const std::optional<Patch> patch = extract_patch(before, place);
             ASSERT_TRUE(patch.has_value());
             Warp warp;  // predicted by a first bundle: a pixel and a half off, not rotated
             warp.centre = look.seen(place) + glm::dvec2(1.2, -0.9);
@@ -88,10 +88,10 @@ TEST(Patch, AKnownWarpIsFoundToAFewHundredthsOfAPixel) {
 
 TEST(Patch, NothingIsFoundWhereThereIsNoTexture) {
     const PatchImage plain = noisy_image(5, [](const glm::dvec2& p) { return 60 + 0.8 * p.x; });
-    const PatchImage textured = look_at({}, 6);
+    const PatchImage textured = detect({}, 6);
     for (const glm::dvec2& place : places()) {
-        EXPECT_FALSE(textured_patch(plain, place).has_value());
-        const std::optional<Patch> patch = textured_patch(textured, place);
+        EXPECT_FALSE(extract_patch(plain, place).has_value());
+        const std::optional<Patch> patch = extract_patch(textured, place);
         ASSERT_TRUE(patch.has_value());
         Warp warp;
         warp.centre = place;
@@ -100,12 +100,12 @@ TEST(Patch, NothingIsFoundWhereThereIsNoTexture) {
 }
 
 TEST(Patch, NothingIsFoundThatIsNotWhereItIsExpected) {
-    const PatchImage before = look_at({}, 7), after = look_at({}, 8);
+    const PatchImage before = detect({}, 7), after = detect({}, 8);
     const PatchImage covered = noisy_image(9, [](const glm::dvec2& p) {  // by another texture
         return 50 + 0.6 * texture(p) + 45 * std::sin(0.5 * p.x - 0.9 * p.y);
     });
     for (const glm::dvec2& place : places()) {
-        const std::optional<Patch> patch = textured_patch(before, place);
+        const std::optional<Patch> patch = extract_patch(before, place);
         ASSERT_TRUE(patch.has_value());
         Warp warp;
         warp.centre = place + glm::dvec2(3.4, 0);  // farther than the allowed movement

@@ -35,8 +35,8 @@ std::vector<Track> noisy_tracks(const TurntableModel& truth, double wrong, std::
 
 std::optional<Start> start_of(const TurntableModel& truth, const KnownInputs& known = {}, double wrong = 0.1) {
     const std::vector<Track> tracks = noisy_tracks(truth, wrong, 21);
-    return find_start(tracks, test::pairs_of(tracks), static_cast<int>(truth.angles_rad.size()), middle_lens(truth),
-                      known);
+    return find_initial_model(tracks, test::pairs_of(tracks), static_cast<int>(truth.angles_rad.size()),
+                              middle_lens(truth), known);
 }
 
 // A sideways axis has no upper end: both models give the same images.
@@ -68,7 +68,7 @@ TEST_P(SensesAndCounts, AreFoundAmongWrongMatches) {
     const TurntableModel truth = test::turn_model(36, step_rad);
     const auto start = start_of(truth);
     expect_good_start(start, truth, step_rad);
-    EXPECT_GT(2 * start->agreeing, 3 * start->other_sense);
+    EXPECT_GT(2 * start->agreeing, 3 * start->agreeing_opposite);
 }
 
 INSTANTIATE_TEST_SUITE_P(Turns, SensesAndCounts,
@@ -119,7 +119,7 @@ TEST(StartSearch, HoldsWhatIsKnown) {
     const auto forced = start_of(truth, known);
     if (forced) {
         EXPECT_LT(forced->model.angles_rad[1], 0);
-        EXPECT_EQ(forced->other_sense, 0);
+        EXPECT_EQ(forced->agreeing_opposite, 0);
         EXPECT_LT(forced->agreeing, start->agreeing);
     }
     KnownInputs all;
@@ -138,7 +138,7 @@ TEST(StartSearch, PointsThatGoAnywhereHaveNone) {
     if (start) {
         EXPECT_LT(start->agreeing, 60);
     }
-    EXPECT_FALSE(find_start({}, {}, 24, middle_lens(test::turn_model(24, radians(15))), {}).has_value());
+    EXPECT_FALSE(find_initial_model({}, {}, 24, middle_lens(test::turn_model(24, radians(15))), {}).has_value());
 }
 
 }  // namespace

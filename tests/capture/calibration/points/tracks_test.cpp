@@ -75,9 +75,9 @@ void expect_well_formed(const std::vector<Track>& tracks, int views) {
 
 TEST(Tracks, FollowPointsOfADrum) {
     const TurnImages& turn = drum_images();
-    const auto follower = PointFollower::look_at(turn.images, 1, {}, nullptr);
-    ASSERT_TRUE(follower.ok()) << follower.error().message;
-    const auto found = follower->follow(nullptr);
+    const auto tracker = PointTracker::detect(turn.images, 1, {}, nullptr);
+    ASSERT_TRUE(tracker.ok()) << tracker.error().message;
+    const auto found = tracker->track(nullptr);
     ASSERT_TRUE(found.ok()) << found.error().message;
     ASSERT_GT(found->tracks.size(), 100U);
     expect_well_formed(found->tracks, 24);
@@ -85,7 +85,7 @@ TEST(Tracks, FollowPointsOfADrum) {
     ASSERT_EQ(found->features.size(), 24U);
     EXPECT_GT(*std::min_element(found->features.begin(), found->features.end()), 60);
     bool closes = false;
-    for (const PairOfViews& pair : found->pairs) {
+    for (const MatchedPair& pair : found->pairs) {
         if (pair.matches == 0) continue;
         EXPECT_GT(pair.spread_x_px, pair.spread_y_px) << pair.first << " " << pair.second;
         const int apart = (pair.second - pair.first + 24) % 24;
@@ -96,11 +96,11 @@ TEST(Tracks, FollowPointsOfADrum) {
     }
     EXPECT_TRUE(closes) << "the last view is next to the first";
 
-    const auto guided = follower->follow_guided(truth(), 0.15, 2);
+    const auto guided = tracker->track_guided(truth(), 0.15, 2);
     ASSERT_TRUE(guided.ok()) << guided.error().message;
     expect_well_formed(*guided, 24);
     const auto right = [](const std::vector<Track>& tracks) {
-        return observation_count(make_agreeing_bundle(truth(), tracks, 1.5));
+        return observation_count(make_robust_bundle(truth(), tracks, 1.5));
     };
     EXPECT_GT(right(*guided), right(found->tracks));
 }
@@ -108,10 +108,10 @@ TEST(Tracks, FollowPointsOfADrum) {
 TEST(Tracks, PositionsAreInPixelsOfThePhotographs) {
     const TurnImages& turn = drum_images();
     const std::vector<CalibrationImage> few(turn.images.begin(), turn.images.begin() + 6);
-    const auto whole = PointFollower::look_at(few, 1, {}, nullptr);
-    const auto reduced = PointFollower::look_at(few, 3, {}, nullptr);
+    const auto whole = PointTracker::detect(few, 1, {}, nullptr);
+    const auto reduced = PointTracker::detect(few, 3, {}, nullptr);
     ASSERT_TRUE(whole.ok() && reduced.ok());
-    const auto a = whole->follow(nullptr), b = reduced->follow(nullptr);
+    const auto a = whole->track(nullptr), b = reduced->track(nullptr);
     ASSERT_TRUE(a.ok() && b.ok());
     EXPECT_EQ(a->features, b->features);
     ASSERT_FALSE(b->tracks.empty());
@@ -130,11 +130,11 @@ TEST(Tracks, PositionsAreInPixelsOfThePhotographs) {
 TEST(Tracks, DoNotDependOnTheNumberOfThreads) {
     const TurnImages& turn = drum_images();
     const std::vector<CalibrationImage> few(turn.images.begin(), turn.images.begin() + 8);
-    const auto follow = [&](int threads) {
+    const auto track_with = [&](int threads) {
         tbb::task_arena arena(threads);
-        return arena.execute([&] { return PointFollower::look_at(few, 1, {}, nullptr)->follow(nullptr)->tracks; });
+        return arena.execute([&] { return PointTracker::detect(few, 1, {}, nullptr)->track(nullptr)->tracks; });
     };
-    const auto one = follow(1), two = follow(2);
+    const auto one = track_with(1), two = track_with(2);
     ASSERT_EQ(one.size(), two.size());
     for (std::size_t i = 0; i < one.size(); ++i) {
         ASSERT_EQ(one[i].seen.size(), two[i].seen.size());
@@ -155,7 +155,7 @@ TEST(Tracks, NothingIsLookedForOnTheBackdrop) {
             }
         }
     }
-    const auto found = PointFollower::look_at(turn.images, 1, {}, nullptr)->follow(nullptr);
+    const auto found = PointTracker::detect(turn.images, 1, {}, nullptr)->track(nullptr);
     ASSERT_TRUE(found.ok());
     ASSERT_FALSE(found->tracks.empty());
     for (const Track& track : found->tracks) {

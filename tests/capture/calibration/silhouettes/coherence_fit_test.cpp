@@ -29,7 +29,7 @@ TurntableModel drifted(TurntableModel model) {
 }
 
 struct Known {
-    NumberPlaces places;
+    ParameterIndices places;
     Eigen::MatrixXd covariance;
 };
 
@@ -37,11 +37,11 @@ struct Known {
 Known known_by_short_tracks(const TurntableModel& model) {
     BundleFreedom free;
     free.k1 = true;
-    NumberPlaces places(free, std::vector<bool>(model.angles_rad.size(), true));
+    ParameterIndices places(free, std::vector<bool>(model.angles_rad.size(), true));
     Eigen::VectorXd deviation = Eigen::VectorXd::Constant(places.count, radians(0.03));
     deviation(places.camera[0]) = 0.01 * model.lens.f_px;
     deviation(places.camera[3]) = 0.02;
-    for (std::size_t k = CameraNumber::kPan; k < kCameraNumbers; ++k) deviation(places.camera[k]) = radians(0.1);
+    for (std::size_t k = CameraParameter::kPan; k < kCameraParameters; ++k) deviation(places.camera[k]) = radians(0.1);
     Eigen::MatrixXd covariance = deviation.cwiseAbs2().asDiagonal();
     for (const int harmonic : {1, 2}) {
         for (const double phase : {0.0, kPi / 2}) {
@@ -123,8 +123,8 @@ TEST(CoherenceFit, ABodyOfRevolutionSaysNothing) {
 TEST(CoherenceFit, AnglesThatAreHeldStay) {
     const TurntableModel truth = turn_of_figure(kCoherentViews);
     BundleFreedom free;
-    free.angles = AngleFreedom::kHeld;
-    const NumberPlaces places(free, std::vector<bool>(truth.angles_rad.size(), true));
+    free.angles = AngleFreedom::kConstant;
+    const ParameterIndices places(free, std::vector<bool>(truth.angles_rad.size(), true));
     const Eigen::MatrixXd covariance = 1e-4 * Eigen::MatrixXd::Identity(places.count, places.count);
     const SilhouetteTurn turn = turn_of(masks_of_figure());
     EXPECT_FALSE(fit_coherence(truth, places, covariance, turn, turn.reduction(), {}).has_value());

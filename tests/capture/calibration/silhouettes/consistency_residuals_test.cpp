@@ -93,8 +93,8 @@ TEST(ConsistencyResiduals, WhatContradictsARayHereDoesSoBesideIt) {
     const TurntableModel model = in_px_of(scene.turn, bent(scene.truth));
     RayDepths depths;
     const std::vector<double> here = consistency_residuals_px(scene.turn, model, {}, &depths);
-    const std::vector<RayVerdict> verdicts = ray_verdicts(scene.turn, model, {}, depths, 1.5, 8);
-    const std::vector<double> again = residuals_by_verdicts(scene.turn, model, {}, verdicts);
+    const std::vector<RayContradictions> verdicts = find_contradictions(scene.turn, model, {}, depths, 1.5, 8);
+    const std::vector<double> again = residuals_from_contradictions(scene.turn, model, {}, verdicts);
     ASSERT_EQ(again.size(), here.size());
     std::size_t views = 0;
     for (std::size_t i = 0; i < here.size(); ++i) {
@@ -106,7 +106,7 @@ TEST(ConsistencyResiduals, WhatContradictsARayHereDoesSoBesideIt) {
     TurntableModel beside = model;
     beside.pose.roll_rad += 0.002;
     const std::vector<double> whole = consistency_residuals_px(scene.turn, beside, {}, &depths);
-    const std::vector<double> quick = residuals_by_verdicts(scene.turn, beside, {}, verdicts);
+    const std::vector<double> quick = residuals_from_contradictions(scene.turn, beside, {}, verdicts);
     double apart = 0, moved = 0;
     for (std::size_t i = 0; i < here.size(); ++i) {
         apart += std::abs(whole[i] - quick[i]);

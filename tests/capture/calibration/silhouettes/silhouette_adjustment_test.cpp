@@ -32,9 +32,9 @@ struct Line {
 
 constexpr double kFar_px = 1e6;  // no residual is an outlier
 
-Eigen::VectorXd adjusted(Line& line, const SilhouetteErrors& errors, double disbelief = 1) {
+Eigen::VectorXd adjusted(Line& line, const SilhouetteErrors& errors, double prior_scale = 1) {
     SilhouetteAdjustment adjustment(line.comparison(), errors);
-    adjustment.expect(errors, disbelief);
+    adjustment.expect(errors, prior_scale);
     Eigen::VectorXd z = Eigen::VectorXd::Zero(2);
     EXPECT_TRUE(adjustment.improve(z, 50, 1e-9));
     return z;

@@ -63,18 +63,18 @@ double largest(const std::vector<double>& values) {
     return most;
 }
 
-NumberPlaces all_places() {
+ParameterIndices all_places() {
     BundleFreedom free;
     free.k1 = true;
     return {free, std::vector<bool>(kTangencyViews, true)};
 }
 
 // Covariance of typical tracks: f to 1 %, k1 to 0.05, directions to 0.1 degrees, angles to 0.2 degrees each.
-Eigen::MatrixXd roughly_known(const NumberPlaces& places, const TurntableModel& model) {
+Eigen::MatrixXd roughly_known(const ParameterIndices& places, const TurntableModel& model) {
     Eigen::VectorXd deviation = Eigen::VectorXd::Constant(places.count, radians(0.2));
     deviation(places.camera[0]) = 0.01 * model.lens.f_px;
     deviation(places.camera[3]) = 0.05;
-    for (std::size_t k = CameraNumber::kPan; k < kCameraNumbers; ++k) deviation(places.camera[k]) = radians(0.1);
+    for (std::size_t k = CameraParameter::kPan; k < kCameraParameters; ++k) deviation(places.camera[k]) = radians(0.1);
     return deviation.cwiseAbs2().asDiagonal();
 }
 
@@ -96,7 +96,7 @@ TEST(SilhouetteTangency, FitMendsFocalLengthAndAnglesThatDrift) {
     start.pose.tilt_rad += radians(0.06);
     for (double& angle : start.angles_rad) angle += radians(0.15) * std::sin(angle);
     const auto hulls = hulls_of_cloud(truth, 0.05);
-    const NumberPlaces places = all_places();
+    const ParameterIndices places = all_places();
     const auto fit = fit_tangency(start, places, roughly_known(places, start), hulls, 0.3);
     ASSERT_TRUE(fit.has_value());
     EXPECT_NEAR(fit->model.lens.f_px / truth.lens.f_px, 1, 0.003);
@@ -128,7 +128,7 @@ TEST(SilhouetteTangency, OutlinesAreJudgedByHowTheyAgreeInTheEnd) {
     std::vector<double> before = tangency_residuals(start, hulls, comparable_views(start, hulls));
     for (double& residual : before) residual = std::abs(residual);
     EXPECT_GT(median(before), 2 * kWorst_px);
-    const NumberPlaces places = all_places();
+    const ParameterIndices places = all_places();
     const auto fit = fit_tangency(start, places, roughly_known(places, start), hulls, kWorst_px);
     ASSERT_TRUE(fit.has_value());
     EXPECT_LT(fit->deviation_px, kWorst_px);
@@ -138,7 +138,7 @@ TEST(SilhouetteTangency, OutlinesAreJudgedByHowTheyAgreeInTheEnd) {
 TEST(SilhouetteTangency, WhatClaimedTooMuchIsBelievedLess) {
     const TurntableModel truth = turn_of_cloud();
     const auto hulls = hulls_of_cloud(truth, 1);
-    const NumberPlaces places = all_places();
+    const ParameterIndices places = all_places();
     const auto known = roughly_known(places, truth);
     const auto near = fit_tangency(truth, places, known, hulls, 3);
     const auto far = fit_tangency(far_start(truth), places, known, hulls, 3);
@@ -150,7 +150,7 @@ TEST(SilhouetteTangency, WhatClaimedTooMuchIsBelievedLess) {
 
 TEST(SilhouetteTangency, OutlinesThatDoNotAgreeSayNothing) {
     const TurntableModel truth = turn_of_cloud();
-    const NumberPlaces places = all_places();
+    const ParameterIndices places = all_places();
     const auto known = roughly_known(places, truth);
     EXPECT_FALSE(fit_tangency(truth, places, known, hulls_of_cloud(truth, 4), 0.3).has_value());
     EXPECT_TRUE(fit_tangency(truth, places, known, hulls_of_cloud(truth, 4), 30).has_value());

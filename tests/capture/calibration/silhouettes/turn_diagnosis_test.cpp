@@ -28,16 +28,16 @@ struct Judged {
 
 Judged judge(const std::vector<Track>& tracks, const TurntableModel& start, std::vector<int> features = {}) {
     BundleOptions options;
-    Bundle bundle = make_agreeing_bundle(start, tracks, 12);
+    Bundle bundle = make_robust_bundle(start, tracks, 12);
     for (const double limit_px : {6.0, 3.0}) {
         EXPECT_TRUE(adjust(bundle, options).has_value());
-        bundle = make_agreeing_bundle(bundle.model, tracks, limit_px);
+        bundle = make_robust_bundle(bundle.model, tracks, limit_px);
     }
     EXPECT_TRUE(adjust(bundle, options).has_value());
     const std::size_t views = start.angles_rad.size();
     const std::vector<int> candidates = observations_per_view(tracks, views);
     if (features.empty()) features.assign(views, 500);
-    const ModelDeviations deviations = bundle_deviations(bundle, options, 400);
+    const ModelDeviations deviations = bundle_standard_deviations(bundle, options, 400);
     const std::vector<std::string> names = test::photograph_names(views);
     std::vector<std::string> warnings = step_warnings(bundle.model.angles_rad, deviations, names);
     for (std::string& line : image_warnings(bundle, candidates, features, names)) warnings.push_back(std::move(line));

@@ -23,7 +23,7 @@ TEST(Intake, ReportsIgnoredFiles) {
     std::ofstream(folder / "1.cr2") << "raw";
     Result<PhotoFolder> found = open_photo_folder(folder.path());
     ASSERT_TRUE(found.ok()) << found.error().message;
-    const Result<Intake> taken = take_in(std::move(*found), nullptr);
+    const Result<Intake> taken = run_intake(std::move(*found), nullptr);
     ASSERT_TRUE(taken.ok()) << taken.error().message;
     EXPECT_THAT(taken->notes, testing::ElementsAre("ignored, not an image: 1.cr2",
                                                    "ignored, present in another format, too: 1.png and 2 more"));

@@ -1,6 +1,6 @@
 #include "capture/photos/intake/photo_folder.hpp"
 
-#include "capture/photos/intake/photograph.hpp"
+#include "capture/photos/intake/photo_reader.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "tests/support/camera_jpeg.hpp"
@@ -116,12 +116,12 @@ TEST(PhotoFolder, TurnsAllAsMostWantToBeShown) {
     Result<PhotoFolder> found = open_photo_folder(folder.path());
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_EQ(found->orientation, 6);
-    EXPECT_EQ(found->otherwise_turned, 0);
+    EXPECT_EQ(found->other_orientation_count, 0);
     test::write_oriented_jpeg(folder / "2.jpg", 1);
     found = open_photo_folder(folder.path());
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_EQ(found->orientation, 6);
-    EXPECT_EQ(found->otherwise_turned, 1);
+    EXPECT_EQ(found->other_orientation_count, 1);
 }
 
 // An editor saved one of several images that are stored on their side upright, with rotated pixels.
@@ -144,10 +144,10 @@ TEST(PhotoFolder, TurnsEachAsItStatesWhereOnlySomeLieOnTheirSide) {
     const Result<PhotoFolder> found = open_photo_folder(folder.path());
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_EQ(found->own_orientations, (std::vector<int>{6, 1, 6, 6}));
-    EXPECT_EQ(found->otherwise_turned, 1);
-    EXPECT_TRUE(found->turns_unnoticed());
+    EXPECT_EQ(found->other_orientation_count, 1);
+    EXPECT_TRUE(found->has_ambiguous_orientation());
     for (std::size_t i = 0; i < 4; ++i) {
-        const Result<Image<Rgba8>> shown = read_photograph(*found, i);
+        const Result<Image<Rgba8>> shown = read_photo(*found, i);
         ASSERT_TRUE(shown.ok()) << shown.error().message;
         EXPECT_EQ(shown->width(), 32);
         EXPECT_EQ(shown->height(), 48);
@@ -171,9 +171,9 @@ TEST(PhotoFolder, SaysWhatPhotographsShowWhenTheyAreTurned) {
         EXPECT_EQ(found->shown_height, orientation == 6 ? 48 : 32);
         EXPECT_EQ(found->width, found->shown_width);
         // By its size, a mask of 48 x 32 does not fit the displayed third photo; for the second it is ambiguous.
-        EXPECT_EQ(found->turns_unnoticed(), orientation == 3);
+        EXPECT_EQ(found->has_ambiguous_orientation(), orientation == 3);
     }
-    const Error error = turned_beside(*open_photo_folder(folder.path()), "--masks there");
+    const Error error = ambiguous_orientation_error(*open_photo_folder(folder.path()), "--masks there");
     for (const char* part : {"--masks there", "orientation is 6", "exiftran"})
         EXPECT_THAT(error.message, HasSubstr(part));
 }

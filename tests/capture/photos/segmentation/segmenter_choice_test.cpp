@@ -38,7 +38,7 @@ protected:
         }
         Result<PhotoFolder> photos = open_photo_folder(folder_ / "photos");
         if (!photos) return photos.error();
-        return take_in(std::move(*photos), nullptr);
+        return run_intake(std::move(*photos), nullptr);
     }
     ChosenSegmenter chosen(const SegmenterRequest& request, const Rgba8& background = {255, 255, 255, 255}) {
         const Result<Intake> taken = intake(background);

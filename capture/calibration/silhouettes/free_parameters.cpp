@@ -1,4 +1,4 @@
-#include "capture/calibration/silhouettes/loose_numbers.hpp"
+#include "capture/calibration/silhouettes/free_parameters.hpp"
 
 #include <Eigen/Dense>
 
@@ -12,13 +12,13 @@ namespace {
 constexpr double kLoose_px = 0.01;
 
 // Approximate movement of the silhouette in px per unit of each number.
-Eigen::VectorXd px_per_unit(const TurntableModel& model, const NumberPlaces& places, double half_px) {
+Eigen::VectorXd px_per_unit(const TurntableModel& model, const ParameterIndices& places, double half_px) {
     const double f = model.lens.f_px;
     const double slope = half_px / f;
-    const std::array<double, kCameraNumbers> camera{slope, 1, 1,      f * std::pow(slope, 3), f * std::pow(slope, 5),
-                                                    f,     f, half_px};
+    const std::array<double, kCameraParameters> camera{slope, 1, 1,      f * std::pow(slope, 3), f * std::pow(slope, 5),
+                                                       f,     f, half_px};
     Eigen::VectorXd px = Eigen::VectorXd::Ones(places.count);
-    for (std::size_t k = 0; k < kCameraNumbers; ++k) {
+    for (std::size_t k = 0; k < kCameraParameters; ++k) {
         if (places.camera[k] >= 0) px(places.camera[k]) = camera[k];
     }
     for (const int place : places.angles) {
@@ -30,7 +30,7 @@ Eigen::VectorXd px_per_unit(const TurntableModel& model, const NumberPlaces& pla
 
 }  // namespace
 
-FreeParameters::FreeParameters(const TurntableModel& model, const NumberPlaces& places,
+FreeParameters::FreeParameters(const TurntableModel& model, const ParameterIndices& places,
                                const Eigen::MatrixXd& covariance, double half_px, Eigen::Index most)
     : model_(model), places_(places) {
     const Eigen::VectorXd px = px_per_unit(model, places, half_px);
@@ -46,17 +46,18 @@ FreeParameters::FreeParameters(const TurntableModel& model, const NumberPlaces& 
     }
 }
 
-Eigen::MatrixXd FreeParameters::told(const Eigen::MatrixXd& covariance, const Eigen::MatrixXd& information,
-                                     double untold, double disbelief, double most) const {
+Eigen::MatrixXd FreeParameters::updated_covariance(const Eigen::MatrixXd& covariance,
+                                                   const Eigen::MatrixXd& information, double common_errors,
+                                                   double prior_scale, double most) const {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(information);
-    const Eigen::ArrayXd tell = disbelief * parts.eigenvalues().array().max(0);
-    const Eigen::ArrayXd variance = (1 + untold * untold * tell) / (1 + tell).square();
-    const Eigen::VectorXd change = disbelief * variance.min(most) - 1;
+    const Eigen::ArrayXd tell = prior_scale * parts.eigenvalues().array().max(0);
+    const Eigen::ArrayXd variance = (1 + common_errors * common_errors * tell) / (1 + tell).square();
+    const Eigen::VectorXd change = prior_scale * variance.min(most) - 1;
     return covariance + columns_ * parts.eigenvectors() * change.asDiagonal() * parts.eigenvectors().transpose() *
                             columns_.transpose();
 }
 
-double FreeParameters::angles_left(const Eigen::MatrixXd& information) const {
+double FreeParameters::remaining_angle_variance(const Eigen::MatrixXd& information) const {
     const Eigen::MatrixXd after = (Eigen::MatrixXd::Identity(count(), count()) + information).inverse();
     double before = 0, left = 0;
     for (const int place : places_.angles) {

@@ -1,4 +1,4 @@
-#include "capture/photos/segmentation/cutout_cache.hpp"
+#include "capture/photos/segmentation/foreground_cache.hpp"
 
 #include "rayspace/base/check.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -23,14 +23,14 @@ std::uint64_t size_bytes(int width, int height) {
 
 }  // namespace
 
-CutoutCache::CutoutCache(std::filesystem::path folder, int width, int height)
+ForegroundCache::ForegroundCache(std::filesystem::path folder, int width, int height)
     : folder_(std::move(folder)), width_(width), height_(height) {}
 
-std::filesystem::path CutoutCache::path_of(std::size_t view) const {
+std::filesystem::path ForegroundCache::path_of(std::size_t view) const {
     return folder_ / (std::to_string(view) + ".rgba.zst");
 }
 
-Status CutoutCache::put(std::size_t view, ConstImageView<Rgba8> image) const {
+Status ForegroundCache::put(std::size_t view, ConstImageView<Rgba8> image) const {
     RS_CHECK(image.width() == width_ && image.height() == height_);
     std::vector<std::uint8_t> bytes(size_bytes(width_, height_));
     const std::size_t row_bytes = sizeof(Rgba8) * static_cast<std::size_t>(width_);
@@ -43,7 +43,7 @@ Status CutoutCache::put(std::size_t view, ConstImageView<Rgba8> image) const {
     return write_file(path_of(view), std::as_bytes(std::span(frame).first(size)));
 }
 
-Result<Image<Rgba8>> CutoutCache::get(std::size_t view) const {
+Result<Image<Rgba8>> ForegroundCache::get(std::size_t view) const {
     const std::filesystem::path path = path_of(view);
     const std::uint64_t size = size_bytes(width_, height_);
     RS_ASSIGN_OR_RETURN(const std::vector<std::byte> frame, read_file(path, 2 * size + 1024));

@@ -15,7 +15,7 @@
 
 namespace rs::capture {
 
-// Placement of the board at angle 0: p_in_object = units_per_mm * object_from_board * p_in_board + middle.
+/// Placement of the board at angle 0: p_in_object = units_per_mm * object_from_board * p_in_board + middle.
 struct BoardPlacement {
     glm::dmat3 object_from_board{1};
     glm::dvec3 middle{0};
@@ -29,16 +29,17 @@ struct BoardTurn {
 
 inline constexpr std::size_t kFewestCornersOfView = 6;
 
-// True if the view has enough corners that are not all on one line.
-bool shows_board(const BoardCorners& view, const BoardDesign& design);
+/// True if the view has enough corners that are not all on one line.
+bool has_board(const BoardCorners& view, const BoardDesign& design);
 
-// Candidate focal lengths in px, the likeliest first; `lens` gives the image size and the principal point.
-std::vector<double> likely_focal_lengths(std::span<const BoardCorners> views, const BoardDesign& design,
-                                         const Lens& lens);
+/// Candidate focal lengths in px, the likeliest first; `lens` gives the image size and the principal point.
+std::vector<double> estimate_focal_lengths(std::span<const BoardCorners> views, const BoardDesign& design,
+                                           const Lens& lens);
 
-// Estimates pose, angles and board placement for a lens. Angles are relative to the first view that shows the board and
-// differ by at most half a turn from that of the view before; those of views without the board are 0. Returns nothing
-// if fewer than three views show the board or no axis is found.
-std::optional<BoardTurn> board_start(std::span<const BoardCorners> views, const BoardDesign& design, const Lens& lens);
+/// Estimates pose, angles and board placement for a lens. Angles are relative to the first view that shows the board
+/// and differ by at most half a turn from that of the view before; those of views without the board are 0. Returns
+/// nothing if fewer than three views show the board or no axis is found.
+std::optional<BoardTurn> initialize_board_turn(std::span<const BoardCorners> views, const BoardDesign& design,
+                                               const Lens& lens);
 
 }  // namespace rs::capture

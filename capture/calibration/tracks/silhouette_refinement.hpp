@@ -17,16 +17,16 @@ namespace rs::capture {
 
 struct TrackSolution {
     Bundle bundle;
-    NumberPlaces places;
+    ParameterIndices places;
     Eigen::MatrixXd covariance;  // of the numbers at `places`; empty if unknown
     double at_px = 0;            // row (column for a sideways axis) at which the axis' position is evaluated
     ModelDeviations deviations;
 };
 
-// Numbers that silhouettes do not determine, or on which they are not consistent, stay as they are; a step that would
-// leave fewer than `fewest_tracks` tracks is not applied. Returns a warning if tracks and silhouettes disagree on the
-// axis. Runs on the calling tbb arena; deterministic.
-std::optional<std::string> settle_with_silhouettes(TrackSolution& solution, const TurnImages& turn,
+/// Numbers that silhouettes do not determine, or on which they are not consistent, stay as they are; a step that would
+/// leave fewer than `fewest_tracks` tracks is not applied. Returns a warning if tracks and silhouettes disagree on the
+/// axis. Runs on the calling tbb arena; deterministic.
+std::optional<std::string> refine_with_silhouettes(TrackSolution& solution, const TurnImages& turn,
                                                    std::size_t fewest_tracks);
 
 }  // namespace rs::capture

@@ -1,7 +1,7 @@
-#include "capture/photos/intake/film/film_frames.hpp"
+#include "capture/photos/intake/video/video_frames.hpp"
 
 #include "capture/photos/intake/exposure.hpp"
-#include "capture/photos/intake/photograph.hpp"
+#include "capture/photos/intake/photo_reader.hpp"
 #include "capture/photos/intake/reduction.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "rayspace/image_io/image_io.hpp"
@@ -41,16 +41,16 @@ private:
     int count_ = 0;
 };
 
-struct FilmCopies {
+struct VideoCopies {
     std::vector<FrameCopy> copies;
     Image<LinearRgb> mean;
     VideoInfo info;
     int damaged = 0;
 };
 
-Result<FilmCopies> copy_frames(const fs::path& film, Progress* progress) {
-    RS_ASSIGN_OR_RETURN(VideoReader reader, VideoReader::open(film));
-    FilmCopies result;
+Result<VideoCopies> copy_frames(const fs::path& video, Progress* progress) {
+    RS_ASSIGN_OR_RETURN(VideoReader reader, VideoReader::open(video));
+    VideoCopies result;
     result.info = reader.info();
     constexpr std::int64_t kUnknownLength = 300;
     const std::int64_t estimate = result.info.frame_estimate;
@@ -60,8 +60,8 @@ Result<FilmCopies> copy_frames(const fs::path& film, Progress* progress) {
     for (;;) {
         RS_ASSIGN_OR_RETURN(const bool has_frame, reader.read(frame));
         if (!has_frame) break;
-        if (result.copies.size() == static_cast<std::size_t>(kMaxFilmFrames)) {
-            return Error{film.string() + ": has more than " + std::to_string(kMaxFilmFrames) +
+        if (result.copies.size() == static_cast<std::size_t>(kMaxVideoFrames)) {
+            return Error{video.string() + ": has more than " + std::to_string(kMaxVideoFrames) +
                          " frames; cut it to one or two turns, e.g. with ffmpeg -ss START -t SECONDS"};
         }
         constexpr std::size_t kMeanStride = 8;
@@ -116,15 +116,15 @@ std::string frame_name(std::size_t frame) {
     return name;
 }
 
-Status write_selected(const fs::path& film, const fs::path& folder, const std::vector<std::size_t>& selected,
+Status write_selected(const fs::path& video, const fs::path& folder, const std::vector<std::size_t>& selected,
                       ExposureNormalizer& normalizer, Progress* progress) {
-    RS_ASSIGN_OR_RETURN(VideoReader reader, VideoReader::open(film));
+    RS_ASSIGN_OR_RETURN(VideoReader reader, VideoReader::open(video));
     if (progress != nullptr) progress->start("extracting frames", static_cast<std::int64_t>(selected.size()));
     Image<Rgba8> frame;
     std::size_t next = 0;
     for (std::size_t i = 0; next < selected.size(); ++i) {
         RS_ASSIGN_OR_RETURN(const bool has_frame, reader.read(frame));
-        if (!has_frame) return Error{film.string() + ": changed while it was imported; import again"};
+        if (!has_frame) return Error{video.string() + ": changed while it was imported; import again"};
         if (i != selected[next]) continue;
         normalizer.apply(frame);
         const Image<Rgba8> upright = apply_orientation(std::move(frame), reader.info().orientation);
@@ -137,12 +137,12 @@ Status write_selected(const fs::path& film, const fs::path& folder, const std::v
     return {};
 }
 
-std::vector<std::string> make_notes(const std::string& name, const FilmCopies& film, float largest_change) {
+std::vector<std::string> make_notes(const std::string& name, const VideoCopies& video, float largest_change) {
     std::vector<std::string> notes;
-    if (film.damaged > 0) {
-        notes.push_back(name + ": " + std::to_string(film.damaged) + " damaged frames were skipped");
+    if (video.damaged > 0) {
+        notes.push_back(name + ": " + std::to_string(video.damaged) + " damaged frames were skipped");
     }
-    if (film.info.is_hdr) {
+    if (video.info.is_hdr) {
         notes.push_back(name + " is HDR, whose colours are not converted; record in SDR for true colours");
     }
     constexpr float kMinReportedChange = 0.02F;
@@ -155,20 +155,20 @@ std::vector<std::string> make_notes(const std::string& name, const FilmCopies& f
 
 }  // namespace
 
-Result<FilmFrames> write_film_frames(const fs::path& film, const fs::path& folder, const FrameRequest& request,
-                                     Progress* progress) {
-    Result<FilmCopies> copies = copy_frames(film, progress);
+Result<VideoFrames> write_video_frames(const fs::path& video, const fs::path& folder, const FrameRequest& request,
+                                       Progress* progress) {
+    Result<VideoCopies> copies = copy_frames(video, progress);
     if (!copies) return copies.error();
     const std::size_t frame_count = copies->copies.size();
-    FilmFrames result;
+    VideoFrames result;
     result.selection = select_frames(copies->copies, request, progress);
     copies->copies.clear();
     if (std::ranges::count(result.selection.moving.pixels(), 0) == std::ssize(result.selection.moving.pixels())) {
-        return Error{film.string() + ": nothing moves in it; give a video of an object that turns"};
+        return Error{video.string() + ": nothing moves in it; give a video of an object that turns"};
     }
     ExposureNormalizer normalizer(copies->mean, result.selection.moving);
-    RS_TRY(write_selected(film, folder, result.selection.frames, normalizer, progress));
-    const std::string name = film.filename().string();
+    RS_TRY(write_selected(video, folder, result.selection.frames, normalizer, progress));
+    const std::string name = video.filename().string();
     result.notes = make_notes(name, *copies, normalizer.largest_change());
     result.notes.insert(result.notes.begin(), selection_note(name, "frames", frame_count, result.selection));
     return result;

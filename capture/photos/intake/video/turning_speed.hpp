@@ -10,7 +10,7 @@
 // A camera at the height of the object sees no such motion. Then the speed is modelled as an exponential function of
 // time, fitted to the magnitude of motion.
 
-#include "capture/photos/intake/film/frame_copy.hpp"
+#include "capture/photos/intake/video/frame_copy.hpp"
 #include "rayspace/base/progress.hpp"
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "capture/calibration/model/turn_of_cameras.hpp"
+#include "capture/calibration/model/turntable_fit.hpp"
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
@@ -110,7 +110,7 @@ Matrix3d nearest_rotation(const Matrix3d& matrix) {
     return svd.matrixU() * sign * svd.matrixV().transpose();
 }
 
-Result<TurnOfCameras> turn_of_cameras(std::span<const glm::dmat4> world_from_camera, const std::string& where) {
+Result<TurntableFit> fit_turn_to_cameras(std::span<const glm::dmat4> world_from_camera, const std::string& where) {
     if (world_from_camera.size() < 3) {
         return Error{where + ": has " + std::to_string(world_from_camera.size()) +
                      " cameras; at least 3 are needed to find the axis that they turn about"};
@@ -121,7 +121,7 @@ Result<TurnOfCameras> turn_of_cameras(std::span<const glm::dmat4> world_from_cam
     if (!axis)
         return Error{where + ": its cameras have no rotation relative to each other; check that it is of a turntable"};
 
-    TurnOfCameras turn;
+    TurntableFit turn;
     turn.angles_rad.push_back(0);
     for (std::size_t i = 1; i < cameras.size(); ++i) {
         // The object turns by as much as the camera seems to turn in the opposite direction.

@@ -1,4 +1,4 @@
-#include "capture/photos/intake/photograph.hpp"
+#include "capture/photos/intake/photo_reader.hpp"
 
 #include "rayspace/image_io/image_io.hpp"
 #include "tests/support/camera_jpeg.hpp"
@@ -53,7 +53,7 @@ TEST(ReadPhotograph, IsUprightAndHasTheRequestedSize) {
     test::add_exif(folder / "1.jpg", 8);
     const Result<PhotoFolder> found = open_photo_folder(folder.path(), 80);
     ASSERT_TRUE(found.ok()) << found.error().message;
-    const Result<Image<Rgba8>> photograph = read_photograph(*found, 0);
+    const Result<Image<Rgba8>> photograph = read_photo(*found, 0);
     ASSERT_TRUE(photograph.ok()) << photograph.error().message;
     ASSERT_EQ(photograph->width(), 48);
     ASSERT_EQ(photograph->height(), 80);
@@ -61,10 +61,10 @@ TEST(ReadPhotograph, IsUprightAndHasTheRequestedSize) {
     EXPECT_NEAR((*photograph)(37, 40).r, 20, 3);
 
     ASSERT_TRUE(write_jpeg(folder / "1.jpg", stored, 95).ok());  // without an orientation
-    const Result<Image<Rgba8>> other = read_photograph(*found, 0);
+    const Result<Image<Rgba8>> other = read_photo(*found, 0);
     ASSERT_TRUE(other.ok()) << "the orientation was read before";
     ASSERT_TRUE(write_jpeg(folder / "1.jpg", Image<Rgba8>(320, 200), 95).ok());
-    const Result<Image<Rgba8>> changed = read_photograph(*found, 0);
+    const Result<Image<Rgba8>> changed = read_photo(*found, 0);
     ASSERT_FALSE(changed.ok());
     EXPECT_THAT(changed.error().message, testing::HasSubstr("1.jpg: changed"));
 }

@@ -1,4 +1,4 @@
-#include "capture/photos/segmentation/cutout.hpp"
+#include "capture/photos/segmentation/foreground_image.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/foreground/alpha_estimation.hpp"
@@ -20,11 +20,11 @@ constexpr float kUnmixMinAlpha = 0.1F;
 constexpr float kUnmixFullAlpha = 0.6F;
 
 // Composites the foreground image over a black layer of the given opacity, straight alpha.
-void lay_over_shadow(Image<Rgba8>& cutout, const Image<std::uint8_t>& shadow) {
-    RS_CHECK(cutout.width() == shadow.width() && cutout.height() == shadow.height());
-    for (int y = 0; y < cutout.height(); ++y) {
-        for (int x = 0; x < cutout.width(); ++x) {
-            Rgba8& pixel = cutout(x, y);
+void lay_over_shadow(Image<Rgba8>& foreground, const Image<std::uint8_t>& shadow) {
+    RS_CHECK(foreground.width() == shadow.width() && foreground.height() == shadow.height());
+    for (int y = 0; y < foreground.height(); ++y) {
+        for (int x = 0; x < foreground.width(); ++x) {
+            Rgba8& pixel = foreground(x, y);
             const float own = pixel.a / 255.0F;
             const float opacity = own + (1 - own) * shadow(x, y) / 255.0F;
             if (opacity <= own) continue;
@@ -72,7 +72,7 @@ void bleed_colours(Image<Rgba8>& image) {
     for (int y = 0; y < image.height(); ++y) {
         for (int x = 0; x < image.width(); ++x) covered(y, x) = image(x, y).a >= kHalfCovered ? 255 : 0;
     }
-    const cv::Rect near = box_around(covered, static_cast<int>(kBleed_px) + 1);
+    const cv::Rect near = padded_bounding_box(covered, static_cast<int>(kBleed_px) + 1);
     cv::Mat1b uncovered;
     cv::Mat1f distance;
     cv::Mat1i nearest;
@@ -104,26 +104,26 @@ void bleed_colours(Image<Rgba8>& image) {
     }
 }
 
-Image<Rgba8> make_cutout(ConstImageView<Rgba8> photo, const Segmentation& segmentation,
-                         const ForegroundParameters& parameters) {
+Image<Rgba8> make_foreground_image(ConstImageView<Rgba8> photo, const Segmentation& segmentation,
+                                   const ForegroundParameters& parameters) {
     const Image<std::uint8_t>& mask = segmentation.mask;
     RS_CHECK(photo.width() == mask.width() && photo.height() == mask.height());
-    Image<Rgba8> cutout;
+    Image<Rgba8> foreground;
     if (segmentation.is_alpha) {
-        cutout = Image<Rgba8>(photo.width(), photo.height());
+        foreground = Image<Rgba8>(photo.width(), photo.height());
         for (int y = 0; y < photo.height(); ++y) {
             for (int x = 0; x < photo.width(); ++x) {
                 const Rgba8& p = photo(x, y);
-                cutout(x, y) = {p.r, p.g, p.b, mask(x, y)};
+                foreground(x, y) = {p.r, p.g, p.b, mask(x, y)};
             }
         }
     } else {
         const int edge_width_px = expected_edge_width_px(photo.width(), photo.height(), parameters.alpha);
-        cutout = unmix(photo, estimate_alpha(photo, mask, edge_width_px, parameters.alpha));
+        foreground = unmix(photo, estimate_alpha(photo, mask, edge_width_px, parameters.alpha));
     }
-    if (!segmentation.shadow.empty()) lay_over_shadow(cutout, segmentation.shadow);
-    bleed_colours(cutout);
-    return cutout;
+    if (!segmentation.shadow.empty()) lay_over_shadow(foreground, segmentation.shadow);
+    bleed_colours(foreground);
+    return foreground;
 }
 
 }  // namespace rs::capture

@@ -1,4 +1,4 @@
-#include "capture/photos/intake/film/turn_period.hpp"
+#include "capture/photos/intake/video/turn_period.hpp"
 
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/median.hpp"

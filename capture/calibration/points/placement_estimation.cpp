@@ -1,4 +1,4 @@
-#include "capture/calibration/points/image_places.hpp"
+#include "capture/calibration/points/placement_estimation.hpp"
 
 #include "capture/calibration/model/projection.hpp"
 #include "capture/calibration/points/bundle.hpp"
@@ -160,12 +160,12 @@ bool improve(Attempt& attempt, std::span<const Track> tracks, double first_px, d
              const KnownInputs& known) {
     const glm::dvec2 middle(attempt.model.lens.width / 2.0, attempt.model.lens.height / 2.0);
     for (double limit = first_px; limit > 0.7 * last_px; limit *= 0.5) {
-        Bundle bundle = make_agreeing_bundle(attempt.model, undone(tracks, attempt.places, middle), limit);
+        Bundle bundle = make_robust_bundle(attempt.model, undone(tracks, attempt.places, middle), limit);
         if (!adjust_places(bundle, attempt.places, 0.5 * limit, known)) return false;
         attempt.model = bundle.model;
     }
     attempt.agreeing =
-        observation_count(make_agreeing_bundle(attempt.model, undone(tracks, attempt.places, middle), last_px));
+        observation_count(make_robust_bundle(attempt.model, undone(tracks, attempt.places, middle), last_px));
     return true;
 }
 
@@ -197,8 +197,8 @@ std::vector<Attempt> attempts(const Lens& lens, std::size_t views, const KnownIn
 
 }  // namespace
 
-std::optional<PlacedTurn> find_places(std::span<const Track> tracks, const Lens& lens, std::size_t views, int reduction,
-                                      const KnownInputs& known) {
+std::optional<PlacementEstimate> estimate_placements(std::span<const Track> tracks, const Lens& lens, std::size_t views,
+                                                     int reduction, const KnownInputs& known) {
     std::vector<Track> few;
     const std::size_t most = std::min(kTriedTracks, tracks.size());
     for (std::size_t i = 0; i < most; ++i) few.push_back(tracks[i * tracks.size() / most]);
@@ -211,18 +211,18 @@ std::optional<PlacedTurn> find_places(std::span<const Track> tracks, const Lens&
     if (best.agreeing == 0 || !improve(best, tracks, 4 * finest, finest, known)) return std::nullopt;
     double offered = 0;
     for (const Track& track : tracks) offered += static_cast<double>(track.seen.size());
-    return PlacedTurn{std::move(best.places), std::move(best.model), best.agreeing / std::max(1.0, offered)};
+    return PlacementEstimate{std::move(best.places), std::move(best.model), best.agreeing / std::max(1.0, offered)};
 }
 
-std::optional<std::vector<ImagePlace>> remaining_places(const Bundle& bundle, double limit_px,
-                                                        const KnownInputs& known) {
+std::optional<std::vector<ImagePlace>> estimate_remaining_placements(const Bundle& bundle, double limit_px,
+                                                                     const KnownInputs& known) {
     Bundle own = bundle;
     std::vector<ImagePlace> places(bundle.model.angles_rad.size());
     if (!adjust_places(own, places, 0.5 * limit_px, known)) return std::nullopt;
     return places;
 }
 
-TurnImages put_back(const TurnImages& turn, std::span<const ImagePlace> places) {
+TurnImages undo_placements(const TurnImages& turn, std::span<const ImagePlace> places) {
     TurnImages back = turn;
     const double reduction = turn.reduction;
     const glm::dvec2 middle = glm::dvec2(turn.width, turn.height) / (2 * reduction);
@@ -233,7 +233,7 @@ TurnImages put_back(const TurnImages& turn, std::span<const ImagePlace> places) 
         const auto warp = [&](Image<std::uint8_t>& plane) {
             const Image<std::uint8_t> from = plane;
             cv::Mat1b out(plane.height(), plane.width(), plane.data());
-            cv::warpAffine(mat_over(from), out, seen, out.size(), cv::INTER_CUBIC | cv::WARP_INVERSE_MAP);
+            cv::warpAffine(mat_view(from), out, seen, out.size(), cv::INTER_CUBIC | cv::WARP_INVERSE_MAP);
         };
         warp(back.images[i].grey);
         warp(back.images[i].alpha);

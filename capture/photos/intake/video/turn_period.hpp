@@ -1,7 +1,7 @@
 #pragma once
 // Finds the frames between which the turntable makes one turn.
 
-#include "capture/photos/intake/film/frame_copy.hpp"
+#include "capture/photos/intake/video/frame_copy.hpp"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "capture/photos/intake/photograph.hpp"
+#include "capture/photos/intake/photo_reader.hpp"
 
 #include "capture/photos/intake/reduction.hpp"
 #include "rayspace/base/check.hpp"
@@ -35,7 +35,7 @@ Image<Rgba8> to_working_size(Image<Rgba8> upright, const PhotoFolder& folder) {
                                 : std::move(upright);
 }
 
-Result<Image<Rgba8>> read_photograph(const PhotoFolder& folder, std::size_t i) {
+Result<Image<Rgba8>> read_photo(const PhotoFolder& folder, std::size_t i) {
     Result<Image<Rgba8>> stored = read_image(folder.photos[i], kMaxPhotographSide_px);
     if (!stored) return stored;
     Image<Rgba8> upright = apply_orientation(std::move(*stored), folder.orientation_of(i));

@@ -1,8 +1,8 @@
 #pragma once
 // Selects the frames of a turntable video to import: one turn, evenly spaced by angle, the sharpest near each angle.
 
-#include "capture/photos/intake/film/frame_copy.hpp"
-#include "capture/photos/intake/film/turn_period.hpp"
+#include "capture/photos/intake/video/frame_copy.hpp"
+#include "capture/photos/intake/video/turn_period.hpp"
 #include "rayspace/base/progress.hpp"
 
 #include <cstddef>

@@ -19,6 +19,6 @@ Image<Rgba8> to_working_size(Image<Rgba8> upright, const PhotoFolder& folder);
 
 /// Photo i of the folder, folder.width x folder.height px. Peak memory: twice the file's pixels at 4 bytes each.
 /// Thread-safe. Errors: those of read_image(), and a file whose size has changed since the folder was opened.
-Result<Image<Rgba8>> read_photograph(const PhotoFolder& folder, std::size_t i);
+Result<Image<Rgba8>> read_photo(const PhotoFolder& folder, std::size_t i);
 
 }  // namespace rs::capture

@@ -1,7 +1,7 @@
 #pragma once
 // Writes selected frames of a turntable video to a folder of photos, the input of the other import stages.
 
-#include "capture/photos/intake/film/frame_selection.hpp"
+#include "capture/photos/intake/video/frame_selection.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 
@@ -12,9 +12,9 @@
 namespace rs::capture {
 
 /// Limit on the frames of a video; each takes 25 to 45 KB (FrameCopy).
-inline constexpr int kMaxFilmFrames = 6000;
+inline constexpr int kMaxVideoFrames = 6000;
 
-struct FilmFrames {
+struct VideoFrames {
     FrameSelection selection;
     std::vector<std::string> notes;  // for the user, one line each
 };
@@ -26,8 +26,8 @@ struct FilmFrames {
 /// ratio to the mean of the video (exposure_gain()), in linear light.
 ///
 /// Memory: 45 KB per frame of the video, plus that of VideoReader. Errors: those of VideoReader and write_png(), more
-/// than kMaxFilmFrames frames, a video without motion.
-Result<FilmFrames> write_film_frames(const std::filesystem::path& film, const std::filesystem::path& folder,
-                                     const FrameRequest& request, Progress* progress);
+/// than kMaxVideoFrames frames, a video without motion.
+Result<VideoFrames> write_video_frames(const std::filesystem::path& video, const std::filesystem::path& folder,
+                                       const FrameRequest& request, Progress* progress);
 
 }  // namespace rs::capture

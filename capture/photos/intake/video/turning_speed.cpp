@@ -1,4 +1,4 @@
-#include "capture/photos/intake/film/turning_speed.hpp"
+#include "capture/photos/intake/video/turning_speed.hpp"
 
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/median.hpp"

@@ -1,6 +1,6 @@
-#include "capture/photos/intake/film/frame_selection.hpp"
+#include "capture/photos/intake/video/frame_selection.hpp"
 
-#include "capture/photos/intake/film/turning_speed.hpp"
+#include "capture/photos/intake/video/turning_speed.hpp"
 #include "rayspace/base/check.hpp"
 
 #include <algorithm>

@@ -6,8 +6,8 @@
 
 namespace rs::capture {
 
-// A point p (px) in the image of the fixed camera appears at middle + scale * (p - middle) + shift_px, where middle is
-// the centre of the frame, which both images share.
+/// A point p (px) in the image of the fixed camera appears at middle + scale * (p - middle) + shift_px, where middle is
+/// the centre of the frame, which both images share.
 struct ImagePlace {
     glm::dvec2 shift_px{0.0};
     double scale = 1;
@@ -18,7 +18,7 @@ struct ImagePlace {
     [[nodiscard]] glm::dvec2 undone(const glm::dvec2& p, const glm::dvec2& middle) const {
         return middle + (p - middle - shift_px) / scale;
     }
-    // Composition: the placement `inner` followed by this one.
+    /// Composition: the placement `inner` followed by this one.
     [[nodiscard]] ImagePlace of(const ImagePlace& inner) const {
         return {shift_px + scale * inner.shift_px, scale * inner.scale};
     }

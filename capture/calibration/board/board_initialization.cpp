@@ -1,6 +1,6 @@
-#include "capture/calibration/board/board_start.hpp"
+#include "capture/calibration/board/board_initialization.hpp"
 
-#include "capture/calibration/model/turn_of_cameras.hpp"
+#include "capture/calibration/model/turntable_fit.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <Eigen/Dense>
@@ -25,7 +25,7 @@ struct BoardPose {
 // Nothing if the view has too few corners.
 std::optional<Eigen::Matrix3d> homography(const BoardCorners& view, const BoardDesign& design, const Lens& lens,
                                           double unit_px, double unit_mm) {
-    if (!shows_board(view, design)) return std::nullopt;
+    if (!has_board(view, design)) return std::nullopt;
     std::vector<cv::Point2d> from, to;
     for (const SeenCorner& seen : view.corners) {
         const glm::dvec2 at = corner_mm(design, seen.corner) / unit_mm;
@@ -122,7 +122,7 @@ double wrapped(double angle) {
 
 }  // namespace
 
-bool shows_board(const BoardCorners& view, const BoardDesign& design) {
+bool has_board(const BoardCorners& view, const BoardDesign& design) {
     if (view.corners.size() < kFewestCornersOfView) return false;
     Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
@@ -138,8 +138,8 @@ bool shows_board(const BoardCorners& view, const BoardDesign& design) {
     return solver.eigenvalues()(0) > 0.4;  // squares^2; six corners in two rows have 1.5
 }
 
-std::vector<double> likely_focal_lengths(std::span<const BoardCorners> views, const BoardDesign& design,
-                                         const Lens& lens) {
+std::vector<double> estimate_focal_lengths(std::span<const BoardCorners> views, const BoardDesign& design,
+                                           const Lens& lens) {
     const double side_px = std::max(lens.width, lens.height);
     // With w = 1 / f^2 the images of the board's two directions are perpendicular and of equal length: linear in w.
     double square = 0, product = 0;
@@ -165,7 +165,8 @@ std::vector<double> likely_focal_lengths(std::span<const BoardCorners> views, co
     return likely;
 }
 
-std::optional<BoardTurn> board_start(std::span<const BoardCorners> views, const BoardDesign& design, const Lens& lens) {
+std::optional<BoardTurn> initialize_board_turn(std::span<const BoardCorners> views, const BoardDesign& design,
+                                               const Lens& lens) {
     std::vector<BoardPose> poses;
     std::vector<std::size_t> shown;
     for (std::size_t i = 0; i < views.size(); ++i) {

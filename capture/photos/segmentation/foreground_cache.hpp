@@ -11,10 +11,10 @@
 
 namespace rs::capture {
 
-class CutoutCache {
+class ForegroundCache {
 public:
     /// `folder` must exist; its owner removes it. All images are width x height px.
-    CutoutCache(std::filesystem::path folder, int width, int height);
+    ForegroundCache(std::filesystem::path folder, int width, int height);
 
     /// Writes and reads the image of one view. Thread-safe for different views. Errors: the disk; get() also if a file
     /// is damaged.

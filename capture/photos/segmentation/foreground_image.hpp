@@ -2,7 +2,7 @@
 /// \file
 /// From a segmentation to the image of the object alone: sRGB with straight alpha.
 ///
-/// Segmenter -> make_cutout(): estimate_alpha() -> unmix() -> shadow layer -> bleed_colours().
+/// Segmenter -> make_foreground_image(): estimate_alpha() -> unmix() -> shadow layer -> bleed_colours().
 
 #include "capture/photos/foreground/alpha_estimation.hpp"
 #include "capture/photos/foreground/foreground_parameters.hpp"
@@ -26,7 +26,7 @@ void bleed_colours(Image<Rgba8>& image);
 /// The foreground image of one photo, in its size. A final alpha is taken over as it is; a binary mask gets a soft
 /// edge. The shadow layer of `segmentation` is composited below the object. Of `parameters` only `alpha` is used.
 /// Thread-safe.
-Image<Rgba8> make_cutout(ConstImageView<Rgba8> photo, const Segmentation& segmentation,
-                         const ForegroundParameters& parameters = {});
+Image<Rgba8> make_foreground_image(ConstImageView<Rgba8> photo, const Segmentation& segmentation,
+                                   const ForegroundParameters& parameters = {});
 
 }  // namespace rs::capture

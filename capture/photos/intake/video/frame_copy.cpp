@@ -1,4 +1,4 @@
-#include "capture/photos/intake/film/frame_copy.hpp"
+#include "capture/photos/intake/video/frame_copy.hpp"
 
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/median.hpp"

@@ -1,4 +1,4 @@
-#include "capture/calibration/tracks/silhouette_settling.hpp"
+#include "capture/calibration/tracks/silhouette_refinement.hpp"
 
 #include "capture/calibration/silhouettes/coherence_fit.hpp"
 #include "capture/calibration/silhouettes/silhouette_symmetry.hpp"
@@ -33,7 +33,7 @@ void take(const TurntableModel& model, const Eigen::MatrixXd& covariance, TrackS
           std::size_t fewest_tracks) {
     if (!move_to(model, solution.bundle, fewest_tracks)) return;
     const double before_px = solution.deviations.axis_position_px;
-    solution.deviations = deviations_of(solution.bundle.model, solution.places, covariance, solution.at_px);
+    solution.deviations = standard_deviations(solution.bundle.model, solution.places, covariance, solution.at_px);
     solution.deviations.axis_position_px = std::max(solution.deviations.axis_position_px, before_px);
     solution.covariance = covariance;
 }
@@ -42,19 +42,19 @@ void take(const TurntableModel& model, const Eigen::MatrixXd& covariance, TrackS
 // stay: texture that moves uniformly around the whole object seems to turn about an axis beside the true one, and
 // changing lens and angles to fit the true one would only spread the error. Updates the deviation of the axis'
 // position. Returns a warning if tracks and silhouettes disagree.
-std::optional<std::string> settle_axis(TrackSolution& solution, const TurnImages& turn, std::size_t fewest_tracks) {
-    const NumberPlaces& places = solution.places;
-    if (places.camera[CameraNumber::kPan] < 0) return std::nullopt;
+std::optional<std::string> refine_axis(TrackSolution& solution, const TurnImages& turn, std::size_t fewest_tracks) {
+    const ParameterIndices& places = solution.places;
+    if (places.camera[CameraParameter::kPan] < 0) return std::nullopt;
     const TurntableModel& found = solution.bundle.model;
-    const auto of_silhouettes = axis_of_silhouettes(covered_together(turn.images), turn.reduction, found);
+    const auto of_silhouettes = axis_from_silhouettes(union_of_alphas(turn.images), turn.reduction, found);
     if (!of_silhouettes) return std::nullopt;
     const auto position = axis_position(found.lens, found.pose, of_silhouettes->at_px);
     if (!position) return std::nullopt;
     const double deviation_px =
-        deviations_of(found, places, solution.covariance, of_silhouettes->at_px).axis_position_px;
-    const AxisPlace of_tracks{of_silhouettes->at_px, *position, deviation_px};
-    const AxisPlace agreed = agreed_axis(of_tracks, *of_silhouettes);
-    const auto model = with_axis_at(found, agreed);
+        standard_deviations(found, places, solution.covariance, of_silhouettes->at_px).axis_position_px;
+    const AxisPosition of_tracks{of_silhouettes->at_px, *position, deviation_px};
+    const AxisPosition agreed = combine_axes(of_tracks, *of_silhouettes);
+    const auto model = move_axis_to(found, agreed);
     if (!model || !move_to(*model, solution.bundle, fewest_tracks)) return std::nullopt;
     ModelDeviations& deviations = solution.deviations;
     deviations.axis_position_px =
@@ -65,10 +65,10 @@ std::optional<std::string> settle_axis(TrackSolution& solution, const TurnImages
 // Moves the whole model to the combined estimate of tracks and silhouette pairs (silhouette_tangency.hpp), and
 // triangulates the points again. The covariance is that of the tracks, with the axis' position replaced by its
 // deviation.
-void settle_pairs(TrackSolution& solution, const TurnImages& turn, std::size_t fewest_tracks) {
+void refine_by_pairs(TrackSolution& solution, const TurnImages& turn, std::size_t fewest_tracks) {
     Eigen::MatrixXd& covariance = solution.covariance;
     const TurntableModel& found = solution.bundle.model;
-    if (const int pan = solution.places.camera[CameraNumber::kPan]; pan >= 0) {
+    if (const int pan = solution.places.camera[CameraParameter::kPan]; pan >= 0) {
         covariance.row(pan).setZero();
         covariance.col(pan).setZero();
         covariance(pan, pan) = std::pow(solution.deviations.axis_position_px / found.lens.f_px, 2);
@@ -85,7 +85,7 @@ SilhouetteDetail detail_of(std::size_t views) {
 }
 
 // The same with the silhouettes of all views together (coherence_fit.hpp).
-void settle_all(TrackSolution& solution, const TurnImages& turn, std::size_t fewest_tracks) {
+void refine_by_all(TrackSolution& solution, const TurnImages& turn, std::size_t fewest_tracks) {
     std::vector<Image<std::uint8_t>> masks;
     for (const CalibrationImage& image : turn.images) masks.push_back(image.alpha);
     const auto silhouettes = SilhouetteTurn::of(masks, detail_of(masks.size()));
@@ -98,12 +98,12 @@ void settle_all(TrackSolution& solution, const TurnImages& turn, std::size_t few
 
 }  // namespace
 
-std::optional<std::string> settle_with_silhouettes(TrackSolution& solution, const TurnImages& turn,
+std::optional<std::string> refine_with_silhouettes(TrackSolution& solution, const TurnImages& turn,
                                                    std::size_t fewest_tracks) {
-    std::optional<std::string> axis_disagrees = settle_axis(solution, turn, fewest_tracks);
+    std::optional<std::string> axis_disagrees = refine_axis(solution, turn, fewest_tracks);
     if (solution.covariance.size() == 0) return axis_disagrees;
-    settle_pairs(solution, turn, fewest_tracks);
-    settle_all(solution, turn, fewest_tracks);
+    refine_by_pairs(solution, turn, fewest_tracks);
+    refine_by_all(solution, turn, fewest_tracks);
     return axis_disagrees;
 }
 

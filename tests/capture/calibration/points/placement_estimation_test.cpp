@@ -1,6 +1,6 @@
 // Images of a turn that were shifted and scaled individually.
 
-#include "capture/calibration/points/image_places.hpp"
+#include "capture/calibration/points/placement_estimation.hpp"
 
 #include "capture/calibration/tracks/track_calibration.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -71,7 +71,7 @@ TEST(ImagePlaces, AreFoundFromPointsInBothSenses) {
         }
         Lens lens = truth.lens;
         lens.f_px = 0;
-        const auto found = find_places(tracks, lens, 24, 1, {});
+        const auto found = estimate_placements(tracks, lens, 24, 1, {});
         ASSERT_TRUE(found.has_value());
         EXPECT_GT(found->agreeing, 0.95);
         ASSERT_EQ(found->places.size(), 24U);
@@ -98,7 +98,7 @@ TEST(ImagePlaces, AImageIsPutBack) {
         }
     }
     turn.images.push_back(image);
-    const TurnImages back = put_back(turn, std::vector<ImagePlace>{place});
+    const TurnImages back = undo_placements(turn, std::vector<ImagePlace>{place});
     glm::dvec2 sum(0.0);
     double weight = 0;
     for (int y = 0; y < 60; ++y) {
@@ -129,7 +129,7 @@ TEST(ImagePlaces, ATurnOfMovedImagesIsCalibrated) {
     ASSERT_TRUE(still.ok()) << still.error().message;
     EXPECT_TRUE(still->calibration.places.empty());
 
-    const auto found = calibrate_with_tracks(put_back(turn, inverse), {}, nullptr);
+    const auto found = calibrate_with_tracks(undo_placements(turn, inverse), {}, nullptr);
     ASSERT_TRUE(found.ok()) << found.error().message;
     const Calibration& calibration = found->calibration;
     ASSERT_EQ(calibration.places.size(), 24U);
