@@ -70,6 +70,8 @@ Result<std::unique_ptr<WallVisit>> WallVisit::create(const Scene& scene, std::un
                                                 {.width = first.width,
                                                  .height = first.height,
                                                  .samples = options.samples,
+                                                 .wire_frame = options.wire_frame,
+                                                 .shadows = options.shadows,
                                                  .exposure_ev = options.exposure_ev,
                                                  .object_depth = options.object_depth,
                                                  .object_samples = options.object_samples,

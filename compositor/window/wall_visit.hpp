@@ -36,6 +36,8 @@ struct WallVisitOptions {
     std::function<std::optional<Head>()> tracked = nullptr;
     std::optional<StereoForm> stereo = std::nullopt;
     int samples = 4;
+    bool wire_frame = false;
+    bool shadows = false;
     double exposure_ev = 0;
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples = FrameOptions{}.object_samples;

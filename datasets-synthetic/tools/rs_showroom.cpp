@@ -48,8 +48,10 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_flag("--small", options.small, "Write the textures at a quarter of the resolution");
     app.footer(
-        "Examples:\n  rs-showroom -o showroom && rs-view showroom/showroom.wrl --viewpoint museum -o museum.png\n"
-        "  rs-view showroom/showroom.wrl --lights showroom/evening.json --exposure 3 --renderer path -o evening.png");
+        "Examples:\n  rs-showroom -o showroom && rs-view render showroom/showroom.wrl --viewpoint museum -o "
+        "museum.png\n  rs-view render showroom/showroom.wrl --lights showroom/evening.json --exposure 3 --renderer "
+        "path "
+        "-o evening.png");
     std::function<rs::Status()> run;
     app.callback([&] { run = [&] { return run_showroom(options); }; });
     return rs::tool_main(app, argc, argv, run);

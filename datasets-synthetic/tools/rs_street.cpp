@@ -69,8 +69,8 @@ int main(int argc, char** argv) {
     app.add_option("--name", options.name, "Name of the map")->capture_default_str();
     app.add_flag("--small", options.small, "Textures at a quarter of the resolution");
     app.footer(
-        "Examples:\n  rs-street -o town --objects .. && rs-view --sequence town/maps/street -o street.mp4\n"
-        "  rs-street -o evening --time night --seconds 4 && rs-view --sequence evening --weather rain -o rain.mp4");
+        "Examples:\n  rs-street -o town --objects .. && rs-view sequence town/maps/street -o street.mp4\n"
+        "  rs-street -o evening --time night --seconds 4 && rs-view sequence evening --weather rain -o rain.mp4");
     std::function<rs::Status()> run;
     app.callback([&] { run = [&] { return run_street(options); }; });
     return rs::tool_main(app, argc, argv, run);
