@@ -114,7 +114,7 @@ Status apply_known_angles(const Task& task, BoardTurn& turn) {
             return Error{"board: no two neighbouring views show it, so the step is unknown; give the step"};
         }
     }
-    turn.model = apply_known_angles(std::move(turn.model), known);
+    turn.model = apply_known(std::move(turn.model), known);
     if (!known.angles_rad && !known.step_rad) return {};
     const std::vector<double>& angles = turn.model.angles_rad;
     std::size_t first = 0;
@@ -237,7 +237,7 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
                                               std::span<const std::string> names) {
     Task task{views, design, known, names, {}, {}, {}, {}};
     const double assumed_f_px = 1.3 * std::max(width, height);
-    task.lens = apply_known_angles(Lens{width, height, assumed_f_px, 0.5 * width, 0.5 * height, 0, 0}, known);
+    task.lens = apply_known(Lens{width, height, assumed_f_px, 0.5 * width, 0.5 * height, 0, 0}, known);
     BundleFreedom& free = task.options.free;
     free = free_parameters_beside(known);
     free.k1 = free.k2 = !known.distortion;
