@@ -80,7 +80,7 @@ public:
     }
     [[nodiscard]] std::vector<pid_t> processes() const { return descendants(process_); }
     // Open MPI 4.1's mpirun may wait forever for a rank that was killed during MPI_Init: it gets ten seconds.
-    void end_soon() const {
+    void wait_then_kill() const {
         const auto late = std::chrono::steady_clock::now() + std::chrono::seconds(10);
         while (!ended()) {
             if (std::chrono::steady_clock::now() > late) ::kill(process_, SIGKILL);
@@ -191,7 +191,7 @@ protected:
         return false;
     }
 
-    void expect_nothing_was_lost_or_made_twice(const std::map<std::string, ino_t>& before) const {
+    void expect_results_unchanged(const std::map<std::string, ino_t>& before) const {
         for (const auto& [file, number] : before) {
             struct stat info {};
             ASSERT_EQ(::stat(file.c_str(), &info), 0) << file << " is lost";
@@ -203,7 +203,7 @@ protected:
         for (std::string line; std::getline(file, line);) ASSERT_EQ(++runs[line], 1) << line << " was done twice";
     }
 
-    void finish_and_look() const {
+    void finish_and_check() const {
         ASSERT_EQ(Farm((folder_ / "bin/rs-farm").string(), command_).wait(), 0);
         const auto made = made_lines(objects_ / ".rs-farm/manifest.jsonl");
         ASSERT_EQ(made.size(), static_cast<std::size_t>(kItems));
@@ -226,13 +226,13 @@ TEST_F(KilledFarm, GoesOnWhereItWas) {
         const Farm farm((folder_ / "bin/rs-farm").string(), command_);
         const bool killed = kill_something(farm, random);
         kills += killed ? 1 : 0;
-        farm.end_soon();
+        farm.wait_then_kill();
         // Ranks that outlive mpirun end by themselves; the next farm waits for them.
-        expect_nothing_was_lost_or_made_twice(before);
+        expect_results_unchanged(before);
         if (HasFatalFailure()) return;
         before = finished(objects_);
         if (!killed) {  // all done: start over
-            finish_and_look();
+            finish_and_check();
             if (HasFatalFailure()) return;
             before.clear();
             fs::remove_all(objects_);
@@ -240,8 +240,8 @@ TEST_F(KilledFarm, GoesOnWhereItWas) {
         }
     } while (std::chrono::steady_clock::now() < end);
     EXPECT_GT(kills, 0);
-    finish_and_look();
-    expect_nothing_was_lost_or_made_twice(before);
+    finish_and_check();
+    expect_results_unchanged(before);
     RecordProperty("kills", kills);
 }
 

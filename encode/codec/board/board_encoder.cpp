@@ -53,7 +53,7 @@ public:
         coded_.images.resize(object.views.size());
         lambda_ = settings.lambda_factor * kIntegerPlaneWeights[0] * settings.step * settings.step * 8;
         plan();
-        for_images([](std::size_t) { return true; }, [&](std::size_t v) { look_at_blocks(v); });
+        for_images([](std::size_t) { return true; }, [&](std::size_t v) { classify_blocks(v); });
     }
 
     EncodedImages encode() {
@@ -125,7 +125,7 @@ private:
             .blocks[static_cast<std::size_t>(y / codec::kBoardBlock * block_columns() + x / codec::kBoardBlock)];
     }
 
-    void look_at_blocks(std::size_t v) {
+    void classify_blocks(std::size_t v) {
         for (auto& plane : work_[v].reconstruction) {
             plane = Image<std::uint8_t>(coded_.coded_width(), coded_.coded_height());
         }

@@ -19,6 +19,6 @@ Status check_profile_integrity(const std::string& path);
 /// Checks a profile: all tags, and the texts of tags, must be inside of it (ICC.1:2010, 7.3 and 10.13); at most 1000
 /// tags with at most 1000 texts each. Data that is not a profile passes, since it is not read as one. Bytes after the
 /// profile's stated size are ignored.
-bool is_sound_profile(std::span<const unsigned char> icc);
+bool is_valid_profile(std::span<const unsigned char> icc);
 
 }  // namespace rs::image_io
