@@ -106,7 +106,7 @@ Status add_scores(HtmlPage& page, const BuildReport& report) {
     }
     for (const ImageRow& row : report.held_out) {
         page.paragraph(row.caption);
-        if (Status status = page.images(row.images, kCompared_px, ImageLayout::kLine); !status) return status;
+        RS_TRY(page.images(row.images, kCompared_px, ImageLayout::kLine));
     }
     return {};
 }

@@ -114,7 +114,7 @@ void add_depth_images(const CaptureSet& set, const std::vector<DepthPreview>& de
 
 Status write_report(StagedFile& file, const BuildReport& report) {
     RS_ASSIGN_OR_RETURN(const std::string page, build_report_page(report));
-    if (Status status = file.write(std::as_bytes(std::span(page))); !status) return status;
+    RS_TRY(file.write(std::as_bytes(std::span(page))));
     return file.commit();
 }
 

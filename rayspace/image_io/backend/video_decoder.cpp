@@ -80,7 +80,7 @@ public:
     explicit LibavDecoder(std::string path) : path_(std::move(path)) {}
 
     Status open() {
-        if (Status status = open_container(); !status) return status;
+        RS_TRY(open_container());
         const AVCodec* codec = nullptr;
         const int index = av_find_best_stream(format_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
         if (index == AVERROR_DECODER_NOT_FOUND) return Error{path_ + missing_decoder_message()};
@@ -90,7 +90,7 @@ public:
         for (unsigned i = 0; i < format_->nb_streams; ++i) {
             if (static_cast<int>(i) != index) format_->streams[i]->discard = AVDISCARD_ALL;
         }
-        if (Status status = read_stream_info(); !status) return status;
+        RS_TRY(read_stream_info());
         return open_codec(*codec);
     }
 
