@@ -1,4 +1,4 @@
-#include "rayspace/image_io/backend/exr_header.hpp"
+#include "rayspace/image_io/backend/file_checks.hpp"
 
 #include "rayspace/base/conventions.hpp"
 

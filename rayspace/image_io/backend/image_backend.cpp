@@ -4,9 +4,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "rayspace/image_io/backend/colour_profile.hpp"
-#include "rayspace/image_io/backend/exr_header.hpp"
-#include "rayspace/image_io/backend/png_integrity.hpp"
-#include "rayspace/image_io/backend/profile_integrity.hpp"
+#include "rayspace/image_io/backend/file_checks.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
