@@ -28,7 +28,7 @@ Status extract_images(const RaySpaceObject& object, const std::filesystem::path&
         return write_png(staged.temporary_path() / rig.views[n].file_path, rgba_from_planar(object.images[n]));
     });
     if (!written) return written;
-    if (Status status = write_rig(staged.temporary_path() / kRigFileName, rig); !status) return status;
+    RS_TRY(write_rig(staged.temporary_path() / kRigFileName, rig));
     return staged.commit();
 }
 

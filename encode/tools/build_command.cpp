@@ -155,7 +155,7 @@ Status run_build(const BuildArguments& arguments) {
         summary.psnr_db = encoded.psnr_db;
         built.object.coded = std::make_shared<codec::CodedImages>(std::move(encoded.coded));
     }
-    if (Status status = write_object(arguments.output, built.object, &progress); !status) return status;
+    RS_TRY(write_object(arguments.output, built.object, &progress));
     for (const std::string& warning : built.warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
 
     summary.bytes = std::filesystem::file_size(arguments.output);
@@ -171,10 +171,10 @@ Status run_build(const BuildArguments& arguments) {
         report.warnings = built.warnings;
         report.rig = set.upright;
         built.object.images.clear();  // frees memory for the objects to be scored
-        if (Status status = add_captured_images(set, report); !status) return status;
+        RS_TRY(add_captured_images(set, report));
         add_depth_images(set, built.depths, report);
-        if (Status status = add_evaluation(set, options.map.planes, report, &bar); !status) return status;
-        if (Status status = write_report(*page, report); !status) return status;
+        RS_TRY(add_evaluation(set, options.map.planes, report, &bar));
+        RS_TRY(write_report(*page, report));
     }
     print_summary(arguments, options, built.object, summary);
     return {};

@@ -59,9 +59,9 @@ public:
         const std::string method = to_string(answered.method);
         const std::filesystem::path& root = folder_.temporary_path();
         if (answered.method == first_) {
-            if (Status status = write_png(root / "truth" / name, answered.truth); !status) return status;
+            RS_TRY(write_png(root / "truth" / name, answered.truth));
         }
-        if (Status status = write_png(root / method / name, answered.answer); !status) return status;
+        RS_TRY(write_png(root / method / name, answered.answer));
         return write_png(root / (method + "-error") / name,
                          error_image(answered.truth, answered.answer, kErrorFullScale));
     }
@@ -124,7 +124,7 @@ Status write_page(const EvaluateArguments& arguments, const CaptureSet& set, con
                     {"images", std::to_string(set.upright.views.size()) + (set.resampled ? ", resampled upright" : "")},
                     {"reference planes", std::to_string(arguments.planes)}};
     report.rig = set.upright;
-    if (Status status = add_captured_images(set, report); !status) return status;
+    RS_TRY(add_captured_images(set, report));
     std::string which = arguments.hold_out;  // every-3rd
     std::ranges::replace(which, '-', ' ');
     add_scores(set, hold_out, which, scores, std::move(answers), report);
@@ -154,18 +154,16 @@ Status run_evaluate(const EvaluateArguments& arguments) {
     EvaluationThumbnails answers(hold_out, options.methods);
     const EvaluationSink look = [&](const EvaluatedView& answered) -> Status {
         if (page) {
-            if (Status status = answers.keep(answered); !status) return status;
+            RS_TRY(answers.keep(answered));
         }
         return folder ? folder->write(answered) : Status{};
     };
     RS_ASSIGN_OR_RETURN(const std::vector<MethodScores> scores, evaluate(set, hold_out, options, look, &progress));
     if (folder) {
-        if (Status status = folder->commit(); !status) return status;
+        RS_TRY(folder->commit());
     }
     if (page) {
-        if (Status status = write_page(arguments, set, hold_out, scores, std::move(answers), *page); !status) {
-            return status;
-        }
+        RS_TRY(write_page(arguments, set, hold_out, scores, std::move(answers), *page));
     }
     if (arguments.json) {
         print_json(arguments, hold_out, scores);

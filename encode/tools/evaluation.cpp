@@ -32,7 +32,7 @@ Result<engine::Renderer> renderer_of_kept(const CaptureSet& set, const HoldOut& 
     return engine::Renderer::create(std::move(built.object));
 }
 
-Result<Image<Rgba8>> rendered(const engine::Renderer& renderer, const CaptureSet& set, int view) {
+Result<Image<Rgba8>> render_view(const engine::Renderer& renderer, const CaptureSet& set, int view) {
     const RigView& wanted = set.upright.views[static_cast<std::size_t>(view)];
     const Result<engine::ViewRegisters> registers = engine::prepare_view(renderer.object(), wanted.camera);
     if (!registers) return Error{image_path(set.folder, wanted).string() + ": " + registers.error().message};
@@ -79,7 +79,7 @@ Result<MethodScores> score_object(const CaptureSet& set, const HoldOut& hold_out
     const MapKind kind = method == Method::kPlane ? MapKind::kPlane : MapKind::kShape;
     RS_ASSIGN_OR_RETURN(const engine::Renderer renderer, renderer_of_kept(set, hold_out, kind, planes, progress));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    const Answer render = [&](int view) { return rendered(renderer, set, view); };
+    const Answer render = [&](int view) { return render_view(renderer, set, view); };
     Result<MethodScores> scores = score(set, hold_out, method, render, look, progress);
     if (scores) scores->build_seconds = seconds;
     return scores;

@@ -102,7 +102,7 @@ Status run_verify(const ObjectArguments& arguments) {
 Status run_extract(const ObjectArguments& arguments) {
     RS_ASSIGN_OR_RETURN(const RaySpaceObject object, read_object(arguments.object));
     ProgressBar progress(arguments.quiet);
-    if (Status status = extract_images(object, arguments.output, &progress); !status) return status;
+    RS_TRY(extract_images(object, arguments.output, &progress));
     std::printf("%s: %zu images\n", arguments.output.c_str(), object.images.size());
     return {};
 }

@@ -25,7 +25,7 @@ std::string with_db(const std::string& text, double psnr_db) {
 }
 
 // Transposes a map stored by columns.
-Image<float> transposed(const Image<float>& columns) {
+Image<float> transpose(const Image<float>& columns) {
     Image<float> image(columns.height(), columns.width());
     for (int y = 0; y < image.height(); ++y) {
         for (int x = 0; x < image.width(); ++x) image(x, y) = columns(y, x);
@@ -37,13 +37,13 @@ Image<float> transposed(const Image<float>& columns) {
 
 EvaluationThumbnails::EvaluationThumbnails(const HoldOut& hold_out, const std::vector<Method>& methods) {
     for (const int n : evenly_spread(static_cast<int>(hold_out.held.size()), kHeldOutShown)) {
-        for (const Method method : methods) kept_[{static_cast<std::size_t>(n), method}] = {};
+        for (const Method method : methods) thumbnails_[{static_cast<std::size_t>(n), method}] = {};
     }
 }
 
 Status EvaluationThumbnails::keep(const EvaluatedView& answered) {
-    const auto place = kept_.find({answered.number, answered.method});
-    if (place == kept_.end()) return {};
+    const auto place = thumbnails_.find({answered.number, answered.method});
+    if (place == thumbnails_.end()) return {};
     const std::string name = to_string(answered.method);
     place->second.view = answered.view;
     place->second.truth = scaled_down(answered.truth, kKept_px);
@@ -56,7 +56,7 @@ Status EvaluationThumbnails::keep(const EvaluatedView& answered) {
 std::vector<ImageRow> EvaluationThumbnails::rows(const CaptureSet& set) && {
     std::vector<ImageRow> rows;
     std::size_t row_of = 0;
-    for (auto& [key, kept] : kept_) {
+    for (auto& [key, kept] : thumbnails_) {
         if (rows.empty() || key.first != row_of) {
             row_of = key.first;
             rows.push_back({caption_of(set, kept.view), {}});
@@ -106,15 +106,15 @@ void add_depth_images(const CaptureSet& set, const std::vector<DepthPreview>& de
     for (const DepthPreview& found : depths) {
         const std::string caption = caption_of(set, found.view);
         report.hull_images.push_back(
-            {scaled_down(depth_image(transposed(found.hull), -kShown, kShown), kKept_px), caption});
+            {scaled_down(depth_image(transpose(found.hull), -kShown, kShown), kKept_px), caption});
         report.depth_images.push_back(
-            {scaled_down(depth_image(transposed(found.depth), -kShown, kShown), kKept_px), caption});
+            {scaled_down(depth_image(transpose(found.depth), -kShown, kShown), kKept_px), caption});
     }
 }
 
 Status write_report(StagedFile& file, const BuildReport& report) {
     RS_ASSIGN_OR_RETURN(const std::string page, build_report_page(report));
-    if (Status status = file.write(std::as_bytes(std::span(page))); !status) return status;
+    RS_TRY(file.write(std::as_bytes(std::span(page))));
     return file.commit();
 }
 

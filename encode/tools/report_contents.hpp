@@ -36,7 +36,7 @@ private:
         CaptionedImage answer;
         CaptionedImage error;
     };
-    std::map<std::pair<std::size_t, Method>, Kept> kept_;  // keys are inserted by the constructor
+    std::map<std::pair<std::size_t, Method>, Kept> thumbnails_;  // keys are inserted by the constructor
 };
 
 /// Adds scores and thumbnails.

@@ -36,7 +36,7 @@ public:
             for (int x = 0; x < place_.width; x += kMacroblock) macroblock(x / kBlock, y / kBlock);
         }
         if (code_.has_masks) {
-            AlphaFinish(reader_, code_, grid_, alpha_, depths_, references_, place_, out_[3]).finish();
+            AlphaFinisher(reader_, code_, grid_, alpha_, depths_, references_, place_, out_[3]).finish();
         }
         filter_edges(grid_, code_, head_.step, place_, out_);
     }
@@ -117,7 +117,7 @@ private:
         }
     }
 
-    // Decodes the unit's mask. Alpha of blocks that are not mixed is written now; AlphaFinish changes the blocks near
+    // Decodes the unit's mask. Alpha of blocks that are not mixed is written now; AlphaFinisher changes the blocks near
     // an edge.
     void mask(const PredictionUnit& unit, const UnitChoice& choice) {
         for (int i = 0; i < unit.blocks() * unit.blocks(); ++i) {

@@ -108,7 +108,7 @@ private:
         if (stage == ReadStage::images) return read_images();
         for (const ChunkScope each : {ChunkScope::object, ChunkScope::ring}) {
             for (std::uint32_t index = 0; index < max_chunk_count(each, partial_.object); ++index) {
-                if (Status status = read_each(each, stage, index); !status) return status;
+                RS_TRY(read_each(each, stage, index));
             }
         }
         return {};
@@ -131,13 +131,13 @@ private:
     Status read_each(ChunkScope each, ReadStage stage, std::uint32_t index) {
         for (const ChunkKind& kind : chunk_table()) {
             if (kind.each != each || kind.stage != stage) continue;
-            if (Status status = read_chunk(kind, index); !status) return status;
+            RS_TRY(read_chunk(kind, index));
         }
         return {};
     }
 
     Status check_geometry() {
-        if (Status status = check_chunks(); !status) return status;
+        RS_TRY(check_chunks());
         return check_memory();
     }
 
@@ -219,7 +219,7 @@ private:
 }  // namespace
 
 Status write_object(const std::filesystem::path& path, const RaySpaceObject& object, Progress* progress) {
-    if (Status status = validate_object(object, path.string()); !status) return status;
+    RS_TRY(validate_object(object, path.string()));
     for (std::size_t i = 0; i < object.images.size(); ++i) {
         if (object.coded ? !object.coded->images[i].loaded() : object.images[i].empty()) {
             return Error{path.string() + ": image " + std::to_string(i) + " is not loaded; an object is written whole"};
@@ -229,7 +229,7 @@ Status write_object(const std::filesystem::path& path, const RaySpaceObject& obj
     RS_ASSIGN_OR_RETURN(auto writer, ContainerWriter::create(path, static_cast<std::uint32_t>(order.size())));
     if (progress != nullptr) progress->start("writing", static_cast<std::int64_t>(order.size()));
     for (const ChunkKey key : order) {
-        if (Status status = writer.add(key.name, key.index, chunk_payload(object, key)); !status) return status;
+        RS_TRY(writer.add(key.name, key.index, chunk_payload(object, key)));
         if (progress != nullptr) progress->advance();
     }
     Status status = writer.commit();

@@ -72,7 +72,7 @@ bool is_whole_glb(std::span<const std::byte> bytes) {
 
 // The material file from its first newmtl on, since earlier statements crash Assimp, without leading spaces, which hide
 // statements from it; a single comment if there is no newmtl, since Assimp rejects files of fewer than 8 bytes.
-std::vector<std::byte> plain_materials(std::vector<std::byte> bytes) {
+std::vector<std::byte> extract_materials(std::vector<std::byte> bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     std::size_t kept = 0;
     for (std::size_t line = 0; line < text.size();) {
@@ -143,7 +143,7 @@ Assimp::IOStream* ModelFiles::Open(const char* path, const char* mode) {
         refusal_ = std::string(path) + ": is a damaged .glb file; export it again";
         return nullptr;
     }
-    return new MemoryFile(lower_case_extension(path) == ".mtl" ? plain_materials(std::move(*bytes))
+    return new MemoryFile(lower_case_extension(path) == ".mtl" ? extract_materials(std::move(*bytes))
                                                                : std::move(*bytes));
 }
 

@@ -39,7 +39,7 @@ struct DecoderDeleter {
 template <class T>
 using DecoderOwned = std::unique_ptr<T, DecoderDeleter>;
 
-std::string error_text(int failure) {
+std::string describe_error(int failure) {
     char text[AV_ERROR_MAX_STRING_SIZE];
     av_make_error_string(text, sizeof text, failure);
     return text;
@@ -80,7 +80,7 @@ public:
     explicit LibavDecoder(std::string path) : path_(std::move(path)) {}
 
     Status open() {
-        if (Status status = open_container(); !status) return status;
+        RS_TRY(open_container());
         const AVCodec* codec = nullptr;
         const int index = av_find_best_stream(format_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
         if (index == AVERROR_DECODER_NOT_FOUND) return Error{path_ + missing_decoder_message()};
@@ -90,7 +90,7 @@ public:
         for (unsigned i = 0; i < format_->nb_streams; ++i) {
             if (static_cast<int>(i) != index) format_->streams[i]->discard = AVDISCARD_ALL;
         }
-        if (Status status = read_stream_info(); !status) return status;
+        RS_TRY(read_stream_info());
         return open_codec(*codec);
     }
 
@@ -146,12 +146,12 @@ private:
         // Frees the context on failure.
         const int failure = avformat_open_input(&format, ("file:" + path_).c_str(), nullptr, nullptr);
         if (failure < 0) {
-            return Error{path_ + ": cannot be read as a film (" + error_text(failure) +
+            return Error{path_ + ": cannot be read as a film (" + describe_error(failure) +
                          "); use a complete video file, or a folder of photos"};
         }
         format_.reset(format);
         if (const int found = avformat_find_stream_info(format, nullptr); found < 0) {
-            return Error{path_ + ": is damaged or cut short (" + error_text(found) + "); copy the film again"};
+            return Error{path_ + ": is damaged or cut short (" + describe_error(found) + "); copy the film again"};
         }
         return {};
     }
@@ -197,13 +197,13 @@ private:
         packet_.reset(av_packet_alloc());
         if (!codec_ || !frame_ || !packet_) return Error{path_ + ": not enough memory to decode a film"};
         if (const int failure = avcodec_parameters_to_context(codec_.get(), stream_->codecpar); failure < 0) {
-            return Error{path_ + ": cannot be decoded (" + error_text(failure) + ")"};
+            return Error{path_ + ": cannot be decoded (" + describe_error(failure) + ")"};
         }
         codec_->thread_count = kThreads;
         codec_->max_pixels = std::int64_t{kMaxImageSide_px} * kMaxImageSide_px;
         codec_->pkt_timebase = stream_->time_base;
         if (const int failure = avcodec_open2(codec_.get(), &codec, nullptr); failure < 0) {
-            return Error{path_ + ": cannot be decoded (" + error_text(failure) + "); convert the film to H.264"};
+            return Error{path_ + ": cannot be decoded (" + describe_error(failure) + "); convert the film to H.264"};
         }
         return {};
     }
