@@ -1,6 +1,6 @@
 #include "compositor/tools/drawing_options.hpp"
 
-#include "engine/executors/executor_table.hpp"
+#include "rayspace/api/types/executor_table.hpp"
 
 #include <utility>
 
@@ -44,7 +44,7 @@ void add_upright_option(CLI::App& command, bool& upright) {
 void add_executor_options(CLI::App& command, ExecutorOptions& options) {
     command
         .add_option("--executor", options.executor,
-                    engine::executor_names() + ": draws the objects; the core draws what it cannot")
+                    engine::ExecutorTable().names() + ": draws the objects; the core draws what it cannot")
         ->type_name("NAME")
         ->capture_default_str();
     add_memory_option(command, options.memory_mib);
@@ -77,7 +77,7 @@ Result<LoadedScene> load_objects(Scene scene, ObjectDepth depth, const ExecutorO
     std::unique_ptr<engine::Executor> executor;
     if (options.executor != "core") {
         Result<std::unique_ptr<engine::Executor>> made =
-            engine::make_executor(options.executor, {.instant_loads = true});
+            engine::ExecutorTable().create(options.executor);
         if (!made) return made.error();
         executor = std::move(*made);
     }

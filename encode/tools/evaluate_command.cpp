@@ -1,6 +1,6 @@
 #include "encode/tools/commands.hpp"
 
-#include "encode/tools/evaluation.hpp"
+#include "encode/evaluation/evaluation.hpp"
 #include "encode/tools/report_contents.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"

@@ -2,8 +2,8 @@
 
 #include "encode/hold_out.hpp"
 #include "encode/build.hpp"
+#include "encode/evaluation/evaluation.hpp"
 #include "encode/set/capture_set.hpp"
-#include "encode/tools/evaluation.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/image_metrics.hpp"
 #include "tests/support/drawn_set.hpp"

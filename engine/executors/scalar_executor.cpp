@@ -1,7 +1,6 @@
-#include "engine/executors/software_executors.hpp"
+#include "engine/executors/entries.hpp"
 
 #include "engine/core/definition/reconstruct.hpp"
-#include "engine/core/fast/core_executor.hpp"
 #include "rayspace/codec/stream/decode_image.hpp"
 
 #include <map>
@@ -44,12 +43,10 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Executor> make_scalar_executor() {
-    return std::make_unique<ScalarExecutor>();
-}
-
-std::unique_ptr<Executor> make_core_executor() {
-    return std::make_unique<CoreExecutor>();
+ExecutorEntry scalar_entry() {
+    return {"scalar", "", [](const std::string&) -> Result<std::unique_ptr<Executor>> {
+                return std::unique_ptr<Executor>(std::make_unique<ScalarExecutor>());
+            }};
 }
 
 }  // namespace rs::engine

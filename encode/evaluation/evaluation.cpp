@@ -1,4 +1,4 @@
-#include "encode/tools/evaluation.hpp"
+#include "encode/evaluation/evaluation.hpp"
 
 #include "engine/core/definition/view_registers.hpp"
 #include "engine/core/fast/renderer.hpp"
