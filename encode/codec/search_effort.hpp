@@ -1,5 +1,5 @@
 #pragma once
-// How much the dense encoder tries. tests/bench/ENCODER.md has what every effort costs and gains.
+// Search effort of the dense encoder. docs/notes/codec.md lists the time and bits of each effort.
 
 #include <algorithm>
 #include <array>
