@@ -41,10 +41,10 @@ public:
         : ConnectedComponents(mask, connectivity, cv::Rect({0, 0}, mask.size())) {}
 
     /// 4-connected components of the zero pixels of `mask`. Only the bounding box of the mask plus one pixel is
-    /// labelled, and its border stands for the image border: everything beyond it is zero, so that a component that
+    /// labelled, and its border represents the image border: everything beyond it is zero, so that a component that
     /// reaches the box border also reaches the image border. Pixels outside the box have label 0.
     static ConnectedComponents of_complement(const cv::Mat1b& mask) {
-        const cv::Rect frame = box_around(mask, 1);
+        const cv::Rect frame = padded_bounding_box(mask, 1);
         cv::Mat1b complement(mask.size(), std::uint8_t{0});
         if (!frame.empty()) cv::bitwise_not(mask(frame), complement(frame));
         return {complement, 4, frame};
@@ -98,7 +98,7 @@ public:
 
 private:
     ConnectedComponents(const cv::Mat1b& mask, int connectivity, const cv::Rect& frame)
-        : frame_(frame), box_(box_of(mask)) {
+        : frame_(frame), box_(bounding_box(mask)) {
         if (box_.empty()) return;
         // OpenCV numbers components by blocks of 2 x 2 pixels: an even corner keeps the numbers of the whole mask.
         box_ += cv::Size(box_.x % 2, box_.y % 2);

@@ -1,8 +1,8 @@
 #include "capture/photos/import.hpp"
 
-#include "capture/photos/intake/film/frame_selection.hpp"
 #include "capture/photos/intake/intake.hpp"
 #include "capture/photos/intake/photo_source.hpp"
+#include "capture/photos/intake/video/frame_selection.hpp"
 #include "capture/photos/report/import_set.hpp"
 #include "capture/photos/segmentation/segment_turn.hpp"
 #include "capture/photos/segmentation/segmentation_checks.hpp"
@@ -33,12 +33,12 @@ Status check(const ImportOptions& options) {
     if (options.degrees_per_view && !(*options.degrees_per_view >= 0.01 && *options.degrees_per_view <= 180)) {
         return Error{"--degrees-per-view " + std::to_string(*options.degrees_per_view) + ": give 0.01 to 180 degrees"};
     }
-    if (options.axis_x_px && !(std::abs(*options.axis_x_px) <= 10.0 * kMaxPictureSide_px)) {
-        return Error{"--axis-x " + std::to_string(*options.axis_x_px) + ": give a column of the pictures in px"};
+    if (options.axis_x_px && !(std::abs(*options.axis_x_px) <= 10.0 * kMaxImageSide_px)) {
+        return Error{"--axis-x " + std::to_string(*options.axis_x_px) + ": give a column of the images in px"};
     }
-    if (options.max_side_px < kMinSide_px || options.max_side_px > kMaxPictureSide_px) {
+    if (options.max_side_px < kMinSide_px || options.max_side_px > kMaxImageSide_px) {
         return Error{"--max-side " + std::to_string(options.max_side_px) + ": give " + std::to_string(kMinSide_px) +
-                     " to " + std::to_string(kMaxPictureSide_px) + " px"};
+                     " to " + std::to_string(kMaxImageSide_px) + " px"};
     }
     if (options.frames && (*options.frames < kMinSelectedFrames || *options.frames > kMaxSelectedFrames)) {
         return Error{"--frames " + std::to_string(*options.frames) + ": give " + std::to_string(kMinSelectedFrames) +
@@ -49,23 +49,23 @@ Status check(const ImportOptions& options) {
 
 PhotoRequest photo_request(const ImportOptions& options) {
     const KnownInputs& known = options.known.known;
-    const bool are_described = !options.segmentation.masks.empty() || !options.known.pictures.empty() ||
+    const bool are_described = !options.segmentation.masks.empty() || !options.known.images.empty() ||
                                known.angles_rad || known.step_rad || known.equal_steps || options.degrees_per_view;
     return {options.photos, options.output, options.max_side_px, options.frames, are_described};
 }
 
 // Rejects an output folder that is or contains the photos: an existing set at `output` is replaced completely, so
 // photos inside it would be lost.
-Status check_places(const ImportOptions& options) {
+Status check_paths(const ImportOptions& options) {
     std::error_code failure;
     const fs::path photos = fs::weakly_canonical(options.photos, failure);
-    if (failure) return Error{options.photos.string() + ": cannot be followed (" + failure.message() + ")"};
+    if (failure) return Error{options.photos.string() + ": cannot be resolved (" + failure.message() + ")"};
     const fs::path output = fs::weakly_canonical(options.output, failure);
-    if (failure) return Error{options.output.string() + ": cannot be followed (" + failure.message() + ")"};
+    if (failure) return Error{options.output.string() + ": cannot be resolved (" + failure.message() + ")"};
     const auto [rest, inner] = std::mismatch(output.begin(), output.end(), photos.begin(), photos.end());
     if (rest != output.end()) return {};
     return Error{options.output.string() + ": " + (photos == output ? "is" : "contains") +
-                 (is_film(options.photos) ? " the film " : " the folder of photographs ") + options.photos.string() +
+                 (is_video(options.photos) ? " the video " : " the folder of photos ") + options.photos.string() +
                  ", which would be replaced; give another place with -o"};
 }
 
@@ -134,62 +134,56 @@ Status check_count(const PhotoFolder& folder, const ImportOptions& options) {
     const bool is_told = options.calibration == CalibrationChoice::kNominal ||
                          (options.known.known.pose && options.known.known.angles_rad);
     if (count >= kFewest || is_told) return {};
-    return Error{options.photos.string() + ": holds " + std::to_string(count) +
-                 (count == 1 ? " picture" : " pictures") +
-                 "; a turn has 5 and more, better 36. With --calibration nominal what is there is taken for one"};
+    return Error{options.photos.string() + ": holds " + std::to_string(count) + (count == 1 ? " image" : " images") +
+                 "; a turn needs at least 5, better 36. With --calibration nominal any number is accepted"};
 }
 
 Result<ImportReport> import_checked(const ImportOptions& options, Progress* progress) {
-    if (Status status = check_places(options); !status) return status.error();
-    Result<PhotoFolder> folder = open_photos(photo_request(options), progress);
-    if (!folder) return folder.error();
-    if (!options.segmentation.masks.empty() && folder->turns_unnoticed()) {
-        return turned_beside(*folder, "--masks " + options.segmentation.masks.string());
+    RS_TRY(check_paths(options));
+    RS_ASSIGN_OR_RETURN(PhotoFolder folder, open_photos(photo_request(options), progress));
+    if (!options.segmentation.masks.empty() && folder.has_ambiguous_orientation()) {
+        return ambiguous_orientation_error(folder, "--masks " + options.segmentation.masks.string());
     }
-    if (Status status = check_count(*folder, options); !status) return status.error();
-    Result<StagedFolder> staged = StagedFolder::create(options.output, "imported photographs");
-    if (!staged) return staged.error();
-    const fs::path set = staged->temporary_path();
+    RS_TRY(check_count(folder, options));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(options.output, "imported photos"));
+    const fs::path set = staged.temporary_path();
     const fs::path cut = set / "cut";
     for (const fs::path& inner : {cut, set / "images"}) {
-        if (Status status = make_folder(inner, options.output); !status) return status.error();
+        RS_TRY(make_folder(inner, options.output));
     }
 
-    Result<Intake> intake = take_in(std::move(*folder), progress);
-    if (!intake) return intake.error();
+    RS_ASSIGN_OR_RETURN(Intake intake, run_intake(std::move(folder), progress));
 
-    Result<ChosenSegmenter> chosen = choose_segmenter(options.segmentation, *intake, options.photos.string(), progress);
-    if (!chosen) return chosen.error();
-    intake->survey = Survey{};  // frees memory; the survey is not needed any more
+    RS_ASSIGN_OR_RETURN(ChosenSegmenter chosen,
+                        choose_segmenter(options.segmentation, intake, options.photos.string(), progress));
+    intake.survey = Survey{};  // frees memory; the survey is not needed any more
 
-    const CutoutCache cutouts(cut, intake->folder.width, intake->folder.height);
-    Result<SegmentedTurn> turn =
-        segment_turn(intake->folder, *chosen->segmenter, cutouts, progress, options.segmentation.parameters.foreground);
-    if (!turn) return turn.error();
-    chosen->segmenter.reset();
+    const ForegroundCache foregrounds(cut, intake.folder.width, intake.folder.height);
+    RS_ASSIGN_OR_RETURN(SegmentedTurn turn, segment_turn(intake.folder, *chosen.segmenter, foregrounds, progress,
+                                                         options.segmentation.parameters.foreground));
+    chosen.segmenter.reset();
     SegmentationFindings findings =
-        check_segmentation(intake->folder, *turn, chosen->kind, options.segmentation.parameters.checks);
-    chosen->notes.insert(chosen->notes.end(), findings.notes.begin(), findings.notes.end());
-    if (Status status = settle(options, findings.problems, chosen->notes); !status) return status.error();
+        check_segmentation(intake.folder, turn, chosen.kind, options.segmentation.parameters.checks);
+    chosen.notes.insert(chosen.notes.end(), findings.notes.begin(), findings.notes.end());
+    RS_TRY(settle(options, findings.problems, chosen.notes));
 
-    Result<FoundRig> rig = find_rig(options, intake->folder, *turn, cutouts, progress);
-    if (!rig) return rig.error();
-    if (Status status = settle(options, calibration_problems(*rig), rig->notes); !status) return status.error();
+    RS_ASSIGN_OR_RETURN(FoundRig rig, find_rig(options, intake.folder, turn, foregrounds, progress));
+    RS_TRY(settle(options, calibration_problems(rig), rig.notes));
 
-    Result<ImportReport> report = write_import_set(
-        set, intake->folder, *turn, cutouts, report_of(options, *intake, *chosen, *turn, std::move(*rig)), progress);
-    if (!report) return report.error();
+    RS_ASSIGN_OR_RETURN(ImportReport report,
+                        write_import_set(set, intake.folder, turn, foregrounds,
+                                         report_of(options, intake, chosen, turn, std::move(rig)), progress));
     std::error_code failure;
     fs::remove_all(cut, failure);
     if (failure) return Error{options.output.string() + ": cannot be written (" + failure.message() + ")"};
-    if (Status status = staged->commit(); !status) return status.error();
+    RS_TRY(staged.commit());
     return report;
 }
 
 }  // namespace
 
 Result<ImportReport> import_photos(const ImportOptions& options, Progress* progress) {
-    if (Status status = check(options); !status) return status.error();
+    RS_TRY(check(options));
     // Many photos are processed in parallel; OpenCV's own threads would only compete for the same cores.
     cv::setNumThreads(1);
     try {
@@ -197,7 +191,7 @@ Result<ImportReport> import_photos(const ImportOptions& options, Progress* progr
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& escaped) {  // thrown by OpenCV
-        return Error{options.photos.string() + ": the pictures cannot be processed (" + escaped.what() + ")"};
+        return Error{options.photos.string() + ": the images cannot be processed (" + escaped.what() + ")"};
     }
 }
 

@@ -1,21 +1,21 @@
 #pragma once
 /// \file
-/// The whole import: photos or a film of one turn -> a capture set (RGBA images and transforms.json). Seven stages:
+/// The whole import: photos or a video of one turn -> a capture set (RGBA images and transforms.json). Seven stages:
 ///
-///   open_photos()        folder or film -> photos                        intake/photo_source.hpp
-///   take_in()            photos -> those of the turn, small copies        intake/intake.hpp
+///   open_photos()        folder or video -> photos                        intake/photo_source.hpp
+///   run_intake()            photos -> those of the turn, small copies        intake/intake.hpp
 ///   choose_segmenter()   small copies -> segmenter                        segmentation/segmenter_choice.hpp
-///   segment_turn()       photos, segmenter -> cut-outs                    segmentation/segment_turn.hpp
-///   check_segmentation() cut-outs -> whether they are usable              segmentation/segmentation_checks.hpp
-///   find_rig()           cut-outs -> lens, axis, angles                   rig/found_rig.hpp
-///   write_import_set()   cut-outs, rig -> images and transforms.json      report/import_set.hpp
+///   segment_turn()       photos, segmenter -> foreground images                    segmentation/segment_turn.hpp
+///   check_segmentation() foreground images -> problems              segmentation/segmentation_checks.hpp
+///   find_rig()           foreground images -> lens, axis, angles                   rig/found_rig.hpp
+///   write_import_set()   foreground images, rig -> set      report/import_set.hpp
 
 #include "capture/photos/report/import_report.hpp"
 #include "capture/photos/rig/found_rig.hpp"
 #include "capture/photos/segmentation/segmenter_choice.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
-#include "rayspace/pictures/photograph_size.hpp"
+#include "rayspace/image_io/photo_size.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -23,15 +23,14 @@
 namespace rs::capture {
 
 struct ImportOptions : RigRequest {
-    std::filesystem::path photos;  ///< folder, or a film (intake/photo_source.hpp)
-    std::filesystem::path
-        output;  ///< folder; see StagedFolder for what may stand there already, which is replaced whole
+    std::filesystem::path photos;  ///< folder, or a video (intake/photo_source.hpp)
+    std::filesystem::path output;  ///< folder; an existing set is replaced, see StagedFolder
     SegmenterRequest segmentation;
     bool force = false;  ///< write a set whose checks failed; their findings become notes
-    /// Larger photos are reduced first (open_photo_folder()); kMinSide_px .. kMaxPictureSide_px.
+    /// Larger photos are reduced first (open_photo_folder()); kMinSide_px .. kMaxImageSide_px.
     int max_side_px = kDefaultMaxSide_px;
-    // Number of frames of a film, or of photos of a larger folder, to select: kMinSelectedFrames .. kMaxSelectedFrames
-    // (intake/film/frame_selection.hpp). Empty: see intake/photo_source.hpp.
+    /// Number of frames of a video, or of photos of a larger folder, to select: kMinSelectedFrames ..
+    /// kMaxSelectedFrames (intake/video/frame_selection.hpp). Empty: see intake/photo_source.hpp.
     std::optional<int> frames;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The options of `rs-capture synth --as-photos`: test photographs instead of a capture set.
+// Options of `rs-capture synth --as-photos`, which renders test photos instead of a capture set.
 
 #include "capture/tracer/session/photo_session.hpp"
 
@@ -10,23 +10,21 @@
 
 namespace rs::capture {
 
-// A check of a numeric option's range.
-
-// A number in [low, high]; CLI::Range alone lets NaN pass.
+/// Accepts a number in [low, high]; CLI::Range alone accepts NaN.
 CLI::Validator within(double low, double high);
 
 struct AsPhotosOptions {
-    bool asked = false;
-    PhotoOptions photos;  // what --as-photos alone decides; the rest is filled in from the other options of `synth`
+    bool is_enabled = false;
+    PhotoOptions photos;  // options specific to --as-photos; the rest is copied from the other options of `synth`
 };
 
-// Every option but --as-photos itself is wrong usage without it. `options` must outlive `synth`.
+/// Adds the options; without --as-photos each of them is a usage error. `options` must outlive `synth`.
 void add_as_photos_options(CLI::App& synth, AsPhotosOptions& options);
 
-// The pictures that the options name.
+/// Image files named by the options.
 std::vector<std::filesystem::path> input_files(const AsPhotosOptions& options);
 
-// For the end of `synth --help`.
+/// Appended to `synth --help`.
 extern const char* const kAsPhotosExamples;
 
 }  // namespace rs::capture

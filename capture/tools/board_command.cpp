@@ -16,7 +16,7 @@ struct BoardCommandLine {
     SheetOptions sheet;
 };
 
-// A word of parse_board_design(), so that the command and import's --board understand the same.
+// Checks one key of parse_board_design(), so that the command and import's --board accept the same values.
 CLI::Validator board_word(const std::string& key) {
     return {[key](std::string& text) {
                 const Result<BoardDesign> parsed = parse_board_design(key + "=" + text);
@@ -28,9 +28,9 @@ CLI::Validator board_word(const std::string& key) {
 Status run_board(const BoardCommandLine& given) {
     if (Status written = write_board(given.output, given.sheet); !written) return written;
     const BoardDesign& design = given.sheet.design;
-    std::printf("%s: %dx%d squares of %g mm (%g x %g mm); the same for import: --board %s\n",
-                given.output.string().c_str(), design.squares_x, design.squares_y, design.square_mm,
-                design.squares_x * design.square_mm, design.squares_y * design.square_mm, to_string(design).c_str());
+    std::printf("%s: %dx%d squares of %g mm (%g x %g mm); for import: --board %s\n", given.output.string().c_str(),
+                design.squares_x, design.squares_y, design.square_mm, design.squares_x * design.square_mm,
+                design.squares_y * design.square_mm, to_string(design).c_str());
     return {};
 }
 
@@ -53,8 +53,8 @@ void add_board_command(CLI::App& app, std::function<Status()>& run) {
     command->add_option("--dictionary", design.dictionary, "ArUco dictionary: 4x4_50 .. 5x5_1000")
         ->capture_default_str();
     command->add_option("--blank-mm", design.blank_mm,
-                        "Leaves out the squares that a disc of this diameter in the middle touches: there the object "
-                        "stands (default: none)");
+                        "Omit the squares that touch a central disc of this diameter, on which the object "
+                        "is placed (default: none)");
     command->add_option("--paper", given->sheet.paper, "Sheet of the PDF")
         ->check(CLI::IsMember(paper_names()))
         ->capture_default_str();
@@ -63,7 +63,7 @@ void add_board_command(CLI::App& app, std::function<Status()>& run) {
         ->capture_default_str();
     command->footer("Example: rs-capture board -o board.pdf --blank-mm 60");
     command->callback([given, &run] {
-        // The numbers of the design hang together, so wrong ones are found here and not by the options alone.
+        // The values of the design depend on each other, so they are also checked together.
         BoardDesign& whole = given->sheet.design;
         const Result<BoardDesign> squares = parse_board_design("dictionary=5x5_1000,squares=" + given->squares);
         if (!squares) throw CLI::ValidationError("--squares", squares.error().message);

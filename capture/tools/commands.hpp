@@ -1,5 +1,5 @@
 #pragma once
-// The commands of rs-capture. Each adds itself to `app`, and sets `run` where it is the one that is called.
+// The subcommands of rs-capture. Each function adds its subcommand to `app` and sets `run` if it is called.
 
 #include "rayspace/base/result.hpp"
 
@@ -9,13 +9,13 @@
 
 namespace rs::capture {
 
-// The calibration board that is laid on the turntable, to be printed.
+/// Writes a printable calibration board for the turntable.
 void add_board_command(CLI::App& app, std::function<Status()>& run);
-// Photographs of an object on a turntable, cut out and calibrated, as a capture set.
+/// Imports photos of an object on a turntable: segmented and calibrated, as a capture set.
 void add_import_command(CLI::App& app, std::function<Status()>& run);
-// What a photometric file (IES, EULUMDAT) holds, as numbers and as a polar plot.
+/// Prints the contents of a photometric file (IES, EULUMDAT), as numbers and as a polar plot.
 void add_luminaire_command(CLI::App& app, std::function<Status()>& run);
-// A scene, traced from a ring of cameras or from given poses, as a capture set.
+/// Renders a scene from a ring of cameras or from given poses, as a capture set.
 void add_synth_command(CLI::App& app, std::function<Status()>& run);
 
 }  // namespace rs::capture

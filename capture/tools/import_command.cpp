@@ -1,9 +1,9 @@
 #include "capture/tools/commands.hpp"
 
 #include "capture/photos/import.hpp"
-#include "capture/photos/intake/film/frame_selection.hpp"
 #include "capture/photos/intake/photo_folder.hpp"
 #include "capture/photos/intake/photo_source.hpp"
+#include "capture/photos/intake/video/frame_selection.hpp"
 #include "capture/photos/report/import_page.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
@@ -180,11 +180,11 @@ void print_summary(const std::string& output, const ImportReport& report) {
 
 // Rejects options for single photos if frames are selected during the import.
 Status check_frames_usage(const ImportCommandLine& given) {
-    const bool has_film = is_film(given.import.photos);
-    if (!has_film && !given.import.frames) return {};
+    const bool has_video = is_video(given.import.photos);
+    if (!has_video && !given.import.frames) return {};
     const std::string remedy =
-        has_film ? "cannot be used with a film; extract its frames first (ffmpeg -i FILM photos/%03d.png)"
-                 : "needs all photos of the folder; leave out --frames";
+        has_video ? "cannot be used with a video; extract its frames first (ffmpeg -i FILM photos/%03d.png)"
+                  : "needs all photos of the folder; leave out --frames";
     if (!given.known.empty()) return Error{"--known " + given.known + ": " + remedy};
     if (!given.import.segmentation.masks.empty())
         return Error{"--masks " + given.import.segmentation.masks.string() + ": " + remedy};
@@ -196,21 +196,19 @@ Status check_frames_usage(const ImportCommandLine& given) {
 Status run_import(const ImportCommandLine& given) {
     ImportOptions options = given.import;
     if (Status status = check_frames_usage(given); !status) return status;
-    const Result<BackgroundRequest> backdrop = parse_background(given.backdrop);
-    if (!backdrop) return backdrop.error();
-    options.segmentation.background = *backdrop;
+    RS_ASSIGN_OR_RETURN(const BackgroundRequest backdrop, parse_background(given.backdrop));
+    options.segmentation.background = backdrop;
     options.segmentation.kind = kSegmenters.at(given.segmenter);
     options.segmentation.shadow = given.shadow == "keep" ? ShadowHandling::kKeep : ShadowHandling::kRemove;
     if (!given.parameters.empty()) {
-        const Result<SegmentationParameters> parameters = read_segmentation_parameters(given.parameters);
-        if (!parameters) return parameters.error();
-        options.segmentation.parameters = *parameters;
+        RS_ASSIGN_OR_RETURN(const SegmentationParameters parameters, read_segmentation_parameters(given.parameters));
+        options.segmentation.parameters = parameters;
     }
     const bool takes_network =
         options.segmentation.kind == SegmenterKind::kAuto || options.segmentation.kind == SegmenterKind::kModel;
     if (!options.segmentation.network.empty() && (!takes_network || !options.segmentation.masks.empty())) {
         return Error{"--segmentation-model: has no effect with " +
-                     (takes_network ? "--masks" : "--segmenter " + given.segmenter) + "; leave one of them away"};
+                     (takes_network ? "--masks" : "--segmenter " + given.segmenter) + "; leave one of them out"};
     }
     if (const char* const file = std::getenv("RAYSPACE_SEGMENTATION_MODEL");
         options.segmentation.network.empty() && file != nullptr) {
@@ -221,44 +219,38 @@ Status run_import(const ImportCommandLine& given) {
     if (given.counter_clockwise) options.turning = Turning::kCounterClockwise;
     std::optional<StagedFile> page;  // created before the import, so that an unusable path is reported at once
     if (!given.report.empty()) {
-        Result<StagedFile> created = StagedFile::create(given.report);
-        if (!created) return created.error();
-        page = std::move(*created);
+        RS_ASSIGN_OR_RETURN(StagedFile created, StagedFile::create(given.report));
+        page = std::move(created);
     }
     if (!given.board.empty()) {
-        const Result<BoardDesign> board = parse_board_design(given.board);
-        if (!board) return board.error();
-        options.board = *board;
+        RS_ASSIGN_OR_RETURN(const BoardDesign board, parse_board_design(given.board));
+        options.board = board;
     }
     if (!given.known.empty()) {
-        const Result<PhotoFolder> folder = open_photo_folder(options.photos);
-        if (!folder) return folder.error();
-        if (folder->orientation != 1 || folder->states_several()) {
-            return turned_beside(*folder, "--known " + given.known);
+        RS_ASSIGN_OR_RETURN(const PhotoFolder folder, open_photo_folder(options.photos));
+        if (folder.orientation != 1 || folder.has_several_orientations()) {
+            return ambiguous_orientation_error(folder, "--known " + given.known);
         }
-        Result<KnownFile> known = read_known_file(given.known, {folder->shown_width, folder->shown_height});
-        if (!known) return known.error();
-        options.known = std::move(*known);
+        RS_ASSIGN_OR_RETURN(KnownFile known, read_known_file(given.known, {folder.shown_width, folder.shown_height}));
+        options.known = std::move(known);
     }
     options.known.known.equal_steps = given.equal_steps;
     options.known.known.estimate_principal_point = given.principal_point;
     ProgressBar bar(given.quiet);
-    const Result<ImportReport> report = import_photos(options, &bar);
-    if (!report) return report.error();
+    RS_ASSIGN_OR_RETURN(const ImportReport report, import_photos(options, &bar));
     if (page) {
-        const Result<std::string> text = import_page(options.photos, *report);
-        if (!text) return text.error();
-        if (Status status = page->write(std::as_bytes(std::span(*text))); !status) return status;
+        RS_ASSIGN_OR_RETURN(const std::string text, import_page(options.photos, report));
+        if (Status status = page->write(std::as_bytes(std::span(text))); !status) return status;
         if (Status status = page->commit(); !status) return status;
     }
-    for (const std::string& note : report->notes) {
+    for (const std::string& note : report.notes) {
         if (!given.quiet) std::fprintf(stderr, "rs-capture: %s\n", printable(note).c_str());
     }
     const std::string output = options.output.string();
     if (given.json) {
-        print_json(output, *report);
+        print_json(output, report);
     } else {
-        print_summary(output, *report);
+        print_summary(output, report);
     }
     return {};
 }
@@ -268,17 +260,17 @@ Status run_import(const ImportCommandLine& given) {
 void add_import_command(CLI::App& app, std::function<Status()>& run) {
     auto given = std::make_shared<ImportCommandLine>();
     CLI::App* command =
-        app.add_subcommand("import", "Cuts the object out of turntable photos, or a film, and makes a capture set");
+        app.add_subcommand("import", "Segment and calibrate turntable photos, or a video, and write a capture set");
     command
         ->add_option("photos", given->import.photos,
-                     "Folder of photos of one turn, in natural order of their names, or a film of the turning object")
+                     "Folder of photos of one turn, in natural order of their names, or a video of the turning object")
         ->required();
     command->add_option("-o,--output", given->import.output, "Folder to write: transforms.json and images/")
         ->required();
     command
         ->add_option(
             "--backdrop", given->backdrop,
-            "auto, white, black, alpha (the pictures' own) or R,G,B; auto looks for alpha, then at the pictures' "
+            "Background: auto, white, black, alpha (of the images) or R,G,B; auto tests for alpha, then the image "
             "borders")
         ->capture_default_str()
         ->check([](const std::string& text) {
@@ -286,22 +278,23 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
             return parsed ? std::string() : parsed.error().message;
         });
     command
-        ->add_option("--max-side", given->import.max_side_px,
-                     "Photographs of more than 1.25 times as many pixels a side are made as large as this first; other "
-                     "options count the photographs' own pixels")
+        ->add_option(
+            "--max-side", given->import.max_side_px,
+            "Photos with a side longer than 1.25 times this, in px, are reduced to it first; other options refer "
+            "to the original pixels")
         ->capture_default_str()
-        ->check(CLI::Range(kMinSide_px, kMaxPictureSide_px));
+        ->check(CLI::Range(kMinSide_px, kMaxImageSide_px));
     command
         ->add_option(
             "--frames", given->import.frames,
-            "Number of frames of a film, or of photos of a larger folder, to select: sharp ones, evenly spaced by "
-            "angle (default: 72 for a film, 120 for a folder of more than 150 photos, otherwise all)")
+            "Number of frames of a video, or of photos of a larger folder, to select: sharp ones, evenly spaced by "
+            "angle (default: 72 for a video, 120 for a folder of more than 150 photos, otherwise all)")
         ->check(CLI::Range(kMinSelectedFrames, kMaxSelectedFrames));
     command
         ->add_option("--segmenter", given->segmenter,
-                     "What separates the object from the background: auto, alpha (the photos' own), masks, model (a "
+                     "Segmentation method: auto, alpha (of the photos), masks, model (a "
                      "network, fused with the background model), background (the background model), chroma (a screen "
-                     "of one colour); auto takes the first of these that is given, chroma never")
+                     "of one colour); auto uses the first of these that is available, never chroma")
         ->check(CLI::IsMember(kSegmenters))
         ->capture_default_str();
     command
@@ -324,56 +317,56 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
                      "JSON file with thresholds of segmentation that differ from the defaults, for experiments "
                      "(docs/segmentation.md)")
         ->check(CLI::ExistingFile);
-    command->add_flag("--force", given->import.force, "Write the set even if it is found not usable");
+    command->add_flag("--force", given->import.force, "Write the set even if checks fail");
     command
-        ->add_option(
-            "--calibration", given->calibration,
-            "auto (the surest that works), board, tracks, silhouettes or nominal (equal steps, a level camera)")
+        ->add_option("--calibration", given->calibration,
+                     "auto (the most accurate that succeeds), board, tracks, silhouettes or nominal (equal steps, a "
+                     "level camera)")
         ->check([](const std::string& text) {
             if (kCalibrations.contains(text)) return std::string();
             std::vector<std::string> names;
             for (const auto& [name, choice] : kCalibrations) names.push_back(name);
-            return "'" + text + "' is none of " + listed(names, names.size()) +
-                   (text == "given" ? "; what is known is given by --known" : "");
+            return "'" + text + "' is not one of " + listed(names, names.size()) +
+                   (text == "given" ? "; give known values by --known" : "");
         })
         ->capture_default_str();
     command->add_option(
         "--board", given->board,
-        "The board that lies on the turntable: default, or how it differs from what rs-capture board prints, "
-        "as squares=9x9,square-mm=18");
+        "Calibration board on the turntable: default, or differences from the default of rs-capture board, "
+        "e.g. squares=9x9,square-mm=18");
     command
-        ->add_option(
-            "--known", given->known,
-            "What is known and held: a transforms.json, a Middlebury *_par.txt, or intrinsics that OpenCV wrote "
-            "(.yml, .yaml, .xml)")
+        ->add_option("--known", given->known,
+                     "Known values, held constant: a transforms.json, a Middlebury *_par.txt, or OpenCV intrinsics "
+                     "(.yml, .yaml, .xml)")
         ->check(CLI::ExistingPath);
-    command->add_flag("--equal-steps", given->equal_steps, "All steps are the same; only their common size is found");
+    command->add_flag("--equal-steps", given->equal_steps, "All steps are equal; only their common size is estimated");
     command->add_flag("--principal-point", given->principal_point,
-                      "Find the principal point too (default: the picture's middle)");
+                      "Estimate the principal point, too (default: the image centre)");
     command
         ->add_option(
             "--fov", given->import.fov_deg,
-            "Horizontal field of view in degrees, held (default: found by calibration; in a nominal rig what the "
-            "camera states, else 25)")
+            "Horizontal field of view in degrees, held constant (default: calibrated; in a nominal rig from EXIF, "
+            "else 25)")
         ->check(CLI::Range(1.0, 120.0));
     command
-        ->add_option("--degrees-per-view", given->import.degrees_per_view,
-                     "Step from picture to picture, held (default: every angle is found; in a nominal rig 360 / number "
-                     "of pictures)")
+        ->add_option(
+            "--degrees-per-view", given->import.degrees_per_view,
+            "Step from image to image in degrees, held constant (default: all angles are estimated; in a nominal "
+            "rig 360 / number of images)")
         ->check(CLI::Range(0.01, 180.0));
     command->add_option("--axis-x", given->import.axis_x_px,
-                        "Picture column of the turntable's axis in px, for a nominal rig (default: from the "
+                        "Image column of the turntable's axis in px, for a nominal rig (default: from the "
                         "silhouettes of the full turn)");
     CLI::Option* clockwise = command->add_flag("--clockwise", given->clockwise,
                                                "The object turns clockwise seen from above: its front goes to the left "
-                                               "(default: read from the pictures, this where they do not tell)");
+                                               "(default: estimated from the images; clockwise if that fails)");
     command
         ->add_flag("--counter-clockwise", given->counter_clockwise,
                    "The object turns the other way: its front goes to the right")
         ->excludes(clockwise);
     command
         ->add_option("--report", given->report,
-                     "Also write PAGE.html: estimates, residuals, the axis on the photographs, the mattes")
+                     "Also write PAGE.html: estimates, residuals, the axis on the photos, alpha mattes")
         ->check(ends_in({".html", ".htm"}));
     command->add_flag("--json", given->json, "Print the summary as JSON");
     command->add_flag("-q,--quiet", given->quiet, "No progress bar, no notes");
@@ -381,7 +374,7 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
   rs-capture import photos/ -o shoe.set --report shoe.html
   rs-capture import photos/ -o shoe.set --segmentation-model isnet.onnx
   rs-capture import photos/ -o shoe.set --masks masks/
-  rs-capture import turn.mp4 -o shoe.set        a film of one turn or more (docs/film.md))");
+  rs-capture import turn.mp4 -o shoe.set        a video of one turn or more (docs/film.md))");
     command->callback([given, &run] { run = [given] { return run_import(*given); }; });
 }
 

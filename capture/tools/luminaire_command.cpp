@@ -90,27 +90,26 @@ PolarPlot plot_of(const Luminaire& lamp, const Spreads& spreads, const std::stri
 }
 
 Status run_luminaire(const LuminaireCommandLine& given) {
-    const Result<Luminaire> lamp = read_luminaire(given.file);
-    if (!lamp) return lamp.error();
-    const Spreads spreads{beam_spread(lamp->web, 0), beam_spread(lamp->web, 90)};
-    const std::string title = title_of(*lamp, given.file);
+    RS_ASSIGN_OR_RETURN(const Luminaire lamp, read_luminaire(given.file));
+    const Spreads spreads{beam_spread(lamp.web, 0), beam_spread(lamp.web, 90)};
+    const std::string title = title_of(lamp, given.file);
     if (!given.plot.empty()) {
-        if (Status written = write_file(given.plot, standalone_svg_of(plot_of(*lamp, spreads, title))); !written) {
+        if (Status written = write_file(given.plot, standalone_svg_of(plot_of(lamp, spreads, title))); !written) {
             return written;
         }
     }
     if (given.json) {
-        std::printf("%s\n", json_of(*lamp, spreads).dump(2).c_str());
+        std::printf("%s\n", json_of(lamp, spreads).dump(2).c_str());
         return {};
     }
-    std::printf("%s: %s, type %s: %s\n", given.file.string().c_str(), lamp->format.c_str(), name_of(lamp->type),
+    std::printf("%s: %s, type %s: %s\n", given.file.string().c_str(), lamp.format.c_str(), name_of(lamp.type),
                 title.c_str());
-    std::printf("  %s; by zones %.2f lm\n", lumens_line(*lamp).c_str(), lamp->web.zonal_lumens());
+    std::printf("  %s; by zones %.2f lm\n", lumens_line(lamp).c_str(), lamp.web.zonal_lumens());
     std::printf("  beam %.1f x %.1f degrees, field %.1f x %.1f (planes 0-180, 90-270)\n",
                 degrees(spreads.across.beam_rad), degrees(spreads.along.beam_rad), degrees(spreads.across.field_rad),
                 degrees(spreads.along.field_rad));
-    std::printf("  opening: %s, %.3f x %.3f x %.3f m\n", name_of(lamp->opening.shape), lamp->opening.across_m,
-                lamp->opening.along_m, lamp->opening.height_m);
+    std::printf("  opening: %s, %.3f x %.3f x %.3f m\n", name_of(lamp.opening.shape), lamp.opening.across_m,
+                lamp.opening.along_m, lamp.opening.height_m);
     return {};
 }
 
@@ -118,10 +117,9 @@ Status run_luminaire(const LuminaireCommandLine& given) {
 
 void add_luminaire_command(CLI::App& app, std::function<Status()>& run) {
     auto given = std::make_shared<LuminaireCommandLine>();
-    CLI::App* command =
-        app.add_subcommand("luminaire", "Tells how much light a measured luminaire gives, and where to");
+    CLI::App* command = app.add_subcommand("luminaire", "Print the light distribution of a measured luminaire");
     command->add_option("FILE", given->file, "IES (LM-63, all editions) or EULUMDAT (.ldt) file")->required();
-    command->add_flag("--json", given->json, "Print what was found as JSON");
+    command->add_flag("--json", given->json, "Print the results as JSON");
     command->add_option("-o,--output", given->plot, "Polar plot to write (.svg)")->check(ends_in({".svg"}));
     command->footer("Example: rs-capture luminaire downlight.ies -o downlight.svg");
     command->callback([given, &run] { run = [given] { return run_luminaire(*given); }; });

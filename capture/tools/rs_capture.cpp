@@ -1,4 +1,4 @@
-// rs-capture: photographs or traced pictures -> a calibrated, matted capture set.
+// rs-capture: photos or rendered images -> a calibrated capture set with alpha.
 
 #include "capture/tools/commands.hpp"
 #include "rayspace/tool/tool_main.hpp"
@@ -8,15 +8,15 @@
 #include <malloc.h>
 
 int main(int argc, char** argv) {
-    // Pictures come and go all the time. Given back to the system each time, a tenth of an import of large photographs
-    // would go into clearing their pages; glibc keeps blocks of up to 32 MB, if it is asked to.
+    // Large images are allocated and freed continually. Returning their memory to the system each time would cost a
+    // tenth of an import of large photos in page clearing; this makes glibc keep blocks of up to 32 MB.
     ::mallopt(M_MMAP_THRESHOLD, 32 << 20);
     ::mallopt(M_TRIM_THRESHOLD, 1 << 30);
-    CLI::App app("Makes capture sets (pictures and transforms.json) of objects on a turntable", "rs-capture");
+    CLI::App app("Make capture sets (images and transforms.json) of objects on a turntable", "rs-capture");
     app.require_subcommand(1);
     app.footer(
         "Examples:\n  rs-capture synth datasets-synthetic/recipes/vase.json -o vase-set\n  rs-capture import "
-        "photographs -o shoe-set");
+        "photos -o shoe-set");
     std::function<rs::Status()> run;
     rs::capture::add_synth_command(app, run);
     rs::capture::add_import_command(app, run);

@@ -31,9 +31,9 @@
 namespace rs::capture {
 namespace {
 
-// Output folders must not swallow what they are made of.
-// Where `path` is once links are followed, and where its name is, which differs where it is a link itself.
-std::vector<std::filesystem::path> places_of(const std::filesystem::path& path) {
+// The path with links resolved, and its location by name, which differs if the path itself is a link. Output folders
+// must not contain their inputs.
+std::vector<std::filesystem::path> locations_of(const std::filesystem::path& path) {
     std::error_code ignored;
     const std::filesystem::path plain = path.has_filename() ? path : path.parent_path();  // "set/" is "set"
     const std::filesystem::path folder = plain.has_parent_path() ? plain.parent_path() : std::filesystem::path(".");
@@ -45,10 +45,10 @@ bool is_within(const std::filesystem::path& path, const std::filesystem::path& f
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-Status check_output_keeps(const std::filesystem::path& output, const std::filesystem::path& input) {
+Status check_output_excludes(const std::filesystem::path& output, const std::filesystem::path& input) {
     if (input.empty()) return {};
-    for (const std::filesystem::path& folder : places_of(output)) {
-        for (const std::filesystem::path& place : places_of(input)) {
+    for (const std::filesystem::path& folder : locations_of(output)) {
+        for (const std::filesystem::path& place : locations_of(input)) {
             if (!is_within(place, folder)) continue;
             return Error{output.string() + ": writing the set would replace this folder and " + input.string() +
                          " with it; give another -o"};
@@ -57,7 +57,7 @@ Status check_output_keeps(const std::filesystem::path& output, const std::filesy
     return {};
 }
 
-// What the command line gives; empty where the recipe decides.
+// Command-line options; empty if the recipe's value applies.
 struct Options {
     std::filesystem::path scene;
     std::filesystem::path output;
@@ -101,7 +101,7 @@ Status print_objects(bool as_json) {
     return {};
 }
 
-// CLI11's own reader takes "-1" for the largest number and "010" for 8.
+// Strict parser: CLI11's accepts "-1" as the largest number and "010" as 8.
 Result<std::uint64_t> parse_seed(const std::string& text) {
     std::uint64_t seed = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
@@ -111,7 +111,7 @@ Result<std::uint64_t> parse_seed(const std::string& text) {
     return seed;
 }
 
-// The value, or wrong usage of `option`.
+// The value; an error becomes a usage error of `option`.
 template <class T>
 T parsed(const std::string& option, const Result<T>& value) {
     if (!value) throw CLI::ValidationError(option, value.error().message);
@@ -125,13 +125,13 @@ Status check_usage(const Options& options) {
                       options.distance_radii || options.focal_widths;
     if (!options.poses.empty() && ring) {
         return Error{
-            "--poses: the file says where the cameras are; leave out --views, --size, --elevation, --first-angle, "
+            "--poses: the file defines the cameras; leave out --views, --size, --elevation, --first-angle, "
             "--distance and --focal-widths"};
     }
-    if (!options.as_photos.asked) return {};
+    if (!options.as_photos.is_enabled) return {};
     if (!options.poses.empty() || options.first_angle_deg != 0 || options.depth || options.format != "png") {
         return Error{
-            "--as-photos: the truth says where the camera is; leave out --poses, --first-angle, --depth and "
+            "--as-photos: the camera is generated; leave out --poses, --first-angle, --depth and "
             "--format"};
     }
     if (options.elevation_deg && !(*options.elevation_deg >= 0 && *options.elevation_deg <= 85)) {
@@ -142,12 +142,11 @@ Status check_usage(const Options& options) {
 
 Result<Rig> choose_rig(const Options& options, const SceneFile& file) {
     if (!options.poses.empty()) {
-        Result<Rig> posed = read_rig(options.poses);
-        if (!posed) return posed.error();
-        Rig rig;  // keys of the other set, such as its generator's, are not ours
-        for (const RigView& view : posed->views) {
+        RS_ASSIGN_OR_RETURN(Rig posed, read_rig(options.poses));
+        Rig rig;  // keys of the other set, such as its generator's, are not copied
+        for (const RigView& view : posed.views) {
             if (view.camera.width == 0 || view.camera.height == 0) {
-                return Error{options.poses.string() + ": has no picture sizes; add \"w\" and \"h\""};
+                return Error{options.poses.string() + ": has no image sizes; add \"w\" and \"h\""};
             }
             RigView same;
             same.camera = view.camera;
@@ -168,15 +167,15 @@ Result<Rig> choose_rig(const Options& options, const SceneFile& file) {
     return make_ring(ring);
 }
 
-// What a run has made, for its summary.
-struct Made {
+// Results of a run, for the summary.
+struct RunResult {
     CaptureSetSummary summary;
     PixelSize size;
     double object_radius = 0;
     int samples_per_pixel = 0;
 };
 
-void print_summary(const Options& options, const std::string& scene_name, const Made& made, double total_s) {
+void print_summary(const Options& options, const std::string& scene_name, const RunResult& made, double total_s) {
     if (options.json) {
         const nlohmann::json report = {{"set", options.output.string()},
                                        {"scene", scene_name},
@@ -198,11 +197,10 @@ void print_summary(const Options& options, const std::string& scene_name, const 
                 100.0 * made.summary.mean_coverage, total_s);
 }
 
-Result<Made> make_set(const Options& options, SceneFile file, Progress& progress) {
-    Result<Rig> rig = choose_rig(options, file);
-    if (!rig) return rig.error();
-    rig->object_radius = file.object_radius;
-    rig->foot_height = file.ground_height;
+Result<RunResult> make_set(const Options& options, SceneFile file, Progress& progress) {
+    RS_ASSIGN_OR_RETURN(Rig rig, choose_rig(options, file));
+    rig.object_radius = file.object_radius;
+    rig.foot_height = file.ground_height;
 
     CaptureSetOptions set;
     set.render.samples_per_pixel = options.samples_per_pixel.value_or(file.camera.samples_per_pixel);
@@ -214,23 +212,23 @@ Result<Made> make_set(const Options& options, SceneFile file, Progress& progress
         set.render.method = RenderMethod::kToon;
         set.render.toon = *file.toon;
     }
-    const Camera& first = rig->views.front().camera;
+    const Camera& first = rig.views.front().camera;
     set.render.lens.aperture = file.camera.aperture_radii;
     set.render.lens.focus =
         file.camera.focus_radii > 0 ? file.camera.focus_radii : glm::dot(-first.centre(), first.forward());
-    set.format = options.format == "exr" ? PictureFormat::exr : PictureFormat::png;
+    set.format = options.format == "exr" ? ImageFormat::exr : ImageFormat::png;
 
-    const Result<Tracer> tracer = Tracer::create(std::move(file.scene));
-    if (!tracer) return tracer.error();
-    const Result<CaptureSetSummary> summary = write_capture_set(*tracer, *rig, set, options.output, &progress);
-    if (!summary) return summary.error();
-    const Camera& camera = rig->views.front().camera;
-    return Made{*summary, {camera.width, camera.height}, file.object_radius, set.render.samples_per_pixel};
+    RS_ASSIGN_OR_RETURN(const Tracer tracer, Tracer::create(std::move(file.scene)));
+    RS_ASSIGN_OR_RETURN(const CaptureSetSummary summary,
+                        write_capture_set(tracer, rig, set, options.output, &progress));
+    const Camera& camera = rig.views.front().camera;
+    return RunResult{summary, {camera.width, camera.height}, file.object_radius, set.render.samples_per_pixel};
 }
 
-Result<Made> make_photos(const Options& options, const SceneFile& file, Progress& progress) {
+Result<RunResult> make_photos(const Options& options, const SceneFile& file, Progress& progress) {
     if (file.toon) {
-        return Error{options.scene.string() + ": \"look\": \"toon\" is no photograph; leave out --as-photos"};
+        return Error{options.scene.string() +
+                     ": \"look\": \"toon\" cannot be rendered as photos; leave out --as-photos"};
     }
     PhotoOptions photos = options.as_photos.photos;
     SessionOptions& session = photos.session;
@@ -246,10 +244,9 @@ Result<Made> make_photos(const Options& options, const SceneFile& file, Progress
     photos.samples_per_pixel = options.samples_per_pixel.value_or(file.camera.samples_per_pixel);
     photos.filtered = !options.unfiltered;
     photos.threads = options.threads;
-    const Result<CaptureSetSummary> summary =
-        write_photo_session(file.scene, file.object_radius, photos, options.output, &progress);
-    if (!summary) return summary.error();
-    return Made{*summary, size, file.object_radius, photos.samples_per_pixel};
+    RS_ASSIGN_OR_RETURN(const CaptureSetSummary summary,
+                        write_photo_session(file.scene, file.object_radius, photos, options.output, &progress));
+    return RunResult{summary, size, file.object_radius, photos.samples_per_pixel};
 }
 
 Status synthesise(const Options& options) {
@@ -260,29 +257,27 @@ Status synthesise(const Options& options) {
     std::vector<std::filesystem::path> inputs = input_files(options.as_photos);
     inputs.insert(inputs.end(), {options.scene, options.poses});
     for (const std::filesystem::path& input : inputs) {
-        if (Status kept = check_output_keeps(options.output, input); !kept) return kept;
+        if (Status kept = check_output_excludes(options.output, input); !kept) return kept;
     }
-    Result<SceneFile> file = load_scene_file(options.scene, synthetic::generate);
-    if (!file) return file.error();
-    if (options.as_photos.asked && file->scene.has_surroundings()) {
-        return Error{
-            options.scene.string() +
-            ": photographs are taken in a studio of their own; leave out the recipe's \"room\", or --as-photos"};
+    RS_ASSIGN_OR_RETURN(SceneFile file, load_scene_file(options.scene, synthetic::generate));
+    if (options.as_photos.is_enabled && file.scene.has_surroundings()) {
+        return Error{options.scene.string() +
+                     ": photos are rendered in a built-in studio; leave out the recipe's \"room\", or --as-photos"};
     }
-    const std::string scene_name = file->scene.name;
+    const std::string scene_name = file.scene.name;
     ProgressBar progress(options.quiet);
-    const Result<Made> made = options.as_photos.asked ? make_photos(options, *file, progress)
-                                                      : make_set(options, std::move(file).value(), progress);
-    if (!made) return made.error();
+    RS_ASSIGN_OR_RETURN(const RunResult made, options.as_photos.is_enabled
+                                                  ? make_photos(options, file, progress)
+                                                  : make_set(options, std::move(file), progress));
     progress.finish();
-    if (made->summary.clipped_views > 0 && !options.quiet) {
+    if (made.summary.clipped_views > 0 && !options.quiet) {
         std::fprintf(
             stderr,
-            "rs-capture: warning: the object touches the picture's edge in %d of %d views; use a larger --distance or "
+            "rs-capture: warning: the object touches the image's edge in %d of %d views; use a larger --distance or "
             "a smaller --focal-widths\n",
-            made->summary.clipped_views, made->summary.views);
+            made.summary.clipped_views, made.summary.views);
     }
-    print_summary(options, scene_name, *made, std::chrono::duration<double>(Clock::now() - begun).count());
+    print_summary(options, scene_name, made, std::chrono::duration<double>(Clock::now() - begun).count());
     return {};
 }
 
@@ -290,7 +285,7 @@ Status synthesise(const Options& options) {
 
 void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     const auto options = std::make_shared<Options>();
-    CLI::App* synth = app.add_subcommand("synth", "Trace pictures of a synthetic object on a turntable");
+    CLI::App* synth = app.add_subcommand("synth", "Render images of a synthetic object on a turntable");
     synth->footer(std::string(kExamples) + kAsPhotosExamples);
     synth->add_option("SCENE", options->scene, "Mesh or recipe");
     synth->add_option("-o,--output", options->output, "Capture set to write: a folder")->type_name("SET");
@@ -300,7 +295,7 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     synth
         ->add_option_function<std::string>(
             "--size", [options](const std::string& text) { options->size = parsed("--size", parse_size(text)); },
-            "Picture size in pixels (recipe, or 512x512; photos: 640x512)")
+            "Image size in pixels (recipe, or 512x512; photos: 640x512)")
         ->type_name("WxH");
     synth->add_option("--spp", options->samples_per_pixel, "Samples per pixel; best a power of two (recipe, or 64)")
         ->check(CLI::Range(1, 65536))
@@ -312,30 +307,30 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
                      "Cameras' height above the horizon (recipe, or 0; photos: 20)")
         ->check(within(-89.0, 89.0))
         ->type_name("DEG");
-    synth->add_option("--first-angle", options->first_angle_deg, "Turns the whole ring")
+    synth->add_option("--first-angle", options->first_angle_deg, "Rotates the whole ring")
         ->check(within(-360.0, 360.0))
         ->type_name("DEG");
     synth
         ->add_option_function<std::string>(
             "--seed", [options](const std::string& text) { options->seed = parsed("--seed", parse_seed(text)); },
-            "Seed of the pictures' noise; the object keeps the recipe's")
+            "Seed of the image noise; the object's seed is the recipe's")
         ->type_name("N");
     synth
         ->add_option("--distance", options->distance_radii,
                      "Distance to the axis in bounding radii (recipe, or 3.5; photos: to fit)")
         ->check(within(1.001, 1000.0))
         ->type_name("R");
-    synth->add_option("--focal-widths", options->focal_widths, "Focal length in picture widths (recipe, or 1.4)")
+    synth->add_option("--focal-widths", options->focal_widths, "Focal length in image widths (recipe, or 1.4)")
         ->check(within(0.1, 100.0))
         ->type_name("F");
     synth->add_option("--format", options->format, "png: 8-bit sRGB; exr: linear float")
         ->check(CLI::IsMember({"png", "exr"}))
         ->capture_default_str();
     synth->add_flag("--no-filter", options->unfiltered,
-                    "Leave the samples' noise in the pictures; else it is smoothed where surfaces are alike,\n"
-                    "the less the more samples there are (cartoons never are)");
-    synth->add_flag("--depth", options->depth, "Write true axial depth beside each picture (EXR)");
-    synth->add_option("--threads", options->threads, "Threads; the pictures do not depend on it (0 = all)")
+                    "Do not denoise; by default noise is smoothed within similar surfaces,\n"
+                    "less so with more samples (toon images are never denoised)");
+    synth->add_flag("--depth", options->depth, "Write true axial depth beside each image (EXR)");
+    synth->add_option("--threads", options->threads, "Number of threads; does not affect the images (0 = all)")
         ->check(CLI::Range(0, 1024))
         ->type_name("N");
     synth->add_flag("--list", options->list, "List the procedural objects and stop");
@@ -344,7 +339,7 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     add_as_photos_options(*synth, options->as_photos);
     synth->callback([options, &run] {
         const Status usable = options->list ? Status{} : check_usage(*options);
-        if (!usable) throw CLI::ValidationError(usable.error().message);  // wrong usage, which is not a failure
+        if (!usable) throw CLI::ValidationError(usable.error().message);  // a usage error, not a failure
         run = [options] { return synthesise(*options); };
     });
 }

@@ -17,7 +17,7 @@ Handle<Kind::kRenderbuffer> new_renderbuffer(GLenum format, int width, int heigh
     return Handle<Kind::kRenderbuffer>(name);
 }
 
-// Bytes as they are: the window is not one of sRGB, and its first row is the lowest.
+// Copies bytes unconverted: the window is not an sRGB one, and its first row is the bottom.
 void copy_to_window(unsigned framebuffer, const glm::ivec2& from, const glm::ivec2& to) {
     glDisable(GL_FRAMEBUFFER_SRGB);
     const GLenum filter = from == to ? GL_NEAREST : GL_LINEAR;
@@ -37,8 +37,8 @@ Result<Framebuffer> Framebuffer::create(int width, int height, int samples) {
     glGetIntegerv(GL_MAX_SAMPLES, &most_samples);
     const std::string size = std::to_string(width) + "x" + std::to_string(height);
     if (width > largest || height > largest) {
-        return Error{"OpenGL: a picture of " + size + " is larger than the driver's " + std::to_string(largest) +
-                     " pixels a side; ask for a smaller one"};
+        return Error{"OpenGL: an image of " + size + " is larger than the driver's " + std::to_string(largest) +
+                     " pixels a side; use a smaller one"};
     }
     Framebuffer made;
     made.width_ = width;
@@ -52,7 +52,7 @@ Result<Framebuffer> Framebuffer::create(int width, int height, int samples) {
     glNamedFramebufferRenderbuffer(name, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, made.colour_.name());
     glNamedFramebufferRenderbuffer(name, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, made.depth_.name());
     if (glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        return Error{"OpenGL: the driver cannot draw into a picture of " + size + "; ask for a smaller one"};
+        return Error{"OpenGL: the driver cannot draw into an image of " + size + "; use a smaller one"};
     }
     return made;
 }
@@ -60,7 +60,7 @@ Result<Framebuffer> Framebuffer::create(int width, int height, int samples) {
 void Framebuffer::begin(const glm::vec3& background, bool keep_depth) const {
     glBindFramebuffer(GL_FRAMEBUFFER, handle_.name());
     glViewport(0, 0, width_, height_);
-    glDepthMask(GL_TRUE);  // it holds for clears too
+    glDepthMask(GL_TRUE);  // the mask also applies to clears
     const float colour[] = {background.r, background.g, background.b, 1.0F};
     glClearNamedFramebufferfv(handle_.name(), GL_COLOR, 0, colour);
     if (keep_depth) return;
@@ -99,22 +99,22 @@ void Framebuffer::show_in_window(int width, int height) const {
     copy_to_window(handle_.name(), {width_, height_}, {width, height});
 }
 
-void show_in_window(ConstImageView<Rgba8> picture, int width, int height) {
-    const Texture texture(picture.width(), picture.height());
-    texture.upload(picture);
+void show_in_window(ConstImageView<Rgba8> image, int width, int height) {
+    const Texture texture(image.width(), image.height());
+    texture.upload(image);
     unsigned name = 0;
     glCreateFramebuffers(1, &name);
     const Handle<Kind::kFramebuffer> handle(name);
     texture.attach_to(name);
-    copy_to_window(name, {picture.width(), picture.height()}, {width, height});
+    copy_to_window(name, {image.width(), image.height()}, {width, height});
 }
 
-Image<Rgba8> Framebuffer::read_picture() const {
+Image<Rgba8> Framebuffer::read_image() const {
     RS_CHECK(samples_ == 1);
-    Image<Rgba8> picture(width_, height_);
+    Image<Rgba8> image(width_, height_);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, handle_.name());
-    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, picture.data());
-    return picture;
+    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, image.data());
+    return image;
 }
 
 }  // namespace rs::gl

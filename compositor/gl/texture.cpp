@@ -27,16 +27,16 @@ GLenum format_of(TexelKind kind) {
     return GL_SRGB8_ALPHA8;
 }
 
-Image<glm::u16vec4> linear_texels(ConstImageView<Rgba8> picture) {
+Image<glm::u16vec4> linear_texels(ConstImageView<Rgba8> image) {
     std::array<std::uint16_t, 256> codes{};
     for (int c = 0; c < 256; ++c) {
         codes[static_cast<std::size_t>(c)] =
             static_cast<std::uint16_t>(std::lround(65535 * linear_from_srgb8(static_cast<std::uint8_t>(c))));
     }
-    Image<glm::u16vec4> texels(picture.width(), picture.height());
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            const Rgba8 p = picture(x, y);
+    Image<glm::u16vec4> texels(image.width(), image.height());
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            const Rgba8 p = image(x, y);
             texels(x, y) = {codes[p.r], codes[p.g], codes[p.b], p.a * 257};
         }
     }
@@ -58,22 +58,22 @@ Texture::Texture(int width, int height, TexelKind kind) : Texture(width, height,
     glTextureParameteri(handle_.name(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
 
-Texture::Texture(ConstImageView<Rgba8> picture, const TextureWrap& wrap)
-    : Texture(picture.width(), picture.height(), TexelKind::kLinear,
-              std::bit_width(static_cast<unsigned>(std::max(picture.width(), picture.height())))) {
-    const Image<glm::u16vec4> linear = linear_texels(picture);
+Texture::Texture(ConstImageView<Rgba8> image, const TextureWrap& wrap)
+    : Texture(image.width(), image.height(), TexelKind::kLinear,
+              std::bit_width(static_cast<unsigned>(std::max(image.width(), image.height())))) {
+    const Image<glm::u16vec4> linear = linear_texels(image);
     upload(linear.data(), linear.width(), linear.height(), linear.width(), GL_RGBA, GL_UNSIGNED_SHORT);
-    read_smoothly(wrap);
+    set_trilinear(wrap);
 }
 
 Texture::Texture(ConstImageView<RgbaF> directions, const TextureWrap& wrap)
     : Texture(directions.width(), directions.height(), TexelKind::kDirection,
               std::bit_width(static_cast<unsigned>(std::max(directions.width(), directions.height())))) {
     upload(directions.data(), directions.width(), directions.height(), directions.stride(), GL_RGBA, GL_FLOAT);
-    read_smoothly(wrap);
+    set_trilinear(wrap);
 }
 
-void Texture::read_smoothly(const TextureWrap& wrap) const {
+void Texture::set_trilinear(const TextureWrap& wrap) const {
     const unsigned name = handle_.name();
     glGenerateTextureMipmap(name);
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
@@ -82,12 +82,12 @@ void Texture::read_smoothly(const TextureWrap& wrap) const {
     glTextureParameteri(name, GL_TEXTURE_WRAP_T, wrap.repeat_t ? GL_REPEAT : GL_CLAMP_TO_EDGE);
 }
 
-void Texture::upload(ConstImageView<Rgba8> picture) const {
-    upload(picture.data(), picture.width(), picture.height(), picture.stride(), GL_RGBA, GL_UNSIGNED_BYTE);
+void Texture::upload(ConstImageView<Rgba8> image) const {
+    upload(image.data(), image.width(), image.height(), image.stride(), GL_RGBA, GL_UNSIGNED_BYTE);
 }
 
-void Texture::upload(ConstImageView<float> picture) const {
-    upload(picture.data(), picture.width(), picture.height(), picture.stride(), GL_RED, GL_FLOAT);
+void Texture::upload(ConstImageView<float> image) const {
+    upload(image.data(), image.width(), image.height(), image.stride(), GL_RED, GL_FLOAT);
 }
 
 void Texture::upload(const void* texels, int width, int height, std::ptrdiff_t stride, unsigned format,

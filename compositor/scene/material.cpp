@@ -8,7 +8,7 @@ AlphaUse alpha_use(const SceneTexture& texture) {
     if (!texture.has_alpha) return AlphaUse::kNone;
     std::size_t between = 0;
     std::size_t not_opaque = 0;
-    const std::span<const Rgba8> pixels = texture.picture.pixels();
+    const std::span<const Rgba8> pixels = texture.image.pixels();
     for (const Rgba8& pixel : pixels) {
         between += pixel.a > 16 && pixel.a < 239;
         not_opaque += pixel.a < 239;

@@ -16,33 +16,33 @@ int neighbour(int at, int size, bool repeats) {
 
 }  // namespace
 
-std::shared_ptr<const NormalMap> normal_map(const SceneTexture& picture, float scale) {
+std::shared_ptr<const NormalMap> normal_map(const SceneTexture& image, float scale) {
     auto map = std::make_shared<NormalMap>();
-    map->repeat_s = picture.repeat_s;
-    map->repeat_t = picture.repeat_t;
-    map->directions = Image<RgbaF>(picture.picture.width(), picture.picture.height());
-    std::ranges::transform(picture.picture.pixels(), map->directions.pixels().begin(), [&](const Rgba8& p) {
+    map->repeat_s = image.repeat_s;
+    map->repeat_t = image.repeat_t;
+    map->directions = Image<RgbaF>(image.image.width(), image.image.height());
+    std::ranges::transform(image.image.pixels(), map->directions.pixels().begin(), [&](const Rgba8& p) {
         return RgbaF{scale * signed_part(p.r), scale * signed_part(p.g), std::max(signed_part(p.b), 0.0F), 1};
     });
     return map;
 }
 
-std::shared_ptr<const NormalMap> normal_map_of_heights(const SceneTexture& picture, float multiplier) {
-    const Image<Rgba8>& heights = picture.picture;
+std::shared_ptr<const NormalMap> normal_map_of_heights(const SceneTexture& image, float multiplier) {
+    const Image<Rgba8>& heights = image.image;
     auto map = std::make_shared<NormalMap>();
-    map->repeat_s = picture.repeat_s;
-    map->repeat_t = picture.repeat_t;
+    map->repeat_s = image.repeat_s;
+    map->repeat_t = image.repeat_t;
     map->directions = Image<RgbaF>(heights.width(), heights.height());
-    // Integers, so that even heights are even exactly; white is 255000.
+    // Integers, so that constant heights give exactly flat normals; white is 255000.
     const auto height = [&](int x, int y) {
         const Rgba8& p =
-            heights(neighbour(x, heights.width(), picture.repeat_s), neighbour(y, heights.height(), picture.repeat_t));
+            heights(neighbour(x, heights.width(), image.repeat_s), neighbour(y, heights.height(), image.repeat_t));
         return 299 * p.r + 587 * p.g + 114 * p.b;
     };
     for (int y = 0; y < heights.height(); ++y) {
         for (int x = 0; x < heights.width(); ++x) {
-            int rise_s = 0;  // to the right
-            int rise_t = 0;  // up
+            int rise_s = 0;  // towards the right
+            int rise_t = 0;  // upwards
             for (const auto& [aside, weight] : {std::pair(-1, 1), std::pair(0, 2), std::pair(1, 1)}) {
                 rise_s += weight * (height(x + 1, y + aside) - height(x - 1, y + aside));
                 rise_t += weight * (height(x + aside, y - 1) - height(x + aside, y + 1));

@@ -24,7 +24,7 @@ Showroom::Showroom(const Scene& scene, const ShowroomOptions& options, std::uniq
                    std::unique_ptr<ObjectSource> source)
     : plan_(scene),
       waits_(options.waits),
-      engine_(std::make_shared<engine::DataModule>(limits_of_viewer(), std::move(board))),
+      engine_(std::make_shared<engine::RenderSession>(limits_of_viewer(), std::move(board))),
       nodes_(std::make_shared<ShownNodes>(scene.objects.size())),
       handles_(plan_.files().size()),
       cache_(plan_.files(), source ? std::move(source) : object_files(engine_, !options.waits), options.memory_bytes) {
@@ -48,15 +48,14 @@ Placeholder Showroom::placeholder_of(std::size_t node) const {
 }
 
 Status Showroom::arrive(const CacheEvent& event) {
-    const Result<engine::ObjectHandle> handle = engine_->load(prepared(event.object));
-    if (!handle) return handle.error();
-    handles_[event.file] = *handle;
+    RS_ASSIGN_OR_RETURN(const engine::ObjectHandle handle, engine_->load(prepared(event.object)));
+    handles_[event.file] = handle;
     for (std::size_t i = 0; i < scene_nodes_.size(); ++i) {
         if (plan_.file_of_node(i) != event.file) continue;
         ShownNode& node = (*nodes_)[i];
         scene_nodes_[i].extent = event.object->extent;
         node.object = place(event.object, scene_nodes_[i].description);
-        node.handle = *handle;
+        node.handle = handle;
         node.opacity = waits_ ? 1 : 0;
     }
     return {};

@@ -6,10 +6,10 @@
 // No OpenGL here. One thread; it never waits for a file unless the options require it.
 
 #include "compositor/scene/scene.hpp"
-#include "compositor/viewer/drawing/shown_parts.hpp"
+#include "compositor/viewer/drawing/displayed_nodes.hpp"
 #include "compositor/viewer/residency/load_priority.hpp"
 #include "compositor/viewer/residency/object_cache.hpp"
-#include "engine/driver/data_module.hpp"
+#include "engine/driver/render_session.hpp"
 #include "rayspace/base/result.hpp"
 
 #include <glm/glm.hpp>
@@ -27,7 +27,7 @@ std::int64_t usual_memory_budget();
 
 struct ShowroomOptions {
     std::int64_t memory_bytes = usual_memory_budget();  // that objects may take, while they are read too
-    // Every update waits for all objects that are needed and fit: the same pictures every time. Else objects come when
+    // Every update waits for all objects that are needed and fit: the same images every time. Else objects come when
     // they are read, and fade in.
     bool waits = false;
 };
@@ -39,7 +39,7 @@ public:
              std::unique_ptr<ObjectSource> source = nullptr);
 
     // For FrameCompositor::create().
-    [[nodiscard]] std::shared_ptr<engine::DataModule> engine() const { return engine_; }
+    [[nodiscard]] std::shared_ptr<engine::RenderSession> engine() const { return engine_; }
     [[nodiscard]] std::shared_ptr<const ShownNodes> nodes() const { return nodes_; }
 
     // Before each frame: where the visitor is, `seconds` after the frame before, and is about to be brought to, if not
@@ -82,7 +82,7 @@ private:
     std::vector<Node> scene_nodes_;
     RoomPlan plan_;
     bool waits_;
-    std::shared_ptr<engine::DataModule> engine_;
+    std::shared_ptr<engine::RenderSession> engine_;
     std::shared_ptr<ShownNodes> nodes_;
     std::vector<engine::ObjectHandle> handles_;  // [file]; 0 where it is not there
     std::vector<std::string> warnings_;

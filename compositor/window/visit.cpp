@@ -64,18 +64,18 @@ Result<std::unique_ptr<Visit>> Visit::create(Window window, const Scene& scene, 
                                              const VisitOptions& options) {
     RS_CHECK(!options.viewpoints.empty());
     const glm::ivec2 size = glm::max(window.framebuffer_px(), glm::ivec2(1));
-    Result<FrameCompositor> compositor = FrameCompositor::create(scene, showroom->engine(), showroom->nodes(),
-                                                                 {.width = size.x,
-                                                                  .height = size.y,
-                                                                  .samples = options.samples,
-                                                                  .shadows = options.shadows,
-                                                                  .exposure_ev = options.exposure_ev,
-                                                                  .object_depth = options.object_depth,
-                                                                  .object_samples = options.object_samples,
-                                                                  .upright_pictures = true});
-    if (!compositor) return compositor.error();
+    RS_ASSIGN_OR_RETURN(FrameCompositor compositor,
+                        FrameCompositor::create(scene, showroom->engine(), showroom->nodes(),
+                                                {.width = size.x,
+                                                 .height = size.y,
+                                                 .samples = options.samples,
+                                                 .shadows = options.shadows,
+                                                 .exposure_ev = options.exposure_ev,
+                                                 .object_depth = options.object_depth,
+                                                 .object_samples = options.object_samples,
+                                                 .upright_images = true}));
     return std::unique_ptr<Visit>(
-        new Visit(std::move(window), std::move(showroom), std::move(*compositor), scene, options));
+        new Visit(std::move(window), std::move(showroom), std::move(compositor), scene, options));
 }
 
 Camera Visit::camera() const {
@@ -187,24 +187,24 @@ Result<bool> Visit::play(double seconds) {
     }
     const bool other = playback_->advance(seconds);
     if (!other) return false;
-    if (Status status = playback_->show(compositor_, *showroom_); !status) return status.error();
+    RS_TRY(playback_->show(compositor_, *showroom_));
     if (refined_) compositor_.set_traced(nullptr);
     refined_.reset();
     refinement_.reset();
     return true;
 }
 
-Status Visit::take_pictures() {
+Status Visit::take_images() {
     if (playback_ && playback_->take_jpeg()) {
         constexpr int kQuality = 92;
-        const std::filesystem::path path = free_name(options_.pictures, "screenshot", ".jpg", shots_);
-        const Status written = write_jpeg(path, compositor_.picture(), kQuality);
+        const std::filesystem::path path = free_name(options_.images, "screenshot", ".jpg", shots_);
+        const Status written = write_jpeg(path, compositor_.image(), kQuality);
         report(written ? path.string() : written.error().message);
     }
     if (!panel_.take_screenshot) return {};
     panel_.take_screenshot = false;
-    const std::filesystem::path path = free_name(options_.pictures, "screenshot", ".png", shots_);
-    const Status written = write_png(path, compositor_.picture());
+    const std::filesystem::path path = free_name(options_.images, "screenshot", ".png", shots_);
+    const Status written = write_png(path, compositor_.image());
     report(written ? path.string() : written.error().message);
     return {};
 }
@@ -212,7 +212,7 @@ Status Visit::take_pictures() {
 Status Visit::record() {
     if (panel_.recording && !video_) {
         int number = 0;
-        const std::filesystem::path path = free_name(options_.pictures, "recording", ".mp4", number);
+        const std::filesystem::path path = free_name(options_.images, "recording", ".mp4", number);
         const double rate = playback_ && playback_->saving() ? playback_->frames_per_second() : kRecordedFrames_per_s;
         Result<VideoWriter> video = VideoWriter::open(path, compositor_.width(), compositor_.height(), rate);
         if (!video) {
@@ -224,7 +224,7 @@ Status Visit::record() {
         report("recording " + path.string());
     }
     if (!video_) return {};
-    Status status = panel_.recording ? video_->add(compositor_.picture()) : video_->finish();
+    Status status = panel_.recording ? video_->add(compositor_.image()) : video_->finish();
     if (!panel_.recording || !status) {
         video_.reset();
         panel_.recording = false;
@@ -296,20 +296,19 @@ Result<bool> Visit::step(std::optional<double> seconds) {
         if (!desk_.take(event, desk_view())) input_.take(event);
     }
     for (const Key command : input_.commands()) {
-        if (Status status = obey(command); !status) return status.error();
+        RS_TRY(obey(command));
     }
     if (window_.should_close()) return false;
     const glm::ivec2 size = window_.framebuffer_px();
     if (size.x < 1 || size.y < 1) return true;  // an icon
     if (size.x != compositor_.width() || size.y != compositor_.height()) {
-        if (Status status = compositor_.resize(size.x, size.y); !status) return status.error();
+        RS_TRY(compositor_.resize(size.x, size.y));
         if (video_) panel_.recording = false;  // a video has one size
     }
 
-    if (Status status = relight(); !status) return status.error();
+    RS_TRY(relight());
     const bool turned = move(passed);
-    const Result<bool> played = play(passed);
-    if (!played) return played.error();
+    RS_ASSIGN_OR_RETURN(const bool played, play(passed));
     if (playback_) {
         const std::string folder = playback_->take_folder();
         if (!folder.empty() && options_.open) {
@@ -323,22 +322,22 @@ Result<bool> Visit::step(std::optional<double> seconds) {
         report(status.error().message);
     }
     const std::optional<glm::dvec3> destination = travel_ ? std::optional(travel_->to.eye) : std::nullopt;
-    if (Status status = showroom_->update(visitor_.eye, passed, destination); !status) return status.error();
+    RS_TRY(showroom_->update(visitor_.eye, passed, destination));
     hear_showroom();
     const Camera here = camera();
     expect_tracing(here, passed);
     // A view that stands still is drawn again when it is better, or something in it may have changed.
-    const bool changed = refine(here) || turned || *played || !showroom_->settled();
+    const bool changed = refine(here) || turned || played || !showroom_->settled();
     if (changed) {
-        if (Status status = compositor_.draw(refined_ ? shown_from_ : here); !status) return status.error();
+        RS_TRY(compositor_.draw(refined_ ? shown_from_ : here));
     } else {
         std::this_thread::sleep_for(kPauseWhileTracing);
     }
     if (const auto click = input_.click()) pick(*click);
-    if (Status status = take_pictures(); !status) return status.error();
-    if (Status status = record(); !status) return status.error();
+    RS_TRY(take_images());
+    RS_TRY(record());
     refresh_panel(passed);
-    if (Status status = show(size); !status) return status.error();
+    RS_TRY(show(size));
     const int picked_before = panel_.picked;
     overlay_->draw(panel_, [this] {
         if (desk_.is_open()) light_panel_.draw(desk_, desk_view());
@@ -351,12 +350,11 @@ Result<bool> Visit::step(std::optional<double> seconds) {
 }
 
 Status visit(Window window, const Scene& scene, std::unique_ptr<Showroom> showroom, const VisitOptions& options) {
-    const Result<std::unique_ptr<Visit>> made = Visit::create(std::move(window), scene, std::move(showroom), options);
-    if (!made) return made.error();
+    RS_ASSIGN_OR_RETURN(const std::unique_ptr<Visit> made,
+                        Visit::create(std::move(window), scene, std::move(showroom), options));
     for (;;) {
-        const Result<bool> goes_on = (*made)->step();
-        if (!goes_on) return goes_on.error();
-        if (!*goes_on) return {};
+        RS_ASSIGN_OR_RETURN(const bool goes_on, made->step());
+        if (!goes_on) return {};
     }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A visit to a scene in a window: walk, fly, look around, pick and turn objects, take pictures home.
+// A visit to a scene in a window: walk, fly, look around, pick and turn objects, take images home.
 //
 // For the main thread only. The scene is read before; objects come while the visit goes on.
 
@@ -8,14 +8,14 @@
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/viewer/views/navigation.hpp"
-#include "compositor/window/light_desk.hpp"
+#include "compositor/window/light_editor.hpp"
 #include "compositor/window/light_panel.hpp"
 #include "compositor/window/overlay.hpp"
 #include "compositor/window/playback.hpp"
 #include "compositor/window/visitor_input.hpp"
 #include "compositor/window/window.hpp"
 #include "rayspace/base/result.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <chrono>
 #include <filesystem>
@@ -28,8 +28,8 @@
 namespace rs::compositor {
 
 struct VisitOptions {
-    std::vector<Viewpoint> viewpoints;     // at least one; the first is where the visit begins
-    std::filesystem::path pictures = ".";  // where screenshots and recordings go
+    std::vector<Viewpoint> viewpoints;   // at least one; the first is where the visit begins
+    std::filesystem::path images = ".";  // where screenshots and recordings go
     int samples = 4;
     bool wire_frame = false;
     ObjectDepth object_depth = ObjectDepth::kPlane;
@@ -52,7 +52,7 @@ public:
                                                  const VisitOptions& options);
     ~Visit();  // finishes a recording
 
-    // A frame: what happened since the last, the picture, the overlay. False when the visitor wants to leave.
+    // A frame: what happened since the last, the image, the overlay. False when the visitor wants to leave.
     // `seconds`: since the last frame, by a clock on the wall if not given.
     Result<bool> step(std::optional<double> seconds = std::nullopt);
 
@@ -61,11 +61,11 @@ public:
     [[nodiscard]] const PanelState& panel() const { return panel_; }
     // Whether traced light has its trees, or will have them soon: for who has stood still for a second, or traces.
     [[nodiscard]] bool has_tracer() const { return refinement_.has_value(); }
-    // Traced light follows whoever moves, by coarse pictures; else the view stands still.
+    // Traced light follows whoever moves, by coarse images; else the view stands still.
     void walk_on(bool on) { panel_.walk_on = on; }
     [[nodiscard]] LightDesk& lights() { return desk_; }
     // Of the last frame, without the overlay.
-    [[nodiscard]] Image<Rgba8> picture() const { return compositor_.picture(); }
+    [[nodiscard]] Image<Rgba8> image() const { return compositor_.image(); }
 
 private:
     Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor compositor, const Scene& scene,
@@ -86,10 +86,10 @@ private:
     void make_tracer();
     // Makes it ahead for whoever stands still, so that it is there, or soon will be, when traced light is switched on.
     void expect_tracing(const Camera& here, double seconds);
-    // Whether there is a new picture to show.
+    // Whether there is a new image to show.
     bool refine(const Camera& here);
     Result<bool> play(double seconds);
-    Status take_pictures();
+    Status take_images();
     Status record();
     void refresh_panel(double seconds);
     void hear_showroom();
@@ -120,7 +120,7 @@ private:
     Camera still_at_;                // of the last frame
     double still_s_ = 0;             // for which nobody has moved
     std::optional<Camera> refined_;  // what is traced now
-    Camera shown_from_;              // of the traced picture, which is behind where one walks on
+    Camera shown_from_;              // of the traced image, which is behind where one walks on
     TracedMethod refined_by_ = TracedMethod::kPath;
     bool relit_ = false;  // since the tracer began
     LightDesk desk_;

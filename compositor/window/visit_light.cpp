@@ -92,7 +92,7 @@ bool Visit::refine(const Camera& here) {
     if (!step || step->camera.width != here.width || step->camera.height != here.height) return anew;
     panel_.passes = step->passes;
     shown_from_ = step->camera;
-    compositor_.set_traced(step->picture);
+    compositor_.set_traced(step->image);
     return true;
 }
 

@@ -1,7 +1,7 @@
 #include "compositor/window/wall_visit.hpp"
 
 #include "compositor/window/visit.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kHeadSpeed_m_per_s = 0.3;
 
-// The head where it is in the scene.
+// Head pose in the scene.
 Visitor as_visitor(const Head& head, const RoomPlace& place) {
     return {.eye = place.in_scene(head.position), .heading_rad = place.heading_rad + head.heading_rad};
 }
 
-// The room around a head that is there.
+// Room pose around a head with this pose in the scene.
 RoomPlace place_around(const Visitor& visitor, const Head& head, double units_per_metre) {
     RoomPlace place;
     place.units_per_metre = units_per_metre;
@@ -42,7 +42,7 @@ WallVisit::WallVisit(std::vector<Window> windows, std::unique_ptr<Showroom> show
 WallVisit::~WallVisit() {
     windows_.front().make_current();
     compositor_.reset();
-    // The last one that was opened is the first to go: GLFW ends with none that is current.
+    // In reverse order of creation: GLFW then ends without a current context.
     while (!windows_.empty()) windows_.pop_back();
 }
 
@@ -58,29 +58,30 @@ Result<std::unique_ptr<WallVisit>> WallVisit::create(const Scene& scene, std::un
         window.title = wall.name;
         window.width = wall.width * (options.stereo == StereoForm::kSideBySide ? 2 : 1);
         window.height = wall.height * (options.stereo == StereoForm::kTopBottom ? 2 : 1);
-        // Only one of them waits for the screen.
+        // Only one window waits for vertical synchronisation.
         window.wait_for_screen = options.window.wait_for_screen && windows.size() + 1 == options.display.walls.size();
-        Result<Window> opened = Window::create(window);
-        if (!opened) return opened.error();
-        windows.push_back(std::move(*opened));
+        RS_ASSIGN_OR_RETURN(Window opened, Window::create(window));
+        windows.push_back(std::move(opened));
     }
     windows.front().make_current();
     const Wall& first = options.display.walls.front();
-    Result<FrameCompositor> compositor = FrameCompositor::create(scene, showroom->engine(), showroom->nodes(),
-                                                                 {.width = first.width,
-                                                                  .height = first.height,
-                                                                  .samples = options.samples,
-                                                                  .exposure_ev = options.exposure_ev,
-                                                                  .object_depth = options.object_depth,
-                                                                  .object_samples = options.object_samples,
-                                                                  .upright_pictures = true});
-    if (!compositor) return compositor.error();
+    RS_ASSIGN_OR_RETURN(FrameCompositor compositor,
+                        FrameCompositor::create(scene, showroom->engine(), showroom->nodes(),
+                                                {.width = first.width,
+                                                 .height = first.height,
+                                                 .samples = options.samples,
+                                                 .wire_frame = options.wire_frame,
+                                                 .shadows = options.shadows,
+                                                 .exposure_ev = options.exposure_ev,
+                                                 .object_depth = options.object_depth,
+                                                 .object_samples = options.object_samples,
+                                                 .upright_images = true}));
     std::unique_ptr<WallVisit> visit(new WallVisit(std::move(windows), std::move(showroom), scene, options));
-    visit->compositor_.emplace(std::move(*compositor));
+    visit->compositor_.emplace(std::move(compositor));
     return visit;
 }
 
-void WallVisit::obey(Key command) {
+void WallVisit::on_key(Key command) {
     const auto go_to = [&](std::size_t number) {
         viewpoint_ = number;
         const Viewpoint& there = viewpoints_[number];
@@ -107,17 +108,17 @@ void WallVisit::obey(Key command) {
             place_ = options_.place;
             break;
         case Key::kScreenshot:
-            takes_pictures_ = true;
+            save_requested_ = true;
             break;
         case Key::kQuit:
-            leaves_ = true;
+            quits_ = true;
             break;
         default:
             break;
     }
 }
 
-bool WallVisit::sees_all_walls(const Head& head) const {
+bool WallVisit::is_before_all_walls(const Head& head) const {
     const double half = options_.stereo ? options_.display.eye_distance_m / 2 : 0;
     return std::all_of(options_.display.walls.begin(), options_.display.walls.end(), [&](const Wall& wall) {
         return wall_camera(wall, head.eye(-half), place_).ok() && wall_camera(wall, head.eye(half), place_).ok();
@@ -131,7 +132,7 @@ void WallVisit::move(double seconds) {
         next_head_ = (next_head_ + 1) % options_.heads.size();
     }
     if (const std::optional<Head> tracked = options_.tracked ? options_.tracked() : std::nullopt) {
-        if (sees_all_walls(*tracked)) head_ = *tracked;
+        if (is_before_all_walls(*tracked)) head_ = *tracked;
     }
     if (!moves_head_) {
         const double speed = navigation_.speed;
@@ -145,26 +146,23 @@ void WallVisit::move(double seconds) {
     head.position = there.eye;
     head.heading_rad = there.heading_rad;
     head.pitch_rad = there.pitch_rad;
-    if (sees_all_walls(head)) head_ = head;  // walls are not walked through
+    if (is_before_all_walls(head)) head_ = head;  // walls block the head
 }
 
-Result<Image<Rgba8>> WallVisit::drawn(const Wall& wall, double offset_m) {
-    const Result<Camera> camera = wall_camera(wall, head_.eye(offset_m), place_);
-    if (!camera) return camera.error();
-    return compositor_->compose(*camera);
+Result<Image<Rgba8>> WallVisit::draw_eye(const Wall& wall, double offset_m) {
+    RS_ASSIGN_OR_RETURN(const Camera camera, wall_camera(wall, head_.eye(offset_m), place_));
+    return compositor_->compose(camera);
 }
 
-Result<Image<Rgba8>> WallVisit::picture_of(const Wall& wall) {
+Result<Image<Rgba8>> WallVisit::image_of(const Wall& wall) {
     if (wall.width != compositor_->width() || wall.height != compositor_->height()) {
-        if (const Status status = compositor_->resize(wall.width, wall.height); !status) return status.error();
+        RS_TRY(compositor_->resize(wall.width, wall.height));
     }
-    if (!options_.stereo) return drawn(wall, 0);
+    if (!options_.stereo) return draw_eye(wall, 0);
     const double half = options_.display.eye_distance_m / 2;
-    const Result<Image<Rgba8>> left = drawn(wall, -half);
-    if (!left) return left.error();
-    const Result<Image<Rgba8>> right = drawn(wall, half);
-    if (!right) return right.error();
-    return stereo_picture(*options_.stereo, *left, *right);
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> left, draw_eye(wall, -half));
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> right, draw_eye(wall, half));
+    return stereo_image(*options_.stereo, left, right);
 }
 
 Result<bool> WallVisit::step(std::optional<double> seconds) {
@@ -173,50 +171,45 @@ Result<bool> WallVisit::step(std::optional<double> seconds) {
     last_ = now;
     for (Window& window : windows_) {
         for (const Event& event : window.poll()) input_.take(event);
-        leaves_ = leaves_ || window.should_close();
+        quits_ = quits_ || window.should_close();
     }
-    for (const Key command : input_.commands()) obey(command);
-    if (leaves_) return false;
+    for (const Key command : input_.commands()) on_key(command);
+    if (quits_) return false;
     move(passed);
-    if (const Status status = showroom_->update(place_.in_scene(head_.position), passed); !status) {
-        return status.error();
-    }
+    RS_TRY(showroom_->update(place_.in_scene(head_.position), passed));
     if (const std::vector<std::string> warnings = showroom_->take_warnings(); !warnings.empty() && options_.warn) {
         options_.warn(warnings);
     }
     windows_.front().make_current();
-    pictures_.clear();
+    images_.clear();
     for (const Wall& wall : options_.display.walls) {
-        Result<Image<Rgba8>> picture = picture_of(wall);
-        if (!picture) return picture.error();
-        pictures_.push_back(std::move(*picture));
+        RS_ASSIGN_OR_RETURN(Image<Rgba8> image, image_of(wall));
+        images_.push_back(std::move(image));
     }
     for (std::size_t i = 0; i < windows_.size(); ++i) {
         const glm::ivec2 size = windows_[i].framebuffer_px();
-        if (size.x < 1 || size.y < 1) continue;  // an icon
+        if (size.x < 1 || size.y < 1) continue;  // minimised
         windows_[i].make_current();
-        gl::show_in_window(pictures_[i].view(), size.x, size.y);
+        gl::show_in_window(images_[i].view(), size.x, size.y);
         windows_[i].swap();
     }
     windows_.front().make_current();
-    if (std::exchange(takes_pictures_, false)) {
-        for (std::size_t i = 0; i < pictures_.size(); ++i) {
+    if (std::exchange(save_requested_, false)) {
+        for (std::size_t i = 0; i < images_.size(); ++i) {
             int number = shots_;
             const std::string prefix = "wall-" + options_.display.walls[i].name;
-            const auto path = free_name(options_.pictures, prefix.c_str(), ".png", number);
-            if (const Status status = write_png(path, pictures_[i]); !status) return status.error();
+            const auto path = free_name(options_.images, prefix.c_str(), ".png", number);
+            RS_TRY(write_png(path, images_[i]));
         }
     }
     return true;
 }
 
 Status visit_walls(const Scene& scene, std::unique_ptr<Showroom> showroom, const WallVisitOptions& options) {
-    const auto visit = WallVisit::create(scene, std::move(showroom), options);
-    if (!visit) return visit.error();
+    RS_ASSIGN_OR_RETURN(const auto visit, WallVisit::create(scene, std::move(showroom), options));
     for (;;) {
-        const Result<bool> goes_on = (*visit)->step();
-        if (!goes_on) return goes_on.error();
-        if (!*goes_on) return {};
+        RS_ASSIGN_OR_RETURN(const bool goes_on, visit->step());
+        if (!goes_on) return {};
     }
 }
 

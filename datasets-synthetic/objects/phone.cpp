@@ -33,13 +33,13 @@ struct Slab {
 
 // A point of a cross-section through a slab's edge.
 struct EdgePoint {
-    float inset;  // from the outline inwards; 1 or more: the middle of a face
+    float inset;  // distance inwards from the contour; 1 or more: the middle of a face
     float z;
-    float sideways, along_z;  // the normal, relative to the outline's
+    float sideways, along_z;  // normal relative to the contour's
 };
 
-// The outline's points, counter-clockwise seen from +z, with their normals.
-std::vector<std::pair<vec2, vec2>> outline(const Slab& slab) {
+// Contour points, counter-clockwise seen from +z, with their normals.
+std::vector<std::pair<vec2, vec2>> contour(const Slab& slab) {
     constexpr int kStepsPerCorner = 10;
     const vec2 core = vec2{slab.half_size} - slab.corner_radius;
     std::vector<std::pair<vec2, vec2>> points;
@@ -56,10 +56,10 @@ std::vector<std::pair<vec2, vec2>> outline(const Slab& slab) {
     return points;
 }
 
-// Sweeps a cross-section, from the back (-z) to the front, around the slab's outline. Texture coordinates are x and y
+// Sweeps a cross-section, from the back (-z) to the front, around the slab's contour. Texture coordinates are x and y
 // of the slab's rectangle, mirrored in x so that they are upright on the back.
 void append_section(capture::Mesh& mesh, const Slab& slab, std::span<const EdgePoint> section) {
-    const std::vector<std::pair<vec2, vec2>> around = outline(slab);
+    const std::vector<std::pair<vec2, vec2>> around = contour(slab);
     Grid grid(static_cast<int>(around.size()) - 1, static_cast<int>(section.size()) - 1, true);
     grid.normals.resize(grid.positions.size());
     for (int j = 0; j <= grid.rows; ++j) {
@@ -148,7 +148,7 @@ Result<capture::Scene> generate_phone(const nlohmann::json& parameters, std::uin
     const std::string text = in.letters("text", "RAYSPACE", 8);
     const float lean_rad = in.number("lean", 0.2F, 0.0F, 0.35F);
     const float gloss = in.number("gloss", 0.3F, 0.05F, 0.6F);
-    if (const Status read = in.finish(); !read) return read.error();
+    RS_TRY(in.finish());
 
     ObjectAssembly assembly("phone");
     const int logo = assembly.add_texture(paint_logo(text, seed));

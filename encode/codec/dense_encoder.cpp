@@ -1,16 +1,15 @@
 #include "encode/codec/dense_encoder.hpp"
 
 #include "encode/codec/coders.hpp"
-#include "encode/codec/fidelity.hpp"
 #include "encode/codec/ring_references.hpp"
-#include "encode/codec/source_picture.hpp"
+#include "encode/codec/source_image.hpp"
 #include "encode/codec/tile_encoder.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/codec/bool_encoder.hpp"
 #include "rayspace/codec/context_states.hpp"
 #include "rayspace/codec/prediction_unit.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,11 +18,11 @@
 namespace rs::encode {
 namespace {
 
-using codec::CodedPicture;
-using codec::CodedPictures;
+using codec::CodedImage;
+using codec::CodedImages;
 using codec::MotionVector;
 
-struct DenseWorkPicture {
+struct DenseWorkImage {
     codec::Planes reconstruction;
     std::vector<std::vector<Decision>> decisions;  // [tile]
     std::array<int, 2> reach = {0, 0};
@@ -32,7 +31,7 @@ struct DenseWorkPicture {
 
 class DenseEncoder {
 public:
-    DenseEncoder(const RaySpaceObject& object, const std::vector<SourcePicture>& sources, const DenseSettings& settings,
+    DenseEncoder(const RaySpaceObject& object, const std::vector<SourceImage>& sources, const DenseSettings& settings,
                  Progress* progress)
         : object_(object), sources_(sources), settings_(settings), progress_(progress), work_(object.views.size()) {
         coded_.width = object.width;
@@ -42,10 +41,10 @@ public:
         coded_.tile_height_log2 = settings.tile_height_log2;
         coded_.dense.chroma_step_offset = settings.chroma_offset;
         coded_.dense.probabilities.fill(2048);
-        if (coded_.dense.has_edge_alpha()) coded_.dense.edge_alpha = usual_edge_alpha(sources);
+        if (coded_.dense.has_edge_alpha()) coded_.dense.edge_alpha = estimate_edge_alpha(sources);
         start_probabilities();
         coded_.levels.assign(object.views.size(), 0);
-        coded_.pictures.resize(object.views.size());
+        coded_.images.resize(object.views.size());
         plan();
         for_each_index(work_.size(), [&](std::size_t v) {
             for (auto& plane : work_[v].reconstruction) {
@@ -55,7 +54,7 @@ public:
         });
     }
 
-    EncodedPictures encode() {
+    EncodedImages encode() {
         const SearchEffort effort = search_effort(settings_.effort);
         jobs_ = present_tiles();
         if (progress_ != nullptr) {
@@ -63,21 +62,21 @@ public:
             for (const auto& jobs : jobs_) count += static_cast<std::int64_t>(jobs.size());
             progress_->start("encoding", count + count / effort.sampled);
         }
-        // The first pass finds the probabilities, and so the prices of the second, and the global motion.
+        // The first pass measures the probabilities, which are the prices of the second pass, and the global motion.
         if (effort.sampled > 1) start_with_sources();
         run_pass(effort.first_pass, effort.sampled);
         for (std::size_t v = 0; v < work_.size(); ++v) set_global_motion(v);
         run_pass(effort.unit, 1);
         write_tiles();
         if (progress_ != nullptr) progress_->finish();
-        const double psnr_db =
-            coded_psnr(sources_, object_.width, object_.height, settings_.alpha_bits,
-                       [&](std::size_t v) { return codec::views_of(std::as_const(work_[v].reconstruction)); });
+        const double psnr_db = measure_coded_psnr(
+            sources_, object_.width, object_.height, settings_.alpha_bits,
+            [&](std::size_t v) { return codec::plane_views(std::as_const(work_[v].reconstruction)); });
         return {std::move(coded_), psnr_db};
     }
 
 private:
-    // Rough prices for the first pass: zeros are likelier the higher the coefficient.
+    // Initial probabilities for the first pass: zeros are likelier the higher the coefficient.
     void start_probabilities() {
         namespace context = codec::context;
         auto& p = coded_.dense.probabilities;
@@ -97,7 +96,7 @@ private:
         }
     }
 
-    // Levels, references and steps.
+    // Assigns progressive levels, references and steps.
     void plan() {
         const double base = std::log2(std::max(settings_.step, 1.0)) * 8;
         for (const Ring& ring : object_.rings) {
@@ -106,7 +105,7 @@ private:
                 const std::size_t view = ring.views[static_cast<std::size_t>(n)];
                 const int level = progressive_level(n);
                 coded_.levels[view] = static_cast<std::uint8_t>(level);
-                codec::PictureHead& head = coded_.pictures[view].head;
+                codec::ImageHead& head = coded_.images[view].head;
                 head.step = std::clamp(
                     static_cast<int>(std::lround(base)) + settings_.level_offset[static_cast<std::size_t>(level)], 0,
                     codec::kMaxStep);
@@ -123,8 +122,8 @@ private:
     }
 
     void find_tiles(int view) {
-        DenseWorkPicture& work = work_[static_cast<std::size_t>(view)];
-        CodedPicture& coded = coded_.pictures[static_cast<std::size_t>(view)];
+        DenseWorkImage& work = work_[static_cast<std::size_t>(view)];
+        CodedImage& coded = coded_.images[static_cast<std::size_t>(view)];
         const auto tiles = static_cast<std::size_t>(coded_.tile_columns() * coded_.tile_rows());
         coded.tiles.resize(tiles);
         work.decisions.resize(tiles);
@@ -147,14 +146,14 @@ private:
     [[nodiscard]] LevelJobs present_tiles() const {
         LevelJobs jobs;
         for (std::size_t v = 0; v < work_.size(); ++v) {
-            for (std::size_t t = 0; t < coded_.pictures[v].tiles.size(); ++t) {
-                if (coded_.pictures[v].tiles[t].present) jobs[coded_.levels[v]].push_back({v, t});
+            for (std::size_t t = 0; t < coded_.images[v].tiles.size(); ++t) {
+                if (coded_.images[v].tiles[t].present) jobs[coded_.levels[v]].push_back({v, t});
             }
         }
         return jobs;
     }
 
-    // What pictures are predicted from where not all their tiles are coded.
+    // Initialises the reference samples with the sources, for a pass that does not code all tiles.
     void start_with_sources() {
         for_each_index(work_.size(), [&](std::size_t v) {
             for (std::size_t p = 0; p < 3; ++p) work_[v].reconstruction[p] = sources_[v].planes[p];
@@ -167,17 +166,17 @@ private:
         });
     }
 
-    // Codes every `sampled`-th tile, and takes the probabilities from what was coded.
+    // Codes every `sampled`-th tile and updates the probabilities from the decisions.
     void run_pass(const UnitEffort& effort, int sampled) {
         const CostTable costs(coded_.dense.probabilities);
         for (int level = 0; level < kProgressiveLevels; ++level) {
-            const std::vector<PictureTask> tasks = tasks_of_level(level, effort);
+            const std::vector<ImageTask> tasks = tasks_of_level(level, effort);
             if (sampled == 1) clear_absent_tiles(tasks);
             const std::vector<Job>& jobs = jobs_[static_cast<std::size_t>(level)];
             const auto step = static_cast<std::size_t>(sampled);
             for_each_index((jobs.size() + step - 1) / step, [&](std::size_t j) {
                 const auto [v, t] = jobs[j * step];
-                DenseWorkPicture& work = work_[v];
+                DenseWorkImage& work = work_[v];
                 work.decisions[t].clear();
                 std::array<std::vector<MotionVector>, 2> motions;
                 encode_tile(tasks[v], costs, codec::place_of_tile(coded_, t), work.decisions[t], motions);
@@ -188,32 +187,32 @@ private:
         train();
     }
 
-    // One per view; those of other levels stay empty.
-    std::vector<PictureTask> tasks_of_level(int level, const UnitEffort& effort) {
-        std::vector<PictureTask> tasks(work_.size());
+    // One task per view; tasks of other levels stay empty.
+    std::vector<ImageTask> tasks_of_level(int level, const UnitEffort& effort) {
+        std::vector<ImageTask> tasks(work_.size());
         for (std::size_t v = 0; v < work_.size(); ++v) {
             if (coded_.levels[v] != level) continue;
-            PictureTask& task = tasks[v];
+            ImageTask& task = tasks[v];
             task.code = &coded_.dense;
-            task.head = coded_.pictures[v].head;
+            task.head = coded_.images[v].head;
             task.source = &sources_[v];
             task.effort = effort;
             task.reach = work_[v].reach;
             const float step = static_cast<float>(codec::step_q4(task.head.step)) / 16.0F;
             task.lambda = settings_.lambda_factor * kPlaneWeights[0] * step * step;
-            task.out = codec::views_of(work_[v].reconstruction);
+            task.out = codec::plane_views(work_[v].reconstruction);
             for (std::size_t r = 0; r < static_cast<std::size_t>(task.head.references()); ++r) {
-                task.references[r] = codec::views_of(std::as_const(work_[task.head.reference[r]].reconstruction));
+                task.references[r] = codec::plane_views(std::as_const(work_[task.head.reference[r]].reconstruction));
             }
         }
         return tasks;
     }
 
-    void clear_absent_tiles(const std::vector<PictureTask>& tasks) {
+    void clear_absent_tiles(const std::vector<ImageTask>& tasks) {
         for (std::size_t v = 0; v < tasks.size(); ++v) {
             if (tasks[v].source == nullptr) continue;
-            for (std::size_t t = 0; t < coded_.pictures[v].tiles.size(); ++t) {
-                if (!coded_.pictures[v].tiles[t].present)
+            for (std::size_t t = 0; t < coded_.images[v].tiles.size(); ++t) {
+                if (!coded_.images[v].tiles[t].present)
                     codec::clear_tile(codec::place_of_tile(coded_, t), tasks[v].out);
             }
         }
@@ -229,13 +228,13 @@ private:
                     y.push_back(m.y);
                 }
             }
-            coded_.pictures[v].head.global_motion[r] = {median(std::move(x)), median(std::move(y))};
+            coded_.images[v].head.global_motion[r] = {median(std::move(x)), median(std::move(y))};
         }
     }
 
     void train() {
         std::vector<std::array<std::uint64_t, 2>> counts(codec::context::kCount + 1);
-        for (const DenseWorkPicture& work : work_) {
+        for (const DenseWorkImage& work : work_) {
             for (const auto& tile : work.decisions) {
                 for (const Decision d : tile) ++counts[d >> 1U][d & 1U];
             }
@@ -251,9 +250,9 @@ private:
 
     void write_tiles() {
         for_each_index(work_.size(), [&](std::size_t v) {
-            CodedPicture& picture = coded_.pictures[v];
-            for (std::size_t t = 0; t < picture.tiles.size(); ++t) {
-                if (!picture.tiles[t].present) continue;
+            CodedImage& image = coded_.images[v];
+            for (std::size_t t = 0; t < image.tiles.size(); ++t) {
+                if (!image.tiles[t].present) continue;
                 codec::BoolEncoder encoder;
                 codec::ContextStates states(coded_.dense);
                 for (const Decision d : work_[v].decisions[t]) {
@@ -266,35 +265,34 @@ private:
                     states.adapt(context, d & 1);
                 }
                 const std::vector<std::byte> bytes = encoder.finish();
-                picture.tiles[t].begin = static_cast<std::uint32_t>(picture.bytes.size());
-                picture.tiles[t].size = static_cast<std::uint32_t>(bytes.size());
-                picture.bytes.insert(picture.bytes.end(), bytes.begin(), bytes.end());
+                image.tiles[t].begin = static_cast<std::uint32_t>(image.bytes.size());
+                image.tiles[t].size = static_cast<std::uint32_t>(bytes.size());
+                image.bytes.insert(image.bytes.end(), bytes.begin(), bytes.end());
             }
         });
     }
 
     const RaySpaceObject& object_;
-    const std::vector<SourcePicture>& sources_;
+    const std::vector<SourceImage>& sources_;
     const DenseSettings& settings_;
     Progress* progress_;
-    CodedPictures coded_;
-    std::vector<DenseWorkPicture> work_;
+    CodedImages coded_;
+    std::vector<DenseWorkImage> work_;
     LevelJobs jobs_;
 };
 
 }  // namespace
 
-EncodedPictures encode_dense(const RaySpaceObject& object, const std::vector<SourcePicture>& sources,
-                             const DenseSettings& settings, Progress* progress) {
+EncodedImages encode_dense(const RaySpaceObject& object, const std::vector<SourceImage>& sources,
+                           const DenseSettings& settings, Progress* progress) {
     return DenseEncoder(object, sources, settings, progress).encode();
 }
 
-codec::CodedPictures encode_dense(const RaySpaceObject& object, const std::function<Image<Rgba8>(int)>& picture,
-                                  const DenseSettings& settings, Progress* progress) {
-    std::vector<SourcePicture> sources(object.views.size());
-    for_each_index(sources.size(), [&](std::size_t v) {
-        sources[v] = source_picture(picture(static_cast<int>(v)), settings.alpha_bits);
-    });
+codec::CodedImages encode_dense(const RaySpaceObject& object, const std::function<Image<Rgba8>(int)>& image,
+                                const DenseSettings& settings, Progress* progress) {
+    std::vector<SourceImage> sources(object.views.size());
+    for_each_index(sources.size(),
+                   [&](std::size_t v) { sources[v] = source_image(image(static_cast<int>(v)), settings.alpha_bits); });
     return encode_dense(object, sources, settings, progress).coded;
 }
 

@@ -38,12 +38,11 @@ public:
     void try_exact(MotionVector vector) {
         if (std::abs(vector.x) > codec::kMaxMotion_q2 || std::abs(vector.y) > codec::kMaxMotion_q2) return;
         std::uint8_t samples[kLargestBlock * kLargestBlock];
-        codec::predict_from_picture(search_.reference, search_.x, search_.y, vector, search_.size, samples,
-                                    search_.size);
+        codec::predict_from_image(search_.reference, search_.x, search_.y, vector, search_.size, samples, search_.size);
         take(vector, samples, search_.size);
     }
 
-    [[nodiscard]] const FoundMotion& best() const { return best_; }
+    [[nodiscard]] const MotionMatch& best() const { return best_; }
 
 private:
     void take(MotionVector vector, const std::uint8_t* samples, std::ptrdiff_t stride) {
@@ -63,14 +62,14 @@ private:
     MotionVector from_;
     const std::uint8_t* other_;
     MaskedSamples target_;
-    FoundMotion best_;
+    MotionMatch best_;
     bool any_ = false;
 };
 
 }  // namespace
 
-FoundMotion find_motion(const MotionSearch& search, std::span<const MotionVector> starts, MotionVector from,
-                        const std::uint8_t* other) {
+MotionMatch search_motion(const MotionSearch& search, std::span<const MotionVector> starts, MotionVector from,
+                          const std::uint8_t* other) {
     Searcher searcher(search, from, other);
     if (search.fractions) {
         for (const MotionVector start : starts) searcher.try_exact(start);

@@ -9,7 +9,7 @@
 
 #include <cstdlib>
 
-// Plain loops of fixed lengths: the compiler makes vectors of them, as long as each target has.
+// Loops of fixed lengths, vectorised by the compiler for each target.
 HWY_BEFORE_NAMESPACE();
 namespace rs::encode::HWY_NAMESPACE {
 
@@ -82,7 +82,7 @@ int squared(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdi
     return sum;
 }
 
-// One pass over eight lines of eight neighbours each.
+// One pass over eight lines of eight samples each.
 HWY_INLINE void butterflies(std::int16_t* lines) {
     for (int distance = 4; distance > 0; distance /= 2) {
         for (int first = 0; first < 8; ++first) {

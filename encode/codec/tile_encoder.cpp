@@ -1,6 +1,6 @@
 #include "encode/codec/tile_encoder.hpp"
 
-#include "encode/codec/unit_search.hpp"
+#include "encode/codec/mode_decision.hpp"
 #include "rayspace/codec/alpha_mask.hpp"
 #include "rayspace/codec/deblocking.hpp"
 #include "rayspace/codec/prediction_unit.hpp"
@@ -20,7 +20,7 @@ using codec::UnitChoice;
 
 class TileEncoder {
 public:
-    TileEncoder(const PictureTask& task, const CostTable& costs, const codec::TilePlace& place,
+    TileEncoder(const ImageTask& task, const CostTable& costs, const codec::TilePlace& place,
                 std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>& motions)
         : task_(task),
           costs_(costs),
@@ -42,8 +42,8 @@ public:
     }
 
 private:
-    // Alpha levels of the whole tile, and the classes of its blocks (kept apart: the grid may not know what comes
-    // later).
+    // Computes alpha levels of the whole tile and the classes of its blocks. The classes are stored separately, since
+    // the grid must not contain blocks that are coded later.
     void classify(int width, int height) {
         const int full = (1 << task_.code->alpha_bits) - 1;
         for (int by = 0; by < height / kBlock; ++by) {
@@ -79,11 +79,11 @@ private:
             codec::clear_tile({left_ + bx * kBlock, top_ + by * kBlock, kMacroblock, kMacroblock}, task_.out);
             return;
         }
-        const UnitSearch search(task_, costs_, state_, left_, top_);
+        const ModeDecision search(task_, costs_, state_, left_, top_);
 
-        Estimator whole_bits(costs_);
+        CostEstimator whole_bits(costs_);
         codec::syntax::split(whole_bits, state_.grid, bx, by, false);
-        Estimator split_bits(costs_);
+        CostEstimator split_bits(costs_);
         codec::syntax::split(split_bits, state_.grid, bx, by, true);
 
         const PredictionUnit whole{bx, by, kMacroblock};
@@ -121,7 +121,7 @@ private:
         }
     }
 
-    void put(const UnitSearch& search, const PredictionUnit& unit, UnitChoice& choice) {
+    void put(const ModeDecision& search, const PredictionUnit& unit, UnitChoice& choice) {
         search.write(unit, choice, recorder_);
         search.commit(unit, choice);
         for (std::size_t r = 0; r < 2; ++r) {
@@ -129,7 +129,7 @@ private:
         }
     }
 
-    const PictureTask& task_;
+    const ImageTask& task_;
     const CostTable& costs_;
     codec::TilePlace place_;
     int left_;
@@ -138,7 +138,7 @@ private:
     std::array<std::vector<codec::MotionVector>, 2>& motions_;
     TileState state_;
     std::array<std::array<AlphaClass, 8>, 8> classes_{};
-    // Of the four quarters, and of the whole.
+    // Choices of the four quarters and of the whole macroblock.
     std::array<std::unique_ptr<UnitChoice>, 5> choices_ = {
         std::make_unique<UnitChoice>(), std::make_unique<UnitChoice>(), std::make_unique<UnitChoice>(),
         std::make_unique<UnitChoice>(), std::make_unique<UnitChoice>()};
@@ -146,7 +146,7 @@ private:
 
 }  // namespace
 
-void encode_tile(const PictureTask& task, const CostTable& costs, const codec::TilePlace& place,
+void encode_tile(const ImageTask& task, const CostTable& costs, const codec::TilePlace& place,
                  std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>& motions) {
     TileEncoder(task, costs, place, decisions, motions).encode();
 }

@@ -1,10 +1,10 @@
 #pragma once
-// Chooses how each unit of a tile is coded, by weighted squared error and bits, and reconstructs it as the decoder
-// will.
+// Tile encoder: chooses the modes of each unit by weighted squared error and bits, and reconstructs it as the decoder
+// does.
 
 #include "encode/codec/coders.hpp"
 #include "encode/codec/search_effort.hpp"
-#include "encode/codec/source_picture.hpp"
+#include "encode/codec/source_image.hpp"
 #include "rayspace/codec/code/dense_code.hpp"
 #include "rayspace/codec/dense_tile.hpp"
 
@@ -13,20 +13,20 @@
 
 namespace rs::encode {
 
-struct PictureTask {
+struct ImageTask {
     const codec::DenseCode* code = nullptr;
-    codec::PictureHead head;
-    const SourcePicture* source = nullptr;
+    codec::ImageHead head;
+    const SourceImage* source = nullptr;
     std::array<codec::ConstPlaneViews, 2> references;
-    std::array<int, 2> reach = {0, 0};  // of the motion search, samples, per reference
+    std::array<int, 2> reach = {0, 0};  // range of the motion search per reference, samples
     float lambda = 0;
     UnitEffort effort;
     codec::PlaneViews out;  // the reconstruction
 };
 
-// Encodes the tile at `place`, which must have a valid sample; appends its decisions. Appends the vectors
-// used, per reference, to `motions`.
-void encode_tile(const PictureTask& task, const CostTable& costs, const codec::TilePlace& place,
+/// Encodes the tile at `place`, which must have a valid sample. Appends its decisions, and the vectors used per
+/// reference to `motions`.
+void encode_tile(const ImageTask& task, const CostTable& costs, const codec::TilePlace& place,
                  std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>& motions);
 
 }  // namespace rs::encode

@@ -20,12 +20,13 @@ Result<CapturedView> captured_view(const Camera& camera, int planes) {
     const double depth = -glm::dot(camera.centre(), camera.forward());
     if (!is_below(camera.cx, kMostPixels) || !is_below(camera.cy, kMostPixels) || !is_below(camera.fl_x, kMostPixels) ||
         !is_below(camera.fl_y, kMostPixels)) {
-        return Error{"its focal length or principal point is 16384 pixels or more; scale the pictures down"};
+        return Error{"its focal length or principal point is 16384 pixels or more; scale the images down"};
     }
     if (!is_below(lateral_px, kMostLateral)) {
         return Error{
-            "it looks too far past the axis for its distance and focal length; bring the axis nearer to the "
-            "middle of the picture, or scale the pictures down"};
+            "its optical axis passes too far from the Y axis for its distance and focal length; bring the axis nearer "
+            "to the "
+            "middle of the image, or scale the images down"};
     }
     if (!is_below(camera.centre().y, kMostRadii) || !is_below(depth, kMostRadii)) {
         return Error{"it is 256 object radii away or more; check the object radius"};

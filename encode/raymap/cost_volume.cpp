@@ -76,7 +76,7 @@ void for_each_level(CostVolume& volume, const WorkView& view, const DepthRange& 
 
 // Projections of a column's points at one depth into a neighbor: one column, and rows that are linear in the row.
 struct SeenRows {
-    SeenColumn column;
+    ProjectedColumn column;
     std::int32_t position_q16 = 0;
     std::int32_t step_q16 = 0;
 };
@@ -85,7 +85,7 @@ std::optional<SeenRows> see_rows(const WorkView& view, const WorkView& neighbour
                                  double depth, int top, int rows) {
     const double axial = ray.axial_at(depth);
     if (axial <= kNearest) return std::nullopt;
-    const SeenColumn seen = neighbour.see(ray.place_at(depth));
+    const ProjectedColumn seen = neighbour.see(ray.place_at(depth));
     if (seen.axial <= kNearest) return std::nullopt;
     const double step = (neighbour.fl_y / seen.axial) * (axial / view.fl_y);
     const double at_top = neighbour.row_of(view.height_of(top + 0.5, axial), seen.axial);
@@ -221,7 +221,7 @@ ObjectBox object_box(const WorkView& view) {
     return box;
 }
 
-CostVolume levels_within(const SampledHull& hull, const WorkView& view, const DepthRange& range,
+CostVolume create_volume(const SampledHull& hull, const WorkView& view, const DepthRange& range,
                          const Image<std::uint8_t>* only) {
     CostVolume volume;
     volume.box = object_box(view);
@@ -257,7 +257,7 @@ CostVolume levels_within(const SampledHull& hull, const WorkView& view, const De
     return volume;
 }
 
-Image<float> first_allowed(const WorkView& view, const CostVolume& costs, const DepthRange& range) {
+Image<float> first_allowed_depth(const WorkView& view, const CostVolume& costs, const DepthRange& range) {
     Image<float> depth(view.height, view.width, kNoDepth);
     for (int column = costs.box.left; column < costs.box.right; ++column) {
         for (int row = costs.box.top; row < costs.box.bottom; ++row) {

@@ -27,7 +27,7 @@ constexpr double kFavour_cells = 2;
 
 struct Candidate {
     double angle_rad = 0;  // between the photo's ray through the plane point and the normal
-    std::uint16_t view = kNoPicture;
+    std::uint16_t view = kNoImage;
 };
 
 // The rays of the ring's photos through the plane point x, sorted by angle.
@@ -72,7 +72,7 @@ Ring make_plane_map(const Rig& upright, const ViewRing& view_ring, const PlaneMa
     for (const int v : view_ring.views) ring.views.push_back(static_cast<std::uint16_t>(v));
     ring.cells.assign(static_cast<std::size_t>(options.planes) * static_cast<std::size_t>(options.x_cells) *
                           static_cast<std::size_t>(options.u_cells),
-                      kNoPicture);
+                      kNoImage);
 
     for_each_index(options.planes * options.x_cells, [&](int row) {
         const int k = row / options.x_cells;

@@ -17,7 +17,7 @@ struct PlaneMapOptions {
 /// Computes the map of one ring. A photo is a candidate for the plane point x if it sees the point from the front of
 /// the plane and within its frame. Of two photos that are almost equally near (within two cells of u, and an eighth of
 /// their distance) the first in turning order is chosen, so that halfway viewpoints show one photo instead of stripes
-/// of both. Cells without a candidate hold kNoPicture. `upright` is in object radii. Deterministic.
+/// of both. Cells without a candidate hold kNoImage. `upright` is in object radii. Deterministic.
 Ring make_plane_map(const Rig& upright, const ViewRing& ring, const PlaneMapOptions& options);
 
 /// The smallest number of u cells between two neighboring views on any plane at x = 0; 0 where the ring has one view.

@@ -46,7 +46,7 @@ std::string sector_text(const DepthView& from, const DepthView& to) {
 }
 
 DepthRange range_of(int levels) {
-    return {-kDeepest, 2 * kDeepest / (levels - 1), levels};
+    return {-kMaxDepth, 2 * kMaxDepth / (levels - 1), levels};
 }
 
 Image<float> depths_at(Image<float> levels, const DepthRange& range) {
@@ -80,10 +80,10 @@ RingDepthEstimator::RingDepthEstimator(const CaptureSet& set, const Rig& rig, co
     reduction_ = (longest + options.working_size_px - 1) / options.working_size_px;
 }
 
-void RingDepthEstimator::set_photo(std::size_t n, const Image<Rgba8>& picture) {
+void RingDepthEstimator::set_photo(std::size_t n, const Image<Rgba8>& image) {
     const Camera& camera = rig_.views[static_cast<std::size_t>(ring_.views[n])].camera;
     WorkView& view = views_[n].view;
-    view = make_work_view(camera, picture, reduction_);
+    view = make_work_view(camera, image, reduction_);
     soft_[n] = soft_pixels(view);
     if (layer_ == Layer::kSoft) cover_soft(view, soft_[n]);
     weaken_shading(view);
@@ -93,10 +93,9 @@ void RingDepthEstimator::set_photo(std::size_t n, const Image<Rgba8>& picture) {
 Status RingDepthEstimator::read_photos(Progress* progress, const PhotoSink& sink) {
     return for_each_in_parallel(count(), "photos for depth", progress, [&](int n) -> Status {
         const int v = ring_.views[static_cast<std::size_t>(n)];
-        const Result<Image<Rgba8>> picture = read_upright_picture(set_, v);
-        if (!picture) return picture.error();
-        sink(v, *picture);
-        set_photo(static_cast<std::size_t>(n), *picture);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, read_upright_image(set_, v));
+        sink(v, image);
+        set_photo(static_cast<std::size_t>(n), image);
         return {};
     });
 }
@@ -113,24 +112,23 @@ Status RingDepthEstimator::complete_masks(Progress* progress, const PhotoSink& s
     if (count() < 3 || exact) return {};
     RingDepthEstimator half(set_, rig_, ring_, options_);
     half.reduction_ = 2 * reduction_;
-    for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halved(views_[n].view);
-    Result<std::vector<Image<float>>> missing = half.find_missing(*this, progress);
-    if (!missing) return missing.error();
-    missing_ = std::move(*missing);
+    for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halve(views_[n].view);
+    RS_ASSIGN_OR_RETURN(std::vector<Image<float>> missing, half.find_missing(*this, progress));
+    missing_ = std::move(missing);
 
     std::vector<Image<float>> parts(views_.size());
-    for_each_index(views_.size(), [&](std::size_t n) { parts[n] = lost_part(half.views_[n].view, missing_[n]); });
+    for_each_index(views_.size(),
+                   [&](std::size_t n) { parts[n] = select_lost_part(half.views_[n].view, missing_[n]); });
     std::vector<std::size_t> lacking;
     for (std::size_t n = 0; n < views_.size(); ++n) {
         if (share_of(parts[n], half.views_[n].view) >= kLargePart) lacking.push_back(n);
     }
     if (static_cast<double>(lacking.size()) > kMaxLackingShare * static_cast<double>(views_.size())) return {};
     for (const std::size_t n : lacking) {
-        const Result<std::optional<Image<Rgba8>>> picture = paint_part(n, half, parts[n]);
-        if (!picture) return picture.error();
-        if (!*picture) continue;
-        sink(ring_.views[n], **picture);
-        set_photo(n, **picture);
+        RS_ASSIGN_OR_RETURN(const std::optional<Image<Rgba8>> image, paint_part(n, half, parts[n]));
+        if (!image) continue;
+        sink(ring_.views[n], *image);
+        set_photo(n, *image);
     }
     return {};
 }
@@ -151,14 +149,14 @@ Result<std::vector<Image<float>>> RingDepthEstimator::find_missing(const RingDep
     const int narrow_px = (std::min(whole.margin_px_, kMaxRepairMargin_px) + 1) / 2;
     const int searched_px = whole.silhouettes_agree_ ? std::max(kRepairMargin_px, whole.margin_px_) : narrow_px;
     sampled_hull_ = sampled(VisualHull(masks, searched_px, tolerated), kRepairSpacing_px);
-    if (Status status = estimate_depths("depth at half size", progress, false); !status) return status.error();
+    RS_TRY(estimate_depths("depth at half size", progress, false));
     const auto hull = sampled(VisualHull(masks, narrow_px), kHullSpacing_px);
     std::vector<std::vector<RuledOutPoint>> points(views_.size());
     for_each_index(count(), [&](int n) {
         const Neighbours neighbours = neighbours_of(n);
         if (neighbours.beside.size() < 2) return;
         const auto v = static_cast<std::size_t>(n);
-        points[v] = ruled_out(views_[v], neighbours.beside, range_of(n, neighbours).step, *sampled_hull_, *hull);
+        points[v] = find_ruled_out(views_[v], neighbours.beside, range_of(n, neighbours).step, *sampled_hull_, *hull);
     });
     std::vector<Image<float>> missing(views_.size());
     for_each_index(views_.size(), [&](std::size_t n) { missing[n] = missing_depths(views_[n].view, points); });
@@ -169,20 +167,18 @@ Result<std::vector<Image<float>>> RingDepthEstimator::find_missing(const RingDep
 Result<std::optional<Image<Rgba8>>> RingDepthEstimator::paint_part(std::size_t n, const RingDepthEstimator& half,
                                                                    const Image<float>& part) const {
     constexpr int kFarthestPainter = 3;  // photos away
-    Result<Image<Rgba8>> picture = read_upright_picture(set_, ring_.views[n]);
-    if (!picture) return picture.error();
-    LostPartPainter painter(half.views_[n].view, part, half.reduction_, std::move(*picture));
+    RS_ASSIGN_OR_RETURN(Image<Rgba8> image, read_upright_image(set_, ring_.views[n]));
+    LostPartPainter painter(half.views_[n].view, part, half.reduction_, std::move(image));
     for (int away = 1; away <= std::min(kFarthestPainter, count() / 2) && !painter.done(); ++away) {
-        std::vector<Image<Rgba8>> pictures;
-        pictures.reserve(2);
+        std::vector<Image<Rgba8>> images;
+        images.reserve(2);
         std::vector<LostPartPainter::Painter> painters;
         for (const int sense : {-away, away}) {
             const auto from = static_cast<std::size_t>((static_cast<int>(n) + sense + count()) % count());
-            if (degrees(angle_between(views_[n].view, views_[from].view)) > options_.lines.widest_gap_deg) continue;
-            Result<Image<Rgba8>> other = read_upright_picture(set_, ring_.views[from]);
-            if (!other) return other.error();
-            pictures.push_back(std::move(*other));
-            painters.push_back({&half.views_[from], &pictures.back()});
+            if (degrees(angle_between(views_[n].view, views_[from].view)) > options_.lines.max_gap_deg) continue;
+            RS_ASSIGN_OR_RETURN(Image<Rgba8> other, read_upright_image(set_, ring_.views[from]));
+            images.push_back(std::move(other));
+            painters.push_back({&half.views_[from], &images.back()});
         }
         if (painters.size() == 2 && painter.shown_by(painters[0]) < painter.shown_by(painters[1])) {
             std::swap(painters[0], painters[1]);
@@ -190,7 +186,7 @@ Result<std::optional<Image<Rgba8>>> RingDepthEstimator::paint_part(std::size_t n
         for (const LostPartPainter::Painter& from : painters) painter.paint_from(from);
     }
     if (!painter.half_done()) return std::optional<Image<Rgba8>>();
-    return std::optional(std::move(painter).picture());
+    return std::optional(std::move(painter).image());
 }
 
 Status RingDepthEstimator::match_colors(Progress* progress) {
@@ -200,14 +196,14 @@ Status RingDepthEstimator::match_colors(Progress* progress) {
     return estimate_depths("depth", progress, true);
 }
 
-Status RingDepthEstimator::enforce_consistency(Progress* progress, std::vector<FoundDepth>& samples) {
+Status RingDepthEstimator::enforce_consistency(Progress* progress, std::vector<DepthPreview>& samples) {
     const int every = std::max(1, (count() + kSampleViews - 1) / kSampleViews);
     const std::size_t first_sample = samples.size();
     samples.resize(first_sample + static_cast<std::size_t>((count() + every - 1) / every));
     std::vector<Image<float>> agreed(views_.size());
     for (const int first : {0, 1}) {
         const int of_these = (count() + 1 - first) / 2;
-        Status status = for_each_in_parallel(of_these, "depth that agrees", progress, [&](int m) -> Status {
+        Status status = for_each_in_parallel(of_these, "consistent depth", progress, [&](int m) -> Status {
             const int n = first + 2 * m;
             const WorkView& view = views_[static_cast<std::size_t>(n)].view;
             const Neighbours neighbours = neighbours_of(n);
@@ -220,7 +216,7 @@ Status RingDepthEstimator::enforce_consistency(Progress* progress, std::vector<F
             if (n % every == 0) {
                 samples[first_sample + static_cast<std::size_t>(n / every)] = {
                     ring_.views[static_cast<std::size_t>(n)],
-                    first_allowed(view, levels_within(*sampled_hull_, view, range), range), depth};
+                    first_allowed_depth(view, create_volume(*sampled_hull_, view, range), range), depth};
             }
             return {};
         });
@@ -259,16 +255,16 @@ void RingDepthEstimator::append_warnings(const ShapeMap& shape, std::vector<std:
         const DepthView& view = views_[n];
         const std::string& name = rig_.views[static_cast<std::size_t>(ring_.views[n])].file_path;
         if (object_box(view.view).empty()) {
-            warnings.push_back(name + " shows no object at all (its alpha is 0 everywhere)");
+            warnings.push_back(name + " shows no object (its alpha is 0 everywhere)");
         }
         if (shape.gaps[n].lines != 0) continue;
         missing += (missing.empty() ? "" : ", ") + sector_text(view, views_[(n + 1) % views_.size()]);
     }
     if (views_.size() == 1) {
-        warnings.push_back("there is one picture; it is shown as it is from everywhere");
+        warnings.push_back("there is only one image; it is shown unchanged from all directions");
     } else if (!missing.empty()) {
-        warnings.push_back("there are no pictures between " + missing +
-                           "; from there the nearest picture is shown as it is");
+        warnings.push_back("there are no images between " + missing +
+                           "; the nearest image is shown unchanged from there");
     }
 }
 
@@ -276,7 +272,7 @@ CostVolume RingDepthEstimator::color_costs(int n, const Neighbours& neighbours, 
     const WorkView& view = views_[static_cast<std::size_t>(n)].view;
     std::optional<Image<std::uint8_t>> near_soft;
     if (layer_ == Layer::kSoft) near_soft = dilated(soft_[static_cast<std::size_t>(n)], kNearSoft_px);
-    CostVolume costs = levels_within(*sampled_hull_, view, range, near_soft ? &*near_soft : nullptr);
+    CostVolume costs = create_volume(*sampled_hull_, view, range, near_soft ? &*near_soft : nullptr);
     match_colours(costs, view, neighbours, range);
     return costs;
 }
@@ -325,7 +321,7 @@ Status RingDepthEstimator::estimate_depths(const char* label, Progress* progress
 void RingDepthEstimator::choose_margin(const std::vector<const RingDepthEstimator*>& beside) {
     const std::vector<const WorkView*> all = silhouettes(beside);
     tolerated_share_ = 0;
-    for (margin_px_ = 1; margin_px_ <= options_.widest_hull_margin_px; margin_px_ *= 2) {
+    for (margin_px_ = 1; margin_px_ <= options_.max_hull_margin_px; margin_px_ *= 2) {
         hull_ = std::make_unique<VisualHull>(all, margin_px_);
         contradicted_ = contradicted_by(*hull_, all);
         silhouettes_agree_ = contradicted_ <= kMaxContradicted;
@@ -359,10 +355,10 @@ Neighbours RingDepthEstimator::neighbours_of(int n) const {
     const int before = (n + count() - 1) % count();
     const int after = (n + 1) % count();
     Neighbours found;
-    if (before != n && gap_deg(before) <= options_.lines.widest_gap_deg) {
+    if (before != n && gap_deg(before) <= options_.lines.max_gap_deg) {
         found.beside.push_back(&views_[static_cast<std::size_t>(before)]);
     }
-    if (after != n && after != before && gap_deg(n) <= options_.lines.widest_gap_deg) {
+    if (after != n && after != before && gap_deg(n) <= options_.lines.max_gap_deg) {
         found.beside.push_back(&views_[static_cast<std::size_t>(after)]);
     }
     const WorkView& view = views_[static_cast<std::size_t>(n)].view;
@@ -384,8 +380,8 @@ DepthRange RingDepthEstimator::range_of(int n, const Neighbours& neighbours) con
             most_moved = std::max(most_moved, std::sin(angle_between(view, neighbour->view)));
         }
     }
-    const double levels = 2 * kDeepest * most_moved * view.fl_x / glm::length(view.place()) / options_.level_px;
-    return rs::encode::range_of(std::clamp(static_cast<int>(levels), options_.fewest_levels, options_.most_levels));
+    const double levels = 2 * kMaxDepth * most_moved * view.fl_x / glm::length(view.place()) / options_.level_px;
+    return rs::encode::range_of(std::clamp(static_cast<int>(levels), options_.min_levels, options_.max_levels));
 }
 
 }  // namespace rs::encode

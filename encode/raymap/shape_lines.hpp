@@ -19,9 +19,9 @@ struct ShapeLinesOptions {
     int thickness = 8;      // of the object behind its surfaces, depth steps, 0..255
     // Depths are moved towards the file's prediction to save bits: by at most this many steps, and so that a point
     // moves by at most this many pixels of a working view between a line and the photos beside it.
-    double settled_px = 0.15;
-    int most_settled = 3;
-    double widest_gap_deg = 45.01;  // wider gaps have no lines
+    double depth_shift_px = 0.15;
+    int max_depth_shift = 3;
+    double max_gap_deg = 45.01;  // wider gaps have no lines
 };
 
 /// The depth maps of one layer of surfaces, and the hull that encloses them.

@@ -9,30 +9,30 @@
 namespace rs::encode {
 namespace {
 
-std::string lost_parts_text(const CompletedPictures& completed, const Rig& rig) {
+std::string lost_parts_text(const CompletedImages& completed, const Rig& rig) {
     const std::string first = rig.views[static_cast<std::size_t>(completed.begin()->first)].file_path;
     const std::string count = std::to_string(completed.size());
-    return (completed.size() == 1 ? "the cut-out of " + first + " lacks" : count + " cut-outs lack") +
-           " a large part that the pictures beside show" +
+    return (completed.size() == 1 ? "the mask of " + first + " lacks" : count + " masks lack") +
+           " a large part that neighbouring photos show" +
            (completed.size() == 1 ? "" : " (" + first + " is the first)") +
-           "; it is painted from those. Cut out whole it would be the photograph's own";
+           "; it is painted from these; correct the masks to use the photos' own pixels";
 }
 
 }  // namespace
 
-Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
-                                   const ShapeOptions& options, bool keep_pictures, RaySpaceObject& object,
-                                   Progress* progress) {
+Result<ShapeMapOutput> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
+                                      const ShapeOptions& options, bool keep_images, RaySpaceObject& object,
+                                      Progress* progress) {
     RS_CHECK(set.completed.empty());
-    FoundShapes found;
-    const auto keep = [&](int v, const Image<Rgba8>& picture) {
-        if (keep_pictures) object.pictures[static_cast<std::size_t>(v)] = planar_from_rgba(picture);
+    ShapeMapOutput found;
+    const auto keep = [&](int v, const Image<Rgba8>& image) {
+        if (keep_images) object.images[static_cast<std::size_t>(v)] = planar_from_rgba(image);
     };
     std::vector<RingDepthEstimator> estimators;
     estimators.reserve(rings.size());
     for (const ViewRing& ring : rings) {
         estimators.emplace_back(set, rig, ring, options);
-        if (const Status status = estimators.back().read_photos(progress, keep); !status) return status.error();
+        RS_TRY(estimators.back().read_photos(progress, keep));
     }
     const auto choose_hulls = [&] {
         for (std::size_t r = 0; r < rings.size(); ++r) {
@@ -44,12 +44,12 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
     };
     choose_hulls();
     CaptureSet whole = set;  // with completed masks
-    const auto keep_completed = [&](int v, const Image<Rgba8>& picture) {
-        keep(v, picture);
-        whole.completed.insert_or_assign(v, picture);
+    const auto keep_completed = [&](int v, const Image<Rgba8>& image) {
+        keep(v, image);
+        whole.completed.insert_or_assign(v, image);
     };
     for (RingDepthEstimator& estimator : estimators) {
-        if (const Status status = estimator.complete_masks(progress, keep_completed); !status) return status.error();
+        RS_TRY(estimator.complete_masks(progress, keep_completed));
     }
     if (!whole.completed.empty()) {
         found.warnings.push_back(lost_parts_text(whole.completed, rig));
@@ -57,21 +57,19 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
     }
     for (RingDepthEstimator& estimator : estimators) estimator.repair_silhouettes();
     for (RingDepthEstimator& estimator : estimators) {
-        if (const Status status = estimator.match_colors(progress); !status) return status.error();
+        RS_TRY(estimator.match_colors(progress));
     }
     for (std::size_t r = 0; r < rings.size(); ++r) {
-        if (const Status status = estimators[r].enforce_consistency(progress, found.samples); !status)
-            return status.error();
+        RS_TRY(estimators[r].enforce_consistency(progress, found.samples));
         Ring& ring = object.rings[r];
         std::vector<SurfaceLayer> layers = {estimators[r].surfaces()};
         RingDepthEstimator soft(whole, rig, rings[r], options, Layer::kSoft);
         if (estimators[r].has_soft_pixels()) {
-            std::vector<FoundDepth> unused;
-            if (const Status status = soft.read_photos(progress, [](int, const Image<Rgba8>&) {}); !status)
-                return status.error();
+            std::vector<DepthPreview> unused;
+            RS_TRY(soft.read_photos(progress, [](int, const Image<Rgba8>&) {}));
             soft.choose_hull({});
-            if (const Status status = soft.match_colors(progress); !status) return status.error();
-            if (const Status status = soft.enforce_consistency(progress, unused); !status) return status.error();
+            RS_TRY(soft.match_colors(progress));
+            RS_TRY(soft.enforce_consistency(progress, unused));
             layers.push_back(soft.surfaces());
         }
         ring.shape = estimators[r].make_shape(layers, ring.planes);

@@ -23,27 +23,27 @@
 namespace rs::encode {
 
 struct ShapeOptions {
-    int working_size_px = 768;       // photos whose longer side is longer are reduced by a whole factor
-    int widest_hull_margin_px = 16;  // of the working views; the narrowest margin that fits is used
+    int working_size_px = 768;    // photos whose longer side is longer are reduced by a whole factor
+    int max_hull_margin_px = 16;  // of the working views; the narrowest margin that fits is used
     // Distance of depth levels: how far a point moves from one level to the next, in pixels of the working view of the
     // neighbor where it moves most.
     double level_px = 0.3;
-    int fewest_levels = 32, most_levels = 256;
+    int min_levels = 32, max_levels = 256;
     SmoothnessOptions smoothness;
     ShapeLinesOptions lines;
 };
 
 /// Depth maps of one photo for display: distances from the foot of the pixel's ray in object radii, NaN where unknown,
 /// at the working size.
-struct FoundDepth {
+struct DepthPreview {
     int view = 0;
     Image<float> hull;   // where the ray enters the visual hull
     Image<float> depth;  // of the surface
 };
 
-struct FoundShapes {
-    std::vector<FoundDepth> samples;    // of a few views
-    CompletedPictures completed;        // photos whose masks were completed
+struct ShapeMapOutput {
+    std::vector<DepthPreview> samples;  // of a few views
+    CompletedImages completed;          // photos whose masks were completed
     std::vector<std::string> warnings;  // one line each
 };
 
@@ -51,13 +51,13 @@ struct FoundShapes {
 /// \param set            read photo by photo; has no completed photos yet.
 /// \param rig            set.upright, in object radii.
 /// \param rings          from find_rings().
-/// \param keep_pictures  whether to store the photos, with completed masks, in the object.
+/// \param keep_images  whether to store the photos, with completed masks, in the object.
 /// \param object         has its views and rings, but not their shapes.
 /// \return warnings and depth maps for display; errors of reading.
 /// Memory: at the working size 10 bytes per pixel and photo, 4 bytes per full-size pixel of `completed`, and for each
 /// thread about 3 bytes per object pixel and depth level.
-Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
-                                   const ShapeOptions& options, bool keep_pictures, RaySpaceObject& object,
-                                   Progress* progress = nullptr);
+Result<ShapeMapOutput> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
+                                      const ShapeOptions& options, bool keep_images, RaySpaceObject& object,
+                                      Progress* progress = nullptr);
 
 }  // namespace rs::encode

@@ -25,26 +25,26 @@ void add_what_was_built(HtmlPage& page, const BuildReport& report) {
 
 Status add_captured(HtmlPage& page, const BuildReport& report) {
     if (report.captured.empty()) return {};
-    page.heading("Captured pictures");
-    return page.pictures(report.captured, kThumbnail_px);
+    page.heading("Captured images");
+    return page.images(report.captured, kThumbnail_px);
 }
 
 void add_rings(HtmlPage& page, const BuildReport& report) {
     if (report.rig.views.empty()) return;
     page.heading("The cameras from above");
-    page.drawing(svg_of_rings(report.rig));
+    page.drawing(draw_ring_plan(report.rig));
     std::vector<std::string> missing = describe_missing_sectors(report.rig);
     if (missing.empty()) {
         page.paragraph("No sector is missing.");
     } else {
-        page.paragraph("Sectors without views, counted from +Z towards +X; what is seen from there is a guess:");
+        page.paragraph("Sectors without views, measured from +Z towards +X; renderings from these are extrapolated:");
         page.list(missing);
     }
 }
 
 LinePlot plot_of_scores(const std::vector<MethodScores>& scores) {
     LinePlot plot;
-    plot.title = "PSNR of the views held out";
+    plot.title = "PSNR of the held-out views";
     plot.x_label = "view";
     plot.y_label = "dB";
     for (const MethodScores& method : scores) {
@@ -67,54 +67,54 @@ void add_score_tables(HtmlPage& page, const std::vector<MethodScores>& scores) {
         summary.push_back({method.method, two_decimals(method.mean_psnr_db), two_decimals(method.pooled_psnr_db),
                            two_decimals(method.mean_ssim * 100), two_decimals(method.build_seconds)});
     }
-    page.table({"answered by", "mean PSNR, dB", "PSNR of all pixels, dB", "mean SSIM, %", "build, s"}, summary);
+    page.table({"method", "mean PSNR, dB", "PSNR of all pixels, dB", "mean SSIM, %", "build, s"}, summary);
     page.drawing(svg_of(plot_of_scores(scores)));
 
-    std::vector<std::string> header{"view", "picture"};
+    std::vector<std::string> header{"view", "image"};
     for (const MethodScores& method : scores) header.push_back(method.method + ", dB");
     std::vector<std::vector<std::string>> rows;
     for (std::size_t n = 0; n < scores.front().views.size(); ++n) {
         const HeldOutScore& first = scores.front().views[n];
-        std::vector<std::string> row{std::to_string(first.view), first.picture};
+        std::vector<std::string> row{std::to_string(first.view), first.image};
         for (const MethodScores& method : scores) row.push_back(two_decimals(method.views[n].psnr_db));
         rows.push_back(std::move(row));
     }
-    page.begin_details("Every view held out");
+    page.begin_details("All held-out views");
     page.table(header, rows);
     page.end_details();
 }
 
 Status add_scores(HtmlPage& page, const BuildReport& report) {
     if (report.scores.empty() && report.why_no_scores.empty()) return {};
-    page.heading("Views held out");
+    page.heading("Held-out views");
     if (report.scores.empty()) {
         page.paragraph(report.why_no_scores);
         return {};
     }
     page.paragraph(
-        "For these figures alone objects were built without the views that they are scored on. " + report.hold_out +
-        " \"photo\" shows the nearest picture that was kept, \"plane\" takes the object to lie on the reference "
+        "For these figures, objects were built without the views that they are scored on. " + report.hold_out +
+        " \"photo\" shows the nearest kept image, \"plane\" assumes the object to lie on the reference "
         "planes, "
-        "\"shape\" uses the depth found from the pictures. The steps between the kept views are wider than those of "
+        "\"shape\" uses the depth estimated from the images. The kept views are farther apart than the views of "
         "the "
-        "object in the file, which is better than these figures. PSNR and SSIM over the object's pixels, colours "
+        "object in the file, which is therefore better. PSNR and SSIM over the object's pixels, colours "
         "premultiplied by alpha.");
     add_score_tables(page, report.scores);
     if (!report.held_out.empty()) {
-        page.paragraph("Beside each answer its error: black is right, white is " + std::to_string(kErrorFullScale) +
-                       " of 255 or more off in the worst of R, G and B.");
+        page.paragraph("Error map beside each rendering: black is no error, white an error of " +
+                       std::to_string(kErrorFullScale) + " of 255 or more in the worst of R, G and B.");
     }
-    for (const PictureRow& row : report.held_out) {
+    for (const ImageRow& row : report.held_out) {
         page.paragraph(row.caption);
-        if (Status status = page.pictures(row.pictures, kCompared_px, PictureLayout::kLine); !status) return status;
+        if (Status status = page.images(row.images, kCompared_px, ImageLayout::kLine); !status) return status;
     }
     return {};
 }
 
-Status add_found(HtmlPage& page, const char* heading, const std::vector<CaptionedPicture>& pictures) {
-    if (pictures.empty()) return {};
+Status add_found(HtmlPage& page, const char* heading, const std::vector<CaptionedImage>& images) {
+    if (images.empty()) return {};
     page.heading(heading);
-    return page.pictures(pictures, kCompared_px);
+    return page.images(images, kCompared_px);
 }
 
 void add_accounts(HtmlPage& page, const BuildReport& report) {
@@ -145,11 +145,11 @@ void add_accounts(HtmlPage& page, const BuildReport& report) {
 Result<std::string> build_report_page(const BuildReport& report) {
     HtmlPage page(report.name);
     add_what_was_built(page, report);
-    if (Status status = add_captured(page, report); !status) return status.error();
+    RS_TRY(add_captured(page, report));
     add_rings(page, report);
-    if (Status status = add_scores(page, report); !status) return status.error();
-    if (Status status = add_found(page, "Visual hull", report.hull_pictures); !status) return status.error();
-    if (Status status = add_found(page, "Depth found", report.depth_pictures); !status) return status.error();
+    RS_TRY(add_scores(page, report));
+    RS_TRY(add_found(page, "Visual hull", report.hull_images));
+    RS_TRY(add_found(page, "Estimated depth", report.depth_images));
     add_accounts(page, report);
     return page.text();
 }

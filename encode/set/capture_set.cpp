@@ -4,7 +4,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/geometry/ray_space.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <unistd.h>
 
@@ -20,21 +20,21 @@ namespace {
 
 constexpr double kSteepestPitch_rad = radians(60);
 
-Result<Image<Rgba8>> read_captured_picture(const CaptureSet& set, int view) {
+Result<Image<Rgba8>> read_captured_image(const CaptureSet& set, int view) {
     const RigView& captured = set.captured.views[static_cast<std::size_t>(view)];
-    const std::filesystem::path path = picture_path(set.folder, captured);
-    Result<Image<Rgba8>> picture = read_picture(path);
-    if (!picture) return picture;
-    if (picture->width() != captured.camera.width || picture->height() != captured.camera.height) {
-        return Error{path.string() + ": is " + std::to_string(picture->width()) + "x" +
-                     std::to_string(picture->height()) + " pixels, but its frame in " + kRigFileName + " says " +
-                     std::to_string(captured.camera.width) + "x" + std::to_string(captured.camera.height) +
-                     "; make them agree"};
+    const std::filesystem::path path = image_path(set.folder, captured);
+    Result<Image<Rgba8>> image = read_image(path);
+    if (!image) return image;
+    if (image->width() != captured.camera.width || image->height() != captured.camera.height) {
+        return Error{path.string() + ": is " + std::to_string(image->width()) + "x" + std::to_string(image->height()) +
+                     " pixels, but its frame in " + kRigFileName + " states " + std::to_string(captured.camera.width) +
+                     "x" + std::to_string(captured.camera.height) + "; make them agree"};
     }
-    return picture;
+    return image;
 }
 
-// The names of lens distortion in rigs of NeRF tools; an object's pictures must be free of it.
+// The first distortion parameter that is not 0, by the key names of NeRF tools; empty if there is none. Images of an
+// object must be undistorted.
 std::string distortion_in(const nlohmann::json& extras) {
     for (const char* key : {"k1", "k2", "k3", "k4", "p1", "p2"}) {
         const auto found = extras.find(key);
@@ -45,27 +45,27 @@ std::string distortion_in(const nlohmann::json& extras) {
 
 Status check_views(const CaptureSet& set) {
     const std::string where = (set.folder / kRigFileName).string();
-    if (set.captured.views.empty()) return Error{where + ": holds no frames; a capture set needs at least one picture"};
+    if (set.captured.views.empty()) return Error{where + ": has no frames; a capture set needs at least one image"};
     const Camera& first = set.captured.views.front().camera;
     for (std::size_t i = 0; i < set.captured.views.size(); ++i) {
         const RigView& view = set.captured.views[i];
-        const std::filesystem::path path = picture_path(set.folder, view);
+        const std::filesystem::path path = image_path(set.folder, view);
         if (view.camera.width != first.width || view.camera.height != first.height) {
             return Error{path.string() + ": is " + std::to_string(view.camera.width) + "x" +
-                         std::to_string(view.camera.height) + " pixels, but the first picture is " +
+                         std::to_string(view.camera.height) + " pixels, but the first image is " +
                          std::to_string(first.width) + "x" + std::to_string(first.height) +
-                         "; all pictures of an object must have one size"};
+                         "; all images of an object must have one size"};
         }
         std::string distortion = distortion_in(set.captured.extras);
         if (distortion.empty()) distortion = distortion_in(view.extras);
         if (!distortion.empty()) {
             return Error{where + ": frame " + std::to_string(i) + " has lens distortion (" + distortion +
-                         " is not 0); undistort the pictures first"};
+                         " is not 0); undistort the images first"};
         }
         if (std::abs(std::asin(std::clamp(view.camera.forward().y, -1.0, 1.0))) > kSteepestPitch_rad) {
             return Error{
                 where + ": the camera of frame " + std::to_string(i) +
-                " looks up or down by more than 60 degrees; such a picture cannot be made upright, leave it out"};
+                " looks up or down by more than 60 degrees; such an image cannot be made upright, leave it out"};
         }
     }
     return {};
@@ -81,32 +81,30 @@ void turn_upright(Rig& rig) {
     }
 }
 
-// Where each picture shows something, in pixels of its upright camera.
-Result<std::vector<PixelBox>> measure_pictures(const CaptureSet& set, Progress* progress) {
+// Bounding box of each image's visible pixels, in pixels of its upright camera.
+Result<std::vector<PixelBox>> measure_images(const CaptureSet& set, Progress* progress) {
     std::vector<PixelBox> occupied(set.captured.views.size());
     const int count = static_cast<int>(occupied.size());
-    const Status measured = for_each_in_parallel(count, "measuring", progress, [&](int i) -> Status {
+    RS_TRY(for_each_in_parallel(count, "measuring", progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
-        const Result<Image<Rgba8>> picture = read_captured_picture(set, i);
-        if (!picture) return picture.error();
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, read_captured_image(set, i));
         const Camera& captured = set.captured.views[n].camera;
-        const auto box = set.resampled ? occupied_box_seen_by(set.upright.views[n].camera, captured, *picture)
-                                       : occupied_box(*picture);
+        const auto box = set.resampled ? project_occupied_box(set.upright.views[n].camera, captured, image)
+                                       : find_occupied_box(image);
         if (!box) {
             return Error{
-                picture_path(set.folder, set.captured.views[n]).string() +
-                ": shows something beyond straight up or down, which no upright picture can hold; leave it out"};
+                image_path(set.folder, set.captured.views[n]).string() +
+                ": shows pixels beyond straight up or down, which an upright image cannot contain; leave it out"};
         }
         occupied[n] = *box;
         return {};
-    });
-    if (!measured) return measured.error();
+    }));
     return occupied;
 }
 
-// Gives all upright cameras one frame, as large as it takes to show what any picture shows; `occupied` moves along.
+// Sets one frame size for all upright cameras, large enough for all visible pixels; `occupied` is moved along.
 Status frame_upright_cameras(CaptureSet& set, std::vector<PixelBox>& occupied) {
-    PixelBox all{0, 0, 1, 1};  // something to hold where every picture is empty
+    PixelBox all{0, 0, 1, 1};  // not empty even if every image is
     bool first = true;
     for (const PixelBox& box : occupied) {
         if (box.empty()) continue;
@@ -119,12 +117,12 @@ Status frame_upright_cameras(CaptureSet& set, std::vector<PixelBox>& occupied) {
     const double top = std::floor(all.y0 - kMargin_px);
     const double width = all.x1 + kMargin_px - left;
     const double height = all.y1 + kMargin_px - top;
-    if (width > kMaxPictureSide_px - 1 || height > kMaxPictureSide_px - 1) {
+    if (width > kMaxImageSide_px - 1 || height > kMaxImageSide_px - 1) {
         return Error{(set.folder / kRigFileName).string() +
-                     ": made upright, the pictures would be wider or higher than " +
-                     std::to_string(kMaxPictureSide_px) + " pixels; crop the pictures or photograph from less above"};
+                     ": made upright, the images would be wider or higher than " + std::to_string(kMaxImageSide_px) +
+                     " pixels; crop the images or capture from a lower elevation"};
     }
-    // Even sizes: chroma is stored at half of them.
+    // Even sizes, since chroma is stored at half of them.
     const auto even = [](double size) { return 2 * static_cast<int>(std::ceil(size / 2)); };
     set.width = even(width);
     set.height = even(height);
@@ -139,8 +137,8 @@ Status frame_upright_cameras(CaptureSet& set, std::vector<PixelBox>& occupied) {
     return {};
 }
 
-// The largest distance from Y of the vertical planes that bound the silhouettes: the radius of a cylinder that holds
-// the visual hull.
+// The largest distance from the Y axis of the vertical planes that bound the silhouettes: the radius of a cylinder that
+// contains the visual hull.
 double radius_from_silhouettes(const Rig& upright, const std::vector<PixelBox>& occupied) {
     double radius = 0;
     for (std::size_t i = 0; i < upright.views.size(); ++i) {
@@ -176,11 +174,10 @@ Status check_distances(const CaptureSet& set) {
 Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress* progress) {
     CaptureSet set;
     set.folder = std::filesystem::is_directory(path) ? path : path.parent_path();
-    Result<Rig> rig = read_rig(path);
-    if (!rig) return rig.error();
-    set.captured = std::move(*rig);
+    RS_ASSIGN_OR_RETURN(Rig rig, read_rig(path));
+    set.captured = std::move(rig);
     set.upright = set.captured;
-    if (const Status status = check_views(set); !status) return status.error();
+    RS_TRY(check_views(set));
     set.width = set.captured.views.front().camera.width;
     set.height = set.captured.views.front().camera.height;
     set.resampled = !std::all_of(set.captured.views.begin(), set.captured.views.end(),
@@ -188,23 +185,21 @@ Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress*
 
     if (set.resampled) turn_upright(set.upright);
     if (set.resampled || set.captured.object_radius <= 0) {
-        Result<std::vector<PixelBox>> occupied = measure_pictures(set, progress);
-        if (!occupied) return occupied.error();
+        RS_ASSIGN_OR_RETURN(std::vector<PixelBox> occupied, measure_images(set, progress));
         if (set.resampled) {
-            if (const Status framed = frame_upright_cameras(set, *occupied); !framed) return framed.error();
+            RS_TRY(frame_upright_cameras(set, occupied));
         }
         if (set.upright.object_radius <= 0) {
-            set.upright.object_radius = radius_from_silhouettes(set.upright, *occupied);
+            set.upright.object_radius = radius_from_silhouettes(set.upright, occupied);
             if (set.upright.object_radius <= 0) {
-                return Error{path.string() +
-                             ": every picture is transparent; is the backdrop setting of the import right?"};
+                return Error{path.string() + ": every image is transparent; check the backdrop setting of the import"};
             }
         }
     }
-    if (const Status status = check_distances(set); !status) return status.error();
+    RS_TRY(check_distances(set));
     const auto memory_bytes =
         static_cast<std::int64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::int64_t>(::sysconf(_SC_PAGE_SIZE));
-    if (const Status status = check_memory(set, memory_bytes); !status) return status.error();
+    RS_TRY(check_memory(set, memory_bytes));
     return set;
 }
 
@@ -220,28 +215,28 @@ Status check_memory(const CaptureSet& set, std::int64_t memory_bytes) {
     const Camera& captured = set.captured.views.front().camera;
     std::string why;
     if (set.resampled) {
-        why = " (made upright, those of " + std::to_string(captured.width) + "x" + std::to_string(captured.height) +
-              " become so large)";
+        why = " (enlarged from " + std::to_string(captured.width) + "x" + std::to_string(captured.height) +
+              " to be upright)";
     }
     return Error{(set.folder / kRigFileName).string() + ": " + std::to_string(set.upright.views.size()) +
-                 " pictures of " + std::to_string(set.width) + "x" + std::to_string(set.height) + why + " take about " +
+                 " images of " + std::to_string(set.width) + "x" + std::to_string(set.height) + why + " take about " +
                  gigabytes(needed_bytes) + " GB of memory, and this machine has " + gigabytes(memory_bytes) +
-                 "; leave out the steepest views, or make the pictures smaller"};
+                 "; leave out the steepest views, or make the images smaller"};
 }
 
 std::string name_of(const CaptureSet& set) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(set.folder)).filename().string();
 }
 
-Result<Image<Rgba8>> read_upright_picture(const CaptureSet& set, int view) {
+Result<Image<Rgba8>> read_upright_image(const CaptureSet& set, int view) {
     if (const auto found = set.completed.find(view); found != set.completed.end()) return Image<Rgba8>(found->second);
-    Result<Image<Rgba8>> picture = read_captured_picture(set, view);
-    if (!picture || !set.resampled) return picture;
+    Result<Image<Rgba8>> image = read_captured_image(set, view);
+    if (!image || !set.resampled) return image;
     const auto i = static_cast<std::size_t>(view);
-    return resampled_picture(set.upright.views[i].camera, set.captured.views[i].camera, *picture);
+    return resample_image(set.upright.views[i].camera, set.captured.views[i].camera, *image);
 }
 
-CaptureSet with_views(const CaptureSet& set, std::span<const int> views) {
+CaptureSet select_views(const CaptureSet& set, std::span<const int> views) {
     RS_CHECK(!views.empty());
     CaptureSet chosen = set;
     const auto choose = [&](const Rig& from, Rig& to) {

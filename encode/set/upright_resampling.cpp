@@ -28,10 +28,10 @@ void PixelBox::include(double x, double y) {
     y1 = std::max(y1, y);
 }
 
-PixelBox occupied_box(ConstImageView<Rgba8> picture) {
+PixelBox find_occupied_box(ConstImageView<Rgba8> image) {
     PixelBox box;
-    for (int y = 0; y < picture.height(); ++y) {
-        if (const auto span = occupied_columns(picture.row_span(y))) {
+    for (int y = 0; y < image.height(); ++y) {
+        if (const auto span = occupied_columns(image.row_span(y))) {
             box.include(span->first, y);
             box.include(span->second, y + 1);
         }
@@ -39,11 +39,11 @@ PixelBox occupied_box(ConstImageView<Rgba8> picture) {
     return box;
 }
 
-std::optional<PixelBox> occupied_box_seen_by(const Camera& to, const Camera& from, ConstImageView<Rgba8> picture) {
+std::optional<PixelBox> project_occupied_box(const Camera& to, const Camera& from, ConstImageView<Rgba8> image) {
     const glm::dmat3 to_from_from = pixel_in_to_from_pixel_in_from(to, from);
     PixelBox seen;
-    for (int y = 0; y < picture.height(); ++y) {
-        const auto span = occupied_columns(picture.row_span(y));
+    for (int y = 0; y < image.height(); ++y) {
+        const auto span = occupied_columns(image.row_span(y));
         if (!span) continue;
         for (const int x : {span->first, span->second}) {
             for (const int edge : {y, y + 1}) {
@@ -56,7 +56,7 @@ std::optional<PixelBox> occupied_box_seen_by(const Camera& to, const Camera& fro
     return seen;
 }
 
-Image<Rgba8> resampled_picture(const Camera& to, const Camera& from, ConstImageView<Rgba8> picture) {
+Image<Rgba8> resample_image(const Camera& to, const Camera& from, ConstImageView<Rgba8> image) {
     Image<Rgba8> result(to.width, to.height);
     const glm::dmat3 from_from_to = pixel_in_to_from_pixel_in_from(from, to);
     for (int y = 0; y < to.height; ++y) {
@@ -66,8 +66,8 @@ Image<Rgba8> resampled_picture(const Camera& to, const Camera& from, ConstImageV
             if (glm::dot(ray, from.forward()) <= 0) continue;
             const double px = p.x / p.z;
             const double py = p.y / p.z;
-            if (px < -1 || py < -1 || px > picture.width() + 1 || py > picture.height() + 1) continue;
-            result(x, y) = sample_premultiplied(picture, px, py);
+            if (px < -1 || py < -1 || px > image.width() + 1 || py > image.height() + 1) continue;
+            result(x, y) = sample_premultiplied(image, px, py);
         }
     }
     return result;

@@ -5,7 +5,7 @@
 #include "encode/report/stage_clock.hpp"
 #include "encode/set/capture_set.hpp"
 #include "encode/tools/profile_options.hpp"
-#include "encode/tools/report_of_build.hpp"
+#include "encode/tools/report_contents.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
@@ -29,7 +29,7 @@ struct BuildArguments {
     std::string set;
     std::string output;
     std::string raymap = to_string(MapKind::kShape);
-    std::string cells;  // empty: as usual for the kind of map
+    std::string cells;  // empty: the default of the map's kind
     std::string report;
     ProfileArguments profile;
     int planes = PlaneMapOptions{}.planes;
@@ -38,15 +38,15 @@ struct BuildArguments {
     bool json = false;
 };
 
-// What a build came to, for stdout and for the page.
+// Summary of a build, for stdout and the report.
 struct BuildSummary {
     std::uint64_t bytes = 0;
     double seconds = 0;
     long long peak_memory_bytes = 0;
-    std::optional<double> psnr_db;  // of compressed pictures
+    std::optional<double> psnr_db;  // compressed images only
 };
 
-// The most memory that this process has held, as the system counts it.
+// Peak resident memory of this process.
 long long peak_memory_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -56,17 +56,17 @@ long long peak_memory_bytes() {
 Result<BuildOptions> options_of(const BuildArguments& arguments) {
     BuildOptions options;
     options.name = arguments.name;
-    const std::optional<MapKind> kind = map_kind_from(arguments.raymap);
+    const std::optional<MapKind> kind = parse_map_kind(arguments.raymap);
     if (!kind) {
         return Error{"--raymap " + arguments.raymap +
-                     ": there is no such kind of RS map; give shape or plane (its size is --cells)"};
+                     ": is not a kind of RS map; use shape or plane (--cells sets its size)"};
     }
     options.raymap = *kind;
     options.map = usual_plane_map(*kind);
     options.map.planes = arguments.planes;
     if (!arguments.cells.empty()) {
         const Result<PixelSize> cells = parse_size(arguments.cells);
-        if (!cells) return Error{"--cells " + arguments.cells + ": give cells of x and of u, such as 512x512"};
+        if (!cells) return Error{"--cells " + arguments.cells + ": is not XxU; use cells of x and u, such as 512x512"};
         options.map.x_cells = cells->width;
         options.map.u_cells = cells->height;
     }
@@ -96,11 +96,11 @@ void print_summary(const BuildArguments& arguments, const BuildOptions& options,
         if (!arguments.report.empty()) json["report"] = arguments.report;
         std::cout << json.dump(2) << '\n';
     } else {
-        const std::string pictures =
-            arguments.profile.profile + " pictures" + (summary.psnr_db ? text_of(" of %.2f dB", *summary.psnr_db) : "");
+        const std::string images =
+            arguments.profile.profile + " images" + (summary.psnr_db ? text_of(" of %.2f dB", *summary.psnr_db) : "");
         std::printf("%s: %zu views of %dx%d, %s map, %d planes, %s, %.2f MB, %.1f s, peak memory %.0f MB\n",
                     arguments.output.c_str(), object.views.size(), object.width, object.height,
-                    to_string(options.raymap).c_str(), options.map.planes, pictures.c_str(),
+                    to_string(options.raymap).c_str(), options.map.planes, images.c_str(),
                     static_cast<double>(summary.bytes) / 1e6, summary.seconds,
                     static_cast<double>(summary.peak_memory_bytes) / 1e6);
     }
@@ -114,8 +114,8 @@ std::vector<ReportFact> facts_of(const BuildArguments& arguments, const BuildOpt
     return {
         {"capture set", arguments.set},
         {"object", arguments.output},
-        {"pictures", std::to_string(object.views.size()) + " of " + std::to_string(object.width) + "x" +
-                         std::to_string(object.height) + (set.resampled ? ", made upright" : "")},
+        {"images", std::to_string(object.views.size()) + " of " + std::to_string(object.width) + "x" +
+                       std::to_string(object.height) + (set.resampled ? ", resampled upright" : "")},
         {"rings of views", std::to_string(object.rings.size())},
         {"RS map", to_string(options.raymap) + "; " + map},
         {"stored as", arguments.profile.profile +
@@ -131,59 +131,52 @@ Status run_build(const BuildArguments& arguments) {
     const auto begun = std::chrono::steady_clock::now();
     ProgressBar bar(arguments.quiet);
     StageClock progress(bar);
-    Result<BuildOptions> options = options_of(arguments);
-    if (!options) return options.error();
+    RS_ASSIGN_OR_RETURN(BuildOptions options, options_of(arguments));
 
-    Result<CaptureSet> set = open_capture_set(arguments.set, &progress);
-    if (!set) return set.error();
-    // The places of object and page are tried before the work is done.
-    if (const Result<StagedFile> object = StagedFile::create(arguments.output); !object) return object.error();
+    RS_ASSIGN_OR_RETURN(CaptureSet set, open_capture_set(arguments.set, &progress));
+    // Check that the output files can be written before the long build.
+    RS_TRY(StagedFile::create(arguments.output));
     std::optional<StagedFile> page;
     if (!arguments.report.empty()) {
-        Result<StagedFile> created = StagedFile::create(arguments.report);
-        if (!created) return created.error();
-        page = std::move(*created);
+        RS_ASSIGN_OR_RETURN(StagedFile created, StagedFile::create(arguments.report));
+        page = std::move(created);
     }
-    if (options->name.empty()) options->name = name_of(*set);
-    const Result<std::optional<PictureGoal>> goal = goal_of(arguments.profile);
-    if (!goal) return goal.error();
-    options->raw_pictures = !goal->has_value();
-    if (set->resampled) std::cerr << "rs-encode: the cameras look up or down; their pictures are made upright\n";
-    Result<BuiltObject> built = build_object(*set, *options, &progress);
-    if (!built) return built.error();
+    if (options.name.empty()) options.name = name_of(set);
+    RS_ASSIGN_OR_RETURN(const std::optional<ImageGoal> goal, parse_goal(arguments.profile));
+    options.raw_images = !goal.has_value();
+    if (set.resampled) std::cerr << "rs-encode: the cameras are pitched; their images are resampled to upright ones\n";
+    RS_ASSIGN_OR_RETURN(BuiltObject built, build_object(set, options, &progress));
     BuildSummary summary;
-    if (*goal) {
-        set->completed = std::move(built->completed);
-        Result<EncodedPictures> encoded =
-            encode_pictures(*set, built->object, **goal, arguments.profile.alpha_bits, &progress);
-        if (!encoded) return encoded.error();
-        set->completed.clear();  // what is scored is compared with the photographs
-        summary.psnr_db = encoded->psnr_db;
-        built->object.coded = std::make_shared<codec::CodedPictures>(std::move(encoded->coded));
+    if (goal) {
+        set.completed = std::move(built.completed);
+        RS_ASSIGN_OR_RETURN(EncodedImages encoded,
+                            encode_images(set, built.object, *goal, arguments.profile.alpha_bits, &progress));
+        set.completed.clear();  // scores compare with the photos as captured
+        summary.psnr_db = encoded.psnr_db;
+        built.object.coded = std::make_shared<codec::CodedImages>(std::move(encoded.coded));
     }
-    if (Status status = write_object(arguments.output, built->object, &progress); !status) return status;
-    for (const std::string& warning : built->warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
+    if (Status status = write_object(arguments.output, built.object, &progress); !status) return status;
+    for (const std::string& warning : built.warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
 
     summary.bytes = std::filesystem::file_size(arguments.output);
     summary.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
     summary.peak_memory_bytes = peak_memory_bytes();
     if (page) {
-        const Result<ContainerReader> container = ContainerReader::open(arguments.output);
-        if (!container) return container.error();
+        RS_ASSIGN_OR_RETURN(const ContainerReader container, ContainerReader::open(arguments.output));
         BuildReport report;
-        report.name = options->name;
-        report.facts = facts_of(arguments, *options, *set, built->object, summary);
+        report.name = options.name;
+        report.facts = facts_of(arguments, options, set, built.object, summary);
         report.stages = progress.stages();
-        report.chunks = summarise_chunks(*container);
-        report.warnings = built->warnings;
-        report.rig = set->upright;
-        built->object.pictures.clear();  // their memory is wanted for the objects that are scored
-        if (Status status = add_captured_pictures(*set, report); !status) return status;
-        add_depths(*set, built->depths, report);
-        if (Status status = add_held_out_views(*set, options->map.planes, report, &bar); !status) return status;
+        report.chunks = summarise_chunks(container);
+        report.warnings = built.warnings;
+        report.rig = set.upright;
+        built.object.images.clear();  // frees memory for the objects to be scored
+        if (Status status = add_captured_images(set, report); !status) return status;
+        add_depth_images(set, built.depths, report);
+        if (Status status = add_evaluation(set, options.map.planes, report, &bar); !status) return status;
         if (Status status = write_report(*page, report); !status) return status;
     }
-    print_summary(arguments, *options, built->object, summary);
+    print_summary(arguments, options, built.object, summary);
     return {};
 }
 
@@ -192,28 +185,26 @@ Status run_build(const BuildArguments& arguments) {
 void add_build_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<BuildArguments>();
     CLI::App* command = app.add_subcommand("build", "Build a ray-space object from a capture set");
-    command->add_option("SET", arguments->set, "capture set: a folder with transforms.json and its pictures")
-        ->required();
+    command->add_option("SET", arguments->set, "capture set: a folder with transforms.json and its images")->required();
     command->add_option("-o,--output", arguments->output, "the object to write, OBJECT.rso")
         ->required()
         ->check(ends_in({".rso"}));
     command
-        ->add_option(
-            "--raymap", arguments->raymap,
-            "shape: depth of every ray, found from the pictures; plane: the object lies on the reference planes")
+        ->add_option("--raymap", arguments->raymap,
+                     "shape: depth of every ray, estimated from the images; plane: depth of the reference planes")
         ->capture_default_str();
     command->add_option("--cells", arguments->cells,
-                        "cells of the RS map of a plane, X x U; 512x512 for plane and 128x128 for shape if not given");
+                        "cells of each plane's RS map, XxU; default 512x512 for plane and 128x128 for shape");
     command->add_option("--planes", arguments->planes, "reference planes about the axis, 3..64")->capture_default_str();
     add_profile_options(*command, arguments->profile);
-    command->add_option("--name", arguments->name, "name of the object; the set's folder where not given");
+    command->add_option("--name", arguments->name, "object name; default: the set's folder");
     command
         ->add_option("--report", arguments->report,
-                     "also write a page about the build, PAGE.html; takes as long again, for it scores objects "
-                     "that are built without every other view")
+                     "also write a report, PAGE.html; doubles the time, since it scores objects that are built "
+                     "without every second view")
         ->check(ends_in({".html", ".htm"}));
-    command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
-    command->add_flag("--json", arguments->json, "the summary as JSON");
+    command->add_flag("-q,--quiet", arguments->quiet, "suppress the progress bar");
+    command->add_flag("--json", arguments->json, "print the summary as JSON");
     command->footer(
         "Examples:\n  rs-encode build vase-set -o vase.rso --report vase.html\n"
         "  rs-encode build vase-set -o vase.rso --psnr 36\n"

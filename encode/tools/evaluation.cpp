@@ -4,7 +4,7 @@
 #include "engine/core/fast/renderer.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/format/object_file.hpp"
-#include "rayspace/image/picture_metrics.hpp"
+#include "rayspace/image/image_metrics.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr Method kMethods[] = {Method::kPhoto, Method::kPlane, Method::kShape};
 
-// The picture that a method gives for a view of the rig.
+// Renders a view of the rig by one method.
 using Answer = std::function<Result<Image<Rgba8>>(int view)>;
 
 Result<engine::Renderer> renderer_of_kept(const CaptureSet& set, const HoldOut& hold_out, MapKind kind, int planes,
@@ -26,42 +26,38 @@ Result<engine::Renderer> renderer_of_kept(const CaptureSet& set, const HoldOut& 
     options.map.planes = planes;
     options.raymap = kind;
     options.name = "kept views";
-    Result<BuiltObject> built = build_object(with_views(set, hold_out.kept), options, progress);
-    if (!built) return built.error();
-    // The renderer relies on what a reader checks.
-    if (const Status status = validate_object(built->object, set.folder.string()); !status) return status.error();
-    return engine::Renderer::create(std::move(built->object));
+    RS_ASSIGN_OR_RETURN(BuiltObject built, build_object(select_views(set, hold_out.kept), options, progress));
+    // The renderer requires a validated object, which a file reader would return.
+    RS_TRY(validate_object(built.object, set.folder.string()));
+    return engine::Renderer::create(std::move(built.object));
 }
 
 Result<Image<Rgba8>> rendered(const engine::Renderer& renderer, const CaptureSet& set, int view) {
     const RigView& wanted = set.upright.views[static_cast<std::size_t>(view)];
     const Result<engine::ViewRegisters> registers = engine::prepare_view(renderer.object(), wanted.camera);
-    if (!registers) return Error{picture_path(set.folder, wanted).string() + ": " + registers.error().message};
-    Image<Rgba8> picture(wanted.camera.width, wanted.camera.height);
-    renderer.render(*registers, picture);
-    return picture;
+    if (!registers) return Error{image_path(set.folder, wanted).string() + ": " + registers.error().message};
+    Image<Rgba8> image(wanted.camera.width, wanted.camera.height);
+    renderer.render(*registers, image);
+    return image;
 }
 
 Result<MethodScores> score(const CaptureSet& set, const HoldOut& hold_out, Method method, const Answer& answer,
-                           const LookAtAnswer& look, Progress* progress) {
+                           const EvaluationSink& look, Progress* progress) {
     MethodScores scores;
     scores.method = to_string(method);
     scores.views.resize(hold_out.held.size());
-    std::vector<PictureDifference> differences(hold_out.held.size());
+    std::vector<ImageDifference> differences(hold_out.held.size());
     const int count = static_cast<int>(hold_out.held.size());
-    const Status scored = for_each_in_parallel(count, "scoring " + scores.method, progress, [&](int i) -> Status {
+    RS_TRY(for_each_in_parallel(count, "scoring " + scores.method, progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
         const int view = hold_out.held[n];
-        const Result<Image<Rgba8>> truth = read_upright_picture(set, view);
-        if (!truth) return truth.error();
-        const Result<Image<Rgba8>> given = answer(view);
-        if (!given) return given.error();
-        differences[n] = compare_pictures(*truth, *given);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> truth, read_upright_image(set, view));
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> given, answer(view));
+        differences[n] = compare_images(truth, given);
         scores.views[n] = {view, set.upright.views[static_cast<std::size_t>(view)].file_path, differences[n].psnr_db(),
                            differences[n].ssim};
-        return look ? look({method, n, view, *truth, *given, scores.views[n].psnr_db}) : Status{};
-    });
-    if (!scored) return scored.error();
+        return look ? look({method, n, view, truth, given, scores.views[n].psnr_db}) : Status{};
+    }));
     const DifferenceSummary summary = summarise(differences);
     scores.mean_psnr_db = summary.mean_psnr_db;
     scores.pooled_psnr_db = summary.pooled_psnr_db;
@@ -69,22 +65,21 @@ Result<MethodScores> score(const CaptureSet& set, const HoldOut& hold_out, Metho
     return scores;
 }
 
-Result<MethodScores> score_photo(const CaptureSet& set, const HoldOut& hold_out, const LookAtAnswer& look,
+Result<MethodScores> score_photo(const CaptureSet& set, const HoldOut& hold_out, const EvaluationSink& look,
                                  Progress* progress) {
     const Answer nearest = [&](int view) {
-        return read_upright_picture(set, nearest_kept_view(set.upright, hold_out, view));
+        return read_upright_image(set, nearest_kept_view(set.upright, hold_out, view));
     };
     return score(set, hold_out, Method::kPhoto, nearest, look, progress);
 }
 
 Result<MethodScores> score_object(const CaptureSet& set, const HoldOut& hold_out, Method method, int planes,
-                                  const LookAtAnswer& look, Progress* progress) {
+                                  const EvaluationSink& look, Progress* progress) {
     const auto begun = std::chrono::steady_clock::now();
     const MapKind kind = method == Method::kPlane ? MapKind::kPlane : MapKind::kShape;
-    const Result<engine::Renderer> renderer = renderer_of_kept(set, hold_out, kind, planes, progress);
-    if (!renderer) return renderer.error();
+    RS_ASSIGN_OR_RETURN(const engine::Renderer renderer, renderer_of_kept(set, hold_out, kind, planes, progress));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    const Answer render = [&](int view) { return rendered(*renderer, set, view); };
+    const Answer render = [&](int view) { return rendered(renderer, set, view); };
     Result<MethodScores> scores = score(set, hold_out, method, render, look, progress);
     if (scores) scores->build_seconds = seconds;
     return scores;
@@ -111,12 +106,12 @@ Result<std::vector<Method>> parse_methods(const std::string& text) {
         const std::string name = text.substr(begin, end - begin);
         const auto* const known = std::find_if(std::begin(kMethods), std::end(kMethods),
                                                [&](Method method) { return to_string(method) == name; });
-        const std::string problem = known == std::end(kMethods) ? "there is no method \"" + name + "\""
+        const std::string problem = known == std::end(kMethods) ? "\"" + name + "\" is not a method"
                                     : std::find(methods.begin(), methods.end(), *known) != methods.end()
-                                        ? name + " is given twice"
+                                        ? "\"" + name + "\" is repeated"
                                         : "";
         if (!problem.empty()) {
-            return Error{"--methods " + text + ": " + problem + "; give some of photo,plane,shape"};
+            return Error{"--methods " + text + ": " + problem + "; use some of photo,plane,shape"};
         }
         methods.push_back(*known);
         begin = end + 1;
@@ -125,15 +120,15 @@ Result<std::vector<Method>> parse_methods(const std::string& text) {
 }
 
 Result<std::vector<MethodScores>> evaluate(const CaptureSet& set, const HoldOut& hold_out,
-                                           const EvaluationOptions& options, const LookAtAnswer& look,
+                                           const EvaluationOptions& options, const EvaluationSink& look,
                                            Progress* progress) {
     std::vector<MethodScores> all;
     for (const Method method : options.methods) {
-        Result<MethodScores> scores = method == Method::kPhoto
-                                          ? score_photo(set, hold_out, look, progress)
-                                          : score_object(set, hold_out, method, options.planes, look, progress);
-        if (!scores) return scores.error();
-        all.push_back(std::move(*scores));
+        RS_ASSIGN_OR_RETURN(MethodScores scores,
+                            method == Method::kPhoto
+                                ? score_photo(set, hold_out, look, progress)
+                                : score_object(set, hold_out, method, options.planes, look, progress));
+        all.push_back(std::move(scores));
     }
     return all;
 }

@@ -1,8 +1,7 @@
 #pragma once
-// Objects built from a part of a capture set, scored on the rest: `rs-encode evaluate` and the page of a build.
+// Builds objects from part of a capture set and scores them on the rest, for `rs-encode evaluate` and the build report.
 //
-// A view that was encoded is never scored. What is scored against is the upright picture, before its colours are
-// stored as Y, U and V.
+// Encoded views are never scored. Ground truth is the upright image before conversion to YUV.
 
 #include "encode/build.hpp"
 #include "encode/hold_out.hpp"
@@ -18,36 +17,38 @@
 namespace rs::encode {
 
 enum class Method {
-    kPhoto,  // the nearest kept picture, shown as it is: what spin viewers do
-    kPlane,  // an object of MapKind::kPlane, rendered
-    kShape,  // an object of MapKind::kShape, rendered
+    kPhoto,  // the nearest kept image, unchanged, as in spin viewers
+    kPlane,  // a rendering of an object of MapKind::kPlane
+    kShape,  // a rendering of an object of MapKind::kShape
 };
 
 std::string to_string(Method method);
 
-// "photo,plane,shape" or some of them, in the order given; a name that is unknown, missing or given twice is an error.
+/// Parses "photo,plane,shape" or a subset, in the given order. Unknown, missing and repeated names are errors.
 Result<std::vector<Method>> parse_methods(const std::string& text);
 
 struct EvaluationOptions {
     std::vector<Method> methods{Method::kPhoto, Method::kPlane, Method::kShape};
-    int planes = 12;  // of the objects that are built; cells as usual_plane_map() gives
+    int planes = 12;  // reference planes of the objects; cells as in usual_plane_map()
 };
 
-struct AnsweredView {
+struct EvaluatedView {
     Method method = Method::kPhoto;
     std::size_t number = 0;  // in HoldOut::held
     int view = 0;            // HoldOut::held[number]
     const Image<Rgba8>& truth;
-    const Image<Rgba8>& answer;  // of the same size
+    const Image<Rgba8>& answer;  // same size
     double psnr_db = 0;
 };
-// Called from several threads at once.
-using LookAtAnswer = std::function<Status(const AnsweredView&)>;
+/// Called from several threads at once.
+using EvaluationSink = std::function<Status(const EvaluatedView&)>;
 
-// One entry for each method, with the views of hold_out.held in their order. `hold_out` is of the set's rig; `look` may
-// be empty. Fails as build_object, read_upright_picture and `look` do.
+/// Evaluates each method on the views hold_out.held, in their order. Fails as build_object, read_upright_image and
+/// `look` do.
+/// \param hold_out  split of the set's rig.
+/// \param look      receives each rendering, from several threads; may be empty.
 Result<std::vector<MethodScores>> evaluate(const CaptureSet& set, const HoldOut& hold_out,
-                                           const EvaluationOptions& options, const LookAtAnswer& look = {},
+                                           const EvaluationOptions& options, const EvaluationSink& look = {},
                                            Progress* progress = nullptr);
 
 }  // namespace rs::encode

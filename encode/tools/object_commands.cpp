@@ -29,23 +29,22 @@ std::string stored_as(const RaySpaceObject& object) {
 }
 
 Status run_info(const ObjectArguments& arguments) {
-    const Result<ContainerReader> container = ContainerReader::open(arguments.object);
-    if (!container) return container.error();
-    Result<RaySpaceObject> object = read_object(*container, {.max_level = -1});
+    RS_ASSIGN_OR_RETURN(const ContainerReader container, ContainerReader::open(arguments.object));
+    Result<RaySpaceObject> object = read_object(container, {.max_level = -1});
     if (!object) return object.error();
     std::vector<codec::AccountEntry> account;
     if (object->coded) {
-        object = read_object(*container, {.decode = false});
+        object = read_object(container, {.decode = false});
         if (!object) return object.error();
         account = codec::account_bytes(*object->coded);
     }
-    const std::vector<ChunkSummary> chunks = summarise_chunks(*container);
+    const std::vector<ChunkSummary> chunks = summarise_chunks(container);
     if (arguments.json) {
         nlohmann::json json{{"name", object->name},
                             {"views", object->views.size()},
                             {"width", object->width},
                             {"height", object->height},
-                            {"bytes", container->size_bytes()},
+                            {"bytes", container.size_bytes()},
                             {"units_per_radius", object->units_per_radius}};
         if (object->foot_q20) json["foot_radii"] = std::ldexp(*object->foot_q20, -20);
         for (const Ring& ring : object->rings) {
@@ -66,52 +65,49 @@ Status run_info(const ObjectArguments& arguments) {
         return {};
     }
     std::printf("%s: \"%s\"\n", arguments.object.c_str(), printable(object->name).c_str());
-    std::printf("  pictures   %zu of %dx%d, Y U V %sand alpha, %s\n", object->views.size(), object->width,
-                object->height, object->coded ? "" : "at 4:2:0 ", stored_as(*object).c_str());
+    std::printf("  images   %zu of %dx%d, Y U V %sand alpha, %s\n", object->views.size(), object->width, object->height,
+                object->coded ? "" : "at 4:2:0 ", stored_as(*object).c_str());
     for (const Ring& ring : object->rings) {
         std::printf("  ring       %zu views at elevation %.2f degrees; %d planes, RS map %dx%d (x, u)\n",
                     ring.views.size(), ring.elevation_udeg * 1e-6, ring.planes, ring.x_cells, ring.u_cells);
     }
     std::printf("  radius     %g units of the capture set\n", object->units_per_radius);
     if (object->foot_q20) std::printf("  stands at  height %.3f radii\n", std::ldexp(*object->foot_q20, -20));
-    std::printf("  file       %llu bytes\n", static_cast<unsigned long long>(container->size_bytes()));
+    std::printf("  file       %llu bytes\n", static_cast<unsigned long long>(container.size_bytes()));
     for (const ChunkSummary& chunk : chunks) {
         std::printf("    %s  x %-5llu %12llu bytes  %5.1f %%\n", chunk.name.c_str(),
                     static_cast<unsigned long long>(chunk.count), static_cast<unsigned long long>(chunk.size_bytes),
-                    100.0 * static_cast<double>(chunk.size_bytes) / static_cast<double>(container->size_bytes()));
+                    100.0 * static_cast<double>(chunk.size_bytes) / static_cast<double>(container.size_bytes()));
     }
-    if (!account.empty()) std::printf("  in the pictures:\n");
+    if (!account.empty()) std::printf("  in the images:\n");
     for (const codec::AccountEntry& entry : account) {
         std::printf("    %-34s %12.0f bytes  %5.1f %%\n", entry.name.c_str(), entry.bytes,
-                    100.0 * entry.bytes / static_cast<double>(container->size_bytes()));
+                    100.0 * entry.bytes / static_cast<double>(container.size_bytes()));
     }
     return {};
 }
 
 Status run_verify(const ObjectArguments& arguments) {
-    const Result<ContainerReader> container = ContainerReader::open(arguments.object);
-    if (!container) return container.error();
-    // Every chunk, also those that an object is read without, and then every bound of FORMAT.md.
-    for (const ChunkEntry& entry : container->table()) {
-        if (const auto payload = container->read(entry); !payload) return payload.error();
+    RS_ASSIGN_OR_RETURN(const ContainerReader container, ContainerReader::open(arguments.object));
+    // Check every chunk, including those that read_object() skips, and then every bound of FORMAT.md.
+    for (const ChunkEntry& entry : container.table()) {
+        RS_TRY(container.read(entry));
     }
-    const Result<RaySpaceObject> object = read_object(*container);
-    if (!object) return object.error();
-    std::printf("%s: sound (%zu pictures, %zu rings)\n", arguments.object.c_str(), object->pictures.size(),
-                object->rings.size());
+    RS_ASSIGN_OR_RETURN(const RaySpaceObject object, read_object(container));
+    std::printf("%s: sound (%zu images, %zu rings)\n", arguments.object.c_str(), object.images.size(),
+                object.rings.size());
     return {};
 }
 
 Status run_extract(const ObjectArguments& arguments) {
-    const Result<RaySpaceObject> object = read_object(arguments.object);
-    if (!object) return object.error();
+    RS_ASSIGN_OR_RETURN(const RaySpaceObject object, read_object(arguments.object));
     ProgressBar progress(arguments.quiet);
-    if (Status status = extract_pictures(*object, arguments.output, &progress); !status) return status;
-    std::printf("%s: %zu pictures\n", arguments.output.c_str(), object->pictures.size());
+    if (Status status = extract_images(object, arguments.output, &progress); !status) return status;
+    std::printf("%s: %zu images\n", arguments.output.c_str(), object.images.size());
     return {};
 }
 
-// What the three commands share; the caller adds its own options.
+// Adds a subcommand with the options common to all three.
 CLI::App* add_object_command(CLI::App& app, std::function<Status()>& run, const char* name, const char* about,
                              const std::shared_ptr<ObjectArguments>& arguments,
                              Status (*action)(const ObjectArguments&)) {
@@ -125,9 +121,9 @@ CLI::App* add_object_command(CLI::App& app, std::function<Status()>& run, const 
 
 void add_info_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<ObjectArguments>();
-    CLI::App* command =
-        add_object_command(app, run, "info", "Say what an object holds and where its bytes go", arguments, run_info);
-    command->add_flag("--json", arguments->json, "as JSON");
+    CLI::App* command = add_object_command(app, run, "info", "Print an object's contents and the size of its parts",
+                                           arguments, run_info);
+    command->add_flag("--json", arguments->json, "print as JSON");
     command->footer("Example:\n  rs-encode info vase.rso --json");
 }
 
@@ -140,10 +136,10 @@ void add_verify_command(CLI::App& app, std::function<Status()>& run) {
 void add_extract_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<ObjectArguments>();
     CLI::App* command = add_object_command(
-        app, run, "extract", "Write the stored pictures and their rig as a capture set", arguments, run_extract);
+        app, run, "extract", "Write the stored images and their rig as a capture set", arguments, run_extract);
     command->add_option("-o,--output", arguments->output, "capture set to write")->required();
-    command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
-    command->footer("Example:\n  rs-encode extract vase.rso -o vase-pictures");
+    command->add_flag("-q,--quiet", arguments->quiet, "suppress the progress bar");
+    command->footer("Example:\n  rs-encode extract vase.rso -o vase-images");
 }
 
 }  // namespace rs::encode

@@ -1,7 +1,7 @@
 #pragma once
-// The options of `rs-encode build` that choose how pictures are stored.
+// Options of `rs-encode build` for the storage of images.
 
-#include "encode/encode_pictures.hpp"
+#include "encode/encode_images.hpp"
 #include "rayspace/base/result.hpp"
 
 #include <CLI/CLI.hpp>
@@ -13,16 +13,16 @@ namespace rs::encode {
 
 struct ProfileArguments {
     std::string profile = "dense";
-    double quality = PictureGoal{}.quality;
+    double quality = ImageGoal{}.quality;
     std::optional<double> psnr_db;
-    std::string size;  // bytes of the pictures, with k, M or G; empty: not given
-    int effort = PictureGoal{}.effort;
-    std::optional<int> alpha_bits;  // nothing: as suits the quality
+    std::string size;  // bytes of the images with suffix k, M or G; empty: not given
+    int effort = ImageGoal{}.effort;
+    std::optional<int> alpha_bits;  // nullopt: chosen by encode_images()
 };
 
 void add_profile_options(CLI::App& command, ProfileArguments& arguments);
 
-// Nothing for pictures that are stored raw.
-Result<std::optional<PictureGoal>> goal_of(const ProfileArguments& arguments);
+/// Converts the options; nullopt for raw images.
+Result<std::optional<ImageGoal>> parse_goal(const ProfileArguments& arguments);
 
 }  // namespace rs::encode

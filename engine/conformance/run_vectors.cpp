@@ -13,12 +13,11 @@ namespace {
 // What differs from the expected view; "" for nothing.
 std::string difference(const ConformanceView& expected, const ExecutedView& found) {
     const ViewRegisters& r = expected.registers;
-    if (found.picture.width() != r.width || found.picture.height() != r.height) {
-        return "the picture is " + std::to_string(found.picture.width()) + "x" +
-               std::to_string(found.picture.height()) + " instead of " + std::to_string(r.width) + "x" +
-               std::to_string(r.height);
+    if (found.image.width() != r.width || found.image.height() != r.height) {
+        return "the image is " + std::to_string(found.image.width()) + "x" + std::to_string(found.image.height()) +
+               " instead of " + std::to_string(r.width) + "x" + std::to_string(r.height);
     }
-    if (const std::uint64_t hash = hash_of(found.picture.view()); hash != expected.rgba_hash) {
+    if (const std::uint64_t hash = hash_of(found.image.view()); hash != expected.rgba_hash) {
         return "colours hash to " + hash_text(hash) + " instead of " + hash_text(expected.rgba_hash);
     }
     if (found.depth_q20.empty()) return "";
@@ -72,23 +71,21 @@ Implementation implementation_of(std::shared_ptr<Executor> executor) {
     return {name,
             [executor = std::move(executor)](const ConformanceCase& of_case,
                                              const RaySpaceObject& object) -> Result<ExecuteView> {
-                if (Status status = executor->takes(object); !status) return status.error();
-                if (executor->as_drawn(object).pictures != object.pictures) {
+                RS_TRY(executor->takes(object));
+                if (executor->as_drawn(object).images != object.images) {
                     return Error{"its alpha has values that " + executor->traits().name + " does not hold"};
                 }
-                const Result<std::optional<int>> slot = executor->load(object);
-                if (!slot) return slot.error();
-                if (!*slot) return Error{"there is no room for it"};
-                const std::shared_ptr<const int> loaded(new int(**slot), [executor](const int* held) {
+                RS_ASSIGN_OR_RETURN(const std::optional<int> slot, executor->load(object));
+                if (!slot) return Error{"there is no room for it"};
+                const std::shared_ptr<const int> loaded(new int(*slot), [executor](const int* held) {
                     static_cast<void>(executor->evict(*held));
                     delete held;
                 });
                 return ExecuteView([executor, loaded, &of_case](std::size_t v) -> Result<ExecutedView> {
                     const ViewRegisters& registers = of_case.views[v].registers;
-                    if (Status status = executor->draws(registers); !status) return status.error();
-                    Result<std::vector<ExecutedView>> drawn = executor->render({{*loaded, registers}});
-                    if (!drawn) return drawn.error();
-                    return std::move(drawn->front());
+                    RS_TRY(executor->draws(registers));
+                    RS_ASSIGN_OR_RETURN(std::vector<ExecutedView> drawn, executor->render({{*loaded, registers}}));
+                    return std::move(drawn.front());
                 });
             }};
 }
@@ -125,13 +122,12 @@ Result<ConformanceMatrix> run_vectors(const VectorSet& set, const std::vector<Im
         progress->start("conformance", static_cast<std::int64_t>(set.cases.size() * implementations.size()));
     }
     for (const ConformanceCase& of_case : set.cases) {
-        const Result<RaySpaceObject> object = read_object(set.folder / of_case.object, {.decode = false});
-        if (!object) return object.error();
-        if (Status status = check_views(of_case, *object); !status) return status.error();
+        RS_ASSIGN_OR_RETURN(const RaySpaceObject object, read_object(set.folder / of_case.object, {.decode = false}));
+        RS_TRY(check_views(of_case, object));
         std::vector<CaseResult>& row = matrix.results.emplace_back();
         for (std::size_t e = 0; e < implementations.size(); ++e) {
             row.push_back(
-                run_case(of_case, *object, implementations[e], e == 0 ? write_folder : std::filesystem::path()));
+                run_case(of_case, object, implementations[e], e == 0 ? write_folder : std::filesystem::path()));
             if (progress != nullptr) progress->advance();
         }
     }

@@ -1,5 +1,5 @@
 #pragma once
-// The conformance set: every implementation that turns an object and view registers into a picture is compared with
+// The conformance set: every implementation that turns an object and view registers into an image is compared with
 // what the definition gave.
 
 #include "engine/conformance/vectors.hpp"
@@ -20,13 +20,13 @@ namespace rs::engine {
 using ExecuteView = std::function<Result<ExecutedView>(std::size_t view)>;
 struct Implementation {
     std::string name;
-    // `object` is read with its pictures as the file holds them (coded ones are not unpacked).
+    // `object` is read with its images as the file holds them (coded ones are not unpacked).
     std::function<Result<ExecuteView>(const ConformanceCase& of_case, RaySpaceObject object)> open;
 };
 
 // Declines objects and views that the executor does not draw as they are.
 Implementation implementation_of(std::shared_ptr<Executor> executor);
-// Pictures that another implementation wrote: FOLDER/CASE/VIEW.rgba and, where there is one, VIEW.depth
+// Images that another implementation wrote: FOLDER/CASE/VIEW.rgba and, where there is one, VIEW.depth
 // (engine/conformance/PROTOCOL.md).
 Implementation implementation_in_files(const std::filesystem::path& folder);
 

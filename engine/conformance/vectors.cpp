@@ -103,14 +103,12 @@ std::uint64_t hash_of(ConstImageView<std::int32_t> depth_q20) {
 
 Result<VectorSet> read_vectors(const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / kVectorsFile;
-    const auto bytes = read_file(file, kCap_bytes);
-    if (!bytes) return bytes.error();
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(file, kCap_bytes));
     VectorSet set;
     set.folder = folder;
-    const Result<json> parsed =
-        parse_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file.string());
-    if (!parsed) return parsed.error();
-    const json& root = *parsed;
+    RS_ASSIGN_OR_RETURN(const json parsed,
+                        parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string()));
+    const json& root = parsed;
     try {
         const int version = root.at("version").get<int>();
         if (version != kVectorsVersion) {

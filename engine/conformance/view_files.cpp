@@ -19,13 +19,12 @@ std::filesystem::path file_of(const std::filesystem::path& folder, const std::st
 Result<std::vector<std::byte>> read_sized(const std::filesystem::path& path, int width, int height) {
     const std::uint64_t expected =
         kBytesPerPixel * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-    auto bytes = read_file(path, expected + 1);
-    if (!bytes) return bytes.error();
-    if (bytes->size() != expected) {
-        return Error{path.string() + ": has " + std::to_string(bytes->size()) + " bytes; a view of " +
+    RS_ASSIGN_OR_RETURN(auto bytes, read_file(path, expected + 1));
+    if (bytes.size() != expected) {
+        return Error{path.string() + ": has " + std::to_string(bytes.size()) + " bytes; a view of " +
                      std::to_string(width) + "x" + std::to_string(height) + " has " + std::to_string(expected)};
     }
-    return std::vector<std::byte>(bytes->begin(), bytes->end());
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
 }
 
 }  // namespace
@@ -36,7 +35,7 @@ Status write_view_files(const std::filesystem::path& folder, const std::string& 
     std::filesystem::create_directories(folder / of_case, error);
     if (error) return Error{(folder / of_case).string() + ": cannot be made: " + error.message()};
     ByteWriter colours;
-    for (const Rgba8 p : executed.picture.pixels()) {
+    for (const Rgba8 p : executed.image.pixels()) {
         for (const std::uint8_t channel : {p.r, p.g, p.b, p.a}) colours.put(channel);
     }
     Status written = write_file(file_of(folder, of_case, view, ".rgba"), colours.bytes());
@@ -49,19 +48,17 @@ Status write_view_files(const std::filesystem::path& folder, const std::string& 
 Result<ExecutedView> read_view_files(const std::filesystem::path& folder, const std::string& of_case, std::size_t view,
                                      int width, int height) {
     ExecutedView executed;
-    const auto colours = read_sized(file_of(folder, of_case, view, ".rgba"), width, height);
-    if (!colours) return colours.error();
-    executed.picture = Image<Rgba8>(width, height);
-    ByteReader in(*colours);
-    for (Rgba8& p : executed.picture.pixels()) {
+    RS_ASSIGN_OR_RETURN(const auto colours, read_sized(file_of(folder, of_case, view, ".rgba"), width, height));
+    executed.image = Image<Rgba8>(width, height);
+    ByteReader in(colours);
+    for (Rgba8& p : executed.image.pixels()) {
         for (std::uint8_t* const channel : {&p.r, &p.g, &p.b, &p.a}) *channel = in.get<std::uint8_t>();
     }
     const std::filesystem::path depth_file = file_of(folder, of_case, view, ".depth");
     if (!std::filesystem::exists(depth_file)) return executed;
-    const auto depths = read_sized(depth_file, width, height);
-    if (!depths) return depths.error();
+    RS_ASSIGN_OR_RETURN(const auto depths, read_sized(depth_file, width, height));
     executed.depth_q20 = Image<std::int32_t>(width, height);
-    ByteReader from(*depths);
+    ByteReader from(depths);
     for (std::int32_t& depth : executed.depth_q20.pixels()) depth = from.get<std::int32_t>();
     return executed;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures of the conformance protocol in files: FOLDER/CASE/VIEW.rgba, FOLDER/CASE/VIEW.depth
+// Images of the conformance protocol in files: FOLDER/CASE/VIEW.rgba, FOLDER/CASE/VIEW.depth
 // (engine/conformance/PROTOCOL.md).
 
 #include "engine/conformance/run_vectors.hpp"

@@ -52,15 +52,15 @@ void CycleExecutor::request_objects(const std::vector<PreparedView>& views) {
 
 bool CycleExecutor::take_from_board(const std::vector<PreparedView>& views, const std::vector<std::size_t>& share,
                                     double seconds, std::vector<DrawnView>& drawn,
-                                    Result<std::vector<ExecutedView>> pictures) {
-    if (!pictures) return false;
+                                    Result<std::vector<ExecutedView>> images) {
+    if (!images) return false;
     std::int64_t all = 0;
     for (const std::size_t v : share) all += views[v].pixels();
     for (std::size_t n = 0; n < share.size(); ++n) {
         DrawnView& view = drawn[share[n]];
         const double part =
             static_cast<double>(views[share[n]].pixels()) / static_cast<double>(std::max(all, std::int64_t{1}));
-        static_cast<ExecutedView&>(view) = std::move((*pictures)[n]);
+        static_cast<ExecutedView&>(view) = std::move((*images)[n]);
         view.seconds = seconds * part;
         view.by_board = true;
     }
@@ -92,9 +92,9 @@ Result<std::vector<DrawnView>> CycleExecutor::draw(const std::vector<PreparedVie
         if (!of_board[v]) draw_by_core(v);
     }
     if (!share.empty()) {
-        Result<std::vector<ExecutedView>> pictures = board_->wait();
+        Result<std::vector<ExecutedView>> images = board_->wait();
         const double seconds = seconds_since(begin);
-        if (!take_from_board(views, share, seconds, drawn, std::move(pictures))) {
+        if (!take_from_board(views, share, seconds, drawn, std::move(images))) {
             for (const std::size_t v : share) draw_by_core(v);  // stands in
         }
     }

@@ -44,7 +44,7 @@ private:
     void request_objects(const std::vector<PreparedView>& views);
     // False where the board has failed.
     bool take_from_board(const std::vector<PreparedView>& views, const std::vector<std::size_t>& share, double seconds,
-                         std::vector<DrawnView>& drawn, Result<std::vector<ExecutedView>> pictures);
+                         std::vector<DrawnView>& drawn, Result<std::vector<ExecutedView>> images);
 
     std::unique_ptr<BoardThread> board_;
 };

@@ -19,9 +19,8 @@ constexpr Row kRows[] = {
     {"core", nullptr, [](const std::string&, const ExecutorOptions&) { return Made(make_core_executor()); }},
     {"board", "CONFIG",
      [](const std::string& argument, const ExecutorOptions& options) -> Made {
-         const Result<model::BoardConfig> config = model::read_board_config(argument);
-         if (!config) return config.error();
-         return Made(model::make_simulated_board(*config, options.instant_loads));
+         RS_ASSIGN_OR_RETURN(const model::BoardConfig config, model::read_board_config(argument));
+         return Made(model::make_simulated_board(config, options.instant_loads));
      }},
 };
 

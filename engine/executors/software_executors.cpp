@@ -2,7 +2,7 @@
 
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/core/fast/core_executor.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 
 #include <map>
 
@@ -15,7 +15,7 @@ public:
 
     Result<std::optional<int>> load(const RaySpaceObject& object) override {
         RaySpaceObject& loaded = loaded_[next_slot_] = object;
-        if (loaded.coded) codec::decode_pictures(loaded);
+        if (loaded.coded) codec::decode_images(loaded);
         return std::optional<int>(next_slot_++);
     }
 
@@ -31,7 +31,7 @@ public:
             if (found == loaded_.end()) return no_object_in(view.slot);
             const ViewRegisters& r = view.registers;
             drawn.push_back({Image<Rgba8>(r.width, r.height), Image<std::int32_t>(r.width, r.height)});
-            reconstruct_scalar(found->second, r, drawn.back().picture.view(), drawn.back().depth_q20.view());
+            reconstruct_scalar(found->second, r, drawn.back().image.view(), drawn.back().depth_q20.view());
         }
         return drawn;
     }

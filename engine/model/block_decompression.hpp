@@ -1,5 +1,5 @@
 #pragma once
-// Block decompression: from a column's walk to its samples, out of pictures of profile `board`. Constructs FIFOs and
+// Block decompression: from a column's walk to its samples, out of images of profile `board`. Constructs FIFOs and
 // blocks and wires them, a chain of readers for each hop of a prediction:
 //
 //     block_scan --asks_0--> [tile_finder -> tile_reader -> record_reader -> block_motion]_0 --asks_1--> [..]_1 -> ..

@@ -8,8 +8,8 @@ namespace {
 constexpr std::uint64_t kMostCycles = std::uint64_t{1} << 40;
 
 // Pixel (i, j) is half (j & 1) of word i * ceil(height / 2) + (j >> 1).
-Image<Rgba8> picture_of(const HostPicture& words, const BoardView& view) {
-    Image<Rgba8> picture(view.width, view.height);
+Image<Rgba8> unpack_host_image(const HostImage& words, const BoardView& view) {
+    Image<Rgba8> image(view.width, view.height);
     const auto pitch = static_cast<std::size_t>(view.words_per_column());
     for (int j = 0; j < view.height; ++j) {
         for (int i = 0; i < view.width; ++i) {
@@ -17,10 +17,10 @@ Image<Rgba8> picture_of(const HostPicture& words, const BoardView& view) {
                 words.words[static_cast<std::size_t>(i) * pitch + static_cast<std::size_t>(j / 2)];
             const auto pixel = static_cast<std::uint32_t>(word >> (32 * (j % 2)));
             const auto byte = [&](unsigned n) { return static_cast<std::uint8_t>(pixel >> (8 * n)); };
-            picture(i, j) = {byte(0), byte(1), byte(2), byte(3)};
+            image(i, j) = {byte(0), byte(1), byte(2), byte(3)};
         }
     }
-    return picture;
+    return image;
 }
 
 }  // namespace
@@ -32,15 +32,14 @@ Board::Board(const BoardConfig& config, std::uint64_t shuffle_seed)
       slots_(static_cast<std::size_t>(config.limits.objects)) {}
 
 Result<int> Board::take_slot(const RaySpaceObject& object) {
-    if (Status status = layout_.drawable(object, top_->config.limits); !status) return status.error();
+    RS_TRY(layout_.drawable(object, top_->config.limits));
     const auto free = std::find_if(slots_.begin(), slots_.end(), [](const Slot& s) { return !s.used; });
     if (free == slots_.end()) {
         return Error{object.name + ": all " + std::to_string(slots_.size()) +
                      " object slots of the board are taken; evict an object first"};
     }
-    const Result<Placement> placement = map_.take(layout_.words(object), object.name);
-    if (!placement) return placement.error();
-    *free = {true, *placement};
+    RS_ASSIGN_OR_RETURN(const Placement placement, map_.take(layout_.words(object), object.name));
+    *free = {true, placement};
     return static_cast<int>(free - slots_.begin());
 }
 
@@ -51,9 +50,8 @@ ObjectImage Board::image_of(const RaySpaceObject& object, int slot) {
 }
 
 Result<int> Board::place(const RaySpaceObject& object) {
-    const Result<int> slot = take_slot(object);
-    if (!slot) return slot.error();
-    ObjectImage image = image_of(object, *slot);
+    RS_ASSIGN_OR_RETURN(const int slot, take_slot(object));
+    ObjectImage image = image_of(object, slot);
     for (int channel = 0; channel < top_->channels(); ++channel) {
         Sdram& sdram = top_->sdram(channel);
         for (const MemorySegment& segment : image.segments) {
@@ -63,17 +61,16 @@ Result<int> Board::place(const RaySpaceObject& object) {
         }
     }
     image.registers.valid = true;
-    top_->registers.objects[static_cast<std::size_t>(*slot)] = image.registers;
-    return *slot;
+    top_->registers.objects[static_cast<std::size_t>(slot)] = image.registers;
+    return slot;
 }
 
 Result<int> Board::start_load(const RaySpaceObject& object) {
-    const Result<int> slot = take_slot(object);
-    if (!slot) return slot.error();
-    ObjectImage image = image_of(object, *slot);
+    RS_ASSIGN_OR_RETURN(const int slot, take_slot(object));
+    ObjectImage image = image_of(object, slot);
     top_->disk_controller.load(
-        {*slot, image.registers, std::make_shared<const std::vector<MemorySegment>>(std::move(image.segments))});
-    return *slot;
+        {slot, image.registers, std::make_shared<const std::vector<MemorySegment>>(std::move(image.segments))});
+    return slot;
 }
 
 Status Board::finish_loads() {
@@ -134,10 +131,10 @@ void Board::submit(std::vector<BoardView> views) {
 RenderedCycle Board::collect(std::uint64_t cycle) {
     const RenderControl::Cycle& done = top_->render_control.cycle(cycle);
     RenderedCycle result{done.started, done.rendered, 0, {}};
-    std::deque<HostPicture>& arrived = top_->host_bus.pictures();
+    std::deque<HostImage>& arrived = top_->host_bus.images();
     for (const BoardView& view : top_->programs[done.program].bank.views) {
         RS_CHECK(!arrived.empty() && arrived.front().words.size() == static_cast<std::size_t>(view.words()));
-        result.pictures.push_back(picture_of(arrived.front(), view));
+        result.images.push_back(unpack_host_image(arrived.front(), view));
         result.arrived = (arrived.front().arrived + 1) * static_cast<std::uint64_t>(top_->config.pci.period) /
                          static_cast<std::uint64_t>(top_->config.clock_period);
         arrived.pop_front();
@@ -156,9 +153,9 @@ Result<BoardRun> Board::render(const std::vector<std::vector<BoardView>>& cycles
         const bool is_drawing = !control.cycles().empty() && control.cycles().back().rendered == 0;
         return static_cast<std::size_t>(control.cycles_begun() - first) - static_cast<std::size_t>(is_drawing);
     };
-    // The pictures of a cycle are collected when its last has come, so what stands last is of the cycle being
+    // The images of a cycle are collected when its last has come, so what stands last is of the cycle being
     // delivered.
-    const std::deque<HostPicture>& at_host = top_->host_bus.pictures();
+    const std::deque<HostImage>& at_host = top_->host_bus.images();
     const auto arrived = [&] {
         return !at_host.empty() && at_host.back().last_view &&
                at_host.back().words.size() == at_host.back().expected_words;
@@ -173,7 +170,7 @@ Result<BoardRun> Board::render(const std::vector<std::vector<BoardView>>& cycles
         const auto event = [&] {
             return rendered() != was || top_->render_control.refusals().size() != refused || arrived();
         };
-        if (Status status = top_->simulator.run_until(event, kMostCycles); !status) return status.error();
+        RS_TRY(top_->simulator.run_until(event, kMostCycles));
         if (top_->render_control.refusals().size() != refused) {
             return Error{"the board refused a rendering cycle: " + top_->render_control.refusals().back().reason};
         }
@@ -186,7 +183,7 @@ Result<BoardRun> Board::render(const std::vector<std::vector<BoardView>>& cycles
     const auto quiet = [&] {
         return top_->host_dma.last_activity() == Activity::idle && top_->buffer_free.count() == 0;
     };
-    if (Status status = top_->simulator.run_until(quiet, kMostCycles); !status) return status.error();
+    RS_TRY(top_->simulator.run_until(quiet, kMostCycles));
     return run;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The board as its driver sees it: objects in, rendering cycles in, pictures in the host's memory out, and where the
+// The board as its driver sees it: objects in, rendering cycles in, images in the host's memory out, and where the
 // cycles went. Drives the clock of board_top.
 //
 // Not thread-safe. The same calls give the same bits and the same cycles.
@@ -28,7 +28,7 @@ struct RenderedCycle {
     std::uint64_t started = 0;   // board cycles: the first view was begun
     std::uint64_t rendered = 0;  // the last word was in the image buffer
     std::uint64_t arrived = 0;   // and in the host's memory
-    std::vector<Image<Rgba8>> pictures;
+    std::vector<Image<Rgba8>> images;
     [[nodiscard]] std::uint64_t render_cycles() const { return rendered - started; }
 };
 
@@ -37,7 +37,7 @@ struct BoardRun {
     Snapshot begin;
     Snapshot first_rendered;  // when the first cycle was rendered, and its transfer could begin
     Snapshot rendered;        // when the last cycle was rendered
-    Snapshot end;             // when its pictures had arrived
+    Snapshot end;             // when its images had arrived
 };
 
 class Board {
@@ -66,7 +66,7 @@ public:
     // top().render_control.refusals(). render() below does it with care.
     void submit(std::vector<BoardView> views);
 
-    // Renders the cycles one behind the other, two in flight, until all pictures are in the host's memory. Fails where
+    // Renders the cycles one behind the other, two in flight, until all images are in the host's memory. Fails where
     // the board refuses one (bad registers), or stands still.
     Result<BoardRun> render(const std::vector<std::vector<BoardView>>& cycles);
 

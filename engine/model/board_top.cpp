@@ -64,9 +64,9 @@ std::vector<LoadPort> load_ports(const std::vector<std::unique_ptr<ParallelPipe>
 std::unique_ptr<BoardBody> body_of(const BoardConfig& config, const RegisterFile& registers,
                                    Fifo<MemoryWrite>& load_words, Fifo<Done>& object_loaded) {
     switch (config.limits.kind) {
-        case BoardKind::raw_pictures:
+        case BoardKind::raw_images:
             return std::make_unique<SingleBoard<SampleReading>>(config, registers, load_words, object_loaded);
-        case BoardKind::coded_pictures:
+        case BoardKind::coded_images:
             return std::make_unique<SingleBoard<BlockDecompression>>(config, registers, load_words, object_loaded);
         case BoardKind::any_object:
             break;

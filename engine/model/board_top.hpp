@@ -8,8 +8,8 @@
 #include "engine/model/blocks/memory/image_writer.hpp"
 #include "engine/model/blocks/memory/memory_controller.hpp"
 #include "engine/model/blocks/parallel/dispatch.hpp"
+#include "engine/model/blocks/prototype/image_scan.hpp"
 #include "engine/model/blocks/prototype/line_reader.hpp"
-#include "engine/model/blocks/prototype/picture_scan.hpp"
 #include "engine/model/blocks/prototype/render_control.hpp"
 #include "engine/model/blocks/prototype/sample_reading.hpp"
 #include "engine/model/blocks/prototype/vertical_compensation.hpp"
@@ -26,7 +26,7 @@
 namespace rs::engine::model {
 
 // The FIFOs between a column's start and its pixels, and the blocks that they join: a pipe. What lies between `walks`
-// and `samples` depends on the pictures: SampleReading, or block decompression.
+// and `samples` depends on the images: SampleReading, or block decompression.
 struct PipeFifos : FifoRack {
     explicit PipeFifos(int sample_bits) : samples(*this, "samples", 4, sample_bits) {}
     Fifo<ViewJob> jobs{*this, "jobs", 2, ViewJob::kBits};
@@ -46,7 +46,7 @@ struct PipeFifos : FifoRack {
     Fifo<Done> view_written{*this, "view_written", 2, Done::kBits};
 };
 
-// Of pictures that are not compressed: from a column's walk to its samples, pixel by pixel.
+// Of images that are not compressed: from a column's walk to its samples, pixel by pixel.
 struct SampleReading : FifoRack {
     static constexpr int kSampleBits = YuvaPixel::kBits;
     SampleReading(const RegisterFile& registers, Fifo<ColumnWalk>& walks, Fifo<YuvaPixel>& samples);

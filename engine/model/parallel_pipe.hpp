@@ -2,7 +2,7 @@
 // A pipe of the parallel board with its memory channel: from the columns of its stripes to their pixels in its part of
 // the image buffer. N of them stand side by side and share nothing but the registers, the private bus and the host.
 //
-//     raster_generator -> ray_position -> map_reader -> bracket_finder -> picture_reader -> column_setup -> band_reader
+//     raster_generator -> ray_position -> map_reader -> bracket_finder -> image_reader -> column_setup -> band_reader
 //                                                                                   columns, cells |
 //     pixel_scan -> ray_rise -> cell_march -> sample_place -> texel_tags ----> texel_cache -> texel_filter -+
 //                                  ^                               | fills         ^ texels                |
@@ -19,8 +19,8 @@
 #include "engine/model/blocks/parallel/bracket_finder.hpp"
 #include "engine/model/blocks/parallel/cell_march.hpp"
 #include "engine/model/blocks/parallel/column_setup.hpp"
+#include "engine/model/blocks/parallel/image_reader.hpp"
 #include "engine/model/blocks/parallel/patch_store.hpp"
-#include "engine/model/blocks/parallel/picture_reader.hpp"
 #include "engine/model/blocks/parallel/pixel_rays.hpp"
 #include "engine/model/blocks/shared/colour_conversion.hpp"
 #include "engine/model/blocks/shared/map_reader.hpp"
@@ -108,7 +108,7 @@ struct ParallelPipe {
     RayPosition ray_position;
     MapReader map_reader;
     BracketFinder bracket_finder;
-    PictureReader picture_reader;
+    ImageReader image_reader;
     ColumnSetupStage column_setup;
     BandReader band_reader;
     PixelScan pixel_scan;

@@ -27,8 +27,7 @@ public:
     }
 
     [[nodiscard]] Status draws(const ViewRegisters& registers) const override {
-        const Result<BoardView> view = board_view(registers, 0);
-        if (!view) return view.error();
+        RS_TRY(board_view(registers, 0));
         if (registers.width > limits_.image_buffer_side_px || registers.height > limits_.image_buffer_side_px) {
             return Error{"the view is larger than the board's image buffer"};
         }
@@ -43,7 +42,7 @@ public:
         const Result<int> slot = instant_loads_ ? board_.place(object) : board_.start_load(object);
         if (!slot) return std::optional<int>();  // takes() was checked before: only room can be missing
         if (instant_loads_) return std::optional<int>(*slot);
-        if (Status loaded = board_.finish_loads(); !loaded) return loaded.error();
+        RS_TRY(board_.finish_loads());
         return std::optional<int>(*slot);
     }
 
@@ -52,14 +51,12 @@ public:
     Result<std::vector<ExecutedView>> render(const std::vector<SlotView>& views) override {
         std::vector<BoardView> cycle;
         for (const SlotView& view : views) {
-            const Result<BoardView> registers = board_.view(view.slot, view.registers);
-            if (!registers) return registers.error();
-            cycle.push_back(*registers);
+            RS_ASSIGN_OR_RETURN(const BoardView registers, board_.view(view.slot, view.registers));
+            cycle.push_back(registers);
         }
-        Result<BoardRun> run = board_.render({cycle});
-        if (!run) return run.error();
+        RS_ASSIGN_OR_RETURN(BoardRun run, board_.render({cycle}));
         std::vector<ExecutedView> drawn;
-        for (Image<Rgba8>& picture : run->cycles.front().pictures) drawn.push_back({std::move(picture), {}});
+        for (Image<Rgba8>& image : run.cycles.front().images) drawn.push_back({std::move(image), {}});
         return drawn;
     }
 

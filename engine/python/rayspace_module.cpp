@@ -1,8 +1,8 @@
-// The Python module: open an object, look into it, render views to NumPy, compare with pictures.
+// The Python module: open an object, look into it, render views to NumPy, compare with images.
 
 #include "engine/core/fast/renderer.hpp"
 #include "engine/core/views/compare.hpp"
-#include "engine/core/views/depth_picture.hpp"
+#include "engine/core/views/depth_image.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/object_file.hpp"
 
@@ -90,15 +90,15 @@ public:
                                     bool depth) const {
         const Camera camera = camera_of(pose, width, height, fov_deg, fl_x, fl_y, cx, cy);
         const ViewRegisters registers = value_of(prepare_view(renderer_.object(), camera));
-        Image<Rgba8> picture(width, height);
+        Image<Rgba8> image(width, height);
         Image<std::int32_t> lambda;
         if (depth) lambda = Image<std::int32_t>(width, height);
         {
             const py::gil_scoped_release others_may_run;
-            renderer_.render(registers, picture, lambda);
+            renderer_.render(registers, image, lambda);
         }
-        if (!depth) return to_array(picture, 4);
-        return py::make_tuple(to_array(picture, 4), to_array(depth_picture(renderer_.object(), camera, lambda), 1));
+        if (!depth) return to_array(image, 4);
+        return py::make_tuple(to_array(image, 4), to_array(depth_image(renderer_.object(), camera, lambda), 1));
     }
     [[nodiscard]] py::dict compare(const std::string& set) const {
         const Comparison comparison = [&] {
@@ -108,7 +108,7 @@ public:
         py::list views;
         for (const ComparedView& view : comparison.views) {
             py::dict one;
-            one["picture"] = view.picture;
+            one["picture"] = view.image;
             one["psnr_db"] = view.psnr_db;
             one["ssim"] = view.ssim;
             views.append(one);
@@ -130,7 +130,7 @@ private:
 
 PYBIND11_MODULE(rayspace, module) {
     using rs::engine::Object;
-    module.doc() = "Ray-space objects: open one, render views of it, compare it with pictures.";
+    module.doc() = "Ray-space objects: open one, render views of it, compare it with images.";
     py::register_exception<rs::engine::Failure>(module, "Error", PyExc_RuntimeError);
     module.def(
         "open", [](const py::object& path) { return Object(py::str(path)); }, py::arg("path"),
@@ -146,5 +146,5 @@ PYBIND11_MODULE(rayspace, module) {
              "depth in the units of the rig, 0 where nothing is shown. pose: camera to world as in transforms.json "
              "(columns right, up, back, place). Either fov_deg, across, or fl_x in pixels.")
         .def("compare", &Object::compare, py::arg("capture_set"),
-             "PSNR and SSIM against every picture of a capture set: a dict");
+             "PSNR and SSIM against every image of a capture set: a dict");
 }

@@ -14,7 +14,7 @@ void add_conformance_command(CLI::App& app, std::function<Status()>& run);
 // How good and how large an object is.
 void add_compare_command(CLI::App& app, std::function<Status()>& run);
 void add_board_command(CLI::App& app, std::function<Status()>& run);
-// Views of an object as pictures, a contact sheet or a video.
+// Views of an object as images, a contact sheet or a video.
 void add_render_command(CLI::App& app, std::function<Status()>& run);
 // Views drawn by the cycle-accurate model of a board, and where its cycles went.
 void add_simulate_command(CLI::App& app, std::function<Status()>& run);

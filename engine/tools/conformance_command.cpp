@@ -78,43 +78,39 @@ void print_json(const VectorSet& set, const ConformanceMatrix& matrix) {
 }
 
 Status run_set(const ConformanceArguments& arguments) {
-    const Result<VectorSet> set = read_vectors(arguments.target);
-    if (!set) return set.error();
+    RS_ASSIGN_OR_RETURN(const VectorSet set, read_vectors(arguments.target));
     std::vector<Implementation> implementations;
     for (const std::string& name :
          arguments.executors.empty() ? std::vector<std::string>{"scalar", "core"} : arguments.executors) {
-        Result<Implementation> implementation = implementation_from(name);
-        if (!implementation) return implementation.error();
-        implementations.push_back(std::move(*implementation));
+        RS_ASSIGN_OR_RETURN(Implementation implementation, implementation_from(name));
+        implementations.push_back(std::move(implementation));
     }
     ProgressBar progress(arguments.quiet);
-    const Result<ConformanceMatrix> matrix = run_vectors(*set, implementations, arguments.write_folder, &progress);
-    if (!matrix) return matrix.error();
+    RS_ASSIGN_OR_RETURN(const ConformanceMatrix matrix,
+                        run_vectors(set, implementations, arguments.write_folder, &progress));
     if (arguments.json) {
-        print_json(*set, *matrix);
+        print_json(set, matrix);
     } else {
-        print_matrix(*set, *matrix);
+        print_matrix(set, matrix);
     }
-    if (matrix->passed()) return {};
+    if (matrix.passed()) return {};
     return Error{arguments.target + ": not everything is as the definition says; see the table"};
 }
 
 Status run_random_views(const ConformanceArguments& arguments) {
-    Result<RaySpaceObject> object = read_object(arguments.target, {.decode = false});
-    if (!object) return object.error();
+    RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(arguments.target, {.decode = false}));
     ProgressBar progress(arguments.quiet);
-    const Result<ConformanceReport> report =
-        check_conformance(std::move(*object), arguments.views, arguments.seed, &progress);
-    if (!report) return report.error();
+    RS_ASSIGN_OR_RETURN(const ConformanceReport report,
+                        check_conformance(std::move(object), arguments.views, arguments.seed, &progress));
     std::printf(
         "%s: %d views (%d upright, %d of them on a ring), %lld pixels, %lld of the object: %lld differ from the "
         "definition\n",
-        arguments.target.c_str(), report->views, report->upright_views, report->on_ring_views,
-        static_cast<long long>(report->pixels), static_cast<long long>(report->object_pixels),
-        static_cast<long long>(report->different_pixels));
-    if (report->different_pixels != 0) {
+        arguments.target.c_str(), report.views, report.upright_views, report.on_ring_views,
+        static_cast<long long>(report.pixels), static_cast<long long>(report.object_pixels),
+        static_cast<long long>(report.different_pixels));
+    if (report.different_pixels != 0) {
         return Error{arguments.target +
-                     ": the core's pictures are not those of the definition; this is a defect of the renderer"};
+                     ": the core's images are not those of the definition; this is a defect of the renderer"};
     }
     return {};
 }
@@ -129,12 +125,11 @@ void add_conformance_command(CLI::App& app, std::function<Status()>& run) {
         "vectors.json), or, given an object, the core on random views of it");
     command->add_option("TARGET", arguments->target, "the folder of the conformance set, or an object, .rso")
         ->required();
-    command->add_option(
-        "--executor", arguments->executors,
-        "of the set: " + executor_names() +
-            " (a configuration of `simulate`), or files:FOLDER, "
-            "pictures that another implementation wrote; may be given several times; scalar and core if "
-            "not given");
+    command->add_option("--executor", arguments->executors,
+                        "of the set: " + executor_names() +
+                            " (a configuration of `simulate`), or files:FOLDER, "
+                            "images that another implementation wrote; may be given several times; scalar and core if "
+                            "not given");
     command->add_option("--write", arguments->write_folder,
                         "of the set: also write what the first executor renders, as files:FOLDER would be read");
     command->add_option("--views", arguments->views, "of an object: how many views")
@@ -146,7 +141,7 @@ void add_conformance_command(CLI::App& app, std::function<Status()>& run) {
     command->footer(
         "Examples:\n  rs-engine conformance engine/conformance/vectors --executor core --executor "
         "board:prototype-2000\n"
-        "  rs-engine conformance engine/conformance/vectors --executor files:my-pictures\n"
+        "  rs-engine conformance engine/conformance/vectors --executor files:my-images\n"
         "  rs-engine conformance vase.rso --views 100");
     command->callback([arguments, &run] {
         run = [arguments] {

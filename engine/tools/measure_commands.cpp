@@ -24,33 +24,30 @@ struct CompareArguments {
 };
 
 Result<Renderer> open_renderer(const std::string& path) {
-    Result<RaySpaceObject> object = read_object(path, {.decode = false});
-    if (!object) return object.error();
-    return Renderer::create(std::move(*object));
+    RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path, {.decode = false}));
+    return Renderer::create(std::move(object));
 }
 
 Status run_compare(const CompareArguments& arguments) {
-    const Result<Renderer> renderer = open_renderer(arguments.object);
-    if (!renderer) return renderer.error();
+    RS_ASSIGN_OR_RETURN(const Renderer renderer, open_renderer(arguments.object));
     ProgressBar progress(arguments.quiet);
-    const Result<Comparison> comparison = compare_with_set(*renderer, arguments.set, &progress);
-    if (!comparison) return comparison.error();
+    RS_ASSIGN_OR_RETURN(const Comparison comparison, compare_with_set(renderer, arguments.set, &progress));
     if (arguments.json) {
         nlohmann::json json{{"views", nlohmann::json::array()},
-                            {"mean_psnr_db", comparison->mean_psnr_db},
-                            {"pooled_psnr_db", comparison->pooled_psnr_db},
-                            {"mean_ssim", comparison->mean_ssim}};
-        for (const ComparedView& view : comparison->views) {
-            json["views"].push_back({{"picture", view.picture}, {"psnr_db", view.psnr_db}, {"ssim", view.ssim}});
+                            {"mean_psnr_db", comparison.mean_psnr_db},
+                            {"pooled_psnr_db", comparison.pooled_psnr_db},
+                            {"mean_ssim", comparison.mean_ssim}};
+        for (const ComparedView& view : comparison.views) {
+            json["views"].push_back({{"picture", view.image}, {"psnr_db", view.psnr_db}, {"ssim", view.ssim}});
         }
         std::cout << json.dump(2) << '\n';
         return {};
     }
-    for (const ComparedView& view : comparison->views) {
-        std::printf("%-24s %6.2f dB  SSIM %.4f\n", printable(view.picture).c_str(), view.psnr_db, view.ssim);
+    for (const ComparedView& view : comparison.views) {
+        std::printf("%-24s %6.2f dB  SSIM %.4f\n", printable(view.image).c_str(), view.psnr_db, view.ssim);
     }
-    std::printf("%-24s %6.2f dB  SSIM %.4f  (all pixels together %.2f dB)\n", "mean", comparison->mean_psnr_db,
-                comparison->mean_ssim, comparison->pooled_psnr_db);
+    std::printf("%-24s %6.2f dB  SSIM %.4f  (all pixels together %.2f dB)\n", "mean", comparison.mean_psnr_db,
+                comparison.mean_ssim, comparison.pooled_psnr_db);
     return {};
 }
 
@@ -60,14 +57,13 @@ Status run_board(const std::vector<std::string>& paths) {
     std::vector<RaySpaceObject> objects;
     std::printf("%-28s %9s %9s %9s %9s %9s  MB\n", "object", "luma", "chroma", "alpha", "RS map", "total");
     for (const std::string& path : paths) {
-        Result<RaySpaceObject> object = read_object(path, {.max_level = -1});
-        if (!object) return object.error();
-        const model::BoardFootprint f = layout.footprint(*object);
+        RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path, {.max_level = -1}));
+        const model::BoardFootprint f = layout.footprint(object);
         const auto megabytes = [](std::uint64_t bytes) { return static_cast<double>(bytes) / 1e6; };
-        std::printf("%-28s %9.2f %9.2f %9.2f %9.2f %9.2f\n", printable(object->name).c_str(), megabytes(f.luma_bytes),
+        std::printf("%-28s %9.2f %9.2f %9.2f %9.2f %9.2f\n", printable(object.name).c_str(), megabytes(f.luma_bytes),
                     megabytes(f.chroma_bytes), megabytes(f.alpha_bytes), megabytes(f.map_bytes),
                     megabytes(f.total_bytes()));
-        objects.push_back(std::move(*object));
+        objects.push_back(std::move(object));
     }
     std::printf("%-28s %49.2f\n", "image buffer", static_cast<double>(image_buffer_bytes(limits)) / 1e6);
     for (const RaySpaceObject& object : objects) {
@@ -79,11 +75,10 @@ Status run_board(const std::vector<std::string>& paths) {
         const bool has_shape =
             std::ranges::any_of(objects[i].rings, [](const Ring& ring) { return !ring.shape.empty(); });
         if (objects[i].coded == nullptr && !has_shape) continue;
-        std::fprintf(
-            stderr,
-            "rs-engine: %s: the board draws raw pictures on planes alone; encode it with --profile raw --raymap "
-            "plane, and it takes what is stated here\n",
-            printable(paths[i]).c_str());
+        std::fprintf(stderr,
+                     "rs-engine: %s: the board draws raw images on planes alone; encode it with --profile raw --raymap "
+                     "plane, and it takes what is stated here\n",
+                     printable(paths[i]).c_str());
     }
     return {};
 }
@@ -94,10 +89,10 @@ void add_compare_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<CompareArguments>();
     CLI::App* command =
         app.add_subcommand("compare",
-                           "Render every pose of a capture set and print PSNR and SSIM against its pictures.\n"
-                           "RGB premultiplied by alpha, 8 bit, over pixels where either picture's alpha is above 0");
+                           "Render every pose of a capture set and print PSNR and SSIM against its images.\n"
+                           "RGB premultiplied by alpha, 8 bit, over pixels where either image's alpha is above 0");
     command->add_option("OBJECT", arguments->object, "ray-space object, .rso")->required();
-    command->add_option("SET", arguments->set, "capture set with the true pictures")->required();
+    command->add_option("SET", arguments->set, "capture set with the true images")->required();
     command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
     command->add_flag("--json", arguments->json, "as JSON");
     command->footer("Example:\n  rs-engine compare vase.rso vase-held-out --json");

@@ -1,7 +1,7 @@
 #include "engine/tools/commands.hpp"
 
 #include "engine/core/fast/renderer.hpp"
-#include "engine/core/views/depth_picture.hpp"
+#include "engine/core/views/depth_image.hpp"
 #include "engine/tools/requested_views.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
@@ -10,8 +10,8 @@
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image/image.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/output/view_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
 
 #include <algorithm>
 #include <atomic>
@@ -26,21 +26,21 @@
 namespace rs::engine {
 namespace {
 
-// Many views on one picture, to look at an object at a glance.
-Image<Rgba8> contact_sheet(const std::vector<Image<Rgba8>>& pictures, int columns, Rgba8 backdrop) {
-    RS_CHECK(!pictures.empty() && columns > 0);
-    const int count = static_cast<int>(pictures.size());
+// Many views on one image, to look at an object at a glance.
+Image<Rgba8> contact_sheet(const std::vector<Image<Rgba8>>& images, int columns, Rgba8 backdrop) {
+    RS_CHECK(!images.empty() && columns > 0);
+    const int count = static_cast<int>(images.size());
     columns = std::min(columns, count);
-    const int width = pictures.front().width();
-    const int height = pictures.front().height();
+    const int width = images.front().width();
+    const int height = images.front().height();
     Image<Rgba8> sheet(columns * width, (count + columns - 1) / columns * height, backdrop);
     for (int n = 0; n < count; ++n) {
-        const Image<Rgba8>& picture = pictures[static_cast<std::size_t>(n)];
-        RS_CHECK(picture.width() == width && picture.height() == height);
+        const Image<Rgba8>& image = images[static_cast<std::size_t>(n)];
+        RS_CHECK(image.width() == width && image.height() == height);
         const int left = n % columns * width;
         const int top = n / columns * height;
         for (int y = 0; y < height; ++y) {
-            for (int x = 0; x < width; ++x) sheet(left + x, top + y) = over(picture(x, y), backdrop);
+            for (int x = 0; x < width; ++x) sheet(left + x, top + y) = over(image(x, y), backdrop);
         }
     }
     return sheet;
@@ -59,17 +59,16 @@ struct RenderArguments {
 };
 
 Result<Renderer> open_renderer(const std::string& path, int level) {
-    Result<RaySpaceObject> object = read_object(path, {.max_level = level, .decode = false});
-    if (!object) return object.error();
-    return Renderer::create(std::move(*object));
+    RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path, {.max_level = level, .decode = false}));
+    return Renderer::create(std::move(object));
 }
 
 // Counts views that show nothing of the object; from several threads.
 class EmptyViews {
 public:
-    void look_at(const Image<Rgba8>& picture) {
+    void look_at(const Image<Rgba8>& image) {
         ++views_;
-        if (std::ranges::all_of(picture.pixels(), [](const Rgba8& p) { return p.a == 0; })) ++empty_;
+        if (std::ranges::all_of(image.pixels(), [](const Rgba8& p) { return p.a == 0; })) ++empty_;
     }
     void warn() const {
         if (empty_ == 0) return;
@@ -89,36 +88,33 @@ private:
 
 Result<Image<Rgba8>> render_camera(const Renderer& renderer, const Camera& camera, std::optional<TexelFilter> filter,
                                    EmptyViews& empty) {
-    const Result<ViewRegisters> registers = prepare_view(renderer.object(), camera, filter);
-    if (!registers) return registers.error();
-    Image<Rgba8> picture(camera.width, camera.height);
-    renderer.render(*registers, picture);
-    empty.look_at(picture);
-    return picture;
+    RS_ASSIGN_OR_RETURN(const ViewRegisters registers, prepare_view(renderer.object(), camera, filter));
+    Image<Rgba8> image(camera.width, camera.height);
+    renderer.render(registers, image);
+    empty.look_at(image);
+    return image;
 }
 
 // "vase.depth.exr" for "vase.png".
-std::filesystem::path depth_name(std::filesystem::path picture) {
-    return picture.replace_extension(".depth.exr");
+std::filesystem::path depth_name(std::filesystem::path image) {
+    return image.replace_extension(".depth.exr");
 }
 
 // The view as PNG and, beside it, its depth.
 Status write_view_with_depth(const Renderer& renderer, const Camera& camera, std::optional<TexelFilter> filter,
                              const std::filesystem::path& path, EmptyViews& empty) {
-    const Result<ViewRegisters> registers = prepare_view(renderer.object(), camera, filter);
-    if (!registers) return registers.error();
-    Image<Rgba8> picture(camera.width, camera.height);
+    RS_ASSIGN_OR_RETURN(const ViewRegisters registers, prepare_view(renderer.object(), camera, filter));
+    Image<Rgba8> image(camera.width, camera.height);
     Image<std::int32_t> lambda_q20(camera.width, camera.height);
-    renderer.render(*registers, picture, lambda_q20);
-    empty.look_at(picture);
-    if (Status status = write_png(path, picture); !status) return status;
-    return write_exr_channel(depth_name(path), depth_picture(renderer.object(), camera, lambda_q20));
+    renderer.render(registers, image, lambda_q20);
+    empty.look_at(image);
+    if (Status status = write_png(path, image); !status) return status;
+    return write_exr_channel(depth_name(path), depth_image(renderer.object(), camera, lambda_q20));
 }
 
 Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
                     EmptyViews& empty, Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(arguments.output, "rendered views");
-    if (!staged) return staged.error();
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(arguments.output, "rendered views"));
     Rig rig = rig_of_views(cameras);
     rig.object_radius = renderer.object().units_per_radius;
     for (RigView& view : rig.views) {
@@ -127,15 +123,14 @@ Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras
     const int count = static_cast<int>(cameras.size());
     Status written = for_each_in_parallel(count, "rendering", &progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
-        const std::filesystem::path path = staged->temporary_path() / rig.views[n].file_path;
+        const std::filesystem::path path = staged.temporary_path() / rig.views[n].file_path;
         if (arguments.depth) return write_view_with_depth(renderer, cameras[n], arguments.filter, path, empty);
-        const Result<Image<Rgba8>> picture = render_camera(renderer, cameras[n], arguments.filter, empty);
-        if (!picture) return picture.error();
-        return write_png(path, *picture);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, render_camera(renderer, cameras[n], arguments.filter, empty));
+        return write_png(path, image);
     });
     if (!written) return written;
-    if (Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
-    return staged->commit();
+    if (Status status = write_rig(staged.temporary_path() / kRigFileName, rig); !status) return status;
+    return staged.commit();
 }
 
 // Views as captured may be as large as photographs are; a sheet of them is to be looked at.
@@ -153,20 +148,20 @@ void fit_on_sheet(std::vector<Camera>& cameras, std::size_t columns) {
     for (Camera& camera : cameras) camera = resized(camera, scaled(camera.width), scaled(camera.height));
 }
 
-// Fails before anything is rendered where the views cannot become one picture.
-Status check_one_picture(const std::vector<Camera>& cameras, const RenderArguments& arguments) {
+// Fails before anything is rendered where the views cannot become one image.
+Status check_one_image(const std::vector<Camera>& cameras, const RenderArguments& arguments) {
     if (arguments.sheet_columns == 0) {
         if (cameras.size() == 1) return {};
         return Error{arguments.output + ": " + std::to_string(cameras.size()) +
-                     " views do not fit one picture; give --sheet COLUMNS, or a folder or an .mp4 to -o"};
+                     " views do not fit one image; give --sheet COLUMNS, or a folder or an .mp4 to -o"};
     }
     const auto columns = std::min(static_cast<std::size_t>(arguments.sheet_columns), cameras.size());
     const std::size_t rows = (cameras.size() + columns - 1) / columns;
     const std::size_t width = columns * static_cast<std::size_t>(cameras.front().width);
     const std::size_t height = rows * static_cast<std::size_t>(cameras.front().height);
-    if (width > kMaxPictureSide_px || height > kMaxPictureSide_px) {
+    if (width > kMaxImageSide_px || height > kMaxImageSide_px) {
         return Error{arguments.output + ": a sheet of " + std::to_string(width) + "x" + std::to_string(height) +
-                     " pixels is larger than " + std::to_string(kMaxPictureSide_px) + " a side; give a smaller --size"};
+                     " pixels is larger than " + std::to_string(kMaxImageSide_px) + " a side; give a smaller --size"};
     }
     for (const Camera& camera : cameras) {
         if (camera.width != cameras.front().width || camera.height != cameras.front().height) {
@@ -176,27 +171,26 @@ Status check_one_picture(const std::vector<Camera>& cameras, const RenderArgumen
     return {};
 }
 
-Status write_picture(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
-                     EmptyViews& empty) {
-    if (Status status = check_one_picture(cameras, arguments); !status) return status;
+Status write_image(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
+                   EmptyViews& empty) {
+    if (Status status = check_one_image(cameras, arguments); !status) return status;
     if (arguments.depth)
         return write_view_with_depth(renderer, cameras.front(), arguments.filter, arguments.output, empty);
-    std::vector<Image<Rgba8>> pictures;
+    std::vector<Image<Rgba8>> images;
     for (const Camera& camera : cameras) {
-        Result<Image<Rgba8>> picture = render_camera(renderer, camera, arguments.filter, empty);
-        if (!picture) return picture.error();
-        pictures.push_back(std::move(*picture));
+        RS_ASSIGN_OR_RETURN(Image<Rgba8> image, render_camera(renderer, camera, arguments.filter, empty));
+        images.push_back(std::move(image));
     }
-    if (arguments.sheet_columns == 0) return write_png(arguments.output, pictures.front());
+    if (arguments.sheet_columns == 0) return write_png(arguments.output, images.front());
     constexpr Rgba8 kBackdrop{96, 98, 102, 255};
-    return write_png(arguments.output, contact_sheet(pictures, arguments.sheet_columns, kBackdrop));
+    return write_png(arguments.output, contact_sheet(images, arguments.sheet_columns, kBackdrop));
 }
 
 Status write_views(OutputKind kind, const Renderer& renderer, const std::vector<Camera>& cameras,
                    const RenderArguments& arguments, EmptyViews& empty, Progress& progress) {
     switch (kind) {
-        case OutputKind::picture:
-            return write_picture(renderer, cameras, arguments, empty);
+        case OutputKind::image:
+            return write_image(renderer, cameras, arguments, empty);
         case OutputKind::video:
             progress.start("rendering", static_cast<std::int64_t>(cameras.size()));
             return write_view_video(
@@ -210,27 +204,24 @@ Status write_views(OutputKind kind, const Renderer& renderer, const std::vector<
 }
 
 Status run_render(const RenderArguments& arguments) {
-    const Result<OutputKind> kind = output_kind(arguments.output);
-    if (!kind) return kind.error();
-    if (arguments.sheet_columns > 0 && *kind != OutputKind::picture) {
-        return Error{arguments.output + ": --sheet makes one picture; give a name that ends in .png to -o"};
+    RS_ASSIGN_OR_RETURN(const OutputKind kind, output_kind(arguments.output));
+    if (arguments.sheet_columns > 0 && kind != OutputKind::image) {
+        return Error{arguments.output + ": --sheet makes one image; give a name that ends in .png to -o"};
     }
-    if (arguments.depth && (*kind == OutputKind::video || arguments.sheet_columns > 0)) {
+    if (arguments.depth && (kind == OutputKind::video || arguments.sheet_columns > 0)) {
         return Error{arguments.output +
                      ": a video or a sheet has no depth; give a folder or one view's FILE.png to -o, "
                      "or leave out --depth"};
     }
-    const Result<Renderer> renderer = open_renderer(arguments.object, arguments.level);
-    if (!renderer) return renderer.error();
-    Result<std::vector<Camera>> cameras = requested_cameras(renderer->object(), arguments.views);
-    if (!cameras) return cameras.error();
+    RS_ASSIGN_OR_RETURN(const Renderer renderer, open_renderer(arguments.object, arguments.level));
+    RS_ASSIGN_OR_RETURN(std::vector<Camera> cameras, requested_cameras(renderer.object(), arguments.views));
     if (arguments.sheet_columns > 0 && arguments.views.size.empty()) {
-        fit_on_sheet(*cameras, static_cast<std::size_t>(arguments.sheet_columns));
+        fit_on_sheet(cameras, static_cast<std::size_t>(arguments.sheet_columns));
     }
 
     ProgressBar progress(arguments.quiet);
     EmptyViews empty;
-    Status status = write_views(*kind, *renderer, *cameras, arguments, empty, progress);
+    Status status = write_views(kind, renderer, cameras, arguments, empty, progress);
     progress.finish();
     if (status) empty.warn();
     return status;
@@ -252,11 +243,11 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
                      "with FILE.png: all views on one sheet, so many in a row; of at most 4096 pixels a side where "
                      "no --size is given")
         ->check(CLI::Range(1, 100));
-    command->add_option("--level", arguments->level, "load only every 8th (0), 4th (1), 2nd (2) picture or all (3)")
+    command->add_option("--level", arguments->level, "load only every 8th (0), 4th (1), 2nd (2) image or all (3)")
         ->check(CLI::Range(0, kProgressiveLevels - 1))
         ->capture_default_str();
     command->add_flag("--depth", arguments->depth,
-                      "also write NAME.depth.exr beside each picture: axial depth in the units of the object's rig, 0 "
+                      "also write NAME.depth.exr beside each image: axial depth in the units of the object's rig, 0 "
                       "where nothing is shown");
     static const std::map<std::string, std::optional<TexelFilter>> kFilters = {
         {"auto", std::nullopt},
@@ -267,7 +258,7 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
     command
         ->add_option_function<std::string>(
             "--filter", [arguments](const std::string& name) { arguments->filter = kFilters.at(name); },
-            "how an object with a shape map samples its pictures: sharp, smooth (for views smaller than the pictures), "
+            "how an object with a shape map samples its images: sharp, smooth (for views smaller than the images), "
             "bilinear (as boards do), or auto: by the size of the views")
         ->check(CLI::IsMember(kFilters))
         ->default_str("auto");

@@ -11,21 +11,19 @@ namespace {
 Result<ViewShape> view_shape(const RequestedViews& views) {
     ViewShape shape;
     if (!views.size.empty()) {
-        const Result<PixelSize> size = parse_size(views.size);
-        if (!size) return size.error();
-        shape.width = size->width;
-        shape.height = size->height;
+        RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(views.size));
+        shape.width = size.width;
+        shape.height = size.height;
     }
     if (views.fov_deg != 0) shape.fov_x_rad = radians(views.fov_deg);
     return shape;
 }
 
 Result<std::vector<Camera>> cameras_of_rig(const std::string& path, const ViewShape& shape) {
-    const Result<Rig> rig = read_rig(path);
-    if (!rig) return rig.error();
-    if (rig->views.empty()) return Error{path + ": holds no frames to render"};
+    RS_ASSIGN_OR_RETURN(const Rig rig, read_rig(path));
+    if (rig.views.empty()) return Error{path + ": holds no frames to render"};
     std::vector<Camera> cameras;
-    for (const RigView& view : rig->views) {
+    for (const RigView& view : rig.views) {
         cameras.push_back(shape.width > 0 ? resized(view.camera, shape.width, shape.height) : view.camera);
     }
     return cameras;
@@ -44,17 +42,13 @@ Camera resized(Camera camera, int width, int height) {
 }
 
 Result<std::vector<Camera>> requested_cameras(const RaySpaceObject& object, const RequestedViews& views) {
-    const Result<ViewShape> shape = view_shape(views);
-    if (!shape) return shape.error();
-    if (!views.poses.empty()) return cameras_of_rig(views.poses, *shape);
-    if (views.orbit > 0) return orbit_cameras(object, views.orbit, *shape);
-    const Result<Triple> eye = parse_triple(views.eye, "--eye");
-    if (!eye) return eye.error();
-    const Result<Triple> at = parse_triple(views.at, "--at");
-    if (!at) return at.error();
-    const Result<Camera> camera = camera_from_eye(object, {eye->x, eye->y, eye->z}, {at->x, at->y, at->z}, *shape);
-    if (!camera) return camera.error();
-    return std::vector<Camera>{*camera};
+    RS_ASSIGN_OR_RETURN(const ViewShape shape, view_shape(views));
+    if (!views.poses.empty()) return cameras_of_rig(views.poses, shape);
+    if (views.orbit > 0) return orbit_cameras(object, views.orbit, shape);
+    RS_ASSIGN_OR_RETURN(const Triple eye, parse_triple(views.eye, "--eye"));
+    RS_ASSIGN_OR_RETURN(const Triple at, parse_triple(views.at, "--at"));
+    RS_ASSIGN_OR_RETURN(const Camera camera, camera_from_eye(object, {eye.x, eye.y, eye.z}, {at.x, at.y, at.z}, shape));
+    return std::vector<Camera>{camera};
 }
 
 void add_view_options(CLI::App& command, RequestedViews& views, bool required) {

@@ -24,7 +24,7 @@ struct RequestedViews {
 // Adds --orbit, --poses, --eye (at most one of them; exactly one where `required`), --at, --size and --fov.
 void add_view_options(CLI::App& command, RequestedViews& views, bool required = true);
 
-// The same view in a picture of another size.
+// The same view in an image of another size.
 Camera resized(Camera camera, int width, int height);
 
 // The requested cameras, in the units of the object's rig.

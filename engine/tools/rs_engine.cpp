@@ -1,4 +1,4 @@
-// rs-engine: ray-space object + viewpoint -> pictures.
+// rs-engine: ray-space object + viewpoint -> images.
 
 #include "engine/tools/commands.hpp"
 #include "rayspace/tool/tool_main.hpp"

@@ -10,8 +10,8 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/ray_space.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/output/view_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <chrono>
@@ -44,7 +44,7 @@ struct Drawing {
     ViewRegisters registers;
 };
 
-// The upright camera in whose picture the object's centre keeps its row.
+// The upright camera in whose image the object's centre keeps its row.
 Camera stood_upright(const Camera& camera) {
     Camera upright = upright_camera(camera);
     const auto row = [](const Camera& c) { return c.project({0, 0, 0}).y; };
@@ -57,17 +57,16 @@ Result<std::vector<Drawing>> requested_drawings(const std::vector<RaySpaceObject
                                                 const SimulateArguments& arguments) {
     std::vector<std::vector<Camera>> cameras;
     for (const RaySpaceObject& object : objects) {
-        Result<std::vector<Camera>> asked = requested_cameras(object, arguments.views);
-        if (!asked) return asked.error();
-        cameras.push_back(std::move(*asked));
+        RS_ASSIGN_OR_RETURN(std::vector<Camera> asked, requested_cameras(object, arguments.views));
+        cameras.push_back(std::move(asked));
     }
     std::vector<Drawing> drawings;
     for (std::size_t v = 0; v < cameras.front().size(); ++v) {
         for (std::size_t n = 0; n < objects.size(); ++n) {
             const Camera camera = arguments.upright ? stood_upright(cameras[n][v]) : cameras[n][v];
-            const Result<ViewRegisters> registers = prepare_view(objects[n], camera, TexelFilter::kBilinear);
-            if (!registers) return registers.error();
-            drawings.push_back({n, camera, *registers});
+            RS_ASSIGN_OR_RETURN(const ViewRegisters registers,
+                                prepare_view(objects[n], camera, TexelFilter::kBilinear));
+            drawings.push_back({n, camera, registers});
         }
     }
     return drawings;
@@ -89,12 +88,11 @@ void print_footprint(const RaySpaceObject& object, const model::Board& board) {
 Result<std::vector<int>> put_on_board(model::Board& board, const std::vector<RaySpaceObject>& objects, bool load) {
     std::vector<int> slots;
     for (const RaySpaceObject& object : objects) {
-        const Result<int> slot = load ? board.start_load(object) : board.place(object);
-        if (!slot) return slot.error();
-        slots.push_back(*slot);
+        RS_ASSIGN_OR_RETURN(const int slot, load ? board.start_load(object) : board.place(object));
+        slots.push_back(slot);
     }
     if (!load) return slots;
-    if (Status status = board.finish_loads(); !status) return status.error();
+    RS_TRY(board.finish_loads());
     const double hz = 1e6 * board.top().config.clock_mhz;
     for (const auto& done : board.top().disk_controller.loads()) {
         const double seconds = double(done.finished - done.started) / hz;
@@ -155,8 +153,8 @@ void print_channels(const model::BoardReport& report) {
 }
 
 void print_report(const model::BoardReport& report) {
-    std::printf("%s: %d rendering cycles, %d pictures, %lld pixels\n", report.config.c_str(), report.cycles,
-                report.pictures, static_cast<long long>(report.pixels));
+    std::printf("%s: %d rendering cycles, %d images, %lld pixels\n", report.config.c_str(), report.cycles,
+                report.images, static_cast<long long>(report.pixels));
     std::printf("drawing: %.2f Mpixel/s, %.2f rendering cycles/s (%llu board cycles)\n", report.pixels_per_second / 1e6,
                 report.cycles_per_second, static_cast<unsigned long long>(report.render_cycles));
     if (report.arrivals_per_second > 0) {
@@ -165,97 +163,89 @@ void print_report(const model::BoardReport& report) {
     print_interval("while rendering", report.rendering);
     print_interval("while delivering to the host's memory", report.delivering);
     print_channels(report);
-    std::printf("host bus: %llu bytes of pictures in %llu bursts, %llu retries, %llu register writes\n",
+    std::printf("host bus: %llu bytes of images in %llu bursts, %llu retries, %llu register writes\n",
                 static_cast<unsigned long long>(report.bus.image_bytes),
                 static_cast<unsigned long long>(report.bus.bursts), static_cast<unsigned long long>(report.bus.retries),
                 static_cast<unsigned long long>(report.bus.register_writes));
 }
 
-// All pictures against the definition, and into a folder where one is given.
-Status use_pictures(const model::BoardRun& run, const std::vector<Drawing>& drawings,
-                    const std::vector<RaySpaceObject>& stored, const std::string& output) {
+// All images against the definition, and into a folder where one is given.
+Status use_images(const model::BoardRun& run, const std::vector<Drawing>& drawings,
+                  const std::vector<RaySpaceObject>& stored, const std::string& output) {
     std::vector<Camera> cameras;
     cameras.reserve(drawings.size());
     for (const Drawing& drawing : drawings) cameras.push_back(drawing.camera);
     Rig rig = rig_of_views(cameras);
     std::optional<StagedFolder> folder;
     if (!output.empty()) {
-        Result<StagedFolder> staged = StagedFolder::create(output, "rendered views");
-        if (!staged) return staged.error();
-        folder.emplace(std::move(*staged));
+        RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "rendered views"));
+        folder.emplace(std::move(staged));
     }
     std::size_t n = 0;
     std::size_t equal = 0;
     for (const model::RenderedCycle& cycle : run.cycles) {
-        for (const Image<Rgba8>& picture : cycle.pictures) {
-            Image<Rgba8> defined(picture.width(), picture.height());
+        for (const Image<Rgba8>& image : cycle.images) {
+            Image<Rgba8> defined(image.width(), image.height());
             reconstruct_scalar(stored[drawings[n].object], drawings[n].registers, defined);
-            equal += static_cast<std::size_t>(picture == defined);
+            equal += static_cast<std::size_t>(image == defined);
             if (folder) {
-                Status status = write_png(folder->temporary_path() / rig.views[n].file_path, picture);
+                Status status = write_png(folder->temporary_path() / rig.views[n].file_path, image);
                 if (!status) return status;
             }
             ++n;
         }
     }
-    std::printf("%zu of %zu pictures equal the definition bit for bit\n", equal, n);
-    if (equal != n) return Error{"the board's pictures are not those of the definition; this is a defect of the model"};
+    std::printf("%zu of %zu images equal the definition bit for bit\n", equal, n);
+    if (equal != n) return Error{"the board's images are not those of the definition; this is a defect of the model"};
     if (!folder) return {};
     if (Status status = write_rig(folder->temporary_path() / kRigFileName, rig); !status) return status;
     return folder->commit();
 }
 
 Status run_simulate(const SimulateArguments& arguments) {
-    const Result<model::BoardConfig> config = model::read_board_config(arguments.config);
-    if (!config) return config.error();
+    RS_ASSIGN_OR_RETURN(const model::BoardConfig config, model::read_board_config(arguments.config));
     if (arguments.print_config) {
-        std::printf("%s\n", model::board_config_json(*config).c_str());
+        std::printf("%s\n", model::board_config_json(config).c_str());
         return {};
     }
-    model::Board board(*config);
+    model::Board board(config);
     if (arguments.diagram) {
         std::printf("%s", model::diagram_tables(board.top()).c_str());
         return {};
     }
     std::vector<RaySpaceObject> objects;
     for (const std::string& path : arguments.objects) {
-        Result<RaySpaceObject> object = read_object(path);
-        if (!object) return object.error();
-        objects.push_back(model::layout_of(config->limits.kind).as_drawn(std::move(*object)));
+        RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path));
+        objects.push_back(model::layout_of(config.limits.kind).as_drawn(std::move(object)));
     }
     for (const RaySpaceObject& object : objects) print_footprint(object, board);
-    const Result<std::vector<int>> slots = put_on_board(board, objects, arguments.load);
-    if (!slots) return slots.error();
-    const Result<std::vector<Drawing>> drawings = requested_drawings(objects, arguments);
-    if (!drawings) return drawings.error();
-    const int per_cycle = arguments.per_cycle > 0 ? arguments.per_cycle : config->limits.views_per_cycle;
-    const auto cycles = rendering_cycles(board, *drawings, *slots, per_cycle);
-    if (!cycles) return cycles.error();
+    RS_ASSIGN_OR_RETURN(const std::vector<int> slots, put_on_board(board, objects, arguments.load));
+    RS_ASSIGN_OR_RETURN(const std::vector<Drawing> drawings, requested_drawings(objects, arguments));
+    const int per_cycle = arguments.per_cycle > 0 ? arguments.per_cycle : config.limits.views_per_cycle;
+    RS_ASSIGN_OR_RETURN(const auto cycles, rendering_cycles(board, drawings, slots, per_cycle));
 
     std::unique_ptr<model::Waveform> waveform;
     if (!arguments.trace.empty()) {
-        auto opened = model::Waveform::open(arguments.trace, board.top(), arguments.trace_cycles);
-        if (!opened) return opened.error();
-        waveform = std::move(*opened);
+        RS_ASSIGN_OR_RETURN(auto opened, model::Waveform::open(arguments.trace, board.top(), arguments.trace_cycles));
+        waveform = std::move(opened);
     }
     const auto begin = std::chrono::steady_clock::now();
-    const Result<model::BoardRun> run = board.render(*cycles);
-    if (!run) return run.error();
+    RS_ASSIGN_OR_RETURN(const model::BoardRun run, board.render(cycles));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (waveform) {
         if (Status status = waveform->finish(); !status) return status;
     }
-    const model::BoardReport report = model::make_report(board, *run);
+    const model::BoardReport report = model::make_report(board, run);
     print_report(report);
     std::printf("simulated at %.2f million board cycles a second\n", double(report.board_cycles) / seconds / 1e6);
     if (!arguments.stats.empty()) {
         if (Status status = write_file(arguments.stats, model::report_json(report)); !status) return status;
     }
     if (!arguments.chart.empty()) {
-        const std::string title = report.config + ", " + std::to_string(report.pictures) + " pictures";
+        const std::string title = report.config + ", " + std::to_string(report.images) + " images";
         if (Status status = write_file(arguments.chart, model::report_chart_svg(report, title)); !status) return status;
     }
-    return use_pictures(*run, *drawings, objects, arguments.output);
+    return use_images(run, drawings, objects, arguments.output);
 }
 
 }  // namespace
@@ -277,7 +267,7 @@ void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
                      "views of a rendering cycle; as many as it takes if not given")
         ->check(CLI::Range(1, 15));
     command->add_flag("--load", arguments->load, "have the board load the objects from its disk first");
-    command->add_option("-o,--output", arguments->output, "a folder for the pictures");
+    command->add_option("-o,--output", arguments->output, "a folder for the images");
     command->add_option("--stats", arguments->stats, "a JSON file for the cycles of every block")
         ->check(ends_in({".json"}));
     command->add_option("--chart", arguments->chart, "an SVG file: where the cycles went")->check(ends_in({".svg"}));

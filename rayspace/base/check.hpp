@@ -1,6 +1,6 @@
 #pragma once
-// RS_CHECK: a programmer's error stops the program, in every build type. What can fail from outside (files, arguments,
-// devices) returns Result<T> instead; see result.hpp.
+// RS_CHECK: aborts the program on a programming error, in every build type. Errors from outside (files, arguments,
+// devices) are returned as Result<T>; see result.hpp.
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,9 +1,10 @@
 #pragma once
 // Result<T>: a value, or an Error whose one-line message names the file, the place and the remedy.
 //
-//     Result<Rig> rig = read_rig(path);
-//     if (!rig) return rig.error();
-//     use(*rig);
+//     Status print_rig(const std::filesystem::path& path) {
+//         RS_ASSIGN_OR_RETURN(const Rig rig, read_rig(path));
+//         RS_TRY(validate_rig(rig));
+//         ...
 //
 // Libraries return errors and neither print nor exit; the tools print the message and exit with 1 (see tool_main.hpp).
 
@@ -20,7 +21,7 @@ struct Error {
     std::string message;  // one line, no final newline: "FILE: what is wrong at which place; what to do about it"
 };
 
-// `what` is a number that a file states.
+/// Error for a number from a file, named `what`, that is out of range.
 template <class Found, class Lowest, class Highest>
 Error out_of_range(const std::string& what, Found found, Lowest lowest, Highest highest) {
     return Error{what + " is " + std::to_string(found) + "; it must be " + std::to_string(lowest) + ".." +
@@ -63,7 +64,7 @@ private:
     std::variant<T, Error> content_;
 };
 
-// Result of an operation that has nothing to return.
+/// Result of an operation that has nothing to return.
 class [[nodiscard]] Status {
 public:
     Status() = default;
@@ -81,3 +82,25 @@ private:
 };
 
 }  // namespace rs
+
+/// Evaluates an expression of type Result or Status, and returns its error from the enclosing function if it failed.
+/// The value of a Result is discarded.
+#define RS_TRY(...) RS_TRY_AS(RS_UNIQUE_NAME(rs_outcome_), __VA_ARGS__)
+
+/// RS_ASSIGN_OR_RETURN(const Rig rig, read_rig(path)): declares a variable with the value of a Result, or returns the
+/// Result's error from the enclosing function. The declaration must not contain a comma. It expands to several
+/// statements, so it must not be the body of an `if` without braces.
+#define RS_ASSIGN_OR_RETURN(declaration, ...) \
+    RS_ASSIGN_OR_RETURN_AS(RS_UNIQUE_NAME(rs_outcome_), declaration, __VA_ARGS__)
+
+#define RS_TRY_AS(outcome, ...)                                                    \
+    do {                                                                           \
+        if (auto&& outcome = (__VA_ARGS__); !outcome.ok()) return outcome.error(); \
+    } while (false)
+#define RS_ASSIGN_OR_RETURN_AS(outcome, declaration, ...) \
+    auto outcome = (__VA_ARGS__);                         \
+    if (!outcome.ok()) return outcome.error();            \
+    declaration = std::move(outcome).value()
+#define RS_UNIQUE_NAME(prefix) RS_CONCATENATE(prefix, __COUNTER__)
+#define RS_CONCATENATE(first, second) RS_CONCATENATE_EXPANDED(first, second)
+#define RS_CONCATENATE_EXPANDED(first, second) first##second

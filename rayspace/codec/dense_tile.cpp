@@ -26,7 +26,7 @@ private:
 
 }  // namespace
 
-void decode_dense_tile(const DenseCode& code, const PictureHead& head, std::span<const std::byte> bytes,
+void decode_dense_tile(const DenseCode& code, const ImageHead& head, std::span<const std::byte> bytes,
                        const TilePlace& place, const std::array<ConstPlaneViews, 2>& references,
                        ReferenceListener* listener, const PlaneViews& out) {
     Reader reader(bytes, code);

@@ -13,11 +13,10 @@ using namespace container_layout;
 
 Result<ContainerWriter> ContainerWriter::create(const std::filesystem::path& path, std::uint32_t chunk_count) {
     RS_CHECK(chunk_count >= 1 && chunk_count <= kMaxChunks);
-    auto file = StagedFile::create(path);
-    if (!file) return file.error();
+    RS_ASSIGN_OR_RETURN(auto file, StagedFile::create(path));
     const std::vector<std::byte> reserved(kHeader_bytes + chunk_count * kEntry_bytes);
-    if (Status status = file->write(reserved); !status) return status.error();
-    return ContainerWriter(std::move(file).value(), chunk_count);
+    RS_TRY(file.write(reserved));
+    return ContainerWriter(std::move(file), chunk_count);
 }
 
 ContainerWriter::ContainerWriter(StagedFile file, std::uint32_t chunk_count)
@@ -33,7 +32,7 @@ Status ContainerWriter::add(ChunkName name, std::uint32_t index, std::span<const
     const std::uint64_t padded_bytes = aligned(payload.size());
     if (payload.size() > kMaxChunk_bytes || padded_bytes > kMaxContainer_bytes - file_.size_bytes()) {
         return Error{file_.target().string() + ": chunk " + to_string(name) + " " + std::to_string(index) +
-                     " would make it larger than the format allows; use fewer or smaller pictures"};
+                     " would make it larger than the format allows; use fewer or smaller images"};
     }
     table_.push_back({name, index, file_.size_bytes(), payload.size(), XXH64(payload.data(), payload.size(), 0)});
     if (Status status = file_.write(payload); !status) return status;

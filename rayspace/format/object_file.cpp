@@ -1,7 +1,7 @@
 #include "rayspace/format/object_file.hpp"
 
 #include "rayspace/codec/stream/coded_chunks.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/format/chunk_table.hpp"
 #include "rayspace/format/container_layout.hpp"
 #include "rayspace/format/object_memory.hpp"
@@ -14,63 +14,62 @@ using namespace object_chunks;
 
 namespace {
 
-// Reads one object; holds what the steps share.
+// Reads one object; shares state between the steps.
 class ObjectReader {
 public:
     ObjectReader(const ContainerReader& container, const ReadObjectOptions& options)
         : container_(container), options_(options) {}
 
     Result<RaySpaceObject> read() {
-        for (const ReadStage stage : {ReadStage::geometry, ReadStage::maps, ReadStage::pictures}) {
-            if (const Status status = read_stage(stage); !status) return status.error();
+        for (const ReadStage stage : {ReadStage::geometry, ReadStage::maps, ReadStage::images}) {
+            RS_TRY(read_stage(stage));
             if (stage != ReadStage::geometry) continue;
-            if (const Status status = check_geometry(); !status) return status.error();
+            RS_TRY(check_geometry());
         }
-        if (const Status status = validate_object(unread_.object, container_.where()); !status) return status.error();
-        if (unread_.coded && options_.decode) codec::decode_pictures(unread_.object);
-        return std::move(unread_.object);
+        RS_TRY(validate_object(partial_.object, container_.where()));
+        if (partial_.coded && options_.decode) codec::decode_images(partial_.object);
+        return std::move(partial_.object);
     }
 
-    // Nothing that is large is read. What is small is bounded by what its chunks take: the text of a rig, which is
-    // parsed, is the worst.
+    // Measures without reading large chunks. The memory of small ones is bounded by their size; the worst case is the
+    // parsed text of a rig.
     Result<ReadingMemory> measure() {
         constexpr std::uint64_t kParsedOverText = 24;
         constexpr std::uint64_t kSmallThings_bytes = 1U << 20;
-        if (const Status status = read_stage(ReadStage::geometry); !status) return status.error();
-        if (const Status status = check_geometry(); !status) return status.error();
+        RS_TRY(read_stage(ReadStage::geometry));
+        RS_TRY(check_geometry());
         std::uint64_t kept = kSmallThings_bytes + memory_of_geometry();
         std::uint64_t kept_by_maps = 0;
         std::uint64_t largest_passing = 0;
         std::uint64_t largest_chunk = 0;
         for (const ChunkEntry& entry : container_.table()) {
             largest_chunk = std::max(largest_chunk, entry.size_bytes);
-            if (unread_.coded && entry.name == kPicture) kept += entry.size_bytes;
+            if (partial_.coded && entry.name == kImage) kept += entry.size_bytes;
             const auto kind = std::ranges::find(chunk_table(), entry.name, &ChunkKind::name);
             if (kind == chunk_table().end() || kind->memory == nullptr) continue;
-            const auto payload = read_payload(entry);
-            if (!payload) return payload.error();
-            const Result<ChunkMemory> takes = kind->memory(*payload, unread_, entry.index);
+            RS_ASSIGN_OR_RETURN(const auto payload, read_payload(entry));
+            const Result<ChunkMemory> takes = kind->memory(payload, partial_, entry.index);
             if (!takes) return in_chunk({entry.name, entry.index}, takes.error());
             kept_by_maps += takes->kept_bytes;
-            largest_passing = std::max(largest_passing, takes->passing_bytes);
+            largest_passing = std::max(largest_passing, takes->temporary_bytes);
         }
         const std::uint64_t passing =
-            largest_chunk + largest_passing + kParsedOverText * unread_.object.rig_json.size();
-        const std::uint64_t pictures = wanted_pictures();
-        const std::uint64_t passing_planes = unread_.coded && options_.decode ? pictures * coded_planes_bytes() : 0;
+            largest_chunk + largest_passing + kParsedOverText * partial_.object.rig_json.size();
+        const std::uint64_t images = wanted_images();
+        const std::uint64_t passing_planes = partial_.coded && options_.decode ? images * coded_planes_bytes() : 0;
         ReadingMemory memory;
         memory.most_bytes = static_cast<std::int64_t>(kept + needed_bytes_ + kept_by_maps + passing);
         memory.object_bytes = static_cast<std::int64_t>(kept + needed_bytes_ + kept_by_maps - passing_planes);
-        memory.width = unread_.object.width;
-        memory.height = unread_.object.height;
-        memory.pictures = static_cast<std::int64_t>(pictures);
+        memory.width = partial_.object.width;
+        memory.height = partial_.object.height;
+        memory.images = static_cast<std::int64_t>(images);
         return memory;
     }
 
 private:
     [[nodiscard]] std::uint64_t memory_of_geometry() const {
-        std::uint64_t bytes = static_cast<std::uint64_t>(memory_of(unread_.object));
-        for (const Ring& ring : unread_.object.rings)
+        std::uint64_t bytes = static_cast<std::uint64_t>(memory_of(partial_.object));
+        for (const Ring& ring : partial_.object.rings)
             bytes += sizeof(NormalLine) * ring.views.size() * static_cast<std::uint64_t>(ring.planes);
         return bytes;
     }
@@ -85,50 +84,51 @@ private:
         return container_.read(entry);
     }
 
-    // What the chunk states that it needs is held against the cap before it is allocated: a few bytes may state much.
+    // The memory stated by a chunk is checked against the limit before it is allocated, since a few bytes may state a
+    // lot.
     Status read_chunk(const ChunkKind& kind, std::uint32_t index) {
         const ChunkEntry* const entry = container_.find(kind.name, index);
         if (entry == nullptr) {
-            if (kind.is_there != nullptr) return {};
+            if (kind.is_present != nullptr) return {};
             return Error{container_.where() + ": has no chunk " + to_string(kind.name) + " " + std::to_string(index)};
         }
-        const auto payload = read_payload(*entry);
-        if (!payload) return payload.error();
+        RS_ASSIGN_OR_RETURN(const auto payload, read_payload(*entry));
         if (kind.memory != nullptr) {
-            const Result<ChunkMemory> takes = kind.memory(*payload, unread_, index);
+            const Result<ChunkMemory> takes = kind.memory(payload, partial_, index);
             if (!takes) return in_chunk({kind.name, index}, takes.error());
             needed_bytes_ += takes->kept_bytes;
-            const std::uint64_t most_bytes = needed_bytes_ + takes->passing_bytes;
+            const std::uint64_t most_bytes = needed_bytes_ + takes->temporary_bytes;
             if (most_bytes > options_.memory_cap_bytes) return too_large(most_bytes);
         }
-        const Status parsed = kind.parse(*payload, unread_, index);
+        const Status parsed = kind.parse(payload, partial_, index);
         return parsed ? Status{} : in_chunk({kind.name, index}, parsed.error());
     }
 
     Status read_stage(ReadStage stage) {
-        if (stage == ReadStage::pictures) return read_pictures();
-        for (const OneFor each : {OneFor::object, OneFor::ring}) {
-            for (std::uint32_t index = 0; index < count_of(each, unread_.object); ++index) {
+        if (stage == ReadStage::images) return read_images();
+        for (const ChunkScope each : {ChunkScope::object, ChunkScope::ring}) {
+            for (std::uint32_t index = 0; index < max_chunk_count(each, partial_.object); ++index) {
                 if (Status status = read_each(each, stage, index); !status) return status;
             }
         }
         return {};
     }
 
-    Status read_pictures() {
-        for (const Ring& ring : unread_.object.rings) {
+    Status read_images() {
+        for (const Ring& ring : partial_.object.rings) {
             for (std::size_t n = 0; n < ring.views.size(); ++n) {
                 if (!is_wanted(ring, n)) continue;
-                if (Status status = read_each(OneFor::view, ReadStage::pictures, ring.views[n]); !status) return status;
-                if (!unread_.coded) continue;
-                needed_bytes_ += unread_.coded->pictures[ring.views[n]].bytes.size();
+                if (Status status = read_each(ChunkScope::view, ReadStage::images, ring.views[n]); !status)
+                    return status;
+                if (!partial_.coded) continue;
+                needed_bytes_ += partial_.coded->images[ring.views[n]].bytes.size();
                 if (needed_bytes_ > options_.memory_cap_bytes) return too_large(needed_bytes_);
             }
         }
         return {};
     }
 
-    Status read_each(OneFor each, ReadStage stage, std::uint32_t index) {
+    Status read_each(ChunkScope each, ReadStage stage, std::uint32_t index) {
         for (const ChunkKind& kind : chunk_table()) {
             if (kind.each != each || kind.stage != stage) continue;
             if (Status status = read_chunk(kind, index); !status) return status;
@@ -141,10 +141,11 @@ private:
         return check_memory();
     }
 
-    // The file holds the chunks of this object, in the format's order, and else only what may be skipped.
+    // Checks that the file contains the chunks of this object in the format's order, and otherwise only chunks that may
+    // be skipped.
     Status check_chunks() const {
         const std::vector<ChunkKey> expected = chunk_order(
-            unread_.object,
+            partial_.object,
             [&](const ChunkKind& kind, std::uint32_t index) { return container_.find(kind.name, index) != nullptr; });
         const auto named = [](ChunkKey key) { return to_string(key.name) + " " + std::to_string(key.index); };
         std::size_t next = 0;
@@ -166,39 +167,39 @@ private:
         return Error{container_.where() + ": has no chunk " + named(expected[next]) + " in its place"};
     }
 
-    // What the maps and pictures need, but for what their chunks state themselves.
+    // Checks the memory of maps and images, except memory stated by their own chunks.
     Status check_memory() {
-        // No product here reaches 2^64: every factor is capped by conventions.hpp.
-        for (const Ring& ring : unread_.object.rings) {
+        // No product reaches 2^64, since every factor is limited by conventions.hpp.
+        for (const Ring& ring : partial_.object.rings) {
             needed_bytes_ += sizeof(std::uint16_t) * static_cast<std::uint64_t>(ring.planes) *
                              static_cast<std::uint64_t>(ring.x_cells) * static_cast<std::uint64_t>(ring.u_cells);
         }
-        needed_bytes_ += wanted_pictures() * picture_bytes();
+        needed_bytes_ += wanted_images() * image_bytes();
         return needed_bytes_ <= options_.memory_cap_bytes ? Status{} : Status{too_large(needed_bytes_)};
     }
 
-    [[nodiscard]] std::uint64_t wanted_pictures() const {
-        std::uint64_t pictures = 0;
-        for (const Ring& ring : unread_.object.rings) {
-            for (std::size_t n = 0; n < ring.views.size(); ++n) pictures += is_wanted(ring, n) ? 1 : 0;
+    [[nodiscard]] std::uint64_t wanted_images() const {
+        std::uint64_t images = 0;
+        for (const Ring& ring : partial_.object.rings) {
+            for (std::size_t n = 0; n < ring.views.size(); ++n) images += is_wanted(ring, n) ? 1 : 0;
         }
-        return pictures;
+        return images;
     }
 
     [[nodiscard]] bool is_wanted(const Ring& ring, std::size_t n) const {
-        return level_of(unread_.object, ring, n) <= options_.max_level;
+        return level_of(partial_.object, ring, n) <= options_.max_level;
     }
 
-    // What a picture will take: a coded one is unpacked at full size, from planes that are a little larger.
-    [[nodiscard]] std::uint64_t picture_bytes() const {
-        if (!unread_.coded) return raw_picture_bytes(unread_.object.width, unread_.object.height);
-        return codec::tile_table_bytes(*unread_.coded) + (options_.decode ? 2 * coded_planes_bytes() : 0);
+    // Memory of one image: coded ones are decoded at full size, from planes that are slightly larger.
+    [[nodiscard]] std::uint64_t image_bytes() const {
+        if (!partial_.coded) return raw_image_bytes(partial_.object.width, partial_.object.height);
+        return codec::tile_table_bytes(*partial_.coded) + (options_.decode ? 2 * coded_planes_bytes() : 0);
     }
 
     [[nodiscard]] std::uint64_t coded_planes_bytes() const {
         constexpr std::uint64_t kCodedPlanes = 4;
-        return kCodedPlanes * static_cast<std::uint64_t>(unread_.coded->coded_width()) *
-               static_cast<std::uint64_t>(unread_.coded->coded_height());
+        return kCodedPlanes * static_cast<std::uint64_t>(partial_.coded->coded_width()) *
+               static_cast<std::uint64_t>(partial_.coded->coded_height());
     }
 
     [[nodiscard]] Error too_large(std::uint64_t needed_bytes) const {
@@ -206,34 +207,32 @@ private:
             return std::to_string((bytes + (1U << 20) - 1) >> 20) + " MiB";
         };
         return Error{container_.where() + ": needs " + mebibytes(needed_bytes) + " of memory, more than the " +
-                     mebibytes(options_.memory_cap_bytes) + " allowed; encode it with fewer or smaller pictures"};
+                     mebibytes(options_.memory_cap_bytes) + " allowed; encode it with fewer or smaller images"};
     }
 
     const ContainerReader& container_;
     const ReadObjectOptions& options_;
-    UnreadObject unread_;
-    std::uint64_t needed_bytes_ = 0;  // of the memory cap
+    PartialObject partial_;
+    std::uint64_t needed_bytes_ = 0;  // counted against memory_cap_bytes
 };
 
 }  // namespace
 
 Status write_object(const std::filesystem::path& path, const RaySpaceObject& object, Progress* progress) {
     if (Status status = validate_object(object, path.string()); !status) return status;
-    for (std::size_t i = 0; i < object.pictures.size(); ++i) {
-        if (object.coded ? !object.coded->pictures[i].loaded() : object.pictures[i].empty()) {
-            return Error{path.string() + ": picture " + std::to_string(i) +
-                         " is not loaded; an object is written whole"};
+    for (std::size_t i = 0; i < object.images.size(); ++i) {
+        if (object.coded ? !object.coded->images[i].loaded() : object.images[i].empty()) {
+            return Error{path.string() + ": image " + std::to_string(i) + " is not loaded; an object is written whole"};
         }
     }
     const std::vector<ChunkKey> order = chunk_order(object);
-    auto writer = ContainerWriter::create(path, static_cast<std::uint32_t>(order.size()));
-    if (!writer) return writer.error();
+    RS_ASSIGN_OR_RETURN(auto writer, ContainerWriter::create(path, static_cast<std::uint32_t>(order.size())));
     if (progress != nullptr) progress->start("writing", static_cast<std::int64_t>(order.size()));
     for (const ChunkKey key : order) {
-        if (Status status = writer->add(key.name, key.index, chunk_payload(object, key)); !status) return status;
+        if (Status status = writer.add(key.name, key.index, chunk_payload(object, key)); !status) return status;
         if (progress != nullptr) progress->advance();
     }
-    Status status = writer->commit();
+    Status status = writer.commit();
     if (progress != nullptr) progress->finish();
     return status;
 }
@@ -243,9 +242,8 @@ Result<RaySpaceObject> read_object(const ContainerReader& container, const ReadO
 }
 
 Result<RaySpaceObject> read_object(const std::filesystem::path& path, const ReadObjectOptions& options) {
-    const auto container = ContainerReader::open(path);
-    if (!container) return container.error();
-    return read_object(*container, options);
+    RS_ASSIGN_OR_RETURN(const auto container, ContainerReader::open(path));
+    return read_object(container, options);
 }
 
 Result<ReadingMemory> memory_to_read(const ContainerReader& container, const ReadObjectOptions& options) {

@@ -4,7 +4,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig_json.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <cmath>
 #include <cstdio>
@@ -42,13 +42,11 @@ Result<Rig> read_rig(const fs::path& path) {
     if (!fs::exists(file, ignored)) {
         return Error{file.string() + ": does not exist; give a capture set's folder or its " + kRigFileName};
     }
-    const auto bytes = read_file(file, kMaxRigFile_bytes);
-    if (!bytes) return bytes.error();
-    const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    return parse_rig(text, file.string(), [&](const RigView& first) -> Result<PictureSize> {
-        const auto info = read_picture_info(picture_path(file.parent_path(), first));
-        if (!info) return info.error();
-        return PictureSize{info->width, info->height};
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(file, kMaxRigFile_bytes));
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return parse_rig(text, file.string(), [&](const RigView& first) -> Result<ImageSize> {
+        RS_ASSIGN_OR_RETURN(const auto info, read_image_info(image_path(file.parent_path(), first)));
+        return ImageSize{info.width, info.height};
     });
 }
 
@@ -59,7 +57,7 @@ Status write_rig(const fs::path& transforms_json, const Rig& rig) {
         const std::string place = where + ": frame " + std::to_string(i);
         if (!all_finite(view.camera)) return Error{place + ": its camera holds a number that is not finite"};
         if (!is_utf8(view.file_path) || !is_utf8(view.depth_file_path)) {
-            return Error{place + ": its picture's name is not valid UTF-8; rename the file"};
+            return Error{place + ": its image's name is not valid UTF-8; rename the file"};
         }
     }
     if (!std::isfinite(rig.object_radius)) return Error{where + ": the object radius is not finite"};
@@ -68,13 +66,13 @@ Status write_rig(const fs::path& transforms_json, const Rig& rig) {
     return write_file(transforms_json, text);
 }
 
-fs::path picture_path(const fs::path& folder, const RigView& view) {
+fs::path image_path(const fs::path& folder, const RigView& view) {
     fs::path as_given = folder / view.file_path;
     std::error_code ignored;
     if (fs::is_regular_file(as_given, ignored)) return as_given;
     fs::path with_extension = as_given;
     with_extension += ".png";
-    // Where neither exists, the name that a reader would look for, and that an error should show.
+    // If neither exists, the name that a reader would try, for its error message.
     if (fs::is_regular_file(with_extension, ignored) || !as_given.has_extension()) return with_extension;
     return as_given;
 }
@@ -98,7 +96,7 @@ Rig make_ring(const RingOptions& options) {
         view.file_path = name;
         view.camera =
             look_at_camera(target + options.distance * direction, target, fov_x_rad, options.width, options.height);
-        // As given, not by way of the angle and back.
+        // The given value, without a round trip through the angle.
         view.camera.fl_x = options.fl_px;
         view.camera.fl_y = options.fl_px;
         rig.views.push_back(std::move(view));

@@ -16,28 +16,27 @@ using nlohmann::ordered_json;
 constexpr std::size_t kMaxPath_bytes = 4096;
 constexpr double kMinFocal_px = 1e-3;
 constexpr double kMaxFocal_px = 1e7;
-constexpr double kMinAngle_rad =
-    1e-9;  // so small, and so near to pi, that the angle of every possible focal length passes
+constexpr double kMinAngle_rad = 1e-9;  // allows the angle of every possible focal length
 constexpr double kMaxPrincipal_px = 1e6;
 constexpr double kMaxLength = 1e12;
 constexpr double kRigidTolerance = 1e-3;
 
-// What one object, the file or a frame, says about the lens.
+// Intrinsics stated by one JSON object, the file or a frame.
 struct Intrinsics {
     std::optional<int> w, h;
     std::optional<double> fl_x, fl_y, cx, cy, angle_x_rad, angle_y_rad;
 };
 
-// The number of a key that may be missing.
+// Reads an optional number.
 std::optional<double> number_of(JsonObject& object, const char* key, double lowest, double highest) {
     const auto found = object.find(key);
     return found ? std::optional(found->number(lowest, highest)) : std::nullopt;
 }
 
-// Some tools write whole numbers as 800.0.
+// Reads an optional image side; some tools write integers as 800.0.
 std::optional<int> side_of(JsonObject& object, const char* key) {
     const auto found = object.find(key);
-    return found ? std::optional(found->whole_number(1, kMaxPictureSide_px)) : std::nullopt;
+    return found ? std::optional(found->whole_number(1, kMaxImageSide_px)) : std::nullopt;
 }
 
 std::string path_of(const JsonValue& value) {
@@ -63,7 +62,7 @@ double focal_from_angle(int side_px, double angle_rad) {
     return side_px / (2 * std::tan(angle_rad / 2));
 }
 
-// A focal length outranks an angle, and a frame outranks the file.
+// Precedence: focal length before angle, frame before file.
 std::optional<double> choose_focal(const std::optional<double>& frame_focal, const std::optional<double>& frame_angle,
                                    const std::optional<double>& file_focal, const std::optional<double>& file_angle,
                                    int side_px) {
@@ -78,7 +77,7 @@ void apply_intrinsics(const Intrinsics& frame, const Intrinsics& file, const Jso
     camera.width = frame.w.value_or(file.w.value_or(0));
     camera.height = frame.h.value_or(file.h.value_or(0));
     if (camera.width == 0 || camera.height == 0) {
-        throw place.wrong("has no w and h; add the pictures' width and height in pixels");
+        throw place.wrong("has no w and h; add the images' width and height in pixels");
     }
     const auto fl_x = choose_focal(frame.fl_x, frame.angle_x_rad, file.fl_x, file.angle_x_rad, camera.width);
     const auto fl_y = choose_focal(frame.fl_y, frame.angle_y_rad, file.fl_y, file.angle_y_rad, camera.height);
@@ -92,7 +91,7 @@ void apply_intrinsics(const Intrinsics& frame, const Intrinsics& file, const Jso
     camera.cy = frame.cy.value_or(file.cy.value_or(camera.height / 2.0));
 }
 
-// Three rows, or four with 0 0 0 1 as the last.
+// Reads a matrix of three rows, or of four with 0 0 0 1 as the last.
 glm::dmat4 matrix_of(const JsonValue& rows) {
     glm::dmat4 matrix(1.0);
     const std::size_t count = rows.list_size(3, 4);
@@ -110,10 +109,10 @@ glm::dmat4 matrix_of(const JsonValue& rows) {
     return matrix;
 }
 
-RigView parse_frame(JsonObject frame, const FindPictureSize& find_size, bool first, Intrinsics& file) {
+RigView parse_frame(JsonObject frame, const FindImageSize& find_size, bool first, Intrinsics& file) {
     RigView view;
     view.file_path = path_of(frame.take("file_path"));
-    if (view.file_path.empty()) throw frame.wrong("file_path is empty; a frame needs the name of its picture");
+    if (view.file_path.empty()) throw frame.wrong("file_path is empty; a frame needs the name of its image");
     if (const auto depth = frame.find("depth_file_path")) view.depth_file_path = path_of(*depth);
     const JsonValue matrix = frame.take("transform_matrix");
     view.camera.world_from_camera = matrix_of(matrix);
@@ -124,8 +123,7 @@ RigView parse_frame(JsonObject frame, const FindPictureSize& find_size, bool fir
     const Intrinsics own = take_intrinsics(frame);
     if (first && find_size && !((own.w || file.w) && (own.h || file.h))) {
         const auto size = find_size(view);
-        if (!size)
-            throw frame.wrong("has no w and h, and they cannot be read from its picture: " + size.error().message);
+        if (!size) throw frame.wrong("has no w and h, and they cannot be read from its image: " + size.error().message);
         file.w = size->width;
         file.h = size->height;
     }
@@ -141,7 +139,7 @@ void put_intrinsics(ordered_json& object, const Camera& camera) {
     object["fl_y"] = camera.fl_y;
     object["cx"] = camera.cx;
     object["cy"] = camera.cy;
-    // Redundant, but all that the oldest NeRF loaders look at.
+    // Redundant, but the only intrinsics that old NeRF loaders read.
     object["camera_angle_x"] = 2 * std::atan(camera.width / (2 * camera.fl_x));
 }
 
@@ -150,7 +148,7 @@ bool same_intrinsics(const Camera& a, const Camera& b) {
            a.cy == b.cy;
 }
 
-// Keys of ours win over extras of the same name.
+// Keys of this project take precedence over extras of the same name.
 void put_extras(ordered_json& object, const json& extras) {
     if (!extras.is_object()) return;
     for (const auto& [key, value] : extras.items()) {
@@ -175,13 +173,13 @@ ordered_json frame_to_json(const RigView& view, bool own_intrinsics) {
 }
 
 std::string dumped(const ordered_json& value) {
-    // Names that are no UTF-8 must not throw here; write_rig() refuses them beforehand.
+    // Names that are not UTF-8 must not throw here; write_rig() rejects them before.
     return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 }  // namespace
 
-Result<Rig> parse_rig(const std::string& text, const std::string& where, const FindPictureSize& find_size) {
+Result<Rig> parse_rig(const std::string& text, const std::string& where, const FindImageSize& find_size) {
     return read_json(text, where, [&](JsonObject& top) {
         if (!top.has("frames")) throw top.wrong("frames is missing; is this a transforms.json?");
         Intrinsics file = take_intrinsics(top);
@@ -202,7 +200,7 @@ Result<Rig> rig_from_json(const std::string& text, const std::string& where) {
     return parse_rig(text, where, nullptr);
 }
 
-// One line per key and per frame: short, and still good to read and to compare.
+// One line per key and per frame, which is compact and easy to compare.
 std::string rig_to_json(const Rig& rig) {
     const bool shared = !rig.views.empty() && std::all_of(rig.views.begin(), rig.views.end(), [&](const RigView& view) {
         return same_intrinsics(view.camera, rig.views.front().camera);

@@ -1,8 +1,8 @@
 #pragma once
 // Image<T> owns pixels; ImageView<T> and ConstImageView<T> are the non-owning strided views that algorithms take.
 //
-// Memory layout: pixel (x, y) of a view stands at data[y * stride + x]; `stride` counts elements, not bytes, and may be
-// larger than the width. Image<T> is dense: stride == width. Views do not keep their pixels alive.
+// Memory layout: pixel (x, y) of a view is data[y * stride + x]; `stride` counts elements, not bytes, and may be larger
+// than the width. Image<T> is dense: stride == width. Views do not keep their pixels alive.
 
 #include "rayspace/base/check.hpp"
 
@@ -22,7 +22,7 @@ public:
         : data_(data), width_(width), height_(height), stride_(stride) {
         RS_CHECK(width >= 0 && height >= 0 && stride >= width);
     }
-    // A view of mutable pixels is also a view of constant ones.
+    // Conversion from a view of mutable pixels.
     template <class U>
     requires(std::is_same_v<const U, T> && !std::is_same_v<U, T>) ImageView(const ImageView<U>& other)
         : data_(other.data()), width_(other.width()), height_(other.height()), stride_(other.stride()) {}
@@ -37,7 +37,7 @@ public:
     [[nodiscard]] std::span<T> row_span(int y) const { return {row(y), static_cast<std::size_t>(width_)}; }
     T& operator()(int x, int y) const { return data_[y * stride_ + x]; }
 
-    // The rectangle [x, x + width) x [y, y + height), which must lie inside.
+    /// The rectangle [x, x + width) x [y, y + height), which must be inside.
     [[nodiscard]] ImageView crop(int x, int y, int width, int height) const {
         RS_CHECK(x >= 0 && y >= 0 && x + width <= width_ && y + height <= height_);
         return {data_ + y * stride_ + x, width, height, stride_};
@@ -57,7 +57,7 @@ template <class T>
 class Image {
 public:
     Image() = default;
-    // Every pixel is `fill`.
+    /// Fills every pixel with `fill`.
     Image(int width, int height, T fill = T{})
         : pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill),
           width_(width),
@@ -95,14 +95,15 @@ private:
     int height_ = 0;
 };
 
-// One 8-bit sRGB pixel with straight alpha, in memory order R, G, B, A.
+/// One 8-bit sRGB pixel with straight alpha, in memory order R, G, B, A.
 struct Rgba8 {
     std::uint8_t r = 0, g = 0, b = 0, a = 0;
     bool operator==(const Rgba8&) const = default;
 };
 static_assert(sizeof(Rgba8) == 4);
 
-// `front` over an opaque backdrop, both sRGB, mixed as pictures on a screen are; exact for alpha 0 and 255.
+/// Composites `front` over an opaque backdrop, both sRGB, without linearisation, as on screens; exact for alpha 0 and
+/// 255.
 constexpr Rgba8 over(const Rgba8& front, const Rgba8& backdrop) {
     const auto mix = [&](int f, int b) {
         return static_cast<std::uint8_t>((f * front.a + b * (255 - front.a) + 127) / 255);
@@ -110,7 +111,7 @@ constexpr Rgba8 over(const Rgba8& front, const Rgba8& backdrop) {
     return {mix(front.r, backdrop.r), mix(front.g, backdrop.g), mix(front.b, backdrop.b), 255};
 }
 
-// One linear-light pixel with straight alpha.
+/// One linear-light pixel with straight alpha.
 struct RgbaF {
     float r = 0, g = 0, b = 0, a = 0;
     bool operator==(const RgbaF&) const = default;

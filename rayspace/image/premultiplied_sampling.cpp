@@ -24,13 +24,13 @@ RgbaF premultiplied(const Rgba8& p) {
 Rgba8 straight(const RgbaF& p) {
     const auto alpha = static_cast<std::uint8_t>(std::lround(std::clamp(p.a, 0.0F, 1.0F) * 255.0F));
     if (alpha == 0) return {};
-    // Divided by the alpha as it is: the kernel overshoots 1 just inside of an edge, and the colour with it.
+    // Divide by the unclamped alpha: the kernel overshoots 1 just inside of an edge, and the colour with it.
     return {srgb8_by_table(p.r / p.a), srgb8_by_table(p.g / p.a), srgb8_by_table(p.b / p.a), alpha};
 }
 
 }  // namespace
 
-Rgba8 sample_premultiplied(ConstImageView<Rgba8> picture, double x, double y) {
+Rgba8 sample_premultiplied(ConstImageView<Rgba8> image, double x, double y) {
     const double left = std::floor(x - 0.5);
     const double top = std::floor(y - 0.5);
     const auto weight_x = catmull_rom(static_cast<float>(x - 0.5 - left));
@@ -38,11 +38,11 @@ Rgba8 sample_premultiplied(ConstImageView<Rgba8> picture, double x, double y) {
     RgbaF sum;
     for (int dy = 0; dy < 4; ++dy) {
         const int row = static_cast<int>(top) - 1 + dy;
-        if (row < 0 || row >= picture.height()) continue;
+        if (row < 0 || row >= image.height()) continue;
         for (int dx = 0; dx < 4; ++dx) {
             const int column = static_cast<int>(left) - 1 + dx;
-            if (column < 0 || column >= picture.width()) continue;
-            const RgbaF p = premultiplied(picture(column, row));
+            if (column < 0 || column >= image.width()) continue;
+            const RgbaF p = premultiplied(image(column, row));
             const float w = weight_x[static_cast<std::size_t>(dx)] * weight_y[static_cast<std::size_t>(dy)];
             sum.r += w * p.r;
             sum.g += w * p.g;
@@ -53,11 +53,11 @@ Rgba8 sample_premultiplied(ConstImageView<Rgba8> picture, double x, double y) {
     return straight(sum);
 }
 
-PremultipliedPicture::PremultipliedPicture(ConstImageView<Rgba8> picture) {
-    int left = picture.width(), right = 0, top = picture.height(), bottom = 0;
+PremultipliedImage::PremultipliedImage(ConstImageView<Rgba8> image) {
+    int left = image.width(), right = 0, top = image.height(), bottom = 0;
     std::vector<Columns> covered;
-    for (int y = 0; y < picture.height(); ++y) {
-        const std::span<const Rgba8> row = picture.row_span(y);
+    for (int y = 0; y < image.height(); ++y) {
+        const std::span<const Rgba8> row = image.row_span(y);
         const auto is_covered = [](const Rgba8& p) { return p.a != 0; };
         const auto first = std::find_if(row.begin(), row.end(), is_covered);
         covered.emplace_back();
@@ -75,12 +75,12 @@ PremultipliedPicture::PremultipliedPicture(ConstImageView<Rgba8> picture) {
     pixels_ = Image<RgbaF>(right - left, bottom - top);
     for (int y = top; y < bottom; ++y) {
         const Columns& columns = covered_.emplace_back(covered[static_cast<std::size_t>(y)]);
-        for (int x = columns.begin; x < columns.end; ++x) pixels_(x - left, y - top) = premultiplied(picture(x, y));
+        for (int x = columns.begin; x < columns.end; ++x) pixels_(x - left, y - top) = premultiplied(image(x, y));
     }
     for (Columns& columns : covered_) columns = {columns.begin - left, columns.end - left};
 }
 
-Rgba8 PremultipliedPicture::sample(double x, double y) const {
+Rgba8 PremultipliedImage::sample(double x, double y) const {
     const double left = std::floor(x - 0.5);
     const double top = std::floor(y - 0.5);
     const int column = static_cast<int>(left) - 1 - left_, row = static_cast<int>(top) - 1 - top_;

@@ -1,8 +1,9 @@
-// EULUMDAT: one item a line, by its number. Source: A. Stockmar, "EULUMDAT file format", 1990, as published with
-// the International Lighting Data Format: lines 1..26 head, lamp sets, ten direct ratios, angles, intensities.
+// EULUMDAT reader: one item per line, identified by the line number. Source: A. Stockmar, "EULUMDAT file format", 1990,
+// as published with the International Lighting Data Format: lines 1..26 header, lamp sets, ten direct ratios, angles,
+// intensities.
 
-#include "rayspace/light/file_words.hpp"
 #include "rayspace/light/luminaire.hpp"
+#include "rayspace/light/photometric_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,10 +21,11 @@ class Lines {
 public:
     Lines(std::string_view text, std::string name) : name_(std::move(name)), lines_(split_lines(text)) {}
 
-    // Lines count from 1.
+    // Line numbers start at 1.
     Result<double> number(std::size_t line, const std::string& what) const {
         if (line > lines_.size()) {
-            return Error{name_ + ": ends before line " + std::to_string(line) + ", " + what + "; is it whole?"};
+            return Error{name_ + ": ends before line " + std::to_string(line) + ", " + what +
+                         "; check that it is complete"};
         }
         std::string word = utf8_text(lines_[line - 1]);
         std::replace(word.begin(), word.end(), ',', '.');
@@ -33,12 +35,11 @@ public:
         return value;
     }
     Result<int> whole(std::size_t line, const std::string& what, int least, int most) const {
-        const Result<double> value = number(line, what);
-        if (!value) return value.error();
-        if (*value != std::floor(*value) || *value < least || *value > most) {
-            return error(line, out_of_range(what, *value, least, most).message);
+        RS_ASSIGN_OR_RETURN(const double value, number(line, what));
+        if (value != std::floor(value) || value < least || value > most) {
+            return error(line, out_of_range(what, value, least, most).message);
         }
-        return static_cast<int>(*value);
+        return static_cast<int>(value);
     }
     [[nodiscard]] std::string text(std::size_t line) const {
         return line <= lines_.size() ? utf8_text(lines_[line - 1]) : std::string();
@@ -54,7 +55,7 @@ private:
 
 enum Symmetry { kNone = 0, kAboutAxis = 1, kPlane0 = 2, kPlane90 = 3, kBothPlanes = 4 };
 
-// The planes whose intensities stand in the file, as numbers of the planes listed.
+// Indices of the listed planes whose intensities are in the file.
 std::vector<int> stored_planes(int symmetry, int planes) {
     int first = 0, count = planes;
     if (symmetry == kAboutAxis) count = 1;
@@ -88,78 +89,67 @@ Result<Luminaire> parse_eulumdat(std::string_view text, const std::string& name)
                                         std::pair{8, "TEST"}, std::pair{12, "ISSUEDATE"}}) {
         luminaire.keywords.emplace_back(keyword, lines.text(static_cast<std::size_t>(line)));
     }
-    constexpr int kMost = static_cast<int>(PhotometricWeb::kMostAngles);
-    const Result<int> symmetry = lines.whole(3, "the symmetry (Isym)", kNone, kBothPlanes);
-    if (!symmetry) return symmetry.error();
-    const Result<int> planes = lines.whole(4, "the number of C planes (Mc)", 1, kMost);
-    if (!planes) return planes.error();
-    const Result<int> rows = lines.whole(6, "the number of intensities in a plane (Ng)", 2, kMost);
-    if (!rows) return rows.error();
-    const int divisor = *symmetry == kPlane0 ? 2 : *symmetry >= kPlane90 ? 4 : 1;
-    if (*planes % divisor != 0) {
-        return lines.error(4, std::to_string(*planes) +
+    constexpr int kMost = static_cast<int>(PhotometricWeb::kMaxAngles);
+    RS_ASSIGN_OR_RETURN(const int symmetry, lines.whole(3, "the symmetry (Isym)", kNone, kBothPlanes));
+    RS_ASSIGN_OR_RETURN(const int planes, lines.whole(4, "the number of C planes (Mc)", 1, kMost));
+    RS_ASSIGN_OR_RETURN(const int rows, lines.whole(6, "the number of intensities in a plane (Ng)", 2, kMost));
+    const int divisor = symmetry == kPlane0 ? 2 : symmetry >= kPlane90 ? 4 : 1;
+    if (planes % divisor != 0) {
+        return lines.error(4, std::to_string(planes) +
                                   " C planes cannot be mirrored as line 3 says; their number "
                                   "must be a multiple of " +
                                   std::to_string(divisor));
     }
-    const Result<int> sets = lines.whole(26, "the number of lamp sets", 1, kMostSets);
-    if (!sets) return sets.error();
-    // Sets are alternatives; the first is taken.
-    const Result<double> lamps = lines.number(kLinesOfHead + 1, "the number of lamps");
-    if (!lamps) return lamps.error();
-    const Result<double> lumens = lines.number(kLinesOfHead + 3, "the lamps' luminous flux");
-    if (!lumens) return lumens.error();
-    if (!(*lumens > 0)) return lines.error(kLinesOfHead + 3, "the lamps' luminous flux must be above 0");
+    RS_ASSIGN_OR_RETURN(const int sets, lines.whole(26, "the number of lamp sets", 1, kMostSets));
+    // Lamp sets are alternatives; the first is used.
+    RS_ASSIGN_OR_RETURN(const double lamps, lines.number(kLinesOfHead + 1, "the number of lamps"));
+    RS_ASSIGN_OR_RETURN(const double lumens, lines.number(kLinesOfHead + 3, "the lamps' luminous flux"));
+    if (!(lumens > 0)) return lines.error(kLinesOfHead + 3, "the lamps' luminous flux must be above 0");
     const Result<double> watts = lines.number(kLinesOfHead + 6, "the watts");
-    const Result<double> conversion = lines.number(24, "the conversion factor");
-    if (!conversion) return conversion.error();
-    if (!(*conversion > 0)) return lines.error(24, "the conversion factor must be above 0");
-    luminaire.lamps = static_cast<int>(std::clamp(std::abs(*lamps), 0.0, 1e6));
-    luminaire.lumens_per_lamp = *lamps < 0 ? -1 : *lumens / std::max(luminaire.lamps, 1);  // < 0: measured absolutely
-    luminaire.multiplier = *lumens / 1000 * *conversion;                                   // files hold cd per 1000 lm
+    RS_ASSIGN_OR_RETURN(const double conversion, lines.number(24, "the conversion factor"));
+    if (!(conversion > 0)) return lines.error(24, "the conversion factor must be above 0");
+    luminaire.lamps = static_cast<int>(std::clamp(std::abs(lamps), 0.0, 1e6));
+    luminaire.lumens_per_lamp = lamps < 0 ? -1 : lumens / std::max(luminaire.lamps, 1);  // < 0: absolute photometry
+    luminaire.multiplier = lumens / 1000 * conversion;  // intensities are in cd per 1000 lm
     luminaire.input_w = watts ? *watts : 0;
     double size_m[3] = {};
     for (std::size_t i = 0; i < 2; ++i) {
-        const Result<double> size = lines.number(16 + i, i == 0 ? "the opening's length" : "the opening's width");
-        if (!size) return size.error();
-        size_m[i] = std::abs(*size) / 1000;
+        RS_ASSIGN_OR_RETURN(const double size,
+                            lines.number(16 + i, i == 0 ? "the opening's length" : "the opening's width"));
+        size_m[i] = std::abs(size) / 1000;
     }
     for (std::size_t line = 18; line <= 21; ++line) {
-        const Result<double> height = lines.number(line, "the opening's height");
-        if (!height) return height.error();
-        size_m[2] = std::max(size_m[2], std::abs(*height) / 1000);
+        RS_ASSIGN_OR_RETURN(const double height, lines.number(line, "the opening's height"));
+        size_m[2] = std::max(size_m[2], std::abs(height) / 1000);
     }
     luminaire.opening = opening_of(size_m[0], size_m[1], size_m[2]);
 
-    const std::size_t c_line = kLinesOfHead + kLinesOfSet * static_cast<std::size_t>(*sets) + kRatios + 1;
-    const std::size_t g_line = c_line + static_cast<std::size_t>(*planes);
-    std::size_t line = g_line + static_cast<std::size_t>(*rows);
+    const std::size_t c_line = kLinesOfHead + kLinesOfSet * static_cast<std::size_t>(sets) + kRatios + 1;
+    const std::size_t g_line = c_line + static_cast<std::size_t>(planes);
+    std::size_t line = g_line + static_cast<std::size_t>(rows);
     PhotometricTable table;
-    for (std::size_t row = 0; row < static_cast<std::size_t>(*rows); ++row) {
-        const Result<double> angle = lines.number(g_line + row, "a G angle");
-        if (!angle) return angle.error();
-        table.vertical_deg.push_back(*angle);
+    for (std::size_t row = 0; row < static_cast<std::size_t>(rows); ++row) {
+        RS_ASSIGN_OR_RETURN(const double angle, lines.number(g_line + row, "a G angle"));
+        table.vertical_deg.push_back(angle);
     }
-    const std::vector<int> stored = stored_planes(*symmetry, *planes);
-    if (stored.size() * table.vertical_deg.size() > PhotometricWeb::kMostValues) {
-        return lines.error(4, "more intensities than " + std::to_string(PhotometricWeb::kMostValues));
+    const std::vector<int> stored = stored_planes(symmetry, planes);
+    if (stored.size() * table.vertical_deg.size() > PhotometricWeb::kMaxValues) {
+        return lines.error(4, "more intensities than " + std::to_string(PhotometricWeb::kMaxValues));
     }
     std::vector<std::vector<double>> columns;
     for (const int plane : stored) {
-        const Result<double> angle = lines.number(c_line + static_cast<std::size_t>(plane), "a C angle");
-        if (!angle) return angle.error();
-        // Mirrored in the plane 90-270: 270..90 by way of 0 is 270..90 the other way round.
-        double at = *symmetry == kPlane90 ? 180 - *angle : *angle;
+        RS_ASSIGN_OR_RETURN(const double angle, lines.number(c_line + static_cast<std::size_t>(plane), "a C angle"));
+        // Symmetric about the plane 90-270: 270..90 through 0 equals 270..90 in reverse order.
+        double at = symmetry == kPlane90 ? 180 - angle : angle;
         if (at < 0) at += 360;
-        table.horizontal_deg.push_back(*symmetry == kAboutAxis ? 0 : at);
+        table.horizontal_deg.push_back(symmetry == kAboutAxis ? 0 : at);
         columns.emplace_back();
-        for (int row = 0; row < *rows; ++row) {
-            const Result<double> value = lines.number(line++, "an intensity");
-            if (!value) return value.error();
-            columns.back().push_back(*value * luminaire.multiplier);
+        for (int row = 0; row < rows; ++row) {
+            RS_ASSIGN_OR_RETURN(const double value, lines.number(line++, "an intensity"));
+            columns.back().push_back(value * luminaire.multiplier);
         }
     }
-    if (*symmetry == kPlane90) {
+    if (symmetry == kPlane90) {
         std::reverse(columns.begin(), columns.end());
         std::reverse(table.horizontal_deg.begin(), table.horizontal_deg.end());
     }

@@ -1,15 +1,15 @@
 #pragma once
-// A ray-space object in memory, as the encoder makes it, the file stores it and the engine reads it.
+// A ray-space object in memory, created by the encoder, stored in .rso files and rendered by the engine.
 //
-// Lengths are in object radii (conventions.hpp). `_qN` after a name means fixed point with N fractional bits.
-// Everything here is integer: the renderer's arithmetic (engine/RECONSTRUCTION.md) starts from these numbers and is
-// exact.
+// Lengths are in object radii (conventions.hpp). Suffix `_qN` means fixed point with N fractional bits. All values are
+// integers: the renderer's arithmetic (engine/RECONSTRUCTION.md) starts from these numbers and is exact.
 //
-// A captured picture i is a line of ray space: through the point x of reference plane k it has exactly one ray. So the
-// RS map of a plane needs to hold only *which picture* answers a cell (x, u); the CapturedLine of (picture, plane) then
-// gives column and vertical scale of the ray through x exactly, without the rounding of a column stored per cell.
+// A captured image is a line of ray space: through the point x of reference plane k it has exactly one ray. The RS map
+// of a plane therefore stores only the index of the image that is shown in a cell (x, u); the CapturedLine of (image,
+// plane) then gives column and vertical scale of the ray through x exactly, without the rounding of a column stored per
+// cell.
 
-#include "rayspace/codec/code/coded_pictures.hpp"
+#include "rayspace/codec/code/coded_images.hpp"
 #include "rayspace/image/image.hpp"
 #include "rayspace/object/shape_map.hpp"
 
@@ -21,12 +21,12 @@
 
 namespace rs {
 
-inline constexpr std::uint16_t kNoPicture = 0xFFFF;
+inline constexpr std::uint16_t kNoImage = 0xFFFF;
 
-// The plane point x (q20) seen by a captured picture:
-//     axial depth  l = l0 + x * l1                        (object radii)
-//     column       q = cx + (q0 + x * q1) / l             (px; floor gives the column index)
-//     row scale    m = fl_y / l                           (rows per object radius)
+/// Projection of the plane point x (q20) into a captured image:
+///     axial depth  l = l0 + x * l1                        (object radii)
+///     column       q = cx + (q0 + x * q1) / l             (px; floor gives the column index)
+///     row scale    m = fl_y / l                           (rows per object radius)
 struct CapturedLine {
     std::int32_t l0_q20 = 0;
     std::int32_t l1_q30 = 0;
@@ -35,7 +35,7 @@ struct CapturedLine {
     bool operator==(const CapturedLine&) const = default;
 };
 
-// The upright camera behind one stored picture. A height Y on the plane point appears in row cy - m * (Y - height).
+/// The upright camera of a stored image. Height Y at a plane point appears in row cy - m * (Y - height).
 struct CapturedView {
     std::int32_t cx_q16 = 0;
     std::int32_t cy_q16 = 0;
@@ -45,23 +45,23 @@ struct CapturedView {
     bool operator==(const CapturedView&) const = default;
 };
 
-// A ring of views and its RS map. Cell (k, xi, ui) stands at cells[(k * x_cells + xi) * u_cells + ui] and holds the
-// index of a view of the object, or kNoPicture. xi = floor((x + x_half) * x_cells_per_unit) for x in [-x_half, x_half);
-// ui = floor((u + u_half) * u_cells_per_unit); both clamped to the map.
+/// A ring of views and its RS map. Cell (k, xi, ui) is cells[(k * x_cells + xi) * u_cells + ui] and contains the index
+/// of a view of the object, or kNoImage. xi = floor((x + x_half) * x_cells_per_unit) for x in [-x_half, x_half); ui =
+/// floor((u + u_half) * u_cells_per_unit); both clamped to the map.
 struct Ring {
-    std::int32_t elevation_udeg =
-        0;           // mean elevation of the ring's viewpoints above the horizontal plane, 1e-6 degrees
-    int planes = 0;  // K
+    std::int32_t elevation_udeg = 0;  // mean elevation of the viewpoints above the horizontal plane, 1e-6 degrees
+    int planes = 0;                   // K
     int x_cells = 0;
     int u_cells = 0;
-    // A ray that touches the object's cylinder crosses the plane at up to 1 / cos(pi / K): x_half is a little above.
+    // Slightly above 1 / cos(pi / K), the largest x at which a ray that touches the object's cylinder crosses the
+    // plane.
     std::int32_t x_half_q20 = 0;
     std::int32_t x_cells_per_unit_q12 = 0;  // x_cells / (2 * x_half)
     std::int32_t u_half_q28 = 0;            // the map covers |u| <= u_half; a little above tan(pi / K)
     std::int32_t u_cells_per_unit_q12 = 0;  // u_cells / (2 * u_half)
     std::vector<std::uint16_t> views;       // indices of the views that belong to the ring, in turning order
     std::vector<std::uint16_t> cells;
-    ShapeMap shape;  // empty: the object is taken to lie on the reference plane, as in the paper
+    ShapeMap shape;  // empty: the object is assumed to lie on the reference plane, as in the paper
     bool operator==(const Ring&) const = default;
 
     [[nodiscard]] std::size_t cell_index(int plane, int xi, int ui) const {
@@ -71,37 +71,37 @@ struct Ring {
     }
 };
 
-// One stored picture: Y and alpha at full size, U and V at half width and height (rounded up) or, if chroma_shift is 0,
-// at full size too; 8 bits each.
-struct PlanarPicture {
+/// A stored image: Y and alpha at full size, U and V at half width and height (rounded up) or, if chroma_shift is 0, at
+/// full size too; 8 bits each.
+struct PlanarImage {
     Image<std::uint8_t> y, u, v, a;
-    int chroma_shift = 1;  // of a pixel's column and row, to its place in U and V
+    int chroma_shift = 1;  // right shift of a pixel's column and row for U and V
     [[nodiscard]] bool empty() const { return y.empty(); }
-    bool operator==(const PlanarPicture&) const = default;
+    bool operator==(const PlanarImage&) const = default;
 };
 
 struct RaySpaceObject {
     std::string name;
     double units_per_radius = 1;           // length of the object radius in the units of the capture set
-    std::optional<std::int32_t> foot_q20;  // Y of the ground that the object stands on, object radii; if it is known
-    std::string rig_json;  // the rig of the stored (upright) pictures, in the capture set's units: rig.hpp
-    int width = 0;         // px, of every picture
+    std::optional<std::int32_t> foot_q20;  // Y of the ground below the object, object radii; nullopt: unknown
+    std::string rig_json;  // the rig of the stored (upright) images, in the capture set's units: rig.hpp
+    int width = 0;         // px, of every image
     int height = 0;
     std::vector<CapturedView> views;
     std::vector<Ring> rings;
-    std::vector<PlanarPicture> pictures;  // [view]; empty ones were not loaded (progressive reading)
-    // The pictures as the file holds them, where it holds them compressed; then `pictures` may all be empty until
-    // codec::decode_pictures() unpacks them.
-    std::shared_ptr<const codec::CodedPictures> coded;
+    std::vector<PlanarImage> images;  // [view]; empty: not loaded (progressive reading)
+    // The images in compressed form, if the file is compressed; `images` may then be empty until codec::decode_images()
+    // decodes them.
+    std::shared_ptr<const codec::CodedImages> coded;
 };
 
-// Chroma planes are half as large, rounded up.
+/// The size of chroma planes: half, rounded up.
 constexpr int half_size(int size) {
     return (size + 1) / 2;
 }
 
-// The order in which views are stored and loaded: every 8th view of a ring first (level 0), then those that make it
-// every 4th (1), every 2nd (2) and all (3). The level of a ring's view number n, counted from 0:
+/// Progressive level of a ring's n-th view, counted from 0. Views are stored and loaded by level: every 8th view of a
+/// ring first (level 0), then every 4th (1), every 2nd (2) and all (3).
 constexpr int progressive_level(int n) {
     if (n % 8 == 0) return 0;
     if (n % 4 == 0) return 1;

@@ -11,10 +11,10 @@ std::uint8_t rounded(double value) {
 
 }  // namespace
 
-PlanarPicture planar_from_rgba(ConstImageView<Rgba8> picture) {
-    const int width = picture.width();
-    const int height = picture.height();
-    PlanarPicture planar;
+PlanarImage planar_from_rgba(ConstImageView<Rgba8> image) {
+    const int width = image.width();
+    const int height = image.height();
+    PlanarImage planar;
     planar.y = Image<std::uint8_t>(width, height);
     planar.a = Image<std::uint8_t>(width, height);
     planar.u = Image<std::uint8_t>(half_size(width), half_size(height), 128);
@@ -22,7 +22,7 @@ PlanarPicture planar_from_rgba(ConstImageView<Rgba8> picture) {
 
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            const Rgba8 p = picture(x, y);
+            const Rgba8 p = image(x, y);
             planar.a(x, y) = p.a;
             if (p.a != 0) planar.y(x, y) = rounded(0.299 * p.r + 0.587 * p.g + 0.114 * p.b);
         }
@@ -32,7 +32,7 @@ PlanarPicture planar_from_rgba(ConstImageView<Rgba8> picture) {
             double weight = 0, r = 0, g = 0, b = 0;
             for (int yy = 2 * y; yy < std::min(2 * y + 2, height); ++yy) {
                 for (int xx = 2 * x; xx < std::min(2 * x + 2, width); ++xx) {
-                    const Rgba8 p = picture(xx, yy);
+                    const Rgba8 p = image(xx, yy);
                     weight += p.a;
                     r += p.a * p.r;
                     g += p.a * p.g;
@@ -48,10 +48,10 @@ PlanarPicture planar_from_rgba(ConstImageView<Rgba8> picture) {
     return planar;
 }
 
-Image<Rgba8> rgba_from_planar(const PlanarPicture& picture) {
-    Image<Rgba8> result(picture.y.width(), picture.y.height());
+Image<Rgba8> rgba_from_planar(const PlanarImage& image) {
+    Image<Rgba8> result(image.y.width(), image.y.height());
     for (int y = 0; y < result.height(); ++y) {
-        for (int x = 0; x < result.width(); ++x) result(x, y) = rgba_at(picture, x, y);
+        for (int x = 0; x < result.width(); ++x) result(x, y) = rgba_at(image, x, y);
     }
     return result;
 }

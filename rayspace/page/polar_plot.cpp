@@ -14,7 +14,7 @@ namespace {
 constexpr double kLine_px = 18;
 constexpr double kMargin_px = 34;
 
-// To what fits over the plot; not within a character of several bytes.
+// Shortens a title to the plot's width, at a UTF-8 character boundary.
 std::string shortened(const std::string& title) {
     std::size_t most = 58;
     if (title.size() <= most) return title;
@@ -23,7 +23,7 @@ std::string shortened(const std::string& title) {
 }
 
 struct PolarFrame {
-    double x = 0, y = 0, radius_px = 0;  // the pole, and how far `most` lies from it
+    double x = 0, y = 0, radius_px = 0;  // the pole, and the distance of `most` from it
     double most = 1;
     [[nodiscard]] double x_px(double angle_rad, double radius) const {
         return x + std::sin(angle_rad) * radius / most * radius_px;
@@ -48,7 +48,7 @@ std::string rings_and_spokes(const PolarFrame& frame, const AxisTicks& ticks) {
         svg += svg_text(frame.x_px(angle, beyond), frame.y_px(angle, beyond) + 4, "middle",
                         std::to_string(std::abs(spoke)) + "\xC2\xB0", " style=\"fill:var(--faint);font-size:11px\"");
     }
-    // On a white ground, for curves run below.
+    // White background, since curves may cross the labels.
     for (int n = 1; n < ticks.count(); ++n) {
         const double value = n * ticks.step;
         svg += svg_text(frame.x_px(radians(165), value), frame.y_px(radians(165), value) + 4, "middle",

@@ -1,8 +1,8 @@
-// How fast astcenc unpacks whole pictures, beside what bench_core measures of the engine: it prints the time of its
+// How fast astcenc unpacks whole images, beside what bench_core measures of the engine: it prints the time of its
 // decoder alone. Left out, with a message, where the command is not there.
 
 #include "rayspace/geometry/rig.hpp"
-#include "tests/bench/ball_picture.hpp"
+#include "tests/bench/ball_image.hpp"
 #include "tests/bench/rd/anchors/tool_process.hpp"
 
 #include <benchmark/benchmark.h>
@@ -50,9 +50,9 @@ void astc_decode(benchmark::State& state, const char* block) {
     const Folder folder;
     const Rig rig = make_ring(
         {.count = 4, .distance = 3.5, .fl_px = 1.4 * kSide, .width = kSide, .height = kSide, .first_rad = 0.01});
-    const Image<Rgba8> ball = ball_picture(rig.views.front().camera);
+    const Image<Rgba8> ball = ball_image(rig.views.front().camera);
     const cv::Mat bytes(kSide, kSide, CV_8UC4, const_cast<Rgba8*>(ball.data()));  // written from only
-    if (!cv::imwrite(folder.file("ball.png"), bytes)) return state.SkipWithError("the picture could not be written");
+    if (!cv::imwrite(folder.file("ball.png"), bytes)) return state.SkipWithError("the image could not be written");
     const auto coded =
         run_tool({"astcenc", "-cs", folder.file("ball.png"), folder.file("ball.astc"), block, "-medium", "-silent"});
     if (!coded) return state.SkipWithError(coded.error().message.c_str());

@@ -2,9 +2,9 @@
 //
 //     bench_boxes FOLDER [--size PX] [--passes N] [--paths N] [--only NAME]
 //
-// FOLDER holds CornellBox-Original.obj, -Sphere, -Glossy and -Mirror. Prints for each box the mean of both pictures'
+// FOLDER holds CornellBox-Original.obj, -Sphere, -Glossy and -Mirror. Prints for each box the mean of both images'
 // luminance, their ratio, and the root of the mean squared difference over the mean; beside it the same for a second
-// path-traced picture of as many samples, which is the noise of the reference twice over.
+// path-traced image of as many samples, which is the noise of the reference twice over.
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "capture/tracer/scene/mesh_file.hpp"
@@ -58,18 +58,18 @@ Status run(const Arguments& arguments) {
         const Camera camera = look_at_camera({0, 1, 3.4}, {0, 1, 0}, radians(39), arguments.side_px, arguments.side_px);
         RenderOptions options;
         options.samples_per_pixel = arguments.paths;
-        const auto picture = [&](const char* what) {
+        const auto image = [&](const char* what) {
             progress.start(what, Tracer::step_count(camera));
-            Image<RgbaF> found = tracer->render(camera, options, &progress).picture;
+            Image<RgbaF> found = tracer->render(camera, options, &progress).image;
             progress.finish();
             return found;
         };
-        const Image<RgbaF> reference = picture("paths");
+        const Image<RgbaF> reference = image("paths");
         options.seed = 2;
-        const Difference noise = compare(picture("paths again"), reference);
+        const Difference noise = compare(image("paths again"), reference);
         options.method = RenderMethod::kRadiosity;
         options.samples_per_pixel = arguments.passes;
-        const Difference radiosity = compare(picture("radiosity"), reference);
+        const Difference radiosity = compare(image("radiosity"), reference);
         std::printf("%-10s means %7.4f  relative RMSE %6.3f %%   (paths again: %7.4f, %6.3f %%)\n", name,
                     radiosity.ratio, 100 * radiosity.relative_rmse, noise.ratio, 100 * noise.relative_rmse);
         std::fflush(stdout);
@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
     rs::capture::Arguments arguments;
     app.add_option("folder", arguments.folder, "of the boxes")->required();
     app.add_option("--only", arguments.only, "of them: Original, Sphere, Glossy or Mirror");
-    app.add_option("--size", arguments.side_px, "of the pictures, px")->capture_default_str();
+    app.add_option("--size", arguments.side_px, "of the images, px")->capture_default_str();
     app.add_option("--passes", arguments.passes, "of radiosity")->capture_default_str();
     app.add_option("--paths", arguments.paths, "per pixel")->capture_default_str();
     std::function<rs::Status()> action;

@@ -1,6 +1,6 @@
 // How long a frame of a showroom takes: nine objects of about 256x256 pixels before some 10,000 triangles, textured and
 // lit by three lights, seen by a visitor whose eyes are a little above them. Then the same with 91 more objects behind
-// the visitor. Drawn without a window by whatever OpenGL there is; a frame is done when its picture has been read back.
+// the visitor. Drawn without a window by whatever OpenGL there is; a frame is done when its image has been read back.
 //
 //     bench_frames vase.rso lamp.rso doll.rso
 //
@@ -37,7 +37,7 @@ using compositor::Similarity;
 
 constexpr int kSeen = 9;
 constexpr int kNotSeen = 91;
-constexpr double kObjectRadius = 0.272;  // their pictures are 256x256 pixels of a screen of 1280x720
+constexpr double kObjectRadius = 0.272;  // their images are 256x256 pixels of a screen of 1280x720
 
 // Soft stains of a colour, 512x512.
 std::shared_ptr<const compositor::SceneTexture> stained(const glm::vec3& colour, unsigned seed) {
@@ -46,14 +46,14 @@ std::shared_ptr<const compositor::SceneTexture> stained(const glm::vec3& colour,
     const float a = phase(random);
     const float b = phase(random);
     auto texture = std::make_shared<compositor::SceneTexture>();
-    texture->picture = Image<Rgba8>(512, 512);
+    texture->image = Image<Rgba8>(512, 512);
     for (int y = 0; y < 512; ++y) {
         for (int x = 0; x < 512; ++x) {
             const auto u = static_cast<float>(x) * 0.0123F;
             const auto v = static_cast<float>(y) * 0.0123F;
             const float stain = 0.85F + 0.15F * std::sin(3 * u + a + 2 * std::sin(2 * v)) * std::sin(5 * v + b);
             const auto byte = [&](float c) { return static_cast<std::uint8_t>(std::lround(c * stain * 255)); };
-            texture->picture(x, y) = {byte(colour.r), byte(colour.g), byte(colour.b), 255};
+            texture->image(x, y) = {byte(colour.r), byte(colour.g), byte(colour.b), 255};
         }
     }
     return texture;
@@ -164,7 +164,7 @@ struct Times {
     double engine_ms = 0;
     double upload_ms = 0;
     double composite_ms = 0;
-    double side_px = 0;  // of a square as large as the mean picture that the engine drew
+    double side_px = 0;  // of a square as large as the mean image that the engine drew
     int nodes = 0;
 };
 
@@ -175,7 +175,7 @@ Result<Times> timed(const Scene& scene, const std::vector<PlacedObject>& objects
                                                        .height = options.height,
                                                        .samples = samples,
                                                        .object_samples = options.object_samples,
-                                                       .upright_pictures = !options.direct,
+                                                       .upright_images = !options.direct,
                                                        .time_parts = parts});
     if (!frames) return frames.error();
     std::vector<double> frame, cpu, geometry, engine, upload, composite;
@@ -186,7 +186,7 @@ Result<Times> timed(const Scene& scene, const std::vector<PlacedObject>& objects
             look_at_camera({sway, 1.75, 1.9}, {0.5 * sway, 1.5, -3}, radians(50), options.width, options.height);
         const Stopwatch watch;
         if (const Status status = frames->draw(camera); !status) return status.error();
-        if (frames->picture().empty()) return Error{"an empty picture was read back"};
+        if (frames->image().empty()) return Error{"an empty image was read back"};
         if (n < 0) continue;
         frame.push_back(watch.wall_ms());
         cpu.push_back(watch.cpu_ms());
@@ -228,7 +228,7 @@ Status run(Options options) {
     for (const GeometryNode& node : scene.geometry) triangles += node.mesh->indices.size() / 3;
     std::printf("%s, %dx%d, %zu triangles, %d frames each, medians in ms\n", context->device_name().c_str(),
                 options.width, options.height, triangles, options.frames);
-    std::printf("samples objects  seen  picture      frame     fps     cpu  | geometry  engine  upload  composite\n");
+    std::printf("samples objects  seen  image      frame     fps     cpu  | geometry  engine  upload  composite\n");
     for (const int samples : {1, 4}) {
         for (const int unseen : {0, kNotSeen}) {
             const std::vector<PlacedObject> placed = placed_objects(objects, unseen);

@@ -1,11 +1,11 @@
-// How near the renderers of traced light come to a converged path-traced picture, after a time or a number of passes.
+// How near the renderers of traced light come to a converged path-traced image, after a time or a number of passes.
 //
 //     bench_light SCENE --eye X,Y,Z --at X,Y,Z [--fov DEG] [--size WxH] [--lights L.json] [--exposure EV]
 //                 [--reference PASSES] [--seconds S] [--passes N]
 //
 // The reference is traced first, with random numbers of its own. Then each renderer gets S seconds, and if asked N
 // passes. "mean" is over that of the reference, "error" the root of the mean squared difference of luminance over the
-// reference's mean, "dB" the PSNR of the 8-bit pictures (of radiosity: filtered), "cpu" the processor
+// reference's mean, "dB" the PSNR of the 8-bit images (of radiosity: filtered), "cpu" the processor
 // time of all threads: on a machine that does other things, too, seconds should be chosen so that it is what they stand
 // for.
 
@@ -30,7 +30,7 @@ struct Arguments {
     int passes = 0;
 };
 
-struct Picture {
+struct RenderedImages {
     Image<RgbaF> radiance;
     Image<Rgba8> shown;
 };
@@ -44,7 +44,7 @@ struct Taken {
     double cpu_s = 0;
 };
 
-void print_row(const char* name, const TracedRenderer& renderer, const Taken& taken, const Picture& reference) {
+void print_row(const char* name, const TracedRenderer& renderer, const Taken& taken, const RenderedImages& reference) {
     const Image<RgbaF> radiance = renderer.radiance();
     double sum = 0, reference_sum = 0, squares = 0;
     for (int y = 0; y < radiance.height(); ++y) {
@@ -57,7 +57,7 @@ void print_row(const char* name, const TracedRenderer& renderer, const Taken& ta
     }
     const double pixels = static_cast<double>(radiance.width()) * radiance.height();
     double difference = 0;
-    const Image<Rgba8> shown = renderer.picture();
+    const Image<Rgba8> shown = renderer.image();
     for (int y = 0; y < shown.height(); ++y) {
         for (int x = 0; x < shown.width(); ++x) {
             const Rgba8 a = shown(x, y), b = reference.shown(x, y);
@@ -87,7 +87,7 @@ Status run(const Arguments& arguments) {
         progress.advance();
     }
     progress.finish();
-    const Picture reference{renderer->radiance(), renderer->picture()};
+    const RenderedImages reference{renderer->radiance(), renderer->image()};
 
     const auto trace = [&](const NamedMethod& named, double seconds, int passes) {
         renderer->set_method(named.method);
@@ -113,7 +113,7 @@ Status run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     using namespace rs::compositor;
-    CLI::App app("Renderers of traced light against a converged picture", "bench_light");
+    CLI::App app("Renderers of traced light against a converged image", "bench_light");
     Arguments arguments;
     arguments.lit.add_to(app);
     app.add_option("--reference", arguments.reference, "passes of the reference")->capture_default_str();

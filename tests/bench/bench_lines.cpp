@@ -13,7 +13,7 @@
 
 #include "capture/opencv/opencv_image.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <opencv2/imgproc.hpp>
@@ -37,11 +37,11 @@ struct View {
     cv::Mat1b inside;  // 255 where the object is for 6 px around
 };
 
-View view_of(ConstImageView<Rgba8> picture) {
-    View view{cv::Mat1b(picture.height(), picture.width()), cv::Mat1b(picture.height(), picture.width())};
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            const Rgba8& p = picture(x, y);
+View view_of(ConstImageView<Rgba8> image) {
+    View view{cv::Mat1b(image.height(), image.width()), cv::Mat1b(image.height(), image.width())};
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            const Rgba8& p = image(x, y);
             const double grey = 0.299 * p.r + 0.587 * p.g + 0.114 * p.b, alpha = p.a / 255.0;
             view.grey(y, x) = static_cast<std::uint8_t>(std::lround(alpha * grey + (1 - alpha) * 255));
             view.inside(y, x) = p.a > 250 ? 255 : 0;
@@ -106,14 +106,14 @@ Status run(const fs::path& drawn_folder, const fs::path& truth_folder) {
     Share found, real;
     const std::size_t count = truth_rig->views.size();
     for (std::size_t i = 0; i < count; ++i) {
-        const auto drawn_picture = read_picture(drawn_folder / drawn_rig->views[i].file_path);
-        if (!drawn_picture) return drawn_picture.error();
-        const auto truth_picture = read_picture(truth_folder / truth_rig->views[i].file_path);
-        if (!truth_picture) return truth_picture.error();
-        if (drawn_picture->width() != truth_picture->width() || drawn_picture->height() != truth_picture->height()) {
-            return Error{drawn_folder.string() + ": its pictures are of another size than truth's"};
+        const auto drawn_image = read_image(drawn_folder / drawn_rig->views[i].file_path);
+        if (!drawn_image) return drawn_image.error();
+        const auto truth_image = read_image(truth_folder / truth_rig->views[i].file_path);
+        if (!truth_image) return truth_image.error();
+        if (drawn_image->width() != truth_image->width() || drawn_image->height() != truth_image->height()) {
+            return Error{drawn_folder.string() + ": its images are of another size than truth's"};
         }
-        const View drawn = view_of(*drawn_picture), truth = view_of(*truth_picture);
+        const View drawn = view_of(*drawn_image), truth = view_of(*truth_image);
         drawn_steps += steps_per_1000(drawn);
         truth_steps += steps_per_1000(truth);
         found.add(edges_of(truth, kStrong), edges_of(drawn, kWeak));
@@ -133,7 +133,7 @@ int main(int argc, char** argv) {
     std::string drawn, truth;
     CLI::App app("Edges and isolated steps of an object's views against truth.", "bench_lines");
     app.add_option("DRAWN", drawn, "what rs-engine render OBJECT --poses TRUTH -o DRAWN wrote")->required();
-    app.add_option("TRUTH", truth, "capture set of the true pictures")->required();
+    app.add_option("TRUTH", truth, "capture set of the true images")->required();
     app.footer("Example:\n  bench_lines blocks-drawn blocks-truth");
     std::function<rs::Status()> run = [&] { return rs::bench::run(drawn, truth); };
     return rs::tool_main(app, argc, argv, run);

@@ -1,18 +1,18 @@
 // Ray-space objects in a mirror: what rays find of them that a mirror sends, and what the viewer draws of them, beside
 // the objects' meshes.
 //
-//     bench_mirror --objects FOLDER [--size 256] [--samples 16] [-o PICTURES]
+//     bench_mirror --objects FOLDER [--size 256] [--samples 16] [-o IMAGES]
 //
 // The mirror stands so that it shows what the viewer's camera sees; so the mesh in the mirror is the mesh before the
 // camera, turned over. Objects that FOLDER does not hold are captured and encoded first, as bench_truth does. Prints
 // for each object and direction the PSNR, over what shows something of the object, of the viewer's frame, of the
-// mirror's picture, and their difference; with -o frame, mirror and truth are written side by side.
+// mirror's image, and their difference; with -o frame, mirror and truth are written side by side.
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "compositor/gl/context.hpp"
-#include "compositor/traced/object_rays.hpp"
+#include "compositor/traced/object_primitive.hpp"
 #include "rayspace/format/object_file.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/tool/tool_main.hpp"
 #include "tests/compositor/truth_comparison.hpp"
 #include "tests/compositor/truth_scene.hpp"
@@ -72,7 +72,7 @@ Result<Image<Rgba8>> in_mirror(const compositor::PlacedObject& placed, const Loo
     capture::RenderOptions options;
     options.method = capture::RenderMethod::kWhitted;
     options.samples_per_pixel = samples;
-    const Image<Rgba8> seen = capture::to_srgb8(tracer->render(behind, options).picture);
+    const Image<Rgba8> seen = capture::to_srgb8(tracer->render(behind, options).image);
     Image<Rgba8> turned(seen.width(), seen.height());
     for (int y = 0; y < seen.height(); ++y) {
         for (int x = 0; x < seen.width(); ++x) {
@@ -117,7 +117,7 @@ Status compare(const std::string& name, const Arguments& arguments) {
         if (!direct) return direct.error();
         const Result<Image<Rgba8>> mirror = in_mirror(placed, looked, arguments.truth.samples);
         if (!mirror) return mirror.error();
-        const Image<Rgba8>& truth = direct->truth.picture;
+        const Image<Rgba8>& truth = direct->truth.image;
         Sums sums;
         Image<Rgba8> sheet(3 * truth.width(), truth.height());
         for (int y = 0; y < truth.height(); ++y) {
@@ -176,7 +176,7 @@ int main(int argc, char** argv) {
     app.add_option("--objects", arguments.objects, "folder of the objects; those that it lacks are captured first")
         ->required();
     app.add_option("-o,--output", arguments.output, "folder for frame, mirror and truth");
-    app.add_option("--size", arguments.side_px, "of the pictures, px")->capture_default_str();
+    app.add_option("--size", arguments.side_px, "of the images, px")->capture_default_str();
     app.add_option("--samples", arguments.truth.samples, "per pixel")->capture_default_str();
     app.add_option("--paths", arguments.truth.paths_per_sample, "of samples of the truth that meet objects")
         ->capture_default_str();

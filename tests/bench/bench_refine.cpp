@@ -1,11 +1,11 @@
-// How soon traced pictures are there: after the switch to traced light, and after each of some moves.
+// How soon traced images are there: after the switch to traced light, and after each of some moves.
 //
 //     bench_refine SCENE --eye X,Y,Z --at X,Y,Z [--fov DEG] [--size WxH] [--lights L.json] [--exposure EV]
 //                  [--moves N] [--still S]
 //
 // Prints how long the tracer takes to be made, and for each method the milliseconds from the wish for a view to its
-// first picture: the first ever, after moves with a pause of S seconds between them, and while one moves all the time;
-// with them, cells along the first pictures, and what it takes to draw one into the frame. By a clock on the wall:
+// first image: the first ever, after moves with a pause of S seconds between them, and while one moves all the time;
+// with them, cells along the first images, and what it takes to draw one into the frame. By a clock on the wall:
 // nothing else should run beside it.
 
 #include "compositor/gl/context.hpp"
@@ -35,11 +35,11 @@ double ms_since(WallClock::time_point begin) {
 }
 
 // Along a row, by changes between neighbours: cells may look the same, so the row with the most counts.
-int cells_of(const Image<Rgba8>& picture) {
+int cells_of(const Image<Rgba8>& image) {
     int most = 0;
-    for (int y = 0; y < picture.height(); ++y) {
+    for (int y = 0; y < image.height(); ++y) {
         int cells = 1;
-        for (int x = 1; x < picture.width(); ++x) cells += picture(x, y) != picture(x - 1, y);
+        for (int x = 1; x < image.width(); ++x) cells += image(x, y) != image(x - 1, y);
         most = std::max(most, cells);
     }
     return most;
@@ -48,7 +48,7 @@ int cells_of(const Image<Rgba8>& picture) {
 struct First {
     double ms;
     int cells;
-    std::shared_ptr<const Image<Rgba8>> picture;
+    std::shared_ptr<const Image<Rgba8>> image;
 };
 
 // Of the view that was begun at `begin`.
@@ -56,7 +56,7 @@ First wait_for_first(Refinement& refinement, const Camera& camera, WallClock::ti
     for (;;) {
         const auto step = refinement.take();
         if (step && step->camera.world_from_camera == camera.world_from_camera) {
-            return {ms_since(begin), cells_of(*step->picture), step->picture};
+            return {ms_since(begin), cells_of(*step->image), step->image};
         }
         if (refinement.failure()) return {-1, 0, nullptr};
         std::this_thread::sleep_for(std::chrono::microseconds(200));
@@ -96,8 +96,8 @@ Status run(const Arguments& arguments) {
         });
         refinement.begin(lit->camera, named.method);
         const First first = wait_for_first(refinement, lit->camera, begin);
-        if (!first.picture) return *refinement.failure();
-        std::printf("%-10s tracer made in %.0f ms, first picture after %.0f ms\n", named.name, made_ms, first.ms);
+        if (!first.image) return *refinement.failure();
+        std::printf("%-10s tracer made in %.0f ms, first image after %.0f ms\n", named.name, made_ms, first.ms);
         const auto keep = [&](const First& next) {
             ms.push_back(next.ms);
             cells.push_back(next.cells);
@@ -110,9 +110,9 @@ Status run(const Arguments& arguments) {
             const First next = wait_for_first(refinement, camera, begin);
             keep(next);
             begin = WallClock::now();
-            frames->set_traced(next.picture);
+            frames->set_traced(next.image);
             if (Status drawn = frames->draw(camera); !drawn) return drawn;
-            (void)frames->picture();
+            (void)frames->image();
             draw_ms.push_back(ms_since(begin));
         }
         print(named.name, "after a pause", ms, cells);
@@ -135,7 +135,7 @@ Status run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     using namespace rs::compositor;
-    CLI::App app("How soon traced pictures are there", "bench_refine");
+    CLI::App app("How soon traced images are there", "bench_refine");
     Arguments arguments;
     arguments.lit.add_to(app);
     app.add_option("--moves", arguments.moves, "of each kind")->check(CLI::Range(1, 1000))->capture_default_str();

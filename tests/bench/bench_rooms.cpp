@@ -39,7 +39,7 @@ struct Arguments {
 
 constexpr double kFrames_per_s = 30;
 
-// A ball with a texture and a shape map, its pictures coded.
+// A ball with a texture and a shape map, its images coded.
 RaySpaceObject make_object(const Arguments& arguments) {
     test::RingObjectOptions options;
     options.views = arguments.views;
@@ -49,12 +49,12 @@ RaySpaceObject make_object(const Arguments& arguments) {
     options.camera_height = 0.3;
     const test::Sphere sphere;
     RaySpaceObject object = test::sphere_object(options, sphere);
-    std::vector<Image<Rgba8>> pictures;
+    std::vector<Image<Rgba8>> images;
     for (const RigView& view : test::ring_rig(options).views) {
-        pictures.push_back(test::sphere_picture(sphere, view.camera));
+        images.push_back(test::sphere_image(sphere, view.camera));
     }
-    for (PlanarPicture& picture : object.pictures) picture = {};
-    object.coded = std::make_shared<codec::CodedPictures>(test::code_pictures(object, pictures, {}));
+    for (PlanarImage& image : object.images) image = {};
+    object.coded = std::make_shared<codec::CodedImages>(test::code_images(object, images, {}));
     return object;
 }
 
@@ -76,7 +76,7 @@ struct ObjectBytes {
     std::int64_t reading = 0;
 };
 Result<ObjectBytes> measure_object(const std::filesystem::path& file) {
-    const auto engine = std::make_shared<engine::DataModule>();
+    const auto engine = std::make_shared<engine::RenderSession>();
     const std::unique_ptr<ObjectSource> source = object_files(engine, false);
     const Result<std::int64_t> most = source->most_bytes(file);
     if (!most) return most.error();
@@ -200,8 +200,8 @@ int main(int argc, char** argv) {
     app.add_option("--size", arguments.size, "of the frames, WxH")->capture_default_str();
     app.add_option("--speed", arguments.speed, "of the visitor, units per second; a room is 6 long")
         ->capture_default_str();
-    app.add_option("--views", arguments.views, "captured pictures of an object")->capture_default_str();
-    app.add_option("--side", arguments.side, "of a captured picture, px")->capture_default_str();
+    app.add_option("--views", arguments.views, "captured images of an object")->capture_default_str();
+    app.add_option("--side", arguments.side, "of a captured image, px")->capture_default_str();
     std::function<rs::Status()> run;
     app.callback([&] { run = [&] { return rs::compositor::run(arguments); }; });
     return rs::tool_main(app, argc, argv, run);

@@ -109,7 +109,7 @@ Result<compositor::PlayerOptions> player_options(const Options& options) {
     player.frame.height = size->height;
     player.frame.samples = options.samples;
     player.frame.shadows = options.shadows;
-    player.frame.upright_pictures = options.upright;
+    player.frame.upright_images = options.upright;
     player.frame.time_parts = options.parts;
     player.passes = options.passes;
     for (const compositor::NamedMethod& named : compositor::kTracedMethods) {
@@ -180,7 +180,7 @@ Status run_thousand(const Options& options) {
     const bool same = std::equal(second->pixels().begin(), second->pixels().end(), again->pixels().begin());
     std::printf("second frame against a fresh load: %s\n", same ? "same bytes" : "DIFFERENT");
     if (Status status = time_frames(*player, 12, options.renderer.c_str(), options.parts); !status) return status;
-    std::printf("meshes and pictures uploaded: %d before the first frame, %d after it\n", uploads,
+    std::printf("meshes and images uploaded: %d before the first frame, %d after it\n", uploads,
                 player->compositor().uploads() - uploads);
     std::vector<double> ms;
     for (std::size_t i = 0; i < 40; ++i) {
@@ -224,7 +224,7 @@ int main(int argc, char** argv) {
         command->add_option("--samples", options.samples, "per pixel, of raster")->capture_default_str();
         command->add_flag("--shadows", options.shadows, "in raster");
         command->add_flag("--parts", options.parts, "of raster's frames, each waited for");
-        command->add_flag("--upright", options.upright, "objects by upright pictures, as in a window");
+        command->add_flag("--upright", options.upright, "objects by upright images, as in a window");
     }
     thousand->callback([&] { run = [&] { return rs::bench::run_thousand(options); }; });
     play->callback([&] { run = [&] { return rs::bench::run_play(options); }; });

@@ -1,5 +1,5 @@
 // What shadows cost: a walk of a few steps at viewpoints of a scene, each frame drawn without and with them in turns,
-// so that whatever else the machine does weighs on both alike. A frame is done when its picture has been read back.
+// so that whatever else the machine does weighs on both alike. A frame is done when its image has been read back.
 //
 //     bench_shadows showroom.wrl --viewpoint shop --viewpoint museum
 //
@@ -49,7 +49,7 @@ struct Times {
 Status draw(compositor::FrameCompositor& frames, const Camera& camera, int number, Times& times) {
     const Stopwatch watch;
     if (const Status status = frames.draw(camera); !status) return status;
-    if (frames.picture().empty()) return Error{"an empty picture was read back"};
+    if (frames.image().empty()) return Error{"an empty image was read back"};
     const double frame_ms = watch.wall_ms();
     if (number == 0) times.first_ms = frame_ms;
     if (number < 3) return {};  // to warm up
@@ -67,7 +67,7 @@ Status run_at(const compositor::Scene& scene, compositor::Showroom& showroom, co
                                                            .height = size.height,
                                                            .samples = options.samples,
                                                            .shadows = shadows,
-                                                           .upright_pictures = true});
+                                                           .upright_images = true});
         if (!frames) return frames.error();
         both.push_back(std::move(*frames));
     }

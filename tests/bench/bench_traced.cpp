@@ -12,12 +12,12 @@
 #include "capture/tracer/packets/packet.hpp"
 #include "capture/tracer/rays/ray_scene.hpp"
 #include "capture/tracer/scene/flatten.hpp"
-#include "datasets-synthetic/measuring/hall.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/geometry/camera.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "rayspace/light/light.hpp"
 #include "rayspace/tool/tool_main.hpp"
+#include "tests/bench/scenes/hall.hpp"
 #include "tests/bench/stopwatch.hpp"
 
 #include <CLI/CLI.hpp>
@@ -49,14 +49,14 @@ struct Arguments {
 Scene scene_of(const synthetic::Model& model) {
     Scene scene;
     scene.name = model.name;
-    std::map<std::string, int> pictures;
-    for (const auto& [file, picture] : model.pictures) {
-        pictures[file] = static_cast<int>(scene.textures.size());
+    std::map<std::string, int> images;
+    for (const auto& [file, image] : model.images) {
+        images[file] = static_cast<int>(scene.textures.size());
         Texture texture;
-        texture.pixels = Image<RgbaF>(picture.width(), picture.height());
-        for (int y = 0; y < picture.height(); ++y) {
-            for (int x = 0; x < picture.width(); ++x) {
-                const Rgba8 p = picture(x, y);
+        texture.pixels = Image<RgbaF>(image.width(), image.height());
+        for (int y = 0; y < image.height(); ++y) {
+            for (int x = 0; x < image.width(); ++x) {
+                const Rgba8 p = image(x, y);
                 texture.pixels(x, y) = {linear_from_srgb8(p.r), linear_from_srgb8(p.g), linear_from_srgb8(p.b), 1};
             }
         }
@@ -68,7 +68,7 @@ Scene scene_of(const synthetic::Model& model) {
         material.kind = SurfaceKind::glossy;
         material.colour = look.colour;
         material.roughness = look.roughness;
-        if (!look.picture.empty()) material.texture = pictures[look.picture];
+        if (!look.image.empty()) material.texture = images[look.image];
         scene.materials.push_back(material);
     }
     for (const synthetic::ModelGroup& group : model.groups) scene.parts.push_back({group.name, group.meshes});
@@ -218,7 +218,7 @@ Status run(const Arguments& arguments) {
                 for (const RayScene::Ray& ray : tiles[static_cast<std::size_t>(i)].camera) {
                     many.push_back({ray.origin, ray.direction, 0, Sampler(0, 0)});
                 }
-                std::vector<Arrived> arrived(many.size());
+                std::vector<RadianceSample> arrived(many.size());
                 if (packets) {
                     alone.trace_many(many, arrived);
                 } else {

@@ -1,14 +1,14 @@
 // Composited frames against the truth: the showroom's viewer beside a tracer that has the objects' meshes in the same
-// room (tests/compositor/truth_picture.hpp).
+// room (tests/compositor/truth_image.hpp).
 //
-//     bench_truth --objects FOLDER [--size 960x540] [--samples 16] [-o PICTURES]
+//     bench_truth --objects FOLDER [--size 960x540] [--samples 16] [-o IMAGES]
 //
 // Objects that FOLDER does not hold are captured and encoded first, as rs-capture and rs-encode do (a quarter of an
 // hour on two cores). Prints a row for each viewpoint; with -o every viewpoint's frame, truth and eightfold difference
 // are written side by side.
 
 #include "compositor/gl/context.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/tool/tool_main.hpp"
 #include "tests/bench/stopwatch.hpp"
 #include "tests/compositor/truth_comparison.hpp"
@@ -33,7 +33,7 @@ struct Arguments {
 // Frame, truth, and how they differ around grey.
 Image<Rgba8> side_by_side(const TruthDifference& difference) {
     const Image<Rgba8>& frame = difference.frame;
-    const Image<Rgba8>& truth = difference.truth.picture;
+    const Image<Rgba8>& truth = difference.truth.image;
     Image<Rgba8> sheet(frame.width() * 3, frame.height());
     const auto amplified = [](int a, int b) {
         return static_cast<std::uint8_t>(std::clamp(128 + 8 * (a - b), 0, 255));
@@ -169,11 +169,11 @@ int main(int argc, char** argv) {
         "frames whose objects have a depth for each pixel");
     app.add_option("--object-samples", arguments.frame.object_samples, "across a pixel, at most, where objects are far")
         ->capture_default_str();
-    app.add_flag("--upright", arguments.frame.upright_pictures, "objects by level cameras");
+    app.add_flag("--upright", arguments.frame.upright_images, "objects by level cameras");
     app.add_option("--samples", arguments.truth.samples, "per pixel of the truth")->capture_default_str();
     app.add_option("--paths", arguments.truth.paths_per_sample, "of samples that meet objects")->capture_default_str();
     app.add_option("--only", arguments.only, "numbers of viewpoints, from 1");
-    app.footer("Example: bench_truth --objects objects -o pictures");
+    app.footer("Example: bench_truth --objects objects -o images");
     std::function<rs::Status()> run;
     app.callback([&] { run = [&] { return rs::test::run_bench(arguments); }; });
     return rs::tool_main(app, argc, argv, run);

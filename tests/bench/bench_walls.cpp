@@ -1,5 +1,5 @@
-// How long the pictures of a display take: three upright walls of 3 m for two eyes, and the tiles of a quilt beside the
-// same views one by one. Drawn without a window by whatever OpenGL there is, each picture read back.
+// How long the images of a display take: three upright walls of 3 m for two eyes, and the tiles of a quilt beside the
+// same views one by one. Drawn without a window by whatever OpenGL there is, each image read back.
 //
 //     bench_walls demo-out/showroom/showroom.wrl --viewpoint shop
 //     bench_walls --object demo-out/vase.rso
@@ -59,7 +59,7 @@ Status bench_walls(const Scene& scene, Showroom& showroom, const Camera& visitor
             for (const double offset : {-0.0325, 0.0325}) {
                 const Result<Camera> camera = wall_camera(wall, head.eye(offset), place);
                 if (!camera) return camera.error();
-                if (const auto picture = frames->compose(*camera); !picture) return picture.error();
+                if (const auto image = frames->compose(*camera); !image) return image.error();
             }
         }
         if (frame == 0) continue;  // the first one warms up
@@ -76,7 +76,7 @@ Status bench_quilt(const Scene& scene, Showroom& showroom, const Camera& middle,
     const std::vector<Camera> cameras = quilt_cameras(middle, layout, radians(40), focus);
     auto frames = compositor_of(scene, showroom, middle.width, middle.height, options.samples);
     if (!frames) return frames.error();
-    if (const auto picture = frames->compose(middle); !picture) return picture.error();
+    if (const auto image = frames->compose(middle); !image) return image.error();
     std::vector<Image<Rgba8>> alone;
     double single_ms = 0, quilt_ms = 0, single_cpu = 0, quilt_cpu = 0;
     bool equal = true;
@@ -84,18 +84,18 @@ Status bench_quilt(const Scene& scene, Showroom& showroom, const Camera& middle,
         alone.clear();
         const Stopwatch alone_watch;
         for (const Camera& camera : cameras) {
-            auto picture = frames->compose(camera);
-            if (!picture) return picture.error();
-            alone.push_back(std::move(*picture));
+            auto image = frames->compose(camera);
+            if (!image) return image.error();
+            alone.push_back(std::move(*image));
         }
         single_ms += alone_watch.wall_ms();
         single_cpu += alone_watch.cpu_ms();
         const Stopwatch quilt_watch;
         Image<Rgba8> quilt(layout.width(), layout.height());
         for (int view = 0; view < layout.views(); ++view) {
-            auto picture = frames->compose(cameras[static_cast<std::size_t>(view)]);
-            if (!picture) return picture.error();
-            place_tile(layout, view, *picture, quilt);
+            auto image = frames->compose(cameras[static_cast<std::size_t>(view)]);
+            if (!image) return image.error();
+            place_tile(layout, view, *image, quilt);
         }
         quilt_ms += quilt_watch.wall_ms();
         quilt_cpu += quilt_watch.cpu_ms();

@@ -20,10 +20,10 @@
 namespace rs {
 namespace {
 
-capture::BoardCorners found_by_opencv(const Image<Rgba8>& picture, const capture::BoardDesign& design) {
-    cv::Mat1b grey(picture.height(), picture.width());
+capture::BoardCorners found_by_opencv(const Image<Rgba8>& image, const capture::BoardDesign& design) {
+    cv::Mat1b grey(image.height(), image.width());
     for (int y = 0; y < grey.rows; ++y) {
-        for (int x = 0; x < grey.cols; ++x) grey(y, x) = picture(x, y).g;
+        for (int x = 0; x < grey.cols; ++x) grey(y, x) = image(x, y).g;
     }
     const auto dictionary = cv::aruco::getPredefinedDictionary(capture::find_dictionary(design.dictionary)->number);
     const auto side = static_cast<float>(design.square_mm);
@@ -47,11 +47,11 @@ struct Sum {
     double squares = 0, seconds = 0;
 };
 
-void add(Sum& sum, const Image<Rgba8>& picture, const capture::BoardTurn& turn, std::size_t view,
+void add(Sum& sum, const Image<Rgba8>& image, const capture::BoardTurn& turn, std::size_t view,
          const std::function<capture::BoardCorners(const Image<Rgba8>&)>& find) {
     constexpr double kFar_px = 2;
     const bench::Stopwatch watch;
-    const capture::BoardCorners seen = find(picture);
+    const capture::BoardCorners seen = find(image);
     sum.seconds += watch.wall_s();
     for (const capture::SeenCorner& one : seen.corners) {
         const auto p =
@@ -90,12 +90,12 @@ int main(int argc, char** argv) {
             Sum ours, theirs;
             for (int i = 0; i < views; ++i) {
                 const auto view = static_cast<std::size_t>(i * options.views / views);
-                const Image<Rgba8> picture = test::drawn(turn, {}, view, hidden_mm);
-                add(ours, picture, turn, view, [](const Image<Rgba8>& shown) {
+                const Image<Rgba8> image = test::drawn(turn, {}, view, hidden_mm);
+                add(ours, image, turn, view, [](const Image<Rgba8>& shown) {
                     const auto seen = capture::detect_board(shown.view(), {});
                     return seen ? *seen : capture::BoardCorners{};
                 });
-                add(theirs, picture, turn, view,
+                add(theirs, image, turn, view,
                     [](const Image<Rgba8>& shown) { return found_by_opencv(shown, capture::BoardDesign{}); });
             }
             std::printf("%.0f,%.0f", height_deg, hidden_mm);

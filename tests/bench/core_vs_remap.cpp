@@ -3,19 +3,19 @@
 //
 //     bench_core --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
 //
-// Both write 1024x1024 pixels of four bytes from 512x512 pictures. The core renders an orbit around a 90-view object,
-// so that every frame reads other pictures; cv::remap reads one picture through a fixed-point map of the same scale,
+// Both write 1024x1024 pixels of four bytes from 512x512 images. The core renders an orbit around a 90-view object,
+// so that every frame reads other images; cv::remap reads one image through a fixed-point map of the same scale,
 // its fastest form. core_shape orbits at the captured distance, between the captured views; core_shape_near goes
-// nearer, where every ray passes many bands of the map; their pictures have alpha of all sizes everywhere, those of
+// nearer, where every ray passes many bands of the map; their images have alpha of all sizes everywhere, those of
 // core_shape_opaque none but 0 and 255. Compare items_per_second (pixels).
 //
 // coded_*/PROFILE: the same from a coded object (a textured ball on the same ring), decoded as views need it. Orbits go
-// in steps of 1 degree, so that neighbouring frames share tiles: `warm` holds everything, `evicting` ten pictures, so
+// in steps of 1 degree, so that neighbouring frames share tiles: `warm` holds everything, `evicting` ten images, so
 // that there is always something to decode; `cold_frame` decodes all that one frame needs. coded_random_pixel decodes
 // one tile with what it is predicted from, by one thread, nothing being there: items are pixels, `bytes` those read for
 // a pixel.
 //
-// astc_decode/BLOCK (astc_decode.cpp): how fast the command astcenc unpacks a whole picture of that ball.
+// astc_decode/BLOCK (astc_decode.cpp): how fast the command astcenc unpacks a whole image of that ball.
 
 #include "encode/codec/board/board_encoder.hpp"
 #include "encode/codec/dense_encoder.hpp"
@@ -23,7 +23,7 @@
 #include "engine/core/fast/renderer.hpp"
 #include "engine/core/fast/sample_store.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "tests/bench/ball_picture.hpp"
+#include "tests/bench/ball_image.hpp"
 #include "tests/bench/stopwatch.hpp"
 #include "tests/support/ring_object.hpp"
 #include "tests/support/small_shape.hpp"
@@ -51,7 +51,7 @@ const RaySpaceObject& object() {
     return kObject;
 }
 
-// Two balls that fill half of the picture; the lines of the encoder's maps at 4 degrees: one a gap.
+// Two balls that fill half of the image; the lines of the encoder's maps at 4 degrees: one a gap.
 const RaySpaceObject& object_with_shape() {
     static const RaySpaceObject kObject = [] {
         RaySpaceObject with_shape = object();
@@ -61,15 +61,15 @@ const RaySpaceObject& object_with_shape() {
     return kObject;
 }
 
-// The same with pictures that are opaque wherever they show anything, as those of most objects are.
+// The same with images that are opaque wherever they show anything, as those of most objects are.
 const RaySpaceObject& opaque_object_with_shape() {
     static const RaySpaceObject kObject = [] {
         RaySpaceObject opaque = object_with_shape();
-        for (PlanarPicture& picture : opaque.pictures) {
-            for (int x = 0; x < picture.a.width(); ++x) {
+        for (PlanarImage& image : opaque.images) {
+            for (int x = 0; x < image.a.width(); ++x) {
                 bool shows = false;
-                for (int y = 0; y < picture.a.height(); ++y) shows = shows || picture.a(x, y) > 0;
-                for (int y = 2; shows && y < picture.a.height() - 3; ++y) picture.a(x, y) = 255;
+                for (int y = 0; y < image.a.height(); ++y) shows = shows || image.a(x, y) > 0;
+                for (int y = 2; shows && y < image.a.height() - 3; ++y) image.a(x, y) = 255;
             }
         }
         return opaque;
@@ -158,17 +158,16 @@ const RaySpaceObject& coded_object(codec::Profile profile) {
     if (found != objects.end()) return found->second;
     RaySpaceObject coded = object();
     const Rig rig = test::ring_rig(kRing);
-    std::vector<encode::SourcePicture> sources;
-    for (const RigView& view : rig.views)
-        sources.push_back(encode::source_picture(bench::ball_picture(view.camera), 2));
-    coded.coded = std::make_shared<const codec::CodedPictures>(profile == codec::Profile::kBoard
-                                                                   ? encode::encode_board(coded, sources, {}).coded
-                                                                   : encode::encode_dense(coded, sources, {}).coded);
-    for (PlanarPicture& unpacked : coded.pictures) unpacked = {};
+    std::vector<encode::SourceImage> sources;
+    for (const RigView& view : rig.views) sources.push_back(encode::source_image(bench::ball_image(view.camera), 2));
+    coded.coded = std::make_shared<const codec::CodedImages>(profile == codec::Profile::kBoard
+                                                                 ? encode::encode_board(coded, sources, {}).coded
+                                                                 : encode::encode_dense(coded, sources, {}).coded);
+    for (PlanarImage& unpacked : coded.images) unpacked = {};
     return objects.emplace(profile, std::move(coded)).first->second;
 }
 
-constexpr std::int64_t kDecodedPicture = std::int64_t{9} * 512 * 512;
+constexpr std::int64_t kDecodedImage = std::int64_t{9} * 512 * 512;
 
 void coded_orbit(benchmark::State& state, const RaySpaceObject& shown, std::int64_t budget_bytes, bool warm) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
@@ -185,21 +184,21 @@ void coded_orbit(benchmark::State& state, const RaySpaceObject& shown, std::int6
 }
 
 void coded_warm(benchmark::State& state, codec::Profile profile) {
-    coded_orbit(state, coded_object(profile), 100 * kDecodedPicture, true);
+    coded_orbit(state, coded_object(profile), 100 * kDecodedImage, true);
 }
 BENCHMARK_CAPTURE(coded_warm, dense, codec::Profile::kDense)->UseRealTime()->MinTime(1);
 BENCHMARK_CAPTURE(coded_warm, board, codec::Profile::kBoard)->UseRealTime()->MinTime(1);
 
 void coded_evicting(benchmark::State& state, codec::Profile profile) {
-    coded_orbit(state, coded_object(profile), 10 * kDecodedPicture, false);
+    coded_orbit(state, coded_object(profile), 10 * kDecodedImage, false);
 }
 BENCHMARK_CAPTURE(coded_evicting, dense, codec::Profile::kDense)->UseRealTime()->MinTime(1);
 BENCHMARK_CAPTURE(coded_evicting, board, codec::Profile::kBoard)->UseRealTime()->MinTime(1);
 
-void coded_shape(benchmark::State& state, codec::Profile profile, std::int64_t pictures, bool warm) {
+void coded_shape(benchmark::State& state, codec::Profile profile, std::int64_t images, bool warm) {
     RaySpaceObject shown = coded_object(profile);
     shown.rings[0].shape = object_with_shape().rings[0].shape;
-    coded_orbit(state, shown, pictures * kDecodedPicture, warm);
+    coded_orbit(state, shown, images * kDecodedImage, warm);
 }
 
 void coded_shape_warm(benchmark::State& state, codec::Profile profile) {
@@ -228,10 +227,10 @@ BENCHMARK_CAPTURE(coded_cold_frame, dense, codec::Profile::kDense)->UseRealTime(
 BENCHMARK_CAPTURE(coded_cold_frame, board, codec::Profile::kBoard)->UseRealTime()->MinTime(1);
 
 void coded_random_pixel(benchmark::State& state, codec::Profile profile) {
-    const codec::CodedPictures& coded = *coded_object(profile).coded;
+    const codec::CodedImages& coded = *coded_object(profile).coded;
     const std::unique_ptr<engine::SampleStore> samples =
         std::move(*engine::SampleStore::create(coded_object(profile).coded, "bench"));
-    const auto views = static_cast<int>(coded.pictures.size());
+    const auto views = static_cast<int>(coded.images.size());
     const int tiles = coded.tile_columns() * coded.tile_rows();
     std::mt19937 random(1);
     double bytes_read = 0;
@@ -242,7 +241,7 @@ void coded_random_pixel(benchmark::State& state, codec::Profile profile) {
         do {
             view = static_cast<int>(random() % static_cast<unsigned>(views));
             tile = static_cast<int>(random() % static_cast<unsigned>(tiles));
-        } while (!coded.pictures[static_cast<std::size_t>(view)].tiles[static_cast<std::size_t>(tile)].present);
+        } while (!coded.images[static_cast<std::size_t>(view)].tiles[static_cast<std::size_t>(tile)].present);
         const bench::Stopwatch watch;
         samples->need_tile(view, tile);
         state.SetIterationTime(watch.wall_s());
@@ -251,7 +250,7 @@ void coded_random_pixel(benchmark::State& state, codec::Profile profile) {
             if (samples->decoded_bytes(v) == 0) continue;
             for (int t = 0; t < tiles; ++t) {
                 if (!samples->decoded(v, t)) continue;
-                bytes += coded.pictures[static_cast<std::size_t>(v)].tiles[static_cast<std::size_t>(t)].size;
+                bytes += coded.images[static_cast<std::size_t>(v)].tiles[static_cast<std::size_t>(t)].size;
             }
             samples->forget(v);
         }

@@ -3,7 +3,7 @@
 //     bench_map_size SET HELD_OUT [-o curve.svg]
 //
 // HELD_OUT is a second set of the same object, from other places (rs-capture synth --first-angle). Prints a table as
-// CSV: cell side in pixels, bytes in the file, share of the raw pictures, bytes in memory, dB.
+// CSV: cell side in pixels, bytes in the file, share of the raw images, bytes in memory, dB.
 
 #include "encode/build.hpp"
 #include "engine/core/fast/renderer.hpp"
@@ -26,7 +26,7 @@ struct Arguments {
 };
 
 struct Measured {
-    double share = 0;  // of the raw pictures, in the file
+    double share = 0;  // of the raw images, in the file
     double psnr_db = 0;
 };
 
@@ -58,7 +58,7 @@ Result<Measured> measure(const CaptureSet& set, const std::string& held_out, dou
 Status write_plot(const std::string& path, const std::vector<Measured>& measured) {
     LinePlot plot;
     plot.title = "Views held out against the size of the RS map";
-    plot.x_label = "RS map in the file, % of the raw pictures (YUV 4:2:0)";
+    plot.x_label = "RS map in the file, % of the raw images (YUV 4:2:0)";
     plot.y_label = "mean PSNR, dB";
     plot.series.push_back({"cells of 12, 8, 6, 4.8, 3.2, 2.4 px", {}, {}});
     for (const Measured& point : measured) {

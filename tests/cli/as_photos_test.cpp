@@ -1,7 +1,7 @@
 // `rs-capture synth --as-photos` as a user meets it.
 
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -54,12 +54,12 @@ TEST_F(AsPhotos, WritesPhotographsAndTheirTruth) {
     ASSERT_EQ(rig->views.size(), 3U);
     EXPECT_EQ(rig->extras.at("turntable").at("k1"), -0.12);
     for (const RigView& view : rig->views) {
-        const auto info = read_picture_info(folder_ / "set" / "truth" / view.file_path);
+        const auto info = read_image_info(folder_ / "set" / "truth" / view.file_path);
         ASSERT_TRUE(info.ok()) << info.error().message;
         EXPECT_EQ(info->width, 64);
         EXPECT_FALSE(info->has_alpha);
     }
-    const auto alpha = read_picture(folder_ / "set" / "truth" / "alpha" / "002.png");
+    const auto alpha = read_image(folder_ / "set" / "truth" / "alpha" / "002.png");
     ASSERT_TRUE(alpha.ok());
     EXPECT_EQ((*alpha)(0, 0).g, 0);
     EXPECT_EQ((*alpha)(32, 24).g, 255);
@@ -74,7 +74,7 @@ TEST_F(AsPhotos, RecentredOnesFillTheFrameAndTellTheirPlaces) {
     ASSERT_EQ(places.size(), 4U);
     EXPECT_GT(places[0].at("scale"), 0.5);
     EXPECT_EQ(places[0].at("shift_px").size(), 2U);
-    const auto alpha = read_picture(folder_ / "set" / "truth" / "alpha" / "001.png");
+    const auto alpha = read_image(folder_ / "set" / "truth" / "alpha" / "001.png");
     ASSERT_TRUE(alpha.ok());
     int top = 48, bottom = 0, left = 64, right = 0;
     for (int y = 0; y < 48; ++y) {

@@ -1,6 +1,6 @@
 // `rs-capture board` as a user calls it.
 
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -23,7 +23,7 @@ TEST(BoardTool, WritesEachKindOfFile) {
         EXPECT_NE(run.out.find("--board squares=9x9,square-mm=18"), std::string::npos) << run.out;
         EXPECT_GT(std::filesystem::file_size(file), 1000U);
     }
-    const auto info = read_picture_info(scratch / "board.png");
+    const auto info = read_image_info(scratch / "board.png");
     ASSERT_TRUE(info);
     EXPECT_EQ(info->width, 780);
 }

@@ -1,7 +1,7 @@
 // `rs-encode evaluate` and the page of `rs-encode build --report`, as a user meets them.
 
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -53,14 +53,14 @@ TEST_F(Evaluate, ScoresEveryMethodOnTheViewsHeldOut) {
         EXPECT_EQ(method["views"][1]["picture"], "4.png");
         EXPECT_GT(method["mean_psnr_db"].get<double>(), 5) << name;
         EXPECT_LE(method["pooled_psnr_db"].get<double>(), method["mean_psnr_db"].get<double>() + 1e-9) << name;
-        for (const char* picture : {"0001.png", "0010.png"}) {
-            EXPECT_TRUE(std::filesystem::exists(work_ / "answers" / name / picture)) << name;
-            EXPECT_TRUE(std::filesystem::exists(work_ / "answers" / (name + "-error") / picture)) << name;
+        for (const char* image : {"0001.png", "0010.png"}) {
+            EXPECT_TRUE(std::filesystem::exists(work_ / "answers" / name / image)) << name;
+            EXPECT_TRUE(std::filesystem::exists(work_ / "answers" / (name + "-error") / image)) << name;
         }
         EXPECT_FALSE(std::filesystem::exists(work_ / "answers" / name / "0000.png")) << name;
     }
-    const auto truth = read_picture(work_ / "answers" / "truth" / "0004.png");
-    const auto captured = read_picture(work_ / "set" / "4.png");
+    const auto truth = read_image(work_ / "answers" / "truth" / "0004.png");
+    const auto captured = read_image(work_ / "set" / "4.png");
     ASSERT_TRUE(truth.ok() && captured.ok());
     EXPECT_EQ(*truth, *captured);
 }
@@ -95,7 +95,7 @@ TEST_F(Evaluate, WritesAPageOfItsScores) {
     EXPECT_THAT(done.out, HasSubstr("mean PSNR"));
     std::ifstream file(work_ / "page.html");
     const std::string page(std::istreambuf_iterator<char>(file), {});
-    EXPECT_THAT(page, HasSubstr("Of 12 views every 3rd was held out, 4 in all."));
+    EXPECT_THAT(page, HasSubstr("Of 12 views, every 3rd was held out, 4 in total."));
     EXPECT_THAT(page, HasSubstr("error of shape"));
     EXPECT_EQ(page.find("error of plane"), std::string::npos);
     expect_failure({"evaluate", in("set"), "--report", in("nowhere/page.html"), "-q"}, {"nowhere"});

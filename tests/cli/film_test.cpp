@@ -2,7 +2,7 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/calibration/drawn_drum.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -117,7 +117,7 @@ TEST_F(ImportFilm, ChoosesAmongPhotosOnRequest) {
     const test::ToolRun more = import_with("60");
     ASSERT_EQ(more.exit_code, 0) << more.err;
     EXPECT_EQ(nlohmann::json::parse(more.out).at("views"), kPhotos);
-    EXPECT_THAT(nlohmann::json::parse(more.out).at("notes").front().get<std::string>(), HasSubstr("all are taken"));
+    EXPECT_THAT(nlohmann::json::parse(more.out).at("notes").front().get<std::string>(), HasSubstr("all are used"));
 }
 
 }  // namespace

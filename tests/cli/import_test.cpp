@@ -3,7 +3,7 @@
 #include "capture/calibration/model/turntable_model.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/calibration/board_photos.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -84,8 +84,7 @@ TEST_F(ImportTool, TakesTheRigOfATransformsJson) {
     EXPECT_NEAR(calibration.at("tilt_deg").at("value"), 20, 1e-4);
     EXPECT_NEAR(calibration.at("angles").at(5).at("value"), 150, 1e-4);
     const std::string page = text_of("page.html");
-    for (const char* part :
-         {"<html", "numbers that were given", "focal length, px", "620.0", "data:image/", "05.png"}) {
+    for (const char* part : {"<html", "given values", "focal length, px", "620.0", "data:image/", "05.png"}) {
         EXPECT_NE(page.find(part), std::string::npos) << part;
     }
     ASSERT_TRUE(read_rig(folder_ / "set").ok());
@@ -156,7 +155,7 @@ TEST_F(ImportTool, TakesBoardAndMasksAndWritesAPage) {
     const test::BoardPhotos photos;
     for (std::size_t i = 0; i < photos.model.angles_rad.size(); ++i) {
         const test::BoardPhotos::Photo photo = photos.taken(i);
-        ASSERT_TRUE(write_png(folder_ / "photos" / file_name(i), photo.picture).ok());
+        ASSERT_TRUE(write_png(folder_ / "photos" / file_name(i), photo.image).ok());
         ASSERT_TRUE(write_png(folder_ / "masks" / file_name(i), photo.mask).ok());
     }
     const std::vector<std::string> arguments = {
@@ -169,7 +168,8 @@ TEST_F(ImportTool, TakesBoardAndMasksAndWritesAPage) {
     EXPECT_EQ(json.at("backdrop"), "masks");
     EXPECT_NEAR(json.at("calibration").at("tilt_deg").at("value"), 38, 0.3);
     const std::string page = text_of("page.html");
-    for (const char* part : {"the printed board on the turntable", "<table", "<svg", "Mattes on magenta", "09.png"}) {
+    for (const char* part :
+         {"the printed board on the turntable", "<table", "<svg", "Alpha mattes over magenta", "09.png"}) {
         EXPECT_NE(page.find(part), std::string::npos) << part;
     }
     const auto rig = read_rig(folder_ / "set");
@@ -184,7 +184,7 @@ TEST_F(ImportTool, TakesBoardAndMasksAndWritesAPage) {
     EXPECT_NE(no_mask.err.find("04.png"), std::string::npos) << no_mask.err;
 }
 
-TEST_F(ImportTool, BadPicturesLeaveNothing) {
+TEST_F(ImportTool, BadImagesLeaveNothing) {
     write_drum(3);
     const test::ToolRun few = import({"--calibration", "tracks", "--report", in("page.html")});
     expect_nothing_written(few);
@@ -192,7 +192,7 @@ TEST_F(ImportTool, BadPicturesLeaveNothing) {
     std::filesystem::remove(folder_ / "photos" / file_name(1));
     const test::ToolRun two = import({});
     expect_nothing_written(two);
-    EXPECT_NE(two.err.find("holds 2 pictures; a turn has 5 and more"), std::string::npos) << two.err;
+    EXPECT_NE(two.err.find("holds 2 images; a turn has 5 and more"), std::string::npos) << two.err;
     for (std::size_t i = 0; i < 6; ++i) {
         ASSERT_TRUE(write_png(folder_ / "photos" / file_name(i), Image<Rgba8>(64, 48, Rgba8{255, 255, 255, 255})).ok());
     }
@@ -208,7 +208,7 @@ TEST_F(ImportTool, SegmentersAreChosenReportedAndRefused) {
     const test::BoardPhotos photos;
     for (std::size_t i = 0; i < photos.model.angles_rad.size(); ++i) {
         const test::BoardPhotos::Photo photo = photos.taken(i);
-        ASSERT_TRUE(write_png(folder_ / "photos" / file_name(i), photo.picture).ok());
+        ASSERT_TRUE(write_png(folder_ / "photos" / file_name(i), photo.image).ok());
         ASSERT_TRUE(write_png(folder_ / "masks" / file_name(i), photo.mask).ok());
     }
     const std::vector<std::string> nominal = {"--calibration", "nominal", "--masks", in("masks")};

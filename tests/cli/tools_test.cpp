@@ -1,8 +1,8 @@
 // The tools as a user meets them: help, usage errors, and the whole way from a scene to a rendered view.
 
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/image/picture_metrics.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image/image_metrics.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -34,7 +34,7 @@ TEST(Help, WrongUsageIsExitCodeTwoAndOneLine) {
     }
 }
 
-TEST(WholeWay, AMeshBecomesAnObjectThatGivesItsPicturesBack) {
+TEST(WholeWay, AMeshBecomesAnObjectThatGivesItsImagesBack) {
     const test::TemporaryFolder folder;
     const auto in = [&](const char* name) { return (folder / name).string(); };
     const auto run = [&](const std::string& tool, const std::vector<std::string>& arguments) {
@@ -55,29 +55,29 @@ TEST(WholeWay, AMeshBecomesAnObjectThatGivesItsPicturesBack) {
     run("rs-engine", {"conformance", in("box.rso"), "--views", "8", "-q"});
     run("rs-engine", {"render", in("box.rso"), "--poses", in("set"), "-o", in("rendered"), "-q"});
 
-    // Rendered at the captured poses: the stored pictures, pixel for pixel.
+    // Rendered at the captured poses: the stored images, pixel for pixel.
     const Result<Rig> rendered = read_rig(folder / "rendered");
     const Result<Rig> stored = read_rig(folder / "pictures");
     ASSERT_TRUE(rendered.ok() && stored.ok());
     ASSERT_EQ(rendered->views.size(), 12U);
     for (std::size_t i = 0; i < 12; ++i) {
-        const auto a = read_picture(picture_path(folder / "rendered", rendered->views[i]));
-        const auto b = read_picture(picture_path(folder / "pictures", stored->views[i]));
+        const auto a = read_image(image_path(folder / "rendered", rendered->views[i]));
+        const auto b = read_image(image_path(folder / "pictures", stored->views[i]));
         ASSERT_TRUE(a.ok() && b.ok());
-        EXPECT_GT(compare_pictures_psnr(*a, *b).object_pixels, 300);
+        EXPECT_GT(compare_images_psnr(*a, *b).object_pixels, 300);
         EXPECT_EQ(*a, *b);
     }
 
     run("rs-engine", {"render", in("box.rso"), "--eye", "2,1.5,2", "--size", "80x60", "-o", in("view.png"), "-q"});
-    const auto view = read_picture(folder / "view.png");
+    const auto view = read_image(folder / "view.png");
     ASSERT_TRUE(view.ok());
     EXPECT_EQ(view->width(), 80);
     const auto view_with = [&](const std::string& filter) {
         run("rs-engine", {"render", in("box.rso"), "--eye", "2,1.5,2", "--size", "80x60", "--filter", filter, "-o",
                           in("filtered.png"), "-q"});
-        return read_picture(folder / "filtered.png").value();
+        return read_image(folder / "filtered.png").value();
     };
-    EXPECT_EQ(view_with("sharp"), *view);  // auto: the view is larger than the pictures
+    EXPECT_EQ(view_with("sharp"), *view);  // auto: the view is larger than the images
     EXPECT_EQ(view_with("auto"), *view);
     EXPECT_NE(view_with("bilinear"), *view);
     EXPECT_NE(view_with("smooth"), view_with("bilinear"));
@@ -93,22 +93,22 @@ TEST(WholeWay, AMeshBecomesAnObjectThatGivesItsPicturesBack) {
     EXPECT_EQ(around.err, "");
     EXPECT_GT(std::filesystem::file_size(folder / "orbit.mp4"), 1000U);
     run("rs-engine", {"render", in("box.rso"), "--orbit", "6", "--sheet", "3", "-o", in("sheet.png"), "-q"});
-    const auto sheet = read_picture(folder / "sheet.png");
+    const auto sheet = read_image(folder / "sheet.png");
     ASSERT_TRUE(sheet.ok());
     EXPECT_EQ(sheet->width(), 192);
     EXPECT_EQ(sheet->height(), 128);
     run("rs-engine", {"render", in("box.rso"), "--orbit", "90", "--sheet", "90", "-o", in("long.png"), "-q"});
-    const auto fitted = read_picture(folder / "long.png");
+    const auto fitted = read_image(folder / "long.png");
     ASSERT_TRUE(fitted.ok());
     EXPECT_EQ(fitted->width(), 90 * 45) << "not 90 * 64: a sheet is at most 4096 wide";
     EXPECT_EQ(fitted->height(), 45);
     run("rs-engine", {"render", in("box.rso"), "--orbit", "2", "--depth", "-o", in("deep"), "-q"});
-    const auto picture = read_picture(folder / "deep" / "0001.png");
+    const auto image = read_image(folder / "deep" / "0001.png");
     const auto depth = read_channel(folder / "deep" / "0001.depth.exr");
-    ASSERT_TRUE(picture.ok() && depth.ok());
-    ASSERT_EQ(depth->width(), picture->width());
+    ASSERT_TRUE(image.ok() && depth.ok());
+    ASSERT_EQ(depth->width(), image->width());
     for (std::size_t i = 0; i < depth->pixels().size(); ++i) {
-        ASSERT_EQ(depth->pixels()[i] > 0, picture->pixels()[i].a > 0);
+        ASSERT_EQ(depth->pixels()[i] > 0, image->pixels()[i].a > 0);
     }
 
     const test::ToolRun compare = run("rs-engine", {"compare", in("box.rso"), in("set"), "--json", "-q"});

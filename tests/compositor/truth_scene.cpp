@@ -5,11 +5,11 @@
 #include "compositor/scene/reader/scene_file.hpp"
 #include "datasets-synthetic/objects.hpp"
 #include "encode/build.hpp"
-#include "encode/encode_pictures.hpp"
+#include "encode/encode_images.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kFieldOfView_rad = radians(60);
 
-// Lengths in metres; the visitor comes from +Z. Lights of every kind, and surfaces that shine.
+// Lengths in metres; the visitor enters from +Z. Lights of every kind, and emissive surfaces.
 constexpr const char* kRoom = R"(#VRML V2.0 utf8
 NavigationInfo { headlight FALSE }
 Background { skyColor 0.75 0.78 0.82 }
@@ -114,33 +114,33 @@ std::uint8_t code(double value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
 }
 
-// Smooth patterns that repeat, so that what is measured are cameras and light and not the filtering of texels.
+// Smooth periodic patterns, so that cameras and light are measured instead of texture filtering.
 Image<Rgba8> waves(const glm::dvec3& colour, double across, double along) {
     constexpr int kSide = 256;
-    Image<Rgba8> picture(kSide, kSide);
+    Image<Rgba8> image(kSide, kSide);
     for (int y = 0; y < kSide; ++y) {
         for (int x = 0; x < kSide; ++x) {
             const double s = 2 * kPi * x / kSide;
             const double t = 2 * kPi * y / kSide;
             const double v = 1 + 0.16 * std::sin(across * s + std::sin(2 * t)) * std::cos(along * t) +
                              0.08 * std::sin(3 * across * s + 2 * along * t);
-            picture(x, y) = {code(colour.r * v), code(colour.g * v), code(colour.b * v), 255};
+            image(x, y) = {code(colour.r * v), code(colour.g * v), code(colour.b * v), 255};
         }
     }
-    return picture;
+    return image;
 }
 
 // Tiles with joints.
 Image<Rgba8> tiles() {
-    Image<Rgba8> picture = waves({168, 160, 148}, 3, 2);
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
+    Image<Rgba8> image = waves({168, 160, 148}, 3, 2);
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
             if ((x < 128) != (y < 128)) continue;
-            Rgba8& pixel = picture(x, y);
+            Rgba8& pixel = image(x, y);
             pixel = {code(pixel.r * 0.8), code(pixel.g * 0.78), code(pixel.b * 0.76), 255};
         }
     }
-    return picture;
+    return image;
 }
 
 }  // namespace
@@ -150,10 +150,10 @@ std::vector<std::string> truth_object_names() {
 }
 
 Result<compositor::Scene> write_truth_room(const std::filesystem::path& folder) {
-    for (const auto& [file, picture] : {std::pair{"floor.png", tiles()},
-                                        {"wall.png", waves({196, 200, 188}, 6, 1)},
-                                        {"wood.png", waves({176, 128, 82}, 1, 7)}}) {
-        if (Status written = write_png(folder / file, picture); !written) return written.error();
+    for (const auto& [file, image] : {std::pair{"floor.png", tiles()},
+                                      {"wall.png", waves({196, 200, 188}, 6, 1)},
+                                      {"wood.png", waves({176, 128, 82}, 1, 7)}}) {
+        if (Status written = write_png(folder / file, image); !written) return written.error();
     }
     std::ofstream(folder / "room.wrl") << kRoom;
     return compositor::read_scene(folder / "room.wrl");
@@ -236,14 +236,14 @@ Status write_captured_object(const std::string& name, capture::SceneFile object,
     encode::BuildOptions build;
     build.map = encode::usual_plane_map(build.raymap);
     build.name = name;
-    build.raw_pictures = false;
+    build.raw_images = false;
     Result<encode::BuiltObject> built = encode::build_object(*set, build, progress);
     if (!built) return built.error();
     set->completed = std::move(built->completed);
-    Result<encode::EncodedPictures> encoded = encode::encode_pictures(*set, built->object, encode::PictureGoal{},
-                                                                      encode::DenseSettings{}.alpha_bits, progress);
+    Result<encode::EncodedImages> encoded =
+        encode::encode_images(*set, built->object, encode::ImageGoal{}, encode::DenseSettings{}.alpha_bits, progress);
     if (!encoded) return encoded.error();
-    built->object.coded = std::make_shared<codec::CodedPictures>(std::move(encoded->coded));
+    built->object.coded = std::make_shared<codec::CodedImages>(std::move(encoded->coded));
     return write_object(folder / (name + ".rso"), built->object, progress);
 }
 

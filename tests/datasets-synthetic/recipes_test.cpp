@@ -1,4 +1,4 @@
-// The recipes that come with the objects can be read, and their cameras see all of the object.
+// The objects' recipes are valid, and their cameras show the whole object.
 
 #include "capture/tracer/scene/scene_check.hpp"
 #include "capture/tracer/scene/scene_file.hpp"
@@ -51,11 +51,11 @@ TEST_P(EveryRecipe, ShowsAllOfTheObject) {
             }
         }
         EXPECT_GT(nearest_edge_px, 2.0) << "view " << view;
-        EXPECT_LT(nearest_edge_px, 0.25 * recipe.height) << "the object is lost in the picture";
+        EXPECT_LT(nearest_edge_px, 0.25 * recipe.height) << "the object is lost in the image";
     }
 }
 
-// Those of the objects, and of their cartoons.
+// Recipes of the objects and of their toon versions.
 std::vector<std::string> recipe_names() {
     std::vector<std::string> names = object_names();
     names.insert(names.end(), {"blocks-toon", "doll-toon", "vase-toon"});

@@ -1,11 +1,11 @@
-// Capture sets on disk -> objects: what is stored, what is refused, and what upright resampling does.
+// Builds objects from capture sets on disk: stored content, rejected sets, and upright resampling.
 
 #include "encode/build.hpp"
 #include "encode/set/upright_resampling.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/ray_space.hpp"
-#include "rayspace/image/picture_metrics.hpp"
+#include "rayspace/image/image_metrics.hpp"
 #include "rayspace/object/yuv.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -22,7 +22,7 @@ std::string error_of_set(const std::filesystem::path& folder) {
     return built ? "" : built.error().message;
 }
 
-TEST(Build, UprightPicturesAreStoredAsTheyAreAndComeBackFromTheFile) {
+TEST(Build, UprightImagesAreStoredAsTheyAreAndComeBackFromTheFile) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", test::drawn_ring(8));
     const Result<CaptureSet> set = open_capture_set(folder / "set");
@@ -32,28 +32,28 @@ TEST(Build, UprightPicturesAreStoredAsTheyAreAndComeBackFromTheFile) {
     ASSERT_TRUE(built.ok()) << built.error().message;
     EXPECT_TRUE(built->warnings.empty());
     for (std::size_t i = 0; i < 8; ++i) {
-        const Image<Rgba8> truth = test::drawn_picture(set->captured.views[i].camera);
-        EXPECT_EQ(built->object.pictures[i], planar_from_rgba(truth));
+        const Image<Rgba8> truth = test::drawn_image(set->captured.views[i].camera);
+        EXPECT_EQ(built->object.images[i], planar_from_rgba(truth));
     }
     ASSERT_TRUE(write_object(folder / "balls.rso", built->object).ok());
     const Result<RaySpaceObject> read = read_object(folder / "balls.rso");
     ASSERT_TRUE(read.ok()) << read.error().message;
     EXPECT_EQ(read->views, built->object.views);
     EXPECT_EQ(read->rings, built->object.rings);
-    EXPECT_EQ(read->pictures, built->object.pictures);
+    EXPECT_EQ(read->images, built->object.images);
 
-    // extract: the stored pictures as a capture set that can be built again.
-    ASSERT_TRUE(extract_pictures(*read, folder / "extracted").ok());
+    // Extract the stored images as a capture set that can be built again.
+    ASSERT_TRUE(extract_images(*read, folder / "extracted").ok());
     const Result<CaptureSet> again = open_capture_set(folder / "extracted");
     ASSERT_TRUE(again.ok()) << again.error().message;
-    const Result<Image<Rgba8>> picture = read_upright_picture(*again, 3);
-    ASSERT_TRUE(picture.ok());
-    EXPECT_EQ(*picture, rgba_from_planar(built->object.pictures[3]));
+    const Result<Image<Rgba8>> image = read_upright_image(*again, 3);
+    ASSERT_TRUE(image.ok());
+    EXPECT_EQ(*image, rgba_from_planar(built->object.images[3]));
 }
 
 TEST(Build, TheFootIsStoredWhereTheRigTellsIt) {
     const test::TemporaryFolder folder;
-    Rig rig = test::drawn_ring(8, 20);  // looks down: made upright about the same axis
+    Rig rig = test::drawn_ring(8, 20);  // pitched cameras, resampled to upright ones about the same axis
     rig.foot_height = -0.45;
     rig.object_radius = 0.9;
     test::write_drawn_set(folder / "set", rig);
@@ -90,10 +90,10 @@ TEST(Build, CamerasThatLookDownAreMadeUpright) {
     for (int i = 0; i < 8; ++i) {
         const Camera& camera = set->upright.views[static_cast<std::size_t>(i)].camera;
         EXPECT_TRUE(is_upright(camera));
-        const Result<Image<Rgba8>> picture = read_upright_picture(*set, i);
-        ASSERT_TRUE(picture.ok());
-        ASSERT_EQ(picture->width(), set->width);
-        worst = std::min(worst, compare_pictures_psnr(*picture, test::drawn_picture(camera)).psnr_db());
+        const Result<Image<Rgba8>> image = read_upright_image(*set, i);
+        ASSERT_TRUE(image.ok());
+        ASSERT_EQ(image->width(), set->width);
+        worst = std::min(worst, compare_images_psnr(*image, test::drawn_image(camera)).psnr_db());
     }
     EXPECT_GT(worst, 26);  // resampling softens edges; a wrong homography gives below 15
 }
@@ -108,7 +108,7 @@ TEST(Build, TheRadiusIsThatOfTheSilhouetteAlsoFromSteeplyAbove) {
     EXPECT_NEAR(set->upright.object_radius, std::hypot(0.6, 0.1) + 0.25, 0.06);
 }
 
-TEST(BuildErrors, APictureThatShowsWhatIsStraightBelowIsRefused) {
+TEST(BuildErrors, AImageThatShowsWhatIsStraightBelowIsRefused) {
     const test::TemporaryFolder folder;
     Rig rig = test::drawn_ring(3, 58);
     for (RigView& view : rig.views) {
@@ -123,25 +123,25 @@ TEST(BuildErrors, APictureThatShowsWhatIsStraightBelowIsRefused) {
     EXPECT_NE(error_of_set(folder / "set").find("straight up or down"), std::string::npos);
 }
 
-TEST(UprightResampling, TheSameCameraGivesTheSamePicture) {
+TEST(UprightResampling, TheSameCameraGivesTheSameImage) {
     const Camera camera = test::drawn_ring(8).views[1].camera;
-    const Image<Rgba8> picture = test::drawn_picture(camera);
-    EXPECT_GT(compare_pictures_psnr(resampled_picture(camera, camera, picture), picture).psnr_db(), 55);
+    const Image<Rgba8> image = test::drawn_image(camera);
+    EXPECT_GT(compare_images_psnr(resample_image(camera, camera, image), image).psnr_db(), 55);
 }
 
 TEST(UprightResampling, OccupiedBoxIsTight) {
-    Image<Rgba8> picture(10, 8);
-    EXPECT_TRUE(occupied_box(picture).empty());
-    picture(3, 2).a = 1;
-    picture(6, 5).a = 255;
-    const PixelBox box = occupied_box(picture);
+    Image<Rgba8> image(10, 8);
+    EXPECT_TRUE(find_occupied_box(image).empty());
+    image(3, 2).a = 1;
+    image(6, 5).a = 255;
+    const PixelBox box = find_occupied_box(image);
     EXPECT_EQ(box.x0, 3);
     EXPECT_EQ(box.y0, 2);
     EXPECT_EQ(box.x1, 7);
     EXPECT_EQ(box.y1, 6);
 }
 
-TEST(BuildErrors, NameThePictureAndTheRemedy) {
+TEST(BuildErrors, NameTheImageAndTheRemedy) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", test::drawn_ring(8));
     EXPECT_EQ(error_of_set(folder / "set"), "");
@@ -181,7 +181,7 @@ TEST(BuildErrors, ACameraInsideOfTheObjectIsRefused) {
     EXPECT_NE(error_of_set(folder / "set").find("object_radius"), std::string::npos);
 }
 
-TEST(BuildErrors, DistortedPicturesAreRefused) {
+TEST(BuildErrors, DistortedImagesAreRefused) {
     const test::TemporaryFolder folder;
     Rig rig = test::drawn_ring(3);
     rig.extras["k1"] = 0.0;
@@ -218,11 +218,10 @@ TEST(CaptureSetMemory, IsBoundedBeforehand) {
     EXPECT_TRUE(check_memory(set, needed).ok());
     const Status refused = check_memory(set, needed - 1);
     ASSERT_FALSE(refused.ok());
-    EXPECT_EQ(
-        refused.error().message,
-        "hemisphere/transforms.json: 250 pictures of 886x5814 (made upright, those of 800x800 become so large) take "
-        "about 20.6 GB of memory, and this machine has 20.6; leave out the steepest views, or make the pictures "
-        "smaller");
+    EXPECT_EQ(refused.error().message,
+              "hemisphere/transforms.json: 250 images of 886x5814 (enlarged from 800x800 to be upright) take "
+              "about 20.6 GB of memory, and this machine has 20.6; leave out the steepest views, or make the images "
+              "smaller");
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
-// Parsers that take files by their names: the bytes stand in a folder of the process's own.
+// Entries of parsers that take file names: the bytes are written to a folder of the process.
 #include "capture/tracer/scene/mesh_file.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
 #include "rayspace/base/check.hpp"
-#include "rayspace/pictures/picture_io.hpp"
-#include "rayspace/pictures/video_reader.hpp"
+#include "rayspace/image_io/image_io.hpp"
+#include "rayspace/image_io/video_reader.hpp"
 #include "tests/fuzz/entries.hpp"
 #include "tests/fuzz/scene_checks.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -53,7 +53,7 @@ void read_object(const fs::path& path) {
     }
 }
 
-// As a room, and as an object to photograph.
+// Reads a model as a room, and as an object to be captured.
 void read_model(const fs::path& path) {
     if (const auto scene = compositor::read_scene(path); accepted(scene)) check_scene(*scene);
     read_object(path);
@@ -84,13 +84,13 @@ int fuzz_mtl(const std::uint8_t* data, std::size_t size) {
     return 0;
 }
 
-int fuzz_picture(const std::uint8_t* data, std::size_t size) {
+int fuzz_image(const std::uint8_t* data, std::size_t size) {
     const std::string_view bytes = text(data, size);
     const fs::path path = put(bytes.starts_with("\xFF\xD8") ? "picture.jpg" : "picture.png", bytes);
-    const auto info = read_picture_info(path);
-    const auto picture = read_picture(path);
+    const auto info = read_image_info(path);
+    const auto image = read_image(path);
     const bool known = accepted(info);
-    if (accepted(picture)) RS_CHECK(known && picture->width() == info->width && picture->height() == info->height);
+    if (accepted(image)) RS_CHECK(known && image->width() == info->width && image->height() == info->height);
     return 0;
 }
 
@@ -99,9 +99,9 @@ int fuzz_film(const std::uint8_t* data, std::size_t size) {
     Result<VideoReader> reader = VideoReader::open(path);
     if (!accepted(reader)) return 0;
     const VideoInfo info = reader->info();
-    RS_CHECK(info.width >= 1 && info.width <= kMaxPictureSide_px && info.height >= 1);
-    RS_CHECK(info.height <= kMaxPictureSide_px && info.orientation >= 1 && info.orientation <= 8);
-    constexpr std::int64_t kMostPixels = 1 << 20;  // keeps an input below a second and 100 MB
+    RS_CHECK(info.width >= 1 && info.width <= kMaxImageSide_px && info.height >= 1);
+    RS_CHECK(info.height <= kMaxImageSide_px && info.orientation >= 1 && info.orientation <= 8);
+    constexpr std::int64_t kMostPixels = 1 << 20;  // limits an input to one second and 100 MB
     if (std::int64_t{info.width} * info.height > kMostPixels) return 0;
     Image<Rgba8> frame;
     for (int i = 0; i < 16; ++i) {

@@ -8,7 +8,7 @@
 namespace rs::fuzz {
 namespace {
 
-// What was accepted must survive being written: the payloads that the writer makes of it give the same object again.
+// Accepted objects must survive a round trip: the writer's payloads give the same object again.
 void check_rewriting(const RaySpaceObject& object) {
     using namespace object_chunks;
     std::vector<SoupChunk> chunks;
@@ -20,10 +20,10 @@ void check_rewriting(const RaySpaceObject& object) {
     const auto again = read_object(*container);
     RS_CHECK(again.ok());
     RS_CHECK(again->name == object.name && again->rig_json == object.rig_json && again->foot_q20 == object.foot_q20);
-    RS_CHECK(again->views == object.views && again->rings == object.rings && again->pictures == object.pictures);
+    RS_CHECK(again->views == object.views && again->rings == object.rings && again->images == object.images);
 }
 
-// What was accepted must be safe to render, from anywhere.
+// Accepted objects must be safe to render from any viewpoint.
 void check_rendering(const RaySpaceObject& object) {
     // In front, close by, far below, and nearly overhead, where rays have the least horizontal length.
     for (const glm::dvec3 eye :
@@ -32,8 +32,8 @@ void check_rendering(const RaySpaceObject& object) {
         for (const Camera& each : {camera, upright_camera(camera)}) {
             const auto registers = engine::prepare_view(object, each);
             if (!registers) continue;
-            Image<Rgba8> picture(each.width, each.height);
-            engine::reconstruct_scalar(object, *registers, picture);
+            Image<Rgba8> image(each.width, each.height);
+            engine::reconstruct_scalar(object, *registers, image);
         }
     }
 }

@@ -1,8 +1,8 @@
-// Tools that are killed while they replace what is there: it stays, or the new one stands there whole.
+// Kills tools while they replace a file: either the old or the complete new one exists afterwards.
 
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/hostile/mutation.hpp"
 #include "tests/hostile/surviving.hpp"
 #include "tests/support/drawn_set.hpp"
@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Starts the tool and kills it `after`; true where it had not ended by then.
+// Starts the tool and kills it `after`; true if it was still running.
 bool killed(const std::string& tool, std::vector<std::string> arguments, std::chrono::microseconds after, int signal) {
     const std::string program = std::string(RAYSPACE_TOOLS_DIR) + "/" + tool;
     arguments.insert(arguments.begin(), program);
@@ -72,11 +72,11 @@ TEST(HostileKills, WhatIsThereStaysWhole) {
         const auto extracted = read_rig(fs::path(set));
         ASSERT_TRUE(extracted.ok()) << extracted.error().message;
         for (const RigView& view : extracted->views) {
-            ASSERT_TRUE(read_picture(picture_path(set, view)).ok()) << view.file_path;
+            ASSERT_TRUE(read_image(image_path(set, view)).ok()) << view.file_path;
         }
     }
     EXPECT_GT(kills, 0);
-    // Whoever comes next clears away what the killed ones left.
+    // The next run removes the leftovers of the killed ones.
     ASSERT_EQ(test::run_tool(folder.path(), "rs-encode", build).exit_code, 0);
     ASSERT_EQ(test::run_tool(folder.path(), "rs-encode", extract).exit_code, 0);
     for (const auto& entry : fs::directory_iterator(folder.path())) {

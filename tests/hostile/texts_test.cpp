@@ -1,4 +1,4 @@
-// Sets, scenes, recipes, models and photographs with faults: read, or refused with one line.
+// Faulty sets, scenes, recipes, models and photos: read, or rejected with one line.
 
 #include "capture/calibration/known/known_files.hpp"
 #include "capture/tracer/scene/mesh_file.hpp"
@@ -6,7 +6,7 @@
 #include "compositor/scene/reader/scene_file.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/hostile/mutation.hpp"
 #include "tests/hostile/surviving.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -30,7 +30,7 @@ std::string one_line(const Result<T>& read) {
 }
 
 struct Kind {
-    std::string name;  // of the file
+    std::string name;  // file name
     std::string text;
     std::function<std::string(const fs::path&)> read;
 };
@@ -112,7 +112,7 @@ TEST(HostileTexts, AreReadOrRefused) {
         test::Random random(seed);
         const Kind& kind = all[test::below(random, all.size())];
         const fs::path path = folder / kind.name;
-        if (!write_file(path, test::mutated_text(kind.text, random))) return "the disk is full";
+        if (!write_file(path, test::mutate_text(kind.text, random))) return "the disk is full";
         const std::string wrong = kind.read(path);
         return wrong.empty() ? "" : kind.name + ": " + wrong;
     });
@@ -121,22 +121,22 @@ TEST(HostileTexts, AreReadOrRefused) {
 
 TEST(HostilePhotographs, AreReadOrRefused) {
     const test::TemporaryFolder folder;
-    Image<Rgba8> picture(37, 23);
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            picture(x, y) = {static_cast<std::uint8_t>(x * 7), static_cast<std::uint8_t>(y * 11), 90, 255};
+    Image<Rgba8> image(37, 23);
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            image(x, y) = {static_cast<std::uint8_t>(x * 7), static_cast<std::uint8_t>(y * 11), 90, 255};
         }
     }
     std::vector<std::pair<std::string, std::vector<std::byte>>> sound;
     const int trials = test::survive([&](std::uint64_t seed) -> std::string {
         if (sound.empty()) {
-            if (!write_png(folder / "a.png", picture) || !write_jpeg(folder / "b.jpg", picture, 90) ||
+            if (!write_png(folder / "a.png", image) || !write_jpeg(folder / "b.jpg", image, 90) ||
                 !write_exr(folder / "c.exr", Image<RgbaF>(9, 7, {0.5F, 0.2F, 0.1F, 1}))) {
-                return "no picture can be written";
+                return "no image can be written";
             }
             for (const char* const name : {"a.png", "b.jpg", "c.exr"}) {
                 auto bytes = read_file(folder / name, 1 << 20);
-                if (!bytes) return "no picture can be read";
+                if (!bytes) return "no image can be read";
                 sound.emplace_back(name, std::move(*bytes));
             }
         }
@@ -145,7 +145,7 @@ TEST(HostilePhotographs, AreReadOrRefused) {
         for (std::size_t n = 1 + test::below(random, 3); n > 0; --n) test::mutate_bytes(bytes, random);
         const fs::path path = folder / ("faulty-" + name);
         if (!write_file(path, bytes)) return "the disk is full";
-        return one_line(read_picture_info(path)) + one_line(read_picture(path)) + one_line(read_picture_linear(path));
+        return one_line(read_image_info(path)) + one_line(read_image(path)) + one_line(read_image_linear(path));
     });
     EXPECT_GT(trials, 20);
 }

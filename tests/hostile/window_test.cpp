@@ -1,4 +1,4 @@
-// A window that is shaken: random keys, drags and sizes, and the visit goes on.
+// Random keys, drags and sizes in a window, which must keep running.
 
 #include "compositor/window/visit.hpp"
 #include "tests/compositor/objects.hpp"
@@ -76,7 +76,7 @@ TEST(HostileWindow, TheVisitGoesOn) {
     front.world_from_camera[3] = glm::dvec4(0, 0.5, 6, 1);
     VisitOptions options;
     options.viewpoints = {front, front};
-    options.pictures = work.path();
+    options.images = work.path();
     options.samples = 1;
     auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.waits = true}, nullptr,
                                                std::make_unique<test::ObjectsInMemory>());

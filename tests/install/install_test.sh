@@ -86,7 +86,7 @@ case "$2" in
     mkdir -p "$ROOT"/var/lib/dpkg/{updates,triggers}
     cp -r /var/lib/dpkg/{status,info} "$ROOT/var/lib/dpkg"
     in_root --install "$PACKAGE"
-    [ -e "$ROOT/usr/lib/rayspace/librayspace_pictures.so" ] || fail "the package lacks its picture module"
+    [ -e "$ROOT/usr/lib/rayspace/librayspace_image_io.so" ] || fail "the package lacks its picture module"
     expect_all_stated
     for tool in "$ROOT"/usr/bin/*; do
       (cd "$WORK" && "$tool" --help >/dev/null) || fail "$tool does not start"

@@ -6,7 +6,7 @@
 #include "encode/tools/evaluation.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/real_data.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -50,7 +50,7 @@ Imported import(const std::filesystem::path& photos, CalibrationChoice calibrati
     if (!report.ok()) return {};
     Imported imported{*report, *read_rig(options.output), {}, 0, 0};
     for (const RigView& view : imported.rig.views)
-        imported.cuts.push_back(*read_picture(picture_path(options.output, view)));
+        imported.cuts.push_back(*read_image(image_path(options.output, view)));
     if (calibration == CalibrationChoice::kTracks) score_held_out(options.output, imported);
     return imported;
 }
@@ -89,7 +89,7 @@ Parts solid_parts(const Image<Rgba8>& cut) {
     return parts;
 }
 
-// Solid pixels within 2 px of the picture's border.
+// Solid pixels within 2 px of the image's border.
 int solid_at_border(const Image<Rgba8>& cut) {
     int count = 0;
     for (int y = 0; y < cut.height(); ++y) {
@@ -109,7 +109,7 @@ void expect_one_object_in_every_view(const Imported& imported) {
 }
 
 // As a nominal rig asks for it.
-std::optional<Turning> turning_by_pictures(const ImportReport& report) {
+std::optional<Turning> turning_by_images(const ImportReport& report) {
     const std::vector<Image<Rgba8>>& turn = report.small_cut_outs;
     const double axis_px = report.nominal.axis_x_px * turn.front().width() / report.folder.width;
     double half_width_px = 0;
@@ -132,7 +132,7 @@ TEST(RealPhotos, DinosaurOnABlueDisc) {
     EXPECT_GT(imported.report.backdrop_colour.b, imported.report.backdrop_colour.r + 40);
     EXPECT_EQ(imported.report.turning, Turning::kClockwise);
     EXPECT_EQ(imported.report.nominal.turning_from, "") << "points tell it";
-    EXPECT_EQ(turning_by_pictures(imported.report), Turning::kClockwise);
+    EXPECT_EQ(turning_by_images(imported.report), Turning::kClockwise);
     EXPECT_LT(imported.report.nominal.axis_spread_px, 5);
     EXPECT_GT(imported.report.min_coverage, 0.09);
     EXPECT_LT(imported.report.max_coverage, 0.18);
@@ -182,7 +182,7 @@ TEST(RealPhotos, CarWithItsOwnAlpha) {
     EXPECT_EQ(imported.rig.views[9].extras["source_file"], "10.png");
     expect_one_object_in_every_view(imported);
     for (std::size_t i = 0; i < imported.cuts.size(); i += 10) {
-        const Image<Rgba8> photo = *read_picture(photos / (std::to_string(i + 1) + ".png"));
+        const Image<Rgba8> photo = *read_image(photos / (std::to_string(i + 1) + ".png"));
         for (int y = 0; y < photo.height(); ++y) {
             for (int x = 0; x < photo.width(); ++x) {
                 if (photo(x, y).a > 0) {

@@ -1,6 +1,6 @@
 #pragma once
-// The fixture of the damage tests: a stream, and the check that the library's parsers and those written from
-// encode/FORMAT.md judge a payload of it the same and read the same from what they accept.
+// Fixture of the damage tests: a stream, and the check that the library's parsers and the reference parsers written
+// from encode/FORMAT.md accept the same payloads and read the same values.
 
 #include "rayspace/codec/stream/coded_chunks.hpp"
 #include "tests/reference/decoder/reference_chunks.hpp"
@@ -25,15 +25,15 @@ struct Tally {
 class DamagedPayload : public testing::TestWithParam<Profile> {
 protected:
     void SetUp() override {
-        // A view with two references, in a stream whose last byte of `present` has bits of no tile.
+        // A view with two references, in a stream whose last byte of `present` has unused bits.
         for (seed_ = 1; seed_ < 10000; ++seed_) {
             stream_ = random_stream(seed_, GetParam());
             ASSERT_EQ(parse_stream(stream_, coded_), "");
-            const std::size_t tiles = coded_.pictures[0].tiles.size();
+            const std::size_t tiles = coded_.images[0].tiles.size();
             for (view_ = 0; view_ < stream_.picts.size(); ++view_) {
-                const codec::CodedPicture& picture = coded_.pictures[view_];
+                const codec::CodedImage& image = coded_.images[view_];
                 const bool has_books = GetParam() == Profile::kDense || !coded_.board.books[0].block[0].empty();
-                if (picture.head.references() == 2 && tiles % 8 != 0 && tiles > 3 && picture.bytes.size() < 600 &&
+                if (image.head.references() == 2 && tiles % 8 != 0 && tiles > 3 && image.bytes.size() < 600 &&
                     has_books) {
                     ASSERT_EQ(read_code(stream_.code, views(), code_), "");
                     return;
@@ -48,7 +48,7 @@ protected:
     void expect_same_code(const Payload& payload, const std::string& what) {
         Code expected;
         const std::string error = read_code(payload, views(), expected);
-        codec::CodedPictures found;
+        codec::CodedImages found;
         const Status status =
             codec::parse_code(as_payload(payload), stream_.picts.size(), stream_.width, stream_.height, found);
         ASSERT_EQ(error.empty(), status.ok()) << "seed " << seed_ << ", CODE, " << what << ": reference says '" << error
@@ -111,14 +111,14 @@ protected:
         Pict expected;
         const std::string error =
             read_pict(payload, stream_.width, stream_.height, static_cast<int>(view_), code_, expected);
-        coded_.pictures[view_] = {};
-        const Status status = codec::parse_coded_picture(as_payload(payload), view_, coded_);
+        coded_.images[view_] = {};
+        const Status status = codec::parse_coded_image(as_payload(payload), view_, coded_);
         ASSERT_EQ(error.empty(), status.ok())
             << "seed " << seed_ << ", PICT " << view_ << ", " << what << ": reference says '" << error << "', library '"
             << (status.ok() ? "" : status.error().message) << "'";
         ++(error.empty() ? tally_.accepted : tally_.refused);
         if (!error.empty()) return;
-        const codec::CodedPicture& found = coded_.pictures[view_];
+        const codec::CodedImage& found = coded_.images[view_];
         ASSERT_EQ(expected.step, found.head.step) << what;
         for (std::size_t r = 0; r < 2; ++r) {
             ASSERT_EQ(expected.reference[r], found.head.reference[r]) << what;
@@ -133,7 +133,7 @@ protected:
         }
     }
 
-    // Every value of the byte, or of the two bytes from there on.
+    // Tries every value of the byte, or of the two bytes from there on.
     template <class Check>
     void try_values(const Payload& payload, std::size_t at, std::size_t bytes, Check check) {
         for (int value = 0; value < (bytes == 1 ? 256 : 65536); ++value) {
@@ -147,7 +147,7 @@ protected:
 
     template <class Check>
     void try_lengths(const Payload& payload, Check check) {
-        const std::size_t head = 300;  // of codebooks' many bytes behind it not every length is tried
+        const std::size_t head = 300;  // not every length is tried in the codebooks, which follow
         for (std::size_t size = 0; size < payload.size() + 4; ++size) {
             if (size > head && size + 20 < payload.size() && payload.size() > 4000 && size % 97 != 0) continue;
             Payload damaged = payload;
@@ -160,7 +160,7 @@ protected:
     std::uint64_t seed_ = 0;
     Stream stream_;
     std::size_t view_ = 0;
-    codec::CodedPictures coded_;
+    codec::CodedImages coded_;
     Code code_;
     Tally tally_;
 };

@@ -10,7 +10,7 @@ namespace {
 using namespace object_chunks;
 using Numbers = std::vector<std::uint8_t>;
 
-// Nothing where the chunk is not there or damaged.
+// The payload; empty if the chunk is missing or damaged.
 Numbers payload_of(const ContainerReader& file, ChunkName name, std::uint32_t index) {
     const ChunkEntry* const entry = file.find(name, index);
     if (entry == nullptr) return {};
@@ -28,7 +28,7 @@ std::size_t u32_at(const Numbers& bytes, std::size_t at) {
 std::string sum_raw(const Numbers& pict, std::size_t width, std::size_t height, PlaneSums& sums) {
     const std::size_t half = ((width + 1) / 2) * ((height + 1) / 2);
     const std::array<std::size_t, 4> samples = {width * height, half, half, width * height};
-    if (pict.size() != 16 + samples[0] + samples[1] + samples[2] + samples[3]) return "a raw picture has another size";
+    if (pict.size() != 16 + samples[0] + samples[1] + samples[2] + samples[3]) return "a raw image has another size";
     std::size_t at = 16;
     for (std::size_t p = 0; p < samples.size(); ++p) {
         sums[p] = XXH64(pict.data() + at, samples[p], 0);
@@ -53,7 +53,7 @@ FileSums reference_sums(const ContainerReader& file) {
     const std::size_t width = u32_at(head, 0);
     const std::size_t height = u32_at(head, 4);
     std::vector<Numbers> picts;
-    for (std::uint32_t v = 0; v < u32_at(head, 8); ++v) picts.push_back(payload_of(file, kPicture, v));
+    for (std::uint32_t v = 0; v < u32_at(head, 8); ++v) picts.push_back(payload_of(file, kImage, v));
     FileSums sums;
     sums.views.resize(picts.size());
     if (file.find(kCode, 0) == nullptr) {
@@ -62,13 +62,13 @@ FileSums reference_sums(const ContainerReader& file) {
         }
         return sums;
     }
-    const reference::Pictures pictures = reference::decode_reference(static_cast<int>(width), static_cast<int>(height),
-                                                                     payload_of(file, kCode, 0), picts);
-    if (!pictures.error.empty()) return {pictures.error, {}};
+    const reference::Images images = reference::decode_reference(static_cast<int>(width), static_cast<int>(height),
+                                                                 payload_of(file, kCode, 0), picts);
+    if (!images.error.empty()) return {images.error, {}};
     for (std::size_t v = 0; v < picts.size(); ++v) {
         for (std::size_t p = 0; p < 4; ++p) {
-            const reference::Picture& picture = pictures.views[v];
-            sums.views[v][p] = plane_sum({picture.planes[p].data(), picture.width, picture.height, picture.width},
+            const reference::DecodedImage& image = images.views[v];
+            sums.views[v][p] = plane_sum({image.planes[p].data(), image.width, image.height, image.width},
                                          static_cast<int>(width), static_cast<int>(height));
         }
     }
@@ -77,11 +77,11 @@ FileSums reference_sums(const ContainerReader& file) {
 
 std::vector<PlaneSums> object_sums(const RaySpaceObject& object) {
     std::vector<PlaneSums> sums;
-    for (const PlanarPicture& picture : object.pictures) {
+    for (const PlanarImage& image : object.images) {
         const auto sum = [](const Image<std::uint8_t>& plane) {
             return plane_sum(plane.view(), plane.width(), plane.height());
         };
-        sums.push_back({sum(picture.y), sum(picture.u), sum(picture.v), sum(picture.a)});
+        sums.push_back({sum(image.y), sum(image.u), sum(image.v), sum(image.a)});
     }
     return sums;
 }

@@ -1,5 +1,5 @@
-// The golden files: the valid ones decode to the samples that are written down beside them, by either decoder; the
-// invalid ones are refused for the reason that is written down.
+// Golden files: both decoders give the recorded samples of valid files, and reject invalid ones with the recorded
+// messages.
 
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 const fs::path kFolder = fs::path(RAYSPACE_SOURCE_DIR) / "tests" / "reference" / "golden";
 
-// Of a text file, those that say something.
+// The lines of a text file without comments and empty lines.
 std::vector<std::string> lines_of(const fs::path& path) {
     std::ifstream file(path);
     EXPECT_TRUE(file.good()) << path;
@@ -110,16 +110,16 @@ TEST(GoldenFiles, ValidOnesDecodeToTheirSums) {
     EXPECT_GE(kinds["with a shape"], 3);
 }
 
-// Nothing else would notice a sum that every file has.
-TEST(GoldenFiles, SumsTellPicturesApart) {
+// Detects a hash that is equal for all files, which no other test would.
+TEST(GoldenFiles, SumsTellImagesApart) {
     std::set<std::uint64_t> luma;
-    std::size_t pictures = 0;
+    std::size_t images = 0;
     for (const auto& [name, views] : expected_planes()) {
         for (const PlaneSums& sums : views) luma.insert(sums[0]);
-        pictures += views.size();
+        images += views.size();
     }
-    EXPECT_GT(pictures, 60U);
-    EXPECT_GT(luma.size(), pictures * 3 / 4);
+    EXPECT_GT(images, 60U);
+    EXPECT_GT(luma.size(), images * 3 / 4);
 }
 
 struct Refusal {

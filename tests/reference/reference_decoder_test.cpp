@@ -1,12 +1,12 @@
-// Two decoders of coded pictures, the library's and the one written from encode/FORMAT.md, give the same samples: of
-// what the encoder writes, and of random bytes.
+// Compares the library's decoder with the reference decoder written from encode/FORMAT.md, on encoder output and on
+// random bytes.
 
 #include "tests/reference/decoder/reference_decoder.hpp"
 
 #include "encode/codec/board/board_encoder.hpp"
 #include "encode/codec/dense_encoder.hpp"
 #include "rayspace/codec/stream/coded_chunks.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 #include "tests/reference/library_tiles.hpp"
 #include "tests/reference/random_stream.hpp"
 
@@ -22,8 +22,8 @@
 namespace rs::reference {
 namespace {
 
-// The first sample of width x height in which the planes differ; "" for none.
-std::string difference(const Picture& expected, std::size_t plane, const Image<std::uint8_t>& found, int width,
+// The first of width x height samples that differs; "" if none does.
+std::string difference(const DecodedImage& expected, std::size_t plane, const Image<std::uint8_t>& found, int width,
                        int height) {
     if (found.width() < width || found.height() < height) return "a plane is too small";
     for (int y = 0; y < height; ++y) {
@@ -37,15 +37,15 @@ std::string difference(const Picture& expected, std::size_t plane, const Image<s
     return "";
 }
 
-void expect_same(const Pictures& expected, const codec::CodedPictures& coded) {
+void expect_same(const Images& expected, const codec::CodedImages& coded) {
     const std::vector<LibraryPlanes> found = decode_by_tiles(coded);
     ASSERT_EQ(expected.views.size(), found.size());
     for (std::size_t v = 0; v < found.size(); ++v) {
-        const Picture& picture = expected.views[v];
-        ASSERT_EQ(picture.width, coded.coded_width());
-        ASSERT_EQ(picture.height, coded.coded_height());
+        const DecodedImage& image = expected.views[v];
+        ASSERT_EQ(image.width, coded.coded_width());
+        ASSERT_EQ(image.height, coded.coded_height());
         for (std::size_t p = 0; p < 4; ++p) {
-            ASSERT_EQ(difference(picture, p, found[v][p], picture.width, picture.height), "") << "view " << v;
+            ASSERT_EQ(difference(image, p, found[v][p], image.width, image.height), "") << "view " << v;
         }
     }
 }
@@ -56,17 +56,17 @@ std::vector<std::uint8_t> as_numbers(const std::vector<std::byte>& payload) {
     return numbers;
 }
 
-Stream stream_of(const codec::CodedPictures& coded) {
+Stream stream_of(const codec::CodedImages& coded) {
     Stream stream = {coded.width, coded.height, as_numbers(codec::code_payload(coded)), {}};
-    for (std::size_t v = 0; v < coded.pictures.size(); ++v) {
-        stream.picts.push_back(as_numbers(codec::coded_picture_payload(coded, v)));
+    for (std::size_t v = 0; v < coded.images.size(); ++v) {
+        stream.picts.push_back(as_numbers(codec::coded_image_payload(coded, v)));
     }
     return stream;
 }
 
-// Coloured blobs with a soft rim before nothing, and a texture on them, that move with the view.
+// Textured, coloured blobs with soft edges on a transparent background, which move with the view.
 Image<Rgba8> blobs(int width, int height, int view) {
-    Image<Rgba8> picture(width, height);
+    Image<Rgba8> image(width, height);
     const auto byte = [](double value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0)); };
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
@@ -74,13 +74,13 @@ Image<Rgba8> blobs(int width, int height, int view) {
             const double first = std::hypot(across - 0.45 * width, y - 0.4 * height) / (0.3 * width);
             const double second = std::hypot(x + 0.9 * view - 0.7 * width, y - 0.7 * height) / (0.22 * height);
             const double inside = std::max(1 - first, 1 - second);
-            picture(x, y) = {byte(120 + 80 * std::sin(across * 0.3) + 30 * std::cos(y * 0.9)),
-                             byte(90 + 90 * std::cos(y * 0.2 + 0.1 * view)),
-                             byte(first < second ? 200 - 60 * first : 60 + 50 * std::sin(across * y * 0.02)),
-                             byte(128 + 900 * inside)};
+            image(x, y) = {byte(120 + 80 * std::sin(across * 0.3) + 30 * std::cos(y * 0.9)),
+                           byte(90 + 90 * std::cos(y * 0.2 + 0.1 * view)),
+                           byte(first < second ? 200 - 60 * first : 60 + 50 * std::sin(across * y * 0.02)),
+                           byte(128 + 900 * inside)};
         }
     }
-    return picture;
+    return image;
 }
 
 struct EncodedCase {
@@ -89,14 +89,14 @@ struct EncodedCase {
     Profile profile = Profile::kDense;
 };
 
-codec::CodedPictures encoded(const RaySpaceObject& object, const EncodedCase& c) {
+codec::CodedImages encoded(const RaySpaceObject& object, const EncodedCase& c) {
     if (c.profile == Profile::kBoard) {
         encode::BoardSettings settings;
         settings.step = c.step;
         settings.alpha_bits = c.alpha_bits;
-        std::vector<encode::SourcePicture> sources;
+        std::vector<encode::SourceImage> sources;
         for (int v = 0; v < c.views; ++v) {
-            sources.push_back(encode::source_picture(blobs(c.width, c.height, v).view(), c.alpha_bits));
+            sources.push_back(encode::source_image(blobs(c.width, c.height, v).view(), c.alpha_bits));
         }
         return encode::encode_board(object, sources, settings).coded;
     }
@@ -117,24 +117,24 @@ TEST_P(EncodedObject, IsTheSameByBothDecoders) {
     object.width = c.width;
     object.height = c.height;
     object.views.resize(static_cast<std::size_t>(c.views));
-    object.pictures.resize(object.views.size());
+    object.images.resize(object.views.size());
     object.rings.resize(1);
     object.rings[0].views.resize(object.views.size());
     std::iota(object.rings[0].views.begin(), object.rings[0].views.end(), std::uint16_t{0});
-    const codec::CodedPictures written = encoded(object, c);
+    const codec::CodedImages written = encoded(object, c);
 
     const Stream stream = stream_of(written);
-    const Pictures expected = decode_reference(stream.width, stream.height, stream.code, stream.picts);
+    const Images expected = decode_reference(stream.width, stream.height, stream.code, stream.picts);
     ASSERT_EQ(expected.error, "");
-    codec::CodedPictures coded;
+    codec::CodedImages coded;
     ASSERT_EQ(parse_stream(stream, coded), "");
     expect_same(expected, coded);
 
-    object.coded = std::make_shared<const codec::CodedPictures>(coded);
-    codec::decode_pictures(object);
-    for (std::size_t v = 0; v < object.pictures.size(); ++v) {
-        const PlanarPicture& picture = object.pictures[v];
-        const Image<std::uint8_t>* const planes[4] = {&picture.y, &picture.u, &picture.v, &picture.a};
+    object.coded = std::make_shared<const codec::CodedImages>(coded);
+    codec::decode_images(object);
+    for (std::size_t v = 0; v < object.images.size(); ++v) {
+        const PlanarImage& image = object.images[v];
+        const Image<std::uint8_t>* const planes[4] = {&image.y, &image.u, &image.v, &image.a};
         for (std::size_t p = 0; p < 4; ++p) {
             ASSERT_EQ(difference(expected.views[v], p, *planes[p], c.width, c.height), "") << "view " << v;
         }
@@ -147,13 +147,13 @@ INSTANTIATE_TEST_SUITE_P(Blobs, EncodedObject,
                                          EncodedCase{97, 70, 12, 2, 5, 5, 12, Profile::kBoard},
                                          EncodedCase{33, 49, 5, 4, 5, 5, 40, Profile::kBoard}));
 
-// How many references stand behind each other at most.
-int longest_chain(const Stream& stream, const codec::CodedPictures& coded) {
+// Length of the longest chain of references.
+int longest_chain(const Stream& stream, const codec::CodedImages& coded) {
     std::vector<int> chain(stream.picts.size(), 0);
     for (int level = 0; level < kProgressiveLevels; ++level) {
         for (std::size_t v = 0; v < chain.size(); ++v) {
             if (coded.levels[v] != level) continue;
-            const codec::PictureHead& head = coded.pictures[v].head;
+            const codec::ImageHead& head = coded.images[v].head;
             for (std::size_t r = 0; r < static_cast<std::size_t>(head.references()); ++r) {
                 chain[v] = std::max(chain[v], chain[head.reference[r]] + 1);
             }
@@ -170,33 +170,33 @@ TEST_P(RandomStreams, AreTheSameByBothDecoders) {
     const std::uint64_t streams = wanted != nullptr ? std::stoull(wanted) : 1500;
     ASSERT_GE(streams, 100U);
     std::size_t samples = 0;
-    std::size_t telling = 0;                           // neither an empty tile's nor at the end of the range
-    std::array<std::size_t, 3> pictures = {0, 0, 0};   // [references]
+    std::size_t telling = 0;                           // samples outside of empty tiles, not saturated
+    std::array<std::size_t, 3> images = {0, 0, 0};     // [references]
     std::array<std::size_t, 4> chains = {0, 0, 0, 0};  // [longest chain of a stream]
     for (std::uint64_t seed = 1; seed <= streams; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const Stream stream = random_stream(seed, GetParam());
-        const Pictures expected = decode_reference(stream.width, stream.height, stream.code, stream.picts);
+        const Images expected = decode_reference(stream.width, stream.height, stream.code, stream.picts);
         ASSERT_EQ(expected.error, "");
-        codec::CodedPictures coded;
+        codec::CodedImages coded;
         ASSERT_EQ(parse_stream(stream, coded), "");
         ASSERT_NO_FATAL_FAILURE(expect_same(expected, coded));
-        for (const Picture& picture : expected.views) {
-            samples += picture.planes[0].size();
-            telling += static_cast<std::size_t>(std::ranges::count_if(
-                picture.planes[0], [](std::uint8_t s) { return s != 0 && s != 128 && s != 255; }));
+        for (const DecodedImage& image : expected.views) {
+            samples += image.planes[0].size();
+            telling += static_cast<std::size_t>(
+                std::ranges::count_if(image.planes[0], [](std::uint8_t s) { return s != 0 && s != 128 && s != 255; }));
         }
-        for (const codec::CodedPicture& picture : coded.pictures) {
-            ++pictures[static_cast<std::size_t>(picture.head.references())];
+        for (const codec::CodedImage& image : coded.images) {
+            ++images[static_cast<std::size_t>(image.head.references())];
         }
         ++chains[static_cast<std::size_t>(longest_chain(stream, coded))];
     }
     std::cout << streams << " random streams, " << samples << " samples of each plane, " << telling
-              << " of Y neither 0, 128 nor 255; pictures with 0, 1, 2 references: " << pictures[0] << ", "
-              << pictures[1] << ", " << pictures[2] << "; streams with chains of 0, 1, 2, 3: " << chains[0] << ", "
-              << chains[1] << ", " << chains[2] << ", " << chains[3] << "\n";
+              << " of Y neither 0, 128 nor 255; images with 0, 1, 2 references: " << images[0] << ", " << images[1]
+              << ", " << images[2] << "; streams with chains of 0, 1, 2, 3: " << chains[0] << ", " << chains[1] << ", "
+              << chains[2] << ", " << chains[3] << "\n";
     EXPECT_GT(telling, samples / 4);
-    for (const std::size_t count : pictures) EXPECT_GT(count, streams / 8);
+    for (const std::size_t count : images) EXPECT_GT(count, streams / 8);
     EXPECT_GT(chains[3], streams / 50);
 }
 

@@ -1,10 +1,10 @@
 #pragma once
-// A capture set on disk with pictures drawn by arithmetic: coloured balls around the axis, seen by the set's cameras.
+// A capture set on disk with computed images: coloured balls around the axis, seen by the set's cameras.
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image/image.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@
 
 namespace rs::test {
 
-// Three balls, nearest first; edges smooth over about a pixel.
-inline Image<Rgba8> drawn_picture(const Camera& camera) {
+/// Three balls, nearest first; edges smooth over about a pixel.
+inline Image<Rgba8> drawn_image(const Camera& camera) {
     struct Ball {
         glm::dvec3 centre;
         double radius;
@@ -23,7 +23,7 @@ inline Image<Rgba8> drawn_picture(const Camera& camera) {
     const Ball balls[] = {{{0.0, 0.0, 0.0}, 0.5, {200, 60, 40, 255}},
                           {{0.6, 0.2, 0.1}, 0.25, {40, 180, 70, 255}},
                           {{-0.3, -0.5, 0.5}, 0.2, {50, 80, 210, 255}}};
-    Image<Rgba8> picture(camera.width, camera.height);
+    Image<Rgba8> image(camera.width, camera.height);
     for (int y = 0; y < camera.height; ++y) {
         for (int x = 0; x < camera.width; ++x) {
             const glm::dvec3 ray = camera.ray(x + 0.5, y + 0.5);
@@ -38,16 +38,16 @@ inline Image<Rgba8> drawn_picture(const Camera& camera) {
                 if (cover <= 0) continue;
                 const double shade = 0.5 + 0.5 * (1 - miss / (ball.radius + pixel));
                 const auto shaded = [&](int c) { return static_cast<std::uint8_t>(std::lround(c * shade)); };
-                picture(x, y) = {shaded(ball.colour.r), shaded(ball.colour.g), shaded(ball.colour.b),
-                                 static_cast<std::uint8_t>(std::lround(255 * cover))};
+                image(x, y) = {shaded(ball.colour.r), shaded(ball.colour.g), shaded(ball.colour.b),
+                               static_cast<std::uint8_t>(std::lround(255 * cover))};
                 nearest = along;
             }
         }
     }
-    return picture;
+    return image;
 }
 
-// A ring of small cameras around the balls.
+/// A ring of small cameras around the balls.
 inline Rig drawn_ring(int count, double elevation_deg = 0) {
     Rig rig = make_ring({.count = count,
                          .distance = 3.5,
@@ -59,9 +59,9 @@ inline Rig drawn_ring(int count, double elevation_deg = 0) {
     return rig;
 }
 
-// Draws every view of `rig` into `folder`.
+/// Draws every view of `rig` into `folder`.
 inline void write_drawn_set(const std::filesystem::path& folder, Rig rig,
-                            Image<Rgba8> (*draw)(const Camera&) = drawn_picture) {
+                            Image<Rgba8> (*draw)(const Camera&) = drawn_image) {
     std::filesystem::create_directories(folder);
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
         rig.views[i].file_path = std::to_string(i) + ".png";

@@ -1,6 +1,5 @@
 #pragma once
-// Ray-space objects made in memory: a ring of cameras with pictures drawn by arithmetic, encoded by the real encoder's
-// map.
+// Ray-space objects in memory: a ring of cameras with computed images and the encoder's map.
 
 #include "encode/raymap/captured_view.hpp"
 #include "encode/raymap/plane_map.hpp"
@@ -41,9 +40,9 @@ inline Rig ring_rig(const RingObjectOptions& options) {
     return rig;
 }
 
-// Noise in every pixel whose ray passes within the unit cylinder, alpha of all sizes, transparent elsewhere.
-inline Image<Rgba8> noise_picture(const Camera& camera, std::mt19937_64& random) {
-    Image<Rgba8> picture(camera.width, camera.height);
+/// Noise in every pixel whose ray passes through the unit cylinder, with all values of alpha; transparent elsewhere.
+inline Image<Rgba8> noise_image(const Camera& camera, std::mt19937_64& random) {
+    Image<Rgba8> image(camera.width, camera.height);
     for (int x = 0; x < camera.width; ++x) {
         const glm::dvec3 ray = camera.ray(x + 0.5, camera.cy);
         const double across =
@@ -52,18 +51,18 @@ inline Image<Rgba8> noise_picture(const Camera& camera, std::mt19937_64& random)
         for (int y = 2; y < camera.height - 3; ++y) {
             const std::uint64_t bits = random();
             const auto byte = [&](int n) { return static_cast<std::uint8_t>(bits >> (8 * n)); };
-            picture(x, y) = {byte(0), byte(1), byte(2), byte(4) < 64 ? std::uint8_t{0} : byte(3)};
+            image(x, y) = {byte(0), byte(1), byte(2), byte(4) < 64 ? std::uint8_t{0} : byte(3)};
         }
     }
-    return picture;
+    return image;
 }
 
-// Makes the middle of every picture opaque: half of its columns and rows. Only opaque pixels have detail.
+/// Makes the middle of every image opaque: half of its columns and rows. Only opaque pixels have detail.
 inline void make_middle_opaque(RaySpaceObject& object) {
-    for (PlanarPicture& picture : object.pictures) {
+    for (PlanarImage& image : object.images) {
         for (int row = object.height / 4; row < object.height - object.height / 4; ++row) {
             for (int column = object.width / 4; column < object.width - object.width / 4; ++column) {
-                picture.a(column, row) = 255;
+                image.a(column, row) = 255;
             }
         }
     }
@@ -79,7 +78,7 @@ inline RaySpaceObject ring_object(const RingObjectOptions& options) {
     std::mt19937_64 random(options.seed);
     for (const RigView& view : rig.views) {
         object.views.push_back(*encode::captured_view(view.camera, options.planes));
-        object.pictures.push_back(planar_from_rgba(noise_picture(view.camera, random)));
+        object.images.push_back(planar_from_rgba(noise_image(view.camera, random)));
     }
     for (const encode::ViewRing& ring : encode::find_rings(rig)) {
         object.rings.push_back(encode::make_plane_map(

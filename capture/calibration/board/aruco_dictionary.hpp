@@ -1,5 +1,6 @@
 #pragma once
-// The ArUco dictionaries by the names of BoardDesign. Only for .cpp files of this folder: it needs OpenCV.
+// Table of the supported ArUco dictionaries by the names of BoardDesign. Only for .cpp files of this folder: it needs
+// OpenCV.
 
 #include <opencv2/aruco/dictionary.hpp>
 
@@ -11,7 +12,7 @@ namespace rs::capture {
 struct NamedDictionary {
     const char* name;
     cv::aruco::PREDEFINED_DICTIONARY_NAME number;
-    int across;  // inner cells
+    int across;  // inner cells per side
     int markers;
 };
 
@@ -24,7 +25,7 @@ inline constexpr std::array<NamedDictionary, 8> kDictionaries{{{"4x4_50", cv::ar
                                                                {"5x5_250", cv::aruco::DICT_5X5_250, 5, 250},
                                                                {"5x5_1000", cv::aruco::DICT_5X5_1000, 5, 1000}}};
 
-// Null where no dictionary has that name.
+/// Null if no dictionary has that name.
 inline const NamedDictionary* find_dictionary(const std::string& name) {
     for (const NamedDictionary& dictionary : kDictionaries) {
         if (name == dictionary.name) return &dictionary;

@@ -16,10 +16,11 @@
 namespace rs::capture {
 namespace {
 
-// Blocks: lens (f, cx, cy, k1, k2), pose (pan, tilt, roll), board (turning vector, middle, log of units per mm), angle.
+// Blocks: lens (f, cx, cy, k1, k2), pose (pan, tilt, roll), board (angle-axis vector, middle, log of units per mm),
+// angle.
 struct CornerResidual {
     BoardObservation seen;
-    double turns = 1;  // the angle is this many times its block
+    double turns = 1;  // the view's angle is this many times its parameter block
     double noise_px = 1;
 
     template <class T>
@@ -38,7 +39,7 @@ struct CornerResidual {
     }
 };
 
-// What lenses are like, as one weak observation each (the priors of bundle.hpp; the focal length within a factor e).
+// Weak lens prior: the standard deviations of bundle.hpp, and a factor of e for the focal length.
 struct BoardLensPrior {
     double f_px = 1, cx = 0, cy = 0, principal_px = 1;
 
@@ -55,12 +56,12 @@ struct BoardLensPrior {
     }
 };
 
-// A turn as Ceres sees it.
+// Parameter blocks of a turn for Ceres.
 struct Unknowns {
     std::array<double, 5> lens;
     std::array<double, 3> pose;
     std::array<double, 7> board;
-    std::vector<double> angles;  // [view]; kCommonStep: [0] alone, the step
+    std::vector<double> angles;  // [view]; kCommonStep: [0] only, the step
 
     Unknowns(const BoardTurn& turn, AngleFreedom freedom)
         : lens{turn.model.lens.f_px, turn.model.lens.cx, turn.model.lens.cy, turn.model.lens.k1, turn.model.lens.k2},
@@ -87,7 +88,7 @@ struct Unknowns {
     }
 };
 
-// Fills `problem`; the blocks stay owned by `unknowns`.
+// Fills `problem`; the parameter blocks are owned by `unknowns`.
 void pose_problem(ceres::Problem& problem, Unknowns& unknowns, const Lens& lens, std::span<const BoardObservation> seen,
                   const BoardBundleOptions& options) {
     const bool common = options.free.angles == AngleFreedom::kCommonStep;
@@ -98,7 +99,8 @@ void pose_problem(ceres::Problem& problem, Unknowns& unknowns, const Lens& lens,
         problem.AddResidualBlock(new ceres::AutoDiffCostFunction<CornerResidual, 2, 5, 3, 7, 1>(new CornerResidual{
                                      one, common ? static_cast<double>(one.view) : 1.0, options.noise_px}),
                                  loss, unknowns.lens.data(), unknowns.pose.data(), unknowns.board.data(), angle);
-        if (!common && (free.angles == AngleFreedom::kHeld || one.view == 0)) problem.SetParameterBlockConstant(angle);
+        if (!common && (free.angles == AngleFreedom::kConstant || one.view == 0))
+            problem.SetParameterBlockConstant(angle);
     }
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<BoardLensPrior, 5, 5>(
                                  new BoardLensPrior{1.3 * std::max(lens.width, lens.height), 0.5 * lens.width,
@@ -140,8 +142,8 @@ std::optional<double> adjust(BoardTurn& turn, std::span<const BoardObservation> 
         ceres::Problem problem;
         pose_problem(problem, unknowns, turn.model.lens, seen, options);
         ceres::Solver::Options how;
-        how.linear_solver_type = ceres::DENSE_SCHUR;  // each observation knows one angle
-        how.max_num_iterations = options.most_iterations;
+        how.linear_solver_type = ceres::DENSE_SCHUR;  // each observation depends on one angle
+        how.max_num_iterations = options.max_iterations;
         how.function_tolerance = 1e-10;
         how.num_threads = 1;
         how.logging_type = ceres::SILENT;
@@ -155,8 +157,8 @@ std::optional<double> adjust(BoardTurn& turn, std::span<const BoardObservation> 
     }
 }
 
-ModelDeviations board_deviations(const BoardTurn& turn, std::span<const BoardObservation> seen,
-                                 const BoardBundleOptions& options) {
+ModelDeviations board_standard_deviations(const BoardTurn& turn, std::span<const BoardObservation> seen,
+                                          const BoardBundleOptions& options) {
     const std::size_t views = turn.model.angles_rad.size();
     ModelDeviations deviations;
     deviations.angles_rad.assign(views, std::numeric_limits<double>::infinity());
@@ -168,7 +170,7 @@ ModelDeviations board_deviations(const BoardTurn& turn, std::span<const BoardObs
     ceres::Problem::EvaluateOptions order;
     std::vector<bool> is_seen(views, false);
     for (const BoardObservation& one : seen) is_seen[static_cast<std::size_t>(one.view)] = true;
-    const NumberPlaces places(options.free, is_seen);
+    const ParameterIndices places(options.free, is_seen);
     const auto is_free = [](int place) { return place >= 0; };
     if (std::any_of(places.camera.begin(), places.camera.begin() + 5, is_free)) {
         order.parameter_blocks.push_back(unknowns.lens.data());
@@ -188,7 +190,7 @@ ModelDeviations board_deviations(const BoardTurn& turn, std::span<const BoardObs
                                      static_cast<Eigen::Index>(jacobian.values.size()), jacobian.rows.data(),
                                      jacobian.cols.data(), jacobian.values.data());
     Eigen::MatrixXd information = Eigen::MatrixXd(Sparse(j.transpose() * j));
-    // Numbers of very different sizes: pixels and radians. Scaled to ones on the diagonal.
+    // The unknowns differ greatly in scale (pixels, radians), so the diagonal is normalized to ones.
     const Eigen::VectorXd size = information.diagonal().cwiseSqrt().cwiseMax(1e-300);
     information = size.cwiseInverse().asDiagonal() * information * size.cwiseInverse().asDiagonal();
     const Eigen::LLT<Eigen::MatrixXd> solver(information);
@@ -198,8 +200,8 @@ ModelDeviations board_deviations(const BoardTurn& turn, std::span<const BoardObs
     covariance = size.cwiseInverse().asDiagonal() * covariance * size.cwiseInverse().asDiagonal();
 
     const Lens& lens = turn.model.lens;
-    return deviations_of(turn.model, places, covariance,
-                         0.5 * (lies_sideways(turn.model.pose) ? lens.width : lens.height));
+    return standard_deviations(turn.model, places, covariance,
+                               0.5 * (has_sideways_axis(turn.model.pose) ? lens.width : lens.height));
 }
 
 }  // namespace rs::capture

@@ -1,7 +1,7 @@
 #pragma once
-// Bundle adjustment with a board: camera, angles and where the board lies, from all corners of all views at once.
+// Bundle adjustment with a board: estimates camera, angles and board placement from all corners of all views.
 
-#include "capture/calibration/board/board_start.hpp"
+#include "capture/calibration/board/board_initialization.hpp"
 #include "capture/calibration/model/calibration.hpp"
 #include "capture/calibration/points/bundle.hpp"
 
@@ -10,7 +10,7 @@
 
 namespace rs::capture {
 
-// One corner seen in one view.
+/// One detected corner in one view.
 struct BoardObservation {
     int view = 0;
     glm::dvec2 at_mm{0};  // board frame
@@ -19,22 +19,22 @@ struct BoardObservation {
 
 struct BoardBundleOptions {
     BundleFreedom free;
-    double noise_px = 0.3;  // of a coordinate; residuals beyond three of it count less (Huber)
-    int most_iterations = 60;
+    double noise_px = 0.3;  // standard deviation of a coordinate; the Huber loss is linear beyond 3 noise_px
+    int max_iterations = 60;
 };
 
-// Residual vector, px; nothing where the corner is not before the camera.
+/// Residual vector in px; nothing if the corner is behind the camera.
 std::optional<glm::dvec2> residual(const BoardTurn& turn, const BoardObservation& seen);
 
-// Improves `turn` in place; views without observations keep their angle (kCommonStep: follow the step, view i at i
-// steps of view 1's angle). The value is the mean robust cost in noise_px^2; nothing where Ceres cannot evaluate the
-// start. Deterministic, one thread.
+/// Refines `turn` in place. Views without observations keep their angle; with kCommonStep view i is at i times the
+/// angle of view 1. Returns the mean robust cost in noise_px^2, or nothing if Ceres cannot evaluate the start.
+/// Deterministic, one thread.
 std::optional<double> adjust(BoardTurn& turn, std::span<const BoardObservation> seen,
                              const BoardBundleOptions& options);
 
-// At the optimum of adjust(): the covariance of all unknowns together, with noise_px as the observations' deviation.
-// All infinite where the observations do not determine the unknowns.
-ModelDeviations board_deviations(const BoardTurn& turn, std::span<const BoardObservation> seen,
-                                 const BoardBundleOptions& options);
+/// Standard deviations at the optimum of adjust(), from the covariance of all unknowns with noise_px as the
+/// observations' deviation. All are infinite if the observations do not determine the unknowns.
+ModelDeviations board_standard_deviations(const BoardTurn& turn, std::span<const BoardObservation> seen,
+                                          const BoardBundleOptions& options);
 
 }  // namespace rs::capture

@@ -22,18 +22,17 @@ namespace rs::capture {
 namespace {
 
 constexpr std::size_t kFewestNeighbours = 4;
-constexpr double kSmoothing_px = 0.8;         // takes the pixels' stairs out before gradients are taken
-constexpr std::size_t kNearest = 16;          // matches that a local homography is made of
+constexpr double kSmoothing_px = 0.8;         // removes pixel staircases before gradients are computed
+constexpr std::size_t kNearest = 16;          // matches used for a local homography
 constexpr double kMarkerNeighbourhood = 2.0;  // squares
 constexpr double kNeighbourhood = 3.2;
-constexpr double kMarkerLimit_px = 2.5;  // markers' corners are found to a pixel or so
+constexpr double kMarkerLimit_px = 2.5;  // marker corners are accurate to about a pixel
 constexpr double kCornerLimit_px = 0.7;
-constexpr double kDisagreement_px =
-    1.0;  // with the neighbours' homography; a lens bends that little over three squares
-constexpr double kBoardDisagreement_px = 4;  // with the whole board's, which a lens bends
+constexpr double kDisagreement_px = 1.0;  // from the neighbours' homography; distortion over three squares is smaller
+constexpr double kBoardDisagreement_px = 4;  // from the homography of the whole board, including lens distortion
 constexpr int kMostRounds = 12;              // of growing from known corners to their neighbours
 
-// Known points of the board: its frame in squares from the top left, and OpenCV's pixels.
+// Correspondence of a board point, in squares from the top left, and its image in OpenCV's pixels.
 struct Match {
     cv::Point2d square;
     cv::Point2d pixel;
@@ -54,7 +53,7 @@ std::map<int, cv::Point> squares_of_markers(const BoardDesign& design) {
     return squares;
 }
 
-// Markers of the board in the picture stretched by sx, sy.
+// Detects the board's markers in the image stretched by sx, sy.
 std::vector<FoundMarker> markers_in(const cv::Mat1b& grey, const BoardDesign& design,
                                     const std::map<int, cv::Point>& squares, double sx, double sy) {
     cv::Mat1b stretched = grey;
@@ -65,7 +64,8 @@ std::vector<FoundMarker> markers_in(const cv::Mat1b& grey, const BoardDesign& de
     parameters->adaptiveThreshWinSizeStep = std::max(6, (parameters->adaptiveThreshWinSizeMax - 5) / 4);
     parameters->minMarkerPerimeterRate = 0.015;
     parameters->perspectiveRemovePixelPerCell = 6;
-    parameters->cornerRefinementMethod = cv::aruco::CORNER_REFINE_NONE;  // corners of squares are refined, not these
+    parameters->cornerRefinementMethod =
+        cv::aruco::CORNER_REFINE_NONE;  // marker corners are not refined, corners of squares are
     std::vector<std::vector<cv::Point2f>> corners;
     std::vector<int> ids;
     const auto dictionary = cv::aruco::getPredefinedDictionary(find_dictionary(design.dictionary)->number);
@@ -74,7 +74,7 @@ std::vector<FoundMarker> markers_in(const cv::Mat1b& grey, const BoardDesign& de
     for (const int id : ids) ++times[id];
     std::vector<FoundMarker> found;
     for (std::size_t i = 0; i < ids.size(); ++i) {
-        if (!squares.contains(ids[i]) || times[ids[i]] > 1) continue;  // another board's, or a mistake
+        if (!squares.contains(ids[i]) || times[ids[i]] > 1) continue;  // not of this board, or a false detection
         FoundMarker marker{ids[i], {}};
         for (std::size_t k = 0; k < 4; ++k) {
             marker.pixels[k] = {(corners[i][k].x + 0.5) / sx - 0.5, (corners[i][k].y + 0.5) / sy - 0.5};
@@ -92,7 +92,7 @@ std::vector<FoundMarker> find_markers(const cv::Mat1b& grey, const BoardDesign& 
     for (const auto& [sx, sy] : kStretches) {
         std::vector<FoundMarker> found = markers_in(grey, design, squares, sx, sy);
         if (found.size() > best.size()) best = std::move(found);
-        if (best.size() * 3 >= squares.size()) break;  // enough to begin from
+        if (best.size() * 3 >= squares.size()) break;  // enough for a start
     }
     return best;
 }
@@ -109,9 +109,9 @@ std::vector<Match> matches_of(const std::vector<FoundMarker>& markers, const std
     return matches;
 }
 
-// From squares, counted from `centre`, to pixels: the homography of the matches nearest to it. Nothing where they are
-// too few or too far.
-// Matches farther than `limit_px` from what most of them agree on are wrong ones; 0: all count.
+// Homography from squares, relative to `centre`, to pixels, fitted to the nearest matches. Returns nothing if there are
+// too few within `reach`. With limit_px > 0, matches farther than limit_px from the RANSAC consensus are rejected; with
+// 0 all are used.
 std::optional<cv::Matx33d> homography_around(const cv::Point2d& centre, std::vector<Match> matches, std::size_t count,
                                              double reach, double limit_px) {
     std::erase_if(matches, [&](const Match& m) { return cv::norm(m.square - centre) > reach; });
@@ -125,7 +125,7 @@ std::optional<cv::Matx33d> homography_around(const cv::Point2d& centre, std::vec
         from.push_back(m.square - centre);
         to.push_back(m.pixel);
     }
-    // Points on one line determine nothing across it.
+    // Collinear points leave the homography undetermined.
     cv::Matx22d spread = cv::Matx22d::zeros();
     cv::Point2d mean;
     for (const cv::Point2d& p : from) mean += p * (1.0 / static_cast<double>(from.size()));
@@ -136,7 +136,7 @@ std::optional<cv::Matx33d> homography_around(const cv::Point2d& centre, std::vec
     if (cv::determinant(spread) < 0.02 * spread(0, 0) * spread(1, 1) || cv::determinant(spread) < 1e-3) {
         return std::nullopt;
     }
-    // So do all points of one line and a single one beside it.
+    // So do points that are collinear but for one.
     for (const cv::Point2d& p : from) {
         for (const cv::Point2d& q : from) {
             if (p == q) continue;
@@ -145,7 +145,7 @@ std::optional<cv::Matx33d> homography_around(const cv::Point2d& centre, std::vec
             if (beside < 2) return std::nullopt;
         }
     }
-    // OpenCV's RANSAC begins from a fixed seed: the same points give the same result.
+    // OpenCV's RANSAC uses a fixed seed: equal points give equal results.
     const cv::Mat h = cv::findHomography(from, to, limit_px > 0 && from.size() > 6 ? cv::RANSAC : 0, limit_px);
     if (h.empty() || !cv::checkRange(h)) return std::nullopt;
     return cv::Matx33d(h);
@@ -163,11 +163,11 @@ struct CornerSearch {
 
     std::optional<glm::dvec2> refined(int corner, const cv::Matx33d& h) const {
         const int x = corner % (design.squares_x - 1), y = corner / (design.squares_x - 1);
-        return refined_corner(smooth, h, square_is_black(x, y), 0.5 * (1 - design.marker_share));
+        return refine_corner(smooth, h, square_is_black(x, y), 0.5 * (1 - design.marker_share));
     }
 
-    // Refines every corner that is not found yet and lies among matches. How many were new.
-    int look_around(const std::vector<Match>& matches, std::size_t count, double reach, double limit_px) {
+    // Refines all corners that are not found yet and have enough matches near them. Returns the number of new corners.
+    int find_near(const std::vector<Match>& matches, std::size_t count, double reach, double limit_px) {
         std::map<int, glm::dvec2> fresh;
         for (int corner = 0; corner < corner_count(design); ++corner) {
             if (found.contains(corner) || !corner_is_printed(design, corner)) continue;
@@ -185,7 +185,8 @@ struct CornerSearch {
         return matches;
     }
 
-    // Of its neighbours, or where these lie on a line, as on one side of the object, of all the board.
+    // Homography of the neighbours, or of the whole board where the neighbours are collinear, as at one side of the
+    // object.
     static std::optional<cv::Matx33d> homography_near(const cv::Point2d& square, const std::vector<Match>& others,
                                                       double limit_px, double& disagreement_px) {
         disagreement_px = kDisagreement_px;
@@ -196,7 +197,7 @@ struct CornerSearch {
                                  limit_px > 0 ? kBoardDisagreement_px : 0);
     }
 
-    // How far a match stands from where the others expect it, over what is allowed; 0 where they do not know.
+    // Distance of a match from its position predicted by the others, relative to the limit; 0 without a prediction.
     static double disagreement(const Match& match, std::vector<Match> others) {
         std::erase_if(others, [&](const Match& m) { return m.square == match.square; });
         double allowed_px = 0;
@@ -206,9 +207,10 @@ struct CornerSearch {
         return cv::norm(match.pixel - expected) / allowed_px;
     }
 
-    // What does not agree with its neighbours goes, the worst first, for it may be what they disagree with; the rest is
-    // refined once more, with a homography of corners, which is better than the markers'.
-    void refine_again() {
+    // Removes matches that disagree with their neighbours, the worst first because it may cause the disagreement of
+    // others. The remaining corners are refined again with a homography of corners, which is more accurate than that of
+    // markers.
+    void reject_and_refine() {
         std::vector<Match> agreed = as_matches();
         while (!agreed.empty()) {
             std::vector<double> off(agreed.size());
@@ -224,7 +226,7 @@ struct CornerSearch {
             const int corner = y * (design.squares_x - 1) + x;
             double disagreement_px = 0;
             auto h = homography_near(match.square, agreed, 0, disagreement_px);
-            if (h) {  // begin from where the corner was found
+            if (h) {  // start from the previous position
                 const cv::Point2d at((*h)(0, 2) / (*h)(2, 2), (*h)(1, 2) / (*h)(2, 2));
                 *h = cv::Matx33d(1, 0, match.pixel.x - at.x, 0, 1, match.pixel.y - at.y, 0, 0, 1) * *h;
             }
@@ -239,19 +241,19 @@ BoardCorners corners_in(const cv::Mat1b& grey, const BoardDesign& design) {
     const std::map<int, cv::Point> squares = squares_of_markers(design);
     const std::vector<Match> markers = matches_of(find_markers(grey, design, squares), squares, design.marker_share);
     if (markers.empty()) return {};
-    // Edges stand where light is half, not where its sRGB code is.
+    // Edges are located at half the linear intensity, not at half the sRGB code.
     cv::Mat1f smooth(grey.size());
     for (int y = 0; y < grey.rows; ++y) {
         for (int x = 0; x < grey.cols; ++x) smooth(y, x) = 255 * linear_from_srgb8(grey(y, x));
     }
     cv::GaussianBlur(smooth, smooth, {0, 0}, kSmoothing_px, kSmoothing_px, cv::BORDER_REPLICATE);
     CornerSearch search{smooth, design, {}};
-    search.look_around(markers, kNearest, kMarkerNeighbourhood, kMarkerLimit_px);
-    for (int pass = 0; pass < 2; ++pass) {  // what a poor neighbour spoilt in the first is found in the second
+    search.find_near(markers, kNearest, kMarkerNeighbourhood, kMarkerLimit_px);
+    for (int pass = 0; pass < 2; ++pass) {  // the second pass finds corners that a poor neighbour spoiled in the first
         for (int round = 0; round < kMostRounds; ++round) {
-            if (search.look_around(search.as_matches(), kNearest, kNeighbourhood, kCornerLimit_px) == 0) break;
+            if (search.find_near(search.as_matches(), kNearest, kNeighbourhood, kCornerLimit_px) == 0) break;
         }
-        search.refine_again();
+        search.reject_and_refine();
     }
     BoardCorners seen;
     for (const auto& [corner, p] : search.found) seen.corners.push_back({corner, p + glm::dvec2(0.5)});
@@ -261,21 +263,21 @@ BoardCorners corners_in(const cv::Mat1b& grey, const BoardDesign& design) {
 }  // namespace
 
 Result<BoardCorners> detect_board(ConstImageView<std::uint8_t> grey, const BoardDesign& design) {
-    if (Status valid = check_board_design(design); !valid) return valid.error();
+    RS_TRY(check_board_design(design));
     if (grey.width() < 8 || grey.height() < 8) return BoardCorners{};
     try {
-        return corners_in(mat_over(grey), design);
+        return corners_in(mat_view(grey), design);
     } catch (const cv::Exception& e) {
-        return Error{"the board could not be looked for: " + std::string(e.what()) +
-                     "; check that the picture can be shown by other programs"};
+        return Error{"the board cannot be detected: " + std::string(e.what()) +
+                     "; check that the image can be shown by other programs"};
     }
 }
 
-Result<BoardCorners> detect_board(ConstImageView<Rgba8> picture, const BoardDesign& design) {
-    Image<std::uint8_t> grey(picture.width(), picture.height());
-    for (int y = 0; y < picture.height(); ++y) {
-        const Rgba8* from = picture.row(y);
-        for (int x = 0; x < picture.width(); ++x) {
+Result<BoardCorners> detect_board(ConstImageView<Rgba8> image, const BoardDesign& design) {
+    Image<std::uint8_t> grey(image.width(), image.height());
+    for (int y = 0; y < image.height(); ++y) {
+        const Rgba8* from = image.row(y);
+        for (int x = 0; x < image.width(); ++x) {
             grey(x, y) = static_cast<std::uint8_t>((299 * from[x].r + 587 * from[x].g + 114 * from[x].b + 500) / 1000);
         }
     }
@@ -285,15 +287,13 @@ Result<BoardCorners> detect_board(ConstImageView<Rgba8> picture, const BoardDesi
 Result<std::vector<BoardCorners>> detect_boards(int views, const std::function<Result<Image<Rgba8>>(int)>& load,
                                                 const BoardDesign& design, Progress* progress) {
     std::vector<BoardCorners> seen(static_cast<std::size_t>(std::max(0, views)));
-    const Status done = for_each_in_parallel(views, "looking for the board", progress, [&](int view) -> Status {
-        const Result<Image<Rgba8>> picture = load(view);
-        if (!picture) return picture.error();
-        Result<BoardCorners> found = detect_board(picture->view(), design);
+    RS_TRY(for_each_in_parallel(views, "detecting the board", progress, [&](int view) -> Status {
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, load(view));
+        Result<BoardCorners> found = detect_board(image.view(), design);
         if (!found) return Error{"view " + std::to_string(view) + ": " + found.error().message};
         seen[static_cast<std::size_t>(view)] = std::move(*found);
         return {};
-    });
-    if (!done) return done.error();
+    }));
     return seen;
 }
 

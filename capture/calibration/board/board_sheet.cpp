@@ -3,7 +3,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image/linear_light.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>
@@ -20,7 +20,7 @@ namespace rs::capture {
 namespace {
 
 constexpr double kPoints_per_mm = 72.0 / 25.4;
-constexpr double kPaperEdge_mm = 8;  // printers leave that much white
+constexpr double kPaperEdge_mm = 8;  // unprintable margin of most printers
 constexpr double kSmallPrint_mm = 2.4;
 constexpr double kSmallPrintLine_mm = 2 * kSmallPrint_mm;  // with the gap above it
 
@@ -39,7 +39,7 @@ constexpr std::array<Paper, 8> kPapers{{{"a5", 148, 210},
 
 std::ostringstream plain_text() {
     std::ostringstream text;
-    text.imbue(std::locale::classic());  // points, not commas
+    text.imbue(std::locale::classic());  // decimal points, not commas
     text << std::fixed;
     text.precision(4);
     return text;
@@ -64,29 +64,29 @@ std::string small_print(const BoardDesign& design) {
            trimmed(design.square_mm) + " mm wide.";
 }
 
-// Room for the board on a sheet, the small print taken off.
-glm::dvec2 room_mm(double width_mm, double height_mm) {
+// Printable size of a sheet for the board, without the caption.
+glm::dvec2 printable_size_mm(double width_mm, double height_mm) {
     return {width_mm - 2 * kPaperEdge_mm, height_mm - 2 * kPaperEdge_mm - kSmallPrintLine_mm};
 }
 
 bool fits(const BoardDesign& design, double width_mm, double height_mm) {
-    const glm::dvec2 room = room_mm(width_mm, height_mm);
+    const glm::dvec2 room = printable_size_mm(width_mm, height_mm);
     return board_width_mm(design) <= room.x && board_height_mm(design) <= room.y;
 }
 
-// The sheet's size as it is laid down, or nothing.
-std::optional<glm::dvec2> laid_paper(const BoardDesign& design, const Paper& paper) {
+// Sheet size in the orientation that fits the board, portrait preferred; nothing if neither does.
+std::optional<glm::dvec2> oriented_paper_mm(const BoardDesign& design, const Paper& paper) {
     if (fits(design, paper.width_mm, paper.height_mm)) return glm::dvec2(paper.width_mm, paper.height_mm);
     if (fits(design, paper.height_mm, paper.width_mm)) return glm::dvec2(paper.height_mm, paper.width_mm);
     return std::nullopt;
 }
 
-std::string does_not_fit(const BoardDesign& design, const Paper& paper) {
+std::string too_small_paper_message(const BoardDesign& design, const Paper& paper) {
     double square_mm = 0;
     glm::ivec2 squares(0);
     for (const bool sideways : {false, true}) {
-        const glm::dvec2 room =
-            sideways ? room_mm(paper.height_mm, paper.width_mm) : room_mm(paper.width_mm, paper.height_mm);
+        const glm::dvec2 room = sideways ? printable_size_mm(paper.height_mm, paper.width_mm)
+                                         : printable_size_mm(paper.width_mm, paper.height_mm);
         square_mm = std::max(square_mm, std::min(room.x / design.squares_x, room.y / design.squares_y));
         const glm::ivec2 here(std::min<int>(design.squares_x, static_cast<int>(room.x / design.square_mm)),
                               std::min<int>(design.squares_y, static_cast<int>(room.y / design.square_mm)));
@@ -99,19 +99,19 @@ std::string does_not_fit(const BoardDesign& design, const Paper& paper) {
         message += ", or " + std::to_string(squares.x) + "x" + std::to_string(squares.y) + " squares of " +
                    trimmed(design.square_mm) + " mm";
     }
-    const auto larger =
-        std::find_if(kPapers.begin(), kPapers.end(), [&](const Paper& p) { return laid_paper(design, p).has_value(); });
+    const auto larger = std::find_if(kPapers.begin(), kPapers.end(),
+                                     [&](const Paper& p) { return oriented_paper_mm(design, p).has_value(); });
     if (larger != kPapers.end()) message += ", or --paper " + std::string(larger->name);
     return message;
 }
 
-// A PDF of one page: the objects one after the other and the table of where each begins.
+// A PDF of one page: header, objects, cross-reference table of their offsets, trailer.
 std::string pdf_file(double width_mm, double height_mm, const std::string& content) {
     std::ostringstream page = plain_text();
     page << "<< /Type /Page /Parent 2 0 R /MediaBox [0 0 " << width_mm * kPoints_per_mm << " "
          << height_mm * kPoints_per_mm << "] /Contents 4 0 R /Resources << /Font << /F1 5 0 R >> >> >>";
     const std::array<std::string, 6> objects{
-        // PrintScaling keeps the viewer from shrinking the page.
+        // PrintScaling /None prevents viewers from shrinking the page.
         "<< /Type /Catalog /Pages 2 0 R /ViewerPreferences << /PrintScaling /None >> >>",
         "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
         page.str(),
@@ -132,10 +132,9 @@ std::string pdf_file(double width_mm, double height_mm, const std::string& conte
 }
 
 Status write_text(const std::filesystem::path& path, const std::string& text) {
-    Result<StagedFile> file = StagedFile::create(path);
-    if (!file) return file.error();
-    if (Status written = file->write(std::as_bytes(std::span(text))); !written) return written;
-    return file->commit();
+    RS_ASSIGN_OR_RETURN(StagedFile file, StagedFile::create(path));
+    if (Status written = file.write(std::as_bytes(std::span(text))); !written) return written;
+    return file.commit();
 }
 
 }  // namespace
@@ -147,7 +146,7 @@ std::vector<std::string> paper_names() {
 }
 
 Result<std::string> board_pdf(const BoardDesign& design, const std::string& paper_name) {
-    if (Status valid = check_board_design(design); !valid) return valid.error();
+    RS_TRY(check_board_design(design));
     const auto paper =
         std::find_if(kPapers.begin(), kPapers.end(), [&](const Paper& p) { return paper_name == p.name; });
     if (paper == kPapers.end()) {
@@ -155,16 +154,16 @@ Result<std::string> board_pdf(const BoardDesign& design, const std::string& pape
         for (const std::string& name : paper_names()) names += (names.empty() ? "" : ", ") + name;
         return Error{"board: no paper '" + paper_name + "'; give one of " + names};
     }
-    const auto sheet = laid_paper(design, *paper);
-    if (!sheet) return Error{does_not_fit(design, *paper)};
+    const auto sheet = oriented_paper_mm(design, *paper);
+    if (!sheet) return Error{too_small_paper_message(design, *paper)};
     const double left = 0.5 * (sheet->x - board_width_mm(design));
     const double top = 0.5 * (sheet->y - board_height_mm(design) - kSmallPrintLine_mm);
     std::ostringstream content = plain_text();
     content << "q\n"
             << kPoints_per_mm << " 0 0 " << -kPoints_per_mm << " " << left * kPoints_per_mm << " "
             << (sheet->y - top) * kPoints_per_mm << " cm\n0 g\n";  // from here in millimetres, y down
-    // One path for all, filled at once: where two rectangles touch, no hairline shows.
-    for (const InkRectangle& r : ink_of(design)) {
+    // All rectangles are one path, filled at once, so that no hairline shows where two touch.
+    for (const InkRectangle& r : ink_rectangles(design)) {
         content << r.x_mm << " " << r.y_mm << " " << r.width_mm << " " << r.height_mm << " re\n";
     }
     content << "f\nQ\nBT\n/F1 " << kSmallPrint_mm * kPoints_per_mm << " Tf\n"
@@ -175,7 +174,7 @@ Result<std::string> board_pdf(const BoardDesign& design, const std::string& pape
 }
 
 Result<std::string> board_svg(const BoardDesign& design) {
-    if (Status valid = check_board_design(design); !valid) return valid.error();
+    RS_TRY(check_board_design(design));
     const double border = design.square_mm;
     const double width = board_width_mm(design) + 2 * border;
     const double height = board_height_mm(design) + 2 * border;
@@ -184,7 +183,7 @@ Result<std::string> board_svg(const BoardDesign& design) {
         << "mm\" viewBox=\"" << -border << " " << -border << " " << width << " " << height << "\">\n<rect x=\""
         << -border << "\" y=\"" << -border << "\" width=\"" << width << "\" height=\"" << height
         << "\" fill=\"#fff\"/>\n<path d=\"";
-    for (const InkRectangle& r : ink_of(design)) {
+    for (const InkRectangle& r : ink_rectangles(design)) {
         svg << "M" << r.x_mm << " " << r.y_mm << "h" << r.width_mm << "v" << r.height_mm << "h" << -r.width_mm << "z\n";
     }
     svg << "\"/>\n<text x=\"0\" y=\"" << board_height_mm(design) + kSmallPrintLine_mm
@@ -193,20 +192,20 @@ Result<std::string> board_svg(const BoardDesign& design) {
     return svg.str();
 }
 
-Result<Image<Rgba8>> board_picture(const BoardDesign& design, double dpi) {
-    if (Status valid = check_board_design(design); !valid) return valid.error();
+Result<Image<Rgba8>> board_image(const BoardDesign& design, double dpi) {
+    RS_TRY(check_board_design(design));
     const double px_per_mm = dpi / 25.4;
     const double border = design.square_mm;
     const double width_px = std::round((board_width_mm(design) + 2 * border) * px_per_mm);
     const double height_px = std::round((board_height_mm(design) + 2 * border) * px_per_mm);
-    if (!(width_px >= 1 && height_px >= 1 && std::max(width_px, height_px) <= kMaxPictureSide_px)) {
+    if (!(width_px >= 1 && height_px >= 1 && std::max(width_px, height_px) <= kMaxImageSide_px)) {
         return Error{"board: " + trimmed(width_px) + " x " + trimmed(height_px) + " pixels; at most " +
-                     std::to_string(kMaxPictureSide_px) + " a side, give another dpi"};
+                     std::to_string(kMaxImageSide_px) + " a side, give another dpi"};
     }
     const int width = static_cast<int>(width_px);
     const int height = static_cast<int>(height_px);
     cv::Mat1f ink(height, width, 0.0F);
-    for (const InkRectangle& r : ink_of(design)) {
+    for (const InkRectangle& r : ink_rectangles(design)) {
         const double x0 = (r.x_mm + border) * px_per_mm, x1 = x0 + r.width_mm * px_per_mm;
         const double y0 = (r.y_mm + border) * px_per_mm, y1 = y0 + r.height_mm * px_per_mm;
         for (int y = static_cast<int>(y0); y < std::min<double>(height, y1); ++y) {
@@ -227,32 +226,30 @@ Result<Image<Rgba8>> board_picture(const BoardDesign& design, double dpi) {
         cv::putText(ink, text, {static_cast<int>(0.5 * border * px_per_mm), static_cast<int>(base_y)},
                     cv::FONT_HERSHEY_SIMPLEX, scale, cv::Scalar(1), 1, cv::LINE_8);
     } catch (const cv::Exception& e) {
-        return Error{"board: the small print could not be drawn: " + std::string(e.what())};
+        return Error{"board: the caption could not be drawn: " + std::string(e.what())};
     }
-    Image<Rgba8> picture(width, height);
+    Image<Rgba8> image(width, height);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const std::uint8_t grey = srgb8_from_linear(std::clamp(1 - ink(y, x), 0.0F, 1.0F));
-            picture(x, y) = {grey, grey, grey, 255};
+            image(x, y) = {grey, grey, grey, 255};
         }
     }
-    return picture;
+    return image;
 }
 
 Status write_board(const std::filesystem::path& path, const SheetOptions& options) {
     const std::string ending = path.extension().string();
     if (ending == ".png") {
-        const Result<Image<Rgba8>> picture = board_picture(options.design, options.dpi);
-        if (!picture) return picture.error();
-        return write_png(path, picture->view());
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, board_image(options.design, options.dpi));
+        return write_png(path, image.view());
     }
     if (ending != ".pdf" && ending != ".svg") {
-        return Error{path.string() + ": a board is written as .pdf, .svg or .png; give a name that ends so"};
+        return Error{path.string() + ": unknown extension; a board is written as .pdf, .svg or .png"};
     }
-    const Result<std::string> text =
-        ending == ".pdf" ? board_pdf(options.design, options.paper) : board_svg(options.design);
-    if (!text) return text.error();
-    return write_text(path, *text);
+    RS_ASSIGN_OR_RETURN(const std::string text,
+                        ending == ".pdf" ? board_pdf(options.design, options.paper) : board_svg(options.design));
+    return write_text(path, text);
 }
 
 }  // namespace rs::capture

@@ -1,8 +1,8 @@
 #pragma once
-// The calibration board as something to print: a PDF page with exact millimetres, an SVG drawing, or a picture.
+// Printable calibration board: a PDF page with exact millimetres, an SVG drawing, or an image.
 //
-// The PDF stands on a sheet of paper; SVG and picture show the board with a white border of one square around it. All
-// say in small print below the board what it is and that it is to be printed at 100 %.
+// The PDF page has the size of a sheet of paper; SVG and image have a white border of one square around the board. All
+// have a caption below the board with its design and the instruction to print at 100 %.
 
 #include "capture/calibration/board/charuco_board.hpp"
 #include "rayspace/base/result.hpp"
@@ -14,24 +14,25 @@
 
 namespace rs::capture {
 
-std::vector<std::string> paper_names();  // "a4" and so on
+std::vector<std::string> paper_names();  // "a4" etc.
 
 struct SheetOptions {
     BoardDesign design;
-    std::string paper = "a4";  // PDF only; upright or on its side, whichever holds the board
+    std::string paper = "a4";  // PDF only; portrait or landscape, whichever fits the board
     double dpi = 300;          // PNG only
 };
 
-// Errors: a design that check_board_design() refuses; an unknown paper; a board that does not fit the paper (the
-// message states what would fit).
+/// Errors: a design that check_board_design() refuses; an unknown paper; a board that does not fit the paper (the
+/// message states what would fit).
 Result<std::string> board_pdf(const BoardDesign& design, const std::string& paper);
 Result<std::string> board_svg(const BoardDesign& design);
 
-// Edges are mixed by coverage, so sizes are exact though a square is no whole number of pixels: pixel p covers
-// [p, p + 1) * 25.4 / dpi millimetres from the border's outer edge. Error where a side exceeds kMaxPictureSide_px.
-Result<Image<Rgba8>> board_picture(const BoardDesign& design, double dpi);
+/// Edges are antialiased by pixel coverage, so sizes are exact even if a square is not a whole number of pixels: pixel
+/// p covers [p, p + 1) * 25.4 / dpi millimetres from the border's outer edge. Error if a side exceeds kMaxImageSide_px.
+Result<Image<Rgba8>> board_image(const BoardDesign& design, double dpi);
 
-// Writes what the name's ending names: .pdf, .svg or .png. Errors as above, another ending, and of writing.
+/// Writes the format given by the extension: .pdf, .svg or .png. Errors: those above, another extension, a failed
+/// write.
 Status write_board(const std::filesystem::path& path, const SheetOptions& options);
 
 }  // namespace rs::capture

@@ -15,7 +15,7 @@ constexpr int kFewestSquares = 3;
 constexpr int kMostSquares = 40;
 constexpr int kFewestCorners = 8;
 
-// The whole text as a number, without the locale.
+// Parses the whole text as a number, independent of the locale.
 bool read_number(const std::string& text, double& number) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     return error == std::errc{} && end == text.data() + text.size() && std::isfinite(number);
@@ -76,13 +76,12 @@ Result<BoardDesign> parse_board_design(const std::string& text) {
         } else if (key == "blank-mm") {
             good = read_number(value, design.blank_mm);
         } else {
-            return Error{"board: '" + word + "' is not understood; write " + to_string(BoardDesign{}) +
-                         " or a part of it"};
+            return Error{"board: '" + word + "' is unknown; write " + to_string(BoardDesign{}) + " or a part of it"};
         }
         if (!good)
             return Error{"board: '" + word + "' has no valid number; write for example " + to_string(BoardDesign{})};
     }
-    if (Status valid = check_board_design(design); !valid) return valid.error();
+    RS_TRY(check_board_design(design));
     return design;
 }
 
@@ -127,7 +126,7 @@ Status check_board_design(const BoardDesign& design) {
 
 bool square_is_printed(const BoardDesign& design, int x, int y) {
     if (x < 0 || y < 0 || x >= design.squares_x || y >= design.squares_y) return false;
-    // The nearest point of the square to the board's middle, in squares.
+    // Point of the square nearest to the board's centre, in squares.
     const double left = x - 0.5 * design.squares_x;
     const double top = y - 0.5 * design.squares_y;
     const double near_x = std::clamp(0.0, left, left + 1);
@@ -141,7 +140,7 @@ bool square_is_black(int x, int y) {
 
 int marker_of_square(const BoardDesign& design, int x, int y) {
     if (square_is_black(x, y) || !square_is_printed(design, x, y)) return -1;
-    return (y * design.squares_x + x) / 2;  // so many white squares stand before it
+    return (y * design.squares_x + x) / 2;  // number of white squares before it
 }
 
 int marker_cells_across(const BoardDesign& design) {
@@ -176,7 +175,7 @@ glm::dvec2 corner_mm(const BoardDesign& design, int corner) {
     return design.square_mm * glm::dvec2(x + 1 - 0.5 * design.squares_x, y + 1 - 0.5 * design.squares_y);
 }
 
-std::vector<InkRectangle> ink_of(const BoardDesign& design) {
+std::vector<InkRectangle> ink_rectangles(const BoardDesign& design) {
     std::vector<InkRectangle> ink;
     const int n = marker_cells_across(design);
     const double cell_mm = design.square_mm * design.marker_share / n;

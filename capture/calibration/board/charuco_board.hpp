@@ -1,15 +1,16 @@
 #pragma once
 // The printed ChArUco board that lies on the turntable and turns with the object: a chessboard whose white squares
-// carry ArUco markers, so that every inner corner is known by number even where the object hides most of them. One
-// definition for printing (board_sheet.hpp), detection (board_detection.hpp) and calibration (board_calibration.hpp).
+// contain ArUco markers, so that every inner corner is identified even if the object hides most of them. One definition
+// for printing (board_sheet.hpp), detection (board_detection.hpp) and calibration (board_calibration.hpp).
 //
-// Squares     Square (x, y) counts from the printed top left, x to the right, y down; it is black where x + y is even.
+// Squares     Square (x, y) counts from the printed top left, x to the right, y down; it is black if x + y is even.
 // Markers     White squares are numbered row by row from 0; that number is the marker's id in the dictionary.
-// Corners     Inner corner (x, y) stands at the lower right of square (x, y); id = y * (squares_x - 1) + x.
-// Blank       Squares that the disc of blank_mm in the board's middle touches are not printed, and their corners are
-//             not there. Numbers stay as they are without it, so a board is also found by its design without the blank.
-// Board frame Millimetres, origin in the board's middle, u to the right and v down as printed. In three dimensions
-//             (u, 0, v): +Y leaves the printed side.
+// Corners     Inner corner (x, y) is the lower right corner of square (x, y); id = y * (squares_x - 1) + x.
+// Blank       Squares that touch the disc of diameter blank_mm around the board's centre are not printed, and their
+//             corners do not exist. The numbering is the same as without it, so a board is also detected with its
+//             design without the blank.
+// Board frame Millimetres, origin at the board's centre, u to the right and v down as printed. In three dimensions (u,
+//             0, v): +Y points out of the printed side.
 
 #include "rayspace/base/result.hpp"
 
@@ -25,27 +26,28 @@ struct BoardDesign {
     int squares_x = 9;
     int squares_y = 9;
     double square_mm = 18;
-    double marker_share = 0.7;          // the marker's side (with its black rim) / the square's side
+    double marker_share = 0.7;          // side of the marker (with its black border) / side of the square
     std::string dictionary = "4x4_50";  // an ArUco dictionary of OpenCV: NxN_COUNT
     double blank_mm = 0;                // diameter; 0: none
     bool operator==(const BoardDesign&) const = default;
 };
 
-// "squares=9x9,square-mm=18,marker=0.7,dictionary=4x4_50,blank-mm=0" in any order; what is not given keeps its default,
-// and "default" or nothing is the default board. `squares=9` is 9x9. The error names the word and what is valid.
+/// Parses "squares=9x9,square-mm=18,marker=0.7,dictionary=4x4_50,blank-mm=0" in any order; omitted keys keep their
+/// defaults, and "default" or an empty text is the default board. `squares=9` is 9x9. The error contains the invalid
+/// word and the valid values.
 Result<BoardDesign> parse_board_design(const std::string& text);
-std::string to_string(const BoardDesign& design);  // what parse_board_design reads
+std::string to_string(const BoardDesign& design);  // the format that parse_board_design() reads
 
-// Errors for numbers out of range, too few markers in the dictionary, and a blank that leaves fewer than 8 corners.
+/// Errors: numbers out of range, too few markers in the dictionary, a blank that leaves fewer than 8 corners.
 Status check_board_design(const BoardDesign& design);
 
-// The rest expects a checked design.
+// The functions below expect a valid design.
 
 bool square_is_printed(const BoardDesign& design, int x, int y);
 bool square_is_black(int x, int y);
-int marker_of_square(const BoardDesign& design, int x, int y);  // -1 where it is black or not printed
+int marker_of_square(const BoardDesign& design, int x, int y);  // -1 if it is black or not printed
 
-// Cell (x, y) of a marker is result[y * n + x], n = marker_cells_across(), the black rim included; true where black.
+/// Cell (x, y) of a marker is result[y * n + x], n = marker_cells_across(), including the black border; true if black.
 int marker_cells_across(const BoardDesign& design);
 std::vector<bool> black_marker_cells(const BoardDesign& design, int marker);
 
@@ -55,11 +57,11 @@ inline int corner_count(const BoardDesign& design) {
 bool corner_is_printed(const BoardDesign& design, int corner);
 glm::dvec2 corner_mm(const BoardDesign& design, int corner);  // board frame
 
-// A rectangle of ink; millimetres from the top left of the board's outline, y down.
+/// A black rectangle; millimetres from the top left corner of the board, y down.
 struct InkRectangle {
     double x_mm = 0, y_mm = 0, width_mm = 0, height_mm = 0;
 };
-// All that is black; rectangles do not overlap.
-std::vector<InkRectangle> ink_of(const BoardDesign& design);
+/// All black areas as rectangles that do not overlap.
+std::vector<InkRectangle> ink_rectangles(const BoardDesign& design);
 
 }  // namespace rs::capture

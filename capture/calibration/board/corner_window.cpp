@@ -8,10 +8,10 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kArm = 0.42;                 // of the cross, in squares
-constexpr double kMost = 0.2;                 // squares that the corner may stand from where it was expected
+constexpr double kArm = 0.42;                 // arm length of the cross, in squares
+constexpr double kMost = 0.2;                 // largest distance of the corner from its predicted position, in squares
 constexpr double kCorrelation = 0.7;          // with an ideal chessboard
-constexpr double kLeastSectorContrast = 0.4;  // of the worst two sectors, to the mean contrast
+constexpr double kLeastSectorContrast = 0.4;  // of the two worst sectors, relative to the mean contrast
 constexpr double kSmear_px = 3;
 constexpr int kMostRefinements = 12;
 
@@ -25,19 +25,19 @@ struct Window {
     }
 };
 
-cv::Point2d mapped(const cv::Matx33d& h, double x, double y) {
+cv::Point2d apply_homography(const cv::Matx33d& h, double x, double y) {
     const cv::Vec3d p = h * cv::Vec3d(x, y, 1);
     return {p[0] / p[2], p[1] / p[2]};
 }
 
-// Samples around `centre` (in squares); false where they leave the picture.
+// Samples the window around `centre` (in squares); false if it leaves the image.
 bool fill(Window& window, const cv::Mat1f& grey, const cv::Matx33d& h, const glm::dvec2& centre) {
     const int n = 2 * window.half + 1;
     window.grey.resize(static_cast<std::size_t>(n * n));
     auto out = window.grey.begin();
     for (int y = -window.half; y <= window.half; ++y) {
         for (int x = -window.half; x <= window.half; ++x) {
-            const cv::Point2d p = mapped(h, centre.x + x * window.pitch, centre.y + y * window.pitch);
+            const cv::Point2d p = apply_homography(h, centre.x + x * window.pitch, centre.y + y * window.pitch);
             if (!(p.x >= 0 && p.y >= 0 && p.x < grey.cols - 1 && p.y < grey.rows - 1)) return false;
             const int x0 = static_cast<int>(p.x), y0 = static_cast<int>(p.y);
             const float fx = static_cast<float>(p.x - x0), fy = static_cast<float>(p.y - y0);
@@ -49,9 +49,9 @@ bool fill(Window& window, const cv::Mat1f& grey, const cv::Matx33d& h, const glm
     return true;
 }
 
-// Whether the samples within `band` of the edges and inside of the black squares look like a chessboard: as a whole,
-// and in each of sixteen sectors, so that neither a missing square nor an object before a part of an arm passes.
-bool looks_right(const Window& window, bool first_is_black, double band) {
+// True if the samples within `band` of the edges and those inside the black squares match a chessboard: as a whole, and
+// in each of sixteen sectors, so that neither a missing square nor an object in front of part of an arm passes.
+bool matches_chessboard(const Window& window, bool first_is_black, double band) {
     struct Sum {
         double n = 0, v = 0;
     };
@@ -91,7 +91,7 @@ bool looks_right(const Window& window, bool first_is_black, double band) {
     return darkest_white - lightest_black > kLeastSectorContrast * (whites - blacks);
 }
 
-// From the window's middle to the corner, in squares.
+// Offset from the window's centre to the corner, in squares.
 std::optional<glm::dvec2> offset(const Window& window, double band) {
     double a = 0, b = 0, c = 0, u = 0, v = 0;
     for (int y = -window.half + 1; y < window.half; ++y) {
@@ -112,19 +112,19 @@ std::optional<glm::dvec2> offset(const Window& window, double band) {
 
 }  // namespace
 
-std::optional<glm::dvec2> refined_corner(const cv::Mat1f& grey, const cv::Matx33d& h, bool first_is_black,
-                                         double margin) {
-    // The shorter edge in the picture shows how many pixels a square's narrow side has.
-    const double side_x = cv::norm(mapped(h, 0.5, 0) - mapped(h, -0.5, 0));
-    const double side_y = cv::norm(mapped(h, 0, 0.5) - mapped(h, 0, -0.5));
+std::optional<glm::dvec2> refine_corner(const cv::Mat1f& grey, const cv::Matx33d& h, bool first_is_black,
+                                        double margin) {
+    // The shorter edge in the image limits the resolution of a square.
+    const double side_x = cv::norm(apply_homography(h, 0.5, 0) - apply_homography(h, -0.5, 0));
+    const double side_y = cv::norm(apply_homography(h, 0, 0.5) - apply_homography(h, 0, -0.5));
     const double longest = std::max(side_x, side_y);
     if (!(std::isfinite(longest) && std::min(side_x, side_y) > 2)) return std::nullopt;
     Window window;
     window.half = std::clamp(static_cast<int>(std::lround(kArm * longest)), 8, 24);
     window.pitch = kArm / window.half;
-    // A marker's edge is smeared by the smoothing and by the differences; that much stays outside where there is room.
+    // Smoothing and differences blur a marker's edge by kSmear_px; the band excludes that much if space permits.
     const cv::Matx22d to_px{h(0, 0) / h(2, 2), h(0, 1) / h(2, 2), h(1, 0) / h(2, 2), h(1, 1) / h(2, 2)};
-    const double narrow_px = std::abs(cv::determinant(to_px)) / longest;  // squares' least height in pixels
+    const double narrow_px = std::abs(cv::determinant(to_px)) / longest;  // smallest height of a square in pixels
     const double band = std::clamp(margin - kSmear_px / std::max(1.0, narrow_px), 0.45 * margin, margin);
 
     glm::dvec2 centre(0);
@@ -136,8 +136,8 @@ std::optional<glm::dvec2> refined_corner(const cv::Mat1f& grey, const cv::Matx33
         if (!(glm::length(centre) < kMost)) return std::nullopt;
         if (glm::length(*step) * longest < 2e-3) break;
     }
-    if (!fill(window, grey, h, centre) || !looks_right(window, first_is_black, band)) return std::nullopt;
-    const cv::Point2d p = mapped(h, centre.x, centre.y);
+    if (!fill(window, grey, h, centre) || !matches_chessboard(window, first_is_black, band)) return std::nullopt;
+    const cv::Point2d p = apply_homography(h, centre.x, centre.y);
     return glm::dvec2(p.x, p.y);
 }
 

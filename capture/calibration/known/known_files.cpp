@@ -1,6 +1,6 @@
 #include "capture/calibration/known/known_files.hpp"
 
-#include "capture/calibration/model/turn_of_cameras.hpp"
+#include "capture/calibration/model/turntable_fit.hpp"
 #include "capture/calibration/model/turntable_model.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -25,17 +25,16 @@ Result<double> common_focal_length(double fx_px, double fy_px, const std::string
     const double f_px = (fx_px + fy_px) / 2;
     if (std::abs(fx_px - fy_px) > kSquarePixels * f_px) {
         return Error{where + ": its focal lengths " + std::to_string(fx_px) + " and " + std::to_string(fy_px) +
-                     " differ by more than 1 %; scale the pictures to square pixels, and calibrate those"};
+                     " differ by more than 1 %; scale the images to square pixels, and calibrate those"};
     }
     return f_px;
 }
 
-Status set_turn(KnownInputs& known, std::span<const glm::dmat4> world_from_camera, const std::string& where) {
-    const auto turn = turn_of_cameras(world_from_camera, where);
-    if (!turn) return turn.error();
-    known.pose = turn->pose;
-    known.angles_rad = turn->angles_rad;
-    known.counter_clockwise = median_step(turn->angles_rad) > 0;
+Status set_turntable(KnownInputs& known, std::span<const glm::dmat4> world_from_camera, const std::string& where) {
+    RS_ASSIGN_OR_RETURN(const auto turn, fit_turn_to_cameras(world_from_camera, where));
+    known.pose = turn.pose;
+    known.angles_rad = turn.angles_rad;
+    known.counter_clockwise = median_step(turn.angles_rad) > 0;
     return {};
 }
 
@@ -46,9 +45,11 @@ constexpr std::size_t kMaxName_bytes = 4096;
 constexpr std::size_t kNumbersPerView = 21;
 constexpr double kMaxNumber = 1e9;
 constexpr double kRigidTolerance = 1e-3;
-constexpr double kSameIntrinsics = 1e-4;  // of f
+constexpr double kSameIntrinsics = 1e-4;  // relative to f
 
-// Words between blanks; a line ends at '\n' or "\r\n".
+// Splits a line at blanks; a line ends at '
+// ' or "\r
+// ".
 class Words {
 public:
     explicit Words(std::string_view line) : rest_(line) {}
@@ -94,8 +95,8 @@ Result<MiddleburyView> view_from(std::string_view line, const std::string& place
     Words words(line);
     MiddleburyView view;
     view.name = std::string(words.next());
-    if (view.name.empty()) return Error{place + " is empty; a view's name and 21 numbers belong there"};
-    if (view.name.size() > kMaxName_bytes) return Error{place + ": the picture's name is too long"};
+    if (view.name.empty()) return Error{place + " is empty; a view's name and 21 numbers are expected"};
+    if (view.name.size() > kMaxName_bytes) return Error{place + ": the image's name is too long"};
     std::array<double, kNumbersPerView> numbers{};
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         const std::string_view word = words.next();
@@ -103,14 +104,15 @@ Result<MiddleburyView> view_from(std::string_view line, const std::string& place
         if (!number) {
             return Error{place + ": number " + std::to_string(i + 1) +
                          (word.empty() ? " is missing" : " is not a finite number") +
-                         "; a view's name, k11..k33, r11..r33 and t1..t3 belong there"};
+                         "; a view's name, k11..k33, r11..r33 and t1..t3 are expected"};
         }
         numbers[i] = *number;
     }
     if (!words.next().empty()) return Error{place + " has more than a name and 21 numbers"};
 
     std::copy_n(numbers.begin(), 9, view.k.begin());
-    // p_in_camera = R p + t with y down and z forward: rows right, down, forward. Ours are right, up, back.
+    // p_in_camera = R p + t with y down and z forward: rows right, down, forward. The camera axes here are right, up,
+    // back.
     const auto row = [&](std::size_t r) {
         return glm::dvec3(numbers[9 + 3 * r], numbers[10 + 3 * r], numbers[11 + 3 * r]);
     };
@@ -130,16 +132,15 @@ Status set_lens(KnownInputs& known, const MiddleburyView& first, const std::stri
     if (std::abs(k[8] - 1) > 1e-9 || k[3] != 0 || k[6] != 0 || k[7] != 0) {
         return Error{where + ": K is not of the form fx s cx, 0 fy cy, 0 0 1"};
     }
-    const auto f_px = common_focal_length(k[0], k[4], where);
-    if (!f_px) return f_px.error();
-    if (std::abs(k[1]) > 1e-3 * *f_px) return Error{where + ": K has skew, which no camera here has"};
-    known.f_px = *f_px;
+    RS_ASSIGN_OR_RETURN(const auto f_px, common_focal_length(k[0], k[4], where));
+    if (std::abs(k[1]) > 1e-3 * f_px) return Error{where + ": K has skew, which is not supported"};
+    known.f_px = f_px;
     known.principal_point = glm::dvec2(k[2] + 0.5, k[5] + 0.5);
     known.distortion = glm::dvec2(0);
     return {};
 }
 
-// Coefficients that NeRF tools write beside the intrinsics.
+// Distortion coefficients as NeRF tools write them beside the intrinsics.
 Result<glm::dvec2> distortion_of(const nlohmann::json& extras, const std::string& where) {
     const auto coefficient = [&](const char* key) -> Result<double> {
         if (!extras.contains(key)) return 0.0;
@@ -147,11 +148,10 @@ Result<glm::dvec2> distortion_of(const nlohmann::json& extras, const std::string
         return extras[key].get<double>();
     };
     for (const char* key : {"k3", "k4", "k5", "k6", "p1", "p2"}) {
-        const auto value = coefficient(key);
-        if (!value) return value.error();
-        if (*value != 0) {
-            return Error{where + ": distortion " + key + " = " + std::to_string(*value) +
-                         " is not supported, only k1 and k2; calibrate with those alone or undistort the pictures"};
+        RS_ASSIGN_OR_RETURN(const auto value, coefficient(key));
+        if (value != 0) {
+            return Error{where + ": distortion " + key + " = " + std::to_string(value) +
+                         " is not supported, only k1 and k2; calibrate with those alone or undistort the images"};
         }
     }
     const auto k1 = coefficient("k1");
@@ -172,106 +172,99 @@ Result<KnownFile> middlebury_parameters_from(const std::string& text, const std:
     }
     std::vector<MiddleburyView> views;
     for (int i = 0; i < static_cast<int>(*count); ++i) {
-        auto view = view_from(take_line(rest), where + ": line " + std::to_string(i + 2));
-        if (!view) return view.error();
-        views.push_back(std::move(*view));
+        RS_ASSIGN_OR_RETURN(auto view, view_from(take_line(rest), where + ": line " + std::to_string(i + 2)));
+        views.push_back(std::move(view));
         for (std::size_t k = 0; k < 9; ++k) {
             if (std::abs(views.back().k[k] - views[0].k[k]) > kSameIntrinsics * std::abs(views[0].k[0])) {
                 return Error{where + ": line " + std::to_string(i + 2) +
-                             ": K differs from the first view's; a turn is taken with one lens"};
+                             ": K differs from the first view's; all views of a turn must have one lens"};
             }
         }
     }
     if (rest.find_first_not_of(" \t\r\n") != std::string_view::npos) {
-        return Error{where + ": has more lines than the " + std::to_string(views.size()) + " views that line 1 says"};
+        return Error{where + ": has more lines than the " + std::to_string(views.size()) + " views that line 1 states"};
     }
     KnownFile file;
-    if (Status status = set_lens(file.known, views[0], where); !status) return status.error();
+    RS_TRY(set_lens(file.known, views[0], where));
     std::vector<glm::dmat4> cameras;
     for (MiddleburyView& view : views) {
         cameras.push_back(view.world_from_camera);
-        file.pictures.push_back(std::move(view.name));
+        file.images.push_back(std::move(view.name));
     }
-    if (Status status = set_turn(file.known, cameras, where); !status) return status.error();
+    RS_TRY(set_turntable(file.known, cameras, where));
     return file;
 }
 
 Result<KnownFile> read_middlebury_parameters(const std::filesystem::path& path) {
-    const auto bytes = read_file(path, kMaxMiddlebury_bytes);
-    if (!bytes) return bytes.error();
-    return middlebury_parameters_from({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string());
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMaxMiddlebury_bytes));
+    return middlebury_parameters_from({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 
-Result<KnownFile> read_known_rig(const std::filesystem::path& path, PicturePixels pictures) {
-    const auto rig = read_rig(path);
-    if (!rig) return rig.error();
+Result<KnownFile> read_known_rig(const std::filesystem::path& path, ImagePixels images) {
+    RS_ASSIGN_OR_RETURN(const auto rig, read_rig(path));
     const std::string where = path.string();
-    if (rig->views.empty()) return Error{where + ": has no views"};
-    const Camera& first = rig->views[0].camera;
-    const auto f_px = common_focal_length(first.fl_x, first.fl_y, where);
-    if (!f_px) return f_px.error();
-    if (pictures.width > 0 && (first.width != pictures.width || first.height != pictures.height)) {
-        return Error{where + ": is of pictures of " + std::to_string(first.width) + " x " +
-                     std::to_string(first.height) + " pixels, these have " + std::to_string(pictures.width) + " x " +
-                     std::to_string(pictures.height) + "; use pictures of the size it was made for"};
+    if (rig.views.empty()) return Error{where + ": has no views"};
+    const Camera& first = rig.views[0].camera;
+    RS_ASSIGN_OR_RETURN(const auto f_px, common_focal_length(first.fl_x, first.fl_y, where));
+    if (images.width > 0 && (first.width != images.width || first.height != images.height)) {
+        return Error{where + ": is for images of " + std::to_string(first.width) + " x " +
+                     std::to_string(first.height) + " pixels, these have " + std::to_string(images.width) + " x " +
+                     std::to_string(images.height) + "; use images of the size it was made for"};
     }
-    const auto distortion = distortion_of(rig->extras, where);
-    if (!distortion) return distortion.error();
+    RS_ASSIGN_OR_RETURN(const auto distortion, distortion_of(rig.extras, where));
 
     KnownFile file;
     std::vector<glm::dmat4> cameras;
-    for (std::size_t i = 0; i < rig->views.size(); ++i) {
-        const RigView& view = rig->views[i];
+    for (std::size_t i = 0; i < rig.views.size(); ++i) {
+        const RigView& view = rig.views[i];
         const Camera& camera = view.camera;
-        const double limit = kSameIntrinsics * *f_px;
+        const double limit = kSameIntrinsics * f_px;
         const bool same = camera.width == first.width && camera.height == first.height &&
                           std::abs(camera.fl_x - first.fl_x) <= limit && std::abs(camera.fl_y - first.fl_y) <= limit &&
                           std::abs(camera.cx - first.cx) <= limit && std::abs(camera.cy - first.cy) <= limit;
-        const auto own = distortion_of(view.extras, where);
-        if (!own) return own.error();
-        if (!same || *own != glm::dvec2(0)) {
+        RS_ASSIGN_OR_RETURN(const auto own, distortion_of(view.extras, where));
+        if (!same || own != glm::dvec2(0)) {
             return Error{where + ": view " + std::to_string(i + 1) +
-                         " has a lens of its own; a turn is taken with one lens"};
+                         " has a lens of its own; all views of a turn must have one lens"};
         }
         cameras.push_back(camera.world_from_camera);
-        file.pictures.push_back(view.file_path);
+        file.images.push_back(view.file_path);
     }
-    file.known.f_px = *f_px;
+    file.known.f_px = f_px;
     file.known.principal_point = glm::dvec2(first.cx, first.cy);
-    file.known.distortion = *distortion;
-    if (Status status = set_turn(file.known, cameras, where); !status) return status.error();
+    file.known.distortion = distortion;
+    RS_TRY(set_turntable(file.known, cameras, where));
     return file;
 }
 
-Result<KnownFile> read_known_file(const std::filesystem::path& path, PicturePixels pictures) {
+Result<KnownFile> read_known_file(const std::filesystem::path& path, ImagePixels images) {
     const std::string ending = lower_case_extension(path);
     std::error_code failure;
-    if (ending == ".json" || std::filesystem::is_directory(path, failure)) return read_known_rig(path, pictures);
-    if (ending == ".yml" || ending == ".yaml" || ending == ".xml") return read_opencv_intrinsics(path, pictures);
+    if (ending == ".json" || std::filesystem::is_directory(path, failure)) return read_known_rig(path, images);
+    if (ending == ".yml" || ending == ".yaml" || ending == ".xml") return read_opencv_intrinsics(path, images);
     if (ending == ".txt") return read_middlebury_parameters(path);
-    return Error{
-        path.string() +
-        ": what is known is read from a transforms.json, from *_par.txt (Middlebury) or from *.yml, *.yaml and "
-        "*.xml (OpenCV); give one of these"};
+    return Error{path.string() +
+                 ": unknown file type; give a transforms.json, a *_par.txt (Middlebury) or a *.yml, *.yaml or "
+                 "*.xml (OpenCV)"};
 }
 
-Result<KnownInputs> known_of_photographs(const KnownFile& file, const std::vector<std::string>& photographs) {
+Result<KnownInputs> known_inputs_of(const KnownFile& file, const std::vector<std::string>& photographs) {
     KnownInputs known = file.known;
-    if (!known.angles_rad || file.pictures.empty()) return known;
+    if (!known.angles_rad || file.images.empty()) return known;
     std::map<std::string, double> angle_of;
-    for (std::size_t i = 0; i < file.pictures.size() && i < known.angles_rad->size(); ++i) {
-        angle_of[std::filesystem::path(file.pictures[i]).stem().string()] = (*known.angles_rad)[i];
+    for (std::size_t i = 0; i < file.images.size() && i < known.angles_rad->size(); ++i) {
+        angle_of[std::filesystem::path(file.images[i]).stem().string()] = (*known.angles_rad)[i];
     }
     std::vector<double> angles;
     for (const std::string& photograph : photographs) {
         const auto found = angle_of.find(std::filesystem::path(photograph).stem().string());
         if (found == angle_of.end()) {
             return Error{photograph + ": is not among the " + std::to_string(angle_of.size()) +
-                         " pictures that the given rig knows; take it out of the folder, or give its rig"};
+                         " images of the given rig; remove it from the folder, or give its rig"};
         }
         angles.push_back(found->second);
     }
-    // Angles count from the first photograph; the pose is of the camera and the table and stays.
+    // Angles are relative to the first photo; the pose of the camera in the table frame does not change.
     for (double& angle : angles) angle -= angle_of.at(std::filesystem::path(photographs.front()).stem().string());
     known.angles_rad = std::move(angles);
     return known;

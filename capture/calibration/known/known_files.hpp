@@ -1,6 +1,6 @@
 #pragma once
-// What others have measured of a camera or a turn, read from their files: OpenCV's intrinsics, the parameter files of
-// the Middlebury multi-view sets, a NeRF tool's transforms.json. All of it is held by calibration.
+// Readers for camera parameters measured by other tools: OpenCV's intrinsics, the parameter files of the Middlebury
+// multi-view sets, a NeRF tool's transforms.json. Calibration holds all of these values constant.
 
 #include "capture/calibration/model/calibration.hpp"
 #include "rayspace/base/result.hpp"
@@ -14,53 +14,53 @@
 
 namespace rs::capture {
 
-// What the readers of these files share; private to them.
+// Shared by the readers of this folder; internal.
 
-// Pixels count as square within this share; f is the mean of both.
+/// Relative difference of fx and fy up to which pixels count as square; f is their mean.
 inline constexpr double kSquarePixels = 0.01;
 
-// f from fx and fy, or an error that begins with `where`.
+/// f from fx and fy; errors begin with `where`.
 Result<double> common_focal_length(double fx_px, double fy_px, const std::string& where);
 
-// Fills in pose, angles and sense.
-Status set_turn(KnownInputs& known, std::span<const glm::dmat4> world_from_camera, const std::string& where);
+/// Sets pose, angles and direction of turning.
+Status set_turntable(KnownInputs& known, std::span<const glm::dmat4> world_from_camera, const std::string& where);
 
 struct KnownFile {
     KnownInputs known;
-    std::vector<std::string> pictures;  // the pictures' names, in the order of known.angles_rad; none in an OpenCV file
+    std::vector<std::string> images;  // image names, in the order of known.angles_rad; none in an OpenCV file
 };
 
-// Pixels of the pictures that the file is to be used with; 0 x 0 where that is not known and so not checked.
-struct PicturePixels {
+/// Size in pixels of the images that the file is used with; 0 x 0 if unknown: then it is not checked.
+struct ImagePixels {
     int width = 0;
     int height = 0;
 };
 
-// Intrinsics as cv::FileStorage writes them (YAML, XML or JSON, at most 1 MB): a 3 x 3 camera_matrix, cameraMatrix,
-// Camera_Matrix, CameraMatrix or K, and distortion_coefficients, Distortion_Coefficients, distCoeffs, dist_coeffs or D.
-// Gives f, principal point (moved by half a pixel: OpenCV counts from the centre of the first) and k1, k2 (0 where the
-// file has no coefficients). Errors: pixels that are not square within 1 %, skew, other coefficients that are not 0,
-// image_width and image_height that differ from `pictures`.
-Result<KnownFile> read_opencv_intrinsics(const std::filesystem::path& path, PicturePixels pictures = {});
-Result<KnownFile> opencv_intrinsics_from(const std::string& text, const std::string& where, PicturePixels pictures);
+/// Intrinsics as written by cv::FileStorage (YAML, XML or JSON, at most 1 MB): a 3 x 3 camera_matrix, cameraMatrix,
+/// Camera_Matrix, CameraMatrix or K, and distortion_coefficients, Distortion_Coefficients, distCoeffs, dist_coeffs or
+/// D. Sets f, principal point (shifted by half a pixel: OpenCV's origin is the centre of the first pixel) and k1, k2 (0
+/// if the file has no coefficients). Errors: pixels that are not square within 1 %, skew, other coefficients that are
+/// not 0, image_width and image_height that differ from `images`.
+Result<KnownFile> read_opencv_intrinsics(const std::filesystem::path& path, ImagePixels images = {});
+Result<KnownFile> opencv_intrinsics_from(const std::string& text, const std::string& where, ImagePixels images);
 
-// A Middlebury *_par.txt (at most 16 MB, kMaxViews views): the number of views, then per line name k11..k33 r11..r33
-// t1..t3, with pixel = K (R p + t), x right, y down, counted from the centre of the first pixel. Gives f, principal
-// point, no distortion, pose, angles, sense of turning. Errors: what is no such file, views with different K, cameras
-// that turn_of_cameras() refuses.
+/// A Middlebury *_par.txt (at most 16 MB, kMaxViews views): the number of views, then per line name k11..k33 r11..r33
+/// t1..t3, with pixel = K (R p + t), x right, y down, relative to the centre of the first pixel. Sets f, principal
+/// point, zero distortion, pose, angles and direction of turning. Errors: another format, views with different K,
+/// cameras that fit_turn_to_cameras() refuses.
 Result<KnownFile> read_middlebury_parameters(const std::filesystem::path& path);
 Result<KnownFile> middlebury_parameters_from(const std::string& text, const std::string& where);
 
-// The same from a transforms.json (read_rig()); its pictures' size must be `pictures` where that is known. k1 and k2 at
-// its top are taken, other distortion is refused unless 0.
-Result<KnownFile> read_known_rig(const std::filesystem::path& path, PicturePixels pictures = {});
+/// The same from a transforms.json (read_rig()). Its image size must equal `images` if that is known. k1 and k2 at its
+/// top level are used; other distortion coefficients must be 0.
+Result<KnownFile> read_known_rig(const std::filesystem::path& path, ImagePixels images = {});
 
-// Whichever of the three the name speaks of: a folder or *.json is a rig, *.yml, *.yaml and *.xml are OpenCV's, *.txt
-// is Middlebury's.
-Result<KnownFile> read_known_file(const std::filesystem::path& path, PicturePixels pictures = {});
+/// Selects the reader by the name: a folder or *.json is a rig, *.yml, *.yaml and *.xml are OpenCV's, *.txt is
+/// Middlebury's.
+Result<KnownFile> read_known_file(const std::filesystem::path& path, ImagePixels images = {});
 
-// The file's angles for photographs of these names, in their order: names are compared without folder and ending. Where
-// the file names no pictures, or has no angles, `known` as it is. Error: a photograph that the file does not know.
-Result<KnownInputs> known_of_photographs(const KnownFile& file, const std::vector<std::string>& photographs);
+/// The file's angles for the photos of these names, in their order; names are compared without folder and extension.
+/// Returns `file.known` unchanged if the file names no images or has no angles. Error: a photo that is not in the file.
+Result<KnownInputs> known_inputs_of(const KnownFile& file, const std::vector<std::string>& photographs);
 
 }  // namespace rs::capture

@@ -18,7 +18,7 @@ std::string to_string(CalibrationMethod method) {
     return "nominal";
 }
 
-Lens with_known(Lens lens, const KnownInputs& known) {
+Lens apply_known(Lens lens, const KnownInputs& known) {
     lens.f_px = known.f_px.value_or(lens.f_px);
     if (known.principal_point) {
         lens.cx = known.principal_point->x;
@@ -31,8 +31,8 @@ Lens with_known(Lens lens, const KnownInputs& known) {
     return lens;
 }
 
-TurntableModel with_known(TurntableModel model, const KnownInputs& known) {
-    model.lens = with_known(model.lens, known);
+TurntableModel apply_known(TurntableModel model, const KnownInputs& known) {
+    model.lens = apply_known(model.lens, known);
     model.pose = known.pose.value_or(model.pose);
     for (std::size_t i = 0; i < model.angles_rad.size() && known.step_rad; ++i) {
         model.angles_rad[i] = static_cast<double>(i) * *known.step_rad;

@@ -1,12 +1,12 @@
 #pragma once
-// The model of turntable_model.hpp for any scalar type, so that Ceres can differentiate it.
+// The projection of turntable_model.hpp for any scalar type, for automatic differentiation by Ceres.
 
 #include <cmath>
 
 namespace rs::capture {
 
-// lens: f, cx, cy, k1, k2; pose: pan, tilt, roll; point: X, Y, Z of the object at angle 0. Writes pixel x, y. False
-// where the point is not before the camera.
+/// lens: f, cx, cy, k1, k2; pose: pan, tilt, roll; point: X, Y, Z of the object at angle 0. Writes pixel x, y. Returns
+/// false if the point is not in front of the camera.
 template <class T>
 bool project_turned(const T* lens, const T* pose, const T& angle_rad, const T* point, T* pixel) {
     using std::cos;

@@ -21,8 +21,8 @@ std::optional<glm::dvec2> TurnProjection::project(const glm::dvec3& p_in_object,
     return glm::dvec2(lens_.cx + scale * x, lens_.cy + scale * y);
 }
 
-std::optional<TurnProjection::Moving> TurnProjection::project_moving(const glm::dvec3& p_in_object,
-                                                                     std::size_t view) const {
+std::optional<TurnProjection::ProjectionJacobian> TurnProjection::project_with_jacobian(const glm::dvec3& p_in_object,
+                                                                                        std::size_t view) const {
     const glm::dmat3& rotation = camera_from_object_[view];
     const glm::dvec3 p = rotation * p_in_object + offset_;
     if (p.z > kNearest) return std::nullopt;
@@ -34,7 +34,7 @@ std::optional<TurnProjection::Moving> TurnProjection::project_moving(const glm::
     const double xx = lens_.f_px * (radial + 2 * by_r2 * x * x);
     const double xy = lens_.f_px * 2 * by_r2 * x * y;
     const double yy = lens_.f_px * (radial + 2 * by_r2 * y * y);
-    Moving moving;
+    ProjectionJacobian moving;
     moving.px = {lens_.cx + lens_.f_px * radial * x, lens_.cy + lens_.f_px * radial * y};
     for (int k = 0; k < 3; ++k) {
         const glm::dvec3& change = rotation[k];

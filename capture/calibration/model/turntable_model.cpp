@@ -21,12 +21,12 @@ glm::dmat3 about_z(double t) {
     return {{std::cos(t), std::sin(t), 0}, {-std::sin(t), std::cos(t), 0}, {0, 0, 1}};
 }
 
-// Where the line of the axis meets the vertical (fixed = 0: x given) or horizontal (fixed = 1) line of the picture.
+// Intersection of the axis' image with a vertical (fixed = 0: x given) or horizontal (fixed = 1) line of the image.
 std::optional<double> axis_crossing(const Lens& lens, const CameraPose& pose, int fixed, double value_px) {
     const glm::dmat3 camera_from_table = camera_rotation(pose);
     const glm::dvec3 origin = camera_from_table * glm::dvec3(0, 0, -1);
     const glm::dvec3 along = camera_from_table * glm::dvec3(0, 1, 0);
-    // x = X / -Z, y = -Y / -Z; the plane through the centre and the picture's line.
+    // x = X / -Z, y = -Y / -Z; `plane` is the plane through the camera centre and the line of the image.
     const double u = (value_px - (fixed == 0 ? lens.cx : lens.cy)) / lens.f_px;
     const glm::dvec3 plane = fixed == 0 ? glm::dvec3(1, 0, u) : glm::dvec3(0, -1, u);
     const double slope = glm::dot(plane, along);
@@ -110,12 +110,12 @@ std::optional<double> axis_row(const Lens& lens, const CameraPose& pose, double 
     return axis_crossing(lens, pose, 0, x_px);
 }
 
-bool lies_sideways(const CameraPose& pose) {
+bool has_sideways_axis(const CameraPose& pose) {
     return std::abs(std::sin(pose.roll_rad)) > std::abs(std::cos(pose.roll_rad));
 }
 
 std::optional<double> axis_position(const Lens& lens, const CameraPose& pose, double at_px) {
-    return lies_sideways(pose) ? axis_row(lens, pose, at_px) : axis_column(lens, pose, at_px);
+    return has_sideways_axis(pose) ? axis_row(lens, pose, at_px) : axis_column(lens, pose, at_px);
 }
 
 double median_step(std::span<const double> angles_rad) {

@@ -11,23 +11,23 @@
 
 namespace rs::capture {
 
-BundleFreedom freedom_beside(const KnownInputs& known) {
+BundleFreedom free_parameters_beside(const KnownInputs& known) {
     BundleFreedom free;
     free.f = !known.f_px;
     free.pan = free.tilt = free.roll = !known.pose;
     free.principal_point = known.estimate_principal_point && !known.principal_point;
-    free.angles = known.step_rad || known.angles_rad ? AngleFreedom::kHeld
+    free.angles = known.step_rad || known.angles_rad ? AngleFreedom::kConstant
                   : known.equal_steps                ? AngleFreedom::kCommonStep
                                                      : AngleFreedom::kEach;
     return free;
 }
 
-std::optional<glm::dvec2> projected(const TurntableModel& model, const glm::dvec3& point, int view) {
+std::optional<glm::dvec2> project_point(const TurntableModel& model, const glm::dvec3& point, int view) {
     return project(model.lens, model.pose, turned(point, model.angles_rad[static_cast<std::size_t>(view)]));
 }
 
 std::optional<glm::dvec2> residual(const TurntableModel& model, const glm::dvec3& point, const Observation& seen) {
-    const auto p = projected(model, point, seen.view);
+    const auto p = project_point(model, point, seen.view);
     if (!p) return std::nullopt;
     return *p - seen.p;
 }
@@ -40,7 +40,7 @@ std::optional<glm::dvec2> residual(const TurnProjection& turn, const glm::dvec3&
 
 namespace {
 
-// An observation and the ray that it saw; nothing where there is none.
+// An observation and its viewing ray; nothing if the distortion cannot be inverted.
 struct Sighting {
     const Observation* seen = nullptr;
     std::optional<glm::dvec3> ray;  // in the object's frame
@@ -55,7 +55,7 @@ std::vector<Sighting> sightings_of(const TurnProjection& turn, const Track& trac
     return sightings;
 }
 
-std::optional<glm::dvec3> triangulated_by(const TurnProjection& turn, std::span<const Sighting> sightings) {
+std::optional<glm::dvec3> triangulate_from(const TurnProjection& turn, std::span<const Sighting> sightings) {
     glm::dmat3 normal(0.0);
     glm::dvec3 right_side(0.0);
     for (const Sighting& each : sightings) {
@@ -73,7 +73,7 @@ std::optional<glm::dvec3> triangulated_by(const TurnProjection& turn, std::span<
         glm::dmat3 hessian(0.0);
         glm::dvec3 gradient(0.0);
         for (const Sighting& each : sightings) {
-            const auto there = turn.project_moving(p, static_cast<std::size_t>(each.seen->view));
+            const auto there = turn.project_with_jacobian(p, static_cast<std::size_t>(each.seen->view));
             if (!there) return std::nullopt;
             const glm::dvec2 r = there->px - each.seen->p;
             gradient += there->slope_x * r.x + there->slope_y * r.y;
@@ -92,18 +92,18 @@ std::optional<glm::dvec3> triangulated_by(const TurnProjection& turn, std::span<
     return p;
 }
 
-// The observations that agree with the point of two of them, for the pair with which most do.
+// The largest set of observations within limit_px of the point triangulated from two of them.
 Track agreeing(const TurnProjection& turn, const Track& track, double limit_px) {
     constexpr std::size_t kMostPairs = 24;
     const std::size_t count = track.seen.size();
     const std::vector<Sighting> sightings = sightings_of(turn, track);
     Track best;
     std::size_t tried = 0;
-    // Pairs of neighbours in the track first, then farther ones: near views share the most matches.
+    // Neighbours in the track first, then more distant pairs: near views share the most matches.
     for (std::size_t apart = 1; apart < count && tried < kMostPairs; ++apart) {
         for (std::size_t i = 0; i + apart < count && tried < kMostPairs; ++i, ++tried) {
             const std::array<Sighting, 2> pair{sightings[i], sightings[i + apart]};
-            const auto p = triangulated_by(turn, pair);
+            const auto p = triangulate_from(turn, pair);
             if (!p) continue;
             Track kept;
             for (const Observation& seen : track.seen) {
@@ -117,7 +117,7 @@ Track agreeing(const TurnProjection& turn, const Track& track, double limit_px) 
     return best;
 }
 
-// [track]: what `make` makes of each, in order and without those of which it makes nothing.
+// Applies `make` to each track in parallel and collects the results in order; tracks without a result are dropped.
 template <class Make>
 Bundle gathered(const TurntableModel& model, std::span<const Track> tracks, const Make& make) {
     std::vector<std::optional<std::pair<Track, glm::dvec3>>> made(tracks.size());
@@ -136,27 +136,27 @@ Bundle gathered(const TurntableModel& model, std::span<const Track> tracks, cons
 
 }  // namespace
 
-std::optional<glm::dvec3> triangulated(const TurntableModel& model, const Track& track) {
+std::optional<glm::dvec3> triangulate(const TurntableModel& model, const Track& track) {
     const TurnProjection turn(model);
-    return triangulated_by(turn, sightings_of(turn, track));
+    return triangulate_from(turn, sightings_of(turn, track));
 }
 
 Bundle make_bundle(const TurntableModel& model, std::span<const Track> tracks) {
     const TurnProjection turn(model);
     return gathered(model, tracks, [&](const Track& track) -> std::optional<std::pair<Track, glm::dvec3>> {
-        const auto point = triangulated_by(turn, sightings_of(turn, track));
+        const auto point = triangulate_from(turn, sightings_of(turn, track));
         if (!point) return std::nullopt;
         return std::pair{track, *point};
     });
 }
 
-Bundle make_agreeing_bundle(const TurntableModel& model, std::span<const Track> tracks, double limit_px) {
+Bundle make_robust_bundle(const TurntableModel& model, std::span<const Track> tracks, double limit_px) {
     const TurnProjection turn(model);
     Bundle bundle = gathered(model, tracks, [&](const Track& track) -> std::optional<std::pair<Track, glm::dvec3>> {
-        // The point of two rays is less exact than that of all.
+        // A point from two rays is less accurate than one from all.
         Track kept = agreeing(turn, track, 1.5 * limit_px);
         if (kept.seen.size() < 3) return std::nullopt;
-        const auto point = triangulated_by(turn, sightings_of(turn, kept));
+        const auto point = triangulate_from(turn, sightings_of(turn, kept));
         if (!point) return std::nullopt;
         return std::pair{std::move(kept), *point};
     });

@@ -16,7 +16,7 @@ namespace rs::capture {
 
 void silence_ceres() {
     static const bool done = [] {
-        FLAGS_minloglevel = google::GLOG_FATAL;  // failed steps are part of a solver's life; the summary tells the rest
+        FLAGS_minloglevel = google::GLOG_FATAL;  // failed steps are normal; the summary reports real failures
         return true;
     }();
     static_cast<void>(done);
@@ -24,19 +24,19 @@ void silence_ceres() {
 
 namespace {
 
-constexpr double kShortestFocalLength = 0.1;  // of the picture's width
+constexpr double kShortestFocalLength = 0.1;  // relative to the image width
 
-// What Ceres adjusts: of the camera's numbers the free ones as one block, so that none is held within a block; angles
-// are those of the model itself.
+// Parameter blocks for Ceres: the free camera numbers as one block, so that no block is partly constant; angles are
+// those of the model itself.
 class FreeNumbers {
 public:
     FreeNumbers(TurntableModel& model, const BundleFreedom& free)
         : model_(model), angles_(free.angles), camera_{&model.lens.f_px,     &model.lens.cx,      &model.lens.cy,
                                                        &model.lens.k1,       &model.lens.k2,      &model.pose.pan_rad,
                                                        &model.pose.tilt_rad, &model.pose.roll_rad} {
-        const std::array<bool, kCameraNumbers> is_free{
+        const std::array<bool, kCameraParameters> is_free{
             free.f, free.principal_point, free.principal_point, free.k1, free.k2, free.pan, free.tilt, free.roll};
-        for (std::size_t k = 0; k < kCameraNumbers; ++k) {
+        for (std::size_t k = 0; k < kCameraParameters; ++k) {
             if (!is_free[k]) continue;
             places_.push_back(k);
             values_.push_back(*camera_[k]);
@@ -45,17 +45,17 @@ public:
         if (views > 1) step_rad_ = model.angles_rad.back() / static_cast<double>(views - 1);
     }
 
-    // Which of the camera's numbers are free, in the order in which they stand in their block.
+    // Indices of the free camera numbers, in the order of their parameter block.
     [[nodiscard]] const std::vector<std::size_t>& camera_places() const { return places_; }
     [[nodiscard]] double* camera() { return values_.data(); }
 
-    // Nothing where the view's angle is held.
+    // Null if the view's angle is constant.
     [[nodiscard]] double* angle(int view) {
         if (angles_ == AngleFreedom::kCommonStep) return &step_rad_;
-        if (angles_ == AngleFreedom::kHeld || view == 0) return nullptr;
+        if (angles_ == AngleFreedom::kConstant || view == 0) return nullptr;
         return &model_.angles_rad[static_cast<std::size_t>(view)];
     }
-    // By how much a view turns per unit of angle(view).
+    // Rotation of a view per unit of angle(view).
     [[nodiscard]] double turns(int view) const { return angles_ == AngleFreedom::kCommonStep ? view : 1; }
 
     void write_to_model() {
@@ -69,13 +69,13 @@ public:
 private:
     TurntableModel& model_;
     AngleFreedom angles_;
-    std::array<double*, kCameraNumbers> camera_;  // of the model
+    std::array<double*, kCameraParameters> camera_;  // pointers into the model
     std::vector<std::size_t> places_;
     std::vector<double> values_;
     double step_rad_ = 0;
 };
 
-// What all observations share, made ready before each evaluation.
+// State shared by all observations, computed before each evaluation.
 class ModelNow final : public ceres::EvaluationCallback {
 public:
     ModelNow(const TurntableModel& model, FreeNumbers& numbers, bool f_is_free)
@@ -88,7 +88,8 @@ public:
         is_lens_ = !f_is_free_ || model_.lens.f_px >= kShortestFocalLength * model_.lens.width;
     }
 
-    // False where a step has led to no lens: instead of a bound, with which Ceres would search along each step.
+    // False if a step has led to an invalid lens. Used instead of a bound, which would make Ceres do a line search at
+    // each step.
     [[nodiscard]] bool is_lens() const { return is_lens_; }
     [[nodiscard]] const Lens& lens() const { return model_.lens; }
     [[nodiscard]] const Reprojections& reprojections() const { return *reprojections_; }
@@ -101,8 +102,7 @@ private:
     bool is_lens_ = true;
 };
 
-// Parameter blocks are the camera's free numbers, the view's angle and the point; of the first two those that there
-// are.
+// Parameter blocks are the free camera numbers, the view's angle and the point; the first two only if they exist.
 class ReprojectionCost final : public ceres::CostFunction {
 public:
     ReprojectionCost(const ModelNow& now, FreeNumbers& numbers, const Observation& seen)
@@ -143,7 +143,7 @@ public:
     }
 
 private:
-    // As a column of two rows.
+    // Writes a vector as a column of two rows.
     static void write(const glm::dvec2& v, double* column, std::size_t row = 1) {
         column[0] = v.x;
         column[row] = v.y;
@@ -156,7 +156,7 @@ private:
     bool has_angle_;
 };
 
-// What lenses are like. Parameter block is the camera's free numbers; those held are given too, so that costs compare.
+// Lens prior. The parameter block is the free camera numbers; constants are included, so that costs are comparable.
 class LensPrior final : public ceres::CostFunction {
 public:
     LensPrior(const ModelNow& now, const Lens& lens, const std::vector<std::size_t>& places, double noise_px)
@@ -175,8 +175,8 @@ public:
         std::fill_n(jacobians[0], off.size() * places_.size(), 0.0);
         for (std::size_t column = 0; column < places_.size(); ++column) {
             const std::size_t place = places_[column];
-            if (place < CameraNumber::kCx || place > CameraNumber::kK2) continue;
-            const std::size_t row = place - CameraNumber::kCx;
+            if (place < CameraParameter::kCx || place > CameraParameter::kK2) continue;
+            const std::size_t row = place - CameraParameter::kCx;
             jacobians[0][row * places_.size() + column] = per_deviation_[row];
         }
         return true;
@@ -222,7 +222,7 @@ std::optional<double> adjust(Bundle& bundle, const BundleOptions& options) {
         if (!bundle.tracks[i].seen.empty()) ordering->AddElementToGroup(&bundle.points[i].x, 0);
     }
     if (!numbers.camera_places().empty()) {
-        // In a group of its own: Ceres orders the blocks of a group by where they lie in memory.
+        // In a group of its own: within a group, Ceres orders the blocks by their addresses.
         ordering->AddElementToGroup(numbers.camera(), 2);
         problem.AddResidualBlock(&prior, nullptr, numbers.camera());
     }
@@ -230,8 +230,8 @@ std::optional<double> adjust(Bundle& bundle, const BundleOptions& options) {
     ceres::Solver::Options solver;
     solver.linear_solver_type = ceres::DENSE_SCHUR;
     solver.linear_solver_ordering = ordering;
-    solver.max_num_iterations = options.most_iterations;
-    solver.function_tolerance = options.enough;
+    solver.max_num_iterations = options.max_iterations;
+    solver.function_tolerance = options.function_tolerance;
     solver.num_threads = 1;
     solver.logging_type = ceres::SILENT;
     silence_ceres();

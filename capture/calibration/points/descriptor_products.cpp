@@ -14,7 +14,7 @@ namespace rs::capture::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if HWY_TARGET == HWY_SCALAR
-// One lane holds no pair.
+// Scalar version: one lane cannot hold a pair.
 template <int kRows>
 void products_of_rows(const std::int16_t* rows, const std::int32_t* pairs, std::size_t stride, std::int32_t* products) {
     for (std::size_t r = 0; r < std::size_t{kRows}; ++r) {
@@ -40,7 +40,7 @@ void products_of_rows(const std::int16_t* rows, const std::int32_t* pairs, std::
     std::int32_t own[kRows][kPairs];
     std::memcpy(own, rows, sizeof own);
     for (std::size_t c = 0; c < stride; c += 2 * lanes) {
-        // Two sums each, as Highway may keep odd and even numbers apart.
+        // Two sums each, because Highway may keep odd and even elements apart.
         decltype(hn::Zero(d)) sum[kRows][2], rest[kRows][2];
         for (int r = 0; r < kRows; ++r) {
             for (int half = 0; half < 2; ++half) sum[r][half] = rest[r][half] = hn::Zero(d);

@@ -15,18 +15,18 @@
 namespace rs::capture {
 namespace {
 
-// Finer than SIFT's usual 1.6: fur, leaves and thin glazes have twice the points, and alignment makes them exact.
+// Smaller than SIFT's default of 1.6: gives twice the points on fur, leaves and thin glazes; alignment makes them
+// accurate.
 constexpr double kFinestBlur_px = 1.2;
 
-// Beside the object so much is looked at, too: what features beside its outline are described by. The corner of it
-// stands where pictures halved four times have a pixel, so that features are found where they would be in the whole
-// picture.
+// Margin around the object that is searched, too: the support of descriptors near the silhouette. Its corner is on a
+// pixel of images halved four times, so that features are the same as those of the whole image.
 constexpr int kBeside_px = 32;
 constexpr int kLattice_px = 16;
 
-// The part of a picture that is looked at for features inside of `inside`.
+// The part of the image that is needed for features within `inside`.
 cv::Rect part_around(const cv::Mat1b& inside) {
-    const cv::Rect box = box_of(inside);
+    const cv::Rect box = bounding_box(inside);
     const cv::Point corner(std::max(0, box.x - kBeside_px) / kLattice_px * kLattice_px,
                            std::max(0, box.y - kBeside_px) / kLattice_px * kLattice_px);
     const cv::Point end(std::min(inside.cols, box.br().x + kBeside_px), std::min(inside.rows, box.br().y + kBeside_px));
@@ -50,23 +50,23 @@ Descriptors root_sift(const cv::Mat1f& sift) {
     return roots;
 }
 
-ViewFeatures features_of(const CalibrationPicture& picture, const FollowOptions& options) {
+ViewFeatures features_of(const CalibrationImage& image, const TrackingOptions& options) {
     cv::Mat inside;
-    cv::threshold(mat_over(picture.alpha), inside, 250, 255, cv::THRESH_BINARY);
-    const int side = 2 * options.rim_px + 1;
+    cv::threshold(mat_view(image.alpha), inside, 250, 255, cv::THRESH_BINARY);
+    const int side = 2 * options.margin_px + 1;
     cv::erode(inside, inside, cv::getStructuringElement(cv::MORPH_ELLIPSE, {side, side}), {-1, -1}, 1,
               cv::BORDER_REPLICATE);
-    // SIFT's own limit would be filled by the backdrop: it counts before it looks at the mask.
+    // SIFT's own limit would be filled by the backdrop, because SIFT counts before it applies the mask.
     const auto sift = cv::SIFT::create(0, 4, 0.012, 12, kFinestBlur_px);
     std::vector<cv::KeyPoint> points;
     cv::Mat descriptors;
     const cv::Rect part = part_around(inside);
-    const cv::Mat grey = mat_over(picture.grey)(part);
+    const cv::Mat grey = mat_view(image.grey)(part);
     sift->detect(grey, points, inside(part));
-    cv::KeyPointsFilter::retainBest(points, options.most_features);
+    cv::KeyPointsFilter::retainBest(points, options.max_features);
     sift->compute(grey, points, descriptors);
 
-    // A place with two directions is two features there; keep the order OpenCV gives, which is deterministic.
+    // A point with two orientations yields two features; OpenCV's order, which is deterministic, is kept.
     ViewFeatures features;
     for (const cv::KeyPoint& point : points) {
         features.positions.emplace_back(part.x + static_cast<double>(point.pt.x) + 0.5,
@@ -77,7 +77,7 @@ ViewFeatures features_of(const CalibrationPicture& picture, const FollowOptions&
     return features;
 }
 
-// Sets of features, one per view at most.
+// Disjoint sets of features with at most one per view.
 class Chains {
 public:
     explicit Chains(const std::vector<int>& view_of) : parent_(view_of.size()), views_(view_of.size()) {
@@ -103,12 +103,12 @@ public:
 
 private:
     std::vector<std::size_t> parent_;
-    std::vector<std::vector<int>> views_;  // [root], ascending
+    std::vector<std::vector<int>> views_;  // [root], ascending view numbers
 };
 
 }  // namespace
 
-std::vector<ViewFeatures> find_features(std::span<const CalibrationPicture> turn, const FollowOptions& options,
+std::vector<ViewFeatures> find_features(std::span<const CalibrationImage> turn, const TrackingOptions& options,
                                         Progress* progress) {
     std::vector<ViewFeatures> views(turn.size());
     for_each_index(turn.size(), [&](std::size_t i) {
@@ -120,20 +120,21 @@ std::vector<ViewFeatures> find_features(std::span<const CalibrationPicture> turn
 
 namespace {
 
-// Of the likeness `product`, in descriptors' units.
+// Distance of two descriptors with inner product `product`, as a fraction of their length.
 double distance_of(std::int32_t product) {
     constexpr double kSame = static_cast<double>(kDescriptorUnit) * kDescriptorUnit;
     return std::sqrt(std::max(0.0, 2.0 - 2.0 * static_cast<double>(product) / kSame));
 }
 
-// The second best lies elsewhere: one corner often has several features, of two directions or scales.
+// The second best match must be at another position: one corner often has several features, of two orientations or
+// scales.
 constexpr double kElsewhere_px = 2;
 
-bool elsewhere(const ViewFeatures& view, std::size_t a, std::size_t b) {
+bool is_distinct(const ViewFeatures& view, std::size_t a, std::size_t b) {
     return glm::distance(view.positions[a], view.positions[b]) > kElsewhere_px;
 }
 
-// Of each feature of a pair's second view: the feature of the first that is most alike.
+// Best match in the first view of each feature of the second view.
 class BestOfSecond {
 public:
     explicit BestOfSecond(std::size_t count) : product_(count, 0), feature_(count, -1) {}
@@ -149,10 +150,10 @@ private:
     std::vector<int> feature_;
 };
 
-// The two best of one feature of the first view.
+// The two best matches of one feature of the first view.
 struct TwoBest {
     std::size_t best = 0;
-    std::int32_t product = 0;  // 0: there is none
+    std::int32_t product = 0;  // 0: no match
     std::int32_t next = 0;
 };
 
@@ -175,7 +176,7 @@ double Segment::distance(const glm::dvec2& p) const {
     return glm::distance(p, from + t * along);
 }
 
-std::vector<FeatureMatch> alike(const ViewFeatures& first, const ViewFeatures& second, double ratio) {
+std::vector<FeatureMatch> match_features(const ViewFeatures& first, const ViewFeatures& second, double ratio) {
     const std::size_t rows = first.positions.size(), columns = second.positions.size();
     if (rows < 2 || columns < 2) return {};
     const std::size_t stride = second.packed.stride();
@@ -204,19 +205,19 @@ std::vector<FeatureMatch> alike(const ViewFeatures& first, const ViewFeatures& s
                 }
             }
             for (std::size_t j = 0; j < columns; ++j) {
-                if (row[j] > two.next && elsewhere(second, j, two.best)) two.next = row[j];
+                if (row[j] > two.next && is_distinct(second, j, two.best)) two.next = row[j];
             }
         }
     }
     return mutual(of_first, of_second, ratio);
 }
 
-std::vector<FeatureMatch> alike_near(const ViewFeatures& first, const ViewFeatures& second, double ratio,
-                                     const MayAppear& may_appear, double band_px) {
+std::vector<FeatureMatch> match_guided(const ViewFeatures& first, const ViewFeatures& second, double ratio,
+                                       const SearchSegment& search_segment, double band_px) {
     constexpr double kRounding_px = 1e-3;
     const std::size_t rows = first.positions.size(), columns = second.positions.size();
     if (rows < 2 || columns < 2) return {};
-    // From left to right, so that few are looked at.
+    // Sorted from left to right, so that few need be tested.
     std::vector<std::size_t> order(columns);
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
@@ -228,12 +229,12 @@ std::vector<FeatureMatch> alike_near(const ViewFeatures& first, const ViewFeatur
     BestOfSecond of_second(columns);
     std::vector<std::pair<std::size_t, std::int32_t>> near;  // feature of the second view, product
     for (std::size_t i = 0; i < rows; ++i) {
-        const auto where = may_appear(first.positions[i]);
+        const auto where = search_segment(first.positions[i]);
         if (!where) continue;
         near.clear();
         const double left = std::min(where->from.x, where->to.x) - band_px;
         const double right = std::max(where->from.x, where->to.x) + band_px;
-        // Most lie above or below the whole piece: of those no distance need be found.
+        // Most features are above or below the whole segment; their distance need not be computed.
         const double highest = std::min(where->from.y, where->to.y) - band_px - kRounding_px;
         const double lowest = std::max(where->from.y, where->to.y) + band_px + kRounding_px;
         auto at = std::lower_bound(order.begin(), order.end(), left,
@@ -253,14 +254,14 @@ std::vector<FeatureMatch> alike_near(const ViewFeatures& first, const ViewFeatur
             }
         }
         for (const auto& [j, product] : near) {
-            if (product > two.next && elsewhere(second, j, two.best)) two.next = product;
+            if (product > two.next && is_distinct(second, j, two.best)) two.next = product;
         }
     }
     return mutual(of_first, of_second, ratio);
 }
 
-std::vector<Track> chained(std::span<const ViewFeatures> views, std::span<const PairOfViews> pairs,
-                           std::span<const std::vector<FeatureMatch>> matches) {
+std::vector<Track> build_tracks(std::span<const ViewFeatures> views, std::span<const MatchedPair> pairs,
+                                std::span<const std::vector<FeatureMatch>> matches) {
     std::vector<std::size_t> first_of_view;
     std::vector<int> view_of;
     for (std::size_t view = 0; view < views.size(); ++view) {
@@ -269,7 +270,7 @@ std::vector<Track> chained(std::span<const ViewFeatures> views, std::span<const 
     }
     struct Link {
         std::size_t a = 0, b = 0;
-        float likeness = 0;
+        float similarity = 0;
     };
     std::vector<Link> links;
     for (std::size_t pair = 0; pair < pairs.size(); ++pair) {
@@ -277,10 +278,11 @@ std::vector<Track> chained(std::span<const ViewFeatures> views, std::span<const 
         const std::size_t second = first_of_view[static_cast<std::size_t>(pairs[pair].second)];
         for (const FeatureMatch& match : matches[pair]) {
             links.push_back({first + static_cast<std::size_t>(match.first),
-                             second + static_cast<std::size_t>(match.second), match.likeness});
+                             second + static_cast<std::size_t>(match.second), match.similarity});
         }
     }
-    std::stable_sort(links.begin(), links.end(), [](const Link& a, const Link& b) { return a.likeness > b.likeness; });
+    std::stable_sort(links.begin(), links.end(),
+                     [](const Link& a, const Link& b) { return a.similarity > b.similarity; });
     Chains chains(view_of);
     for (const Link& link : links) chains.join(link.a, link.b);
 

@@ -15,16 +15,16 @@
 namespace rs::capture {
 namespace {
 
-// Derivatives of the axis' position with respect to the camera's numbers, by differences.
-std::array<double, kCameraNumbers> axis_slopes(const TurntableModel& model, double at_px) {
-    std::array<double, kCameraNumbers> slopes{};
+// Derivatives of the axis' position by the camera's numbers, by finite differences.
+std::array<double, kCameraParameters> axis_slopes(const TurntableModel& model, double at_px) {
+    std::array<double, kCameraParameters> slopes{};
     for (std::size_t k = 0; k < slopes.size(); ++k) {
         const double step = k < 3 ? 1e-3 : 1e-6;
         std::array<double, 2> value{};
         for (std::size_t side = 0; side < 2; ++side) {
             Lens lens = model.lens;
             CameraPose pose = model.pose;
-            const std::array<double*, kCameraNumbers> numbers{
+            const std::array<double*, kCameraParameters> numbers{
                 &lens.f_px, &lens.cx, &lens.cy, &lens.k1, &lens.k2, &pose.pan_rad, &pose.tilt_rad, &pose.roll_rad};
             *numbers[k] += side == 0 ? -step : step;
             value[side] = axis_position(lens, pose, at_px).value_or(0);
@@ -36,10 +36,10 @@ std::array<double, kCameraNumbers> axis_slopes(const TurntableModel& model, doub
 
 }  // namespace
 
-NumberPlaces::NumberPlaces(const BundleFreedom& free, const std::vector<bool>& is_seen) {
-    const std::array<bool, kCameraNumbers> camera_free{
+ParameterIndices::ParameterIndices(const BundleFreedom& free, const std::vector<bool>& is_seen) {
+    const std::array<bool, kCameraParameters> camera_free{
         free.f, free.principal_point, free.principal_point, free.k1, free.k2, free.pan, free.tilt, free.roll};
-    for (std::size_t k = 0; k < kCameraNumbers; ++k) camera[k] = camera_free[k] ? count++ : -1;
+    for (std::size_t k = 0; k < kCameraParameters; ++k) camera[k] = camera_free[k] ? count++ : -1;
     for (std::size_t view = 0; view < is_seen.size(); ++view) {
         const bool is_free = free.angles == AngleFreedom::kEach && view > 0 && is_seen[view];
         angles.push_back(is_free ? count++ : -1);
@@ -47,10 +47,10 @@ NumberPlaces::NumberPlaces(const BundleFreedom& free, const std::vector<bool>& i
     if (free.angles == AngleFreedom::kCommonStep) step = count++;
 }
 
-TurntableModel stepped(TurntableModel model, const NumberPlaces& places, const Eigen::VectorXd& step) {
-    const std::array<double*, kCameraNumbers> numbers{&model.lens.f_px,     &model.lens.cx,      &model.lens.cy,
-                                                      &model.lens.k1,       &model.lens.k2,      &model.pose.pan_rad,
-                                                      &model.pose.tilt_rad, &model.pose.roll_rad};
+TurntableModel apply_step(TurntableModel model, const ParameterIndices& places, const Eigen::VectorXd& step) {
+    const std::array<double*, kCameraParameters> numbers{&model.lens.f_px,     &model.lens.cx,      &model.lens.cy,
+                                                         &model.lens.k1,       &model.lens.k2,      &model.pose.pan_rad,
+                                                         &model.pose.tilt_rad, &model.pose.roll_rad};
     for (std::size_t k = 0; k < numbers.size(); ++k) {
         if (places.camera[k] >= 0) *numbers[k] += step(places.camera[k]);
     }
@@ -61,8 +61,8 @@ TurntableModel stepped(TurntableModel model, const NumberPlaces& places, const E
     return model;
 }
 
-ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& places,
-                              const Eigen::MatrixXd& covariance, double at_px) {
+ModelDeviations standard_deviations(const TurntableModel& model, const ParameterIndices& places,
+                                    const Eigen::MatrixXd& covariance, double at_px) {
     if (covariance.size() == 0 && places.count > 0) {
         ModelDeviations unknown;
         unknown.angles_rad.assign(model.angles_rad.size(), std::numeric_limits<double>::infinity());
@@ -76,13 +76,13 @@ ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& p
         return place < 0 ? 0.0 : std::sqrt(std::max(0.0, covariance(place, place)));
     };
     ModelDeviations deviations;
-    deviations.f_px = one(CameraNumber::kF);
-    deviations.cx = one(CameraNumber::kCx);
-    deviations.cy = one(CameraNumber::kCy);
-    deviations.k1 = one(CameraNumber::kK1);
-    deviations.k2 = one(CameraNumber::kK2);
-    deviations.tilt_rad = one(CameraNumber::kTilt);
-    deviations.roll_rad = one(CameraNumber::kRoll);
+    deviations.f_px = one(CameraParameter::kF);
+    deviations.cx = one(CameraParameter::kCx);
+    deviations.cy = one(CameraParameter::kCy);
+    deviations.k1 = one(CameraParameter::kK1);
+    deviations.k2 = one(CameraParameter::kK2);
+    deviations.tilt_rad = one(CameraParameter::kTilt);
+    deviations.roll_rad = one(CameraParameter::kRoll);
     deviations.axis_direction_rad =
         std::hypot(deviations.tilt_rad, std::cos(model.pose.tilt_rad) * deviations.roll_rad);
     const auto slopes = axis_slopes(model, at_px);
@@ -91,7 +91,7 @@ ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& p
         if (places.camera[k] >= 0) gradient(places.camera[k]) = slopes[k];
     }
     deviations.axis_position_px = of(gradient);
-    // Angles count from the mean of all views: the first view's own error would otherwise be in every other one.
+    // Angles are relative to the mean of all views; relative to the first view they would all contain its error.
     const std::size_t views = places.angles.size();
     for (std::size_t view = 0; view < views; ++view) {
         Eigen::VectorXd from_mean = Eigen::VectorXd::Zero(covariance.rows());
@@ -110,15 +110,15 @@ ModelDeviations deviations_of(const TurntableModel& model, const NumberPlaces& p
 namespace {
 
 constexpr std::size_t kSharedErrors = 4;
-constexpr std::size_t kSectors = 12;  // sides of the object, each with errors of its own
-// By how much a sector's numbers follow its own errors, and so hide them, is undone to this part: all of it is right
-// where a sector errs as one, half of it where its tracks err each by itself.
+constexpr std::size_t kSectors = 12;  // sides of the object with a common error each
+// Exponent of the correction for a sector's numbers following its own errors: 1 is right where a sector has a single
+// error, 1/2 where its tracks have independent ones.
 constexpr double kUnhidden = 0.9;
-// Of the scatter, what is counted by sector; the rest is counted by track, for so few sectors cannot tell of every
-// number.
+// Share of the scatter that is computed by sector; the rest is computed by track, because so few sectors do not span
+// all numbers.
 constexpr double kShareOfSectors = 0.9;
 
-// By how much a point may seem to move, per px of shared error, seen `beside_rad` from the middle of its views.
+// Apparent movements of a point per px of shared error, at `beside_rad` from the middle of its views.
 std::array<Eigen::Vector2d, kSharedErrors> shared_errors(double beside_rad) {
     const double odd = std::sin(beside_rad), even = 1 - std::cos(beside_rad);
     return {Eigen::Vector2d(odd, 0), Eigen::Vector2d(0, odd), Eigen::Vector2d(even, 0), Eigen::Vector2d(0, even)};
@@ -133,11 +133,11 @@ double middle_angle(const TurntableModel& model, const Track& track) {
     return std::atan2(sine, cosine);
 }
 
-// What tracks show of the free numbers, their points eliminated.
+// Information and score of tracks about the free numbers, their points eliminated.
 struct Evidence {
     Eigen::MatrixXd information;
     Eigen::VectorXd score;
-    Eigen::MatrixXd shared;  // what each shared error of 1 px does to the score
+    Eigen::MatrixXd shared;  // effect of each shared error of 1 px on the score
 
     explicit Evidence(int n)
         : information(Eigen::MatrixXd::Zero(n, n)),
@@ -154,15 +154,15 @@ Eigen::Vector2d vector(const glm::dvec2& v) {
     return {v.x, v.y};
 }
 
-// One observation's residual and its derivatives, with those by the free numbers only.
+// Residual of one observation and its derivatives by the point and by the free numbers.
 struct Slopes {
     Eigen::Vector2d r;
     Eigen::Matrix<double, 2, 3, Eigen::RowMajor> by_point;
-    std::array<std::pair<int, Eigen::Vector2d>, kCameraNumbers + 1> by_number;  // place and derivative
-    std::size_t count = 0;                                                      // of by_number
+    std::array<std::pair<int, Eigen::Vector2d>, kCameraParameters + 1> by_number;  // index and derivative
+    std::size_t count = 0;                                                         // of entries in by_number
 };
 
-std::optional<Slopes> slopes_of(const Reprojections& turn, const NumberPlaces& places, const glm::dvec3& point,
+std::optional<Slopes> slopes_of(const Reprojections& turn, const ParameterIndices& places, const glm::dvec3& point,
                                 const Observation& seen) {
     const auto reprojection = turn.of(point, seen);
     if (!reprojection) return std::nullopt;
@@ -172,15 +172,15 @@ std::optional<Slopes> slopes_of(const Reprojections& turn, const NumberPlaces& p
     const auto add = [&](int place, const glm::dvec2& slope) {
         if (place >= 0) slopes.by_number[slopes.count++] = {place, vector(slope)};
     };
-    for (std::size_t k = 0; k < kCameraNumbers; ++k) add(places.camera[k], reprojection->by_camera[k]);
+    for (std::size_t k = 0; k < kCameraParameters; ++k) add(places.camera[k], reprojection->by_camera[k]);
     add(places.angles[static_cast<std::size_t>(seen.view)], reprojection->by_angle);
     add(places.step, static_cast<double>(seen.view) * reprojection->by_angle);
     return slopes;
 }
 
-// Nothing where the track does not determine its point.
+// Nothing if the track does not determine its point.
 std::optional<Evidence> evidence_of(const Bundle& bundle, const Reprojections& turn, std::size_t track,
-                                    const NumberPlaces& places, const BundleOptions& options, double middle_rad) {
+                                    const ParameterIndices& places, const BundleOptions& options, double middle_rad) {
     const TurntableModel& model = bundle.model;
     Evidence evidence(places.count);
     Eigen::MatrixXd across = Eigen::MatrixXd::Zero(places.count, 3);  // numbers by point
@@ -190,8 +190,8 @@ std::optional<Evidence> evidence_of(const Bundle& bundle, const Reprojections& t
     for (const Observation& seen : bundle.tracks[track].seen) {
         const auto slopes = slopes_of(turn, places, bundle.points[track], seen);
         if (!slopes) continue;
-        // Cauchy's loss pulls at a residual with this weight, but gives way with its square (the mean over directions
-        // of its second derivative): what is far off hardly holds the numbers where they are.
+        // Cauchy's loss weights a residual with `pull`, but its second derivative (the mean over directions) is the
+        // square of that: outliers hardly contribute information.
         const double pull = 1 / (1 + slopes->r.squaredNorm() / (options.loss_px * options.loss_px));
         const double firmness = pull * pull;
         Eigen::Matrix2d whitening;
@@ -223,8 +223,8 @@ std::optional<Evidence> evidence_of(const Bundle& bundle, const Reprojections& t
     return evidence;
 }
 
-// What the adjustment is given beforehand of the lens: the diagonal of its information.
-Eigen::VectorXd prior_information(const TurntableModel& model, const NumberPlaces& places, double loss_px) {
+// Information of the lens priors: the diagonal.
+Eigen::VectorXd prior_information(const TurntableModel& model, const ParameterIndices& places, double loss_px) {
     const std::array<double, 5> deviations{0, kPriorPrincipalPoint * model.lens.width,
                                            kPriorPrincipalPoint * model.lens.width, kPriorK1, kPriorK2};
     Eigen::VectorXd information = Eigen::VectorXd::Zero(places.count);
@@ -242,7 +242,7 @@ std::size_t sector_at(double angle_rad) {
 }  // namespace
 
 Eigen::MatrixXd bundle_covariance(const Bundle& bundle, const BundleOptions& options, double shared_error_px) {
-    const NumberPlaces places(options.free, std::vector<bool>(bundle.model.angles_rad.size(), true));
+    const ParameterIndices places(options.free, std::vector<bool>(bundle.model.angles_rad.size(), true));
     const Reprojections turn(bundle.model);
     const int n = places.count;
     Evidence all(n);
@@ -276,10 +276,10 @@ Eigen::MatrixXd bundle_covariance(const Bundle& bundle, const BundleOptions& opt
     return covariance + moved * moved.transpose();
 }
 
-ModelDeviations bundle_deviations(const Bundle& bundle, const BundleOptions& options, double at_px,
-                                  double shared_error_px) {
-    const NumberPlaces places(options.free, std::vector<bool>(bundle.model.angles_rad.size(), true));
-    return deviations_of(bundle.model, places, bundle_covariance(bundle, options, shared_error_px), at_px);
+ModelDeviations bundle_standard_deviations(const Bundle& bundle, const BundleOptions& options, double at_px,
+                                           double shared_error_px) {
+    const ParameterIndices places(options.free, std::vector<bool>(bundle.model.angles_rad.size(), true));
+    return standard_deviations(bundle.model, places, bundle_covariance(bundle, options, shared_error_px), at_px);
 }
 
 }  // namespace rs::capture

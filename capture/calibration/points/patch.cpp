@@ -11,9 +11,9 @@ namespace rs::capture {
 namespace {
 
 constexpr double kLeastCorrelation = 0.85;
-constexpr double kFarthestMove_px = 3;      // from where the bundle expects the point
-constexpr double kLeastPatchContrast = 3;   // of a levelled patch's grey values; below, there is nothing to align
-constexpr double kSharpDeviation_px = 0.1;  // an alignment surer than this in all directions has full weight
+constexpr double kFarthestMove_px = 3;      // from the position predicted by the bundle
+constexpr double kLeastPatchContrast = 3;   // root mean square; patches with less contrast cannot be aligned
+constexpr double kSharpDeviation_px = 0.1;  // alignments with smaller deviations in all directions have full weight
 constexpr double kTypicalNoise = 4;         // grey values squared
 constexpr double kWindowDeviation_px = 3;
 constexpr int kMostIterations = 10;
@@ -23,8 +23,8 @@ double offset_px(std::size_t at) {
     return static_cast<double>(at) - kPatchHalf_px;
 }
 
-// The surface is not the plane that an affine warp is right for, and its curvature moves what is found by the mean
-// square of the window's width: so the window falls off gently, and is narrow.
+// Gaussian window. The surface is not the plane that an affine warp assumes, and its curvature biases positions by the
+// mean square of the window's width; therefore the window is narrow and falls off smoothly.
 const std::array<PatchRow, kPatchSide_px> kWindow = [] {
     std::array<PatchRow, kPatchSide_px> window{};
     for (std::size_t row = 0; row < kPatchSide_px; ++row) {
@@ -37,8 +37,8 @@ const std::array<PatchRow, kPatchSide_px> kWindow = [] {
     return window;
 }();
 
-// Takes the plane that fits a patch's values best away from them: light changes slowly over a patch as the object
-// turns, and what changes with the light is no texture.
+// Subtracts the plane that fits a patch's values best: illumination changes slowly over a patch as the object turns,
+// and is not texture.
 void level(Patch& patch) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
@@ -67,7 +67,7 @@ double samples(const Patch& patch) {
     return count;
 }
 
-// Root mean square of a levelled patch.
+// Root mean square of a patch after level().
 double contrast(const Patch& patch) {
     double squares = 0;
     for (const PatchRow& row : patch.value) {
@@ -76,30 +76,30 @@ double contrast(const Patch& patch) {
     return std::sqrt(squares / std::max(1.0, samples(patch)));
 }
 
-// One round of alignment: what the picture shows there is gain * patch + a plane, and the warp is off by `step`.
-// Of 13 unknowns, or 10 where curvature is known.
+// One iteration of alignment: the image is gain * patch + a plane, and the warp is off by `step`. 13 unknowns, or 10 if
+// curvature is known.
 template <int kUnknowns>
 struct Round {
     using Matrix = Eigen::Matrix<double, kUnknowns, kUnknowns>;
     Eigen::LDLT<Matrix> solver;
     Eigen::Matrix<double, kUnknowns, 1> solution;
     double noise = 0;
-    double correlation = 0;  // of texture and what is explained by it
+    double correlation = 0;  // of the texture and the part of the image that it explains
 };
 
-// Surfaces are rarely more curved than the object's outline.
+// Surfaces are rarely more curved than the object's silhouette.
 constexpr double kCurvaturePrior = kTypicalNoise / (kTypicalCurvature * kTypicalCurvature);
 
 template <int kUnknowns>
-std::optional<Round<kUnknowns>> align_once(const PatchPicture& picture, const Patch& patch, const Warp& warp) {
+std::optional<Round<kUnknowns>> align_once(const PatchImage& image, const Patch& patch, const Warp& warp) {
     PatchSums sums(kUnknowns == kFlatPatchUnknowns);
     double count = 0;
-    // What is seen in the middle, roughly.
-    const SeenRow middle = picture.row(warp, 0);
+    // Approximate value at the centre.
+    const SeenRow middle = image.row(warp, 0);
     const float less = middle.value[kPatchHalf_px];
     for (std::size_t row = 0; row < kPatchSide_px; ++row) {
         const int j = static_cast<int>(row) - kPatchHalf_px;
-        const SeenRow seen = j == 0 ? middle : picture.row(warp, j);
+        const SeenRow seen = j == 0 ? middle : image.row(warp, j);
         PatchRow weight;
         float counts = 0;
         for (std::size_t c = 0; c < kPatchColumns; ++c) {
@@ -128,7 +128,7 @@ std::optional<Round<kUnknowns>> align_once(const PatchPicture& picture, const Pa
     return round;
 }
 
-// How an alignment with this information counts: directions in which it is vague count less. Symmetric.
+// Weight of an alignment with this information: uncertain directions have less weight. Symmetric.
 glm::dmat2 whitening(const Eigen::Matrix2d& information) {
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
     axes.computeDirect(information);
@@ -139,15 +139,15 @@ glm::dmat2 whitening(const Eigen::Matrix2d& information) {
 }
 
 template <int kUnknowns>
-std::optional<Alignment> aligned(const PatchPicture& picture, const Patch& patch, Warp warp) {
+std::optional<Alignment> aligned(const PatchImage& image, const Patch& patch, Warp warp) {
     const Warp start = warp;
     constexpr double kEnough_px = kUnknowns == kFlatPatchUnknowns ? 0.003 : 0.02;
     std::optional<Round<kUnknowns>> round;
-    glm::dvec3 curvature(0.0);  // beside what the warp began with
+    glm::dvec3 curvature(0.0);  // relative to the initial warp
     for (int k = 0; k < kMostIterations; ++k) {
-        // The middle lies on the object; samples beside it do not count.
-        if (!picture.is_solid(warp.centre)) return std::nullopt;
-        round = align_once<kUnknowns>(picture, patch, warp);
+        // The centre must be on the object; samples outside it are invalid.
+        if (!image.is_solid(warp.centre)) return std::nullopt;
+        round = align_once<kUnknowns>(image, patch, warp);
         if (!round) return std::nullopt;
         const auto& step = round->solution;
         warp.centre += glm::dvec2(step[0], step[1]);
@@ -162,7 +162,7 @@ std::optional<Alignment> aligned(const PatchPicture& picture, const Patch& patch
             break;
         }
     }
-    if (round->correlation < kLeastCorrelation || !picture.is_solid(warp.centre)) return std::nullopt;
+    if (round->correlation < kLeastCorrelation || !image.is_solid(warp.centre)) return std::nullopt;
     if (glm::distance(warp.centre, start.centre) > kFarthestMove_px) return std::nullopt;
     const glm::dmat2 change = warp.matrix - start.matrix;
     if (std::max(glm::length(change[0]), glm::length(change[1])) > 0.5) return std::nullopt;
@@ -179,12 +179,12 @@ std::optional<Alignment> aligned(const PatchPicture& picture, const Patch& patch
 
 }  // namespace
 
-std::optional<Patch> textured_patch(const PatchPicture& picture, glm::dvec2 centre) {
+std::optional<Patch> extract_patch(const PatchImage& image, glm::dvec2 centre) {
     Warp warp;
     warp.centre = centre;
     Patch patch;
     for (std::size_t row = 0; row < kPatchSide_px; ++row) {
-        const SeenRow seen = picture.row(warp, static_cast<int>(row) - kPatchHalf_px);
+        const SeenRow seen = image.row(warp, static_cast<int>(row) - kPatchHalf_px);
         patch.value[row] = seen.value;
         patch.counts[row] = seen.counts;
     }
@@ -194,10 +194,9 @@ std::optional<Patch> textured_patch(const PatchPicture& picture, glm::dvec2 cent
     return patch;
 }
 
-std::optional<Alignment> align(const PatchPicture& picture, const Patch& patch, const Warp& warp,
-                               bool curvature_is_known) {
-    return curvature_is_known ? aligned<kFlatPatchUnknowns>(picture, patch, warp)
-                              : aligned<kPatchUnknowns>(picture, patch, warp);
+std::optional<Alignment> align(const PatchImage& image, const Patch& patch, const Warp& warp, bool curvature_is_known) {
+    return curvature_is_known ? aligned<kFlatPatchUnknowns>(image, patch, warp)
+                              : aligned<kPatchUnknowns>(image, patch, warp);
 }
 
 }  // namespace rs::capture

@@ -11,7 +11,7 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kFarthest_rad = 0.75;  // from the reference view; beyond, a surface is seen too aslant
+constexpr double kFarthest_rad = 0.75;  // from the reference view; beyond, the surface is too oblique
 constexpr double kMostCurvature = 0.1;  // 1/px
 constexpr std::size_t kFewestAligned = 3;
 
@@ -19,8 +19,9 @@ double nearest_turn(double angle_rad) {
     return std::remainder(angle_rad, 2 * kPi);
 }
 
-// A point with a piece of surface through it, as the reference camera sees it: two vectors across the line of sight and
-// one along it, each one (reduced) px long there, and how the surface falls back.
+// A point with a surface patch through it, in the reference camera's frame: two vectors perpendicular to the line of
+// sight and one along it, each one (reduced) px long at the point's depth, and the surface's slope and curvature in
+// depth.
 struct Facet {
     Observation reference;
     glm::dvec3 point{0.0};
@@ -39,7 +40,7 @@ struct Facet {
 std::optional<Facet> facet_of(const Bundle& bundle, std::size_t i, int reduction) {
     const TurntableModel& model = bundle.model;
     Facet facet;
-    facet.reference = middle_of_arc(model, bundle.tracks[i]);
+    facet.reference = reference_observation(model, bundle.tracks[i]);
     facet.point = bundle.points[i];
     const auto view = static_cast<std::size_t>(facet.reference.view);
     const Camera camera = object_camera(model, view);
@@ -51,10 +52,10 @@ std::optional<Facet> facet_of(const Bundle& bundle, std::size_t i, int reduction
     return facet;
 }
 
-// Where the facet is expected in a view, px of the reduced pictures.
+// Predicted warp of the facet in a view, px of the reduced images.
 std::optional<Warp> expected(const TurnProjection& projection, const Facet& facet, std::size_t view, int reduction) {
     const auto seen = [&](const glm::dvec3& p) { return projection.project(p, view); };
-    // Differences over a few px, like the patch: a quadratic is what the patch sees of it.
+    // Differences over a few px, about the extent of the patch: gives the quadratic that the patch observes.
     constexpr double kReach_px = 4;
     const auto centre = seen(facet.point);
     const auto left = seen(facet.at(-kReach_px, 0)), right = seen(facet.at(kReach_px, 0));
@@ -74,8 +75,8 @@ std::optional<Warp> expected(const TurnProjection& projection, const Facet& face
     return warp;
 }
 
-// [view][point]
-std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const CalibrationPicture> turn, int reduction,
+// Result: [view][point].
+std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const CalibrationImage> turn, int reduction,
                                                              const TurntableModel& model,
                                                              const std::vector<std::optional<Facet>>& facets,
                                                              const std::vector<std::optional<Patch>>& patches,
@@ -83,7 +84,7 @@ std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const Cal
     std::vector<std::vector<std::optional<Alignment>>> found(turn.size());
     const TurnProjection projection(model);
     for_each_index(turn.size(), [&](std::size_t view) {
-        const PatchPicture picture(turn[view]);
+        const PatchImage image(turn[view]);
         found[view].resize(facets.size());
         for (std::size_t i = 0; i < facets.size(); ++i) {
             if (!facets[i]) continue;
@@ -96,7 +97,7 @@ std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const Cal
             const double apart = nearest_turn(model.angles_rad[view] - model.angles_rad[reference]);
             if (std::abs(apart) > kFarthest_rad) continue;
             const auto warp = expected(projection, *facets[i], view, reduction);
-            if (warp) here = align(picture, *patches[i], *warp, curvature_is_known);
+            if (warp) here = align(image, *patches[i], *warp, curvature_is_known);
             if (here) {
                 here->seen.p *= static_cast<double>(reduction);
                 here->seen.view = static_cast<int>(view);
@@ -106,7 +107,7 @@ std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const Cal
     return found;
 }
 
-// The facet's slope and curvature, from its alignments in all views.
+// Estimates the facet's slope and curvature from its alignments in all views.
 void shape(Facet& facet, const TurnProjection& projection, int reduction,
            const std::vector<std::vector<std::optional<Alignment>>>& found, std::size_t point) {
     constexpr double kSlopeInformation = 1e-3;  // towards facing the camera
@@ -129,7 +130,7 @@ void shape(Facet& facet, const TurnProjection& projection, int reduction,
 
 }  // namespace
 
-const Observation& middle_of_arc(const TurntableModel& model, const Track& track) {
+const Observation& reference_observation(const TurntableModel& model, const Track& track) {
     glm::dvec2 sum(0.0);
     const auto angle = [&](const Observation& seen) { return model.angles_rad[static_cast<std::size_t>(seen.view)]; };
     for (const Observation& seen : track.seen) sum += glm::dvec2(std::cos(angle(seen)), std::sin(angle(seen)));
@@ -139,8 +140,8 @@ const Observation& middle_of_arc(const TurntableModel& model, const Track& track
     });
 }
 
-std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int reduction, const Bundle& bundle,
-                                  std::size_t known) {
+std::vector<Track> align_tracks(std::span<const CalibrationImage> turn, int reduction, const Bundle& bundle,
+                                std::size_t known) {
     const TurntableModel& model = bundle.model;
     const std::size_t points = bundle.points.size();
     std::vector<std::optional<Facet>> facets(points);
@@ -148,16 +149,16 @@ std::vector<Track> aligned_tracks(std::span<const CalibrationPicture> turn, int 
 
     std::vector<std::optional<Patch>> patches(points);
     for_each_index(turn.size(), [&](std::size_t view) {
-        const PatchPicture picture(turn[view]);
+        const PatchImage image(turn[view]);
         for (std::size_t i = 0; i < points; ++i) {
             if (!facets[i] || facets[i]->reference.view != static_cast<int>(view)) continue;
-            patches[i] = textured_patch(picture, facets[i]->reference.p * (1.0 / reduction));
+            patches[i] = extract_patch(image, facets[i]->reference.p * (1.0 / reduction));
             if (!patches[i]) facets[i].reset();
         }
     });
 
-    // First how the surface lies and is curved around each point, as all views together show; then, with that held,
-    // where it is.
+    // The first pass estimates slope and curvature of the surface around each point from all views; the second holds
+    // them constant and estimates the positions.
     std::vector<std::vector<std::optional<Alignment>>> found =
         align_all(turn, reduction, model, facets, patches, false);
     const TurnProjection projection(model);

@@ -74,7 +74,7 @@ double PatchSums::moment(Product product, int a, int b) const {
 }
 
 PatchEquations PatchSums::equations(const glm::dvec2& deeper) const {
-    // Each unknown's slope is factor * (slope x, slope y, texture or 1) * i^a j^b; curvatures have two such terms.
+    // Each unknown's derivative is factor * (slope x, slope y, texture or 1) * i^a j^b; curvatures have two such terms.
     enum Kind { kSlopeX, kSlopeY, kTexture, kPlane };
     struct Term {
         Kind kind;
@@ -102,7 +102,7 @@ PatchEquations PatchSums::equations(const glm::dvec2& deeper) const {
     const bool is_flat = degree_[kXX] < 4;
     const std::size_t count = is_flat ? kFlatPatchUnknowns : kTerms.size();
 
-    // Moments of each product once: several pairs of terms share them.
+    // Moments are computed once for each product, because several pairs of terms share them.
     std::array<std::array<std::array<double, kPowers>, kPowers>, kProducts> moments{};
     for (std::size_t p = 0; p < kProducts; ++p) {
         for (int a = 0; a <= degree_[p]; ++a) {

@@ -1,16 +1,16 @@
 #pragma once
-// The normal equations of one round of a patch's alignment. All of their numbers are sums over the patch of a product
-// of two of {slope x, slope y, texture, 1, what is not explained} times i^a j^b, so those few sums are taken instead of
-// the squares of all unknowns at every pixel.
+// Normal equations of one iteration of patch alignment. Every element is a sum over the patch of a product of two of
+// {slope x, slope y, texture, 1, residual} times i^a j^b, so these few sums are computed instead of the products of all
+// unknowns at every pixel.
 
-#include "capture/calibration/points/patch_picture.hpp"
+#include "capture/calibration/points/patch_image.hpp"
 
 #include <Eigen/Core>
 
 namespace rs::capture {
 
-// Unknown are the warp's centre x, y and its matrix row by row, the gain less 1, light as a plane (1, i, j), and the
-// curvatures by i^2 / 2, j^2 / 2, i j.
+/// The unknowns are the warp's centre x, y and its matrix row by row, the gain minus 1, illumination as a plane (1, i,
+/// j), and the curvatures for i^2 / 2, j^2 / 2, i j.
 inline constexpr int kPatchUnknowns = 13;
 inline constexpr int kFlatPatchUnknowns = 10;  // without the curvatures
 
@@ -19,18 +19,18 @@ struct PatchEquations {
     using Vector = Eigen::Matrix<double, kPatchUnknowns, 1>;
     Matrix normal = Matrix::Zero();
     Vector right_side = Vector::Zero();
-    // Weighted sums of squares of what the texture as it is leaves unexplained, and of the texture; of the weights.
+    /// Weighted sums of squares of the residual with gain 1 and of the texture; sum of the weights.
     double squares = 0;
     double texture = 0;
     double weights = 0;
 };
 
-// Row by row, then equations().
+/// Accumulates the sums row by row; equations() assembles the result.
 class PatchSums {
 public:
-    // Where curvature is known its equations stay zero.
+    /// If the curvature is known its equations stay zero.
     explicit PatchSums(bool curvature_is_known);
-    // `weight`: 0 where a pixel does not count. `less` is taken from what is seen, so that numbers stay small.
+    /// `weight`: 0 for invalid pixels. `less` is subtracted from the image values to keep numbers small.
     void add(int j, const SeenRow& seen, const PatchRow& texture, const PatchRow& weight, float less);
     [[nodiscard]] PatchEquations equations(const glm::dvec2& deeper) const;
 
@@ -39,7 +39,7 @@ private:
     static constexpr int kPowers = 5;  // 0 .. 4
     [[nodiscard]] double moment(Product product, int a, int b) const;
 
-    std::array<int, kProducts> degree_;                                      // of i and j together, that is needed
+    std::array<int, kProducts> degree_;  // highest needed degree of i and j together
     alignas(64) std::array<std::array<PatchRow, kPowers>, kProducts> sums_;  // [product][power of j][column]
 };
 

@@ -11,9 +11,9 @@
 namespace rs::capture {
 namespace {
 
-constexpr int kStep_px = 7;  // about as wide as what a patch's window weighs more than half
+constexpr int kStep_px = 7;  // about the width of the patch window at half its maximum
 
-// Which places of which views have a point, in squares of one step.
+// Grid of cells of one step per view that contain a point.
 class Occupancy {
 public:
     Occupancy(const TurntableModel& model, int step_px)
@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    // Nothing beside the picture.
+    // Nothing outside the image.
     [[nodiscard]] std::optional<std::size_t> place(const Observation& seen) const {
         if (!(seen.p.x >= 0 && seen.p.x < width_ && seen.p.y >= 0 && seen.p.y < height_)) return std::nullopt;
         const int column = static_cast<int>(seen.p.x) / step_px_, row = static_cast<int>(seen.p.y) / step_px_;
@@ -46,7 +46,7 @@ private:
     std::vector<bool> taken_;
 };
 
-// The track of a point as the model expects it in the views of another track.
+// Track of a point with observations predicted by the model in the views of another track.
 std::optional<Track> expected_track(const TurnProjection& turn, const glm::dvec3& point, const Track& like) {
     Track track;
     for (const Observation& seen : like.seen) {
@@ -68,14 +68,14 @@ void grow(Bundle& bundle, int reduction, int most) {
     for (const Track& track : bundle.tracks) occupied.take(track);
     Bundle grown;
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
-        const auto view = static_cast<std::size_t>(middle_of_arc(model, bundle.tracks[i]).view);
+        const auto view = static_cast<std::size_t>(reference_observation(model, bundle.tracks[i]).view);
         const Camera camera = object_camera(model, view);
         const double depth = glm::dot(bundle.points[i] - camera.centre(), camera.forward());
         const double step = kStep_px * reduction * depth / camera.fl_x;
         for (const glm::dvec3& aside : {-camera.right(), camera.right(), -camera.up(), camera.up()}) {
             const glm::dvec3 point = bundle.points[i] + aside * step;
             auto track = expected_track(turn, point, bundle.tracks[i]);
-            if (!track || !occupied.is_free(middle_of_arc(model, *track))) continue;
+            if (!track || !occupied.is_free(reference_observation(model, *track))) continue;
             occupied.take(*track);
             grown.tracks.push_back(std::move(*track));
             grown.points.push_back(point);

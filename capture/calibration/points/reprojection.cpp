@@ -25,13 +25,13 @@ std::optional<Reprojection> Reprojections::of(const glm::dvec3& p_in_object, con
     const glm::dmat2& weight = seen.weight;
     result.residual = weight * (glm::dvec2(lens_.cx + f * radial * x, lens_.cy + f * radial * y) - seen.p);
     const glm::dvec2 outwards = weight * glm::dvec2(x, y);
-    result.by_camera[CameraNumber::kF] = radial * outwards;
-    result.by_camera[CameraNumber::kCx] = weight[0];
-    result.by_camera[CameraNumber::kCy] = weight[1];
-    result.by_camera[CameraNumber::kK1] = f * r2 * outwards;
-    result.by_camera[CameraNumber::kK2] = f * r2 * r2 * outwards;
+    result.by_camera[CameraParameter::kF] = radial * outwards;
+    result.by_camera[CameraParameter::kCx] = weight[0];
+    result.by_camera[CameraParameter::kCy] = weight[1];
+    result.by_camera[CameraParameter::kK1] = f * r2 * outwards;
+    result.by_camera[CameraParameter::kK2] = f * r2 * r2 * outwards;
 
-    // By x and y of the direction, then by the point in the camera.
+    // Derivatives by x and y of the direction, then by the point in the camera.
     const double by_r2 = lens_.k1 + 2 * r2 * lens_.k2;
     const double xy = f * 2 * by_r2 * x * y;
     const glm::dvec2 by_x = per_z * (weight * glm::dvec2(f * (radial + 2 * by_r2 * x * x), xy));
@@ -40,9 +40,9 @@ std::optional<Reprojection> Reprojections::of(const glm::dvec3& p_in_object, con
     const auto by_change = [&](const glm::dvec3& change) {
         return change.x * by_x - change.y * by_y + change.z * by_depth;
     };
-    result.by_camera[CameraNumber::kPan] = by_change(glm::cross(table_axis_, p));
-    result.by_camera[CameraNumber::kTilt] = by_change(glm::cross(tilt_axis_, p));
-    result.by_camera[CameraNumber::kRoll] = by_change({-p.y, p.x, 0});
+    result.by_camera[CameraParameter::kPan] = by_change(glm::cross(table_axis_, p));
+    result.by_camera[CameraParameter::kTilt] = by_change(glm::cross(tilt_axis_, p));
+    result.by_camera[CameraParameter::kRoll] = by_change({-p.y, p.x, 0});
     result.by_angle = by_change(glm::cross(table_axis_, from_axis));
     for (int k = 0; k < 3; ++k) result.by_point[static_cast<std::size_t>(k)] = by_change(rotation[k]);
     return result;

@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::array<double, 3> kFieldsOfView_deg{12, 28, 55};
 constexpr std::array<double, 3> kTilts_deg{2, 22, 50};
-constexpr std::size_t kMostTracks = 500;  // enough to choose a start ...
-constexpr std::size_t kFewTracks = 200;   // ... and to choose the finalists
-constexpr double kEnoughToChoose = 1e-4;  // of the cost
-constexpr double kLoss_px = 3;            // wrong matches are still among them
-constexpr std::size_t kFinalists = 4;     // of each sense of turning
+constexpr std::size_t kMostTracks = 500;  // used to choose a start
+constexpr std::size_t kFewTracks = 200;   // used to choose the finalists
+constexpr double kEnoughToChoose = 1e-4;  // function tolerance
+constexpr double kLoss_px = 3;            // large, because wrong matches are still included
+constexpr std::size_t kFinalists = 4;     // of each direction of turning
 constexpr std::array<double, 3> kLimits_px{8, 5, 3};
 
-// Evenly from all: the longest ones would be those that stand still with the light, or hop along a pattern.
+// An evenly spaced selection: the longest tracks would be those of highlights, or of jumps along a repetitive pattern.
 std::vector<Track> sampled(std::span<const Track> tracks, std::size_t count) {
     std::vector<Track> chosen;
     const std::size_t most = std::min(count, tracks.size());
@@ -39,9 +39,9 @@ glm::dvec2 middle_of(std::span<const Track> tracks) {
     return sum / std::max(1.0, count);
 }
 
-bool moves_up_and_down(std::span<const PairOfViews> pairs) {
+bool moves_up_and_down(std::span<const MatchedPair> pairs) {
     double along_x = 0, along_y = 0;
-    for (const PairOfViews& pair : pairs) {
+    for (const MatchedPair& pair : pairs) {
         along_x += pair.spread_x_px * pair.matches;
         along_y += pair.spread_y_px * pair.matches;
     }
@@ -53,7 +53,7 @@ struct Hypothesis {
     bool counter_clockwise = false;
 };
 
-std::vector<Hypothesis> hypotheses(std::span<const Track> tracks, std::span<const PairOfViews> pairs, int views,
+std::vector<Hypothesis> hypotheses(std::span<const Track> tracks, std::span<const MatchedPair> pairs, int views,
                                    const Lens& middle, const KnownInputs& known) {
     const glm::dvec2 centre = middle_of(tracks);
     std::vector<double> rolls{0};
@@ -88,26 +88,26 @@ std::vector<Hypothesis> hypotheses(std::span<const Track> tracks, std::span<cons
 
 }  // namespace
 
-std::optional<Start> find_start(std::span<const Track> tracks, std::span<const PairOfViews> pairs, int views,
-                                const Lens& middle, const KnownInputs& known) {
+std::optional<Start> find_initial_model(std::span<const Track> tracks, std::span<const MatchedPair> pairs, int views,
+                                        const Lens& middle, const KnownInputs& known) {
     const std::vector<Track> few = sampled(tracks, kMostTracks);
     const std::vector<Track> fewest = sampled(tracks, kFewTracks);
     std::vector<Hypothesis> tried = hypotheses(few, pairs, views, middle, known);
     BundleOptions options;
-    // Larger photographs have larger errors.
+    // Errors grow with the size of the photos.
     const double scale_px = std::max(1.0, std::max(middle.width, middle.height) / 1000.0);
     options.loss_px = kLoss_px * scale_px;
-    options.most_iterations = 25;
-    options.enough = kEnoughToChoose;
+    options.max_iterations = 25;
+    options.function_tolerance = kEnoughToChoose;
     options.free.f = !known.f_px;
     options.free.pan = options.free.tilt = options.free.roll = !known.pose;
-    options.free.angles = known.step_rad || known.angles_rad ? AngleFreedom::kHeld : AngleFreedom::kCommonStep;
+    options.free.angles = known.step_rad || known.angles_rad ? AngleFreedom::kConstant : AngleFreedom::kCommonStep;
 
     std::vector<Bundle> bundles(tried.size());
     std::vector<double> costs(tried.size(), 1e30);
     for_each_index(tried.size(), [&](std::size_t i) {
         bundles[i] = make_bundle(tried[i].model, fewest);
-        // Most tracks must be possible at all, else a rig that explains three of them would win.
+        // Most tracks must be triangulated, otherwise a rig that explains three of them would win.
         if (bundles[i].tracks.size() * 2 < fewest.size()) return;
         const auto cost = adjust(bundles[i], options);
         if (!cost) return;
@@ -115,7 +115,7 @@ std::optional<Start> find_start(std::span<const Track> tracks, std::span<const P
             static_cast<double>(fewest.size() - bundles[i].tracks.size()) / static_cast<double>(fewest.size());
         costs[i] = *cost + lost * 4 * options.loss_px * options.loss_px;
     });
-    // Among the best of them wrong matches are told from right ones, and who has the most right ones wins.
+    // Wrong matches are rejected for the finalists; the start with the most inliers is chosen.
     std::vector<std::size_t> order;
     for (const bool sense : {false, true}) {
         std::vector<std::size_t> of_sense;
@@ -131,12 +131,12 @@ std::optional<Start> find_start(std::span<const Track> tracks, std::span<const P
         Bundle& bundle = bundles[order[k]];
         BundleOptions own = options;
         for (const double limit_px : kLimits_px) {
-            Bundle next = make_agreeing_bundle(bundle.model, few, limit_px * scale_px);
+            Bundle next = make_robust_bundle(bundle.model, few, limit_px * scale_px);
             own.loss_px = 0.5 * limit_px * scale_px;
             if (next.tracks.size() < 10 || !adjust(next, own)) return;
             bundle = std::move(next);
         }
-        agreeing[k] = observation_count(make_agreeing_bundle(bundle.model, few, kLimits_px.back() * scale_px));
+        agreeing[k] = observation_count(make_robust_bundle(bundle.model, few, kLimits_px.back() * scale_px));
     });
     if (order.empty()) return std::nullopt;
     const auto best = static_cast<std::size_t>(std::max_element(agreeing.begin(), agreeing.end()) - agreeing.begin());
@@ -144,7 +144,7 @@ std::optional<Start> find_start(std::span<const Track> tracks, std::span<const P
     Start start{bundles[order[best]].model, agreeing[best], 0};
     for (std::size_t k = 0; k < order.size(); ++k) {
         if (tried[order[k]].counter_clockwise != tried[order[best]].counter_clockwise) {
-            start.other_sense = std::max(start.other_sense, agreeing[k]);
+            start.agreeing_opposite = std::max(start.agreeing_opposite, agreeing[k]);
         }
     }
     return start;

@@ -1,5 +1,5 @@
 #pragma once
-// Where the bundle begins: equal steps tried with several lenses, heights of the camera and both senses of turning.
+// Initial model of the bundle: equal steps, tried with several focal lengths, tilts and both directions of turning.
 
 #include "capture/calibration/model/calibration.hpp"
 #include "capture/calibration/points/bundle.hpp"
@@ -11,11 +11,12 @@ namespace rs::capture {
 struct Start {
     TurntableModel model;  // after bundles with one common step
     int agreeing = 0;      // observations within a few pixels of it
-    int other_sense = 0;   // the most that agree with a model that turns the other way; 0 where the sense was given
+    int agreeing_opposite =
+        0;  // the largest `agreeing` of models with the other direction; 0 if the direction was given
 };
 
-// `tracks` in px of the photographs. Nothing where no start explains them.
-std::optional<Start> find_start(std::span<const Track> tracks, std::span<const PairOfViews> pairs, int views,
-                                const Lens& middle, const KnownInputs& known);
+/// `tracks` in px of the photos. Nothing if no start explains them.
+std::optional<Start> find_initial_model(std::span<const Track> tracks, std::span<const MatchedPair> pairs, int views,
+                                        const Lens& middle, const KnownInputs& known);
 
 }  // namespace rs::capture

@@ -15,12 +15,12 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kRatio = 0.8;            // Lowe: best distance over second best
-constexpr double kGuidedRatio = 0.9;      // among the few that the model allows
-constexpr double kEpipolarBand_px = 1.5;  // at 1000 px of the longer side; grows with the picture
-constexpr int kFewestMatches = 12;        // below, a pair shows nothing
+constexpr double kRatio = 0.8;            // Lowe's ratio: best distance / second best
+constexpr double kGuidedRatio = 0.9;      // among the few candidates that the model allows
+constexpr double kEpipolarBand_px = 1.5;  // at 1000 px of the longer side; proportional to it
+constexpr int kFewestMatches = 12;        // pairs with fewer are ignored
 
-// Those that agree with one epipolar geometry (RANSAC with OpenCV's fixed seed).
+// Inliers of one epipolar geometry (RANSAC with OpenCV's fixed seed).
 std::vector<FeatureMatch> consistent(const std::vector<FeatureMatch>& matches, const ViewFeatures& a,
                                      const ViewFeatures& b, double band_px) {
     if (static_cast<int>(matches.size()) < kFewestMatches) return {};
@@ -43,7 +43,7 @@ std::vector<FeatureMatch> consistent(const std::vector<FeatureMatch>& matches, c
 }
 
 void measure_motion(const ViewFeatures& a, const ViewFeatures& b, const std::vector<FeatureMatch>& matches,
-                    PairOfViews& pair) {
+                    MatchedPair& pair) {
     pair.matches = static_cast<int>(matches.size());
     std::vector<double> dx, dy;
     for (const FeatureMatch& match : matches) {
@@ -58,22 +58,22 @@ void measure_motion(const ViewFeatures& a, const ViewFeatures& b, const std::vec
     pair.motion_y_px = median(std::move(dy));
 }
 
-// Views and the next few after each, around the end of the turn too; no pair twice.
-std::vector<PairOfViews> near_pairs(int count, int farthest_neighbour) {
+// Each view paired with the next few, also across the end of the turn; no pair twice.
+std::vector<MatchedPair> near_pairs(int count, int max_view_distance) {
     std::set<std::pair<int, int>> wanted;
     for (int i = 0; i < count; ++i) {
-        for (int step = 1; step <= farthest_neighbour && step < count; ++step) {
+        for (int step = 1; step <= max_view_distance && step < count; ++step) {
             const int other = (i + step) % count;
             if (!wanted.contains({other, i})) wanted.insert({i, other});
         }
     }
-    std::vector<PairOfViews> pairs;
+    std::vector<MatchedPair> pairs;
     for (const auto& [first, second] : wanted) pairs.push_back({.first = first, .second = second});
     return pairs;
 }
 
-// Where a point seen at `p` in one view may appear in another: the projection of the part of its ray that lies within
-// the object's cylinder, nearly a straight piece.
+// Segment in the second view where a point seen at `p` in the first may appear: the projection of the part of its ray
+// within the object's cylinder, nearly straight.
 std::optional<Segment> ray_piece(const TurntableModel& model, int first, int second, const glm::dvec2& p,
                                  double radius) {
     const auto ray = table_ray(model.lens, model.pose, p);
@@ -94,7 +94,7 @@ std::optional<Segment> ray_piece(const TurntableModel& model, int first, int sec
     return piece;
 }
 
-// In px of the photographs.
+// Converts positions to px of the photos.
 ViewFeatures enlarged(ViewFeatures view, int reduction) {
     for (glm::dvec2& p : view.positions) p *= static_cast<double>(reduction);
     return view;
@@ -102,17 +102,17 @@ ViewFeatures enlarged(ViewFeatures view, int reduction) {
 
 }  // namespace
 
-CalibrationPicture calibration_picture(ConstImageView<Rgba8> picture, int reduction) {
+CalibrationImage calibration_image(ConstImageView<Rgba8> image, int reduction) {
     RS_CHECK(reduction >= 1);
-    const int width = std::max(1, picture.width() / reduction);
-    const int height = std::max(1, picture.height() / reduction);
-    CalibrationPicture result{Image<std::uint8_t>(width, height), Image<std::uint8_t>(width, height)};
+    const int width = std::max(1, image.width() / reduction);
+    const int height = std::max(1, image.height() / reduction);
+    CalibrationImage result{Image<std::uint8_t>(width, height), Image<std::uint8_t>(width, height)};
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             int luma = 0, alpha = 0, count = 0;
-            for (int dy = 0; dy < reduction && y * reduction + dy < picture.height(); ++dy) {
-                for (int dx = 0; dx < reduction && x * reduction + dx < picture.width(); ++dx) {
-                    const Rgba8 p = picture(x * reduction + dx, y * reduction + dy);
+            for (int dy = 0; dy < reduction && y * reduction + dy < image.height(); ++dy) {
+                for (int dx = 0; dx < reduction && x * reduction + dx < image.width(); ++dx) {
+                    const Rgba8 p = image(x * reduction + dx, y * reduction + dy);
                     luma += (77 * p.r + 150 * p.g + 29 * p.b + 128) / 256;
                     alpha += p.a;
                     ++count;
@@ -125,71 +125,71 @@ CalibrationPicture calibration_picture(ConstImageView<Rgba8> picture, int reduct
     return result;
 }
 
-struct PointFollower::State {
-    std::vector<ViewFeatures> views;  // in px of the photographs
-    std::vector<PairOfViews> pairs;
+struct PointTracker::State {
+    std::vector<ViewFeatures> views;  // in px of the photos
+    std::vector<MatchedPair> pairs;
     double band_px = 0;
 };
 
-PointFollower::PointFollower(std::unique_ptr<State> state) : state_(std::move(state)) {}
-PointFollower::PointFollower(PointFollower&&) noexcept = default;
-PointFollower::~PointFollower() = default;
+PointTracker::PointTracker(std::unique_ptr<State> state) : state_(std::move(state)) {}
+PointTracker::PointTracker(PointTracker&&) noexcept = default;
+PointTracker::~PointTracker() = default;
 
-Result<PointFollower> PointFollower::look_at(std::span<const CalibrationPicture> turn, int reduction,
-                                             const FollowOptions& options, Progress* progress) {
+Result<PointTracker> PointTracker::detect(std::span<const CalibrationImage> turn, int reduction,
+                                          const TrackingOptions& options, Progress* progress) {
     auto state = std::make_unique<State>();
-    if (turn.empty()) return PointFollower(std::move(state));
+    if (turn.empty()) return PointTracker(std::move(state));
     const double longer = reduction * std::max(turn.front().grey.width(), turn.front().grey.height());
     state->band_px = kEpipolarBand_px * std::max(1.0, longer / 1000);
-    state->pairs = near_pairs(static_cast<int>(turn.size()), options.farthest_neighbour);
+    state->pairs = near_pairs(static_cast<int>(turn.size()), options.max_view_distance);
     try {
         for (ViewFeatures& view : find_features(turn, options, progress)) {
             state->views.push_back(enlarged(std::move(view), reduction));
         }
     } catch (const cv::Exception& escaped) {
-        return Error{std::string("the pictures' features cannot be found (OpenCV: ") + escaped.what() + ")"};
+        return Error{std::string("the images' features cannot be detected (OpenCV: ") + escaped.what() + ")"};
     }
-    return PointFollower(std::move(state));
+    return PointTracker(std::move(state));
 }
 
-Result<FollowedPoints> PointFollower::follow(Progress* progress) const {
-    FollowedPoints found;
+Result<TrackedPoints> PointTracker::track(Progress* progress) const {
+    TrackedPoints found;
     found.pairs = state_->pairs;
     for (const ViewFeatures& view : state_->views) found.features.push_back(static_cast<int>(view.positions.size()));
     std::vector<std::vector<FeatureMatch>> matches(found.pairs.size());
     try {
         for_each_index(found.pairs.size(), [&](std::size_t i) {
-            PairOfViews& pair = found.pairs[i];
+            MatchedPair& pair = found.pairs[i];
             const ViewFeatures& a = state_->views[static_cast<std::size_t>(pair.first)];
             const ViewFeatures& b = state_->views[static_cast<std::size_t>(pair.second)];
-            matches[i] = consistent(alike(a, b, kRatio), a, b, state_->band_px);
+            matches[i] = consistent(match_features(a, b, kRatio), a, b, state_->band_px);
             measure_motion(a, b, matches[i], pair);
             const auto count = static_cast<int>(state_->views.size());
             if (progress != nullptr && pair.second == (pair.first + 1) % count) progress->advance();
         });
-        found.tracks = chained(state_->views, found.pairs, matches);
+        found.tracks = build_tracks(state_->views, found.pairs, matches);
     } catch (const cv::Exception& escaped) {
-        return Error{std::string("the pictures' features cannot be followed (OpenCV: ") + escaped.what() + ")"};
+        return Error{std::string("the images' features cannot be matched (OpenCV: ") + escaped.what() + ")"};
     }
     return found;
 }
 
-Result<std::vector<Track>> PointFollower::follow_guided(const TurntableModel& model, double radius,
-                                                        double band_px) const {
+Result<std::vector<Track>> PointTracker::track_guided(const TurntableModel& model, double radius,
+                                                      double band_px) const {
     std::vector<std::vector<FeatureMatch>> matches(state_->pairs.size());
     try {
         for_each_index(state_->pairs.size(), [&](std::size_t i) {
-            const PairOfViews& pair = state_->pairs[i];
+            const MatchedPair& pair = state_->pairs[i];
             const ViewFeatures& a = state_->views[static_cast<std::size_t>(pair.first)];
             const ViewFeatures& b = state_->views[static_cast<std::size_t>(pair.second)];
-            const auto may_appear = [&](const glm::dvec2& p) {
+            const auto search_segment = [&](const glm::dvec2& p) {
                 return ray_piece(model, pair.first, pair.second, p, radius);
             };
-            matches[i] = alike_near(a, b, kGuidedRatio, may_appear, band_px);
+            matches[i] = match_guided(a, b, kGuidedRatio, search_segment, band_px);
         });
-        return chained(state_->views, state_->pairs, matches);
+        return build_tracks(state_->views, state_->pairs, matches);
     } catch (const cv::Exception& escaped) {
-        return Error{std::string("the pictures' features cannot be followed (OpenCV: ") + escaped.what() + ")"};
+        return Error{std::string("the images' features cannot be matched (OpenCV: ") + escaped.what() + ")"};
     }
 }
 

@@ -1,7 +1,7 @@
 #include "capture/calibration/silhouettes/coherence_fit.hpp"
 
 #include "capture/calibration/silhouettes/consistency_residuals.hpp"
-#include "capture/calibration/silhouettes/loose_numbers.hpp"
+#include "capture/calibration/silhouettes/free_parameters.hpp"
 #include "capture/calibration/silhouettes/silhouette_adjustment.hpp"
 
 #include <Eigen/Dense>
@@ -15,36 +15,38 @@ namespace {
 
 constexpr int kMostSteps = 8;
 constexpr int kFineSteps = 3;
-constexpr double kLittle = 0.1;    // of cost: a step that gains less is not taken
+constexpr double kLittle = 0.1;    // of cost: smaller gains stop the iteration
 constexpr double kWidth = 0.5;     // of differences, in deviations
 constexpr double kOutlier_px = 1;  // of the turn
-// Outlines that agree better are those of bodies that look alike from everywhere, and know no more for it.
+// Lower limit of the deviation: smaller residuals are those of bodies that look the same from all sides, and carry no
+// more information.
 constexpr double kFinest_px = 0.12;
-// Views that contradict a ray by this much less than the strongest do not become the strongest beside it.
+// A view whose contradiction is weaker by more than this does not become the strongest for a similar
+// model.
 constexpr double kVerdictMargin_px = 1.5;
 constexpr std::size_t kMostVerdicts = 8;
-// A few rays show where the optimum is, all of them where it is exactly.
+// A few rays locate the optimum approximately, all rays refine it.
 constexpr std::size_t kCoarseRaysPerView = 100;
-// Outlines that leave more than this of the angles' variance are of a body that looks alike from all sides. What they
-// say of the camera is in the small print of their errors: it has been seen to bend lens and tilt.
-constexpr double kTellsOfAngles = 0.5;
+// If silhouettes leave more than this share of the angles' variance, the body looks the same from all sides. Such
+// silhouettes are not used: their small errors have been observed to distort lens and tilt.
+constexpr double kMaxAngleVarianceShare = 0.5;
 
-// Consistency residuals of some rays, near `depths` once they are known.
-SilhouetteComparison consistency_comparison(const LooseNumbers& numbers, const SilhouetteTurn& turn, double picture_px,
+// Consistency residuals of a selection of rays, searched near `depths` once these are filled in.
+SilhouetteComparison consistency_comparison(const FreeParameters& numbers, const SilhouetteTurn& turn, double image_px,
                                             const RaySelection& rays, RayDepths& depths) {
-    const auto in_turn = [&numbers, picture_px](const Eigen::VectorXd& z) {
+    const auto in_turn = [&numbers, image_px](const Eigen::VectorXd& z) {
         TurntableModel model = numbers.at(z);
-        for (double* const px : {&model.lens.f_px, &model.lens.cx, &model.lens.cy}) *px /= picture_px;
+        for (double* const px : {&model.lens.f_px, &model.lens.cx, &model.lens.cy}) *px /= image_px;
         return model;
     };
     const auto residuals = [&turn, &rays, &depths, in_turn](const Eigen::VectorXd& z) {
         return consistency_residuals_px(turn, in_turn(z), rays, &depths);
     };
-    // Only what contradicts a ray is compared again beside: near enough to go down by.
+    // Compares only the views that contradict a ray: accurate enough for derivatives.
     const auto beside = [&turn, &rays, &depths, in_turn](const Eigen::VectorXd& z) -> SilhouetteResiduals {
-        auto verdicts = ray_verdicts(turn, in_turn(z), rays, depths, kVerdictMargin_px, kMostVerdicts);
+        auto verdicts = find_contradictions(turn, in_turn(z), rays, depths, kVerdictMargin_px, kMostVerdicts);
         return [&turn, &rays, in_turn, verdicts = std::move(verdicts)](const Eigen::VectorXd& there) {
-            return residuals_by_verdicts(turn, in_turn(there), rays, verdicts);
+            return residuals_from_contradictions(turn, in_turn(there), rays, verdicts);
         };
     };
     return {residuals, Eigen::VectorXd::Constant(numbers.count(), kWidth), beside};
@@ -58,11 +60,11 @@ std::size_t most_rays_of_a_view(const SilhouetteTurn& turn) {
 
 }  // namespace
 
-std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const NumberPlaces& places,
+std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const ParameterIndices& places,
                                           const Eigen::MatrixXd& covariance, const SilhouetteTurn& turn,
-                                          double picture_px, const CoherenceOptions& options) {
+                                          double image_px, const CoherenceOptions& options) {
     if (places.count == 0 || covariance.rows() != places.count || !covariance.allFinite()) return std::nullopt;
-    const LooseNumbers numbers(model, places, covariance, 0.5 * turn.width_px() * picture_px, options.most_directions);
+    const FreeParameters numbers(model, places, covariance, 0.5 * turn.width_px() * image_px, options.most_directions);
     if (numbers.count() == 0) return std::nullopt;
     const SilhouetteErrors errors{kIndependentPerView * static_cast<double>(turn.views()), kOutlier_px, kFinest_px,
                                   true};
@@ -72,22 +74,24 @@ std::optional<CoherenceFit> fit_coherence(const TurntableModel& model, const Num
     if (every > 1) {
         const RaySelection few{every, {}};
         RayDepths depths;
-        const SilhouetteComparison coarse = consistency_comparison(numbers, turn, picture_px, few, depths);
+        const SilhouetteComparison coarse = consistency_comparison(numbers, turn, image_px, few, depths);
         if (!SilhouetteAdjustment(coarse, errors).improve(z, kMostSteps, kLittle)) return std::nullopt;
         steps = kFineSteps;
     }
     const RaySelection all{1, {}};
     RayDepths depths;
-    SilhouetteComparison rays = consistency_comparison(numbers, turn, picture_px, all, depths);
+    SilhouetteComparison rays = consistency_comparison(numbers, turn, image_px, all, depths);
     if (!SilhouetteAdjustment(rays, errors).improve(z, steps, kLittle)) return std::nullopt;
-    // Beside a body of revolution the few views that contradict it would seem to know how it stands: all are compared.
+    // For a body of revolution, the few contradicting views would seem to determine its orientation, so the final
+    // information is computed from all views.
     rays.beside = nullptr;
     SilhouetteAdjustment found(rays, errors);
     const Eigen::MatrixXd information = found.information(z);
-    CoherenceFit fit{numbers.at(z), numbers.told(covariance, information, options.untold_together, 1, 1), 0};
-    fit.consistency_residual_px = picture_px * rms_px(found.residuals(z));
+    CoherenceFit fit{numbers.at(z),
+                     numbers.updated_covariance(covariance, information, options.common_error_factor, 1, 1), 0};
+    fit.consistency_residual_px = image_px * rms_px(found.residuals(z));
     if (!(fit.consistency_residual_px <= options.worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;
-    if (!(numbers.angles_left(information) <= kTellsOfAngles)) return std::nullopt;
+    if (!(numbers.remaining_angle_variance(information) <= kMaxAngleVarianceShare)) return std::nullopt;
     return fit;
 }
 

@@ -103,31 +103,33 @@ std::vector<double> consistency_residuals_px(const SilhouetteTurn& turn, const T
     return residuals;
 }
 
-std::vector<RayVerdict> ray_verdicts(const SilhouetteTurn& turn, const TurntableModel& model, const RaySelection& rays,
-                                     const RayDepths& depths, double margin_px, std::size_t most) {
+std::vector<RayContradictions> find_contradictions(const SilhouetteTurn& turn, const TurntableModel& model,
+                                                   const RaySelection& rays, const RayDepths& depths, double margin_px,
+                                                   std::size_t most) {
     const SelectedRays selected(turn, model, rays);
     RS_CHECK(depths.size() == selected.count());
-    std::vector<RayVerdict> verdicts(selected.count());
+    std::vector<RayContradictions> verdicts(selected.count());
     selected.visit([&](RayProbe& probe, const std::optional<glm::dvec3>& direction, std::size_t ray) {
         if (!direction) return;
-        RayVerdict& verdict = verdicts[ray];
+        RayContradictions& verdict = verdicts[ray];
         verdict.depth = depths[ray];
         probe.best(*direction, selected.reach(), verdict.depth);
-        verdict.views = probe.strongest(*direction, verdict.depth, margin_px, most);
+        verdict.views = probe.strongest_contradictions(*direction, verdict.depth, margin_px, most);
     });
     return verdicts;
 }
 
-std::vector<double> residuals_by_verdicts(const SilhouetteTurn& turn, const TurntableModel& model,
-                                          const RaySelection& rays, const std::vector<RayVerdict>& verdicts) {
+std::vector<double> residuals_from_contradictions(const SilhouetteTurn& turn, const TurntableModel& model,
+                                                  const RaySelection& rays,
+                                                  const std::vector<RayContradictions>& verdicts) {
     const SelectedRays selected(turn, model, rays);
     RS_CHECK(verdicts.size() == selected.count());
     std::vector<double> residuals(selected.count());
     selected.visit([&](RayProbe& probe, const std::optional<glm::dvec3>& direction, std::size_t ray) {
-        probe.heed_only(verdicts[ray].views);
+        probe.set_active_views(verdicts[ray].views);
         const double depth = verdicts[ray].depth;
         residuals[ray] =
-            residual_px(direction && depth > 0 ? probe.best_beside(*direction, selected.reach(), depth) : -kNoRay_px);
+            residual_px(direction && depth > 0 ? probe.best_near(*direction, selected.reach(), depth) : -kNoRay_px);
     });
     return residuals;
 }

@@ -1,9 +1,9 @@
 #pragma once
-// Distances of one view's outline, packed so that a look between four of them costs one line of cache, rarely two: what
-// rays need of all views, all over the pictures, is bound by memory and not by what is computed.
+// Signed distance field of one view's silhouette, tiled so that a bilinear lookup rarely touches more than one cache
+// line: ray probing reads the fields of all views at scattered positions and is bound by memory, not by arithmetic.
 //
-// Samples are 16-bit whole numbers of 1/128 px, and stand in tiles of 8x4, 64 bytes each, row by row: sample (x, y) is
-// number (y / 4 * across + x / 8) * 32 + y % 4 * 8 + x % 8, `across` being how many tiles a row of them has.
+// Samples are 16-bit integers in units of 1/128 px, in tiles of 8x4 (64 bytes), row by row: sample (x, y) has index (y
+// / 4 * across + x / 8) * 32 + y % 4 * 8 + x % 8, `across` being the number of tiles in a row.
 
 #include "rayspace/image/image.hpp"
 
@@ -16,13 +16,13 @@ namespace rs::capture {
 
 class DistanceField {
 public:
-    // Of at least 2x2 samples, px. Beyond what 16 bits hold (256 px) they are cut off.
+    /// `distance_px` has at least 2x2 samples. Distances beyond the 16-bit range (256 px) are clamped.
     explicit DistanceField(ConstImageView<float> distance_px);
 
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
 
-    // Interpolated between the four samples around; `x` in 0..width - 1, `y` in 0..height - 1, sample 0 at 0.
+    /// Bilinear interpolation; `x` in 0..width - 1, `y` in 0..height - 1, sample 0 at 0.
     [[nodiscard]] float at(float x, float y) const {
         const int left = static_cast<int>(x) < width_ - 1 ? static_cast<int>(x) : width_ - 2;
         const int top = static_cast<int>(y) < height_ - 1 ? static_cast<int>(y) : height_ - 2;
@@ -55,7 +55,7 @@ private:
     }
 
     int width_, height_;
-    std::size_t row_of_tiles_;  // samples in it
+    std::size_t row_of_tiles_;  // samples in a row of tiles
     std::vector<Tile> tiles_;
 };
 

@@ -8,14 +8,14 @@
 namespace rs::capture {
 namespace {
 
-constexpr int kDepths = 96;            // tried along a ray
-constexpr int kRefinements = 12;       // golden sections around the best of them
-constexpr int kPruneEvery = 4;         // of those: as the interval shrinks fewer views can decide
-constexpr std::size_t kFewViews = 10;  // are asked as quickly as it is found out who need not be
-constexpr int kFewRefinements = 9;     // around a depth that is known closely
-constexpr int kNearDepths = 2;         // tried on either side of a depth that is roughly known
-// By how much more than a point moves its distance to an outline may change: chamfer distances are a little longer than
-// straight ones, and edge pixels add up to half a pixel of their own.
+constexpr int kDepths = 96;            // samples along a ray
+constexpr int kRefinements = 12;       // golden-section iterations around the best sample
+constexpr int kPruneEvery = 4;         // of these iterations: fewer views are relevant as the interval shrinks
+constexpr std::size_t kFewViews = 10;  // with fewer views, pruning costs more than it saves
+constexpr int kFewRefinements = 9;     // iterations around an accurately known depth
+constexpr int kNearDepths = 2;         // samples on either side of an approximately known depth
+// Lipschitz constant of the distance fields: chamfer distances are a little longer than Euclidean ones, and edge pixels
+// add up to half a pixel of their own.
 constexpr float kSteepest = 1.06F;
 constexpr float kEdgeJump_px = 1;
 
@@ -51,29 +51,29 @@ RayProbe::RayProbe(const SilhouetteTurn& turn, const Lens& lens, const std::vect
             static_cast<float>(lens.k1), static_cast<float>(lens.k2)},
       sights_(sights),
       directions_(sights.size()),
-      heeded_(sights.size()),
-      deciding_(sights.size()),
+      active_(sights.size()),
+      compared_(sights.size()),
       bounds_(sights.size()) {
-    std::iota(heeded_.begin(), heeded_.end(), std::size_t{0});
+    std::iota(active_.begin(), active_.end(), std::size_t{0});
     sight_of_.assign(turn.views(), sights.size());
     for (std::size_t j = 0; j < sights.size(); ++j) sight_of_[sights[j].view] = j;
 }
 
-void RayProbe::heed_only(const std::vector<std::size_t>& views) {
-    heeded_.clear();
+void RayProbe::set_active_views(const std::vector<std::size_t>& views) {
+    active_.clear();
     for (const std::size_t view : views) {
-        if (sight_of_[view] < sights_.size()) heeded_.push_back(sight_of_[view]);
+        if (sight_of_[view] < sights_.size()) active_.push_back(sight_of_[view]);
     }
 }
 
 void RayProbe::aim(const glm::dvec3& direction) {
-    for (const std::size_t j : heeded_) directions_[j] = sights_[j].camera_from_table * direction;
-    deciding_ = heeded_.size();
+    for (const std::size_t j : active_) directions_[j] = sights_[j].camera_from_table * direction;
+    compared_ = active_.size();
 }
 
 double RayProbe::best(const glm::dvec3& direction, double reach, double& known_depth) {
     aim(direction);
-    // From (0, 0, 1): nearest to the axis at `middle`.
+    // The ray starts at (0, 0, 1) and is nearest to the axis at depth `middle`.
     const double flat2 = direction.x * direction.x + direction.z * direction.z;
     const double middle = -direction.z / flat2;
     const double miss2 = direction.x * direction.x / flat2;
@@ -81,7 +81,7 @@ double RayProbe::best(const glm::dvec3& direction, double reach, double& known_d
     const double step = 2 * half / kDepths;
     float most = kBehind;
     const bool is_known = known_depth > 0;
-    // Outwards from the middle, or from where it was, so that a good value comes early and prunes the rest.
+    // Outwards from the middle, or from the known depth, so that a good value is found early and prunes the rest.
     const double from = is_known ? known_depth : middle - 0.5 * step;
     const int tried = is_known ? 2 * kNearDepths + 1 : kDepths;
     double at = from;
@@ -102,7 +102,7 @@ double RayProbe::best(const glm::dvec3& direction, double reach, double& known_d
     return std::max(most, found);
 }
 
-double RayProbe::best_beside(const glm::dvec3& direction, double reach, double known_depth) {
+double RayProbe::best_near(const glm::dvec3& direction, double reach, double known_depth) {
     aim(direction);
     const float here = least_over_views(known_depth, kBehind);
     if (here >= 0) return here;
@@ -114,11 +114,11 @@ double RayProbe::best_beside(const glm::dvec3& direction, double reach, double k
     return best(direction, reach, known_depth);
 }
 
-std::vector<std::size_t> RayProbe::strongest(const glm::dvec3& direction, double depth, double margin_px,
-                                             std::size_t most) {
+std::vector<std::size_t> RayProbe::strongest_contradictions(const glm::dvec3& direction, double depth, double margin_px,
+                                                            std::size_t most) {
     aim(direction);
     std::vector<std::pair<float, std::size_t>> views;
-    for (const std::size_t j : heeded_) views.emplace_back(distance(j, depth), sights_[j].view);
+    for (const std::size_t j : active_) views.emplace_back(distance(j, depth), sights_[j].view);
     std::sort(views.begin(), views.end());
     std::vector<std::size_t> strong;
     for (const auto& [distance_px, view] : views) {
@@ -128,14 +128,14 @@ std::vector<std::size_t> RayProbe::strongest(const glm::dvec3& direction, double
     return strong;
 }
 
-// May stop at the first value below `floor`.
+// Minimum over the views; may stop at the first value below `floor`.
 float RayProbe::least_over_views(double depth, float floor) {
     float least = std::numeric_limits<float>::max();
-    for (std::size_t i = 0; i < deciding_; ++i) {
-        least = std::min(least, distance(heeded_[i], depth));
+    for (std::size_t i = 0; i < compared_; ++i) {
+        least = std::min(least, distance(active_[i], depth));
         if (least < floor || least == kBehind) {
-            // Who contradicts one point contradicts the next ones, too.
-            if (i > 0) std::swap(heeded_[i], heeded_[i / 2]);
+            // A view that contradicts one point is likely to contradict the next ones; it is moved to the front.
+            if (i > 0) std::swap(active_[i], active_[i / 2]);
             return least;
         }
     }
@@ -146,12 +146,12 @@ float RayProbe::apart_px(const Seen& a, const Seen& b) {
     return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y));
 }
 
-// Leaves out views that cannot be the nearest to contradict anywhere in an interval of depths, nor contradict at all.
+// Drops views that can be neither the minimum nor negative anywhere in an interval of depths.
 void RayProbe::keep_deciding(double low, double high) {
     const double middle = 0.5 * (low + high);
-    float most = 0;  // more than any point of the interval has for its least distance
-    for (std::size_t i = 0; i < deciding_; ++i) {
-        const std::size_t j = heeded_[i];
+    float most = 0;  // upper bound of the minimum over views in the interval, at most 0
+    for (std::size_t i = 0; i < compared_; ++i) {
+        const std::size_t j = active_[i];
         const Seen a = seen(j, low), b = seen(j, middle), c = seen(j, high);
         if (!a.before_camera || !b.before_camera || !c.before_camera) return;
         const float way_px = std::max(apart_px(a, b), apart_px(b, c));
@@ -161,37 +161,37 @@ void RayProbe::keep_deciding(double low, double high) {
         most = std::min(most, bounds_[i].second);
     }
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < deciding_; ++i) {
+    for (std::size_t i = 0; i < compared_; ++i) {
         if (bounds_[i].first > most) continue;
-        std::swap(heeded_[i], heeded_[kept]);
+        std::swap(active_[i], active_[kept]);
         bounds_[kept++] = bounds_[i];
     }
-    deciding_ = kept;
+    compared_ = kept;
 }
 
-// The largest value, and where; some value above 0 where there is one.
+// Golden-section search for the maximum and its depth; stops at any value above 0.
 std::pair<float, double> RayProbe::refined(double low, double high, int rounds) {
     constexpr double kGolden = 0.6180339887498949;
-    if (deciding_ > kFewViews) keep_deciding(low, high);
+    if (compared_ > kFewViews) keep_deciding(low, high);
     double a = high - kGolden * (high - low);
     double b = low + kGolden * (high - low);
     float at_a = least_over_views(a, kBehind);
     float at_b = least_over_views(b, at_a);
     for (int i = 0; i < rounds && at_a < 0 && at_b < 0; ++i) {
-        // The smaller of both may be less than it claims: it goes.
+        // The smaller value may be only an upper bound, because its search stopped early; it is dropped.
         if (at_a > at_b) {
             high = b;
             b = a;
             at_b = at_a;
             a = high - kGolden * (high - low);
-            if (i % kPruneEvery == kPruneEvery - 1 && deciding_ > kFewViews) keep_deciding(low, high);
+            if (i % kPruneEvery == kPruneEvery - 1 && compared_ > kFewViews) keep_deciding(low, high);
             at_a = least_over_views(a, at_b);
         } else {
             low = a;
             a = b;
             at_a = at_b;
             b = low + kGolden * (high - low);
-            if (i % kPruneEvery == kPruneEvery - 1 && deciding_ > kFewViews) keep_deciding(low, high);
+            if (i % kPruneEvery == kPruneEvery - 1 && compared_ > kFewViews) keep_deciding(low, high);
             at_b = least_over_views(b, at_a);
         }
     }

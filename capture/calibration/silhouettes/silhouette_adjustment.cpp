@@ -10,7 +10,7 @@
 namespace rs::capture {
 namespace {
 
-// Numbers whose squares are what Geman and McClure make of those of the residuals, and their slopes by the residuals.
+// Robustified residuals, whose squares are the Geman-McClure loss of the residuals, and their derivatives.
 struct Robust {
     Eigen::ArrayXd values, slopes;
 
@@ -22,7 +22,7 @@ struct Robust {
     }
 };
 
-// Of the sum of all their squares.
+// Loss as a function of the sum of squares of all robustified residuals.
 class SilhouetteLoss final : public ceres::LossFunction {
 public:
     SilhouetteLoss(const SilhouetteErrors& errors, std::size_t residuals)
@@ -67,9 +67,9 @@ private:
 
 }  // namespace
 
-void SilhouetteAdjustment::expect(const SilhouetteErrors& errors, double disbelief) {
+void SilhouetteAdjustment::expect(const SilhouetteErrors& errors, double prior_scale) {
     errors_ = errors;
-    disbelief_ = disbelief;
+    disbelief_ = prior_scale;
 }
 
 const std::vector<double>& SilhouetteAdjustment::residuals(const Eigen::VectorXd& z) {
@@ -121,7 +121,7 @@ bool SilhouetteAdjustment::improve(Eigen::VectorXd& z, int most_steps, double en
     ceres::Solver::Options how;
     how.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     how.max_num_iterations = most_steps;
-    how.function_tolerance = enough / errors_.independent;  // what the cost is where residuals are as expected
+    how.function_tolerance = enough / errors_.independent;  // the cost where residuals are as expected
     how.num_threads = 1;
     how.logging_type = ceres::SILENT;
     silence_ceres();

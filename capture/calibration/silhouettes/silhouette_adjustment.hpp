@@ -1,14 +1,14 @@
 #pragma once
-// The one adjustment by which numbers of a turn are estimated from outlines, whatever of the outlines is compared: rays
-// with all other outlines (silhouette_fit.hpp, coherence_fit.hpp) or tangent planes of pairs (silhouette_tangency.hpp).
+// Adjustment of a turn's numbers to silhouettes, for any kind of comparison: rays with all other silhouettes
+// (silhouette_fit.hpp, coherence_fit.hpp) or tangent planes of pairs (silhouette_tangency.hpp).
 //
-// Numbers are counted in deviations of what was known of them before: each is expected at 0 with a deviation of 1, and
-// independent of the others. Outlines leave residuals r, px. With S the mean of r^2 / (1 + r^2 / outlier_px^2) (Geman
-// and McClure, 1987), n the count of independent points that the outlines are worth and s their deviation_px,
+// Numbers z are in units of their prior standard deviations: each has prior mean 0 and deviation 1, independent of the
+// others. Silhouettes leave residuals r, px. With S the mean of r^2 / (1 + r^2 / outlier_px^2) (Geman and McClure,
+// 1987), n the number of independent points that the silhouettes are worth and s their deviation_px,
 //
-//     cost = n S / s^2 + |z|^2 / disbelief,    or n (1 + log(S / s^2)) for the first term where is_least and S > s^2,
+//     cost = n S / s^2 + |z|^2 / prior_scale,    or n (1 + log(S / s^2)) for the first term where is_least and S > s^2,
 //
-// is twice the negative log likelihood but for a constant; the latter is that of a deviation which nobody knows.
+// is twice the negative log likelihood except for a constant; the second form is that of an unknown deviation.
 
 #include <Eigen/Core>
 
@@ -18,47 +18,50 @@
 
 namespace rs::capture {
 
-// Neighbouring points of an outline are off alike: a view is worth this many independent ones, however many are
-// compared.
+/// Errors of neighbouring silhouette points are correlated: a view counts as this many independent points, however many
+/// are compared.
 inline constexpr double kIndependentPerView = 24;
 
-// What outlines are off by.
+/// Error model of the silhouettes.
 struct SilhouetteErrors {
-    double independent = 0;  // points
-    double outlier_px = 0;   // residuals far above it count no more
+    double independent = 0;  // number of independent points
+    double outlier_px = 0;   // Geman-McClure scale: larger residuals have little weight
     double deviation_px = 0;
-    bool is_least = false;  // it is what the residuals turn out to be, but no less than deviation_px
+    bool is_least = false;  // the deviation is estimated from the residuals, with deviation_px as lower limit
 };
 
-// What is compared, as a function of the numbers z: residuals, px, as many whatever z is.
+/// Residuals in px as a function of the numbers z; their number does not depend on z.
 using SilhouetteResiduals = std::function<std::vector<double>(const Eigen::VectorXd& z)>;
 
 struct SilhouetteComparison {
     SilhouetteResiduals residuals;
-    // By how much each number is moved to either side for slopes: far enough to look past the steps of the residuals.
+    /// Step of each number for central differences: larger than the discretization steps of the residuals.
     Eigen::VectorXd widths;
-    // Where there is something quicker: the residuals beside z, as far as what decides them at z does so beside it.
+    /// Optional faster approximation of the residuals near z, which assumes that the views that determine them at z
+    /// still do.
     std::function<SilhouetteResiduals(const Eigen::VectorXd& z)> beside = nullptr;
 };
 
-// Remembers what it computed last, so that nothing is computed twice. For one thread; the comparison may use several.
+/// Caches the last residuals and derivatives. Not thread-safe; the comparison may use several threads.
 class SilhouetteAdjustment {
 public:
     SilhouetteAdjustment(SilhouetteComparison comparison, const SilhouetteErrors& errors)
         : comparison_(std::move(comparison)), errors_(errors) {}
 
-    // From now on. `disbelief`: the variance of what was known before as it turns out, 1 unless given.
-    void expect(const SilhouetteErrors& errors, double disbelief);
+    /// Replaces the error model. `prior_scale`: factor of the prior variances, initially 1.
+    void expect(const SilhouetteErrors& errors, double prior_scale);
 
     const std::vector<double>& residuals(const Eigen::VectorXd& z);
-    const Eigen::MatrixXd& slopes(const Eigen::VectorXd& z);  // of residuals, by central differences
+    const Eigen::MatrixXd& slopes(const Eigen::VectorXd& z);  // Jacobian of the residuals, by central differences
     double cost(const Eigen::VectorXd& z);
 
-    // Takes z to where the cost is least by Ceres' Levenberg-Marquardt, with at most so many steps and none that would
-    // gain less than `enough`. False, and z stays, where residuals are not finite. Deterministic.
+    /// Minimizes the cost from z by Ceres' Levenberg-Marquardt with at most `most_steps` iterations; stops if an
+    /// iteration gains less than `enough`. Returns false and leaves z unchanged if residuals are not finite.
+    /// Deterministic.
     bool improve(Eigen::VectorXd& z, int most_steps, double enough);
 
-    // What the outlines alone show of the numbers: half the curvature of their part of the cost, [number, number].
+    /// Information of the silhouettes alone about the numbers: half the Hessian of their part of the cost, [number,
+    /// number].
     Eigen::MatrixXd information(const Eigen::VectorXd& z);
 
 private:

@@ -17,38 +17,38 @@ namespace {
 
 const SilhouetteDetail kDetail{600, 200};
 
-// What was found under wrong angles is off by more than it states; and it was found from the same outlines, which are
-// not to count twice.
+// Factor for deviations found under wrong angles, which are too small; also prevents the same silhouettes from counting
+// twice.
 constexpr double kWider = 3;
-constexpr double kDistortion = 0.1;  // k1 that lenses of photographs have
+constexpr double kDistortion = 0.1;  // standard deviation of k1 of typical lenses
 constexpr double kWorst_px = 1;      // of the turn
-// So that twice the deviations covered the errors on ten traced dolls and a lattice.
-constexpr double kUntoldTogether = 3;
+// Chosen so that twice the deviations covered the errors on ten rendered dolls and a lattice.
+constexpr double kCommonErrorFactor = 3;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// f, tilt, roll and the axis' position where outlines show nothing.
-std::array<double, SilhouetteParameters::kCount> unknown_deviations(const TurntableModel& model, double picture_px) {
+// Deviations of f, tilt, roll and the axis' position if silhouettes do not determine them.
+std::array<double, SilhouetteParameters::kCount> unknown_deviations(const TurntableModel& model, double image_px) {
     std::array<double, SilhouetteParameters::kCount> all = kSilhouettePriors;
     all[SilhouetteParameters::kLogF] *= model.lens.f_px;
-    all[SilhouetteParameters::kAxis] *= picture_px;
+    all[SilhouetteParameters::kAxis] *= image_px;
     return all;
 }
 
-Eigen::MatrixXd expected(const TurntableModel& model, const NumberPlaces& places, const ModelDeviations& deviations,
-                         double picture_px) {
+Eigen::MatrixXd expected(const TurntableModel& model, const ParameterIndices& places, const ModelDeviations& deviations,
+                         double image_px) {
     using Name = SilhouetteParameters;
-    const auto unknown = unknown_deviations(model, picture_px);
+    const auto unknown = unknown_deviations(model, image_px);
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(places.count, places.count);
     const auto set = [&](std::size_t number, double deviation) {
         if (const int k = places.camera[number]; k >= 0) covariance(k, k) = deviation * deviation;
     };
-    set(CameraNumber::kF, std::min(kWider * deviations.f_px, unknown[Name::kLogF]));
-    set(CameraNumber::kK1, kDistortion);
-    set(CameraNumber::kPan, std::min(kWider * deviations.axis_position_px, unknown[Name::kAxis]) / model.lens.f_px);
-    set(CameraNumber::kTilt, std::min(kWider * deviations.tilt_rad, unknown[Name::kTilt]));
-    set(CameraNumber::kRoll, std::min(kWider * deviations.roll_rad, unknown[Name::kRoll]));
-    // Angles count from the first view's, whose own error is in all of them.
+    set(CameraParameter::kF, std::min(kWider * deviations.f_px, unknown[Name::kLogF]));
+    set(CameraParameter::kK1, kDistortion);
+    set(CameraParameter::kPan, std::min(kWider * deviations.axis_position_px, unknown[Name::kAxis]) / model.lens.f_px);
+    set(CameraParameter::kTilt, std::min(kWider * deviations.tilt_rad, unknown[Name::kTilt]));
+    set(CameraParameter::kRoll, std::min(kWider * deviations.roll_rad, unknown[Name::kRoll]));
+    // Angles are relative to the first view's, whose own error is common to all of them.
     const double variance = std::pow(radians(kAssumedAngle_deg), 2);
     for (const int i : places.angles) {
         for (const int j : places.angles) {
@@ -58,20 +58,20 @@ Eigen::MatrixXd expected(const TurntableModel& model, const NumberPlaces& places
     return covariance;
 }
 
-// What is not estimated is not known, either; and what is hardly surer than before has not been shown.
-void admit(ModelDeviations& deviations, const TurntableModel& model, const KnownInputs& known, double picture_px) {
-    const auto unknown = unknown_deviations(model, picture_px);
-    const auto told = [](double deviation, double before) {
-        return deviation < kToldNothing * before ? deviation : kInfinity;
+// Sets the deviations of numbers to infinity that were not estimated or that are hardly better than their prior.
+void admit(ModelDeviations& deviations, const TurntableModel& model, const KnownInputs& known, double image_px) {
+    const auto unknown = unknown_deviations(model, image_px);
+    const auto limited = [](double deviation, double before) {
+        return deviation < kUndeterminedShare * before ? deviation : kInfinity;
     };
-    deviations.f_px = told(deviations.f_px, unknown[SilhouetteParameters::kLogF]);
-    deviations.tilt_rad = told(deviations.tilt_rad, unknown[SilhouetteParameters::kTilt]);
-    deviations.roll_rad = told(deviations.roll_rad, unknown[SilhouetteParameters::kRoll]);
+    deviations.f_px = limited(deviations.f_px, unknown[SilhouetteParameters::kLogF]);
+    deviations.tilt_rad = limited(deviations.tilt_rad, unknown[SilhouetteParameters::kTilt]);
+    deviations.roll_rad = limited(deviations.roll_rad, unknown[SilhouetteParameters::kRoll]);
     deviations.axis_direction_rad = std::hypot(deviations.tilt_rad, deviations.roll_rad);
-    deviations.axis_position_px = told(deviations.axis_position_px, unknown[SilhouetteParameters::kAxis]);
-    for (double& angle : deviations.angles_rad) angle = told(angle, radians(kAssumedAngle_deg));
+    deviations.axis_position_px = limited(deviations.axis_position_px, unknown[SilhouetteParameters::kAxis]);
+    for (double& angle : deviations.angles_rad) angle = limited(angle, radians(kAssumedAngle_deg));
     if (!known.distortion) {
-        deviations.k1 = told(deviations.k1, kDistortion);
+        deviations.k1 = limited(deviations.k1, kDistortion);
         deviations.k2 = kInfinity;
     }
     if (!known.principal_point) deviations.cx = deviations.cy = kInfinity;
@@ -79,25 +79,24 @@ void admit(ModelDeviations& deviations, const TurntableModel& model, const Known
 
 }  // namespace
 
-std::optional<SilhouetteAngles> angles_of_silhouettes(std::span<const Image<std::uint8_t>> masks,
-                                                      const TurntableModel& model, const ModelDeviations& deviations,
-                                                      const KnownInputs& known) {
+std::optional<SilhouetteAngles> estimate_angles(std::span<const Image<std::uint8_t>> masks, const TurntableModel& model,
+                                                const ModelDeviations& deviations, const KnownInputs& known) {
     if (known.angles_rad || known.step_rad || known.equal_steps) return std::nullopt;
     const auto turn = SilhouetteTurn::of(masks, kDetail);
     if (!turn || turn->touches_border()) return std::nullopt;
-    const double picture_px = turn->reduction() * static_cast<double>(model.lens.width) / masks[0].width();
+    const double image_px = turn->reduction() * static_cast<double>(model.lens.width) / masks[0].width();
     BundleFreedom free;
     free.f = !known.f_px;
     free.k1 = !known.distortion;
     free.pan = free.tilt = free.roll = !known.pose;
-    const NumberPlaces places(free, std::vector<bool>(model.angles_rad.size(), true));
-    const CoherenceOptions options{kWorst_px * picture_px, places.count, kUntoldTogether};
+    const ParameterIndices places(free, std::vector<bool>(model.angles_rad.size(), true));
+    const CoherenceOptions options{kWorst_px * image_px, places.count, kCommonErrorFactor};
     const auto fit =
-        fit_coherence(model, places, expected(model, places, deviations, picture_px), *turn, picture_px, options);
+        fit_coherence(model, places, expected(model, places, deviations, image_px), *turn, image_px, options);
     if (!fit) return std::nullopt;
-    const double at_px = 0.5 * (lies_sideways(fit->model.pose) ? model.lens.width : model.lens.height);
-    SilhouetteAngles found{fit->model, deviations_of(fit->model, places, fit->covariance, at_px)};
-    admit(found.deviations, model, known, picture_px);
+    const double at_px = 0.5 * (has_sideways_axis(fit->model.pose) ? model.lens.width : model.lens.height);
+    SilhouetteAngles found{fit->model, standard_deviations(fit->model, places, fit->covariance, at_px)};
+    admit(found.deviations, model, known, image_px);
     return found;
 }
 

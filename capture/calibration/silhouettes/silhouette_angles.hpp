@@ -1,6 +1,6 @@
 #pragma once
-// Single angles from outlines alone. The few numbers of silhouette_fit.hpp suppose the angles that were assumed; of a
-// body that is none of revolution outlines show each of them (coherence_fit.hpp).
+// Estimates individual angles from silhouettes. silhouette_fit.hpp estimates only a few numbers under assumed angles;
+// the silhouettes of a body that is not one of revolution determine each angle (coherence_fit.hpp).
 
 #include "capture/calibration/model/calibration.hpp"
 #include "rayspace/image/image.hpp"
@@ -11,7 +11,7 @@
 
 namespace rs::capture {
 
-// How far assumed angles are off, one standard deviation of each.
+/// Error of assumed angles, one standard deviation of each.
 inline constexpr double kAssumedAngle_deg = 3;
 
 struct SilhouetteAngles {
@@ -19,13 +19,11 @@ struct SilhouetteAngles {
     ModelDeviations deviations;
 };
 
-// `model`, found by the outlines under assumed angles, with `deviations`: angles, lens and directions together, each
-// near where it was by what its deviation allows. Both in px of the photographs, of which `masks` are reduced copies.
-// Numbers that `known` holds stay, the principal point and k2 do, too. Nothing where angles are known, where the
-// outlines show little of them or come to no agreement, and where the object reaches the pictures' border. About 10 s
-// for 36 views on 2 cores.
-std::optional<SilhouetteAngles> angles_of_silhouettes(std::span<const Image<std::uint8_t>> masks,
-                                                      const TurntableModel& model, const ModelDeviations& deviations,
-                                                      const KnownInputs& known);
+/// Refines `model`, fitted under assumed angles, with `deviations`: estimates angles, lens and orientation together,
+/// each with its deviation as prior. Both in px of the photos, of which `masks` are reduced copies. Numbers in `known`,
+/// the principal point and k2 are held constant. Nothing if angles are known, if the silhouettes hardly determine them
+/// or are not consistent, or if the object touches the image border. About 10 s for 36 views on 2 cores.
+std::optional<SilhouetteAngles> estimate_angles(std::span<const Image<std::uint8_t>> masks, const TurntableModel& model,
+                                                const ModelDeviations& deviations, const KnownInputs& known);
 
 }  // namespace rs::capture

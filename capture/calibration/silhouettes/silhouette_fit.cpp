@@ -13,12 +13,12 @@
 namespace rs::capture {
 namespace {
 
-// For slopes: wide enough to look past the steps of the distances, narrow enough for what is needed.
+// Steps for finite differences: larger than the discretization of the distances, smaller than the required accuracy.
 constexpr std::array<double, SilhouetteParameters::kCount> kWidths = {0.3, 0.004, 0.002, 0.02, 0.002};
-// Of cost. The jackknife asks how the numbers move where one view in six is missing, which is worth little.
+// Function tolerance. The jackknife removes one view in six, whose effect need not be known more accurately.
 constexpr double kEnough = 1e-3;
 
-// The free numbers by their priors, and what rays show of them.
+// The free numbers in units of their priors, and the comparison of rays.
 struct FittedNumbers {
     std::vector<std::size_t> free;
     std::function<SilhouetteParameters(const Eigen::VectorXd& z)> at;
@@ -26,7 +26,7 @@ struct FittedNumbers {
     SilhouetteAdjustment adjustment;
 };
 
-// Keeps all by reference.
+// Keeps all arguments by reference.
 FittedNumbers numbers_of(const SilhouetteProblem& problem, const SilhouetteParameters& from, const RaySelection& rays) {
     std::vector<std::size_t> free;
     for (std::size_t i = 0; i < SilhouetteParameters::kCount; ++i) {
@@ -60,7 +60,7 @@ TurntableModel changed(const TurntableModel& start, const SilhouetteParameters& 
     model.lens.f_px = start.lens.f_px * std::exp(by.value[SilhouetteParameters::kLogF]);
     model.pose.tilt_rad += by.value[SilhouetteParameters::kTilt];
     model.pose.roll_rad += by.value[SilhouetteParameters::kRoll];
-    // In px, so that another f leaves the axis where it is in the picture. Panning right moves the axis left.
+    // In px, so that the axis keeps its position in the image if f changes. Panning right moves the axis left.
     const double axis_px = start.lens.f_px * std::tan(start.pose.pan_rad) - by.value[SilhouetteParameters::kAxis];
     model.pose.pan_rad = std::atan(axis_px / model.lens.f_px);
     for (double& angle : model.angles_rad) angle *= std::exp(by.value[SilhouetteParameters::kStep]);
@@ -83,7 +83,7 @@ SilhouetteFit fit_silhouettes(const SilhouetteProblem& problem, const Silhouette
     for (std::size_t k = 0; k < free.size(); ++k) {
         const double share = left(static_cast<Eigen::Index>(k));
         fit.deviation[free[k]] =
-            share < kToldNothing ? share * kSilhouettePriors[free[k]] : std::numeric_limits<double>::infinity();
+            share < kUndeterminedShare ? share * kSilhouettePriors[free[k]] : std::numeric_limits<double>::infinity();
     }
     return fit;
 }

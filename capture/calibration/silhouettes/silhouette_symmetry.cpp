@@ -12,16 +12,16 @@ namespace rs::capture {
 namespace {
 
 constexpr std::size_t kFewestRows = 40;
-constexpr double kMostRows = 600;   // more agree with their neighbours anyway
+constexpr double kMostRows = 600;   // more are redundant with their neighbours
 constexpr double kWidestGap = 0.1;  // of the turn
-constexpr std::size_t kBands = 12;  // of height: rows of one show the same edges
+constexpr std::size_t kBands = 12;  // of height: rows of one band show the same edges
 constexpr double kLeastScatter_px = 0.1;
 constexpr int kRounds = 20;
 constexpr int kMoves = 3;
-constexpr double kBelievedApart = 2;  // deviations of the outlines
+constexpr double kBelievedApart = 2;  // deviations of the silhouettes
 constexpr double kHalfCover = 127.5;
 
-// One row of the picture rectified about the axis.
+// Edges of one row of the image rectified about the axis.
 struct RimRow {
     double v = 0;
     double left = 0;  // u
@@ -33,11 +33,11 @@ glm::dvec3 direction(double u, double v) {
     return {u, v, -1};
 }
 
-// What is covered, in terms of u and v.
+// Extent of the covered region in u and v.
 struct Extent {
     double least_v = std::numeric_limits<double>::infinity();
     double most_v = -std::numeric_limits<double>::infinity();
-    double most_u = 0;  // to either side
+    double most_u = 0;  // largest |u|
 
     void include(const glm::dvec3& ray) {
         if (!(ray.z < -1e-3)) return;
@@ -64,14 +64,14 @@ Extent extent_of(ConstImageView<std::uint8_t> covered, int reduction, const Turn
     return extent;
 }
 
-// What is covered along the rays of one row; nothing beyond the picture.
+// Covered region along the rays of one row; nothing is covered outside the image.
 class Row {
 public:
     Row(ConstImageView<std::uint8_t> covered, int reduction, const TurntableModel& model, double v)
         : covered_(covered), reduction_(reduction), model_(model), v_(v) {}
 
-    // The first crossing into what is covered from u = `from` towards -from, in steps of `step` > 0; nothing where the
-    // picture ends there.
+    // The first crossing into the covered region from u = `from` towards -from, in steps of `step` > 0; nothing if the
+    // image ends there.
     [[nodiscard]] std::optional<double> rim(double from, double step) const {
         const double towards = from > 0 ? -step : step;
         std::optional<double> before = at(from);
@@ -104,7 +104,7 @@ private:
     double v_;
 };
 
-// The less upright a rim, the less a row shows of where it is across.
+// Weights rows by the slope of their edge: the less upright an edge, the less accurate its position in the row.
 void weigh(std::vector<RimRow>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const RimRow& above = rows[i > 0 ? i - 1 : i];
@@ -130,7 +130,7 @@ struct Offset {
     double deviation = 0;
 };
 
-// The robust mean (Cauchy) of what the rows show, and its deviation by the sums over bands of rows (the "sandwich").
+// Robust mean (Cauchy) of the rows' offsets, and its deviation from the sums over bands of rows (the "sandwich").
 Offset robust_offset(const std::vector<RimRow>& rows, double least_scatter) {
     std::vector<std::pair<double, double>> offsets, sizes;
     for (const RimRow& row : rows) offsets.emplace_back(0.5 * (row.left + row.right), row.weight);
@@ -153,7 +153,7 @@ Offset robust_offset(const std::vector<RimRow>& rows, double least_scatter) {
         const auto& [offset, weight] = offsets[i];
         const double off = offset - mean, w = trust(off);
         scores[i * kBands / offsets.size()] += weight * w * off;
-        slope += weight * w * w * (1 - off * off / (scale * scale));  // of the score
+        slope += weight * w * w * (1 - off * off / (scale * scale));  // derivative of the score
     }
     double sum2 = 0;
     for (const double score : scores) sum2 += score * score;
@@ -161,7 +161,7 @@ Offset robust_offset(const std::vector<RimRow>& rows, double least_scatter) {
     return {mean, slope > 0 ? std::sqrt(few * sum2) / slope : std::numeric_limits<double>::infinity()};
 }
 
-// [gap] between views around the turn.
+// Angles between neighbouring views around the turn, [gap].
 std::vector<double> gaps(const std::vector<double>& angles_rad) {
     std::vector<double> around;
     for (const double angle : angles_rad) around.push_back(angle - 2 * kPi * std::floor(angle / (2 * kPi)));
@@ -172,9 +172,9 @@ std::vector<double> gaps(const std::vector<double>& angles_rad) {
     return result;
 }
 
-// Where an edge at radius 1 comes within d of the rim in the nearest view, d^2 / 2 of it is missed. The deviation of
-// half the difference of the two rims' losses if all rows show the same edge, which may stand anywhere.
-double missed(const std::vector<double>& gaps_rad) {
+// An edge at radius 1 that comes within angle d of the silhouette in the nearest view loses d^2 / 2. Returns the
+// deviation of half the difference of both sides' losses if all rows show the same edge at a random angle.
+double missed_rim_deviation(const std::vector<double>& gaps_rad) {
     double mean2 = 0, mean4 = 0;
     for (const double gap : gaps_rad) {
         const double share = gap / (2 * kPi), half = 0.5 * gap;
@@ -184,11 +184,11 @@ double missed(const std::vector<double>& gaps_rad) {
     return 0.5 * std::sqrt(0.5 * std::max(0.0, mean4 - mean2 * mean2));
 }
 
-// What the rims show of one model.
+// Measurement of the edges for one model.
 struct Reading {
     Offset offset;
     double v = 0;       // the middle of the rows
-    double radius = 0;  // their usual one, in u
+    double radius = 0;  // weighted mean, in u
 };
 
 std::optional<Reading> read_rims(ConstImageView<std::uint8_t> covered, int reduction, const TurntableModel& model) {
@@ -217,7 +217,7 @@ std::optional<Reading> read_rims(ConstImageView<std::uint8_t> covered, int reduc
     return reading;
 }
 
-// The model with its axis moved by u across.
+// The model with its axis moved by u to the side.
 TurntableModel moved(TurntableModel model, double u) {
     model.pose.pan_rad -= std::atan(u);
     return model;
@@ -225,22 +225,22 @@ TurntableModel moved(TurntableModel model, double u) {
 
 }  // namespace
 
-Image<std::uint8_t> covered_together(std::span<const CalibrationPicture> pictures) {
-    Image<std::uint8_t> covered = pictures.front().alpha;
-    for (const CalibrationPicture& picture : pictures.subspan(1)) {
+Image<std::uint8_t> union_of_alphas(std::span<const CalibrationImage> images) {
+    Image<std::uint8_t> covered = images.front().alpha;
+    for (const CalibrationImage& image : images.subspan(1)) {
         for (int y = 0; y < covered.height(); ++y) {
-            for (int x = 0; x < covered.width(); ++x) covered(x, y) = std::max(covered(x, y), picture.alpha(x, y));
+            for (int x = 0; x < covered.width(); ++x) covered(x, y) = std::max(covered(x, y), image.alpha(x, y));
         }
     }
     return covered;
 }
 
-std::optional<AxisPlace> axis_of_silhouettes(ConstImageView<std::uint8_t> covered, int reduction,
-                                             const TurntableModel& start) {
+std::optional<AxisPosition> axis_from_silhouettes(ConstImageView<std::uint8_t> covered, int reduction,
+                                                  const TurntableModel& start) {
     const std::vector<double> gaps_rad = gaps(start.angles_rad);
     if (*std::max_element(gaps_rad.begin(), gaps_rad.end()) > kWidestGap * 2 * kPi) return std::nullopt;
-    // A camera that looks down sees an axis beside the true one lean a little, so the axis is moved and looked at
-    // again.
+    // For a camera that looks down, an axis at a wrong position also seems inclined, so the measurement is repeated
+    // after moving it.
     TurntableModel model = start;
     std::optional<Reading> reading;
     for (int round = 0; round < kMoves; ++round) {
@@ -251,10 +251,10 @@ std::optional<AxisPlace> axis_of_silhouettes(ConstImageView<std::uint8_t> covere
     const glm::dvec3 middle = camera_rotation(model.pose) * direction(0, reading->v);
     if (!(middle.z < -1e-3)) return std::nullopt;
     const Lens& lens = model.lens;
-    AxisPlace place;
-    place.at_px = lies_sideways(model.pose) ? lens.cx - lens.f_px * middle.x / middle.z
-                                            : lens.cy + lens.f_px * middle.y / middle.z;
-    const double deviation = std::hypot(reading->offset.deviation, missed(gaps_rad) * reading->radius);
+    AxisPosition place;
+    place.at_px = has_sideways_axis(model.pose) ? lens.cx - lens.f_px * middle.x / middle.z
+                                                : lens.cy + lens.f_px * middle.y / middle.z;
+    const double deviation = std::hypot(reading->offset.deviation, missed_rim_deviation(gaps_rad) * reading->radius);
     const auto here = axis_position(lens, model.pose, place.at_px);
     const auto beside = axis_position(lens, moved(model, deviation).pose, place.at_px);
     if (!here || !beside || !std::isfinite(deviation)) return std::nullopt;
@@ -263,7 +263,7 @@ std::optional<AxisPlace> axis_of_silhouettes(ConstImageView<std::uint8_t> covere
     return place;
 }
 
-AxisPlace agreed_axis(const AxisPlace& of_tracks, const AxisPlace& of_silhouettes) {
+AxisPosition combine_axes(const AxisPosition& of_tracks, const AxisPosition& of_silhouettes) {
     const double apart = of_silhouettes.position_px - of_tracks.position_px;
     const double silhouettes2 = of_silhouettes.deviation_px * of_silhouettes.deviation_px;
     const double stated2 = of_tracks.deviation_px * of_tracks.deviation_px;
@@ -273,7 +273,7 @@ AxisPlace agreed_axis(const AxisPlace& of_tracks, const AxisPlace& of_silhouette
     return {of_tracks.at_px, of_tracks.position_px + apart * tracks2 / sum, std::sqrt(tracks2 * silhouettes2 / sum)};
 }
 
-std::optional<TurntableModel> with_axis_at(TurntableModel model, const AxisPlace& place) {
+std::optional<TurntableModel> move_axis_to(TurntableModel model, const AxisPosition& place) {
     constexpr double kStep_rad = 1e-5;
     for (int round = 0; round < 10; ++round) {
         CameraPose beside = model.pose;

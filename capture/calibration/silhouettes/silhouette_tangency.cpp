@@ -1,6 +1,6 @@
 #include "capture/calibration/silhouettes/silhouette_tangency.hpp"
 
-#include "capture/calibration/silhouettes/loose_numbers.hpp"
+#include "capture/calibration/silhouettes/free_parameters.hpp"
 #include "capture/calibration/silhouettes/silhouette_adjustment.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
@@ -18,30 +18,30 @@
 namespace rs::capture {
 namespace {
 
-constexpr double kHalf_code = 127.5;  // of alpha: there the outline runs
+constexpr double kHalf_code = 127.5;  // the contour is at this alpha value
 constexpr double kNearestPair_rad = 0.15;
 constexpr double kFarthestPair_rad = 2.6;
 constexpr std::size_t kFewestResiduals = 60;
 constexpr double kOutlierDeviations = 4;
 constexpr int kTangencyRounds = 4;
 constexpr int kStepsPerRound = 2;
-constexpr double kEnoughOfPlanes = 1e-3;  // of cost
-constexpr double kPlaneWidth = 0.3;       // of differences, in deviations: corners of hulls change little
+constexpr double kEnoughOfPlanes = 1e-3;  // function tolerance
+constexpr double kPlaneWidth = 0.3;  // of differences, in deviations; large, because vertices of hulls change little
 constexpr double kFinestPlanes_px = 0.005;
-// One view takes part in many pairs with nearly the same corner of its hull: so much of what its outline is worth.
+// Views take part in many pairs with nearly the same vertex of their hull, so each counts less than independent points.
 constexpr double kWorthOfHull = 0.13;
-// Outlines err together, too, in ways no residual shows, most of all those of a body that looks the same from all
-// sides; by how much more than they say, true errors on photographs with known truth tell.
-constexpr double kUntold = 3;
+// Factor of common silhouette errors that no residual shows, largest for bodies of revolution; determined from the true
+// errors on photos with ground truth.
+constexpr double kPairErrorFactor = 3;
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 struct HullPoint {
-    glm::dvec2 plane{0.0};  // without distortion
+    glm::dvec2 plane{0.0};  // undistorted direction
     glm::dvec2 p{0.0};      // px
 };
 
-// Where alpha is half along every row and column, from the picture's borders inwards, px of the reduced picture.
-// Nothing where the object touches the border.
+// Positions where alpha crosses one half along every row and column, from the image borders inwards, px of the reduced
+// image. Nothing if the object touches the border.
 std::vector<glm::dvec2> outermost(const Image<std::uint8_t>& alpha) {
     std::vector<glm::dvec2> points;
     bool cut_off = false;
@@ -96,17 +96,17 @@ SilhouetteHull convex_hull(std::vector<HullPoint> points) {
     return corners;
 }
 
-// One side of a pencil of planes: the outermost that touches a hull, and the sine of the angle between the line of
-// sight to where it does and the pencil's axis.
+// The outermost plane of a pencil that touches a hull on one side, and the sine of the angle between the line of sight
+// to its point of contact and the pencil's axis.
 struct Tangent {
-    double slope = 0;  // tangent of the plane's angle from the pencil's middle
+    double slope = 0;  // tangent of the plane's angle to the pencil's middle
     double sine = 1;
 };
 
 struct Pencil {
     glm::dvec3 axis{0.0};    // from one camera centre to the other
-    glm::dvec3 middle{0.0};  // across it, towards the object
-    glm::dvec3 across{0.0};  // across both
+    glm::dvec3 middle{0.0};  // perpendicular to it, towards the object
+    glm::dvec3 across{0.0};  // perpendicular to both
 };
 
 std::optional<Tangent> tangent(const std::vector<glm::dvec3>& rays, const Pencil& pencil, double side) {
@@ -126,13 +126,13 @@ std::optional<Tangent> tangent(const std::vector<glm::dvec3>& rays, const Pencil
     return best;
 }
 
-// Robust.
+// Robust standard deviation: 1.4826 times the median absolute residual.
 double deviation_of(std::vector<double> residuals) {
     for (double& residual : residuals) residual = std::abs(residual);
     return 1.4826 * median(std::move(residuals));
 }
 
-// How far the hulls reach to either side, px.
+// Half the horizontal extent of all hulls, px.
 double half_width_px(std::span<const SilhouetteHull> hulls) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
     for (const SilhouetteHull& hull : hulls) {
@@ -144,12 +144,12 @@ double half_width_px(std::span<const SilhouetteHull> hulls) {
     return 0.5 * (high - low);
 }
 
-// By how much camera numbers that moved by `step` (the axis' position is known from outlines already) went farther than
-// their covariance would have them: the mean square in deviations, at least 1.
-double beyond_belief(const NumberPlaces& places, const Eigen::MatrixXd& covariance, const Eigen::VectorXd& step) {
+// Mean square of the camera numbers' `step` in deviations of their covariance, at least 1. The pan is ignored, because
+// the axis' position was already estimated from silhouettes.
+double excess_variance(const ParameterIndices& places, const Eigen::MatrixXd& covariance, const Eigen::VectorXd& step) {
     std::vector<int> chosen;
-    for (std::size_t k = 0; k < kCameraNumbers; ++k) {
-        if (k != CameraNumber::kPan && places.camera[k] >= 0) chosen.push_back(places.camera[k]);
+    for (std::size_t k = 0; k < kCameraParameters; ++k) {
+        if (k != CameraParameter::kPan && places.camera[k] >= 0) chosen.push_back(places.camera[k]);
     }
     if (chosen.empty()) return 1;
     const Eigen::MatrixXd among = covariance(chosen, chosen);
@@ -159,7 +159,7 @@ double beyond_belief(const NumberPlaces& places, const Eigen::MatrixXd& covarian
 
 }  // namespace
 
-std::vector<SilhouetteHull> silhouette_hulls(std::span<const CalibrationPicture> turn, int reduction,
+std::vector<SilhouetteHull> silhouette_hulls(std::span<const CalibrationImage> turn, int reduction,
                                              const TurntableModel& model) {
     std::vector<SilhouetteHull> hulls(turn.size());
     for_each_index(turn.size(), [&](std::size_t view) {
@@ -219,13 +219,13 @@ std::vector<double> tangency_residuals(const TurntableModel& model, std::span<co
     return residuals;
 }
 
-std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const NumberPlaces& places,
+std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const ParameterIndices& places,
                                         const Eigen::MatrixXd& covariance, std::span<const SilhouetteHull> hulls,
                                         double worst_px) {
     if (places.count == 0 || covariance.rows() != places.count || !covariance.allFinite()) return std::nullopt;
     const std::vector<ViewPair> pairs = comparable_views(model, hulls);
     if (2 * pairs.size() < kFewestResiduals) return std::nullopt;
-    const LooseNumbers numbers(model, places, covariance, half_width_px(hulls), places.count);
+    const FreeParameters numbers(model, places, covariance, half_width_px(hulls), places.count);
     SilhouetteErrors errors{kWorthOfHull * kIndependentPerView * static_cast<double>(hulls.size()), 0, kFinestPlanes_px,
                             true};
     SilhouetteAdjustment adjustment(
@@ -233,16 +233,17 @@ std::optional<TangencyFit> fit_tangency(const TurntableModel& model, const Numbe
          Eigen::VectorXd::Constant(numbers.count(), kPlaneWidth)},
         errors);
     Eigen::VectorXd z = Eigen::VectorXd::Zero(numbers.count());
-    double disbelief = 1;
+    double prior_scale = 1;
     for (int round = 0; round < kTangencyRounds; ++round) {
         errors.outlier_px = kOutlierDeviations * deviation_of(adjustment.residuals(z));
-        adjustment.expect(errors, disbelief);
+        adjustment.expect(errors, prior_scale);
         if (!adjustment.improve(z, kStepsPerRound, kEnoughOfPlanes)) return std::nullopt;
-        disbelief = beyond_belief(places, covariance, numbers.step(z));
+        prior_scale = excess_variance(places, covariance, numbers.step(z));
     }
-    TangencyFit fit{numbers.at(z), numbers.told(covariance, adjustment.information(z), kUntold, disbelief, kNoLimit),
-                    0};
-    // Judged at the end: where the model began wrong, outlines that agree well do not seem to.
+    TangencyFit fit{
+        numbers.at(z),
+        numbers.updated_covariance(covariance, adjustment.information(z), kPairErrorFactor, prior_scale, kNoLimit), 0};
+    // Checked at the end: with a wrong start, consistent silhouettes would appear inconsistent.
     fit.deviation_px = deviation_of(adjustment.residuals(z));
     if (!(fit.deviation_px <= worst_px) || !(fit.model.lens.f_px > 0)) return std::nullopt;
     return fit;

@@ -57,7 +57,7 @@ bool solid(float coverage) {
     return coverage >= kHalfway;
 }
 
-// A pixel that the outline crosses, or beside which it runs.
+// True if the contour crosses the pixel, or runs along its border.
 bool is_edge(ConstImageView<float> coverage, int x, int y) {
     const float c = coverage(x, y);
     if (c > 0.02F && c < 0.98F) return true;
@@ -67,7 +67,7 @@ bool is_edge(ConstImageView<float> coverage, int x, int y) {
     return differs(x - 1, y) || differs(x + 1, y) || differs(x, y - 1) || differs(x, y + 1);
 }
 
-// The distance to the nearest edge pixel plus what its coverage shows of where in it the outline runs.
+// Distance to the nearest edge pixel plus the subpixel position of the contour in it, from its coverage.
 Image<float> signed_distance(ConstImageView<float> coverage) {
     cv::Mat1b far_from_edge(coverage.height(), coverage.width());
     for (int y = 0; y < coverage.height(); ++y) {
@@ -95,7 +95,8 @@ Image<float> signed_distance(ConstImageView<float> coverage) {
     return distance;
 }
 
-// Where coverage crosses one half between neighbours, sorted by direction from the middle and thinned out evenly.
+// Points where coverage crosses one half between neighbours, sorted by direction from the middle and thinned out
+// evenly.
 std::vector<glm::dvec2> edge_points(ConstImageView<float> coverage, const glm::dvec2& origin, std::size_t most) {
     std::vector<glm::dvec2> points;
     glm::dvec2 middle(0);
@@ -133,7 +134,7 @@ std::string view_name(std::size_t i) {
 
 Result<SilhouetteTurn> SilhouetteTurn::of(std::span<const Image<std::uint8_t>> masks, const SilhouetteDetail& detail) {
     if (masks.size() < kFewestSilhouettes) {
-        return Error{"silhouettes: " + std::to_string(masks.size()) + " views say too little; take at least " +
+        return Error{"silhouettes: " + std::to_string(masks.size()) + " views are too few; take at least " +
                      std::to_string(kFewestSilhouettes)};
     }
     Box whole;
@@ -143,7 +144,7 @@ Result<SilhouetteTurn> SilhouetteTurn::of(std::span<const Image<std::uint8_t>> m
         }
         Box box;
         include_solid(box, masks[i]);
-        if (box.empty()) return Error{view_name(i) + " shows no object; check its cut-out"};
+        if (box.empty()) return Error{view_name(i) + " shows no object; check its mask"};
         whole.include(box.left, box.top);
         whole.include(box.right - 1, box.bottom - 1);
     }
@@ -172,7 +173,7 @@ Result<SilhouetteTurn> SilhouetteTurn::of(std::span<const Image<std::uint8_t>> m
         const ConstImageView<float> part = coverage.view().crop(left, top, right - left, bottom - top);
         turn.edges_[i] = edge_points(part, {left, top}, detail.edges_per_view);
         if (part.width() < 2 || part.height() < 2 || turn.edges_[i].size() < kFewestSilhouettes) {
-            found[i] = Error{view_name(i) + " has hardly any outline; check its cut-out"};
+            found[i] = Error{view_name(i) + " has hardly any contour; check its mask"};
             return;
         }
         try {

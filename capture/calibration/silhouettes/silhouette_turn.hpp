@@ -1,6 +1,6 @@
 #pragma once
-// The outlines of a turn, made ready to be compared with each other: of every view the signed distance to its outline
-// and points along it, at a common small scale.
+// The silhouettes of a turn prepared for comparison: the signed distance field of every view and points along its
+// silhouette, at a common reduced scale.
 
 #include "capture/calibration/silhouettes/distance_field.hpp"
 #include "rayspace/base/result.hpp"
@@ -15,14 +15,14 @@
 namespace rs::capture {
 
 struct SilhouetteDetail {
-    int box_px = 300;                 // about: side of the box of the whole turn
+    int box_px = 300;                 // approximate side of the box of the whole turn
     std::size_t edges_per_view = 48;  // at most
 };
 
 class SilhouetteTurn {
 public:
-    // Coverage 0..255, all views of one size. They are reduced by the whole factor that `detail` requires, and cut to
-    // the turn's box. Errors: fewer than 6 views, sizes that differ, a view that is empty or full.
+    /// Coverage 0..255, all views of one size. They are reduced by the integer factor that `detail` requires, and
+    /// cropped to the turn's box. Errors: fewer than 6 views, different sizes, a view that is empty or full.
     static Result<SilhouetteTurn> of(std::span<const Image<std::uint8_t>> masks, const SilhouetteDetail& detail = {});
 
     [[nodiscard]] std::size_t views() const { return distances_.size(); }
@@ -30,11 +30,11 @@ public:
     [[nodiscard]] double width_px() const { return box_high_.x - box_low_.x; }  // of the turn's box
     [[nodiscard]] bool touches_border() const { return open_[0] || open_[1] || open_[2] || open_[3]; }
 
-    // Points of view i's outline to a fraction of a px, evenly around it, none on the border of the picture.
+    /// Points of the silhouette of a view with subpixel accuracy, evenly spaced around it, none on the image border.
     [[nodiscard]] std::span<const glm::dvec2> edges(std::size_t view) const { return edges_[view]; }
 
-    // Signed distance in px from the outline of `view`, positive inside. Beyond a border that the object touches the
-    // picture is taken to go on as it ends there: what it does not show contradicts nothing.
+    /// Signed distance in px from the silhouette of `view`, positive inside. Beyond a border that the object touches
+    /// the image is extended by its edge values: regions outside the image contradict nothing.
     [[nodiscard]] float distance(std::size_t view, float x, float y) const {
         float outside = 0;
         x -= origin_.x + 0.5F;
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    // Between 0 and `last`; how far it was beyond is added to `outside` where that side is closed. NaN becomes 0.
+    // Clamps to 0 .. `last`; the distance beyond is added to `outside` if that side is closed. NaN becomes 0.
     static float held(float position, float last, bool open_before, bool open_behind, float& outside) {
         if (position >= 0 && position <= last) return position;
         if (position > last) {
@@ -58,9 +58,9 @@ private:
     }
 
     int reduction_ = 1;
-    glm::vec2 origin_{0};  // of the fields within the reduced picture
+    glm::vec2 origin_{0};  // of the fields within the reduced image
     glm::dvec2 box_low_{0}, box_high_{0};
-    bool open_[4] = {};  // left, right, top, bottom: the object reaches the picture's border there
+    bool open_[4] = {};  // left, right, top, bottom: the object touches the image border there
     std::vector<DistanceField> distances_;
     std::vector<std::vector<glm::dvec2>> edges_;
 };

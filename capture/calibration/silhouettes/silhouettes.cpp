@@ -24,10 +24,10 @@ constexpr std::array<double, 7> kTiltsCompared_deg = {-30, -15, -5, 0, 5, 15, 30
 constexpr std::size_t kBestTries = 4;
 constexpr double kSearchOutlier_px = 12;
 constexpr std::size_t kGroups = 6;            // of the jackknife
-constexpr double kGoodEnough_px = 1;          // of a start that needs no improvement, reduced px
-constexpr double kGoodSilhouettes_px = 0.35;  // good cut-outs leave no more, reduced px
-constexpr double kDisagree_px = 3;            // of a fit that is not to be believed, reduced px
-constexpr double kImprovement = 0.98;         // of the cost
+constexpr double kGoodEnough_px = 1;          // a start with smaller residuals needs no improvement, reduced px
+constexpr double kGoodSilhouettes_px = 0.35;  // residuals of good silhouettes, reduced px
+constexpr double kDisagree_px = 3;            // fits with larger residuals are rejected, reduced px
+constexpr double kImprovement = 0.98;         // required ratio of costs
 
 Lens scaled(const Lens& lens, double by) {
     Lens result = lens;
@@ -39,22 +39,22 @@ Lens scaled(const Lens& lens, double by) {
 
 Status check_start(std::span<const Image<std::uint8_t>> masks, const TurntableModel& start) {
     if (start.angles_rad.size() != masks.size()) {
-        return Error{"silhouettes: " + std::to_string(masks.size()) + " outlines but " +
+        return Error{"silhouettes: " + std::to_string(masks.size()) + " silhouettes but " +
                      std::to_string(start.angles_rad.size()) + " angles; give one angle per view"};
     }
     if (!(start.lens.f_px > 0) || start.lens.width <= 0 || start.lens.height <= 0) {
-        return Error{"silhouettes: the assumed lens has no focal length or no picture size"};
+        return Error{"silhouettes: the assumed lens has no focal length or no image size"};
     }
     const double scale = static_cast<double>(masks[0].width()) / start.lens.width;
     if (scale > 1 || std::abs(masks[0].height() - scale * start.lens.height) > 1) {
         return Error{"silhouettes: masks of " + std::to_string(masks[0].width()) + " x " +
-                     std::to_string(masks[0].height()) + " pixels are no reduced pictures of " +
+                     std::to_string(masks[0].height()) + " pixels are no reduced images of " +
                      std::to_string(start.lens.width) + " x " + std::to_string(start.lens.height)};
     }
     return {};
 }
 
-// The best of a coarse grid over axis and tilt, each fitted with few rays, then the best of those with all.
+// Fits each point of a coarse grid over axis and tilt with few rays, then refines the best with all.
 SilhouetteFit search(SilhouetteProblem problem) {
     const double width_px = problem.turn->width_px();
     std::vector<SilhouetteFit> tries;
@@ -79,10 +79,10 @@ SilhouetteFit search(SilhouetteProblem problem) {
     return fit_silhouettes(problem, tries[0].at, {1, {}}, 10);
 }
 
-// The best fits with the tilt held at several values. Outlines may leave a whole valley of tilts open, with another
-// axis and lens for each, and the curvature at one place in it shows nothing of that.
-std::vector<SilhouetteFit> fits_along_tilts(SilhouetteProblem problem, const SilhouetteFit& fit,
-                                            const RaySelection& rays) {
+// The best fits with the tilt held at several values. Silhouettes may leave a valley of tilts with another axis and
+// lens for each, which the curvature at one point of it does not show.
+std::vector<SilhouetteFit> fit_fixed_tilts(SilhouetteProblem problem, const SilhouetteFit& fit,
+                                           const RaySelection& rays) {
     std::vector<SilhouetteFit> fits;
     if (!problem.free[Parameters::kTilt]) return fits;
     problem.free[Parameters::kTilt] = false;
@@ -95,7 +95,7 @@ std::vector<SilhouetteFit> fits_along_tilts(SilhouetteProblem problem, const Sil
     return fits;
 }
 
-// Where the best fit stands out by less than one standard error, the tilt nearest to the start is as good.
+// If the best fit is better by less than one standard error, the tilt nearest to the start is as good.
 SilhouetteFit nearest_to_start(const SilhouetteFit& fit, double fit_cost, const std::vector<SilhouetteFit>& along) {
     SilhouetteFit nearest = fit;
     for (const SilhouetteFit& each : along) {
@@ -106,10 +106,10 @@ SilhouetteFit nearest_to_start(const SilhouetteFit& fit, double fit_cost, const 
     return nearest;
 }
 
-// How far each number is off if one of the fits along the tilts is the truth: all the way where that fit is as good,
-// less by the standard errors that it is worse; for a cost that is a parabola this is one standard deviation.
-std::array<double, Parameters::kCount> valley(const SilhouetteFit& fit, double fit_cost,
-                                              const std::vector<SilhouetteFit>& along) {
+// Deviation of each number if one of the fits along the tilts is the truth: the full distance if that fit is as good,
+// less in proportion to the standard errors by which it is worse; for a parabolic cost this is one standard deviation.
+std::array<double, Parameters::kCount> tilt_valley_deviations(const SilhouetteFit& fit, double fit_cost,
+                                                              const std::vector<SilhouetteFit>& along) {
     std::array<double, Parameters::kCount> deviation{};
     for (const SilhouetteFit& each : along) {
         for (std::size_t k = 0; k < Parameters::kCount; ++k) {
@@ -118,13 +118,15 @@ std::array<double, Parameters::kCount> valley(const SilhouetteFit& fit, double f
         }
     }
     for (std::size_t k = 0; k < Parameters::kCount; ++k) {
-        if (deviation[k] > kToldNothing * kSilhouettePriors[k]) deviation[k] = std::numeric_limits<double>::infinity();
+        if (deviation[k] > kUndeterminedShare * kSilhouettePriors[k])
+            deviation[k] = std::numeric_limits<double>::infinity();
     }
     return deviation;
 }
 
-// Fits without each of a few interleaved groups of views: honest about errors that neighbouring points share.
-std::array<double, Parameters::kCount> jackknife(const SilhouetteProblem& problem, const SilhouetteFit& fit) {
+// Jackknife over interleaved groups of views, which includes errors that neighbouring points share.
+std::array<double, Parameters::kCount> jackknife_deviations(const SilhouetteProblem& problem,
+                                                            const SilhouetteFit& fit) {
     const std::size_t views = problem.turn->views();
     const std::size_t groups = std::min(kGroups, views / 3);
     std::vector<Parameters> without;
@@ -145,15 +147,15 @@ std::array<double, Parameters::kCount> jackknife(const SilhouetteProblem& proble
     return deviation;
 }
 
-ModelDeviations deviations_of(const SilhouetteFit& fit, const std::array<double, Parameters::kCount>& spread,
-                              const TurntableModel& model, const KnownInputs& known, double picture_px) {
+ModelDeviations standard_deviations(const SilhouetteFit& fit, const std::array<double, Parameters::kCount>& spread,
+                                    const TurntableModel& model, const KnownInputs& known, double image_px) {
     const auto of = [&](Parameters::Name name) { return std::max(fit.deviation[name], spread[name]); };
     ModelDeviations deviations;
     deviations.f_px = of(Parameters::kLogF) * model.lens.f_px;
     deviations.tilt_rad = of(Parameters::kTilt);
     deviations.roll_rad = of(Parameters::kRoll);
     deviations.axis_direction_rad = std::hypot(deviations.tilt_rad, deviations.roll_rad);
-    deviations.axis_position_px = of(Parameters::kAxis) * picture_px;
+    deviations.axis_position_px = of(Parameters::kAxis) * image_px;
     if (known.principal_point) deviations.cx = deviations.cy = 0;
     if (known.distortion) deviations.k1 = deviations.k2 = 0;
     const bool angles_known = known.step_rad || known.angles_rad;
@@ -163,7 +165,7 @@ ModelDeviations deviations_of(const SilhouetteFit& fit, const std::array<double,
         return sum;
     }();
     for (const double angle : model.angles_rad) {
-        // Assumed angles are as sure as nobody knows; estimated ones as sure as their common step.
+        // The accuracy of assumed angles is unknown; that of estimated ones follows from their common step.
         double deviation = angles_known ? 0 : std::numeric_limits<double>::infinity();
         if (fit.deviation[Parameters::kStep] > 0) deviation = of(Parameters::kStep) * std::abs(angle - mean_rad);
         deviations.angles_rad.push_back(deviation);
@@ -171,7 +173,7 @@ ModelDeviations deviations_of(const SilhouetteFit& fit, const std::array<double,
     return deviations;
 }
 
-std::vector<ViewFit> fits_by_view(const SilhouetteTurn& turn, const std::vector<double>& residuals, double picture_px) {
+std::vector<ViewFit> fits_by_view(const SilhouetteTurn& turn, const std::vector<double>& residuals, double image_px) {
     const std::vector<std::size_t> view_of = views_of_rays(turn, {});
     std::vector<ViewFit> views(turn.views());
     for (std::size_t r = 0; r < residuals.size(); ++r) {
@@ -179,7 +181,7 @@ std::vector<ViewFit> fits_by_view(const SilhouetteTurn& turn, const std::vector<
         views[view_of[r]].rms_px += residuals[r] * residuals[r];
     }
     for (ViewFit& view : views)
-        view.rms_px = view.observations > 0 ? picture_px * std::sqrt(view.rms_px / view.observations) : 0;
+        view.rms_px = view.observations > 0 ? image_px * std::sqrt(view.rms_px / view.observations) : 0;
     return views;
 }
 
@@ -188,98 +190,98 @@ void warn(Calibration& calibration, const SilhouetteTurn& turn) {
     auto& warnings = calibration.warnings;
     if (std::isinf(d.tilt_rad)) {
         warnings.emplace_back(
-            "the outlines do not say how far the camera looks down (a round object looks alike from all sides): its "
-            "height is assumed; put a printed board under the object");
-    } else if (seems_to_look_up(calibration)) {
+            "the silhouettes do not determine how far the camera looks down (a round object looks the same from all "
+            "sides): its height is assumed; put a printed board under the object");
+    } else if (is_seen_from_below(calibration)) {
         warnings.emplace_back(
-            "the outlines fit a camera that looks up from below; if it looks down, the object turns the other way: "
-            "give the other sense of turning");
+            "the silhouettes fit a camera that looks up from below; if it looks down, the object turns the other way: "
+            "give the other direction of turning");
     }
     if (!(d.f_px < 0.15 * calibration.model.lens.f_px)) {
         warnings.emplace_back(
-            "the outlines do not say what the lens is: its focal length is assumed; give it if it is known");
+            "the silhouettes do not determine the lens: its focal length is assumed; give it if it is known");
     }
     if (turn.touches_border()) {
-        warnings.emplace_back("the object reaches the border of the pictures: what is cut off there was not compared");
+        warnings.emplace_back("the object reaches the border of the images: regions outside were not compared");
     }
     for (std::size_t i = 0; i < calibration.views.size(); ++i) {
         const double limit = std::max(3 * calibration.rms_px, 2.0 * turn.reduction());
         if (calibration.views[i].rms_px > limit) {
-            warnings.push_back("the outline of view " + std::to_string(i + 1) +
-                               " does not fit the others; check its cut-out and whether the object stood still");
+            warnings.push_back(
+                "the silhouette of view " + std::to_string(i + 1) +
+                " does not fit the others; check its mask and whether the object moved on the turntable");
         }
     }
 }
 
 }  // namespace
 
-bool seems_to_look_up(const Calibration& found) {
+bool is_seen_from_below(const Calibration& found) {
     return found.model.pose.tilt_rad < -std::max(2 * found.deviations.tilt_rad, radians(3));
 }
 
 Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_t>> masks, const TurntableModel& start,
                                                const KnownInputs& known) {
-    auto turn = SilhouetteTurn::of(masks);
-    if (!turn) return turn.error();
-    const TurntableModel held = with_known(start, known);
-    if (Status status = check_start(masks, held); !status) return status.error();
+    RS_ASSIGN_OR_RETURN(auto turn, SilhouetteTurn::of(masks));
+    const TurntableModel held = apply_known(start, known);
+    RS_TRY(check_start(masks, held));
 
-    // Photograph px per px of the turn.
-    const double picture_px = turn->reduction() * static_cast<double>(start.lens.width) / masks[0].width();
+    // Photo px per px of the turn.
+    const double image_px = turn.reduction() * static_cast<double>(start.lens.width) / masks[0].width();
     SilhouetteProblem problem;
-    problem.turn = &*turn;
+    problem.turn = &turn;
     problem.start = held;
-    problem.start.lens = scaled(held.lens, 1 / picture_px);
+    problem.start.lens = scaled(held.lens, 1 / image_px);
     const bool pose_free = !known.pose;
     problem.free = {pose_free, pose_free, pose_free, !known.f_px, !known.step_rad && !known.angles_rad};
 
     const auto disagreement = [&](double apart_px) {
-        return Error{"silhouettes: the outlines disagree by " + std::to_string(std::lround(apart_px * picture_px)) +
-                     " pixels with every single turn; check the steps, the sense of turning and the cut-outs"};
+        return Error{"silhouettes: the silhouettes disagree by " + std::to_string(std::lround(apart_px * image_px)) +
+                     " pixels with every single turn; check the steps, the direction of turning and the masks"};
     };
     const SilhouetteFit best = search(problem);
-    const double start_rms = rms_px(consistency_residuals_px(*turn, problem.start, {}));
+    const double start_rms = rms_px(consistency_residuals_px(turn, problem.start, {}));
     if (start_rms > kGoodEnough_px && !(best.cost < kImprovement * silhouette_cost(problem, {}, {}))) {
         return Error{
-            "silhouettes: no axis, tilt, roll or focal length near the assumed ones makes the outlines agree "
-            "better; check the steps, the sense of turning and the cut-outs"};
+            "silhouettes: no axis, tilt, roll or focal length near the assumed ones makes the silhouettes agree "
+            "better; check the steps, the direction of turning and the masks"};
     }
-    // What follows finds out how sure this is; it mends no outlines that disagree so much.
-    const double best_rms = rms_px(consistency_residuals_px(*turn, changed(problem.start, best.at), {}));
+    // The following steps estimate the accuracy; they cannot repair silhouettes that disagree so much.
+    const double best_rms = rms_px(consistency_residuals_px(turn, changed(problem.start, best.at), {}));
     if (best_rms > kDisagree_px) return disagreement(best_rms);
     const RaySelection half{2, {}};
     const double best_cost = silhouette_cost(problem, best.at, half);
-    const std::vector<SilhouetteFit> along = fits_along_tilts(problem, best, half);
+    const std::vector<SilhouetteFit> along = fit_fixed_tilts(problem, best, half);
     SilhouetteFit fit = nearest_to_start(best, best_cost, along);
     Calibration calibration;
     calibration.method = CalibrationMethod::kSilhouettes;
     TurntableModel of_turn = changed(problem.start, fit.at);
-    std::vector<double> residuals = consistency_residuals_px(*turn, of_turn, {});
+    std::vector<double> residuals = consistency_residuals_px(turn, of_turn, {});
     calibration.model = of_turn;
-    calibration.model.lens = scaled(calibration.model.lens, picture_px);
-    std::array<double, Parameters::kCount> spread = jackknife(problem, fit);
-    const std::array<double, Parameters::kCount> open = valley(fit, best_cost, along);
-    // Outlines that fit worse than good ones should are surer of nothing.
+    calibration.model.lens = scaled(calibration.model.lens, image_px);
+    std::array<double, Parameters::kCount> spread = jackknife_deviations(problem, fit);
+    const std::array<double, Parameters::kCount> open = tilt_valley_deviations(fit, best_cost, along);
+    // Silhouettes that fit worse than good ones make all numbers less certain.
     const double doubt = std::max(1.0, rms_px(residuals) / kGoodSilhouettes_px);
     for (std::size_t k = 0; k < Parameters::kCount; ++k) {
         spread[k] = std::max(spread[k], doubt * open[k]);
         fit.deviation[k] *= doubt;
     }
-    calibration.deviations = deviations_of(fit, spread, calibration.model, known, picture_px);
-    if (auto found = angles_of_silhouettes(masks, calibration.model, calibration.deviations, known)) {
+    calibration.deviations = standard_deviations(fit, spread, calibration.model, known, image_px);
+    if (auto found = estimate_angles(masks, calibration.model, calibration.deviations, known)) {
         calibration.model = std::move(found->model);
         calibration.deviations = std::move(found->deviations);
         of_turn = calibration.model;
-        of_turn.lens = scaled(of_turn.lens, 1 / picture_px);
-        residuals = consistency_residuals_px(*turn, of_turn, {});
+        of_turn.lens = scaled(of_turn.lens, 1 / image_px);
+        residuals = consistency_residuals_px(turn, of_turn, {});
     }
     const double fit_rms = rms_px(residuals);
     if (fit_rms > kDisagree_px) return disagreement(fit_rms);
     calibration.observations = static_cast<int>(residuals.size());
-    calibration.rms_px = fit_rms * picture_px;
-    calibration.views = fits_by_view(*turn, residuals, picture_px);
+    calibration.rms_px = fit_rms * image_px;
+    calibration.views = fits_by_view(turn, residuals, image_px);
     calibration.step_rad = median_step(calibration.model.angles_rad);
-    warn(calibration, *turn);
+    warn(calibration, turn);
     return calibration;
 }
 

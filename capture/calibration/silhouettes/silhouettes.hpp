@@ -1,12 +1,12 @@
 #pragma once
-// Calibration of a turn from outlines alone, for objects without texture: the model under which all outlines can be
-// those of one body (consistency_residuals.hpp).
+// Calibration of a turn from silhouettes alone, for objects without texture: finds the model whose silhouettes are
+// consistent with one body (consistency_residuals.hpp).
 //
-// What outlines show: where the axis is and how it leans in the picture, well; how far the camera looks down and single
-// angles (silhouette_angles.hpp), fairly, unless the object is a body of revolution; the focal length, hardly. What
-// they cannot show is held near the start by a weak prior (silhouette_fit.hpp) and its deviation is infinite. The sense
-// of turning cannot be known: an outline taken from below with the other sense is the same but for perspective. The
-// start's sense is kept.
+// Silhouettes determine the position and roll of the axis well; the tilt and individual angles (silhouette_angles.hpp)
+// moderately, unless the object is a body of revolution; the focal length hardly. Undetermined numbers are held near
+// the start by a weak prior (silhouette_fit.hpp) and their deviation is infinite. The direction of turning cannot be
+// determined: the silhouette from below with the other direction is the same except for perspective. The start's
+// direction is kept.
 
 #include "capture/calibration/model/calibration.hpp"
 #include "rayspace/base/result.hpp"
@@ -17,19 +17,19 @@
 
 namespace rs::capture {
 
-// `masks`: coverage 0..255 per view, of the size of start.lens or smaller by a common factor (about 300 px of object
-// are enough). `start`: lens with an assumed f, a pose, one angle per view; in px of the photographs. What `known`
-// holds is taken instead and not estimated. First the common step of equally spaced views is, around start's to within
-// some 3 %, then single angles and the distortion with them, where the outlines show them and they are neither known
-// nor held equal. The principal point never is.
-//
-// Fails where masks and start do not fit together, where the outlines of no model near the start agree, and where the
-// start cannot be improved although it does not fit. Works on the threads of the calling tbb arena, deterministic;
-// about 15 s for 36 views on 2 cores.
+/// `masks`: coverage 0..255 per view, of the size of start.lens or smaller by a common factor (about 300 px of object
+/// are enough). `start`: lens with an assumed f, a pose, one angle per view; in px of the photos. Numbers in `known`
+/// replace the start's and are held constant. The first stage estimates the common step of equally spaced views, within
+/// about 3 % of the start's; the second estimates individual angles and the distortion, if the silhouettes determine
+/// them and they are neither known nor required to be equal. The principal point is not estimated.
+///
+/// Fails if masks and start do not fit together, if no model near the start makes the silhouettes consistent, or if the
+/// start cannot be improved although it does not fit. Runs on the calling tbb arena, deterministic; about 15 s for 36
+/// views on 2 cores.
 Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_t>> masks, const TurntableModel& start,
                                                const KnownInputs& known);
 
-// The outlines fit a camera that looks up from below, so the other sense of turning is likelier.
-bool seems_to_look_up(const Calibration& found);
+/// True if the silhouettes fit a camera that looks up from below, so that the other direction of turning is likelier.
+bool is_seen_from_below(const Calibration& found);
 
 }  // namespace rs::capture

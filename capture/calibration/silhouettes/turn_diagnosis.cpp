@@ -14,18 +14,18 @@ namespace {
 constexpr double kFewestAgreeing = 0.2;        // of all candidates
 constexpr double kFewestAgreeingOfView = 0.4;  // of the median over all views
 constexpr double kMostViewsApart = 0.15;
-constexpr double kLeastExplained = 0.6;  // of the shares' scatter, by one change
+constexpr double kLeastExplained = 0.6;  // of the shares' scatter, explained by one change
 constexpr double kLeastChange = 0.25;
-constexpr double kLargestRms = 0.004;        // of the picture's longer side: 4 px of 1000
-constexpr double kMostUncertainLens = 0.25;  // deviation of f over f
+constexpr double kLargestRms = 0.004;        // relative to the image's longer side: 4 px of 1000
+constexpr double kMostUncertainLens = 0.25;  // deviation of f / f
 constexpr double kStepWarning_deg = 0.5;
 constexpr double kRepeat = 0.1;  // of the median step
 constexpr double kGap = 1.6;
-constexpr std::size_t kFewUneven = 4;  // steps that are named one by one
+constexpr std::size_t kFewUneven = 4;  // steps listed individually
 constexpr double kAxesApart_px = 0.5;
 
-// [view], of its candidates: those that agree with the rig.
-std::vector<double> agreeing_shares(const Bundle& bundle, std::span<const int> candidates) {
+// [view]: share of its candidates that agree with the rig.
+std::vector<double> inlier_shares(const Bundle& bundle, std::span<const int> candidates) {
     const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
     std::vector<double> shares;
     for (std::size_t view = 0; view < kept.size(); ++view) {
@@ -35,9 +35,9 @@ std::vector<double> agreeing_shares(const Bundle& bundle, std::span<const int> c
 }
 
 // Views whose candidates mostly disagree with the rig.
-std::vector<std::size_t> views_apart(const Bundle& bundle, std::span<const int> candidates) {
+std::vector<std::size_t> disagreeing_views(const Bundle& bundle, std::span<const int> candidates) {
     const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
-    const std::vector<double> shares = agreeing_shares(bundle, candidates);
+    const std::vector<double> shares = inlier_shares(bundle, candidates);
     const double least = kFewestAgreeingOfView * median(shares);
     std::vector<std::size_t> apart;
     for (std::size_t view = 0; view < kept.size(); ++view) {
@@ -54,9 +54,9 @@ std::string list_of(const std::vector<std::size_t>& views, std::span<const std::
     return listed(of_views, 3);
 }
 
-// The first view after something changed at one moment: the shares before it and after it are two different levels that
-// explain most of how shares differ. Nothing where they differ otherwise, as where two cameras take turns.
-std::optional<std::size_t> moment_of_change(std::span<const double> shares) {
+// The first view after a single change: the shares before and after it have two levels that explain most of the
+// variance. Nothing if the shares vary otherwise, for example with two alternating cameras.
+std::optional<std::size_t> first_view_after_change(std::span<const double> shares) {
     const auto count = static_cast<double>(shares.size());
     double mean = 0, scatter = 0;
     for (const double share : shares) mean += share / count;
@@ -101,23 +101,23 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
     double offered = 0;
     for (const int count : candidates) offered += count;
     const double share = observation_count(bundle) / std::max(1.0, offered);
-    const std::vector<std::size_t> apart = views_apart(bundle, candidates);
+    const std::vector<std::size_t> apart = disagreeing_views(bundle, candidates);
     const auto views = static_cast<double>(names.size());
     if (share < kFewestAgreeing || static_cast<double>(apart.size()) > kMostViewsApart * views) {
-        std::string text = "the pictures do not show one turn before a still camera: " + with_digits(100 * share, 0) +
+        std::string text = "the images do not show one turn before a fixed camera: " + with_digits(100 * share, 0) +
                            " % of the observations agree with the best one";
         if (!apart.empty()) text += ", and not those of " + list_of(apart, names);
-        if (const auto moment = moment_of_change(agreeing_shares(bundle, candidates))) {
+        if (const auto moment = first_view_after_change(inlier_shares(bundle, candidates))) {
             text += "; was the camera or the tripod moved at about " + names[*moment] + "? Take the turn again";
         } else {
-            text += "; are they of one camera, one zoom and one object that stood still on the turntable?";
+            text += "; are they of one camera, one zoom and one object that did not move on the turntable?";
         }
         return Error{text};
     }
     const double longer = std::max(model.lens.width, model.lens.height);
     if (rms_px(bundle) > kLargestRms * longer) {
         return Error{"the best turn misses the observations by " + with_digits(rms_px(bundle), 1) +
-                     " px; are the pictures in the order they were taken, from one still camera?"};
+                     " px; are the images in the order they were taken, from one fixed camera?"};
     }
     const double usual = median_step(model.angles_rad);
     int against = 0;
@@ -127,21 +127,21 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
     if (std::abs(degrees(usual)) < 0.05 || against > 0.1 * views) {
         return Error{"the angles make no turn (median step " + with_digits(degrees(usual), 2) + " degrees, " +
                      std::to_string(against) +
-                     " steps against it); are the pictures in the order they were taken? Names are sorted naturally"};
+                     " steps against it); are the images in the order they were taken? Names are sorted naturally"};
     }
     const double turn_deg = std::abs(degrees(model.angles_rad.back() - model.angles_rad.front()));
     if (turn_deg < 15 || turn_deg > 400) {
-        return Error{"the pictures cover " + with_digits(turn_deg, 1) +
+        return Error{"the images cover " + with_digits(turn_deg, 1) +
                      " degrees of turn; 15 to 400 are needed (one turn, without repeats)"};
     }
     if (!(deviations.f_px < kMostUncertainLens * model.lens.f_px)) {
-        return Error{"the pictures leave the focal length open; give it with --fov, or put a board under the object"};
+        return Error{"the images leave the focal length open; give it with --fov, or put a board under the object"};
     }
     return {};
 }
 
-bool changes_at_one_moment(const Bundle& bundle, std::span<const int> candidates) {
-    return moment_of_change(agreeing_shares(bundle, candidates)).has_value();
+bool has_single_change(const Bundle& bundle, std::span<const int> candidates) {
+    return first_view_after_change(inlier_shares(bundle, candidates)).has_value();
 }
 
 std::vector<std::string> step_warnings(std::span<const double> angles, const ModelDeviations& deviations,
@@ -149,7 +149,7 @@ std::vector<std::string> step_warnings(std::span<const double> angles, const Mod
     std::vector<std::string> lines;
     std::vector<std::size_t> uneven;  // steps to these views
     const double usual = degrees(median_step(angles));
-    const auto off = [&](std::size_t i) {  // how far step i - 1 -> i differs from the usual one, degrees forward
+    const auto off = [&](std::size_t i) {  // deviation of step i - 1 -> i from the usual one, degrees forward
         return (degrees(angles[i] - angles[i - 1]) - usual) * (usual < 0 ? -1 : 1);
     };
     const auto step_to = [&](std::size_t i) { return std::abs(usual) + off(i); };
@@ -161,7 +161,7 @@ std::vector<std::string> step_warnings(std::span<const double> angles, const Mod
         const double step = step_to(i);
         if (std::abs(off(i)) <= tolerance(i)) continue;
         if (std::abs(step) < kRepeat * std::abs(usual)) {
-            lines.push_back(names[i] + " stands where " + names[i - 1] + " does (" + with_digits(step, 2) +
+            lines.push_back(names[i] + " is at the angle of " + names[i - 1] + " (" + with_digits(step, 2) +
                             " degrees on); the turntable had not turned");
         } else if (i + 1 < angles.size() && std::abs(off(i) + off(i + 1)) <= tolerance(i)) {
             lines.push_back(names[i] + " is " + with_digits(std::abs(off(i)), 1) + " degrees off (" +
@@ -195,8 +195,8 @@ std::vector<std::string> step_warnings(std::span<const double> angles, const Mod
     return lines;
 }
 
-std::vector<std::string> picture_warnings(const Bundle& bundle, std::span<const int> candidates,
-                                          std::span<const int> features, std::span<const std::string> names) {
+std::vector<std::string> image_warnings(const Bundle& bundle, std::span<const int> candidates,
+                                        std::span<const int> features, std::span<const std::string> names) {
     std::vector<std::string> lines;
     std::vector<double> counts(features.begin(), features.end());
     const double ordinary = median(counts);
@@ -207,11 +207,11 @@ std::vector<std::string> picture_warnings(const Bundle& bundle, std::span<const 
         }
     }
     const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
-    for (const std::size_t view : views_apart(bundle, candidates)) {
+    for (const std::size_t view : disagreeing_views(bundle, candidates)) {
         if (candidates[view] < kFewestObservations) {
             lines.push_back(
                 names[view] + " shows only " + std::to_string(candidates[view]) +
-                " points that other pictures show, too, and its angle may be wrong; larger pictures have more of them");
+                " points that other images show, too, and its angle may be wrong; larger images have more of them");
             continue;
         }
         lines.push_back(names[view] + " does not fit the turn (" + std::to_string(kept[view]) + " of " +
@@ -221,25 +221,27 @@ std::vector<std::string> picture_warnings(const Bundle& bundle, std::span<const 
     return lines;
 }
 
-std::string place_warning(std::span<const PicturePlace> places) {
+std::string place_warning(std::span<const ImagePlace> places) {
     double shift_px = 0;
     double least = places.front().scale, most = least;
-    for (const PicturePlace& place : places) {
+    for (const ImagePlace& place : places) {
         shift_px = std::max(shift_px, glm::length(place.shift_px - places.front().shift_px));
         least = std::min(least, place.scale);
         most = std::max(most, place.scale);
     }
-    return "the pictures were moved (by up to " + with_digits(shift_px, 0) + " px) and scaled (by up to " +
-           with_digits(100 * (most / least - 1), 0) + " %) one by one, as shops do; they are put back";
+    return "the images were moved (by up to " + with_digits(shift_px, 0) + " px) and scaled (by up to " +
+           with_digits(100 * (most / least - 1), 0) + " %) individually, as shops do; this is undone";
 }
 
-std::optional<std::string> axis_warning(const AxisPlace& of_tracks, const AxisPlace& of_silhouettes, int reduction) {
+std::optional<std::string> axis_warning(const AxisPosition& of_tracks, const AxisPosition& of_silhouettes,
+                                        int reduction) {
     const double apart = std::abs(of_tracks.position_px - of_silhouettes.position_px);
     const double believed = 3 * std::hypot(of_tracks.deviation_px, of_silhouettes.deviation_px);
     if (!(apart > std::max(believed, kAxesApart_px * reduction))) return std::nullopt;
     return "the object's texture turns about an axis " + with_digits(apart, 1) +
-           " px beside that of its outlines, which is taken; stripes wound around the object mislead like this, but so "
-           "do cut-outs that lack the same side in all pictures: look at those, or put a printed board under the "
+           " px beside that of its silhouettes, which is used; stripes wound around the object have this effect, and "
+           "so "
+           "have masks that lack the same side in all images: check those, or put a printed board under the "
            "object";
 }
 

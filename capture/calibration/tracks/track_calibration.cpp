@@ -3,10 +3,10 @@
 #include "capture/calibration/points/model_covariance.hpp"
 #include "capture/calibration/points/patch_alignment.hpp"
 #include "capture/calibration/points/patch_growth.hpp"
-#include "capture/calibration/points/picture_places.hpp"
+#include "capture/calibration/points/placement_estimation.hpp"
 #include "capture/calibration/points/start_search.hpp"
 #include "capture/calibration/silhouettes/turn_diagnosis.hpp"
-#include "capture/calibration/tracks/silhouette_settling.hpp"
+#include "capture/calibration/tracks/silhouette_refinement.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <algorithm>
@@ -26,17 +26,17 @@ constexpr double kFewestAgreeingPlaced = 0.75;
 constexpr int kPlaceRounds = 1;
 constexpr double kLossDeviations = 2;
 constexpr double kTrackOutlierDeviations = 4;
-constexpr double kSharedError_px = 0.2;  // what the true errors on photographs with known truth require
+constexpr double kSharedError_px = 0.2;  // calibrated on photos with ground truth
 constexpr std::size_t kEnoughWideTracks = 80;
 constexpr double kWideArc_rad = 0.35;
-constexpr std::size_t kEnoughTracks = 2000;  // more would only take time
-constexpr int kObservationsPerView = 280;    // until so many, points are grown beside those there are
+constexpr std::size_t kEnoughTracks = 2000;  // more would only cost time
+constexpr int kObservationsPerView = 280;    // points are grown until each view has so many
 constexpr int kAlignmentRounds = 2;
-constexpr int kMostAlignmentRounds = 3;  // where points still grow
-constexpr double kRoom = 1.15;           // around the points known, for those not known yet
+constexpr int kMostAlignmentRounds = 3;  // while points are added
+constexpr double kRadiusMargin = 1.15;   // factor on the radius of the known points, for those not found yet
 constexpr double kLeastOutlierLimit_px = 0.8;
-constexpr double kAlignedLimit_px = 1;  // alignment that went to another place
-// Adjustments after which observations are chosen anew need not be exact.
+constexpr double kAlignedLimit_px = 1;  // larger residuals are alignments to another place
+// Adjustments followed by a new selection of observations need not be accurate.
 constexpr int kRoughIterations = 12;
 constexpr double kRoughlyEnough = 1e-4;
 
@@ -65,11 +65,11 @@ std::vector<ViewFit> fits(const Bundle& bundle) {
     return views;
 }
 
-// The representation whose picture is the same but whose axis points the other way; an axis that lies sideways has no
-// upper end in the picture, so the end that the camera looks down from is taken for it.
-void choose_upper_end(Bundle& bundle) {
+// Of the two equivalent models with opposite axis directions, takes the one whose camera looks down if the axis is
+// sideways, because the image does not define an upper end then.
+void choose_axis_direction(Bundle& bundle) {
     CameraPose& pose = bundle.model.pose;
-    if (!lies_sideways(pose) || pose.tilt_rad >= 0) return;
+    if (!has_sideways_axis(pose) || pose.tilt_rad >= 0) return;
     pose.tilt_rad = -pose.tilt_rad;
     pose.pan_rad = -pose.pan_rad;
     pose.roll_rad += pose.roll_rad > 0 ? -kPi : kPi;
@@ -77,7 +77,7 @@ void choose_upper_end(Bundle& bundle) {
     for (glm::dvec3& p : bundle.points) p = {-p.x, -p.y, p.z};
 }
 
-// Of the points, but for the farthest few, which may be wrong.
+// 98th percentile of the points' distances from the axis; the farthest few may be wrong.
 double farthest_radius(const Bundle& bundle) {
     std::vector<double> radii;
     for (const glm::dvec3& p : bundle.points) radii.push_back(std::hypot(p.x, p.z));
@@ -86,20 +86,20 @@ double farthest_radius(const Bundle& bundle) {
     return *most;
 }
 
-const char* const kNoSolution = "the bundle adjustment fails; are the pictures in order?";
+const char* const kNoSolution = "the bundle adjustment fails; are the images in order?";
 
-Lens known_lens(const TurnPictures& turn, const KnownInputs& known) {
-    return with_known(Lens{turn.width, turn.height, 0, turn.width / 2.0, turn.height / 2.0, 0, 0}, known);
+Lens known_lens(const TurnImages& turn, const KnownInputs& known) {
+    return apply_known(Lens{turn.width, turn.height, 0, turn.width / 2.0, turn.height / 2.0, 0, 0}, known);
 }
 
 BundleOptions rough(BundleOptions options) {
-    options.most_iterations = kRoughIterations;
-    options.enough = kRoughlyEnough;
+    options.max_iterations = kRoughIterations;
+    options.function_tolerance = kRoughlyEnough;
     return options;
 }
 
-// From a start that is roughly right to a good bundle of features as they were detected and matched, which is enough
-// to judge it by; leaves in `options` the loss that fits them.
+// Iterates adjustment and outlier rejection from an approximate start, with the detected features; accurate enough for
+// plausibility checks. Sets the loss in `options` to fit the residuals.
 bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k1_is_free, BundleOptions& options) {
     constexpr int kMostRounds = 5;
     constexpr double kSameLoss = 0.02;
@@ -108,9 +108,9 @@ bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k
         options.free.k1 = round > 0 && k1_is_free;
         if (!adjust(bundle, rough(options))) return false;
         const double limit = outlier_limit(bundle, reduction);
-        // Observations lost to a poor start get another chance.
+        // Observations rejected because of a poor start are reconsidered.
         if (round + 1 < kMostRounds) {
-            bundle = make_agreeing_bundle(bundle.model, tracks, limit);
+            bundle = make_robust_bundle(bundle.model, tracks, limit);
         } else {
             drop_outliers(bundle, limit);
         }
@@ -121,7 +121,7 @@ bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k
     return adjust(bundle, rough(options)).has_value();
 }
 
-// The way around the turn from which a track is seen.
+// Range of angles in which a track is seen, rad.
 double arc_rad(const TurntableModel& model, const Track& track) {
     const double first = model.angles_rad[static_cast<std::size_t>(track.seen.front().view)];
     double low = 0, high = 0;
@@ -148,9 +148,9 @@ void keep(Bundle& bundle, Condition condition) {
     bundle.points.resize(kept);
 }
 
-// What is seen only for a short way may be the crossing of two contours or the edge of a shadow, which glide over the
-// object and still look like a point for that long. Where enough others are there it is left out.
-void keep_wide_tracks(Bundle& bundle) {
+// Drops tracks over short arcs if enough others exist: they may be crossings of two contours or shadow edges, which
+// move over the object but look like a point for a short time.
+void drop_short_arcs(Bundle& bundle) {
     std::vector<double> arcs;
     for (const Track& track : bundle.tracks) arcs.push_back(arc_rad(bundle.model, track));
     std::vector<double> sorted = arcs;
@@ -160,23 +160,23 @@ void keep_wide_tracks(Bundle& bundle) {
          [&, least = std::min(kWideArc_rad, sorted[kEnoughWideTracks])](std::size_t i) { return arcs[i] >= least; });
 }
 
-// Some of all kinds, where there are more than enough: the longest alone would be those seen most aslant.
-void keep_enough_tracks(Bundle& bundle) {
+// Limits the number of tracks by an even selection; the longest alone would be those with oblique views.
+void limit_track_count(Bundle& bundle) {
     const std::size_t count = bundle.tracks.size();
     if (count <= kEnoughTracks) return;
     keep(bundle, [&](std::size_t i) { return i * kEnoughTracks / count != (i + 1) * kEnoughTracks / count; });
 }
 
-// The same points observed anew, by alignment of their patches, and points beside them, until there are `most`
-// observations; leaves in `options` the loss that fits them. Nothing where no bundle of them can be had.
-std::optional<Bundle> refined(Bundle bundle, const TurnPictures& turn, BundleOptions& options, int most) {
+// Refines all points by patch alignment, and adds points beside them until there are `most` observations; sets the loss
+// in `options` to fit the residuals. Nothing if the adjustment fails.
+std::optional<Bundle> refined(Bundle bundle, const TurnImages& turn, BundleOptions& options, int most) {
     for (int round = 0; round < kMostAlignmentRounds; ++round) {
         const std::size_t known = bundle.tracks.size();
         grow(bundle, turn.reduction, most);
         if (round >= kAlignmentRounds && bundle.tracks.size() == known) break;
-        const std::vector<Track> tracks = aligned_tracks(turn.pictures, turn.reduction, bundle, known);
-        bundle = make_agreeing_bundle(bundle.model, tracks, kAlignedLimit_px * turn.reduction);
-        keep_wide_tracks(bundle);
+        const std::vector<Track> tracks = align_tracks(turn.images, turn.reduction, bundle, known);
+        bundle = make_robust_bundle(bundle.model, tracks, kAlignedLimit_px * turn.reduction);
+        drop_short_arcs(bundle);
         for (int again = 0; again < 2; ++again) {
             options.loss_px = std::max(0.05 * turn.reduction, kLossDeviations * robust_deviation_px(bundle));
             if (!adjust(bundle, rough(options))) return std::nullopt;
@@ -188,73 +188,73 @@ std::optional<Bundle> refined(Bundle bundle, const TurnPictures& turn, BundleOpt
     return bundle;
 }
 
-// Tracks that had no part in a model, with their points and outliers found as those were that had; the model stays.
-Bundle judged_by(const TurntableModel& model, const Bundle& unseen, const TurnPictures& turn, bool aligned) {
-    Bundle bundle = make_agreeing_bundle(model, unseen.tracks, outlier_limit(unseen, turn.reduction));
+// Held-out tracks, with points and outliers determined as for the used tracks; the model is constant.
+Bundle evaluate_held_out(const TurntableModel& model, const Bundle& unseen, const TurnImages& turn, bool aligned) {
+    Bundle bundle = make_robust_bundle(model, unseen.tracks, outlier_limit(unseen, turn.reduction));
     if (!aligned) return bundle;
     BundleOptions held;
-    held.free = {.f = false, .pan = false, .tilt = false, .roll = false, .angles = AngleFreedom::kHeld};
+    held.free = {.f = false, .pan = false, .tilt = false, .roll = false, .angles = AngleFreedom::kConstant};
     return refined(bundle, turn, held, 0).value_or(bundle);
 }
 
-// Where no turn before a still camera explains the points, nor a tripod that was moved once, `placed` becomes the best
-// one with pictures moved and scaled one by one. Null: they were, and are put back.
-Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownInputs& known, Progress* progress,
-                                         std::optional<PlacedTurn>* placed) {
-    const std::size_t views = turn.pictures.size();
+// Calibrates for a fixed camera. If the points are explained neither by a turn nor by a tripod that was moved once,
+// `placed` becomes the best turn with images shifted and scaled individually. `placed` is null if that has already been
+// undone.
+Result<TrackCalibration> calibrate_fixed_images(const TurnImages& turn, const KnownInputs& known, Progress* progress,
+                                                std::optional<PlacementEstimate>* placed) {
+    const std::size_t views = turn.images.size();
     if (views < kFewestViews) {
-        return Error{std::to_string(views) + " pictures do not make a turn that could be calibrated; take at least " +
+        return Error{std::to_string(views) + " images are too few to calibrate a turn; take at least " +
                      std::to_string(kFewestViews) + ", better 36"};
     }
-    if (progress != nullptr) progress->start("following points", 2 * static_cast<std::int64_t>(views));
-    const Result<PointFollower> follower = PointFollower::look_at(turn.pictures, turn.reduction, {}, progress);
-    if (!follower) return follower.error();
-    Result<FollowedPoints> followed = follower->follow(progress);
-    if (!followed) return followed.error();
+    if (progress != nullptr) progress->start("tracking points", 2 * static_cast<std::int64_t>(views));
+    RS_ASSIGN_OR_RETURN(const PointTracker tracker, PointTracker::detect(turn.images, turn.reduction, {}, progress));
+    RS_ASSIGN_OR_RETURN(TrackedPoints tracked, tracker.track(progress));
     TrackCalibration result;
-    result.followed = std::move(*followed);
-    const std::vector<Track>& tracks = result.followed.tracks;
+    result.tracked = std::move(tracked);
+    const std::vector<Track>& tracks = result.tracked.tracks;
     if (tracks.size() < kFewestTracks) {
         return Error{"only " + std::to_string(tracks.size()) +
-                     " points of the object can be followed over three pictures and more; an object with so little "
+                     " points of the object can be tracked over three or more images; an object with so little "
                      "texture needs a board under it (rs-capture board)"};
     }
     std::vector<Track> part, held_out;
     split(tracks, part, held_out);
 
     if (progress != nullptr) progress->start("solving for axis, lens and angles", 3);
-    const auto start = find_start(part, result.followed.pairs, static_cast<int>(views), known_lens(turn, known), known);
+    const auto start =
+        find_initial_model(part, result.tracked.pairs, static_cast<int>(views), known_lens(turn, known), known);
     if (!start) return Error{"no turn of equal steps explains how the object's points move"};
     if (progress != nullptr) progress->advance();
 
     BundleOptions options;
-    options.free = freedom_beside(known);
-    Bundle bundle = make_agreeing_bundle(start->model, part, 4.0 * turn.reduction);
+    options.free = free_parameters_beside(known);
+    Bundle bundle = make_robust_bundle(start->model, part, 4.0 * turn.reduction);
     if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
-    choose_upper_end(bundle);
+    choose_axis_direction(bundle);
     if (progress != nullptr) progress->advance();
-    const double at_px = 0.5 * (lies_sideways(bundle.model.pose) ? turn.width : turn.height);
+    const double at_px = 0.5 * (has_sideways_axis(bundle.model.pose) ? turn.width : turn.height);
     const std::vector<int> candidates = observations_per_view(part, views);
-    Status accepted = accept(bundle, bundle_deviations(bundle, options, at_px), candidates, turn.names);
+    Status accepted = accept(bundle, bundle_standard_deviations(bundle, options, at_px), candidates, turn.names);
     if (!accepted) {
-        if (placed != nullptr && !changes_at_one_moment(bundle, candidates)) {
-            *placed = find_places(tracks, known_lens(turn, known), views, turn.reduction, known);
+        if (placed != nullptr && !has_single_change(bundle, candidates)) {
+            *placed = estimate_placements(tracks, known_lens(turn, known), views, turn.reduction, known);
         }
         return accepted.error();
     }
     const Bundle settled = bundle;
     const BundleOptions as_settled = options;
-    // Now that it is known where a point can be, more of them are found.
-    const Result<std::vector<Track>> guided =
-        follower->follow_guided(bundle.model, kRoom * farthest_radius(bundle), 2.0 * turn.reduction);
-    if (!guided) return guided.error();
+    // With an approximate model, guided matching finds more tracks.
+    RS_ASSIGN_OR_RETURN(
+        const std::vector<Track> guided,
+        tracker.track_guided(bundle.model, kRadiusMargin * farthest_radius(bundle), 2.0 * turn.reduction));
     part.clear();
     held_out.clear();
-    split(*guided, part, held_out);
-    bundle = make_agreeing_bundle(bundle.model, part, outlier_limit(bundle, turn.reduction));
+    split(guided, part, held_out);
+    bundle = make_robust_bundle(bundle.model, part, outlier_limit(bundle, turn.reduction));
     if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
-    const Bundle unseen = make_agreeing_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
-    keep_enough_tracks(bundle);
+    const Bundle unseen = make_robust_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
+    limit_track_count(bundle);
     std::optional<Bundle> finest = refined(bundle, turn, options, kObservationsPerView * static_cast<int>(views));
     const bool is_aligned = finest && finest->tracks.size() >= kFewestTracks / 2;
     if (is_aligned) {
@@ -265,10 +265,10 @@ Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownIn
         if (!adjust(bundle, options)) return Error{kNoSolution};
     }
     TrackSolution solution{
-        std::move(bundle), NumberPlaces(options.free, std::vector<bool>(views, true)), {}, at_px, {}};
+        std::move(bundle), ParameterIndices(options.free, std::vector<bool>(views, true)), {}, at_px, {}};
     solution.covariance = bundle_covariance(solution.bundle, options, kSharedError_px * turn.reduction);
-    solution.deviations = deviations_of(solution.bundle.model, solution.places, solution.covariance, at_px);
-    const auto axis_disagrees = settle_with_silhouettes(solution, turn, kFewestTracks / 2);
+    solution.deviations = standard_deviations(solution.bundle.model, solution.places, solution.covariance, at_px);
+    const auto axis_disagrees = refine_with_silhouettes(solution, turn, kFewestTracks / 2);
     bundle = std::move(solution.bundle);
     if (progress != nullptr) progress->advance();
 
@@ -277,35 +277,37 @@ Result<TrackCalibration> calibrate_still(const TurnPictures& turn, const KnownIn
     calibration.model = bundle.model;
     calibration.deviations = std::move(solution.deviations);
     calibration.step_rad = median_step(bundle.model.angles_rad);
-    Bundle judged = settled;  // its observations, the better angles
+    Bundle judged = settled;  // the observations of the features with the refined model
     judged.model = bundle.model;
-    // Of pictures that were moved, angles and axis are only as the moves leave them.
+    // Angles and axis of images that were shifted individually depend on the estimated placements, so no warnings about
+    // them.
     if (placed != nullptr) {
         calibration.warnings = step_warnings(bundle.model.angles_rad, calibration.deviations, turn.names);
         if (axis_disagrees) calibration.warnings.push_back(*axis_disagrees);
     }
-    const auto of_pictures = picture_warnings(judged, candidates, result.followed.features, turn.names);
-    calibration.warnings.insert(calibration.warnings.end(), of_pictures.begin(), of_pictures.end());
+    const auto of_images = image_warnings(judged, candidates, result.tracked.features, turn.names);
+    calibration.warnings.insert(calibration.warnings.end(), of_images.begin(), of_images.end());
     calibration.points = static_cast<int>(bundle.tracks.size());
     calibration.observations = observation_count(bundle);
     calibration.rms_px = rms_px(bundle);
-    calibration.held_out_rms_px = rms_px(judged_by(bundle.model, unseen, turn, is_aligned));
+    calibration.held_out_rms_px = rms_px(evaluate_held_out(bundle.model, unseen, turn, is_aligned));
     calibration.views = fits(bundle);
     result.bundle = std::move(bundle);
     return result;
 }
 
-Result<TrackCalibration> calibrate_placed(const TurnPictures& turn, const KnownInputs& known, Progress* progress) {
-    std::optional<PlacedTurn> placed;
-    Result<TrackCalibration> still = calibrate_still(turn, known, progress, &placed);
+Result<TrackCalibration> calibrate_placed(const TurnImages& turn, const KnownInputs& known, Progress* progress) {
+    std::optional<PlacementEstimate> placed;
+    Result<TrackCalibration> still = calibrate_fixed_images(turn, known, progress, &placed);
     if (!placed || placed->agreeing < kFewestAgreeingPlaced) return still;
-    std::vector<PicturePlace> places = std::move(placed->places);
+    std::vector<ImagePlace> places = std::move(placed->places);
     for (int round = 0;; ++round) {
-        Result<TrackCalibration> found = calibrate_still(put_back(turn, places), known, progress, nullptr);
+        Result<TrackCalibration> found =
+            calibrate_fixed_images(undo_placements(turn, places), known, progress, nullptr);
         if (!found) return still;
         found->calibration.places = places;
         const auto remaining =
-            round < kPlaceRounds ? remaining_places(found->bundle, turn.reduction, known) : std::nullopt;
+            round < kPlaceRounds ? estimate_remaining_placements(found->bundle, turn.reduction, known) : std::nullopt;
         if (!remaining) {
             found->calibration.warnings.push_back(place_warning(places));
             return found;
@@ -314,8 +316,8 @@ Result<TrackCalibration> calibrate_placed(const TurnPictures& turn, const KnownI
     }
 }
 
-// No lens folds its own picture over itself: what the distortion would explain then is something else.
-bool folds(const Lens& lens) {
+// True if the distortion folds the image over itself. No real lens does; the distortion then fits another effect.
+bool folds_image(const Lens& lens) {
     for (const double x : {0.0, static_cast<double>(lens.width)}) {
         for (const double y : {0.0, static_cast<double>(lens.height)}) {
             if (!undistorted(lens, {x, y})) return true;
@@ -326,16 +328,16 @@ bool folds(const Lens& lens) {
 
 }  // namespace
 
-Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const KnownInputs& known, Progress* progress) {
+Result<TrackCalibration> calibrate_with_tracks(const TurnImages& turn, const KnownInputs& known, Progress* progress) {
     Result<TrackCalibration> found = calibrate_placed(turn, known, progress);
-    if (!found || known.distortion || !folds(found->calibration.model.lens)) return found;
+    if (!found || known.distortion || !folds_image(found->calibration.model.lens)) return found;
     KnownInputs straight = known;
     straight.distortion = glm::dvec2(0);
     found = calibrate_placed(turn, straight, progress);
     if (found) {
         found->calibration.warnings.emplace_back(
-            "the object's points do not show how the lens distorts, so it is taken not to; --known FILE gives what is "
-            "known of it");
+            "the object's points do not determine the lens distortion, so none is assumed; give known values with "
+            "--known FILE");
     }
     return found;
 }

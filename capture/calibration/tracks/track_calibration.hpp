@@ -1,9 +1,8 @@
 #pragma once
-// Calibration of a turn from points of the object: start search, bundle, outliers, hold-out, judgement. The outlines of
-// a full turn have their say in where the axis is (silhouette_symmetry.hpp). Where no turn before a still camera
-// explains the points, pictures are taken to have been moved and scaled one by one, as shops do, and put back
-// (picture_places.hpp). Where the points are explained best by a lens that folds its own picture over, all is done
-// again without distortion.
+// Calibration of a turn from object points: start search, bundle adjustment, outlier rejection, hold-out, plausibility
+// checks. The silhouettes of a full turn refine the result (silhouette_refinement.hpp). If no turn before a fixed
+// camera explains the points, the images are assumed to be shifted and scaled individually, and this is undone
+// (placement_estimation.hpp). If the best lens folds its own image over, calibration is repeated without distortion.
 
 #include "capture/calibration/model/calibration.hpp"
 #include "capture/calibration/points/bundle.hpp"
@@ -15,13 +14,13 @@ namespace rs::capture {
 
 struct TrackCalibration {
     Calibration calibration;
-    FollowedPoints followed;  // positions in px of the photographs, put back to their places
-    Bundle bundle;            // the tracks that took part, at the optimum but for the axis' position
+    TrackedPoints tracked;  // positions in px of the photos, with their placements undone
+    Bundle bundle;          // the tracks that took part, at the optimum except for the silhouette refinement
 };
 
-// Fails, with what a photographer can do about it, where the pictures do not determine a single-axis motion: too few
-// points, neighbours that share too little, points that do not agree (two cameras, a moved tripod), angles that make no
-// turn. One thread calls; works on all cores.
-Result<TrackCalibration> calibrate_with_tracks(const TurnPictures& turn, const KnownInputs& known, Progress* progress);
+/// Fails, with advice for the photographer, if the images do not determine a single-axis motion: too few points, too
+/// little overlap between neighbours, points that disagree (two cameras, a moved tripod), angles that are not a turn.
+/// Not reentrant; uses all cores.
+Result<TrackCalibration> calibrate_with_tracks(const TurnImages& turn, const KnownInputs& known, Progress* progress);
 
 }  // namespace rs::capture

@@ -292,7 +292,7 @@ double horizon_slope(const BorderBand& band, const GradientParameters& parameter
 
 bool all_sides_visible(const BorderBand& band, double min_side_share) {
     const int px = band.width_px;
-    const cv::Mat1b visible = mat_over(band.always_visible);
+    const cv::Mat1b visible = mat_view(band.always_visible);
     const std::array sides{visible.rowRange(0, px), visible.rowRange(visible.rows - px, visible.rows),
                            visible.colRange(0, px), visible.colRange(visible.cols - px, visible.cols)};
     return std::ranges::all_of(sides, [&](const cv::Mat& side) {
@@ -347,7 +347,7 @@ bool keep_isolated_marks(Image<LinearRgb>& gradient, const BorderBand& band, con
     const Deviations deviations = deviations_from(gradient, band, parameters);
     const int margin_px = 2 * limits.swept_margin_px + 1;
     cv::Mat1b swept, near_swept, joined;
-    cv::bitwise_not(mat_over(band.always_visible), swept);
+    cv::bitwise_not(mat_view(band.always_visible), swept);
     cv::dilate(swept, near_swept, cv::getStructuringElement(cv::MORPH_RECT, {margin_px, margin_px}));
     cv::bitwise_or(deviations.visible, swept, joined);
     const ConnectedComponents parts(joined, 8);

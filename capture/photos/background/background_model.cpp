@@ -295,7 +295,7 @@ private:
             // The mean over the always visible pixels: elsewhere, moving shadows look like noise.
             Image<float> noise = plate_noise(frames_, model_.plate, model_.always_visible, parameters_);
             const cv::Mat1f values(noise.height(), noise.width(), noise.data());
-            const auto mean = static_cast<float>(cv::mean(values, mat_over(model_.always_visible))[0]);
+            const auto mean = static_cast<float>(cv::mean(values, mat_view(model_.always_visible))[0]);
             model_.noise_delta_e = Image<float>(values.cols, values.rows, mean);
         }
         if (model_.black == BlackBackground::kUniform) limit_noise_to_border();
@@ -316,7 +316,7 @@ private:
 
     const Survey& survey_;
     const BackgroundParameters& parameters_;
-    bool shows_motion_;  // enough frames to tell static pixels
+    bool shows_motion_;  // enough frames to identify static pixels
     ExposureNormalizedFrames frames_;
     BackgroundEstimate estimate_;
     BorderStatistics border_;

@@ -128,7 +128,7 @@ struct BackgroundParameters {
         /// Share of the image: unshaded pixels of parts connected to the object above which there is no gradient.
         /// Measured: studios 0, with steep shadows up to 0.0015; turntables 0.0012 to 0.02.
         double max_share_at_object = 0.002;
-        double max_share_elsewhere = 0.05;  ///< the same for marks that stand alone
+        double max_share_elsewhere = 0.05;  ///< the same for isolated marks
         int swept_margin_px = 4;            ///< the swept region ends at cell boundaries; ignored around it
     };
 

@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// Colours and static pixels along the border of the background estimate, where the object seldom is: they decide the
-/// kind of the background (background_model.hpp).
+/// Colours and static pixels along the border of the background estimate, where the object seldom is: they determine
+/// the kind of the background (background_model.hpp).
 
 #include "capture/photos/background/background_estimate.hpp"
 #include "capture/photos/background/background_parameters.hpp"
@@ -45,7 +45,7 @@ struct BorderStatistics {
     double static_pixels = 0;  ///< frames agree
 
     [[nodiscard]] bool is_white(const BackgroundParameters::Border& parameters) const;
-    /// `static_is_known`: there are enough frames to tell. A dark room has bright static things, a black background
+    /// `static_is_known`: there are enough frames. A dark room has bright static things, a black background
     /// hardly any.
     [[nodiscard]] bool is_black(bool static_is_known, const BackgroundParameters::Border& parameters) const;
 };

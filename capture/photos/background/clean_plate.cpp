@@ -104,8 +104,8 @@ private:
 
 // Static pixels of the swept region that belong to the object: all of them except
 // - those that the plate explains: the region has a coarse contour and spans concavities;
-// - shadows. The lamp is fixed, so the core of a shadow never changes but its outline does as the object turns. A
-//   shaded part with a static outline against plain background is a part of the object, of the background's colour in
+// - shadows. The lamp is fixed, so the core of a shadow never changes but its contour does as the object turns. A
+//   shaded part with a static contour against plain background is a part of the object, of the background's colour in
 //   shadow, unless the background is colourful, which objects seldom match;
 // - parts that fade into the background without an edge.
 Image<std::uint8_t> always_covered_pixels(ConstImageView<std::uint8_t> static_pixels,

@@ -20,7 +20,7 @@ ExposureNormalizedFrames::ExposureNormalizedFrames(std::span<const Image<Rgba8>>
         const int from = std::max(0, top - 1), to = std::min(height(), bottom + 1);  // with the filter's support
         cv::Mat4b smooth;
         for (std::size_t i = 0; i < frames_.size(); ++i) {
-            cv::GaussianBlur(mat_over(frames_[i]).rowRange(from, to), smooth, {3, 3}, 0, 0,
+            cv::GaussianBlur(mat_view(frames_[i]).rowRange(from, to), smooth, {3, 3}, 0, 0,
                              cv::BORDER_REPLICATE | cv::BORDER_ISOLATED);
             for (int y = top; y < bottom; ++y) {
                 for (int x = 0; x < width(); ++x) {

@@ -3,7 +3,7 @@
 /// Frames of a turn with equalised exposure, and a denoised copy of them.
 ///
 /// First stage of the background estimate (background_model.hpp): later stages compare the frames pixel by pixel, so a
-/// change of exposure must not look like motion. Denoised values (`smooth()`) decide which frames agree, since noise
+/// change of exposure must not look like motion. Denoised values (`smooth()`) determine which frames agree, since noise
 /// is independent between pixels while motion covers neighbours; the original values give the colours.
 
 #include "capture/photos/intake/exposure.hpp"

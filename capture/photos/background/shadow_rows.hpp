@@ -2,7 +2,7 @@
 /// \file
 /// Rows of the image in which the object casts no shadow on a background with a gradient model.
 ///
-/// Shadows fall on what the object stands on. Above them, whatever looks like a shadow is rather a grey side of the
+/// Shadows fall on the surface below the object. Above it, a dark region is more likely a grey side of the
 /// object; foreground_score() uses that. Follows fit_background_gradient().
 
 #include "capture/photos/background/background_parameters.hpp"

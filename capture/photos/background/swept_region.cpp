@@ -98,7 +98,7 @@ cv::Mat1b minimum_cut(const Image<GridCell>& cells, const SweptRegionParameters&
 // Column of the turntable's axis: the swept region is symmetric about it. Uses the upper half only, since shadows
 // extend the lower half to one side.
 std::optional<double> axis_column(const cv::Mat1b& swept) {
-    const cv::Rect box = box_of(swept);
+    const cv::Rect box = bounding_box(swept);
     std::vector<double> middles;
     for (int v = box.y; v < box.y + std::max(1, box.height / 2); ++v) {
         int left = -1;
@@ -145,7 +145,7 @@ int symmetric_half_width(const cv::Mat1b& swept, int middle, int v, Holds holds)
 // wider than the object.
 void add_surfaces_of_revolution(const Image<GridCell>& cells, int middle, const SweptRegionParameters& parameters,
                                 cv::Mat1b& swept) {
-    const cv::Rect moving = box_of(swept);
+    const cv::Rect moving = bounding_box(swept);
     cv::Mat1b surfaces;
     cv::bitwise_not(surface_edges(cells, parameters.same_surface_delta_e) | swept, surfaces);
     const ConnectedComponents parts(surfaces, 4);
@@ -216,7 +216,7 @@ Image<std::uint8_t> swept_region(ConstImageView<Rgba8> colour, ConstImageView<st
         const cv::Mat1b moving = swept.clone();
         const int middle = std::clamp(static_cast<int>(*axis), 0, swept.cols - 1);
         add_surfaces_of_revolution(cells, middle, parameters, swept);
-        add_foot(moving, box_of(moving), middle, parameters, swept);
+        add_foot(moving, bounding_box(moving), middle, parameters, swept);
     }
     close_bands(parameters.max_band_share, swept);
     for (int y = 0; y < region.height(); ++y) {

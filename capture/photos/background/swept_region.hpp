@@ -3,7 +3,7 @@
 /// Region of the image that the object sweeps over the turn, by a minimum cut.
 ///
 /// A pixel that never changes shows the background, or a part of the object that looks the same from all sides: the
-/// white ground of a painted vase, the flank of a white animal near the axis. A single pixel does not tell which, but
+/// white ground of a painted vase, the flank of a white animal near the axis. A single pixel cannot be classified, but
 /// such parts are surrounded by motion and by an edge. The region is therefore the cheapest one that contains all
 /// moving pixels and stays away from the image border; its contour is expensive through uniform surfaces, cheap along
 /// edges of the background estimate and cheapest where motion ends (graph cut after Boykov and Jolly, 2001). Surfaces

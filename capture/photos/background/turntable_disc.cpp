@@ -67,7 +67,7 @@ private:
 class RimDetector {
 public:
     RimDetector(ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> known, const DiscParameters& parameters)
-        : parameters_(parameters), colour_(plate.height(), plate.width()), known_(mat_over(known)) {
+        : parameters_(parameters), colour_(plate.height(), plate.width()), known_(mat_view(known)) {
         for (int y = 0; y < plate.height(); ++y) {
             for (int x = 0; x < plate.width(); ++x) {
                 const Rgba8& p = plate(x, y);
@@ -180,8 +180,8 @@ private:
     cv::Mat1b known_;
 };
 
-// Fits the circle to the strongest edges within `reach_px` of it: one damped Gauss-Newton step with Huber weights over
-// tilt, roll, centre and radius, with numerical derivatives.
+// Fits the circle to the strongest edges within `reach_px` of it: one damped Gauss-Newton step with
+// Huber weights over tilt, roll, centre and radius, with numerical derivatives.
 TurntableDisc fitted_to_edges(const RimDetector& detector, const TurntableDisc& start, double reach_px) {
     constexpr double kDamping = 1e-3;
     const DiscPlane plane = detector.plane_of(start);
@@ -310,7 +310,7 @@ bool is_clear_rim(const RimDetector& detector, const TurntableDisc& disc) {
 std::optional<TurntableDisc> find_turntable_disc(ConstImageView<Rgba8> plate, ConstImageView<std::uint8_t> known,
                                                  ConstImageView<std::uint8_t> object,
                                                  const BackgroundParameters::Disc& parameters) {
-    const cv::Rect object_box = box_of(mat_over(object));
+    const cv::Rect object_box = bounding_box(mat_view(object));
     if (object_box.area() == 0) return std::nullopt;
     const RimDetector detector(plate, known, parameters);
     const double step_px = std::max(1.0, plate.width() / 360.0);

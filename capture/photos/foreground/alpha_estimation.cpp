@@ -18,7 +18,7 @@ using Alpha = ForegroundParameters::Alpha;
 // `max_px`; beyond that the magnitude is only known to be larger.
 cv::Mat1f signed_distance(const cv::Mat1b& inside, int max_px) {
     cv::Mat1f distance(inside.size(), -static_cast<float>(max_px + 1));
-    const cv::Rect near = box_around(inside, max_px + 2);
+    const cv::Rect near = padded_bounding_box(inside, max_px + 2);
     if (near.empty()) return distance;
     const cv::Mat1b part = inside(near);
     cv::Mat1b outside;
@@ -169,7 +169,7 @@ AlphaEstimate estimate_alpha(ConstImageView<Rgba8> photo, ConstImageView<std::ui
     if (width == 0 || height == 0)
         return {Image<float>(width, height), Image<LinearRgb>(width, height), Image<LinearRgb>(width, height)};
     const cv::Mat3f light = linear_mat(photo);
-    cv::Mat1b inside = mat_over(mask).clone();
+    cv::Mat1b inside = mat_view(mask).clone();
     const auto& factors = parameters.profile_sigma_factors;
     AlphaEstimate estimate = estimate_once(light, inside, band_px, factors.front(), parameters);
     for (std::size_t pass = 1; pass < factors.size(); ++pass) {

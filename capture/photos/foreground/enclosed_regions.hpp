@@ -6,7 +6,7 @@
 /// in places, so that neither colour nor graph cut separate them. But a soft shadow fades into the background, while an
 /// object has an edge all around: a flood fill from the image border that stops at edges reaches the shadow and no part
 /// of the object. What it reaches becomes certain background, what edges enclose certain foreground, and
-/// segment_foreground() decides the rest.
+/// segment_foreground() labels the rest.
 
 #include "capture/photos/foreground/foreground_mask.hpp"
 #include "capture/photos/foreground/foreground_parameters.hpp"

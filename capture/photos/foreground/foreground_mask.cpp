@@ -77,7 +77,7 @@ float score_against(const ColourSample& pixel, const ColourSample& background, f
 }
 
 // White patches of an object look like a white background. Small achromatic background components that do not touch
-// the image border become undecided, so that the contrast around them decides.
+// the image border become undecided, so that the contrast around them determines their label.
 void release_small_islands(Image<float>& score, ConstImageView<Lab> background, const Score& parameters) {
     cv::Mat1b not_background(score.height(), score.width());
     for (int y = 0; y < not_background.rows; ++y) {
@@ -181,7 +181,7 @@ cv::Mat1b thin_structures(const cv::Mat1b& mask, int width_px) {
 }
 
 // Raises the score of undecided thin structures, such as wires and narrow rods, that differ clearly from a plate of
-// known noise and exposure: shadows are broad. Skips colourful backgrounds, which tell shadows from grey parts.
+// known noise and exposure: shadows are broad. Skips colourful backgrounds, on which shadows and grey parts differ.
 void favour_thin_structures(ConstImageView<Rgba8> photo, const CleanPlateView& plate, const Score& parameters,
                             Image<float>& score) {
     cv::Mat3f smooth;

@@ -45,9 +45,9 @@ ForegroundParameters for_known_colour(ForegroundParameters parameters) {
 }
 
 ForegroundParameters for_flat_grey(ForegroundParameters parameters) {
-    // A code of white is .36 in all channels and up to .67 in one, which says next to nothing.
+    // A code of white is .36 in all channels and up to .67 in one, which is not significant.
     parameters.score.background_delta_e = .5F;
-    // A few codes may also be a faint shadow: the score is almost 0, so that the contrast decides.
+    // A few codes may also be a faint shadow: the score is almost 0, so that the contrast determines the label.
     parameters.score.near_background_factor = 10;
     parameters.score.near_background_score = -.05F;
     // Most of a grey object is undecided, and noise misleads single pixels: use coarser levels early.

@@ -43,7 +43,7 @@ struct ForegroundParameters {
         float shadow_tolerance = 1;
 
         /// Score where a shadow on an achromatic background and a grey part of the object look the same. Close to 0, so
-        /// that the contrast decides; above 0, so that a closed edge around a grey patch can hold it.
+        /// that the contrast determines the label; above 0, so that a closed edge around a grey patch can hold it.
         float ambiguous_score = 0.08F;
         /// A shadow explains a pixel up to this share of min_foreground_delta_e.
         float shadow_residual_share = 0.8F;
@@ -152,7 +152,7 @@ struct ForegroundParameters {
         double min_added = 0.02;
         /// Below this share of the differing pixels the mask is taken to lack the object: not everything is shadow.
         double min_explained = 0.2;
-        /// Score::ambiguous_score of the last attempt, in which shadows are taken along.
+        /// Score::ambiguous_score of the last attempt, in which shadows are included.
         float last_ambiguous_score = 0.5F;
     };
 

@@ -8,33 +8,33 @@
 namespace rs::capture {
 namespace {
 
-void note_aside(const std::vector<std::string>& names, const std::string& why, std::vector<std::string>& notes) {
+void note_ignored(const std::vector<std::string>& names, const std::string& why, std::vector<std::string>& notes) {
     if (names.empty()) return;
-    notes.push_back("left aside, " + why + ": " + listed(names, 1));
+    notes.push_back("ignored, " + why + ": " + listed(names, 1));
 }
 
 }  // namespace
 
-Result<Intake> take_in(PhotoFolder folder, Progress* progress) {
-    Result<Survey> survey = survey_photos(folder, progress);
-    if (!survey) return survey.error();
-    Intake taken{std::move(folder), std::move(*survey), {}, {}};
+Result<Intake> run_intake(PhotoFolder folder, Progress* progress) {
+    RS_ASSIGN_OR_RETURN(Survey survey, survey_photos(folder, progress));
+    Intake taken{std::move(folder), std::move(survey), {}, {}};
     const PhotoFolder& of = taken.folder;
     taken.notes = of.selection_notes;
-    note_aside(of.ignored, "not a picture", taken.notes);
-    note_aside(of.in_other_formats, "there in another format, too", taken.notes);
+    note_ignored(of.ignored, "not an image", taken.notes);
+    note_ignored(of.in_other_formats, "present in another format, too", taken.notes);
     const bool is_mixed = !of.own_orientations.empty();
     if (is_mixed)
-        taken.notes.emplace_back("some pictures are stored on their side and some upright; all are shown upright");
-    if (of.otherwise_turned > 0) {
-        taken.notes.push_back("the camera states " + std::to_string(of.otherwise_turned) + " of " +
-                              std::to_string(of.photos.size()) +
-                              " pictures turned otherwise than the rest; all are taken as most of them are" +
+        taken.notes.emplace_back("some images are stored on their side and some upright; all are rotated to upright");
+    if (of.other_orientation_count > 0) {
+        taken.notes.push_back("EXIF states another orientation for " + std::to_string(of.other_orientation_count) +
+                              " of " + std::to_string(of.photos.size()) +
+                              " images; the orientation of the majority is used for all" +
                               (is_mixed ? "" : ", EXIF orientation " + std::to_string(of.orientation)));
     }
     if (of.reduction > 1) {
-        taken.notes.push_back("the photographs of " + size_text(of.shown_width, of.shown_height) + " are taken as " +
-                              size_text(of.width, of.height) + "; --max-side PX keeps more of them, and takes longer");
+        taken.notes.push_back("the photos of " + size_text(of.shown_width, of.shown_height) + " are reduced to " +
+                              size_text(of.width, of.height) +
+                              "; a larger --max-side PX keeps more detail, and takes longer");
     }
     if (detect_repeat(taken.survey.thumbnails).last_repeats_first) {
         std::vector<std::filesystem::path>& photos = taken.folder.photos;

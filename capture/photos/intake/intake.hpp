@@ -21,6 +21,6 @@ struct Intake {
 };
 
 /// `folder`: as open_photo_folder() returns it. Errors: those of survey_photos().
-Result<Intake> take_in(PhotoFolder folder, Progress* progress);
+Result<Intake> run_intake(PhotoFolder folder, Progress* progress);
 
 }  // namespace rs::capture

@@ -1,8 +1,8 @@
 #include "capture/photos/intake/photo_folder.hpp"
 
 #include "rayspace/base/check.hpp"
-#include "rayspace/pictures/photograph_size.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
+#include "rayspace/image_io/photo_size.hpp"
 
 #include <algorithm>
 #include <array>
@@ -21,7 +21,7 @@ constexpr char lower(char c) {
 }
 
 // In order of preference. JPEG is first: equally many files of another format with the same names may be masks or
-// cut-outs.
+// foreground images.
 constexpr std::array<std::string_view, 14> kExtensions = {".jpg",  ".jpeg", ".png", ".tif", ".tiff", ".webp", ".heic",
                                                           ".heif", ".avif", ".bmp", ".exr", ".hdr",  ".tga",  ".ppm"};
 
@@ -66,7 +66,7 @@ bool on_its_side(int orientation) {
 }
 
 // Size of a file's image as displayed with the given EXIF orientation.
-std::pair<int, int> shown_size(const PictureInfo& info, int orientation) {
+std::pair<int, int> shown_size(const ImageInfo& info, int orientation) {
     return on_its_side(orientation) ? std::pair(info.height, info.width) : std::pair(info.width, info.height);
 }
 
@@ -79,10 +79,10 @@ int what_most_state(const Statements& stated) {
 
 // Assigns the most frequent orientation to all files that are stored in the same size, because the camera is fixed. If
 // some are stored on their side and others were rotated upright later, each of the two groups has its own.
-Status choose_orientations(PhotoFolder& found, const std::vector<PictureInfo>& infos) {
+Status choose_orientations(PhotoFolder& found, const std::vector<ImageInfo>& infos) {
     Statements of_all{};
     std::map<std::pair<int, int>, Statements> of_size;  // key: size as stored
-    for (const PictureInfo& info : infos) {
+    for (const ImageInfo& info : infos) {
         ++of_all[static_cast<std::size_t>(info.orientation)];
         ++of_size[{info.width, info.height}][static_cast<std::size_t>(info.orientation)];
     }
@@ -95,29 +95,28 @@ Status choose_orientations(PhotoFolder& found, const std::vector<PictureInfo>& i
             found.shown_height = height;
         }
         if (width != found.shown_width || height != found.shown_height) {
-            const bool is_turned = std::ranges::any_of(infos, [](const PictureInfo& o) { return o.orientation != 1; });
+            const bool is_turned = std::ranges::any_of(infos, [](const ImageInfo& o) { return o.orientation != 1; });
             return Error{found.photos[i].string() + ": is " + size_text(width, height) + " but " +
                          found.photos.front().filename().string() + " is " +
                          size_text(found.shown_width, found.shown_height) +
-                         (is_turned ? ", turned as EXIF states" : "") + "; all pictures of a turn must have one size"};
+                         (is_turned ? ", turned as EXIF states" : "") + "; all images of a turn must have one size"};
         }
-        found.otherwise_turned += infos[i].orientation != orientation ? 1 : 0;
+        found.other_orientation_count += infos[i].orientation != orientation ? 1 : 0;
         if (of_size.size() > 1) found.own_orientations.push_back(orientation);
     }
     return {};
 }
 
 Status read_headers(PhotoFolder& found) {
-    std::vector<PictureInfo> infos;
+    std::vector<ImageInfo> infos;
     for (const std::filesystem::path& photo : found.photos) {
-        const Result<PictureInfo> info = read_picture_info(photo, kMaxPhotographSide_px);
-        if (!info) return info.error();
-        infos.push_back(*info);
+        RS_ASSIGN_OR_RETURN(const ImageInfo info, read_image_info(photo, kMaxPhotographSide_px));
+        infos.push_back(info);
     }
     const auto all = [&](const auto& holds) { return std::ranges::all_of(infos, holds); };
     const int focal_35mm = infos.front().focal_35mm;
-    found.has_alpha = all([](const PictureInfo& info) { return info.has_alpha; });
-    found.focal_35mm = all([&](const PictureInfo& info) { return info.focal_35mm == focal_35mm; }) ? focal_35mm : 0;
+    found.has_alpha = all([](const ImageInfo& info) { return info.has_alpha; });
+    found.focal_35mm = all([&](const ImageInfo& info) { return info.focal_35mm == focal_35mm; }) ? focal_35mm : 0;
     return choose_orientations(found, infos);
 }
 
@@ -154,7 +153,7 @@ bool natural_less(std::string_view a, std::string_view b) {
     return a < b;
 }
 
-bool is_picture_name(const std::filesystem::path& name) {
+bool is_image_name(const std::filesystem::path& name) {
     return extension_of(name) < kExtensions.size();
 }
 
@@ -162,14 +161,13 @@ std::string size_text(int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
-Error turned_beside(const PhotoFolder& folder, const std::string& other) {
-    const std::string states = folder.states_several()
-                                   ? "the photographs state several EXIF orientations"
-                                   : "the photographs' EXIF orientation is " + std::to_string(folder.orientation);
-    return Error{
-        other + ": " + states +
-        ", and whether this is of their pixels as they are stored or as they are shown cannot be told; turn the "
-        "pixels first, e.g. with exiftran -ai or mogrify -auto-orient, and then make this again"};
+Error ambiguous_orientation_error(const PhotoFolder& folder, const std::string& other) {
+    const std::string states = folder.has_several_orientations()
+                                   ? "the photos have several EXIF orientations"
+                                   : "the photos' EXIF orientation is " + std::to_string(folder.orientation);
+    return Error{other + ": " + states +
+                 ", so it is ambiguous whether the file refers to the stored or the displayed pixels; rotate the "
+                 "pixels first, e.g. with exiftran -ai or mogrify -auto-orient, and then create the file again"};
 }
 
 std::vector<std::string> file_names(const PhotoFolder& folder) {
@@ -179,11 +177,11 @@ std::vector<std::string> file_names(const PhotoFolder& folder) {
 }
 
 Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int max_side_px) {
-    RS_CHECK(max_side_px >= kMinSide_px && max_side_px <= kMaxPictureSide_px);
+    RS_CHECK(max_side_px >= kMinSide_px && max_side_px <= kMaxImageSide_px);
     std::error_code failure;
     std::filesystem::directory_iterator entries(folder, failure);
     if (failure) {
-        return Error{folder.string() + ": cannot be listed (" + failure.message() + "); give a folder of pictures"};
+        return Error{folder.string() + ": cannot be listed (" + failure.message() + "); give a folder of images"};
     }
     PhotoFolder found;
     for (const std::filesystem::directory_iterator end; entries != end; entries.increment(failure)) {
@@ -191,7 +189,7 @@ Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int m
         const std::string name = path.filename().string();
         if (name.starts_with(".")) continue;
         std::error_code ignored;
-        if (entries->is_regular_file(ignored) && is_picture_name(path)) {
+        if (entries->is_regular_file(ignored) && is_image_name(path)) {
             found.photos.push_back(path);
         } else {
             found.ignored.push_back(name);
@@ -201,18 +199,18 @@ Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int m
     if (failure) return Error{folder.string() + ": listing stopped (" + failure.message() + "); check the disk"};
     if (found.photos.empty()) {
         return Error{folder.string() +
-                     ": holds no pictures; give a folder of PNG, JPEG, TIFF, WebP or HEIC "
+                     ": holds no images; give a folder of PNG, JPEG, TIFF, WebP or HEIC "
                      "files (a camera's raw files must be developed first)"};
     }
     std::sort(found.photos.begin(), found.photos.end(),
               [](const auto& a, const auto& b) { return natural_less(a.filename().string(), b.filename().string()); });
     take_one_format(found);
     if (found.photos.size() > static_cast<std::size_t>(kMaxViews)) {
-        return Error{folder.string() + ": holds " + std::to_string(found.photos.size()) + " pictures; at most " +
+        return Error{folder.string() + ": holds " + std::to_string(found.photos.size()) + " images; at most " +
                      std::to_string(kMaxViews) + " can be imported"};
     }
     std::sort(found.ignored.begin(), found.ignored.end());
-    if (Status status = read_headers(found); !status) return status.error();
+    RS_TRY(read_headers(found));
     set_reduction(found, max_side_px);
     return found;
 }

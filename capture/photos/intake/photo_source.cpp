@@ -1,9 +1,9 @@
 #include "capture/photos/intake/photo_source.hpp"
 
 #include "capture/photos/intake/bounded_work.hpp"
-#include "capture/photos/intake/film/film_frames.hpp"
-#include "capture/photos/intake/film/frame_selection.hpp"
-#include "capture/photos/intake/photograph.hpp"
+#include "capture/photos/intake/photo_reader.hpp"
+#include "capture/photos/intake/video/frame_selection.hpp"
+#include "capture/photos/intake/video/video_frames.hpp"
 #include "rayspace/file/file_output.hpp"
 
 #include <algorithm>
@@ -20,16 +20,15 @@ FrameRequest frame_request(const std::optional<int>& frames, int by_default) {
 }
 
 Result<PhotoFolder> open_film(const PhotoRequest& request, Progress* progress) {
-    Result<StagedFolder> staged = StagedFolder::create(request.output, "imported photographs");
-    if (!staged) return staged.error();
-    const auto frames = std::make_shared<const StagedFolder>(std::move(*staged));
-    Result<FilmFrames> film = write_film_frames(request.photos, frames->temporary_path(),
-                                                frame_request(request.frames, kDefaultSelectedFrames), progress);
-    if (!film) return film.error();
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(request.output, "imported photos"));
+    const auto frames = std::make_shared<const StagedFolder>(std::move(staged));
+    RS_ASSIGN_OR_RETURN(VideoFrames video,
+                        write_video_frames(request.photos, frames->temporary_path(),
+                                           frame_request(request.frames, kDefaultSelectedFrames), progress));
     Result<PhotoFolder> folder = open_photo_folder(frames->temporary_path(), request.max_side_px);
     if (!folder) return folder;
     folder->temporary = frames;
-    folder->selection_notes = std::move(film->notes);
+    folder->selection_notes = std::move(video.notes);
     return folder;
 }
 
@@ -47,9 +46,8 @@ void keep_only(PhotoFolder& folder, const std::vector<std::size_t>& chosen) {
 Status select_photos(PhotoFolder& folder, const std::string& name, const FrameRequest& request, Progress* progress) {
     std::vector<FrameCopy> copies(folder.photos.size());
     const auto copy = [&](std::size_t i) -> Status {
-        const Result<Image<Rgba8>> photo = read_photograph(folder, i);
-        if (!photo) return photo.error();
-        copies[i] = make_frame_copy(*photo);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photo(folder, i));
+        copies[i] = make_frame_copy(photo);
         return {};
     };
     if (Status status = for_each_photo(folder, kReadBytesPerPixel, "comparing the photos", progress, copy); !status) {
@@ -63,18 +61,18 @@ Status select_photos(PhotoFolder& folder, const std::string& name, const FrameRe
 
 }  // namespace
 
-bool is_film(const std::filesystem::path& photos) {
+bool is_video(const std::filesystem::path& photos) {
     std::error_code ignored;
     return std::filesystem::is_regular_file(photos, ignored);
 }
 
 Result<PhotoFolder> open_photos(const PhotoRequest& request, Progress* progress) {
-    if (request.has_per_photo_options && (is_film(request.photos) || request.frames)) {
+    if (request.has_per_photo_options && (is_video(request.photos) || request.frames)) {
         return Error{request.photos.string() +
                      ": masks, angles and steps cannot be combined with a selection of frames; extract the photos "
-                     "from the film (ffmpeg -i FILM photos/%03d.png), or leave out --frames"};
+                     "from the video (ffmpeg -i FILM photos/%03d.png), or leave out --frames"};
     }
-    if (is_film(request.photos)) return open_film(request, progress);
+    if (is_video(request.photos)) return open_film(request, progress);
     Result<PhotoFolder> folder = open_photo_folder(request.photos, request.max_side_px);
     if (!folder) return folder;
     const std::size_t count = folder->photos.size();
@@ -82,13 +80,11 @@ Result<PhotoFolder> open_photos(const PhotoRequest& request, Progress* progress)
     const bool is_fewer_requested = request.frames && count > static_cast<std::size_t>(*request.frames);
     if (request.frames && !is_fewer_requested) {
         folder->selection_notes.push_back(request.photos.string() + ": holds " + std::to_string(count) +
-                                          " photos, no more than --frames; all are taken");
+                                          " photos, no more than --frames; all are used");
     }
     if (is_fewer_requested || (is_large && !request.frames)) {
         const FrameRequest frames = frame_request(request.frames, kMaxSelectedFrames);
-        if (Status status = select_photos(*folder, request.photos.string(), frames, progress); !status) {
-            return status.error();
-        }
+        RS_TRY(select_photos(*folder, request.photos.string(), frames, progress));
     }
     return folder;
 }

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Detects that the last photo of a turn repeats the first: many turntables stop at their first angle and photograph it
+/// Detects that the last photo of a turn repeats the first: many turntables stop at their first angle and capture it
 /// twice.
 
 #include "rayspace/image/image.hpp"

@@ -2,7 +2,7 @@
 
 #include "capture/photos/intake/bounded_work.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
-#include "capture/photos/intake/photograph.hpp"
+#include "capture/photos/intake/photo_reader.hpp"
 #include "capture/photos/intake/reduction.hpp"
 #include "rayspace/base/median.hpp"
 
@@ -71,20 +71,16 @@ Result<Survey> survey_photos(const PhotoFolder& folder, Progress* progress) {
         sample_of[survey.sample_photos.back()] = s;
     }
     const auto survey_photo = [&](std::size_t i) -> Status {
-        const Result<Image<Rgba8>> photo = read_photograph(folder, i);
-        if (!photo) return photo.error();
-        Image<Rgba8> sample = reduced(*photo, kSampleSide_px);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photo(folder, i));
+        Image<Rgba8> sample = reduced(photo, kSampleSide_px);
         survey.thumbnails[i] = reduced(sample, kThumbnailSide_px);
         if (sample_of[i]) {
             survey.samples[*sample_of[i]] = std::move(sample);
-            survey.borders[*sample_of[i]] = measure_border(*photo);
+            survey.borders[*sample_of[i]] = measure_border(photo);
         }
         return {};
     };
-    if (Status status = for_each_photo(folder, kReadBytesPerPixel, "surveying photos", progress, survey_photo);
-        !status) {
-        return status.error();
-    }
+    RS_TRY(for_each_photo(folder, kReadBytesPerPixel, "surveying photos", progress, survey_photo));
     return survey;
 }
 

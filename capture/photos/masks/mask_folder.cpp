@@ -5,8 +5,8 @@
 #include "capture/photos/masks/mask_names.hpp"
 #include "capture/photos/masks/mask_statistics.hpp"
 #include "rayspace/base/printable.hpp"
-#include "rayspace/pictures/photograph_size.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
+#include "rayspace/image_io/photo_size.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +22,7 @@ constexpr int kObjectFrom = 128;  // least code that counts as object
 constexpr double kMinMaskScale = 1.0 / 16;
 constexpr double kMaxMaskScale = 2;
 
-// "3 of 12 masks (first 004.png)"; nothing where there is none.
+// "3 of 12 masks (first 004.png)"; nullopt if there are none.
 std::optional<std::string> count_text(const std::vector<std::filesystem::path>& files,
                                       const std::function<bool(std::size_t)>& holds) {
     std::size_t count = 0, first = 0;
@@ -79,13 +79,12 @@ struct MaskFolder::Survey {
 };
 
 Status MaskFolder::find_files(const std::filesystem::path& folder, const PhotoFolder& photos) {
-    const Result<MaskNames> names = MaskNames::list(folder);
-    if (!names) return names.error();
+    RS_ASSIGN_OR_RETURN(const MaskNames names, MaskNames::list(folder));
     std::vector<std::string> missing;
     std::size_t ambiguous = 0;
     std::string first_choice;
     for (const std::filesystem::path& photo : photos.photos) {
-        const std::vector<std::filesystem::path> masks = names->masks_of(photo);
+        const std::vector<std::filesystem::path> masks = names.masks_of(photo);
         if (masks.empty()) {
             missing.push_back(photo.filename().string());
             continue;
@@ -111,12 +110,11 @@ Status MaskFolder::find_files(const std::filesystem::path& folder, const PhotoFo
 
 Status MaskFolder::check_sizes(const std::filesystem::path& folder, const PhotoFolder& photos) {
     for (std::size_t i = 0; i < files_.size(); ++i) {
-        const Result<PictureInfo> info = read_picture_info(files_[i], kMaxPhotographSide_px);
-        if (!info) return info.error();
-        sizes_.push_back({info->width, info->height});
-        if (is_scaled_photo(info->width, info->height, shown_.width, shown_.height)) continue;
-        const bool is_turned = info->width == shown_.height && info->height == shown_.width;
-        return Error{printable(files_[i].string() + ": is " + size_text(info->width, info->height) + ", its photo " +
+        RS_ASSIGN_OR_RETURN(const ImageInfo info, read_image_info(files_[i], kMaxPhotographSide_px));
+        sizes_.push_back({info.width, info.height});
+        if (is_scaled_photo(info.width, info.height, shown_.width, shown_.height)) continue;
+        const bool is_turned = info.width == shown_.height && info.height == shown_.width;
+        return Error{printable(files_[i].string() + ": is " + size_text(info.width, info.height) + ", its photo " +
                                photos.photos[i].filename().string() + " is shown in " +
                                size_text(shown_.width, shown_.height) + "; " +
                                (is_turned ? "turn the masks by 90 degrees, as EXIF states for the photos"
@@ -144,9 +142,10 @@ Status MaskFolder::choose_channel(const std::filesystem::path& folder, const Sur
         return {};
     }
     if (const auto photos = count_text(files_, [&](std::size_t i) { return is_photo(survey.masks[i]); })) {
-        return Error{printable(folder.string() + ": " + *photos +
-                               " look like photos, not masks; give black and white masks, or cut-outs as PNG with "
-                               "transparency")};
+        return Error{
+            printable(folder.string() + ": " + *photos +
+                      " look like photos, not masks; give black and white masks, or foreground images as PNG with "
+                      "transparency")};
     }
     return {};
 }
@@ -157,7 +156,7 @@ void MaskFolder::choose_codes(const std::filesystem::path& folder, const Survey&
     if (white != 1 && (kind_ == MaskKind::kAlpha || white >= kObjectFrom)) white = 255;
     if (white != 255) {
         notes_.push_back(printable(folder.string() + ": masks hold 0 and " + std::to_string(white) + " only; " +
-                                   std::to_string(white) + " is taken as white"));
+                                   std::to_string(white) + " is read as white"));
     }
     const auto is_inverted = [&](std::size_t i) {
         return looks_inverted(Survey::channel(survey.masks[i], reads_alpha_), least_white(white));
@@ -208,7 +207,7 @@ void MaskFolder::note_grey(const std::filesystem::path& folder, const Survey& su
     const double share = static_cast<double>(grey) / static_cast<double>(pixels_from(total, 0));
     if (share <= kMuch) return;
     notes_.push_back(printable(folder.string() + ": " + std::to_string(std::lround(100 * share)) +
-                               " % of the masks are grey; codes from 128 are taken as object. Where grey is the "
+                               " % of the masks are grey; codes from 128 are read as object. If grey is the "
                                "object's alpha, give --masks-alpha"));
 }
 
@@ -218,47 +217,44 @@ Result<MaskFolder> MaskFolder::open(const std::filesystem::path& folder, const P
     MaskFolder masks;
     masks.kind_ = kind;
     masks.shown_ = {photos.shown_width, photos.shown_height};
-    if (Status status = masks.find_files(folder, photos); !status) return status.error();
-    if (Status status = masks.check_sizes(folder, photos); !status) return status.error();
+    RS_TRY(masks.find_files(folder, photos));
+    RS_TRY(masks.check_sizes(folder, photos));
 
     Survey survey{std::vector<MaskStatistics>(masks.files_.size())};
-    // for_each_photo() counts pixels of the size that photos are worked on in; masks are read in their own size.
+    // for_each_photo() is given bytes per pixel of the working size; masks are read in their own size.
     double most_pixels = 0;
     for (const Size& size : masks.sizes_) most_pixels = std::max(most_pixels, 1.0 * size.width * size.height);
     const double bytes_per_px = std::ceil(kReadBytesPerPixel * most_pixels / (1.0 * photos.width * photos.height));
-    const Status read = for_each_photo(photos, static_cast<int>(std::min(bytes_per_px, 1e9)), "reading masks", progress,
-                                       [&](std::size_t i) -> Status {
-                                           const auto mask = read_picture(masks.files_[i], kMaxPhotographSide_px);
-                                           if (!mask) return mask.error();
-                                           survey.masks[i] = mask_statistics(*mask);
-                                           return {};
-                                       });
-    if (!read) return read.error();
-    if (Status status = masks.choose_channel(folder, survey); !status) return status.error();
+    RS_TRY(for_each_photo(photos, static_cast<int>(std::min(bytes_per_px, 1e9)), "reading masks", progress,
+                          [&](std::size_t i) -> Status {
+                              RS_ASSIGN_OR_RETURN(const auto mask, read_image(masks.files_[i], kMaxPhotographSide_px));
+                              survey.masks[i] = mask_statistics(mask);
+                              return {};
+                          }));
+    RS_TRY(masks.choose_channel(folder, survey));
     masks.choose_codes(folder, survey);
-    if (Status status = masks.check_content(folder, survey); !status) return status.error();
+    RS_TRY(masks.check_content(folder, survey));
     masks.note_grey(folder, survey);
     return masks;
 }
 
 Result<Image<std::uint8_t>> MaskFolder::read(std::size_t i) const {
     RS_CHECK(i < files_.size());
-    const Result<Image<Rgba8>> stored = read_picture(files_[i], kMaxPhotographSide_px);
-    if (!stored) return stored.error();
-    if (stored->width() != sizes_[i].width || stored->height() != sizes_[i].height) {
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> stored, read_image(files_[i], kMaxPhotographSide_px));
+    if (stored.width() != sizes_[i].width || stored.height() != sizes_[i].height) {
         return Error{printable(files_[i].string() + ": has changed its size to " +
-                               size_text(stored->width(), stored->height()) + " while it was in use; run again")};
+                               size_text(stored.width(), stored.height()) + " while it was in use; run again")};
     }
-    Image<std::uint8_t> mask(stored->width(), stored->height());
+    Image<std::uint8_t> mask(stored.width(), stored.height());
     for (std::size_t p = 0; p < mask.pixels().size(); ++p) {
-        const Rgba8& pixel = stored->pixels()[p];
+        const Rgba8& pixel = stored.pixels()[p];
         mask.pixels()[p] = mask_by_code_[reads_alpha_ ? pixel.a : mask_grey(pixel)];
     }
     if (sizes_[i] != shown_) {
         Image<std::uint8_t> resized(shown_.width, shown_.height);
         cv::Mat1b to(shown_.height, shown_.width, resized.data());
         const bool is_smaller = shown_.width < mask.width() && shown_.height < mask.height();
-        cv::resize(mat_over(mask), to, to.size(), 0, 0, is_smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
+        cv::resize(mat_view(mask), to, to.size(), 0, 0, is_smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
         mask = std::move(resized);
     }
     if (kind_ == MaskKind::kBinary) {

@@ -1,16 +1,17 @@
 #pragma once
-// The masks that come with photos (rs-capture import --masks): finds the mask of each photo, decides how the folder is
-// to be read, and gives the masks in the photos' size.
+// Masks supplied with the photos (rs-capture import --masks): finds the mask of each photo, determines how the folder
+// is to be interpreted, and returns the masks in the photos' size.
 //
-// Which file belongs to which photo: mask_names.hpp. What a mask holds is decided once, over all masks:
+// File names: mask_names.hpp. The interpretation is determined once, over all masks:
 //
-//   channel    alpha where the masks are transparent in places (cut-outs); else the largest of red, green and blue.
-//   white      255; where all masks hold 0 and one other code (0 and 1, labels of a palette), that code.
-//   inverted   where most masks are white at the border and black in the centre.
-//   size       that of the photo as it is shown, or 1/16 to 2 times it with the same aspect ratio within a pixel: such
-//              masks are resized.
+//   channel    alpha if masks have transparent pixels (foreground images); otherwise the largest of red, green and
+//              blue.
+//   white      255; if all masks hold only 0 and one other code (0 and 1, labels of a palette), that code.
+//   inverted   if most masks are white at the border and black in the centre.
+//   size       that of the displayed photo, or 1/16 to 2 times it with the same aspect ratio within a pixel: such masks
+//              are resized.
 //
-// Whatever is not plainly read is told by notes(). The EXIF orientation of a mask is not applied.
+// Interpretations that are not obvious are reported by notes(). The EXIF orientation of a mask is not applied.
 
 #include "capture/photos/intake/photo_folder.hpp"
 #include "rayspace/base/progress.hpp"
@@ -40,13 +41,13 @@ public:
     /// \param kind   what read() is to give.
     /// \return an error where photos have no mask (how many, and the first), where a mask has another size, is a photo,
     ///         or is all black or all white, where some masks are transparent and others are not, and those of
-    ///         read_picture().
+    ///         read_image().
     static Result<MaskFolder> open(const std::filesystem::path& folder, const PhotoFolder& photos, MaskKind kind,
                                    Progress* progress = nullptr);
 
     /// The mask of photo i, photos.shown_width x photos.shown_height: 255 where the object is and 0 elsewhere, nothing
-    /// between for kBinary (a code of 128 counts as object). Thread-safe. Memory: that of read_picture() and the mask.
-    /// \return the errors of read_picture(), and one where the file has changed its size since open().
+    /// between for kBinary (a code of 128 counts as object). Thread-safe. Memory: that of read_image() and the mask.
+    /// \return the errors of read_image(), and one where the file has changed its size since open().
     [[nodiscard]] Result<Image<std::uint8_t>> read(std::size_t i) const;
 
     [[nodiscard]] MaskKind kind() const { return kind_; }

@@ -1,6 +1,6 @@
 #pragma once
-// Which file of a folder is the mask of which photo, by its name. Tools name masks in several ways; for the photo
-// NAME.EXT these names are tried, in this order, each with the extensions in the order of kMaskExtensions:
+// Assigns mask files of a folder to photos by name. Tools name masks in several ways; for the photo NAME.EXT these
+// names are tried, in this order, each with the extensions in the order of kMaskExtensions:
 //
 //     1. NAME.EXT              the photo's own name
 //     2. NAME.png              the photo's name with another extension
@@ -32,7 +32,7 @@ public:
     /// Lists a folder. Fails where it cannot be read.
     static Result<MaskNames> list(const std::filesystem::path& folder);
 
-    /// The masks of a photo, the preferred one first; empty where there is none. Thread-safe.
+    /// The masks of a photo, the preferred one first; empty if there are none. Thread-safe.
     [[nodiscard]] std::vector<std::filesystem::path> masks_of(const std::filesystem::path& photo) const;
 
 private:

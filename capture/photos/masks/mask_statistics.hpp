@@ -1,7 +1,6 @@
 #pragma once
-// Histograms of the masks of a folder, and what they tell about how the folder is to be read: by which channel, with
-// which code for white, inverted or not. A rule is applied to the folder as a whole, so that no mask is read
-// differently from its neighbours.
+// Histograms of the masks of a folder, from which its interpretation is derived: the channel, the code for white,
+// inverted or not. A rule is applied to the folder as a whole, so that all masks are interpreted alike.
 
 #include "rayspace/image/image.hpp"
 
@@ -43,7 +42,7 @@ MaskStatistics mask_statistics(ConstImageView<Rgba8> mask);
 /// Has transparency: at least one pixel of a thousand has an alpha below 128.
 bool has_transparency(const MaskStatistics& mask);
 
-/// The code that stands for white in masks that hold 0 and one other code below 255; 255 for all others.
+/// The code for white in masks that hold 0 and one other code below 255; 255 for all others.
 /// \param histogram of all masks together.
 int two_level_white(const CodeHistogram& histogram);
 

@@ -50,9 +50,8 @@ std::filesystem::path network_settings_file(const std::filesystem::path& model) 
 Result<NetworkSettings> read_network_settings(const std::filesystem::path& model) {
     const std::filesystem::path file = network_settings_file(model);
     if (file.empty()) return NetworkSettings{};
-    const Result<std::vector<std::byte>> bytes = read_file(file, kMostSettings_bytes);
-    if (!bytes) return bytes.error();
-    return network_settings_from_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file.string());
+    RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(file, kMostSettings_bytes));
+    return network_settings_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
 }
 
 }  // namespace rs::capture

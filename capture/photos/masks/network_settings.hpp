@@ -1,6 +1,6 @@
 #pragma once
-// How a segmentation network wants its input and how its output is to be read: the JSON file beside the model
-// (docs/segmentation.md, "The settings file").
+// Input and output conventions of a segmentation network: the JSON file beside the model (docs/segmentation.md, "The
+// settings file").
 
 #include "rayspace/base/result.hpp"
 
@@ -41,7 +41,7 @@ Result<NetworkSettings> network_settings_from_json(std::string_view text, const 
 /// The settings file of a model: MODEL.onnx.json, or else MODEL.json; an empty path where neither exists.
 std::filesystem::path network_settings_file(const std::filesystem::path& model);
 
-/// Reads the settings file of a model; the defaults where there is none. At most 64 KiB are read. Thread-safe.
+/// Reads the settings file of a model; returns the defaults if there is none. At most 64 KiB are read. Thread-safe.
 Result<NetworkSettings> read_network_settings(const std::filesystem::path& model);
 
 }  // namespace rs::capture

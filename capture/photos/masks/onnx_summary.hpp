@@ -41,8 +41,7 @@ inline constexpr std::size_t kMaxOnnxValues = 64;
 
 /// \param bytes the whole file.
 /// \param file  its name, for errors.
-/// \return an error where `bytes` is not an ONNX model, ends early, or holds a tensor whose data has another length
-/// than
+/// \return an error if `bytes` is not an ONNX model, ends early, or holds a tensor whose data has another length than
 ///         its shape requires. Memory beyond the result: the names of the weights. Pure; thread-safe.
 Result<OnnxSummary> read_onnx_summary(std::span<const std::byte> bytes, const std::string& file);
 

@@ -158,26 +158,22 @@ Error wrong_output(const std::string& file, const std::string& name, const std::
 
 Result<Instance> make_instance(const std::filesystem::path& path, const NetworkSettings& settings) {
     const std::string file = path.string();
-    Result<std::vector<std::byte>> bytes = read_file(path, kMaxModel_bytes);
-    if (!bytes) return bytes.error();
-    const Result<OnnxSummary> model = read_onnx_summary(*bytes, file);
-    if (!model) return model.error();
-    if (Status status = check_kind(*model, file); !status) return status.error();
-    const Result<cv::Size> size = input_size(model->inputs.front(), settings, file);
-    if (!size) return size.error();
-    Result<std::string> output = output_name(*model, settings, file);
-    if (!output) return output.error();
+    RS_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, read_file(path, kMaxModel_bytes));
+    RS_ASSIGN_OR_RETURN(const OnnxSummary model, read_onnx_summary(bytes, file));
+    RS_TRY(check_kind(model, file));
+    RS_ASSIGN_OR_RETURN(const cv::Size size, input_size(model.inputs.front(), settings, file));
+    RS_ASSIGN_OR_RETURN(std::string output, output_name(model, settings, file));
 
     const SilentOpenCv silent;
     return caught(
         file, "OpenCV cannot load the model", "export it with opset 11 to 13, in fp32", [&]() -> Result<Instance> {
-            Instance instance{{}, size->width, size->height, std::move(*output)};
-            instance.net = cv::dnn::readNetFromONNX(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+            Instance instance{{}, size.width, size.height, std::move(output)};
+            instance.net = cv::dnn::readNetFromONNX(reinterpret_cast<const char*>(bytes.data()), bytes.size());
             instance.net.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
             instance.net.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
             std::vector<std::vector<int>> in, out;
-            instance.net.getLayerShapes({1, 3, size->height, size->width},
-                                        instance.net.getLayerId(instance.output_name), in, out);
+            instance.net.getLayerShapes({1, 3, size.height, size.width}, instance.net.getLayerId(instance.output_name),
+                                        in, out);
             if (out.size() != 1 || !map_size(out.front())) {
                 return wrong_output(file, instance.output_name, out.empty() ? std::vector<int>{} : out.front());
             }
@@ -189,7 +185,7 @@ Result<Instance> make_instance(const std::filesystem::path& path, const NetworkS
 cv::Mat network_input(ConstImageView<Rgba8> photo, const cv::Size& size, const NetworkSettings& settings) {
     cv::Mat resized;
     const bool is_smaller = size.width < photo.width() && size.height < photo.height();
-    cv::resize(mat_over(photo), resized, size, 0, 0, is_smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
+    cv::resize(mat_view(photo), resized, size, 0, 0, is_smaller ? cv::INTER_AREA : cv::INTER_LINEAR);
     const int shape[] = {1, 3, size.height, size.width};
     cv::Mat input(4, shape, CV_32F);
     for (int channel = 0; channel < 3; ++channel) {
@@ -246,7 +242,7 @@ Result<Image<float>> run(Instance& instance, const NetworkSettings& settings, Co
     }
     // The output is memory of the network.
     cv::Mat1f map = cv::Mat1f(size->height, size->width, const_cast<float*>(output.ptr<float>())).clone();
-    if (Status status = make_probability(map, settings.output, file); !status) return status.error();
+    RS_TRY(make_probability(map, settings.output, file));
     Image<float> probability(photo.width(), photo.height());
     cv::Mat1f resized(photo.height(), photo.width(), probability.data());
     const bool is_smaller = photo.width() < size->width && photo.height() < size->height;
@@ -306,39 +302,36 @@ SegmentationNetwork::~SegmentationNetwork() = default;
 
 Result<SegmentationNetwork> SegmentationNetwork::load(const std::filesystem::path& model, int max_instances) {
     RS_CHECK(max_instances >= 1);
-    const Result<NetworkSettings> settings = read_network_settings(model);
-    if (!settings) return settings.error();
-    Result<Instance> first = make_instance(model, *settings);
-    if (!first) return first.error();
+    RS_ASSIGN_OR_RETURN(const NetworkSettings settings, read_network_settings(model));
+    RS_ASSIGN_OR_RETURN(Instance first, make_instance(model, settings));
     auto pool = std::make_unique<Pool>();
     pool->model = model;
-    pool->settings = *settings;
+    pool->settings = settings;
     const std::filesystem::path settings_file = network_settings_file(model);
-    pool->description = printable(model.filename().string() + ", " + std::to_string(first->width) + "x" +
-                                  std::to_string(first->height) + " px, " +
+    pool->description = printable(model.filename().string() + ", " + std::to_string(first.width) + "x" +
+                                  std::to_string(first.height) + " px, " +
                                   (settings_file.empty() ? "preprocessing of IS-Net (no settings file)"
                                                          : "settings of " + settings_file.filename().string()));
     pool->max_instances = max_instances;
     pool->made = 1;
-    pool->free.push_back(std::move(*first));
+    pool->free.push_back(std::move(first));
     return SegmentationNetwork(std::move(pool));
 }
 
 Result<Image<float>> SegmentationNetwork::foreground_probability(ConstImageView<Rgba8> photo) const {
     RS_CHECK(!photo.empty());
-    Result<Instance> instance = pool_->take();
-    if (!instance) return instance.error();
+    RS_ASSIGN_OR_RETURN(Instance instance, pool_->take());
     const std::string file = pool_->model.string();
     Result<Image<float>> probability = [&] {
         try {
             return caught(file, "OpenCV cannot run the model", "use another model, or --segmenter background",
-                          [&] { return run(*instance, pool_->settings, photo, file); });
+                          [&] { return run(instance, pool_->settings, photo, file); });
         } catch (...) {  // memory: the instance may be in any state
             pool_->forget();
             throw;
         }
     }();
-    pool_->give_back(std::move(*instance));
+    pool_->give_back(std::move(instance));
     return probability;
 }
 

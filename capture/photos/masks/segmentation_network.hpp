@@ -1,15 +1,14 @@
 #pragma once
-// Separates a photo's foreground from its background with a neural network: any ONNX model of the U2-Net, IS-Net (DIS)
-// and BiRefNet families in single precision that OpenCV's dnn module loads. Which models, and where from:
-// docs/segmentation.md.
+// Foreground probability of a photo by a neural network: any ONNX model of the U2-Net, IS-Net (DIS) and BiRefNet
+// families in single precision that OpenCV's dnn module loads. Models and their sources: docs/segmentation.md.
 //
 //     photo --resize--> 1 x 3 x H x W, (code - mean) * scale --network--> 1 x 1 x h x w --resize--> probability
 //
-// The aspect ratio is not kept by the first resize, as in the training of these networks.
+// The first resize does not keep the aspect ratio, as in the training of these networks.
 //
-// A model file is foreign data that OpenCV parses. Lengths of messages and tensors are checked before
-// (onnx_summary.hpp) and exceptions are caught; what else a hostile file can do to OpenCV's importer is not known. Use
-// files of sources that you trust.
+// Model files are untrusted data parsed by OpenCV. Lengths of messages and tensors are checked before
+// (onnx_summary.hpp) and exceptions are caught; OpenCV's importer may have other weaknesses. Use files from trusted
+// sources.
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"

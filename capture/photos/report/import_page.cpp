@@ -1,12 +1,12 @@
 #include "capture/photos/report/import_page.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
-#include "capture/photos/intake/photograph.hpp"
+#include "capture/photos/intake/photo_reader.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/page/html_page.hpp"
 #include "rayspace/page/line_plot.hpp"
-#include "rayspace/page/page_pictures.hpp"
+#include "rayspace/page/page_images.hpp"
 
 #include <opencv2/imgproc.hpp>
 
@@ -39,7 +39,7 @@ glm::dvec2 in_photo(const Calibration& calibration, int view, const glm::dvec2& 
     return calibration.places[static_cast<std::size_t>(view)].seen(p, {lens.width / 2.0, lens.height / 2.0});
 }
 
-void draw_axis(cv::Mat& picture, const ImportReport& report, int view, double scale) {
+void draw_axis(cv::Mat& image, const ImportReport& report, int view, double scale) {
     const cv::Scalar white(255, 255, 255, 255), black(0, 0, 0, 255);
     std::vector<glm::dvec2> line;
     if (report.calibration.calibration) {
@@ -56,13 +56,13 @@ void draw_axis(cv::Mat& picture, const ImportReport& report, int view, double sc
     }
     for (const int thickness : {3, 1}) {
         for (std::size_t i = 1; i < line.size(); ++i) {
-            cv::line(picture, fixed(line[i - 1], scale), fixed(line[i], scale), thickness == 3 ? black : white,
-                     thickness, cv::LINE_AA, kShift);
+            cv::line(image, fixed(line[i - 1], scale), fixed(line[i], scale), thickness == 3 ? black : white, thickness,
+                     cv::LINE_AA, kShift);
         }
     }
 }
 
-void draw_points(cv::Mat& picture, const TrackCalibration& tracks, int view, double scale) {
+void draw_points(cv::Mat& image, const TrackCalibration& tracks, int view, double scale) {
     const Bundle& bundle = tracks.bundle;
     const auto views = static_cast<int>(bundle.model.angles_rad.size());
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
@@ -77,9 +77,9 @@ void draw_points(cv::Mat& picture, const TrackCalibration& tracks, int view, dou
         const cv::Scalar colour = residual_colour(r ? glm::length(*r) : 99);
         if (const auto before = at((view + views - 1) % views); before != seen.end()) {
             const glm::dvec2 at_before = in_photo(tracks.calibration, before->view, before->p);
-            cv::line(picture, fixed(at_before, scale), fixed(at_here, scale), colour, 1, cv::LINE_AA, kShift);
+            cv::line(image, fixed(at_before, scale), fixed(at_here, scale), colour, 1, cv::LINE_AA, kShift);
         }
-        cv::circle(picture, fixed(at_here, scale), 2 << kShift, colour, cv::FILLED, cv::LINE_AA, kShift);
+        cv::circle(image, fixed(at_here, scale), 2 << kShift, colour, cv::FILLED, cv::LINE_AA, kShift);
     }
 }
 
@@ -89,9 +89,9 @@ Image<Rgba8> annotated_photo(ConstImageView<Rgba8> photo, const ImportReport& re
     Image<Rgba8> small = scaled_down(photo, kAnnotatedSide_px);
     for (Rgba8& p : small.pixels()) p = over(p, {128, 128, 128, 255});
     const double scale = static_cast<double>(small.width()) / photo.width();
-    cv::Mat picture = writable_mat_over(small);
-    if (report.calibration.tracks) draw_points(picture, *report.calibration.tracks, view, scale);
-    draw_axis(picture, report, view, scale);
+    cv::Mat image = writable_mat_view(small);
+    if (report.calibration.tracks) draw_points(image, *report.calibration.tracks, view, scale);
+    draw_axis(image, report, view, scale);
     return small;
 }
 
@@ -106,33 +106,33 @@ std::string number(double value, int digits) {
 }
 
 std::string deviation(double value, int digits) {
-    return value == 0 ? "held" : number(value, digits);
+    return value == 0 ? "fixed" : number(value, digits);
 }
 
-std::string what_it_rests_on(CalibrationMethod method) {
+std::string basis_of(CalibrationMethod method) {
     switch (method) {
         case CalibrationMethod::kBoard:
             return "the printed board on the turntable.";
         case CalibrationMethod::kGiven:
-            return "numbers that were given; nothing was estimated.";
+            return "given values; nothing was estimated.";
         case CalibrationMethod::kTracks:
-            return "points of the object followed around the turn.";
+            return "points of the object tracked around the turn.";
         case CalibrationMethod::kSilhouettes:
-            return "the outlines of the object alone, which know little of the lens, and of round bodies nothing of "
-                   "the steps.";
+            return "the silhouettes of the object alone, which hardly determine the lens, nor the steps of round "
+                   "bodies.";
         case CalibrationMethod::kNominal:
-            return "little but assumptions: equal steps, a level camera, and a usual lens where none is known.";
+            return "assumptions: equal steps, a level camera, and a typical lens if none is known.";
     }
     return "";
 }
 
 void add_summary(HtmlPage& page, const ImportReport& report) {
     page.paragraph(std::to_string(report.views) + " views of " + sizes_text(report.folder) +
-                   ". Calibration: " + to_string(report.method) + ". It rests on " + what_it_rests_on(report.method));
+                   ". Calibration: " + to_string(report.method) + ". Based on " + basis_of(report.method));
     if (report.notes.empty()) {
-        page.paragraph("There is nothing to warn of.");
+        page.paragraph("No warnings.");
     } else {
-        page.heading("What you should know");
+        page.heading("Warnings and notes");
         page.list(report.notes);
     }
 }
@@ -165,8 +165,7 @@ void add_estimates(HtmlPage& page, const Calibration& found) {
     if (found.observations == 0) return;
     const std::string points = found.points > 0 ? std::to_string(found.points) + " points in " : "";
     const std::string held_out =
-        found.held_out_rms_px ? ", " + number(*found.held_out_rms_px, 3) + " px where they took no part in the fit"
-                              : "";
+        found.held_out_rms_px ? ", " + number(*found.held_out_rms_px, 3) + " px for held-out observations" : "";
     page.paragraph(points + std::to_string(found.observations) + " observations; residuals " + number(found.rms_px, 3) +
                    " px RMS" + held_out + ".");
 }
@@ -200,38 +199,36 @@ void add_plots(HtmlPage& page, const Calibration& found) {
         count.y.push_back(found.views[i].observations);
     }
     page.heading("Angles and residuals");
-    page.drawing(svg_of({"Angles against equal steps", "photograph", "degrees", {value, above, below}}));
+    page.drawing(svg_of({"Angles against equal steps", "photo", "degrees", {value, above, below}}));
     if (found.observations == 0) return;
-    page.drawing(svg_of({"Residuals", "photograph", "px", {rms}, 900, 220}));
-    page.drawing(svg_of({"Observations", "photograph", "", {count}, 900, 220}));
+    page.drawing(svg_of({"Residuals", "photo", "px", {rms}, 900, 220}));
+    page.drawing(svg_of({"Observations", "photo", "", {count}, 900, 220}));
 }
 
-Status add_photographs(HtmlPage& page, const ImportReport& report) {
-    std::vector<CaptionedPicture> row;
+Status add_photos(HtmlPage& page, const ImportReport& report) {
+    std::vector<CaptionedImage> row;
     for (const int view : evenly_spread(static_cast<int>(report.folder.photos.size()), kAnnotated)) {
         const auto i = static_cast<std::size_t>(view);
-        const Result<Image<Rgba8>> photo = read_photograph(report.folder, i);
-        if (!photo) return photo.error();
-        row.push_back({annotated_photo(*photo, report, view), source_name(report, i)});
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photo(report.folder, i));
+        row.push_back({annotated_photo(photo, report, view), source_name(report, i)});
     }
     page.heading("The axis and the points");
-    page.paragraph(
-        report.calibration.tracks
-            ? "White: the turntable's axis. Points: where they were seen, and the way they went from the view "
-              "before; green where the model agrees within a pixel, red where it misses by two and more."
-            : "White: the turntable's axis.");
-    return page.pictures(row, kAnnotatedSide_px);
+    page.paragraph(report.calibration.tracks
+                       ? "White: the turntable's axis. Points: detected positions, with the motion from the previous "
+                         "view; green where the residual is below a pixel, red from two pixels on."
+                       : "White: the turntable's axis.");
+    return page.images(row, kAnnotatedSide_px);
 }
 
-Status add_mattes(HtmlPage& page, const ImportReport& report) {
-    std::vector<CaptionedPicture> row;
+Status add_alpha_mattes(HtmlPage& page, const ImportReport& report) {
+    std::vector<CaptionedImage> row;
     for (const int view : evenly_spread(static_cast<int>(report.small_cut_outs.size()), kMattes)) {
         Image<Rgba8> matte = report.small_cut_outs[static_cast<std::size_t>(view)];
         for (Rgba8& p : matte.pixels()) p = over(p, kMagenta);
         row.push_back({std::move(matte), source_name(report, static_cast<std::size_t>(view))});
     }
-    page.heading("Mattes on magenta");
-    return page.pictures(row, 260);
+    page.heading("Alpha mattes over magenta");
+    return page.images(row, 260);
 }
 
 }  // namespace
@@ -243,8 +240,8 @@ Result<std::string> import_page(const std::filesystem::path& photos, const Impor
         add_estimates(page, *report.calibration.calibration);
         add_plots(page, *report.calibration.calibration);
     }
-    if (Status status = add_photographs(page, report); !status) return status.error();
-    if (Status status = add_mattes(page, report); !status) return status.error();
+    RS_TRY(add_photos(page, report));
+    RS_TRY(add_alpha_mattes(page, report));
     return page.text();
 }
 

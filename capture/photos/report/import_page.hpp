@@ -1,7 +1,7 @@
 #pragma once
 /// \file
 /// Self-contained HTML page about an import, mostly of figures: estimates and their uncertainty, tracked points, the
-/// axis drawn on photos, alpha mattes before magenta.
+/// axis drawn on photos, alpha mattes over magenta.
 
 #include "capture/photos/report/import_report.hpp"
 #include "rayspace/base/result.hpp"

@@ -34,7 +34,7 @@ struct ImportReport : FoundRig {
     double distance = 0;   ///< from the rig's origin to its first camera, object radii
 };
 
-/// Text about the sizes of the photos: "4000x3810 photographs taken as 2048x1950".
+/// Text about the sizes of the photos: "4000x3810 photos reduced to 2048x1950".
 std::string sizes_text(const PhotoFolder& folder);
 
 /// File name of a photo, without the folder.

@@ -53,8 +53,8 @@ std::optional<double> ground_height(const PhotoCalibration& calibration) {
 }  // namespace
 
 std::string sizes_text(const PhotoFolder& folder) {
-    std::string text = size_text(folder.shown_width, folder.shown_height) + " photographs";
-    if (folder.reduction > 1) text += " taken as " + size_text(folder.width, folder.height);
+    std::string text = size_text(folder.shown_width, folder.shown_height) + " photos";
+    if (folder.reduction > 1) text += " reduced to " + size_text(folder.width, folder.height);
     return text;
 }
 
@@ -107,7 +107,7 @@ Rig calibrated_import_rig(const ImportReport& report, const TurnSilhouette::Box&
     camera["pan_deg"] = degrees(model.pose.pan_rad);
     camera["tilt_deg"] = degrees(model.pose.tilt_rad);
     camera["roll_deg"] = degrees(model.pose.roll_rad);
-    for (const PicturePlace& place : calibration.places) {  // capture/calibration/model/picture_place.hpp
+    for (const ImagePlace& place : calibration.places) {  // capture/calibration/model/image_placement.hpp
         made["places"].push_back({{"scale", place.scale}, {"shift_px", {place.shift_px.x, place.shift_px.y}}});
     }
     nlohmann::json& deviations = made["standard_deviations"];

@@ -2,7 +2,7 @@
 
 #include "capture/photos/intake/bounded_work.hpp"
 #include "capture/photos/report/import_rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <mutex>
 #include <utility>
@@ -28,62 +28,60 @@ std::vector<TurnSilhouette::Box> boxes_put_back(std::vector<TurnSilhouette::Box>
 }
 
 // Writes the rectified images of all views that are not left out. Returns the box of the object over all of them.
-Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFolder& folder, const CutoutCache& cuts,
-                                            const ImportReport& report, Progress* progress) {
+Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFolder& folder,
+                                            const ForegroundCache& foregrounds, const ImportReport& report,
+                                            Progress* progress) {
     std::vector<std::size_t> number(folder.photos.size(), 0);  // index in the set
     for (std::size_t i = 0, next = 0; i < folder.photos.size(); ++i) number[i] = is_left_out(report, i) ? 0 : next++;
     const Calibration& calibration = *report.calibration.calibration;
-    TurnSilhouette outline(report.frame.lens.width, report.frame.lens.height);
+    TurnSilhouette silhouette(report.frame.lens.width, report.frame.lens.height);
     std::mutex mutex;
     const auto work = [&](std::size_t i) -> Status {
         if (is_left_out(report, i)) return {};
-        const Result<Image<Rgba8>> picture = cuts.get(i);
-        if (!picture) return picture.error();
-        const Image<Rgba8> upright = rectified(calibration.model, report.frame, *picture,
-                                               calibration.places.empty() ? PicturePlace{} : calibration.places[i]);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, foregrounds.get(i));
+        const Image<Rgba8> upright = rectified(calibration.model, report.frame, image,
+                                               calibration.places.empty() ? ImagePlace{} : calibration.places[i]);
         if (Status status = write_png(set / set_image_name(number[i]), upright); !status) return status;
         TurnSilhouette own(upright.width(), upright.height());
         own.add(upright);
         const std::lock_guard lock(mutex);
-        outline.merge(own);
+        silhouette.merge(own);
         return {};
     };
     constexpr int kRectifyBytesPerPixel = kReadBytesPerPixel + 40;
-    if (Status status = for_each_photo(folder, kRectifyBytesPerPixel, "rectifying", progress, work); !status) {
-        return status.error();
-    }
-    return outline.visible();
+    RS_TRY(for_each_photo(folder, kRectifyBytesPerPixel, "rectifying", progress, work));
+    return silhouette.visible();
 }
 
-Status write_as_they_are(const fs::path& set, const PhotoFolder& folder, const CutoutCache& cuts, Progress* progress) {
+Status write_as_they_are(const fs::path& set, const PhotoFolder& folder, const ForegroundCache& foregrounds,
+                         Progress* progress) {
     const auto write = [&](std::size_t i) -> Status {
-        const Result<Image<Rgba8>> picture = cuts.get(i);
-        return picture ? write_png(set / set_image_name(i), *picture) : Status(picture.error());
+        const Result<Image<Rgba8>> image = foregrounds.get(i);
+        return image ? write_png(set / set_image_name(i), *image) : Status(image.error());
     };
-    return for_each_photo(folder, kReadBytesPerPixel, "writing the pictures", progress, write);
+    return for_each_photo(folder, kReadBytesPerPixel, "writing the images", progress, write);
 }
 
 }  // namespace
 
 Result<ImportReport> write_import_set(const fs::path& set, const PhotoFolder& folder, const SegmentedTurn& turn,
-                                      const CutoutCache& cuts, ImportReport report, Progress* progress) {
+                                      const ForegroundCache& foregrounds, ImportReport report, Progress* progress) {
     report.views = static_cast<int>(report.folder.photos.size() - report.left_out.size());
     Rig rig;
     if (const auto& calibration = report.calibration.calibration) {
-        const Result<UprightFrame> frame =
-            plan_upright_frame(calibration->model, boxes_put_back(turn.boxes, *calibration));
-        if (!frame) return frame.error();
-        report.frame = *frame;
-        const Result<TurnSilhouette::Box> visible = write_rectified(set, folder, cuts, report, progress);
-        if (!visible) return visible.error();
-        rig = calibrated_import_rig(report, *visible);
+        RS_ASSIGN_OR_RETURN(const UprightFrame frame,
+                            plan_upright_frame(calibration->model, boxes_put_back(turn.boxes, *calibration)));
+        report.frame = frame;
+        RS_ASSIGN_OR_RETURN(const TurnSilhouette::Box visible,
+                            write_rectified(set, folder, foregrounds, report, progress));
+        rig = calibrated_import_rig(report, visible);
     } else {
-        if (Status status = write_as_they_are(set, folder, cuts, progress); !status) return status.error();
+        RS_TRY(write_as_they_are(set, folder, foregrounds, progress));
         rig = nominal_import_rig(report, turn.silhouette.visible());
     }
     report.fl_px = rig.views.front().camera.fl_x;
     report.distance = glm::length(rig.views.front().camera.centre());
-    if (Status status = write_rig(set / kRigFileName, rig); !status) return status.error();
+    RS_TRY(write_rig(set / kRigFileName, rig));
     return report;
 }
 

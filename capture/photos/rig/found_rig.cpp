@@ -16,17 +16,17 @@ double sense(const NominalTurn& nominal) {
 }
 
 // Converts the pixel values of the request from the photos as displayed to the working size of the folder.
-RigRequest in_picture_px(RigRequest given, const PhotoFolder& folder) {
+RigRequest in_image_px(RigRequest given, const PhotoFolder& folder) {
     KnownInputs& known = given.known.known;
     if (known.f_px) *known.f_px /= folder.reduction;
-    if (known.principal_point) known.principal_point = folder.in_picture(*known.principal_point);
-    if (given.axis_x_px) given.axis_x_px = folder.in_picture({*given.axis_x_px, 0}).x;
+    if (known.principal_point) known.principal_point = folder.in_image(*known.principal_point);
+    if (given.axis_x_px) given.axis_x_px = folder.in_image({*given.axis_x_px, 0}).x;
     return given;
 }
 
 Result<KnownInputs> known_inputs(const RigRequest& request, const std::function<const NominalTurn&()>& nominal,
                                  const PhotoFolder& folder) {
-    Result<KnownInputs> known = known_of_photographs(request.known, file_names(folder));
+    Result<KnownInputs> known = known_inputs_of(request.known, file_names(folder));
     if (!known) return known;
     if (request.fov_deg) {
         known->f_px = 0.5 * folder.shown_width / folder.reduction / std::tan(0.5 * radians(*request.fov_deg));
@@ -41,7 +41,7 @@ TurntableModel nominal_model(const KnownInputs& known, const NominalTurn& nomina
     const double assumed_f_px = 0.5 * width / std::tan(0.5 * radians(kNominalFieldOfView_deg));
     TurntableModel model;
     model.lens =
-        with_known(Lens{folder.width, folder.height, assumed_f_px, 0.5 * width, 0.5 * folder.height, 0, 0}, known);
+        apply_known(Lens{folder.width, folder.height, assumed_f_px, 0.5 * width, 0.5 * folder.height, 0, 0}, known);
     model.pose.pan_rad = std::atan((model.lens.cx - nominal.axis_x_px) / model.lens.f_px);
     for (std::size_t i = 0; i < folder.photos.size(); ++i) {
         model.angles_rad.push_back(sense(nominal) * static_cast<double>(i) * radians(nominal.step_deg));
@@ -62,16 +62,16 @@ void leave_out_repeats(FoundRig& rig, const PhotoFolder& folder) {
     }
     if (rig.left_out.empty()) return;
     rig.notes.push_back(listed(rig.left_out, 1) + (rig.left_out.size() > 1
-                                                       ? " repeat other pictures and are left out of the set"
-                                                       : " repeats another picture and is left out of the set"));
+                                                       ? " repeat other images and are left out of the set"
+                                                       : " repeats another image and is left out of the set"));
 }
 
 void take_nominal(FoundRig& rig, const KnownInputs& given) {
     add_notes(rig, rig.nominal.notes);
     if (given.f_px || given.pose || given.angles_rad) {
         rig.notes.emplace_back(
-            "a nominal rig takes nothing of what was given as known; --fov, --degrees-per-view and --axis-x set its "
-            "numbers");
+            "a nominal rig ignores the values given by --known; --fov, --degrees-per-view and --axis-x set its "
+            "values");
     }
     rig.method = CalibrationMethod::kNominal;
     rig.step_deg = rig.nominal.step_deg;
@@ -90,23 +90,22 @@ void take_calibrated(FoundRig& rig, const PhotoFolder& folder) {
 }  // namespace
 
 Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, const SegmentedTurn& turn,
-                          const CutoutCache& cuts, Progress* progress) {
-    const RigRequest request = in_picture_px(given, folder);
+                          const ForegroundCache& foregrounds, Progress* progress) {
+    const RigRequest request = in_image_px(given, folder);
     FoundRig rig;
     rig.nominal = find_nominal_turn(request, folder, turn);
-    // Evaluated on demand: calibration by object points or a board yields the sense of rotation itself.
+    // Evaluated on demand: calibration by object points or a board yields the direction of rotation itself.
     const auto nominal = [&]() -> const NominalTurn& {
-        if (rig.nominal.turning_from.empty()) find_sense(request, folder, turn, rig.nominal);
+        if (rig.nominal.turning_from.empty()) estimate_turning(request, folder, turn, rig.nominal);
         return rig.nominal;
     };
-    const Result<KnownInputs> known = known_inputs(request, nominal, folder);
-    if (!known) return known.error();
-    Result<PhotoCalibration> calibration = calibrate_photos(
-        folder, cuts,
-        {request.calibration, *known, request.board, [&] { return nominal_model(*known, nominal(), folder); }},
-        progress);
-    if (!calibration) return calibration.error();
-    rig.calibration = std::move(*calibration);
+    RS_ASSIGN_OR_RETURN(const KnownInputs known, known_inputs(request, nominal, folder));
+    RS_ASSIGN_OR_RETURN(PhotoCalibration calibration,
+                        calibrate_photos(folder, foregrounds,
+                                         {request.calibration, known, request.board,
+                                          [&] { return nominal_model(known, nominal(), folder); }},
+                                         progress));
+    rig.calibration = std::move(calibration);
     add_notes(rig, rig.calibration.notes);
     if (rig.calibration.calibration) {
         take_calibrated(rig, folder);

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Fourth stage of an import: estimates lens, axis and angles of a turn from its cut-outs. Takes the most reliable
-/// calibration method that succeeds (photo_calibration.hpp), otherwise a nominal rig (nominal_rig.hpp). Runs between
-/// segment_turn() and write_import_set().
+/// Fourth stage of an import: estimates lens, axis and angles of a turn from its foreground images. Takes the most
+/// reliable calibration method that succeeds (photo_calibration.hpp), otherwise a nominal rig (nominal_rig.hpp). Runs
+/// between segment_turn() and write_import_set().
 
 #include "capture/calibration/known/known_files.hpp"
 #include "capture/photos/rig/nominal_rig.hpp"
@@ -34,10 +34,11 @@ struct FoundRig {
     std::vector<std::string> notes;     ///< warnings and remarks for the user, one line each
 };
 
-/// Calibrates the turn, or makes a nominal rig. `cuts` and `turn` are the results of segment_turn() for `folder`. Pixel
-/// values of `given` refer to the photos as displayed (shown_width x shown_height), those of the result to the images
-/// of the folder in working size (width x height). Errors: those of known_of_photographs() and calibrate_photos().
+/// Calibrates the turn, or makes a nominal rig. `foregrounds` and `turn` are the results of segment_turn() for
+/// `folder`. Pixel values of `given` refer to the photos as displayed (shown_width x shown_height), those of the result
+/// to the images of the folder in working size (width x height). Errors: those of known_inputs_of() and
+/// calibrate_photos().
 Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, const SegmentedTurn& turn,
-                          const CutoutCache& cuts, Progress* progress);
+                          const ForegroundCache& foregrounds, Progress* progress);
 
 }  // namespace rs::capture

@@ -47,7 +47,7 @@ constexpr double kDoubtfulSpread = 0.01;  // fraction of the image width
 void find_axis(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn, bool closed,
                NominalTurn& found) {
     found.axis_x_px = folder.width / 2.0;
-    found.axis_from = "picture middle";
+    found.axis_from = "image middle";
     if (request.axis_x_px) {
         found.axis_x_px = *request.axis_x_px;
         found.axis_from = "given";
@@ -56,15 +56,15 @@ void find_axis(const NominalTurnRequest& request, const PhotoFolder& folder, con
     const auto axis = turn.silhouette.axis();
     if (!closed || !axis) {
         found.notes.push_back(std::string("the axis cannot be found ") +
-                              (closed ? "(the object reaches the picture's sides)" : "from less than a full turn") +
-                              "; the picture's middle is taken, --axis-x PX sets it");
+                              (closed ? "(the object reaches the image's sides)" : "from less than a full turn") +
+                              "; the image centre is used, --axis-x PX sets it");
         return;
     }
     found.axis_x_px = axis->x_px;
     found.axis_spread_px = axis->spread_px;
     found.axis_from = "silhouettes";
     if (axis->spread_px > kDoubtfulSpread * folder.width) {
-        found.notes.push_back("the axis column is doubtful: the rows differ by " +
+        found.notes.push_back("the axis column is uncertain: the rows differ by " +
                               std::to_string(std::lround(axis->spread_px)) +
                               " px (camera not level, or steps uneven); --axis-x PX sets it");
     }
@@ -100,8 +100,8 @@ NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFold
     return found;
 }
 
-void find_sense(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn,
-                NominalTurn& found) {
+void estimate_turning(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn,
+                      NominalTurn& found) {
     found.turning_from = "assumed";
     if (request.turning) {
         found.turning = *request.turning;
@@ -118,8 +118,8 @@ void find_sense(const NominalTurnRequest& request, const PhotoFolder& folder, co
         found.turning_from = "pictures";
     } else {
         found.notes.push_back(
-            "which way the object turns is not clear from the pictures; clockwise as seen from above is "
-            "assumed, --counter-clockwise says otherwise");
+            "the direction of rotation is not clear from the images; clockwise as seen from above is "
+            "assumed, --counter-clockwise sets the other");
     }
 }
 

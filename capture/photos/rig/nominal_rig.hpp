@@ -51,17 +51,17 @@ double distance_for_unit_radius(double extent_px, double fl_px);
 /// least one side of the axis.
 Rig make_nominal_rig(const NominalRigOptions& options, const TurnSilhouette::Box& visible);
 
-/// Axis column and sense of rotation, estimated from the cut-outs without calibration. Input of the nominal rig and
-/// start of calibration.
+/// Axis column and direction of rotation, estimated from the foreground images without calibration. Input of the
+/// nominal rig and start of calibration.
 struct NominalTurn {
     double fov_deg = kNominalFieldOfView_deg;  ///< horizontal
     std::string fov_from;                      ///< "given", "camera" (EXIF), "assumed"
     double step_deg = 0;                       ///< between neighbouring views
     double axis_x_px = 0;                      ///< column of the axis
     double axis_spread_px = 0;                 ///< spread of the axis column over the rows
-    std::string axis_from;                     ///< "silhouettes", "given", "picture middle"
+    std::string axis_from;                     ///< "silhouettes", "given", "image middle"
     Turning turning = Turning::kClockwise;
-    std::string turning_from;        ///< "pictures", "given", "assumed"; empty before find_sense()
+    std::string turning_from;        ///< "images", "given", "assumed"; empty before estimate_turning()
     std::vector<std::string> notes;  ///< doubtful values, one line each
 };
 
@@ -77,8 +77,8 @@ struct NominalTurnRequest {
 NominalTurn find_nominal_turn(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn);
 
 /// Sets `turning` and `turning_from` of `found`, the result of find_nominal_turn() for the same turn. Compares the
-/// small cut-outs unless the request holds the sense of rotation.
-void find_sense(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn,
-                NominalTurn& found);
+/// small foreground images unless the request holds the direction of rotation.
+void estimate_turning(const NominalTurnRequest& request, const PhotoFolder& folder, const SegmentedTurn& turn,
+                      NominalTurn& found);
 
 }  // namespace rs::capture

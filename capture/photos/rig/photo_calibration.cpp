@@ -3,7 +3,7 @@
 #include "capture/calibration/silhouettes/silhouettes.hpp"
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/intake/bounded_work.hpp"
-#include "capture/photos/intake/photograph.hpp"
+#include "capture/photos/intake/photo_reader.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,34 +19,30 @@ namespace fs = std::filesystem;
 
 constexpr int kSilhouetteSide_px = 640;
 
-// Reads the cut-outs, not the photos, so that no point of the background is tracked.
-Result<TurnPictures> read_turn(const PhotoFolder& folder, const CutoutCache& cuts, Progress* progress) {
-    TurnPictures turn;
+// Reads the foreground images, not the photos, so that no point of the background is tracked.
+Result<TurnImages> read_turn(const PhotoFolder& folder, const ForegroundCache& foregrounds, Progress* progress) {
+    TurnImages turn;
     turn.width = folder.width;
     turn.height = folder.height;
     const int longer = std::max(folder.width, folder.height);
     turn.reduction = (longer + kCalibrationSide_px - 1) / kCalibrationSide_px;
-    turn.pictures.resize(folder.photos.size());
+    turn.images.resize(folder.photos.size());
     for (const fs::path& photo : folder.photos) turn.names.push_back(photo.filename().string());
     const auto read = [&](std::size_t i) -> Status {
-        const Result<Image<Rgba8>> cut = cuts.get(i);
-        if (!cut) return cut.error();
-        turn.pictures[i] = calibration_picture(*cut, turn.reduction);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> cut, foregrounds.get(i));
+        turn.images[i] = calibration_image(cut, turn.reduction);
         return {};
     };
-    if (Status status = for_each_photo(folder, kReadBytesPerPixel, "reading the cut-outs", progress, read); !status) {
-        return status.error();
-    }
+    RS_TRY(for_each_photo(folder, kReadBytesPerPixel, "reading the foreground images", progress, read));
     return turn;
 }
 
 Result<BoardCalibration> from_board(const PhotoFolder& folder, const CalibrationRequest& request,
                                     const std::vector<std::string>& names, Progress* progress) {
-    const auto load = [&](int i) { return read_photograph(folder, static_cast<std::size_t>(i)); };
-    const Result<std::vector<BoardCorners>> views =
-        detect_boards(static_cast<int>(folder.photos.size()), load, *request.board, progress);
-    if (!views) return views.error();
-    return calibrate_with_board(*views, *request.board, folder.width, folder.height, request.known, names);
+    const auto load = [&](int i) { return read_photo(folder, static_cast<std::size_t>(i)); };
+    RS_ASSIGN_OR_RETURN(const std::vector<BoardCorners> views,
+                        detect_boards(static_cast<int>(folder.photos.size()), load, *request.board, progress));
+    return calibrate_with_board(views, *request.board, folder.width, folder.height, request.known, names);
 }
 
 // Silhouettes with a longer side of at most kSilhouetteSide_px.
@@ -55,19 +51,19 @@ struct Silhouettes {
     int reduction = 1;  // of the photos' sides; a remainder at the right and at the bottom is cropped
 };
 
-Silhouettes silhouettes(const TurnPictures& turn) {
-    const Image<std::uint8_t>& first = turn.pictures.front().alpha;
+Silhouettes silhouettes(const TurnImages& turn) {
+    const Image<std::uint8_t>& first = turn.images.front().alpha;
     const int longer = std::max(first.width(), first.height());
     const int factor = (longer + kSilhouetteSide_px - 1) / kSilhouetteSide_px;
     Silhouettes result{{}, turn.reduction * factor};
-    for (const CalibrationPicture& picture : turn.pictures) {
+    for (const CalibrationImage& image : turn.images) {
         Image<std::uint8_t> mask(std::max(1, first.width() / factor), std::max(1, first.height() / factor));
         for (int y = 0; y < mask.height(); ++y) {
             for (int x = 0; x < mask.width(); ++x) {
                 int sum = 0, count = 0;
                 for (int dy = 0; dy < factor && y * factor + dy < first.height(); ++dy) {
                     for (int dx = 0; dx < factor && x * factor + dx < first.width(); ++dx, ++count) {
-                        sum += picture.alpha(x * factor + dx, y * factor + dy);
+                        sum += image.alpha(x * factor + dx, y * factor + dy);
                     }
                 }
                 mask(x, y) = static_cast<std::uint8_t>(sum / count);
@@ -84,7 +80,7 @@ std::vector<int> steps_before(const std::vector<Image<std::uint8_t>>& masks) {
     constexpr double kRepeatRatio = 0.2;  // of the change of the silhouettes before and after
     std::vector<double> change;           // [view], to the next view
     for (std::size_t i = 0; i + 1 < masks.size(); ++i) {
-        change.push_back(cv::norm(mat_over(masks[i]), mat_over(masks[i + 1]), cv::NORM_L1));
+        change.push_back(cv::norm(mat_view(masks[i]), mat_view(masks[i + 1]), cv::NORM_L1));
     }
     std::vector<int> steps(masks.size());
     std::iota(steps.begin(), steps.end(), 0);
@@ -98,31 +94,30 @@ std::vector<int> steps_before(const std::vector<Image<std::uint8_t>>& masks) {
     return steps;
 }
 
-// Calibrates with silhouettes. An unknown sense of rotation is guessed first. The silhouettes refute the guess if they
-// fit only the other sense, or fit the guess only with a camera that looks up from below the turntable.
-Result<Calibration> from_silhouettes(const TurnPictures& turn, const CalibrationRequest& request) {
-    const Silhouettes outlines = silhouettes(turn);
+// Calibrates with silhouettes. An unknown direction of rotation is guessed first. The silhouettes refute the guess if
+// they fit only the other sense, or fit the guess only with a camera that looks up from below the turntable.
+Result<Calibration> from_silhouettes(const TurnImages& turn, const CalibrationRequest& request) {
+    const Silhouettes reduced = silhouettes(turn);
     // Size of the part of the photos that the silhouettes cover: its sides must be integer multiples of theirs.
     TurntableModel start = request.nominal();
-    start.lens.width = outlines.reduction * outlines.masks.front().width();
-    start.lens.height = outlines.reduction * outlines.masks.front().height();
+    start.lens.width = reduced.reduction * reduced.masks.front().width();
+    start.lens.height = reduced.reduction * reduced.masks.front().height();
     const KnownInputs& known = request.known;
-    if (const std::vector<int> steps = steps_before(outlines.masks);
-        steps.back() + 1 < static_cast<int>(steps.size())) {
+    if (const std::vector<int> steps = steps_before(reduced.masks); steps.back() + 1 < static_cast<int>(steps.size())) {
         const double whole_rad = start.angles_rad[1] * static_cast<double>(steps.size());
         for (std::size_t i = 0; i < steps.size(); ++i) start.angles_rad[i] = whole_rad * steps[i] / (steps.back() + 1);
     }
     // The last photo of a turn may be missing, so the step that closes the turn is a guess.
-    Result<Calibration> found = calibrate_with_silhouettes(outlines.masks, start, known);
+    Result<Calibration> found = calibrate_with_silhouettes(reduced.masks, start, known);
     const bool is_guessed = !known.counter_clockwise && !known.step_rad && !known.angles_rad;
-    if (is_guessed && (!found || seems_to_look_up(*found))) {
+    if (is_guessed && (!found || is_seen_from_below(*found))) {
         for (double& angle : start.angles_rad) angle = -angle;
         constexpr double kAsGood = 1.5;
-        Result<Calibration> other = calibrate_with_silhouettes(outlines.masks, start, known);
-        if (other && (!found || (!seems_to_look_up(*other) && other->rms_px < kAsGood * found->rms_px))) {
+        Result<Calibration> other = calibrate_with_silhouettes(reduced.masks, start, known);
+        if (other && (!found || (!is_seen_from_below(*other) && other->rms_px < kAsGood * found->rms_px))) {
             found = std::move(other);
             found->warnings.emplace_back(
-                "the pictures seem to turn the other way, but the outlines fit this one better");
+                "the images seem to turn the other way, but the silhouettes fit this direction better");
         }
     }
     if (!found) return found;
@@ -137,7 +132,7 @@ std::optional<Calibration> given(const CalibrationRequest& request, std::size_t 
     if (!known.f_px || !known.pose || !(known.angles_rad || known.step_rad)) return std::nullopt;
     Calibration calibration;
     calibration.method = CalibrationMethod::kGiven;
-    calibration.model = with_known(request.nominal(), known);
+    calibration.model = apply_known(request.nominal(), known);
     calibration.step_rad = median_step(calibration.model.angles_rad);
     calibration.views.resize(views);
     ModelDeviations& held = calibration.deviations;
@@ -149,7 +144,7 @@ std::optional<Calibration> given(const CalibrationRequest& request, std::size_t 
 
 }  // namespace
 
-Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const CutoutCache& cuts,
+Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const ForegroundCache& foregrounds,
                                           const CalibrationRequest& request, Progress* progress) {
     PhotoCalibration result;
     const CalibrationChoice choice = request.choice;
@@ -157,17 +152,16 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const Cutou
     const std::size_t views = folder.photos.size();
     if (request.known.angles_rad && request.known.angles_rad->size() != views) {
         return Error{"the given rig has " + std::to_string(request.known.angles_rad->size()) + " views, the folder " +
-                     std::to_string(views) + " photographs; give a rig of these photographs"};
+                     std::to_string(views) + " photos; give a rig of these photos"};
     }
-    Result<TurnPictures> turn = read_turn(folder, cuts, progress);
-    if (!turn) return turn.error();
+    RS_ASSIGN_OR_RETURN(TurnImages turn, read_turn(folder, foregrounds, progress));
     if (choice == CalibrationChoice::kBoard && !request.board) {
         return Error{
-            "calibration by a board was asked for, but the board is not described; say --board default for "
-            "what rs-capture board prints"};
+            "--calibration board: the board is not described; give --board default for "
+            "the default of rs-capture board"};
     }
     if (request.board && (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kBoard)) {
-        Result<BoardCalibration> board = from_board(folder, request, turn->names, progress);
+        Result<BoardCalibration> board = from_board(folder, request, turn.names, progress);
         if (board) {
             result.calibration = board->calibration;
             result.board = std::move(*board);
@@ -183,7 +177,7 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const Cutou
         }
     }
     if (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kTracks) {
-        Result<TrackCalibration> tracks = calibrate_with_tracks(*turn, request.known, progress);
+        Result<TrackCalibration> tracks = calibrate_with_tracks(turn, request.known, progress);
         if (tracks) {
             result.calibration = tracks->calibration;
             result.tracks = std::move(*tracks);
@@ -194,14 +188,14 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const Cutou
     }
     if (choice == CalibrationChoice::kAuto || choice == CalibrationChoice::kSilhouettes) {
         if (progress != nullptr) progress->start("fitting the silhouettes", 1);
-        Result<Calibration> outlines = from_silhouettes(*turn, request);
+        Result<Calibration> found = from_silhouettes(turn, request);
         if (progress != nullptr) progress->advance();
-        if (outlines) {
-            result.calibration = std::move(*outlines);
+        if (found) {
+            result.calibration = std::move(*found);
             return result;
         }
-        if (choice == CalibrationChoice::kSilhouettes) return outlines.error();
-        result.notes.push_back("no calibration from silhouettes: " + outlines.error().message);
+        if (choice == CalibrationChoice::kSilhouettes) return found.error();
+        result.notes.push_back("no calibration from silhouettes: " + found.error().message);
     }
     return result;
 }

@@ -1,8 +1,8 @@
 #pragma once
 /// \file
-/// Calibration of a turn from its cut-outs by the most reliable method that succeeds: a board, points of the object,
-/// silhouettes. If none succeeds there is no calibration and the rig stays nominal (nominal_rig.hpp). Runs between
-/// segment_turn() and rectification.
+/// Calibration of a turn from its foreground images by the most reliable method that succeeds: a board, points of the
+/// object, silhouettes. If none succeeds there is no calibration and the rig stays nominal (nominal_rig.hpp). Runs
+/// between segment_turn() and rectification.
 
 #include "capture/calibration/board/board_calibration.hpp"
 #include "capture/calibration/board/charuco_board.hpp"
@@ -42,13 +42,13 @@ struct CalibrationRequest {
     KnownInputs known;
     std::optional<BoardDesign> board;
     /// Returns the assumed model, the start of the calibration from silhouettes. Called only on demand, since the
-    /// estimate of the sense of rotation is slow.
+    /// estimate of the direction of rotation is slow.
     std::function<TurntableModel()> nominal;
 };
 
-/// Calibrates the turn. `cuts` holds the cut-outs of `folder` from segment_turn(). Errors: an unreadable image, known
-/// angles for another number of photos, the failure of a method other than kAuto.
-Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const CutoutCache& cuts,
+/// Calibrates the turn. `foregrounds` holds the foreground images of `folder` from segment_turn(). Errors: an
+/// unreadable image, known angles for another number of photos, the failure of a method other than kAuto.
+Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const ForegroundCache& foregrounds,
                                           const CalibrationRequest& request, Progress* progress);
 
 }  // namespace rs::capture

@@ -1,7 +1,7 @@
 #include "capture/photos/rig/rectification.hpp"
 
 #include "capture/photos/rig/nominal_rig.hpp"
-#include "capture/photos/segmentation/cutout.hpp"
+#include "capture/photos/segmentation/foreground_image.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/premultiplied_sampling.hpp"
 
@@ -52,7 +52,7 @@ std::optional<Stretch> stretch_at(const TurntableModel& model, const glm::dvec2&
     return Stretch{std::sqrt(std::max(0.0, (sum - root) / 2)), std::sqrt((sum + root) / 2)};
 }
 
-std::vector<glm::dvec2> outline_points(const TurnSilhouette::Box& box) {
+std::vector<glm::dvec2> border_points(const TurnSilhouette::Box& box) {
     std::vector<glm::dvec2> points;
     for (int i = 0; i < kPointsPerEdge; ++i) {
         const double t = static_cast<double>(i) / (kPointsPerEdge - 1);
@@ -102,34 +102,34 @@ Result<UprightFrame> plan_upright_frame(const TurntableModel& model,
     std::vector<glm::dvec2> points;
     for (const TurnSilhouette::Box& box : object_boxes) {
         if (box.empty() || box.top >= box.bottom) continue;
-        const auto outline = outline_points(box);
-        points.insert(points.end(), outline.begin(), outline.end());
+        const auto border = border_points(box);
+        points.insert(points.end(), border.begin(), border.end());
     }
-    if (points.empty()) return Error{"rectification: no view shows the object; check the cut-outs"};
+    if (points.empty()) return Error{"rectification: no view shows the object; check the masks"};
     double full_detail_f_px = 0;
     for (const glm::dvec2& p : points) {
         const auto slopes = upright_slopes(model, p);
         const auto stretch = stretch_at(model, p);
         if (!slopes || !stretch) {
-            return Error{"rectification: an upright camera does not see what is at " + at(p) +
+            return Error{"rectification: an upright camera cannot see " + at(p) +
                          ": the camera looks too steeply down or the lens distortion is too strong there; check the "
-                         "calibration, or take the pictures from lower down"};
+                         "calibration, or take the images from lower down"};
         }
         seen.include(*slopes);
         source.include(p);
         full_detail_f_px = std::max(full_detail_f_px, 1 / stretch->least);
     }
     const auto middle = stretch_at(model, (source.low + source.high) / 2.0);
-    if (!middle) return Error{"rectification: the calibration does not fit the pictures; check it"};
+    if (!middle) return Error{"rectification: the calibration does not fit the images; check it"};
 
     const double least_f_px = 1 / middle->least;
     const double wished_f_px = std::max(least_f_px, std::min(full_detail_f_px, kMaxEnlargement / middle->most));
     const glm::dvec2 extent = seen.high - seen.low;
-    const double room_px = kMaxPictureSide_px - 2 * kUprightMargin_px - 2;
+    const double room_px = kMaxImageSide_px - 2 * kUprightMargin_px - 2;
     const double f_px = std::min(wished_f_px, room_px / std::max(extent.x, extent.y));
     if (f_px < kMinScale * least_f_px) {
-        return Error{"rectification: the camera looks so steeply down that the upright pictures would need more than " +
-                     std::to_string(kMaxPictureSide_px) + " pixels; take the pictures from lower down"};
+        return Error{"rectification: the camera looks so steeply down that the upright images would need more than " +
+                     std::to_string(kMaxImageSide_px) + " pixels; take the images from lower down"};
     }
 
     UprightFrame frame;
@@ -145,13 +145,13 @@ Result<UprightFrame> plan_upright_frame(const TurntableModel& model,
 }
 
 Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, ConstImageView<Rgba8> cut_out,
-                       const PicturePlace& place) {
+                       const ImagePlace& place) {
     RS_CHECK(cut_out.width() == model.lens.width && cut_out.height() == model.lens.height);
     const glm::dmat3 camera_from_table = camera_rotation(model.pose);
     const double fold = fold_radius(model.lens);
     const glm::dvec2 middle(model.lens.width / 2.0, model.lens.height / 2.0);
     const Lens& lens = model.lens;
-    const PremultipliedPicture from(cut_out);
+    const PremultipliedImage from(cut_out);
     Image<Rgba8> upright(frame.lens.width, frame.lens.height);
     for (int y = 0; y < upright.height(); ++y) {
         for (int x = 0; x < upright.width(); ++x) {

@@ -8,7 +8,7 @@
 /// table frame of turntable_model.hpp and looks along -Z, straight at the axis: its pose is zero, its lens a pinhole,
 /// and the axis is in the column cx. Its horizon, cy, may be outside the frame.
 
-#include "capture/calibration/model/picture_place.hpp"
+#include "capture/calibration/model/image_placement.hpp"
 #include "capture/calibration/model/turntable_model.hpp"
 #include "capture/photos/segmentation/turn_silhouette.hpp"
 #include "rayspace/base/result.hpp"
@@ -33,16 +33,16 @@ inline constexpr int kUprightMargin_px = 8;
 /// in px of the photos (model.lens); empty boxes are ignored. The focal length is the smallest at which no pixel of a
 /// box loses detail, limited to an enlargement of 1.5 in any direction at the object's middle, and at least the one
 /// that keeps the scale there. It is lowered, down to half the scale, only if the frame would exceed
-/// kMaxPictureSide_px. Errors: no box; a camera that looks down so steeply that an upright one cannot see a box within
+/// kMaxImageSide_px. Errors: no box; a camera that looks down so steeply that an upright one cannot see a box within
 /// these limits; distortion that cannot be inverted within a box.
 Result<UprightFrame> plan_upright_frame(const TurntableModel& model, std::span<const TurnSilhouette::Box> object_boxes);
 
-/// Rectifies a photo's cut-out (sRGB, straight alpha, of the size of model.lens). Samples it once by
+/// Rectifies a photo's foreground image (sRGB, straight alpha, of the size of model.lens). Samples it once by
 /// sample_premultiplied(); the result is transparent outside the photo. bleed_colours() then extends the object's
 /// colours under alpha 0. `place` is the displacement of the photo from the image of the model's fixed camera. About
 /// 0.2 s per megapixel of the frame. Thread-safe.
 Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, ConstImageView<Rgba8> cut_out,
-                       const PicturePlace& place = {});
+                       const ImagePlace& place = {});
 
 /// Makes the rig of the rectified images: one upright camera per view of the model, without file names. The unit of
 /// length is the object radius: object_radius is 1, the radius of the circle about the axis that contains all of

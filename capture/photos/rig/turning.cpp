@@ -27,11 +27,11 @@ struct Motion {
     double dx_px, dy_px;
 };
 
-cv::Mat1b grey(ConstImageView<Rgba8> picture) {
-    cv::Mat1b result(picture.height(), picture.width());
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            const Rgba8& p = picture(x, y);
+cv::Mat1b grey(ConstImageView<Rgba8> image) {
+    cv::Mat1b result(image.height(), image.width());
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            const Rgba8& p = image(x, y);
             result(y, x) = static_cast<std::uint8_t>((299 * p.r + 587 * p.g + 114 * p.b) * p.a / 255000);
         }
     }
@@ -39,10 +39,10 @@ cv::Mat1b grey(ConstImageView<Rgba8> picture) {
 }
 
 // True if all pixels of the patch belong to the object.
-bool is_solid(ConstImageView<Rgba8> picture, int left, int top) {
+bool is_solid(ConstImageView<Rgba8> image, int left, int top) {
     for (int y = top; y < top + kCompared_px; ++y) {
         for (int x = left; x < left + kCompared_px; ++x) {
-            if (picture(x, y).a < 250) return false;
+            if (image(x, y).a < 250) return false;
         }
     }
     return true;
@@ -55,13 +55,14 @@ std::optional<cv::Point> find_patch(const cv::Mat1b& from, const cv::Mat1b& to, 
     const cv::Rect window = everywhere & cv::Rect(at.x - reach.width, at.y - reach.height,
                                                   kCompared_px + 2 * reach.width, kCompared_px + 2 * reach.height);
     if (window.width <= kCompared_px || window.height <= kCompared_px) return std::nullopt;
-    cv::Mat1f likeness;
-    cv::matchTemplate(to(window), from(cv::Rect(at, cv::Size(kCompared_px, kCompared_px))), likeness,
+    cv::Mat1f similarity;
+    cv::matchTemplate(to(window), from(cv::Rect(at, cv::Size(kCompared_px, kCompared_px))), similarity,
                       cv::TM_CCOEFF_NORMED);
     double best = 0;
     cv::Point where;
-    cv::minMaxLoc(likeness, nullptr, &best, nullptr, &where);
-    const bool at_edge = where.x == 0 || where.y == 0 || where.x == likeness.cols - 1 || where.y == likeness.rows - 1;
+    cv::minMaxLoc(similarity, nullptr, &best, nullptr, &where);
+    const bool at_edge =
+        where.x == 0 || where.y == 0 || where.x == similarity.cols - 1 || where.y == similarity.rows - 1;
     if (!(best >= kMinMatch) || at_edge) return std::nullopt;
     return window.tl() + where;
 }

@@ -32,9 +32,9 @@ struct TurningEvidence {
     std::optional<Turning> turning;  ///< nullopt: undecided
 };
 
-/// Estimates the sense of rotation. `turn` holds the cut-outs in order, all of one size and small (about 500 px). If
-/// `closed`, the first view follows the last one. `axis_x_px` is the column of the axis and `half_width_px` the widest
-/// extent from it, both in px of these images. `step_rad` is the angle between neighbouring views.
+/// Estimates the direction of rotation. `turn` holds the foreground images in order, all of one size and small (about
+/// 500 px). If `closed`, the first view follows the last one. `axis_x_px` is the column of the axis and `half_width_px`
+/// the widest extent from it, both in px of these images. `step_rad` is the angle between neighbouring views.
 TurningEvidence find_turning(std::span<const Image<Rgba8>> turn, double axis_x_px, double half_width_px,
                              double step_rad, bool closed);
 

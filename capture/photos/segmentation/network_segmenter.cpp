@@ -2,7 +2,7 @@
 
 #include "capture/opencv/connected_components.hpp"
 #include "capture/opencv/opencv_image.hpp"
-#include "capture/photos/intake/photograph.hpp"
+#include "capture/photos/intake/photo_reader.hpp"
 #include "capture/photos/intake/reduction.hpp"
 #include "capture/photos/intake/survey.hpp"
 #include "rayspace/base/check.hpp"
@@ -49,12 +49,10 @@ Result<NetworkMasks> NetworkMasks::compute(const SegmentationNetwork& network, c
     std::vector<Image<std::uint8_t>> probabilities;
     if (progress != nullptr) progress->start("running the network", std::ssize(folder.photos));
     for (std::size_t i = 0; i < folder.photos.size(); ++i) {
-        const Result<Image<Rgba8>> photo = read_photograph(folder, i);
-        if (!photo) return photo.error();
-        const Result<Image<float>> found = network.foreground_probability(reduced(*photo, kSampleSide_px));
-        if (!found) return found.error();
-        Image<std::uint8_t>& codes = probabilities.emplace_back(found->width(), found->height());
-        std::ranges::transform(found->pixels(), codes.pixels().begin(),
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photo(folder, i));
+        RS_ASSIGN_OR_RETURN(const Image<float> found, network.foreground_probability(reduced(photo, kSampleSide_px)));
+        Image<std::uint8_t>& codes = probabilities.emplace_back(found.width(), found.height());
+        std::ranges::transform(found.pixels(), codes.pixels().begin(),
                                [](float p) { return static_cast<std::uint8_t>(std::lround(255 * p)); });
         if (progress != nullptr) progress->advance();
     }
@@ -67,7 +65,7 @@ Image<std::uint8_t> NetworkMasks::mask(std::size_t photo, int width, int height)
     Image<std::uint8_t> mask(width, height);
     if (mask.empty()) return mask;
     cv::Mat1b resized(height, width, mask.data());
-    cv::resize(mat_over(probability), resized, resized.size(), 0, 0, cv::INTER_LINEAR);
+    cv::resize(mat_view(probability), resized, resized.size(), 0, 0, cv::INTER_LINEAR);
     for (std::uint8_t& code : mask.pixels()) code = code >= kHalfProbability ? 255 : 0;
     keep_large_components(mask, parameters_);
     return mask;

@@ -2,9 +2,9 @@
 /// \file
 /// Segmenters by a neural network: alone, and fused with the background model.
 ///
-/// The network finds salient objects in each photo by itself: it wins in rooms and before white, but keeps the
-/// turntable's disc. The background model knows what is static. Fusion: where the network keeps something that never
-/// changes over the turn, which is the disc, the background model decides; the network decides everywhere else.
+/// The network detects salient objects in each photo independently: it is better in rooms and on white, but keeps the
+/// turntable's disc. The background model contains static pixels. Fusion: where the network keeps pixels that never
+/// change over the turn, i.e. the disc, the background model is used; the network is used everywhere else.
 
 #include "capture/photos/intake/photo_folder.hpp"
 #include "capture/photos/masks/segmentation_network.hpp"
@@ -68,7 +68,7 @@ public:
                    Image<std::uint8_t> region);
     [[nodiscard]] std::string name() const override { return "network and background model"; }
     [[nodiscard]] Result<Segmentation> segment(const TurnPhoto& photo) const override;
-    /// Share of the image in which the background model decides, 0..1.
+    /// Share of the image in which the background model is used, 0..1.
     [[nodiscard]] double background_share() const;
 
 private:

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Segmenters for photos whose object is already cut out: by their own alpha, or by a folder of masks.
+/// Segmenters for photos whose object is already segmented: by their own alpha, or by a folder of masks.
 
 #include "capture/photos/intake/photo_folder.hpp"
 #include "capture/photos/masks/mask_folder.hpp"

@@ -1,9 +1,9 @@
 #include "capture/photos/segmentation/segment_turn.hpp"
 
 #include "capture/photos/intake/bounded_work.hpp"
-#include "capture/photos/intake/photograph.hpp"
+#include "capture/photos/intake/photo_reader.hpp"
 #include "capture/photos/intake/reduction.hpp"
-#include "capture/photos/segmentation/cutout.hpp"
+#include "capture/photos/segmentation/foreground_image.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -22,12 +22,12 @@ double coverage(const Image<Rgba8>& cut) {
     return static_cast<double>(solid) / static_cast<double>(cut.pixels().size());
 }
 
-bool reaches_border(const Image<Rgba8>& cutout) {
-    const int right = cutout.width() - 1, bottom = cutout.height() - 1;
+bool reaches_border(const Image<Rgba8>& foreground) {
+    const int right = foreground.width() - 1, bottom = foreground.height() - 1;
     for (int y = 0; y <= bottom; ++y) {
         const bool is_whole_row = y == 0 || y == bottom;
         for (int x = 0; x <= right; x += is_whole_row ? 1 : std::max(1, right)) {
-            if (cutout(x, y).a >= 128) return true;
+            if (foreground(x, y).a >= 128) return true;
         }
     }
     return false;
@@ -50,38 +50,35 @@ std::string set_image_name(std::size_t view) {
     return name;
 }
 
-Result<SegmentedTurn> segment_turn(const PhotoFolder& folder, const Segmenter& segmenter, const CutoutCache& cutouts,
-                                   Progress* progress, const ForegroundParameters& parameters) {
+Result<SegmentedTurn> segment_turn(const PhotoFolder& folder, const Segmenter& segmenter,
+                                   const ForegroundCache& foregrounds, Progress* progress,
+                                   const ForegroundParameters& parameters) {
     SegmentedTurn turn{TurnSilhouette(folder.width, folder.height),
                        std::vector<TurnSilhouette::Box>(folder.photos.size()),
                        std::vector<double>(folder.photos.size()), std::vector<std::uint8_t>(folder.photos.size()),
                        std::vector<Image<Rgba8>>(folder.photos.size())};
     std::mutex mutex;
     const auto segment_photo = [&](std::size_t i) -> Status {
-        const Result<Image<Rgba8>> photo = read_photograph(folder, i);
-        if (!photo) return photo.error();
-        const Result<Segmentation> segmentation = segmenter.segment({i, photo->view()});
-        if (!segmentation) return segmentation.error();
-        const Image<Rgba8> cutout = make_cutout(*photo, *segmentation, parameters);
-        turn.coverage[i] = coverage(cutout);
-        turn.at_border[i] = reaches_border(cutout) ? 1 : 0;
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photo(folder, i));
+        RS_ASSIGN_OR_RETURN(const Segmentation segmentation, segmenter.segment({i, photo.view()}));
+        const Image<Rgba8> foreground = make_foreground_image(photo, segmentation, parameters);
+        turn.coverage[i] = coverage(foreground);
+        turn.at_border[i] = reaches_border(foreground) ? 1 : 0;
         if (Status status =
-                check_coverage(turn.coverage[i], folder.photos[i].string(), segmenter, segmentation->is_alpha);
+                check_coverage(turn.coverage[i], folder.photos[i].string(), segmenter, segmentation.is_alpha);
             !status) {
             return status;
         }
-        if (Status status = cutouts.put(i, cutout); !status) return status;
-        turn.small[i] = reduced(cutout, kSmallSide_px);
+        if (Status status = foregrounds.put(i, foreground); !status) return status;
+        turn.small[i] = reduced(foreground, kSmallSide_px);
         TurnSilhouette silhouette(folder.width, folder.height);
-        silhouette.add(cutout);
+        silhouette.add(foreground);
         turn.boxes[i] = silhouette.visible();
         const std::lock_guard lock(mutex);
         turn.silhouette.merge(silhouette);
         return {};
     };
-    if (Status status = for_each_photo(folder, kSegmentBytesPerPixel, "segmenting", progress, segment_photo); !status) {
-        return status.error();
-    }
+    RS_TRY(for_each_photo(folder, kSegmentBytesPerPixel, "segmenting", progress, segment_photo));
     return turn;
 }
 

@@ -22,21 +22,21 @@ std::string of_photos(std::size_t count, std::size_t all) {
 
 }  // namespace
 
-bool is_static_at_border(std::span<const Image<Rgba8>> cutouts) {
+bool is_static_at_border(std::span<const Image<Rgba8>> foregrounds) {
     constexpr std::size_t kMinPhotos = 6;
     constexpr double kMostPhotos = 0.7;
     constexpr double kMinOfBorder = 0.02;
     constexpr int kSame_codes = 24;  // exposures differ
-    if (cutouts.size() < kMinPhotos) return false;
-    const int width = cutouts[0].width(), height = cutouts[0].height();
-    const double most = kMostPhotos * static_cast<double>(cutouts.size());
+    if (foregrounds.size() < kMinPhotos) return false;
+    const int width = foregrounds[0].width(), height = foregrounds[0].height();
+    const double most = kMostPhotos * static_cast<double>(foregrounds.size());
     int border = 0, covered = 0, still = 0;  // pixels
     std::vector<Rgba8> seen;
     for_border(width, height, [&](int x, int y) {
         ++border;
         seen.clear();
-        for (const Image<Rgba8>& cutout : cutouts) {
-            if (cutout(x, y).a >= 128) seen.push_back(cutout(x, y));
+        for (const Image<Rgba8>& foreground : foregrounds) {
+            if (foreground(x, y).a >= 128) seen.push_back(foreground(x, y));
         }
         if (static_cast<double>(seen.size()) < most) return;
         ++covered;
@@ -82,7 +82,7 @@ SegmentationFindings check_segmentation(const PhotoFolder& folder, const Segment
             found.problems.push_back(text + " and most of it never changes: background was kept; " + kRemedy);
         } else if (!is_given &&
                    static_cast<double>(at_border) > parameters.max_at_border * static_cast<double>(count)) {
-            found.problems.push_back(text + " and is cut off there; photograph it from farther away, or " + kRemedy);
+            found.problems.push_back(text + " and is cut off there; take the photos from farther away, or " + kRemedy);
         } else {
             found.notes.push_back(text + "; it will look cut off there");
         }

@@ -105,10 +105,9 @@ std::string to_json_text(const SegmentationParameters& parameters) {
 }
 
 Result<SegmentationParameters> read_segmentation_parameters(const std::filesystem::path& file) {
-    const Result<std::vector<std::byte>> bytes = read_file(file, kMaxFile_bytes);
-    if (!bytes) return bytes.error();
-    const auto* const text = reinterpret_cast<const char*>(bytes->data());
-    const nlohmann::json given = nlohmann::json::parse(text, text + bytes->size(), nullptr, false);
+    RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(file, kMaxFile_bytes));
+    const auto* const text = reinterpret_cast<const char*>(bytes.data());
+    const nlohmann::json given = nlohmann::json::parse(text, text + bytes.size(), nullptr, false);
     if (given.is_discarded()) return Error{file.string() + ": is not JSON; give {\"foreground\": {...}, ...}"};
     const std::string unknown = first_unknown(given, nlohmann::json(SegmentationParameters{}), "");
     if (!unknown.empty()) {

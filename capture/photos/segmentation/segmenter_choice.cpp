@@ -18,7 +18,7 @@ namespace {
 Status check(const SegmenterRequest& request) {
     const auto kind = request.kind;
     if (!request.masks.empty() && kind != SegmenterKind::kAuto && kind != SegmenterKind::kMasks) {
-        return Error{"--masks: has no effect with --segmenter " + to_string(kind) + "; leave one of them away"};
+        return Error{"--masks: has no effect with --segmenter " + to_string(kind) + "; leave one of them out"};
     }
     if (kind == SegmenterKind::kMasks && request.masks.empty()) {
         return Error{"--segmenter masks: needs a folder of masks; give it by --masks"};
@@ -32,10 +32,10 @@ Status check(const SegmenterRequest& request) {
             "RAYSPACE_SEGMENTATION_MODEL"};
     }
     if (!request.masks.empty() && request.background.kind) {
-        return Error{"--backdrop: has no effect with --masks; leave one of them away"};
+        return Error{"--backdrop: has no effect with --masks; leave one of them out"};
     }
     if (kind == SegmenterKind::kAlpha && request.background.kind && request.background.kind != BackgroundKind::kAlpha) {
-        return Error{"--backdrop: has no effect with --segmenter alpha; leave one of them away"};
+        return Error{"--backdrop: has no effect with --segmenter alpha; leave one of them out"};
     }
     return {};
 }
@@ -43,17 +43,17 @@ Status check(const SegmenterRequest& request) {
 Status refuse_shadow(const SegmenterRequest& request, SegmenterKind kind) {
     if (request.shadow == ShadowHandling::kRemove) return {};
     return Error{"--shadow keep: needs the background model, but the segmenter is " + to_string(kind) +
-                 "; give --segmenter background, or leave it away"};
+                 "; give --segmenter background, or leave it out"};
 }
 
 Result<ChosenSegmenter> by_masks(const SegmenterRequest& request, const Intake& intake, Progress* progress) {
-    if (Status status = refuse_shadow(request, SegmenterKind::kMasks); !status) return status.error();
-    Result<MaskFolder> masks = MaskFolder::open(
-        request.masks, intake.folder, request.masks_are_alpha ? MaskKind::kAlpha : MaskKind::kBinary, progress);
-    if (!masks) return masks.error();
+    RS_TRY(refuse_shadow(request, SegmenterKind::kMasks));
+    RS_ASSIGN_OR_RETURN(MaskFolder masks,
+                        MaskFolder::open(request.masks, intake.folder,
+                                         request.masks_are_alpha ? MaskKind::kAlpha : MaskKind::kBinary, progress));
     ChosenSegmenter chosen;
-    chosen.notes = masks->notes();
-    chosen.segmenter = std::make_shared<MaskFolderSegmenter>(std::move(*masks), intake.folder);
+    chosen.notes = masks.notes();
+    chosen.segmenter = std::make_shared<MaskFolderSegmenter>(std::move(masks), intake.folder);
     chosen.kind = SegmenterKind::kMasks;
     chosen.reason = "--masks";
     chosen.background_share = 0;
@@ -61,7 +61,7 @@ Result<ChosenSegmenter> by_masks(const SegmenterRequest& request, const Intake& 
 }
 
 Result<ChosenSegmenter> by_alpha(const SegmenterRequest& request) {
-    if (Status status = refuse_shadow(request, SegmenterKind::kAlpha); !status) return status.error();
+    RS_TRY(refuse_shadow(request, SegmenterKind::kAlpha));
     ChosenSegmenter chosen;
     chosen.segmenter = std::make_shared<AlphaSegmenter>();
     chosen.reason = "the photos have transparent pixels";
@@ -86,21 +86,20 @@ Result<ChosenSegmenter> by_network(const SegmenterRequest& request, const Intake
                                    Progress* progress) {
     const bool keeps_shadow = request.shadow == ShadowHandling::kKeep;
     if (model == nullptr && keeps_shadow) {
-        return Error{"--shadow keep: the background could not be estimated; leave it away"};
+        return Error{"--shadow keep: the background could not be estimated; leave it out"};
     }
-    const Result<SegmentationNetwork> network = SegmentationNetwork::load(request.network);
-    if (!network) return network.error();
-    Result<NetworkMasks> masks = NetworkMasks::compute(*network, intake.folder, request.parameters.fusion, progress);
-    if (!masks) return masks.error();
+    RS_ASSIGN_OR_RETURN(const SegmentationNetwork network, SegmentationNetwork::load(request.network));
+    RS_ASSIGN_OR_RETURN(NetworkMasks masks,
+                        NetworkMasks::compute(network, intake.folder, request.parameters.fusion, progress));
     ChosenSegmenter chosen;
     chosen.kind = SegmenterKind::kModel;
-    chosen.reason = network->description();
+    chosen.reason = network.description();
     chosen.background_share = 0;
     Image<std::uint8_t> region;
     if (model != nullptr && !model->always_visible.empty()) {
         std::vector<std::size_t> samples = intake.survey.sample_photos;
-        std::erase_if(samples, [&](std::size_t photo) { return photo >= masks->count(); });  // a repeat was dropped
-        region = static_foreground_hull(*masks, samples, model->always_visible, request.parameters.fusion);
+        std::erase_if(samples, [&](std::size_t photo) { return photo >= masks.count(); });  // a repeat was dropped
+        region = static_foreground_hull(masks, samples, model->always_visible, request.parameters.fusion);
     }
     std::shared_ptr<const BackgroundModelSegmenter> background;
     if (model != nullptr) {
@@ -109,12 +108,13 @@ Result<ChosenSegmenter> by_network(const SegmenterRequest& request, const Intake
         if (keeps_shadow || !region.empty()) background = background_segmenter(*model, intake.folder, request);
     }
     if (region.empty()) {
-        chosen.segmenter = std::make_shared<NetworkSegmenter>(std::move(*masks));
+        chosen.segmenter = std::make_shared<NetworkSegmenter>(std::move(masks));
     } else {
-        auto fused = std::make_shared<FusedSegmenter>(std::move(*masks), background, std::move(region));
+        auto fused = std::make_shared<FusedSegmenter>(std::move(masks), background, std::move(region));
         chosen.background_share = fused->background_share();
-        chosen.notes.push_back("the background model decides in " + percent(chosen.background_share) +
-                               " of the image, where the network keeps static background; the network elsewhere");
+        chosen.notes.push_back(
+            "the background model is used in " + percent(chosen.background_share) +
+            " of the image, where the network keeps static background; the network is used elsewhere");
         chosen.segmenter = std::move(fused);
     }
     if (keeps_shadow) {
@@ -142,7 +142,7 @@ Result<ChosenSegmenter> by_background(const SegmenterRequest& request, const Int
 }
 
 Result<ChosenSegmenter> by_chroma_key(const SegmenterRequest& request, const BackgroundModel& model) {
-    if (Status status = refuse_shadow(request, SegmenterKind::kChromaKey); !status) return status.error();
+    RS_TRY(refuse_shadow(request, SegmenterKind::kChromaKey));
     ChosenSegmenter chosen;
     std::vector<Rgba8> keys = model.key_colours;
     if (request.background.colour || keys.empty()) keys.insert(keys.begin(), model.colour);
@@ -177,7 +177,7 @@ std::string to_string(SegmenterKind kind) {
 
 Result<ChosenSegmenter> choose_segmenter(const SegmenterRequest& request, const Intake& intake,
                                          const std::string& where, Progress* progress) {
-    if (Status status = check(request); !status) return status.error();
+    RS_TRY(check(request));
     if (!request.masks.empty()) return by_masks(request, intake, progress);
 
     BackgroundRequest background = request.background;

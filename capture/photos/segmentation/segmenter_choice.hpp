@@ -4,7 +4,7 @@
 ///
 /// Automatic choice: mask files if given; the photos' alpha if they have one; the network fused with the background
 /// model if a network is configured and the background is not black (networks lose black on black); else the background
-/// model. Stands between take_in() and segment_turn().
+/// model. Runs between run_intake() and segment_turn().
 
 #include "capture/photos/background/background_model.hpp"
 #include "capture/photos/intake/intake.hpp"
@@ -45,7 +45,7 @@ struct ChosenSegmenter {
     std::string reason;                                  ///< why, for people: "the photos have transparent pixels"
     BackgroundKind background = BackgroundKind::kAlpha;  ///< as estimated; kAlpha if none was needed
     Rgba8 background_colour{};
-    double background_share = 1;     ///< share of the image in which the background model decides, 0..1
+    double background_share = 1;     ///< share of the image in which the background model is used, 0..1
     std::vector<std::string> notes;  ///< one line each
 };
 

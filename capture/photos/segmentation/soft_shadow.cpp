@@ -33,7 +33,7 @@ Image<std::uint8_t> estimate_shadow(ConstImageView<Rgba8> photo, ConstImageView<
     if (shadow.empty()) return shadow;
     const int edge_px = expected_edge_width_px(photo.width(), photo.height());
     cv::Mat1b near_object;
-    cv::dilate(mat_over(mask), near_object,
+    cv::dilate(mat_view(mask), near_object,
                cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * edge_px + 1, 2 * edge_px + 1}));
     // Smoothed over pixels that show the floor alone, so that it continues below the object's edge.
     cv::Mat1f missing(shadow.height(), shadow.width(), 0.0F), weight(missing.size(), 0.0F);

@@ -21,12 +21,12 @@ TurnSilhouette::TurnSilhouette(int width, int height)
       right_(static_cast<std::size_t>(height), -1),
       visible_{width, 0, height, 0} {}
 
-void TurnSilhouette::add(ConstImageView<Rgba8> cutout) {
-    RS_CHECK(cutout.width() == width_ && static_cast<std::size_t>(cutout.height()) == left_.size());
-    for (int y = 0; y < cutout.height(); ++y) {
+void TurnSilhouette::add(ConstImageView<Rgba8> foreground) {
+    RS_CHECK(foreground.width() == width_ && static_cast<std::size_t>(foreground.height()) == left_.size());
+    for (int y = 0; y < foreground.height(); ++y) {
         const auto row = static_cast<std::size_t>(y);
-        for (int x = 0; x < cutout.width(); ++x) {
-            const int alpha = cutout(x, y).a;
+        for (int x = 0; x < foreground.width(); ++x) {
+            const int alpha = foreground(x, y).a;
             if (alpha >= kSolid) {
                 left_[row] = std::min(left_[row], x);
                 right_[row] = std::max(right_[row], x);

@@ -12,13 +12,14 @@
 
 namespace rs::capture {
 
-/// Accumulates the cut-outs of all views. Pixel coordinates are those of the cut-outs.
+/// Accumulates the foreground images of all views. Pixel coordinates are those of the foreground images.
 class TurnSilhouette {
 public:
     TurnSilhouette(int width, int height);
 
-    /// Adds the cut-out of one view, width x height px. Not thread-safe: use one object per thread and merge() them.
-    void add(ConstImageView<Rgba8> cutout);
+    /// Adds the foreground image of one view, width x height px. Not thread-safe: use one object per thread and merge()
+    /// them.
+    void add(ConstImageView<Rgba8> foreground);
     void merge(const TurnSilhouette& other);
 
     /// Bounding box [left, right) x [top, bottom).

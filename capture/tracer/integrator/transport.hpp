@@ -1,14 +1,15 @@
 #pragma once
-// What all ways of following light have in common: segments between surfaces, what is met at their ends and on their
-// way, light samples, and the weights of multiple importance sampling.
+// Light transport shared by all integrators: path segments between surfaces, emission along them, light samples, and
+// the weights of multiple importance sampling.
 //
-// Radiance is not scaled by the squared index of refraction inside glass: all lights are outside, where it cancels.
+// Radiance is not scaled by the squared index of refraction inside glass: all lights are outside, where the factor
+// cancels.
 
+#include "capture/tracer/image/accumulation.hpp"
 #include "capture/tracer/integrator/medium_stack.hpp"
 #include "capture/tracer/integrator/sampler.hpp"
 #include "capture/tracer/integrator/surface.hpp"
 #include "capture/tracer/light/light_set.hpp"
-#include "capture/tracer/picture/accumulation.hpp"
 #include "capture/tracer/rays/ray_scene.hpp"
 #include "rayspace/light/directions.hpp"
 
@@ -18,45 +19,48 @@
 
 namespace rs::capture {
 
-// By the camera itself; else in reflections and through glass only. Primitives it never sees.
-struct Seen {
+// Light sources visible to camera rays; the others appear in reflections and through glass only. Primitives are never
+// visible to camera rays.
+struct CameraVisibility {
     bool areas = false;
     bool environment = false;
 };
 
-// A ray of a picture.
 struct CameraRay {
     glm::vec3 origin;
     glm::vec3 direction;  // unit length
-    float time;           // 0..1 as ray_scene.hpp has it
+    float time;           // 0..1, see ray_scene.hpp
     Sampler sampler;
-    unsigned in_square = 0;  // number of its pixel within a square of 4 x 4, row by row
+    unsigned in_square = 0;  // index of the pixel within its square of 4 x 4, row by row
 };
 
-// The light that arrives along one ray of a picture.
+// Computes the radiance that arrives along camera rays.
 class Integrator {
 public:
     Integrator() = default;
     Integrator(const Integrator&) = default;
     Integrator& operator=(const Integrator&) = delete;
     virtual ~Integrator() = default;
-    // False where the ray meets nothing; then `radiance` is 0. `direction` has unit length, `time` is 0..1 as
-    // ray_scene.hpp has it. Thread-safe.
+    /// Thread-safe.
+    /// \param direction unit length
+    /// \param time 0..1, see ray_scene.hpp
+    /// \return false if the ray hits nothing; `radiance` is 0 then
     virtual bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                        glm::vec3& radiance) const = 0;
-    // The same bits for many rays, as many results; neighbours in the list should be neighbours in the picture.
-    virtual void trace_many(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
-        trace_one_by_one(rays, arrived);
+    /// Traces many rays with the same results as trace(). Fastest if neighbours in the list are neighbours in the
+    /// image. \param samples one result per ray
+    virtual void trace_many(std::span<CameraRay> rays, std::span<RadianceSample> samples) const {
+        trace_one_by_one(rays, samples);
     }
 
-    // Whether it describes what the first rough surface of each ray is.
-    [[nodiscard]] virtual bool gives_guides() const { return false; }
+    /// Returns true if the samples contain denoising guides (RadianceSample::guide).
+    [[nodiscard]] virtual bool has_guides() const { return false; }
 
 protected:
-    void trace_one_by_one(std::span<CameraRay> rays, std::span<Arrived> arrived) const {
+    void trace_one_by_one(std::span<CameraRay> rays, std::span<RadianceSample> samples) const {
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            arrived[i].met =
-                trace(rays[i].origin, rays[i].direction, rays[i].time, rays[i].sampler, arrived[i].radiance);
+            samples[i].hit =
+                trace(rays[i].origin, rays[i].direction, rays[i].time, rays[i].sampler, samples[i].radiance);
         }
     }
 };
@@ -64,20 +68,20 @@ protected:
 // Thread-safe.
 class LightTransport {
 public:
-    // Refers to all of them.
+    /// Keeps references to all arguments but `visibility`.
     LightTransport(const Scene& scene, const RayScene& rays, const LightSet& lights,
-                   const std::vector<SurfaceModel>& models, Seen seen = {})
-        : scene_(scene), rays_(rays), lights_(lights), models_(models), seen_(seen) {}
+                   const std::vector<SurfaceModel>& models, CameraVisibility visibility = {})
+        : scene_(scene), rays_(rays), lights_(lights), models_(models), visibility_(visibility) {}
 
-    // A straight piece of a path, and how it was drawn.
+    // A straight piece of a path, and the density with which it was sampled.
     struct Segment {
         glm::vec3 origin;
         glm::vec3 direction;
-        float time = 0.0F;  // the same for all of a path
+        float time = 0.0F;  // the same for all segments of a path
         float pdf = 0.0F;
-        bool specular = true;  // no light sample could have given it
+        bool specular = true;  // cannot be generated by light sampling
         bool of_camera = false;
-        LightSet::Selection selection{};  // of the light samples at its beginning
+        LightSet::Selection selection{};  // for the light samples at its origin
     };
     [[nodiscard]] static Segment camera_segment(const glm::vec3& origin, const glm::vec3& direction,
                                                 float time = 0.0F) {
@@ -86,59 +90,62 @@ public:
         return segment;
     }
 
-    // Where a segment ends and light is scattered.
+    // A scattering event at the end of a segment.
     struct Vertex {
         SurfacePoint point;
         Frame frame;
         Surface surface;
-        bool thin;  // light passes to the far side
+        bool thin;  // transmits light to the far side
         float step_off;
         LightSet::Selection selection{};
 
-        // Where rays in `direction` start. Opaque surfaces send all light from the near side, even what goes below the
-        // facet but above the curved surface it stands for.
-        [[nodiscard]] glm::vec3 start_of(const glm::vec3& direction, bool near_side) const {
+        // Origin of rays in `direction`, offset from the surface. Opaque surfaces emit all rays from the near side,
+        // even rays below the facet but above the curved surface that the facet approximates.
+        [[nodiscard]] glm::vec3 ray_origin(const glm::vec3& direction, bool near_side) const {
             if (thin) near_side = glm::dot(point.geometric_normal, direction) > 0.0F;
             if (!near_side) return point.position - point.geometric_normal * step_off;
             return (thin ? point.position : point.lifted_position) + point.geometric_normal * step_off;
         }
 
-        // Notes it as what a ray has met after so long a way, where it is the first that is rough.
-        void guide(float distance, Arrived& arrived) const {
-            if (arrived.guided || surface.is_specular()) return;
-            arrived.guided = true;
-            arrived.guide = {point.position, frame.normal, surface.colour(), distance};
+        // Stores this vertex as the sample's guide if it is the path's first rough surface. `distance` is the path
+        // length.
+        void record_guide(float distance, RadianceSample& sample) const {
+            if (sample.has_guide || surface.is_specular()) return;
+            sample.has_guide = true;
+            sample.guide = {point.position, frame.normal, surface.colour(), distance};
         }
     };
 
-    enum class Met {
+    // End of a segment.
+    enum class SegmentEnd {
         kNothing,
-        kLight,  // and the path ends: a primitive, lights before nothing, the side of a surface that is not there
+        kLight,  // the path ends: primitive, light without a surface behind it, or the back of a one-sided surface
         kSurface,
     };
-    // Follows a segment: dims `throughput` by the glass on the way, adds to `radiance` what shines there, throughput
-    // included, and gives where it ends.
-    Met meet(const Segment& segment, const MediumStack& media, glm::vec3& throughput, glm::vec3& radiance,
-             SurfacePoint& point) const;
+    /// Intersects a segment with the scene. Multiplies `throughput` by the transmittance of the glass along the segment
+    /// and adds the emission along it, times throughput, to `radiance`.
+    /// \param point set if the segment hits a mesh
+    SegmentEnd trace_segment(const Segment& segment, const MediumStack& media, glm::vec3& throughput,
+                             glm::vec3& radiance, SurfacePoint& point) const;
 
-    // The same where `hit` states whether `point` is what the segment meets first.
-    Met arrive(const Segment& segment, bool hit, const MediumStack& media, glm::vec3& throughput, glm::vec3& radiance,
-               const SurfacePoint& point) const;
+    /// trace_segment() with a given intersection: `point` is the segment's first hit if `hit` is true.
+    SegmentEnd finish_segment(const Segment& segment, bool hit, const MediumStack& media, glm::vec3& throughput,
+                              glm::vec3& radiance, const SurfacePoint& point) const;
 
     [[nodiscard]] Vertex vertex_at(const SurfacePoint& point, const glm::vec3& direction) const;
-    // Makes ready for light samples.
+    // Prepares the vertex for light sampling.
     void select_lights(Vertex& vertex) const {
-        vertex.selection = lights_.select(vertex.start_of(vertex.point.geometric_normal, true));
+        vertex.selection = lights_.select(vertex.ray_origin(vertex.point.geometric_normal, true));
     }
-    // Light of one source that arrives at a vertex and leaves where the segment before came from, with its weight
-    // beside one drawn direction.
-    [[nodiscard]] glm::vec3 light_sample(const Vertex& vertex, float u_source, const glm::vec2& u) const;
-    // The same of a sample that is given.
-    [[nodiscard]] glm::vec3 light_from(const LightSample& light, const Vertex& vertex) const;
-    [[nodiscard]] Segment segment_from(const Vertex& vertex, const SurfaceSample& drawn) const;
+    // Radiance of one randomly chosen light source that the vertex reflects to its viewer, MIS-weighted against one
+    // BSDF sample.
+    [[nodiscard]] glm::vec3 sample_light(const Vertex& vertex, float u_source, const glm::vec2& u) const;
+    // The same for a given light sample.
+    [[nodiscard]] glm::vec3 reflect_light(const LightSample& light, const Vertex& vertex) const;
+    [[nodiscard]] Segment make_segment(const Vertex& vertex, const SurfaceSample& drawn) const;
 
-    // The shading normal where the material has relief. Sides that are seen from behind have the front's, turned over.
-    [[nodiscard]] glm::vec3 normal_in_relief(const SurfacePoint& point) const;
+    // Shading normal with the material's normal map applied. On back faces the front's normal is negated.
+    [[nodiscard]] glm::vec3 mapped_normal(const SurfacePoint& point) const;
 
     [[nodiscard]] const Material& material_of(const SurfacePoint& point) const {
         return scene_.materials[static_cast<std::size_t>(point.material)];
@@ -148,17 +155,18 @@ public:
     }
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const std::vector<SurfaceModel>& models() const { return models_; }
-    // Whether a camera ray brings nothing but what the surface sends that it meets, unless the surface itself shines.
-    [[nodiscard]] bool sees_surfaces_only() const { return !seen_.areas || lights_.area_count() == 0; }
+    // Returns true if camera rays may hit area lights.
+    [[nodiscard]] bool has_visible_areas() const { return visibility_.areas && lights_.area_count() > 0; }
     [[nodiscard]] const RayScene& rays() const { return rays_; }
     [[nodiscard]] const LightSet& lights() const { return lights_; }
 
 private:
-    [[nodiscard]] glm::vec3 areas_on_the_way(const Segment& segment, float distance) const;
-    [[nodiscard]] glm::vec3 environment_behind(const Segment& segment) const;
+    // Radiance of the area lights that the segment crosses before `distance`.
+    [[nodiscard]] glm::vec3 area_radiance(const Segment& segment, float distance) const;
+    [[nodiscard]] glm::vec3 environment_radiance(const Segment& segment) const;
     [[nodiscard]] glm::vec3 emission_of(const SurfacePoint& point, const Segment& segment) const;
-    // Of what a drawn segment met, beside the light samples at its beginning.
-    [[nodiscard]] static float weight_of(const Segment& segment, float light_pdf) {
+    // MIS weight of the light that a sampled segment hits, against the light samples at its origin.
+    [[nodiscard]] static float light_weight(const Segment& segment, float light_pdf) {
         return mis_weight(segment.pdf, light_pdf);
     }
 
@@ -166,7 +174,7 @@ private:
     const RayScene& rays_;
     const LightSet& lights_;
     const std::vector<SurfaceModel>& models_;
-    Seen seen_;
+    CameraVisibility visibility_;
 };
 
 }  // namespace rs::capture

@@ -3,8 +3,8 @@
 #include "capture/tracer/scene/mesh_material.hpp"
 #include "capture/tracer/scene/ply_file.hpp"
 #include "rayspace/file/input_file.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/models/model_files.hpp"
-#include "rayspace/pictures/picture_io.hpp"
 
 #include <assimp/BaseImporter.h>
 #include <assimp/config.h>
@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::uint64_t kMaxModelFile_bytes = std::uint64_t{4} << 30;
 
-// The way for a scene that was read here to Assimp's post-processing.
+// Passes a scene from our PLY reader to Assimp's post-processing.
 class PlyLoader : public Assimp::BaseImporter {
 public:
     explicit PlyLoader(std::unique_ptr<aiScene> scene) : scene_(std::move(scene)) {}
@@ -63,7 +63,7 @@ Mesh convert_mesh(const aiMesh& source) {
     if (source.HasNormals()) {
         mesh.normals.reserve(source.mNumVertices);
         for (unsigned i = 0; i < source.mNumVertices; ++i) {
-            // Vertices of degenerate faces have no normal of their own; a zero normal falls back to the facet's.
+            // Vertices of degenerate faces have no normal; shading uses the facet's normal instead of a zero normal.
             const glm::vec3 normal = to_vec(source.mNormals[i]);
             const float length = glm::length(normal);
             mesh.normals.push_back(length > 0.0F && std::isfinite(length) ? normal / length : glm::vec3(0.0F));
@@ -86,7 +86,7 @@ Mesh convert_mesh(const aiMesh& source) {
 Result<Scene> convert_scene(const aiScene& source, const std::filesystem::path& path) {
     Scene scene;
     scene.name = path.stem().string();
-    if (Status converted = convert_materials(source, path, scene); !converted) return converted.error();
+    RS_TRY(convert_materials(source, path, scene));
     for (unsigned i = 0; i < source.mNumMeshes; ++i) {
         if ((source.mMeshes[i]->mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) continue;
         Mesh mesh = convert_mesh(*source.mMeshes[i]);
@@ -104,18 +104,17 @@ bool is_mesh_file(const std::filesystem::path& path) {
     return extension == ".obj" || extension == ".ply" || extension == ".gltf" || extension == ".glb";
 }
 
-Error missing_texture(const std::filesystem::path& path, const std::filesystem::path& asked_by) {
-    return Error{asked_by.string() + ": asks for the texture " + path.string() + ", which is not there; put it there"};
+Error missing_texture(const std::filesystem::path& path, const std::filesystem::path& referrer) {
+    return Error{referrer.string() + ": asks for the texture " + path.string() + ", which is not there; put it there"};
 }
 
-Result<Texture> read_texture(const std::filesystem::path& path, const std::filesystem::path& asked_by) {
+Result<Texture> read_texture(const std::filesystem::path& path, const std::filesystem::path& referrer) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) {
-        return missing_texture(path, asked_by);
+        return missing_texture(path, referrer);
     }
-    Result<Image<RgbaF>> pixels = read_picture_linear(path);
-    if (!pixels) return pixels.error();
-    return Texture{path.filename().string(), std::move(pixels).value()};
+    RS_ASSIGN_OR_RETURN(Image<RgbaF> pixels, read_image_linear(path));
+    return Texture{path.filename().string(), std::move(pixels)};
 }
 
 Result<Scene> read_mesh_file(const std::filesystem::path& path) {
@@ -129,20 +128,18 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
         const ModelFiles& files = read_models_only(importer, kMaxModelFile_bytes);
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         if (lower_case_extension(path) == ".ply") {
-            Result<std::unique_ptr<aiScene>> ply = read_ply_file(path);
-            if (!ply) return ply.error();
-            importer.RegisterLoader(new PlyLoader(std::move(*ply)));  // the importer takes it over
+            RS_ASSIGN_OR_RETURN(std::unique_ptr<aiScene> ply, read_ply_file(path));
+            importer.RegisterLoader(new PlyLoader(std::move(ply)));  // the importer takes it over
             importer.ReadFileFromMemory("ply", 3, 0, "ply");
         } else {
             importer.ReadFile(path.string(), 0);
         }
-        const Result<const aiScene*> read =
-            post_processed(importer,
-                           aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
-                               aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices,
-                           path.string());
-        if (!read) return read.error();
-        const aiScene* const source = *read;
+        RS_ASSIGN_OR_RETURN(const aiScene* read,
+                            post_processed(importer,
+                                           aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
+                                               aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices,
+                                           path.string()));
+        const aiScene* const source = read;
         if (!files.refusal().empty()) return Error{files.refusal()};
         if (source == nullptr) {
             return Error{path.string() + ": cannot be read as a mesh: " + shown_error(importer.GetErrorString())};

@@ -3,7 +3,7 @@
 #include "capture/tracer/scene/mesh_file.hpp"
 #include "capture/tracer/scene/texture_lookup.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/ObjMaterial.h>
@@ -26,7 +26,7 @@
 namespace rs::capture {
 namespace {
 
-// "%20" and the like, which glTF's URIs have in the place of special characters.
+// Decodes the percent-encoding ("%20") of glTF URIs.
 std::string decode_uri(const std::string& uri) {
     std::string decoded;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -55,14 +55,13 @@ private:
 };
 
 Status write_bytes(const aiTexture& source, const std::filesystem::path& path) {
-    Result<StagedFile> staged = StagedFile::create(path);
-    if (!staged) return staged.error();
+    RS_ASSIGN_OR_RETURN(StagedFile staged, StagedFile::create(path));
     const auto bytes = std::as_bytes(std::span(reinterpret_cast<const unsigned char*>(source.pcData), source.mWidth));
-    if (Status written = staged->write(bytes); !written) return written.error();
-    return staged->commit();
+    RS_TRY(staged.write(bytes));
+    return staged.commit();
 }
 
-// Pictures that stand inside of a GLB go through a file of their own, for readers take paths.
+// Copies images embedded in a GLB to a temporary file, because the image readers need a path.
 template <class Read>
 auto read_embedded(const aiTexture& source, const std::string& name, const std::filesystem::path& file, Read read)
     -> decltype(read(file)) {
@@ -74,13 +73,13 @@ auto read_embedded(const aiTexture& source, const std::string& name, const std::
                                   ("rayspace-texture-" + std::to_string(::getpid()) + "-" +
                                    std::to_string(std::random_device{}()) +
                                    (hint == "jpg" || hint == "jpeg" ? ".jpg" : ".png")));
-    if (Status written = write_bytes(source, temporary.path()); !written) return written.error();
+    RS_TRY(write_bytes(source, temporary.path()));
     auto result = read(temporary.path());
     if (result) return result;
     return Error{file.string() + ": its embedded texture \"" + name + "\" cannot be read; store it as PNG or JPEG"};
 }
 
-// Calls `read` with the path of the picture.
+// Calls `read` with the path of the image.
 template <class Read>
 auto read_named(const aiScene& source, const std::string& name, const std::filesystem::path& file, Read read)
     -> decltype(read(file)) {
@@ -99,29 +98,29 @@ auto read_named(const aiScene& source, const std::string& name, const std::files
 Result<int> MeshTextures::colours(const std::string& name, float hole_alpha) {
     const auto key = std::pair(name, hole_alpha);
     if (const auto found = loaded_.find(key); found != loaded_.end()) return found->second;
-    Result<Texture> texture =
-        read_named(source_, name, file_, [&](const std::filesystem::path& path) { return read_texture(path, file_); });
-    if (!texture) return texture.error();
+    RS_ASSIGN_OR_RETURN(Texture texture, read_named(source_, name, file_, [&](const std::filesystem::path& path) {
+                            return read_texture(path, file_);
+                        }));
     if (hole_alpha != kHoleAlpha) {
-        for (RgbaF& p : texture->pixels.pixels()) p.a = p.a < hole_alpha ? 0.0F : 1.0F;
+        for (RgbaF& p : texture.pixels.pixels()) p.a = p.a < hole_alpha ? 0.0F : 1.0F;
     }
-    if (source_.GetEmbeddedTexture(name.c_str()) != nullptr) texture->name = name;
-    textures_.push_back(std::move(texture).value());
+    if (source_.GetEmbeddedTexture(name.c_str()) != nullptr) texture.name = name;
+    textures_.push_back(std::move(texture));
     return loaded_[key] = static_cast<int>(textures_.size()) - 1;
 }
 
 Result<glm::vec3> MeshTextures::mean_numbers(const std::string& name) {
-    // As codes of 8 bits; the sRGB curve, which such pictures do not have, is then not undone.
-    const Result<Image<Rgba8>> codes =
+    // Reads 8-bit codes without sRGB decoding.
+    RS_ASSIGN_OR_RETURN(
+        const Image<Rgba8> codes,
         read_named(source_, name, file_, [&](const std::filesystem::path& path) -> Result<Image<Rgba8>> {
             std::error_code ignored;
             if (!std::filesystem::is_regular_file(path, ignored)) return missing_texture(path, file_);
-            return read_picture(path);
-        });
-    if (!codes) return codes.error();
+            return read_image(path);
+        }));
     glm::dvec3 sum(0.0);
-    for (const Rgba8& p : codes->pixels()) sum += glm::dvec3(p.r, p.g, p.b);
-    return glm::vec3(sum / (255.0 * static_cast<double>(codes->pixels().size())));
+    for (const Rgba8& p : codes.pixels()) sum += glm::dvec3(p.r, p.g, p.b);
+    return glm::vec3(sum / (255.0 * static_cast<double>(codes.pixels().size())));
 }
 
 namespace {
@@ -163,7 +162,7 @@ std::optional<std::string> texture_name(const aiMaterial& material, std::initial
     return std::nullopt;
 }
 
-// Which alpha of the base colour's texture is a hole (glTF 2.0, 3.9.4). Blended surfaces are cut at one half.
+// Alpha threshold for holes of the base colour texture (glTF 2.0, 3.9.4); 0.5 for blended surfaces.
 float hole_alpha_of(const aiMaterial& source) {
     const std::string mode = property<aiString>(source, AI_MATKEY_GLTF_ALPHAMODE).value_or(aiString("OPAQUE")).C_Str();
     if (mode == "BLEND") return kHoleAlpha;
@@ -179,12 +178,11 @@ Status convert_gltf(const aiMaterial& source, MeshTextures& textures, Material& 
         material.colour = as_reflectance(to_vec(*base));
     float metallic = property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1.0F);
     float roughness = property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1.0F);
-    // Assimp's place for the texture of both.
+    // Assimp's slot for the combined metallic-roughness texture.
     if (const auto name = texture_name(source, {aiTextureType_UNKNOWN})) {
-        const Result<glm::vec3> mean = textures.mean_numbers(*name);
-        if (!mean) return mean.error();
-        roughness *= mean->g;
-        metallic *= mean->b;
+        RS_ASSIGN_OR_RETURN(const glm::vec3 mean, textures.mean_numbers(*name));
+        roughness *= mean.g;
+        metallic *= mean.b;
     }
     material.roughness = std::clamp(roughness, 0.0F, 1.0F);
     const float transmission = property<float>(source, AI_MATKEY_TRANSMISSION_FACTOR).value_or(0.0F);
@@ -195,14 +193,12 @@ Status convert_gltf(const aiMaterial& source, MeshTextures& textures, Material& 
     material.emission = glm::max(colour_property(source, AI_MATKEY_COLOR_EMISSIVE), glm::vec3(0.0F));
     const auto glow = texture_name(source, {aiTextureType_EMISSIVE});
     if (glow && material.emission != glm::vec3(0.0F)) {
-        const Result<int> texture = textures.colours(*glow, 0.0F);
-        if (!texture) return texture.error();
-        material.emission_texture = *texture;
+        RS_ASSIGN_OR_RETURN(const int texture, textures.colours(*glow, 0.0F));
+        material.emission_texture = texture;
     }
     if (const auto name = texture_name(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE})) {
-        const Result<int> texture = textures.colours(*name, hole_alpha_of(source));
-        if (!texture) return texture.error();
-        material.texture = *texture;
+        RS_ASSIGN_OR_RETURN(const int texture, textures.colours(*name, hole_alpha_of(source)));
+        material.texture = texture;
     }
     return {};
 }
@@ -220,7 +216,7 @@ Status convert_mtl(const aiMaterial& source, MeshTextures& textures, Material& m
     material.ior = ior > 1.0F ? std::min(ior, 10.0F) : 1.5F;
     material.colour = diffuse;
     material.emission = glm::max(colour_property(source, AI_MATKEY_COLOR_EMISSIVE), glm::vec3(0.0F));
-    // Lamps of MTL scenes are single polygons that shine downwards from just below a ceiling.
+    // Lamps in MTL scenes are usually single polygons just below a ceiling, emitting downwards.
     material.two_sided = material.emission == glm::vec3(0.0F);
     const bool transparent = illum == 4 || illum == 6 || illum == 7 || illum == 9 || opacity < 0.5F;
     const bool reflecting = (illum == 3 || illum == 5) && specular_peak > 0.0F;
@@ -231,15 +227,14 @@ Status convert_mtl(const aiMaterial& source, MeshTextures& textures, Material& m
         material.kind = SurfaceKind::mirror;
         material.colour = specular;
     } else if (specular_peak > 0.0F && exponent > 0.0F && illum >= 2) {
-        // A Phong lobe of exponent n is about as wide as GGX with alpha = sqrt(2 / (n + 2)), and alpha = roughness^2.
+        // A Phong lobe of exponent n is about as wide as GGX with alpha = sqrt(2 / (n + 2)); alpha = roughness^2.
         material.kind = SurfaceKind::glossy;
         material.roughness = std::sqrt(std::sqrt(2.0F / (exponent + 2.0F)));
     }
     if (const auto name = texture_name(source, {aiTextureType_DIFFUSE})) {
-        const Result<int> texture = textures.colours(*name, kHoleAlpha);
-        if (!texture) return texture.error();
-        material.texture = *texture;
-        // MTL files of many exporters say Kd 0 beside a texture, which would blacken it.
+        RS_ASSIGN_OR_RETURN(const int texture, textures.colours(*name, kHoleAlpha));
+        material.texture = texture;
+        // Many exporters write Kd 0 for textured materials, which would make the texture black.
         if (material.colour == glm::vec3(0.0F)) material.colour = glm::vec3(1.0F);
     }
     return {};
@@ -253,9 +248,7 @@ Status convert_materials(const aiScene& source, const std::filesystem::path& fil
         const aiMaterial& from = *source.mMaterials[i];
         Material material;
         material.name = property<aiString>(from, AI_MATKEY_NAME).value_or(aiString("material")).C_Str();
-        const Status converted =
-            is_gltf(file) ? convert_gltf(from, textures, material) : convert_mtl(from, textures, material);
-        if (!converted) return converted.error();
+        RS_TRY(is_gltf(file) ? convert_gltf(from, textures, material) : convert_mtl(from, textures, material));
         scene.materials.push_back(std::move(material));
     }
     return {};

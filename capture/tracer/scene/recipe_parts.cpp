@@ -2,7 +2,7 @@
 
 #include "capture/tracer/scene/studio.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -82,7 +82,7 @@ void read_light(JsonObject object, Scene& scene) {
     object.expect_all_taken();
 }
 
-// Numbers from 0 to 1 in place of `values`.
+// Replaces `values` by a list of numbers in 0..1.
 void read_shares(JsonObject& object, const char* key, std::vector<float>& values) {
     const auto list = object.find(key);
     if (!list) return;
@@ -128,8 +128,8 @@ void read_camera(JsonObject object, CameraRecipe& camera) {
     object.read("elevation_deg", camera.elevation_deg, -89, 89);
     object.read("look_at_height", camera.look_at_height, -10, 10);
     object.read("views", camera.views, 1, kMaxViews);
-    object.read("width", camera.width, 1, kMaxPictureSide_px);
-    object.read("height", camera.height, 1, kMaxPictureSide_px);
+    object.read("width", camera.width, 1, kMaxImageSide_px);
+    object.read("height", camera.height, 1, kMaxImageSide_px);
     object.read("spp", camera.samples_per_pixel, 1, 65536);
     object.read("aperture_radii", camera.aperture_radii, 0, 10);
     object.read("focus_radii", camera.focus_radii, 0.001, 1000);

@@ -24,13 +24,13 @@ constexpr std::uint64_t kMaxRecipe_bytes = 16 << 20;
 
 bool is_lit(const Scene& scene) {
     return !scene.environment.pixels.empty() || !scene.lights.empty() ||
-           // Lights painted on the object (pilot lamps, screens) light no scene.
+           // Small emissive details of the object (pilot lamps, screens) do not light a scene.
            std::ranges::any_of(scene.materials, [](const Material& m) {
                return m.emission != glm::vec3(0.0F) && m.emission_texture < 0;
            });
 }
 
-// One texture for all materials of a mesh file.
+// Sets one texture for all materials of a mesh file.
 void apply_texture(const JsonValue& texture, const std::filesystem::path& recipe, Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
         if (!mesh.uvs.empty()) continue;
@@ -102,12 +102,12 @@ void read_look(JsonObject& top, SceneFile& file) {
     read_toon(JsonObject(style), *file.toon);
 }
 
-// What is to stand around the object.
+// Surroundings of the object.
 struct Room {
     Scene scene;
-    glm::vec3 at{0.0F};  // of it, where the object's axis meets the ground that it stands on
+    glm::vec3 at{0.0F};  // room coordinates of the object's axis at ground level
     double turn_deg = 0;
-    double radius = 0;  // of the object, in its units
+    double radius = 0;  // object radius in the room's units
 
     [[nodiscard]] glm::dmat4 object_from_room(double ground_height) const {
         glm::dmat4 matrix = glm::translate(glm::dmat4(1), {0, ground_height, 0});
@@ -136,7 +136,7 @@ Result<SceneFile> finish_scene(SceneFile file, const std::filesystem::path& path
                                std::optional<Room> room = {}) {
     if (!is_lit(file.scene) && !(room && is_lit(room->scene)))
         file.scene.environment = make_studio_environment(default_studio());
-    // First the check: normalisation relies on valid indices.
+    // Normalisation requires valid indices.
     if (Status checked = check_scene(file.scene); !checked)
         return Error{path.string() + ": " + checked.error().message};
     Result<double> radius = normalise_meshes(file.scene, centre);
@@ -186,12 +186,11 @@ Recipe read_recipe(JsonObject& top, const std::filesystem::path& path, const Gen
 }
 
 Result<SceneFile> load_recipe(const std::filesystem::path& path, const Generator& generator) {
-    const auto bytes = read_file(path, kMaxRecipe_bytes);
-    if (!bytes) return bytes.error();
-    Result<Recipe> recipe = read_json({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path.string(),
-                                      [&](JsonObject& top) { return read_recipe(top, path, generator); });
-    if (!recipe) return recipe.error();
-    return finish_scene(std::move(recipe->file), path, recipe->centre, std::move(recipe->room));
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMaxRecipe_bytes));
+    RS_ASSIGN_OR_RETURN(Recipe recipe,
+                        read_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string(),
+                                  [&](JsonObject& top) { return read_recipe(top, path, generator); }));
+    return finish_scene(std::move(recipe.file), path, recipe.centre, std::move(recipe.room));
 }
 
 }  // namespace
@@ -202,10 +201,9 @@ Result<SceneFile> load_scene_file(const std::filesystem::path& path, const Gener
         return Error{path.string() +
                      ": not a scene by its name; give a recipe (.json) or a mesh (.obj, .ply, .gltf, .glb)"};
     }
-    Result<Scene> scene = read_mesh_file(path);
-    if (!scene) return scene.error();
+    RS_ASSIGN_OR_RETURN(Scene scene, read_mesh_file(path));
     SceneFile file;
-    file.scene = std::move(scene).value();
+    file.scene = std::move(scene);
     return finish_scene(std::move(file), path, ObjectCentre::bounding_box);
 }
 

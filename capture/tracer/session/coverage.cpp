@@ -13,7 +13,7 @@ namespace {
 constexpr int kFirstRays = 16;
 constexpr int kOutlineRays = 256;
 
-float covered_share(const RayScene& scene, const RayPicture& rays, int x, int y, int count) {
+float covered_share(const RayScene& scene, const RayImage& rays, int x, int y, int count) {
     const glm::vec3 centre(rays.centre);
     const std::uint64_t key = mix_bits(static_cast<std::uint64_t>(y) << 32 | static_cast<std::uint64_t>(x));
     int hits = 0;
@@ -25,7 +25,7 @@ float covered_share(const RayScene& scene, const RayPicture& rays, int x, int y,
     return static_cast<float>(hits) / static_cast<float>(count);
 }
 
-bool is_on_outline(const Image<float>& shares, int x, int y) {
+bool is_on_contour(const Image<float>& shares, int x, int y) {
     const float own = shares(x, y);
     if (own > 0 && own < 1) return true;
     for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, shares.height() - 1); ++ny) {
@@ -38,7 +38,7 @@ bool is_on_outline(const Image<float>& shares, int x, int y) {
 
 }  // namespace
 
-Image<float> trace_coverage(const RayScene& scene, const RayPicture& rays, int threads) {
+Image<float> trace_coverage(const RayScene& scene, const RayImage& rays, int threads) {
     Image<float> first(rays.width, rays.height);
     if (scene.empty()) return first;
     for_each_index(rays.height, threads, [&](std::int64_t row) {
@@ -49,7 +49,7 @@ Image<float> trace_coverage(const RayScene& scene, const RayPicture& rays, int t
     for_each_index(rays.height, threads, [&](std::int64_t row) {
         const int y = static_cast<int>(row);
         for (int x = 0; x < rays.width; ++x) {
-            if (is_on_outline(first, x, y)) shares(x, y) = covered_share(scene, rays, x, y, kOutlineRays);
+            if (is_on_contour(first, x, y)) shares(x, y) = covered_share(scene, rays, x, y, kOutlineRays);
         }
     });
     return shares;

@@ -8,7 +8,7 @@
 #include "capture/tracer/session/sensor.hpp"
 #include "capture/tracer/session/still_backdrop.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -66,16 +66,16 @@ nlohmann::json turntable_json(const SessionPlan& plan, const Turntable& turntabl
         nlohmann::json corners = nlohmann::json::array();
         for (const glm::dvec3& corner : turntable.board->corners) corners.push_back({corner.x, corner.y, corner.z});
         json["board"] = {{"corners", std::move(corners)},
-                         {"width_px", turntable.board->picture.width()},
-                         {"height_px", turntable.board->picture.height()}};
+                         {"width_px", turntable.board->image.width()},
+                         {"height_px", turntable.board->image.height()}};
     }
     return json;
 }
 
-// The truth of the turn. `dimming` is the factor on the scene's lights; `photo_of_view` names the photographs, relative
-// to the transforms.json. `places` is empty where photographs are as the still camera took them.
+// Ground-truth rig. `dimming` is the factor on the scene's lights; `photo_of_view` are the photos' paths relative to
+// transforms.json. `places` is empty without recentring.
 Rig truth_rig(const SessionPlan& plan, const Turntable& turntable, double object_radius, const PhotoOptions& options,
-              double dimming, const std::vector<std::string>& photo_of_view, std::span<const PicturePlace> places) {
+              double dimming, const std::vector<std::string>& photo_of_view, std::span<const ImagePlace> places) {
     Rig rig;
     rig.object_radius = object_radius;
     rig.foot_height = turntable.top;
@@ -88,7 +88,7 @@ Rig truth_rig(const SessionPlan& plan, const Turntable& turntable, double object
     rig.extras["turntable"] = turntable_json(plan, turntable, options, dimming);
     if (!places.empty()) {
         nlohmann::json& listed = rig.extras["turntable"]["places"] = nlohmann::json::array();
-        for (const PicturePlace& place : places) {
+        for (const ImagePlace& place : places) {
             listed.push_back({{"scale", place.scale}, {"shift_px", {place.shift_px.x, place.shift_px.y}}});
         }
     }
@@ -97,10 +97,10 @@ Rig truth_rig(const SessionPlan& plan, const Turntable& turntable, double object
 
 namespace fs = std::filesystem;
 
-// The outermost vertices at each height, as circles about the axis, and those of the disc.
+// Circles about the axis through the outermost vertices at each height, and the disc's.
 std::vector<AxisCircle> shown_circles(const Scene& object, const Turntable& turntable) {
     constexpr double kBands_per_unit = 100;
-    std::map<int, AxisCircle> widest;  // by height
+    std::map<int, AxisCircle> widest;  // [height band]
     for (const Mesh& mesh : object.meshes) {
         for (const glm::vec3& p : mesh.positions) {
             const auto y = static_cast<double>(p.y);
@@ -121,17 +121,15 @@ Result<Image<RgbaF>> make_backdrop(const PhotoOptions& options, const SessionPla
     if (options.backdrop == "wall") return wall_backdrop(plan, turntable, options.session.seed);
     if (options.backdrop == "blue") return even_backdrop(lens, {0.04F, 0.12F, 0.45F});
     if (options.backdrop == "white") return even_backdrop(lens, glm::vec3(0.88F));
-    Result<Image<RgbaF>> picture = read_picture_linear(options.backdrop);
-    if (!picture) return picture.error();
-    return picture_backdrop(lens, std::move(picture).value());
+    RS_ASSIGN_OR_RETURN(Image<RgbaF> image, read_image_linear(options.backdrop));
+    return image_backdrop(lens, std::move(image));
 }
 
-// What the lights must be dimmed by so that bright parts of object and disc are not clipped: a photographer's meter,
-// on a small first view.
+// Factor on the lights that avoids clipping of bright parts of object and disc, metered in a small first view.
 double metered_dimming(const Tracer& tracer, const SessionPlan& plan, const PhotoOptions& options) {
     constexpr int kCoarse = 8;
-    constexpr float kBright = 0.85F;  // linear; what one pixel in a hundred may exceed
-    RayPicture rays = lens_rays_of(plan, 0);
+    constexpr float kBright = 0.85F;  // linear; limit for 99 % of the pixels
+    RayImage rays = lens_rays_of(plan, 0);
     rays.width = std::max(1, rays.width / kCoarse);
     rays.height = std::max(1, rays.height / kCoarse);
     rays.ray = [whole = rays.ray](double x, double y) { return whole(x * kCoarse, y * kCoarse); };
@@ -141,7 +139,7 @@ double metered_dimming(const Tracer& tracer, const SessionPlan& plan, const Phot
     render.threads = options.threads;
     std::vector<float> brightest;
     const Rendering metered = tracer.render(rays, render);
-    for (const RgbaF& p : metered.picture.pixels()) {
+    for (const RgbaF& p : metered.image.pixels()) {
         if (p.a > 0) brightest.push_back(std::max({p.r, p.g, p.b}));
     }
     if (brightest.empty()) return 1;
@@ -150,7 +148,7 @@ double metered_dimming(const Tracer& tracer, const SessionPlan& plan, const Phot
     return *at > kBright ? static_cast<double>(kBright / *at) : 1.0;
 }
 
-// The front's light is multiplied by `dimming`.
+// Composites `front`, multiplied by `dimming`, over the backdrop.
 Image<RgbaF> over(const Image<RgbaF>& front, double dimming, const Image<RgbaF>& backdrop) {
     const auto factor = static_cast<float>(dimming);
     Image<RgbaF> result(front.width(), front.height());
@@ -163,13 +161,13 @@ Image<RgbaF> over(const Image<RgbaF>& front, double dimming, const Image<RgbaF>&
     return result;
 }
 
-Image<Rgba8> grey_picture(const Image<float>& shares) {
-    Image<Rgba8> picture(shares.width(), shares.height());
+Image<Rgba8> grey_image(const Image<float>& shares) {
+    Image<Rgba8> image(shares.width(), shares.height());
     for (std::size_t i = 0; i < shares.pixels().size(); ++i) {
         const auto code = static_cast<std::uint8_t>(std::lround(shares.pixels()[i] * 255.0F));
-        picture.pixels()[i] = {code, code, code, 255};
+        image.pixels()[i] = {code, code, code, 255};
     }
-    return picture;
+    return image;
 }
 
 double mean_of(const Image<float>& shares) {
@@ -188,27 +186,27 @@ bool touches_edge(const Image<float>& shares) {
     return false;
 }
 
-// Everything that the views have in common.
+// Data shared by all views.
 struct Session {
     SessionPlan plan;
     Turntable turntable;
     Image<RgbaF> backdrop;
-    Tracer tracer;      // of object, disc and board
-    RayScene outlines;  // of the object alone
-    double dimming;     // of the scene's lights
+    Tracer tracer;         // of object, disc and board
+    RayScene silhouettes;  // of the object alone
+    double dimming;        // of the scene's lights
 };
 
 struct View {
     Image<Rgba8> photo;
     Image<float> alpha;
-    PicturePlace place;
+    ImagePlace place;
 };
 
 View take_photo(Session& session, std::size_t view, const PhotoOptions& options, Progress* progress) {
-    RayPicture rays = lens_rays_of(session.plan, view);
-    PicturePlace place;
+    RayImage rays = lens_rays_of(session.plan, view);
+    ImagePlace place;
     if (options.recentred) {
-        place = recentred_place(trace_coverage(session.outlines, rays, options.threads));
+        place = recentred_place(trace_coverage(session.silhouettes, rays, options.threads));
         rays = rays_at(std::move(rays), place);
     }
     RenderOptions render;
@@ -220,9 +218,9 @@ View take_photo(Session& session, std::size_t view, const PhotoOptions& options,
     const Rendering traced = session.tracer.render(rays, render, progress);
     const Sensor sensor{session.plan.exposures[view], options.noise_codes,
                         mix_bits(options.session.seed) + static_cast<std::uint64_t>(view)};
-    const Image<RgbaF> light = over(traced.picture, session.dimming,
-                                    options.recentred ? picture_at(session.backdrop, place) : session.backdrop);
-    return {expose(light, sensor), trace_coverage(session.outlines, rays, options.threads), place};
+    const Image<RgbaF> light =
+        over(traced.image, session.dimming, options.recentred ? image_at(session.backdrop, place) : session.backdrop);
+    return {expose(light, sensor), trace_coverage(session.silhouettes, rays, options.threads), place};
 }
 
 Status make_folder(const fs::path& folder) {
@@ -234,50 +232,44 @@ Status make_folder(const fs::path& folder) {
 
 }  // namespace
 
-bool is_made_backdrop(const std::string& name) {
+bool is_procedural_backdrop(const std::string& name) {
     return name == "wall" || name == "blue" || name == "white";
 }
 
 Result<CaptureSetSummary> write_photo_session(const Scene& object, double object_radius, const PhotoOptions& options,
                                               const fs::path& folder, Progress* progress) {
     using Clock = std::chrono::steady_clock;
-    Result<StagedFolder> staged = StagedFolder::create(folder, "traced photographs");
-    if (!staged) return staged.error();
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, "traced photographs"));
 
     Turntable turntable = fit_turntable(object, object_radius, options.disc, options.session.seed);
     if (!options.board.empty()) {
-        Result<Image<RgbaF>> picture = read_picture_linear(options.board);
-        if (!picture) return picture.error();
-        lay_board(turntable, std::move(picture).value(), options.board_width * object_radius);
+        RS_ASSIGN_OR_RETURN(Image<RgbaF> image, read_image_linear(options.board));
+        lay_board(turntable, std::move(image), options.board_width * object_radius);
     }
-    Result<SessionPlan> plan = plan_session(options.session, shown_circles(object, turntable));
-    if (!plan) return plan.error();
-    Result<Image<RgbaF>> backdrop = make_backdrop(options, *plan, turntable);
-    if (!backdrop) return backdrop.error();
+    RS_ASSIGN_OR_RETURN(SessionPlan plan, plan_session(options.session, shown_circles(object, turntable)));
+    RS_ASSIGN_OR_RETURN(Image<RgbaF> backdrop, make_backdrop(options, plan, turntable));
     Scene whole = object;
     add_turntable(whole, turntable);
-    Result<Tracer> tracer = Tracer::create(std::move(whole));
-    if (!tracer) return tracer.error();
-    Result<RayScene> outlines = RayScene::create(object);
-    if (!outlines) return outlines.error();
-    const double dimming = metered_dimming(*tracer, *plan, options);
-    Session session{std::move(plan).value(),   std::move(turntable),        std::move(backdrop).value(),
-                    std::move(tracer).value(), std::move(outlines).value(), dimming};
+    RS_ASSIGN_OR_RETURN(Tracer tracer, Tracer::create(std::move(whole)));
+    RS_ASSIGN_OR_RETURN(RayScene silhouettes, RayScene::create(object));
+    const double dimming = metered_dimming(tracer, plan, options);
+    Session session{std::move(plan),   std::move(turntable),   std::move(backdrop),
+                    std::move(tracer), std::move(silhouettes), dimming};
 
     const auto views = session.plan.model.angles_rad.size();
     if (progress != nullptr) {
         progress->start("photographing " + std::to_string(views) + " views",
                         static_cast<std::int64_t>(views) * Tracer::step_count(lens_rays_of(session.plan, 0)));
     }
-    const fs::path photos = staged->temporary_path() / "photos";
-    const fs::path truth = staged->temporary_path() / "truth";
+    const fs::path photos = staged.temporary_path() / "photos";
+    const fs::path truth = staged.temporary_path() / "truth";
     for (const fs::path& inner : {photos, truth / "alpha"}) {
-        if (Status made = make_folder(inner); !made) return made.error();
+        RS_TRY(make_folder(inner));
     }
 
     CaptureSetSummary summary;
     std::vector<std::string> names;
-    std::vector<PicturePlace> places;
+    std::vector<ImagePlace> places;
     for (std::size_t i = 0; i < views; ++i) {
         const Clock::time_point begun = Clock::now();
         const View view = take_photo(session, i, options, progress);
@@ -291,15 +283,15 @@ Result<CaptureSetSummary> write_photo_session(const Scene& object, double object
         names.push_back("../photos/" + name);
         Status written = options.jpeg_quality > 0 ? write_jpeg(photos / name, view.photo, options.jpeg_quality)
                                                   : write_png(photos / name, view.photo);
-        if (written) written = write_png(truth / "alpha" / (view_number(i) + ".png"), grey_picture(view.alpha));
+        if (written) written = write_png(truth / "alpha" / (view_number(i) + ".png"), grey_image(view.alpha));
         if (!written) return written.error();
     }
     if (!(summary.mean_coverage > 0)) {
         return Error{folder.string() + ": no view shows the object; check the distance or the mesh"};
     }
     const Rig rig = truth_rig(session.plan, session.turntable, object_radius, options, session.dimming, names, places);
-    if (Status written = write_rig(truth / kRigFileName, rig); !written) return written.error();
-    if (Status committed = staged->commit(); !committed) return committed.error();
+    RS_TRY(write_rig(truth / kRigFileName, rig));
+    RS_TRY(staged.commit());
     if (progress != nullptr) progress->finish();
     return summary;
 }

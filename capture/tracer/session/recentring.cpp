@@ -14,7 +14,7 @@ glm::dvec2 middle_of(int width, int height) {
 
 }  // namespace
 
-PicturePlace recentred_place(const Image<float>& coverage) {
+ImagePlace recentred_place(const Image<float>& coverage) {
     glm::dvec2 low(coverage.width(), coverage.height());
     glm::dvec2 high(0.0);
     for (int y = 0; y < coverage.height(); ++y) {
@@ -25,13 +25,13 @@ PicturePlace recentred_place(const Image<float>& coverage) {
         }
     }
     if (!(high.x > low.x)) return {};
-    PicturePlace place;
+    ImagePlace place;
     place.scale = kRecentredFill * std::min(coverage.width() / (high.x - low.x), coverage.height() / (high.y - low.y));
     place.shift_px = place.scale * (middle_of(coverage.width(), coverage.height()) - (low + high) / 2.0);
     return place;
 }
 
-RayPicture rays_at(RayPicture rays, const PicturePlace& place) {
+RayImage rays_at(RayImage rays, const ImagePlace& place) {
     const glm::dvec2 middle = middle_of(rays.width, rays.height);
     rays.ray = [whole = std::move(rays.ray), place, middle](double x, double y) {
         const glm::dvec2 p = place.undone({x, y}, middle);
@@ -40,9 +40,9 @@ RayPicture rays_at(RayPicture rays, const PicturePlace& place) {
     return rays;
 }
 
-Image<RgbaF> picture_at(const Image<RgbaF>& picture, const PicturePlace& place) {
-    const int width = picture.width();
-    const int height = picture.height();
+Image<RgbaF> image_at(const Image<RgbaF>& image, const ImagePlace& place) {
+    const int width = image.width();
+    const int height = image.height();
     const glm::dvec2 middle = middle_of(width, height);
     Image<RgbaF> result(width, height);
     for (int y = 0; y < height; ++y) {
@@ -57,8 +57,8 @@ Image<RgbaF> picture_at(const Image<RgbaF>& picture, const PicturePlace& place) 
             const auto u = static_cast<float>(left - x0);
             const auto v = static_cast<float>(top - y0);
             const auto mixed = [&](float RgbaF::*channel) {
-                const float above = picture(x0, y0).*channel * (1 - u) + picture(x1, y0).*channel * u;
-                const float below = picture(x0, y1).*channel * (1 - u) + picture(x1, y1).*channel * u;
+                const float above = image(x0, y0).*channel * (1 - u) + image(x1, y0).*channel * u;
+                const float below = image(x0, y1).*channel * (1 - u) + image(x1, y1).*channel * u;
                 return above * (1 - v) + below * v;
             };
             result(x, y) = {mixed(&RgbaF::r), mixed(&RgbaF::g), mixed(&RgbaF::b), mixed(&RgbaF::a)};

@@ -16,18 +16,18 @@ Image<Rgba8> expose(ConstImageView<RgbaF> light, const Sensor& sensor) {
         const double value = 255.0 * static_cast<double>(srgb_from_linear(exposed)) + noise;
         return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
     };
-    Image<Rgba8> picture(light.width(), light.height());
+    Image<Rgba8> image(light.width(), light.height());
     for (int y = 0; y < light.height(); ++y) {
         for (int x = 0; x < light.width(); ++x) {
             const RgbaF& p = light(x, y);
-            Rgba8& to = picture(x, y);
+            Rgba8& to = image(x, y);
             to.r = code(p.r);  // one after the other: each draws its noise
             to.g = code(p.g);
             to.b = code(p.b);
             to.a = 255;
         }
     }
-    return picture;
+    return image;
 }
 
 }  // namespace rs::capture

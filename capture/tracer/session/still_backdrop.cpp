@@ -12,7 +12,7 @@ namespace rs::capture {
 
 namespace {
 
-// Streams of the seed.
+// Random streams of the seed.
 enum BackdropPurpose : std::uint64_t { kGrain = 20, kMarks = 21, kPlaster = 30 };
 
 double lattice_value(std::int64_t x, std::int64_t y, std::uint64_t seed) {
@@ -43,9 +43,9 @@ struct Mark {
     glm::dvec3 tint;
 };
 
-// Wall and table meet in a line parallel to the picture at depth `edge_z` (negative: behind the axis).
+// Wall and table intersect in a line parallel to the image plane at depth `edge_z` (negative: behind the axis).
 struct StillRoom {
-    double unit;  // length of the scene that a feature of 1 spans
+    double unit;  // scene units per noise feature
     double edge_z;
     double table_y;
     double disc_radius;
@@ -87,7 +87,7 @@ Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Turntable& turntable, 
     room.table_y = turntable.bottom();
     room.disc_radius = turntable.surface == DiscSurface::none ? 0 : turntable.radius;
     room.seed = seed;
-    // The line lies in the upper third of the picture, but always behind the disc and never beyond a few distances.
+    // The line lies in the upper third of the image, but always behind the disc and never beyond a few distances.
     const glm::dvec3 to_line = ray(lens.cx, 0.3 * lens.height);
     const double steep = to_line.y < 0 ? (room.table_y - eye.y) / to_line.y : 1e9;
     room.edge_z = std::clamp(eye.z + steep * to_line.z, -4 * plan.distance, -1.1 * turntable.reach() - 0.1 * room.unit);
@@ -100,7 +100,7 @@ Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Turntable& turntable, 
         room.marks.push_back(mark);
     }
 
-    Image<RgbaF> picture(lens.width, lens.height);
+    Image<RgbaF> image(lens.width, lens.height);
     for (int y = 0; y < lens.height; ++y) {
         for (int x = 0; x < lens.width; ++x) {
             const glm::dvec3 d = ray(x + 0.5, y + 0.5);
@@ -111,27 +111,27 @@ Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Turntable& turntable, 
                 const glm::dvec3 on_table = eye + d * ((room.table_y - eye.y) / std::min(d.y, -1e-3));
                 colour += room.table(on_table) * (1 - share);
             }
-            picture(x, y) = opaque(colour);
+            image(x, y) = opaque(colour);
         }
     }
-    return picture;
+    return image;
 }
 
 Image<RgbaF> even_backdrop(const Lens& lens, const glm::vec3& colour) {
-    Image<RgbaF> picture(lens.width, lens.height);
+    Image<RgbaF> image(lens.width, lens.height);
     const double corner2 = lens.cx * lens.cx + lens.cy * lens.cy;
     for (int y = 0; y < lens.height; ++y) {
         for (int x = 0; x < lens.width; ++x) {
             const glm::dvec2 v(x + 0.5 - lens.cx, y + 0.5 - lens.cy);
-            picture(x, y) = opaque(glm::dvec3(colour) * (1 - glm::dot(v, v) / corner2 / 7));
+            image(x, y) = opaque(glm::dvec3(colour) * (1 - glm::dot(v, v) / corner2 / 7));
         }
     }
-    return picture;
+    return image;
 }
 
-Image<RgbaF> picture_backdrop(const Lens& lens, Image<RgbaF> picture) {
-    const Texture texture{"backdrop", std::move(picture)};
-    constexpr int kSide = 4;  // look-ups along a pixel's side
+Image<RgbaF> image_backdrop(const Lens& lens, Image<RgbaF> image) {
+    const Texture texture{"backdrop", std::move(image)};
+    constexpr int kSide = 4;  // samples along a pixel's side
     Image<RgbaF> result(lens.width, lens.height);
     for (int y = 0; y < lens.height; ++y) {
         for (int x = 0; x < lens.width; ++x) {

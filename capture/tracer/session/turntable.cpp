@@ -14,7 +14,7 @@ namespace rs::capture {
 
 namespace {
 
-constexpr double kHair = 1e-4;  // against coinciding surfaces; a fortieth of a pixel in usual pictures
+constexpr double kHair = 1e-4;  // gap between coinciding surfaces; a fortieth of a pixel in usual images
 constexpr int kSegments = 256;  // the disc's rim is true to 1e-4 of its radius
 constexpr int kTextureSide_px = 1024;
 
@@ -39,7 +39,7 @@ RgbaF grey(double value) {
     return {v, v, v, 1};
 }
 
-// `value(r)` of the distance r from the middle, 1 at the rim.
+// Texture with grey value(r); r is the distance from the centre, 1 at the rim.
 template <class Value>
 Image<RgbaF> round_texture(const Value& value) {
     Image<RgbaF> pixels(kTextureSide_px, kTextureSide_px);
@@ -148,19 +148,19 @@ Turntable fit_turntable(const Scene& object, double object_radius, DiscSurface s
     return turntable;
 }
 
-void lay_board(Turntable& turntable, Image<RgbaF> picture, double width) {
+void lay_board(Turntable& turntable, Image<RgbaF> image, double width) {
     SeededDraws draws(turntable.seed, kBoard);
     const double distance = width * draws.uniform(0.06, 0.14);
     const double way = draws.uniform(0, 2 * kPi);
     const double turn = draws.uniform(0, 2 * kPi);
-    const double height = width * picture.height() / picture.width();
+    const double height = width * image.height() / image.width();
     const glm::dvec3 right(std::cos(turn), 0, -std::sin(turn));
-    const glm::dvec3 down(std::sin(turn), 0, std::cos(turn));  // of the picture: towards +Z where it is not turned
+    const glm::dvec3 down(std::sin(turn), 0, std::cos(turn));  // of the image: +Z without rotation
     const glm::dvec3 middle(distance * std::sin(way), turntable.top, distance * std::cos(way));
     turntable.top -= kHair;  // between object and disc
     Board board;
-    for (RgbaF& p : picture.pixels()) p.a = 1;
-    board.picture = std::move(picture);
+    for (RgbaF& p : image.pixels()) p.a = 1;
+    board.image = std::move(image);
     const glm::dvec3 u = right * (width / 2), v = down * (height / 2);
     board.corners = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
     turntable.board = std::move(board);
@@ -183,7 +183,7 @@ void add_turntable(Scene& scene, const Turntable& turntable) {
     if (turntable.board) {
         Mesh board = board_mesh(*turntable.board);
         board.material =
-            add_material(scene, "board", glm::vec3(1.0F), add_texture(scene, "board", turntable.board->picture));
+            add_material(scene, "board", glm::vec3(1.0F), add_texture(scene, "board", turntable.board->image));
         scene.meshes.push_back(std::move(board));
     }
 }

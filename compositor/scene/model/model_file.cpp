@@ -48,7 +48,7 @@ std::shared_ptr<const Mesh> convert(const aiMesh& source, bool two_sided) {
         const aiFace& face = source.mFaces[f];
         if (face.mNumIndices != corners) continue;
         for (unsigned k = 0; k < corners; ++k) {
-            // Faces are whole or not at all.
+            // Faces must be complete.
             if (face.mIndices[k] >= source.mNumVertices) return std::make_shared<Mesh>();
             mesh->indices.push_back(face.mIndices[k]);
         }
@@ -61,10 +61,10 @@ public:
     ModelWalk(const aiScene& model, model::ModelMaterials& materials, ModelParts& parts)
         : model_(model), materials_(materials), scene_(parts.scene), names_(parts.nodes) {}
 
-    // False where there is too much.
+    // False if limits are exceeded.
     bool walk(const aiNode& node, const glm::dmat4& world_from_parent, int height) {
         if (height > kMaxHeight) return false;
-        const aiMatrix4x4& m = node.mTransformation;  // by rows
+        const aiMatrix4x4& m = node.mTransformation;  // row-major
         const glm::dmat4 local(m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4,
                                m.d4);
         const glm::dmat4 world_from_node = world_from_parent * local;
@@ -107,14 +107,12 @@ private:
 }  // namespace
 
 Result<Scene> read_model(const std::filesystem::path& path) {
-    Result<ModelParts> parts = read_model_parts(path);
-    if (!parts) return parts.error();
-    return std::move(parts->scene);
+    RS_ASSIGN_OR_RETURN(ModelParts parts, read_model_parts(path));
+    return std::move(parts.scene);
 }
 
 Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
-    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxModel_bytes);
-    if (!bytes) return bytes.error();
+    RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(path, kMaxModel_bytes));
     ModelParts parts;
     Scene& scene = parts.scene;
     scene.lights.clear();
@@ -122,9 +120,8 @@ Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
     const bool is_gltf = extension.size() > 1 && (extension[1] == 'g' || extension[1] == 'G');
     bool has_meshes = true;
     if (is_gltf) {
-        const Result<model::GltfContents> contents = model::read_gltf_nodes(*bytes, path, scene);
-        if (!contents) return contents.error();
-        has_meshes = contents->has_meshes;
+        RS_ASSIGN_OR_RETURN(const model::GltfContents contents, model::read_gltf_nodes(bytes, path, scene));
+        has_meshes = contents.has_meshes;
     }
     scene.navigation.headlight = scene.lights.empty();
     try {
@@ -132,16 +129,16 @@ Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
         const ModelFiles& files = read_models_only(importer, kMaxModel_bytes);
         importer.ReadFile(path.string(), 0);
         if (!files.refusal().empty()) return Error{files.refusal()};
-        const Result<const aiScene*> read = post_processed(importer,
-                                                           aiProcess_Triangulate | aiProcess_GenSmoothNormals |
-                                                               aiProcess_JoinIdenticalVertices | aiProcess_SortByPType,
-                                                           path.string());
-        if (!read) return read.error();
-        const aiScene* const model = *read;
+        RS_ASSIGN_OR_RETURN(const aiScene* read,
+                            post_processed(importer,
+                                           aiProcess_Triangulate | aiProcess_GenSmoothNormals |
+                                               aiProcess_JoinIdenticalVertices | aiProcess_SortByPType,
+                                           path.string()));
+        const aiScene* const model = read;
         if (model == nullptr || model->mRootNode == nullptr) {
             const std::string message =
                 path.string() + ": cannot be read: " + shown_error(importer.GetErrorString()) + "; export it again";
-            // Objects alone make a scene, but Assimp does not take a file without meshes.
+            // Scenes of objects alone are valid, but Assimp rejects files without meshes.
             if (is_gltf && !scene.objects.empty() && !has_meshes) return parts;
             return Error{message};
         }

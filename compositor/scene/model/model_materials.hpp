@@ -1,8 +1,8 @@
 #pragma once
-// Assimp's materials -> ours. Private to the reader of models; not thread-safe.
+// Conversion of Assimp's materials. Private to the model reader; not thread-safe.
 
 #include "compositor/scene/normal_map.hpp"
-#include "compositor/scene/scene_pictures.hpp"
+#include "compositor/scene/scene_images.hpp"
 
 #include <filesystem>
 #include <map>
@@ -23,18 +23,18 @@ struct ModelMaterial {
 class ModelMaterials {
 public:
     ModelMaterials(const aiScene& model, std::filesystem::path file);
-    // Cached by index, which must be one of the model's.
+    /// \param index material of the model; results are cached.
     const ModelMaterial& at(unsigned index);
     std::vector<std::string> warnings;
 
 private:
     ModelMaterial convert(const aiMaterial& source);
     std::shared_ptr<const NormalMap> relief(const aiMaterial& source);
-    std::shared_ptr<const SceneTexture> picture(const std::string& name, bool repeat_s, bool repeat_t);
+    std::shared_ptr<const SceneTexture> image(const std::string& name, bool repeat_s, bool repeat_t);
 
     const aiScene& model_;
     std::filesystem::path file_;
-    ScenePictures pictures_;
+    SceneImages images_;
     std::map<unsigned, ModelMaterial> converted_;
 };
 

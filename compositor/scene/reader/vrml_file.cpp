@@ -22,7 +22,7 @@
 namespace rs::compositor {
 namespace {
 
-// gzip (RFC 1952) in memory. Pure; thread-safe.
+// In-memory gzip (RFC 1952) decompression. Pure; thread-safe.
 struct Inflater {
     z_stream stream{};
     bool ready = false;
@@ -67,26 +67,23 @@ constexpr std::uint64_t kMaxWorld_bytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t kMaxFiles_bytes = std::uint64_t{256} << 20;
 
 Result<std::string> read_world_text(const std::filesystem::path& path) {
-    const Result<std::vector<std::byte>> bytes = read_file(path, kMaxWorld_bytes);
-    if (!bytes) return bytes.error();
-    if (is_gzip(*bytes)) return gunzip(*bytes, kMaxWorld_bytes, path.string());
-    return std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(path, kMaxWorld_bytes));
+    if (is_gzip(bytes)) return gunzip(bytes, kMaxWorld_bytes, path.string());
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-// Whatever its form, by how it begins.
+// Selects the parser by the beginning of the text.
 Result<vrml::Graph> graph_of(std::string_view text, const std::string& file) {
     if (text.starts_with(vrml1::kHeader)) return vrml1::read_graph(text, file);
     if (!x3d::is_xml(text)) return vrml::read_graph(text, file);
-    const Result<std::string> classic = x3d::classic_text(text, file);
-    if (!classic) return classic.error();
-    return vrml::read_headless_graph(*classic, file);
+    RS_ASSIGN_OR_RETURN(const std::string classic, x3d::classic_text(text, file));
+    return vrml::read_headless_graph(classic, file);
 }
 
 Result<std::shared_ptr<const vrml::LoadedFile>> load_text(std::string_view text, const std::filesystem::path& path) {
-    Result<vrml::Graph> graph = graph_of(text, path.string());
-    if (!graph) return graph.error();
+    RS_ASSIGN_OR_RETURN(vrml::Graph graph, graph_of(text, path.string()));
     return std::shared_ptr<const vrml::LoadedFile>(
-        std::make_shared<vrml::LoadedFile>(vrml::LoadedFile{path, std::move(*graph)}));
+        std::make_shared<vrml::LoadedFile>(vrml::LoadedFile{path, std::move(graph)}));
 }
 
 // Reads each included file once.
@@ -98,7 +95,7 @@ public:
         for (const std::string& url : urls) {
             const auto path = local_path(url, folder);
             if (!path) {
-                fault = {"'" + url.substr(0, 80) + "' is no file on this machine"};
+                fault = {"'" + url.substr(0, 80) + "' is not a local file"};
                 continue;
             }
             auto known = loaded_.find(*path);
@@ -111,14 +108,13 @@ public:
 
 private:
     Result<std::shared_ptr<const vrml::LoadedFile>> load_new(const std::filesystem::path& path) {
-        const Result<std::string> text = read_world_text(path);
-        if (!text) return text.error();
-        size_bytes_ += text->size();
+        RS_ASSIGN_OR_RETURN(const std::string text, read_world_text(path));
+        size_bytes_ += text.size();
         if (size_bytes_ > kMaxFiles_bytes) {
             return Error{path.string() + ": the included files are larger than " +
                          std::to_string(kMaxFiles_bytes >> 20) + " MiB together"};
         }
-        return load_text(*text, path);
+        return load_text(text, path);
     }
 
     std::map<std::filesystem::path, Result<std::shared_ptr<const vrml::LoadedFile>>> loaded_;
@@ -128,24 +124,21 @@ private:
 }  // namespace
 
 Result<Scene> scene_from_vrml(std::string_view text, const std::filesystem::path& path) {
-    // As the paths of included files are written, so that a file that includes itself is known.
-    const auto file = load_text(text, path.lexically_normal());
-    if (!file) return file.error();
+    // Normalised like the paths of included files, to detect files that include themselves.
+    RS_ASSIGN_OR_RETURN(const auto file, load_text(text, path.lexically_normal()));
     Scene scene;
     scene.lights.clear();
     scene.background.sky = {glm::vec3(0)};
     scene.navigation.headlight = true;
     IncludedFiles included;
-    const Status status = vrml::flatten(
-        *file, [&](const auto& urls, const auto& folder) { return included.load(urls, folder); }, scene);
-    if (!status) return status.error();
+    RS_TRY(vrml::flatten(
+        file, [&](const auto& urls, const auto& folder) { return included.load(urls, folder); }, scene));
     return scene;
 }
 
 Result<Scene> read_vrml(const std::filesystem::path& path) {
-    const Result<std::string> text = read_world_text(path);
-    if (!text) return text.error();
-    return scene_from_vrml(*text, path);
+    RS_ASSIGN_OR_RETURN(const std::string text, read_world_text(path));
+    return scene_from_vrml(text, path);
 }
 
 }  // namespace rs::compositor

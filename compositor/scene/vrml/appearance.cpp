@@ -13,7 +13,7 @@ float fraction(double number) {
     return static_cast<float>(std::clamp(number, 0.0, 1.0));
 }
 
-// The bytes of a PixelTexture, whose first row is the lowest.
+// Image of a PixelTexture, whose first row is the bottom.
 std::shared_ptr<const SceneTexture> pixel_texture(const Node& node) {
     const std::vector<double>& numbers = node.field("image").numbers;
     const int width = static_cast<int>(numbers.at(0));
@@ -22,7 +22,7 @@ std::shared_ptr<const SceneTexture> pixel_texture(const Node& node) {
     const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     if (pixels == 0 || components == 0) return nullptr;
     auto texture = std::make_shared<SceneTexture>();
-    texture->picture = Image<Rgba8>(width, height);
+    texture->image = Image<Rgba8>(width, height);
     texture->has_alpha = components == 2 || components == 4;
     texture->repeat_s = node.flag("repeatS");
     texture->repeat_t = node.flag("repeatT");
@@ -36,7 +36,7 @@ std::shared_ptr<const SceneTexture> pixel_texture(const Node& node) {
             };
             const std::size_t colours = components <= 2 ? 0 : 1;
             const std::uint8_t alpha = texture->has_alpha ? byte(components - 1) : std::uint8_t{255};
-            texture->picture(x, y) = {byte(0), byte(colours), byte(2 * colours), alpha};
+            texture->image(x, y) = {byte(0), byte(colours), byte(2 * colours), alpha};
         }
     }
     return texture;
@@ -67,8 +67,8 @@ glm::vec3 linear_colour(const glm::dvec3& srgb) {
     return {linear_from_srgb(fraction(srgb.r)), linear_from_srgb(fraction(srgb.g)), linear_from_srgb(fraction(srgb.b))};
 }
 
-Material material_of(const Node* appearance, const Mesh& mesh, const std::filesystem::path& folder,
-                     ScenePictures& pictures, std::string& fault) {
+Material material_of(const Node* appearance, const Mesh& mesh, const std::filesystem::path& folder, SceneImages& images,
+                     std::string& fault) {
     fault.clear();
     Material material;
     const NodePointer given = appearance != nullptr ? appearance->node("material") : nullptr;
@@ -84,7 +84,7 @@ Material material_of(const Node* appearance, const Mesh& mesh, const std::filesy
         material.diffuse = glm::vec3(1);
     }
     if (mesh.topology != Topology::kTriangles) {
-        // Lines and points have no surface: they show the emissive colour, or their own.
+        // Lines and points are unlit: they have the emissive colour, or vertex colours.
         if (given) material.diffuse = material.emissive;
         material.lit = false;
         return material;
@@ -94,8 +94,8 @@ Material material_of(const Node* appearance, const Mesh& mesh, const std::filesy
         if (texture->type == "PixelTexture") {
             material.texture = pixel_texture(*texture);
         } else if (!texture->field("url").texts.empty()) {
-            material.texture = pictures.read(texture->field("url").texts, folder, texture->flag("repeatS"),
-                                             texture->flag("repeatT"), fault);
+            material.texture = images.read(texture->field("url").texts, folder, texture->flag("repeatS"),
+                                           texture->flag("repeatT"), fault);
         }
     }
     if (const NodePointer transform = appearance->node("textureTransform")) {

@@ -3,7 +3,7 @@
 
 #include "compositor/scene/material.hpp"
 #include "compositor/scene/mesh.hpp"
-#include "compositor/scene/scene_pictures.hpp"
+#include "compositor/scene/scene_images.hpp"
 #include "compositor/scene/vrml/graph.hpp"
 
 #include <filesystem>
@@ -13,8 +13,9 @@ namespace rs::compositor::vrml {
 
 glm::vec3 linear_colour(const glm::dvec3& srgb);
 
-// `appearance` may be null. `fault` states why a texture is left out; empty where none is.
-Material material_of(const Node* appearance, const Mesh& mesh, const std::filesystem::path& folder,
-                     ScenePictures& pictures, std::string& fault);
+/// \param appearance may be null.
+/// \param fault reason why a texture is omitted; empty if none is.
+Material material_of(const Node* appearance, const Mesh& mesh, const std::filesystem::path& folder, SceneImages& images,
+                     std::string& fault);
 
 }  // namespace rs::compositor::vrml

@@ -12,7 +12,7 @@
 namespace rs::compositor {
 namespace {
 
-// Appends the colours that have an angle; the first one's is 0.
+// Appends the colours with their angles (the first is 0) and returns their number.
 int append_stops(const std::vector<glm::vec3>& colours, const std::vector<double>& angles_rad,
                  std::vector<glm::vec4>& stops) {
     const std::size_t count = std::min(colours.size(), angles_rad.size() + 1);
@@ -29,25 +29,24 @@ Result<BackgroundRenderer> BackgroundRenderer::create(const Background& backgrou
     std::vector<glm::vec4> stops;
     const int sky_stops = append_stops(background.sky, background.sky_angles_rad, stops);
     const int ground_stops = append_stops(background.ground, background.ground_angles_rad, stops);
-    int shown_pictures = 0;
-    for (std::size_t i = 0; i < background.pictures.size(); ++i) {
-        if (background.pictures[i]) shown_pictures |= 1 << i;
+    int shown_images = 0;
+    for (std::size_t i = 0; i < background.images.size(); ++i) {
+        if (background.images[i]) shown_images |= 1 << i;
     }
     const std::string constants = "#version 450 core\n" + shaders::shader_constant("kSkyStops", sky_stops) +
                                   shaders::shader_constant("kGroundStops", ground_stops) +
-                                  shaders::shader_constant("kShownPictures", shown_pictures);
-    auto program =
-        gl::Program::create("background", shaders::kWholeFrameVertex, constants + shaders::kBackgroundFragment);
-    if (!program) return program.error();
-    BackgroundRenderer renderer(std::move(*program));
+                                  shaders::shader_constant("kShownPictures", shown_images);
+    RS_ASSIGN_OR_RETURN(auto program, gl::Program::create("background", shaders::kWholeFrameVertex,
+                                                          constants + shaders::kBackgroundFragment));
+    BackgroundRenderer renderer(std::move(program));
     renderer.stops_.emplace(std::as_bytes(std::span(stops)));
-    for (std::size_t i = 0; i < background.pictures.size(); ++i) {
-        if (!background.pictures[i]) continue;
-        renderer.pictures_[i].emplace(background.pictures[i]->picture.view(), gl::TextureWrap{false, false});
+    for (std::size_t i = 0; i < background.images.size(); ++i) {
+        if (!background.images[i]) continue;
+        renderer.images_[i].emplace(background.images[i]->image.view(), gl::TextureWrap{false, false});
     }
     renderer.background_from_world_ = glm::transpose(background.world_from_background);
     renderer.zenith_ = background.sky.front();
-    renderer.plain_ = sky_stops == 1 && ground_stops <= 1 && shown_pictures == 0;
+    renderer.plain_ = sky_stops == 1 && ground_stops <= 1 && shown_images == 0;
     return renderer;
 }
 
@@ -55,11 +54,11 @@ void BackgroundRenderer::draw(const Camera& camera, BackgroundArea area) const {
     const glm::dvec3 along_x = camera.right() / camera.fl_x;
     const glm::dvec3 along_y = -camera.up() / camera.fl_y;
     const glm::dmat3 world_from_pixel(along_x, along_y, camera.ray(0, 0));
-    // A plain one's shader does not depend on where it looks.
+    // The shader of a uniform background has no direction.
     if (!plain_) program_.set("direction_from_pixel", glm::mat3(background_from_world_ * world_from_pixel));
-    stops_->bind_table(3);
-    for (std::size_t i = 0; i < pictures_.size(); ++i) {
-        if (pictures_[i]) pictures_[i]->bind(static_cast<unsigned>(i) + 1);
+    stops_->bind_storage(3);
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+        if (images_[i]) images_[i]->bind(static_cast<unsigned>(i) + 1);
     }
     gl::draw(program_, rectangle_, {.depth_test = area == BackgroundArea::kBehindGeometry, .depth_write = false});
 }

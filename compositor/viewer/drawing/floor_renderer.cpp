@@ -28,12 +28,13 @@ Result<FloorRenderer> FloorRenderer::create(const Scene& scene, const ShadowPlan
         shadowed.emplace_back(light.colour * facing, 0);
         shadowed.emplace_back(light.towards, 0);
     }
-    auto program = gl::Program::create(
-        "floor", shaders::kFloorVertex,
-        "#version 450 core\n" + shaders::shader_constant("kShadows", static_cast<int>(with_maps.size())) +
-            "const float kNear = " + std::to_string(kNear) + ";\n" + shaders::kShadowLookUp + shaders::kFloorFragment);
-    if (!program) return program.error();
-    FloorRenderer renderer(std::move(*program), *scene.floor);
+    RS_ASSIGN_OR_RETURN(
+        auto program, gl::Program::create("floor", shaders::kFloorVertex,
+                                          "#version 450 core\n" +
+                                              shaders::shader_constant("kShadows", static_cast<int>(with_maps.size())) +
+                                              "const float kNear = " + std::to_string(kNear) + ";\n" +
+                                              shaders::kShadowLookUp + shaders::kFloorFragment));
+    FloorRenderer renderer(std::move(program), *scene.floor);
     renderer.light_ = always;
     renderer.background_ = background_colour(scene.background, {0, 0, -1});
     renderer.shadowed_ = std::move(shadowed);
@@ -46,7 +47,7 @@ void FloorRenderer::draw(const FrameView& view) const {
     program_.set("height", static_cast<float>(floor_.height));
     program_.set("radius", static_cast<float>(floor_.radius));
     program_.set("square", static_cast<float>(floor_.square));
-    // Without shadows the light is in the colours.
+    // Without shadows the light is multiplied into the colours.
     const glm::vec3 light = shadows_.empty() ? light_ : glm::vec3(1);
     program_.set("colour_a", floor_.colour_a * light);
     program_.set("colour_b", floor_.colour_b * light);

@@ -6,7 +6,7 @@
 #include "compositor/viewer/drawing/background_shaders.hpp"
 #include "compositor/viewer/drawing/shaders.hpp"
 #include "compositor/viewer/views/engine_views.hpp"
-#include "engine/core/views/depth_picture.hpp"
+#include "engine/core/views/depth_image.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -47,47 +47,38 @@ private:
 }  // namespace
 
 Result<FrameCompositor::Frame> FrameCompositor::Frame::create(int width, int height, int samples) {
-    auto drawn = gl::Framebuffer::create(width, height, samples);
-    if (!drawn) return drawn.error();
-    if (drawn->samples() == 1) return Frame{std::move(*drawn), std::nullopt};
-    auto resolved = gl::Framebuffer::create(width, height, 1);
-    if (!resolved) return resolved.error();
-    return Frame{std::move(*drawn), std::move(*resolved)};
+    RS_ASSIGN_OR_RETURN(auto drawn, gl::Framebuffer::create(width, height, samples));
+    if (drawn.samples() == 1) return Frame{std::move(drawn), std::nullopt};
+    RS_ASSIGN_OR_RETURN(auto resolved, gl::Framebuffer::create(width, height, 1));
+    return Frame{std::move(drawn), std::move(resolved)};
 }
 
-Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::shared_ptr<engine::DataModule> engine,
+Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::shared_ptr<engine::RenderSession> engine,
                                                 std::shared_ptr<const ShownNodes> nodes, const FrameOptions& options) {
     Scene scene = lit_scene;
     scene.lights = raster_lights(lit_scene, options.exposure_ev);
-    auto background = BackgroundRenderer::create(scene.background);
-    if (!background) return background.error();
-    auto lit = LitGeometry::create(scene, *nodes, options.shadows);
-    if (!lit) return lit.error();
-    auto weather = WeatherRenderer::create(scene);
-    if (!weather) return weather.error();
-    auto traced = gl::Program::create("traced picture", shaders::kWholeFrameVertex, shaders::kPictureFragment);
-    if (!traced) return traced.error();
-    auto objects = ObjectRenderer::create(nodes->size(), options.object_depth);
-    if (!objects) return objects.error();
-    auto placeholders = PlaceholderRenderer::create();
-    if (!placeholders) return placeholders.error();
-    auto frame = Frame::create(options.width, options.height, options.samples);
-    if (!frame) return frame.error();
+    RS_ASSIGN_OR_RETURN(auto background, BackgroundRenderer::create(scene.background));
+    RS_ASSIGN_OR_RETURN(auto lit, LitGeometry::create(scene, *nodes, options.shadows));
+    RS_ASSIGN_OR_RETURN(auto weather, WeatherRenderer::create(scene));
+    RS_ASSIGN_OR_RETURN(auto traced,
+                        gl::Program::create("traced image", shaders::kWholeFrameVertex, shaders::kImageFragment));
+    RS_ASSIGN_OR_RETURN(auto objects, ObjectRenderer::create(nodes->size(), options.object_depth));
+    RS_ASSIGN_OR_RETURN(auto placeholders, PlaceholderRenderer::create());
+    RS_ASSIGN_OR_RETURN(auto frame, Frame::create(options.width, options.height, options.samples));
     return FrameCompositor(scene, std::move(engine), std::move(nodes),
-                           {std::move(*traced), std::move(*objects), std::move(*placeholders), std::move(*background),
-                            std::move(*lit), std::move(*weather), std::move(*frame)},
+                           {std::move(traced), std::move(objects), std::move(placeholders), std::move(background),
+                            std::move(lit), std::move(weather), std::move(frame)},
                            options);
 }
 
 Result<FrameCompositor> FrameCompositor::create(const Scene& scene, const std::vector<PlacedObject>& objects,
                                                 const FrameOptions& options) {
-    const auto engine = std::make_shared<engine::DataModule>(limits_of_viewer());
-    Result<std::shared_ptr<const ShownNodes>> nodes = show_all(objects, *engine);
-    if (!nodes) return nodes.error();
-    return create(scene, engine, std::move(*nodes), options);
+    const auto engine = std::make_shared<engine::RenderSession>(limits_of_viewer());
+    RS_ASSIGN_OR_RETURN(std::shared_ptr<const ShownNodes> nodes, show_all(objects, *engine));
+    return create(scene, engine, std::move(nodes), options);
 }
 
-FrameCompositor::FrameCompositor(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
+FrameCompositor::FrameCompositor(const Scene& scene, std::shared_ptr<engine::RenderSession> engine,
                                  std::shared_ptr<const ShownNodes> nodes, Renderers renderers,
                                  const FrameOptions& options)
     : fog_(scene.fog),
@@ -100,7 +91,7 @@ FrameCompositor::FrameCompositor(const Scene& scene, std::shared_ptr<engine::Dat
       samples_(options.samples),
       object_depth_(options.object_depth),
       object_samples_(options.object_samples),
-      upright_pictures_(options.upright_pictures),
+      upright_images_(options.upright_images),
       rectangle_(4) {}
 
 Status FrameCompositor::set_lights(const Scene& scene, double exposure_ev) {
@@ -110,14 +101,14 @@ Status FrameCompositor::set_lights(const Scene& scene, double exposure_ev) {
 }
 
 Result<Image<Rgba8>> FrameCompositor::compose(const Camera& camera) {
-    if (Status status = draw(camera); !status) return status.error();
-    return picture();
+    RS_TRY(draw(camera));
+    return image();
 }
 
 std::optional<ObjectView> FrameCompositor::view_of_node(std::size_t index, const Camera& camera) const {
     const ShownNode& node = (*nodes_)[index];
     if (!node.object || node.hidden) return std::nullopt;
-    return view_of_object(turned(index), camera, {object_samples_, upright_pictures_});
+    return view_of_object(turned(index), camera, {object_samples_, upright_images_});
 }
 
 PlacedObject FrameCompositor::turned(std::size_t index) const {
@@ -166,11 +157,11 @@ Status FrameCompositor::draw(const Camera& camera, TracedDepths depths) {
         requests.push_back({(*nodes_)[node.index].handle, node.view.camera, object_depth_ == ObjectDepth::kPixel});
     }
     EngineViews views(*engine_);
-    if (const Status status = views.submit(std::move(requests)); !status) return status.error();
+    RS_TRY(views.submit(std::move(requests)));
 
-    // Under a traced picture only what is blended is lit here.
+    // Under a traced image only what is blended is lit here.
     const bool lights_something = !traced_ || renderers_.lit.surfaces().has_transparent();
-    if (shadows() && lights_something) statistics_.shadow_maps_drawn = renderers_.lit.draw_shadows(throwing_objects());
+    if (shadows() && lights_something) statistics_.shadow_maps_drawn = renderers_.lit.draw_shadows(shadow_casters());
     statistics_.shadows_s = clock.lap();
     const bool depth_is_there = traced_ && depth_from_ == view.clip_from_world;
     statistics_.has_depths =
@@ -186,18 +177,17 @@ Status FrameCompositor::draw(const Camera& camera, TracedDepths depths) {
     if (traced_ && statistics_.has_depths && object_depth_ == ObjectDepth::kPlane) depth_from_ = view.clip_from_world;
     if (traced_) {
         draw_traced(camera);
-        renderers_.lit.surfaces().draw_veil(view);
+        renderers_.lit.surfaces().draw_fog(view);
     } else if (!renderers_.background.plain()) {
         renderers_.background.draw(camera, BackgroundArea::kBehindGeometry);
     }
     gl::flush();
     statistics_.geometry_s = clock.lap();
 
-    Result<std::vector<engine::DrawnView>> drawn = views.retrieve();
-    if (!drawn) return drawn.error();
+    RS_ASSIGN_OR_RETURN(std::vector<engine::DrawnView> drawn, views.retrieve());
     statistics_.engine_wait_s = clock.lap();
     for (std::size_t n = 0; n < seen.size(); ++n) {
-        seen[n].drawn = std::move((*drawn)[n]);
+        seen[n].drawn = std::move(drawn[n]);
         upload(seen[n]);
     }
     statistics_.upload_s = clock.lap();
@@ -245,9 +235,8 @@ void FrameCompositor::draw_blended(const std::vector<SurfaceRenderer::Transparen
 }
 
 Status FrameCompositor::resize(int width, int height) {
-    auto frame = Frame::create(width, height, samples_);
-    if (!frame) return frame.error();
-    renderers_.frame = std::move(*frame);
+    RS_ASSIGN_OR_RETURN(auto frame, Frame::create(width, height, samples_));
+    renderers_.frame = std::move(frame);
     camera_.reset();
     depth_from_.reset();
     return {};
@@ -261,9 +250,8 @@ Status FrameCompositor::draw_handles(const std::vector<HandleStroke>& strokes) {
     RS_CHECK(camera_.has_value());
     if (Status there = ensure_depths(); !there) return there;
     if (!handles_) {
-        auto made = HandleRenderer::create();
-        if (!made) return made.error();
-        handles_ = std::move(*made);
+        RS_ASSIGN_OR_RETURN(auto made, HandleRenderer::create());
+        handles_ = std::move(made);
     }
     return handles_->draw(strokes, *camera_, renderers_.frame.shown(), renderers_.frame.drawn);
 }
@@ -301,7 +289,7 @@ std::optional<std::size_t> FrameCompositor::object_at(int x, int y) const {
         const ScreenRectangle& area = view->rectangle;
         if (x < area.x || y < area.y || x >= area.x + area.width || y >= area.y + area.height) continue;
         if (glm::dot(view->inverse_depth_facing, position) * kNear < geometry) continue;  // hidden
-        const auto at = view->picture_pixel(x, y);
+        const auto at = view->image_pixel(x, y);
         if (!at) continue;
         Camera pixel = view->camera;
         pixel.cx -= at->x;
@@ -311,7 +299,7 @@ std::optional<std::size_t> FrameCompositor::object_at(int x, int y) const {
         EngineViews views(*engine_);
         if (!views.submit({{(*nodes_)[i].handle, pixel}})) continue;
         const Result<std::vector<engine::DrawnView>> drawn = views.retrieve();
-        if (!drawn || drawn->front().picture(0, 0).a < 128) continue;
+        if (!drawn || drawn->front().image(0, 0).a < 128) continue;
         nearest = i;
         nearest_distance = view->plane_distance;
     }
@@ -328,7 +316,7 @@ void FrameCompositor::draw_traced(const Camera& camera) {
              {.depth_test = false, .depth_write = false, .blending = gl::Blending::kOverPremultiplied});
 }
 
-std::vector<std::optional<PlacedObject>> FrameCompositor::throwing_objects() const {
+std::vector<std::optional<PlacedObject>> FrameCompositor::shadow_casters() const {
     constexpr float kThere = 0.5F;  // opacity from which on an object that fades in throws its shadow
     std::vector<std::optional<PlacedObject>> objects(nodes_->size());
     for (std::size_t i = 0; i < nodes_->size(); ++i) {
@@ -343,11 +331,11 @@ void FrameCompositor::upload(const SeenNode& node) {
     Image<float> depths;
     if (object_depth_ == ObjectDepth::kPixel) {
         const RaySpaceObject& object = (*nodes_)[node.index].object->object->renderer.object();
-        depths = engine::depth_picture(object, node.view.camera, drawn.depth_q20);
+        depths = engine::depth_image(object, node.view.camera, drawn.depth_q20);
     }
-    renderers_.objects.upload(node.index, node.view, drawn.picture, depths);
-    const int width = drawn.picture.width();
-    const int height = drawn.picture.height();
+    renderers_.objects.upload(node.index, node.view, drawn.image, depths);
+    const int width = drawn.image.width();
+    const int height = drawn.image.height();
     statistics_.nodes[node.index] = {true, width, height, drawn.seconds, drawn.by_board};
     statistics_.engine_s += drawn.seconds;
     statistics_.nodes_rendered += 1;

@@ -1,11 +1,11 @@
 #pragma once
-// Composites frames: the scene's geometry with a depth buffer, and the pictures that the engine reconstructs of its
+// Composites frames: the scene's geometry with a depth buffer, and the images that the engine reconstructs of its
 // ray-space nodes, each at the depth of its reference plane.
 //
 // A frame:  views of the nodes that can be seen: camera into the node's coordinates (equation 3), only the pixels that
 //           the node can cover -> engine, which draws them while
 //           (shadow maps in which something has changed ->) opaque geometry -> floor -> background  are drawn
-//           -> transparent geometry and the engine's pictures, the farthest first: texture -> rectangle at the depth of
+//           -> transparent geometry and the engine's images, the farthest first: texture -> rectangle at the depth of
 //           its planes (object_view.hpp), tested against the geometry, blended over.
 //
 // Nodes do not hide each other by depth (half-transparent rims would cut holes) but by their order.
@@ -16,16 +16,16 @@
 #include "compositor/lighting/surface_point.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/background_renderer.hpp"
+#include "compositor/viewer/drawing/displayed_nodes.hpp"
 #include "compositor/viewer/drawing/handle_renderer.hpp"
 #include "compositor/viewer/drawing/lit_geometry.hpp"
 #include "compositor/viewer/drawing/object_renderer.hpp"
 #include "compositor/viewer/drawing/placeholder_renderer.hpp"
-#include "compositor/viewer/drawing/shown_parts.hpp"
 #include "compositor/viewer/drawing/weather_renderer.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
 #include "compositor/viewer/views/object_view.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
-#include "engine/driver/data_module.hpp"
+#include "engine/driver/render_session.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 
@@ -46,9 +46,9 @@ struct FrameOptions {
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples =
         kUsualSamplesAcross;  // across a pixel, at most, where objects are far (object_view.hpp); from 1
-    // Objects are drawn for a level camera in the same place and looked up (upright_picture.hpp): faster, and a board
+    // Objects are drawn for a level camera in the same place and looked up (upright_image.hpp): faster, and a board
     // can do it; a touch softer.
-    bool upright_pictures = false;
+    bool upright_images = false;
     // Waits for the drawing of each part, so that the times of FrameStatistics are its own. Slower.
     bool time_parts = false;
 };
@@ -56,7 +56,7 @@ struct FrameOptions {
 // Of one ray-space node in one frame.
 struct NodeStatistics {
     bool in_view = false;
-    int width = 0;  // of the picture that the engine drew, px
+    int width = 0;  // of the image that the engine drew, px
     int height = 0;
     double engine_s = 0;
     bool by_board = false;
@@ -70,13 +70,13 @@ struct FrameStatistics {
     int nodes_missing = 0;             // placeholders in view
     std::int64_t pixels_rendered = 0;  // by the engine
     int geometry_in_view = 0;          // geometry nodes that the frustum lets pass
-    bool has_depths = true;            // of geometry; under a traced picture only where somebody needed them
+    bool has_depths = true;            // of geometry; under a traced image only where somebody needed them
     int shadow_maps_drawn = 0;         // because something in them has changed
     double shadows_s = 0;              // of drawing them
     double geometry_s = 0;             // background, geometry, floor
     double engine_s = 0;               // of drawing the views, at the same time as the geometry
     double engine_wait_s = 0;          // the part of it that the frame waited for
-    double upload_s = 0;               // of the engine's pictures
+    double upload_s = 0;               // of the engine's images
     double composite_s = 0;            // blending, transparent geometry, averaging of samples
     std::vector<NodeStatistics> nodes;
 };
@@ -86,21 +86,21 @@ class FrameCompositor {
 public:
     // `nodes` may change from frame to frame, but not in number; their objects are loaded in `engine`, to which nobody
     // else submits while a frame is drawn.
-    static Result<FrameCompositor> create(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
+    static Result<FrameCompositor> create(const Scene& scene, std::shared_ptr<engine::RenderSession> engine,
                                           std::shared_ptr<const ShownNodes> nodes, const FrameOptions& options = {});
     // Of objects that are there from the beginning on, drawn by the software core.
     static Result<FrameCompositor> create(const Scene& scene, const std::vector<PlacedObject>& objects,
                                           const FrameOptions& options = {});
 
-    // The camera in scene coordinates; its size must be that of the options. The picture is opaque. Fails where the
+    // The camera in scene coordinates; its size must be that of the options. The image is opaque. Fails where the
     // engine refuses the view, naming the object.
     Result<Image<Rgba8>> compose(const Camera& camera);
 
-    // The same in two steps: draw() leaves the frame with the context's device, for show_in_window() or picture().
+    // The same in two steps: draw() leaves the frame with the context's device, for show_in_window() or image().
     Status draw(const Camera& camera);
-    [[nodiscard]] Image<Rgba8> picture() const { return renderers_.frame.shown().read_picture(); }
+    [[nodiscard]] Image<Rgba8> image() const { return renderers_.frame.shown().read_image(); }
     void show_in_window(int width, int height) const { renderers_.frame.shown().show_in_window(width, height); }
-    // Handles over a copy of the frame, to be shown in its place; picture() is still without.
+    // Handles over a copy of the frame, to be shown in its place; image() is still without.
     Status draw_handles(const std::vector<HandleStroke>& strokes);
     [[nodiscard]] const HandleRenderer* handles() const { return handles_ ? &*handles_ : nullptr; }
 
@@ -115,7 +115,7 @@ public:
         depth_from_.reset();
         return renderers_.lit.move(index, world_from_node);
     }
-    // Meshes and pictures of geometry given to the driver since create() began: none after it.
+    // Meshes and images of geometry given to the driver since create() began: none after it.
     [[nodiscard]] int uploads() const { return renderers_.lit.surfaces().uploads(); }
     // What falls in the next frame, `seconds` after the sequence's beginning; nothing: it is dry. The weather's fog and
     // what it leaves on surfaces are the scene's (in_weather).
@@ -124,10 +124,10 @@ public:
         weather_seconds_ = seconds;
     }
 
-    // From now on `picture`, of the frame's size, stands for the background and all geometry that is not blended, which
+    // From now on `image`, of the frame's size, stands for the background and all geometry that is not blended, which
     // give their depth only, once for each view unless objects have depth, and not before something is blended or
     // somebody asks for it; where its alpha is below 1, the background shows. nullptr: they are drawn again.
-    void set_traced(std::shared_ptr<const Image<Rgba8>> picture) { traced_ = std::move(picture); }
+    void set_traced(std::shared_ptr<const Image<Rgba8>> image) { traced_ = std::move(image); }
 
     // Of the last draw() or compose(). Who asks it for geometry (surface_at, distance_ahead, draw_handles) after a
     // traced frame without depths has it drawn again, as it would be drawn now.
@@ -171,7 +171,7 @@ private:
         WeatherRenderer weather;
         Frame frame;
     };
-    FrameCompositor(const Scene& scene, std::shared_ptr<engine::DataModule> engine,
+    FrameCompositor(const Scene& scene, std::shared_ptr<engine::RenderSession> engine,
                     std::shared_ptr<const ShownNodes> nodes, Renderers renderers, const FrameOptions& options);
 
     struct SeenNode {
@@ -187,7 +187,7 @@ private:
     Status ensure_depths();
     [[nodiscard]] bool blends_something(const std::vector<SeenNode>& seen, const FrameView& view) const;
     void draw_traced(const Camera& camera);
-    [[nodiscard]] std::vector<std::optional<PlacedObject>> throwing_objects() const;
+    [[nodiscard]] std::vector<std::optional<PlacedObject>> shadow_casters() const;
     [[nodiscard]] PlacedObject turned(std::size_t index) const;
     void upload(const SeenNode& node);
     void draw_object(const SeenNode& node) const;
@@ -195,7 +195,7 @@ private:
                       const FrameView& view);
 
     std::optional<Fog> fog_;
-    std::shared_ptr<engine::DataModule> engine_;
+    std::shared_ptr<engine::RenderSession> engine_;
     std::shared_ptr<const ShownNodes> nodes_;
     std::vector<double> turns_rad_;  // [node]: by which the visitor has turned it
     std::optional<Camera> camera_;   // of the last frame
@@ -207,7 +207,7 @@ private:
     int samples_;
     ObjectDepth object_depth_;
     int object_samples_;
-    bool upright_pictures_;
+    bool upright_images_;
     std::shared_ptr<const Image<Rgba8>> traced_;
     std::optional<Weather> weather_;
     double weather_seconds_ = 0;

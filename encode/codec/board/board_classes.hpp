@@ -1,6 +1,6 @@
 #pragma once
-// The classes of record among which the encoder of the `board` profile chooses, [0] being the empty block: found by
-// trials on captured objects. They are written into the file; decoders take any.
+// Record classes of the `board` encoder, [0] being the empty block; chosen by experiments on captured objects. They are
+// written into the file; decoders accept any classes.
 
 #include "rayspace/codec/code/board_code.hpp"
 
@@ -8,7 +8,7 @@
 
 namespace rs::encode {
 
-// predicted, alpha, block stages, quarter stages
+/// predicted, alpha, block stages, quarter stages
 inline constexpr std::array<codec::RecordClass, codec::kBoardClasses> kFlatClasses = {{{},
                                                                                        {false, false, 1, 0},
                                                                                        {false, false, 1, 1},

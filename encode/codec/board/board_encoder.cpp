@@ -4,12 +4,11 @@
 #include "encode/codec/board/board_block.hpp"
 #include "encode/codec/board/board_classes.hpp"
 #include "encode/codec/board/board_stages.hpp"
-#include "encode/codec/fidelity.hpp"
 #include "encode/codec/motion_search.hpp"
 #include "encode/codec/ring_references.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/codec/board/board_tile.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +21,7 @@ namespace {
 using codec::BoardMotion;
 using codec::RecordClass;
 
-constexpr std::size_t kTrainingBlocks = 24000;  // of one kind, at most
+constexpr std::size_t kTrainingBlocks = 24000;  // per kind, at most
 constexpr int kReachDown_px = 6;
 
 enum class Cover : std::uint8_t { kEmpty, kMixed, kFull };
@@ -33,7 +32,7 @@ struct Block {
     bool has_motion = false;
 };
 
-struct BoardWorkPicture {
+struct BoardWorkImage {
     codec::Planes reconstruction;
     std::array<int, 2> reach_px = {0, 0};
     std::vector<Block> blocks;  // row by row, of the coded size
@@ -41,7 +40,7 @@ struct BoardWorkPicture {
 
 class BoardEncoder {
 public:
-    BoardEncoder(const RaySpaceObject& object, const std::vector<SourcePicture>& sources, const BoardSettings& settings,
+    BoardEncoder(const RaySpaceObject& object, const std::vector<SourceImage>& sources, const BoardSettings& settings,
                  Progress* progress)
         : object_(object), sources_(sources), settings_(settings), progress_(progress), work_(object.views.size()) {
         coded_.profile = codec::Profile::kBoard;
@@ -51,44 +50,44 @@ public:
         coded_.tile_height_log2 = codec::kBoardTileLog2;
         coded_.board.classes = {kFlatClasses, kPredictedClasses};
         coded_.levels.assign(object.views.size(), 0);
-        coded_.pictures.resize(object.views.size());
-        lambda_ = settings.lambda_factor * kWholePlaneWeights[0] * settings.step * settings.step * 8;
+        coded_.images.resize(object.views.size());
+        lambda_ = settings.lambda_factor * kIntegerPlaneWeights[0] * settings.step * settings.step * 8;
         plan();
-        for_pictures([](std::size_t) { return true; }, [&](std::size_t v) { look_at_blocks(v); });
+        for_images([](std::size_t) { return true; }, [&](std::size_t v) { look_at_blocks(v); });
     }
 
-    EncodedPictures encode() {
+    EncodedImages encode() {
         alpha_ = train_alpha(sources_, settings_.alpha_bits);
         coded_.board.alpha = alpha_.samples;
-        const auto is_reference = [&](std::size_t v) { return coded_.pictures[v].head.references() == 0; };
+        const auto is_reference = [&](std::size_t v) { return coded_.images[v].head.references() == 0; };
         const auto is_predicted = [&](std::size_t v) { return !is_reference(v); };
-        if (progress_ != nullptr) {  // predicted ones twice: for their motion, and for their records
-            const auto head_is = [](const codec::CodedPicture& picture) { return picture.head.references() == 0; };
-            const auto references = std::count_if(coded_.pictures.begin(), coded_.pictures.end(), head_is);
+        if (progress_ != nullptr) {  // two steps per predicted image: motion and records
+            const auto head_is = [](const codec::CodedImage& image) { return image.head.references() == 0; };
+            const auto references = std::count_if(coded_.images.begin(), coded_.images.end(), head_is);
             progress_->start("encoding", 2 * static_cast<std::int64_t>(work_.size()) - references);
         }
 
         books_[0] = train(is_reference, false, 1, 4);
-        coded_.board.books[0] = stored_books(books_[0]);
-        for_pictures(is_reference, [&](std::size_t v) { encode_picture(v); });
+        coded_.board.books[0] = pack_codebooks(books_[0]);
+        for_images(is_reference, [&](std::size_t v) { encode_image(v); });
 
-        for_pictures(is_predicted, [&](std::size_t v) {
+        for_images(is_predicted, [&](std::size_t v) {
             find_motions(v);
             advance();
         });
         books_[1] = train(is_predicted, true, 2, 3);
-        coded_.board.books[1] = stored_books(books_[1]);
-        for_pictures(is_predicted, [&](std::size_t v) { encode_picture(v); });
+        coded_.board.books[1] = pack_codebooks(books_[1]);
+        for_images(is_predicted, [&](std::size_t v) { encode_image(v); });
         if (progress_ != nullptr) progress_->finish();
-        const double psnr_db =
-            coded_psnr(sources_, object_.width, object_.height, settings_.alpha_bits,
-                       [&](std::size_t v) { return codec::views_of(std::as_const(work_[v].reconstruction)); });
+        const double psnr_db = measure_coded_psnr(
+            sources_, object_.width, object_.height, settings_.alpha_bits,
+            [&](std::size_t v) { return codec::plane_views(std::as_const(work_[v].reconstruction)); });
         return {std::move(coded_), psnr_db};
     }
 
 private:
     template <class Wanted, class Work>
-    void for_pictures(const Wanted& wanted, const Work& work) {
+    void for_images(const Wanted& wanted, const Work& work) {
         for_each_index(work_.size(), [&](std::size_t v) {
             if (wanted(v)) work(v);
         });
@@ -97,7 +96,7 @@ private:
         if (progress_ != nullptr) progress_->advance();
     }
 
-    // Levels and references.
+    // Assigns progressive levels and references.
     void plan() {
         for (const Ring& ring : object_.rings) {
             const int count = static_cast<int>(ring.views.size());
@@ -108,7 +107,7 @@ private:
                 const std::size_t view = ring.views[static_cast<std::size_t>(n)];
                 if (is_reference(n)) continue;
                 coded_.levels[view] = static_cast<std::uint8_t>(std::max(1, progressive_level(n)));
-                codec::PictureHead& head = coded_.pictures[view].head;
+                codec::ImageHead& head = coded_.images[view].head;
                 std::size_t found = 0;
                 for_ring_references(ring, n, object_.width, 120, is_reference,
                                     [&](std::uint16_t reference, int reach_px) {
@@ -158,7 +157,7 @@ private:
         }
     }
 
-    // The classes, as a set of bits, that a block may have.
+    // The classes allowed for a block, as a bit set.
     [[nodiscard]] unsigned allowed(std::size_t v, const Block& block, bool predicted) const {
         const auto& classes = classes_of(v);
         unsigned may = 0;
@@ -168,23 +167,23 @@ private:
         return may;
     }
     [[nodiscard]] const std::array<RecordClass, codec::kBoardClasses>& classes_of(std::size_t v) const {
-        return coded_.board.classes[coded_.pictures[v].head.references() > 0 ? 1 : 0];
+        return coded_.board.classes[coded_.images[v].head.references() > 0 ? 1 : 0];
     }
 
     [[nodiscard]] BlockResidual residual_of(std::size_t v, int x, int y, const Block& block, bool predicted) const {
-        const SourcePicture& source = sources_[v];
-        if (!predicted) return residual_of_flat(source, x, y, mean_colour(source, x, y));
-        return residual_of_predicted(source, x, y, reference_of(v, block.motion.reference), x + block.motion.x,
-                                     y + block.motion.y);
+        const SourceImage& source = sources_[v];
+        if (!predicted) return compute_flat_residual(source, x, y, mean_colour(source, x, y));
+        return compute_prediction_residual(source, x, y, reference_of(v, block.motion.reference), x + block.motion.x,
+                                           y + block.motion.y);
     }
     [[nodiscard]] codec::ConstPlaneViews reference_of(std::size_t v, int reference) const {
-        return codec::views_of(std::as_const(
-            work_[coded_.pictures[v].head.reference[static_cast<std::size_t>(reference)]].reconstruction));
+        return codec::plane_views(
+            std::as_const(work_[coded_.images[v].head.reference[static_cast<std::size_t>(reference)]].reconstruction));
     }
 
-    // On blocks spread evenly over the wanted pictures.
+    // Trains on blocks spread evenly over the images for which `wanted` is true.
     template <class Wanted>
-    StageBooks train(const Wanted& wanted, bool predicted, int block_stages, int quarter_stages) {
+    StageCodebooks train(const Wanted& wanted, bool predicted, int block_stages, int quarter_stages) {
         std::size_t count = 0;
         for (std::size_t v = 0; v < work_.size(); ++v) {
             if (wanted(v)) for_blocks(v, [&](int, int, const Block&) { ++count; });
@@ -204,7 +203,7 @@ private:
     }
 
     void find_motions(std::size_t v) {
-        const codec::PictureHead& head = coded_.pictures[v].head;
+        const codec::ImageHead& head = coded_.images[v].head;
         for_blocks(v, [&](int x, int y, Block& block) {
             std::int64_t best = 0;
             for (int r = 0; r < head.references(); ++r) {
@@ -218,7 +217,7 @@ private:
                 search.reach_y = kReachDown_px;
                 search.fractions = false;
                 const codec::MotionVector none;
-                const FoundMotion found = find_motion(search, {&none, 1}, none);
+                const MotionMatch found = search_motion(search, {&none, 1}, none);
                 Block tried = block;
                 tried.motion = {r, found.vector.x >> 2, found.vector.y >> 2};
                 const std::int64_t error = residual_of(v, x, y, tried, true).error();
@@ -231,7 +230,7 @@ private:
     }
 
     struct Chosen {
-        int number = 0;  // of the class
+        int number = 0;  // class number
         double cost = 0;
         StagedBlock staged;
     };
@@ -241,13 +240,14 @@ private:
         for (const bool predicted : {false, true}) {
             const unsigned may = allowed(v, block, predicted);
             if (may == 0 || (predicted && !block.has_motion)) continue;
-            const StageBooks& books = books_[predicted ? 1 : 0];
+            const StageCodebooks& books = books_[predicted ? 1 : 0];
             Chosen chosen;
-            chosen.staged = walk_stages(books, residual_of(v, x, y, block, predicted));
-            chosen.number = cheapest_class(chosen.staged, classes_of(v), may, lambda_);
+            chosen.staged = quantise_stages(books, residual_of(v, x, y, block, predicted));
+            chosen.number = select_class(chosen.staged, classes_of(v), may, lambda_);
             const RecordClass& record_class = classes_of(v)[static_cast<std::size_t>(chosen.number)];
-            chosen.cost = static_cast<double>(chosen.staged.error[static_cast<std::size_t>(stages_of(record_class))]) +
-                          lambda_ * record_class.bytes();
+            chosen.cost =
+                static_cast<double>(chosen.staged.error[static_cast<std::size_t>(count_stages(record_class))]) +
+                lambda_ * record_class.bytes();
             if (best.number == 0 || chosen.cost < best.cost) best = chosen;
         }
         return best;
@@ -276,10 +276,10 @@ private:
         out.resize(end);
     }
 
-    void encode_picture(std::size_t v) {
-        codec::CodedPicture& picture = coded_.pictures[v];
+    void encode_image(std::size_t v) {
+        codec::CodedImage& image = coded_.images[v];
         const auto tiles = static_cast<std::size_t>(coded_.tile_columns() * coded_.tile_rows());
-        picture.tiles.resize(tiles);
+        image.tiles.resize(tiles);
         for (std::size_t t = 0; t < tiles; ++t) {
             const codec::TilePlace place = codec::place_of_tile(coded_, t);
             std::uint64_t classes = 0;
@@ -298,33 +298,33 @@ private:
                 for (std::size_t i = 0; i < codec::kBoardTileHeadBytes; ++i) {
                     bytes[i] = static_cast<std::byte>(classes >> (8 * i) & 255U);
                 }
-                picture.tiles[t] = {static_cast<std::uint32_t>(picture.bytes.size()),
-                                    static_cast<std::uint32_t>(bytes.size()), true};
-                picture.bytes.insert(picture.bytes.end(), bytes.begin(), bytes.end());
+                image.tiles[t] = {static_cast<std::uint32_t>(image.bytes.size()),
+                                  static_cast<std::uint32_t>(bytes.size()), true};
+                image.bytes.insert(image.bytes.end(), bytes.begin(), bytes.end());
             }
             std::array<codec::ConstPlaneViews, 2> references;
-            for (int r = 0; r < picture.head.references(); ++r)
+            for (int r = 0; r < image.head.references(); ++r)
                 references[static_cast<std::size_t>(r)] = reference_of(v, r);
-            codec::decode_tile(coded_, v, t, references, nullptr, codec::views_of(work_[v].reconstruction));
+            codec::decode_tile(coded_, v, t, references, nullptr, codec::plane_views(work_[v].reconstruction));
         }
         advance();
     }
 
     const RaySpaceObject& object_;
-    const std::vector<SourcePicture>& sources_;
+    const std::vector<SourceImage>& sources_;
     const BoardSettings& settings_;
     Progress* progress_;
-    codec::CodedPictures coded_;
-    std::vector<BoardWorkPicture> work_;
-    double lambda_ = 0;                // what a byte is worth in squared errors
-    std::array<StageBooks, 2> books_;  // [of flat blocks, of predicted ones]
-    AlphaBook alpha_;
+    codec::CodedImages coded_;
+    std::vector<BoardWorkImage> work_;
+    double lambda_ = 0;                    // squared error equivalent to one byte
+    std::array<StageCodebooks, 2> books_;  // [of flat blocks, of predicted ones]
+    AlphaCodebook alpha_;
 };
 
 }  // namespace
 
-EncodedPictures encode_board(const RaySpaceObject& object, const std::vector<SourcePicture>& sources,
-                             const BoardSettings& settings, Progress* progress) {
+EncodedImages encode_board(const RaySpaceObject& object, const std::vector<SourceImage>& sources,
+                           const BoardSettings& settings, Progress* progress) {
     return BoardEncoder(object, sources, settings, progress).encode();
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kDense_px = 2;     // radius of the square in which half of the background must be missing
 constexpr int kClosed_px = 3;    // half of the widest gap to close
-constexpr int kStraight_px = 4;  // radius of the majority filter that smooths outlines
+constexpr int kStraight_px = 4;  // radius of the majority filter that smooths contours
 constexpr int kStraightenings = 4;
 constexpr int kHalfSide_px = 5;  // half side of the smallest part
 constexpr double kMost = 0.7;    // share of a part that must not be occluded for all of it to be painted
@@ -86,7 +86,7 @@ Image<std::uint8_t> beside_object(const WorkView& view, const Image<std::uint8_t
     return kept;
 }
 
-// Smooths an outline with a majority filter.
+// Smooths a contour with a majority filter.
 Image<std::uint8_t> straightened(const WorkView& view, Image<std::uint8_t> mask) {
     for (int round = 0; round < kStraightenings; ++round) {
         const Image<std::uint8_t> near = dilated(mask, 1);
@@ -111,13 +111,13 @@ std::uint8_t mixed(std::uint8_t own, double other, double share_of_own) {
 }
 
 // Bilinear interpolation; nullopt where one of the four pixels is not opaque.
-std::optional<glm::dvec3> colour_at(const Image<Rgba8>& picture, double x, double y) {
+std::optional<glm::dvec3> colour_at(const Image<Rgba8>& image, double x, double y) {
     const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
-    if (!(left >= 0 && top >= 0 && left + 1 < picture.width() && top + 1 < picture.height())) return std::nullopt;
+    if (!(left >= 0 && top >= 0 && left + 1 < image.width() && top + 1 < image.height())) return std::nullopt;
     glm::dvec3 sum(0);
     for (int corner = 0; corner < 4; ++corner) {
         const int dx = corner % 2, dy = corner / 2;
-        const Rgba8& pixel = picture(static_cast<int>(left) + dx, static_cast<int>(top) + dy);
+        const Rgba8& pixel = image(static_cast<int>(left) + dx, static_cast<int>(top) + dy);
         if (pixel.a < kOpaque) return std::nullopt;
         const double right = x - 0.5 - left, down = y - 0.5 - top;
         sum += glm::dvec3(pixel.r, pixel.g, pixel.b) * ((dx == 1 ? right : 1 - right) * (dy == 1 ? down : 1 - down));
@@ -127,7 +127,7 @@ std::optional<glm::dvec3> colour_at(const Image<Rgba8>& picture, double x, doubl
 
 }  // namespace
 
-Image<float> lost_part(const WorkView& view, const Image<float>& missing) {
+Image<float> select_lost_part(const WorkView& view, const Image<float>& missing) {
     // A part needs at least half of a dense square of missing pixels.
     constexpr int kFewest = (2 * kHalfSide_px + 1) * (2 * kHalfSide_px + 1) / 4;
     if (count_depths(missing) < kFewest) {
@@ -176,11 +176,11 @@ double share_of(const Image<float>& part, const WorkView& view) {
     return static_cast<double>(lost) / static_cast<double>(std::max(object, std::ptrdiff_t{1}));
 }
 
-LostPartPainter::LostPartPainter(const WorkView& view, const Image<float>& part, int scale, Image<Rgba8> picture)
-    : picture_(std::move(picture)), scale_(scale) {
-    for (int y = 0; y < picture_.height(); ++y) {
-        for (int x = 0; x < picture_.width(); ++x) {
-            if (picture_(x, y).a == 255) continue;
+LostPartPainter::LostPartPainter(const WorkView& view, const Image<float>& part, int scale, Image<Rgba8> image)
+    : image_(std::move(image)), scale_(scale) {
+    for (int y = 0; y < image_.height(); ++y) {
+        for (int x = 0; x < image_.width(); ++x) {
+            if (image_(x, y).a == 255) continue;
             // Bilinear interpolation of the coverage by object and part, and of the part's depth.
             const double column = (x + 0.5) / scale, row = (y + 0.5) / scale;
             const int left = static_cast<int>(std::floor(column - 0.5)), top = static_cast<int>(std::floor(row - 0.5));
@@ -197,7 +197,7 @@ LostPartPainter::LostPartPainter(const WorkView& view, const Image<float>& part,
             }
             // The part's border as a soft edge.
             const double cover = std::clamp(2 * there - 0.5, 0.0, 1.0);
-            if (!(lost > 0) || cover * 255 <= picture_(x, y).a) continue;
+            if (!(lost > 0) || cover * 255 <= image_(x, y).a) continue;
             const HorizontalRay ray = view.ray_of(column);
             depth /= lost;
             left_.push_back({x, y, cover, ray.place_at(depth), view.height_of(row, ray.axial_at(depth))});
@@ -208,14 +208,14 @@ LostPartPainter::LostPartPainter(const WorkView& view, const Image<float>& part,
 
 std::optional<glm::dvec3> LostPartPainter::seen_by(const Painter& from, const Spot& spot, bool hidden) const {
     const WorkView& view = from.seen->view;
-    const std::optional<SeenPoint> at = view.see(spot.place, spot.height);
+    const std::optional<ProjectedPoint> at = view.see(spot.place, spot.height);
     if (!at) return std::nullopt;
     if (!hidden) {
         const double depth = view.ray_of(at->whole_column() + 0.5).depth_of(spot.place);
         const auto shown = static_cast<double>(from.seen->depth(at->whole_row(), at->whole_column()));
         if (!(depth - shown < kClearlyInFront)) return std::nullopt;  // occluded, or no depth
     }
-    return colour_at(*from.picture, at->column * scale_, at->row * scale_);
+    return colour_at(*from.image, at->column * scale_, at->row * scale_);
 }
 
 std::size_t LostPartPainter::shown_by(const Painter& from, bool hidden) const {
@@ -228,7 +228,7 @@ void LostPartPainter::paint_from(const Painter& from) {
     std::erase_if(left_, [&](const Spot& spot) {
         const auto colour = seen_by(from, spot, most);
         if (!colour) return false;
-        Rgba8& pixel = picture_(spot.x, spot.y);
+        Rgba8& pixel = image_(spot.x, spot.y);
         const double share = pixel.a / (255 * spot.cover);
         pixel = {mixed(pixel.r, colour->r, share), mixed(pixel.g, colour->g, share), mixed(pixel.b, colour->b, share),
                  static_cast<std::uint8_t>(std::lround(255 * spot.cover))};

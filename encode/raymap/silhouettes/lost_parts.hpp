@@ -1,6 +1,6 @@
 #pragma once
 // Restores large parts that single masks lack, such as a black part before a black background that neighboring photos
-// show. Points that photos agree about (silhouette_repair.hpp) give the part's outline and depth; colours come from the
+// show. Points that photos agree about (silhouette_repair.hpp) give the part's contour and depth; colours come from the
 // nearest photos that show it.
 
 #include "encode/raymap/silhouettes/work_view.hpp"
@@ -20,20 +20,20 @@ namespace rs::encode {
 /// missing (at least half of them) or object, with at least half of its border at the object, and with its gaps closed.
 /// kNoDepth elsewhere. Narrow strips along an edge come from an inaccurate rig; separate components do not belong to
 /// the object.
-Image<float> lost_part(const WorkView& view, const Image<float>& missing);
+Image<float> select_lost_part(const WorkView& view, const Image<float>& missing);
 
 /// The area of a part relative to the object's area in the view.
 double share_of(const Image<float>& part, const WorkView& view);
 
 class LostPartPainter {
 public:
-    /// `view` and `part` are `scale` times smaller than `picture` on each side.
-    LostPartPainter(const WorkView& view, const Image<float>& part, int scale, Image<Rgba8> picture);
+    /// `view` and `part` are `scale` times smaller than `image` on each side.
+    LostPartPainter(const WorkView& view, const Image<float>& part, int scale, Image<Rgba8> image);
 
     /// Another photo, at full size and as a working view with its depths.
     struct Painter {
         const DepthView* seen = nullptr;
-        const Image<Rgba8>* picture = nullptr;
+        const Image<Rgba8>* image = nullptr;
     };
     /// The number of unpainted pixels that another photo shows; with `hidden`, including those that seem occluded.
     [[nodiscard]] std::size_t shown_by(const Painter& from, bool hidden = false) const;
@@ -45,7 +45,7 @@ public:
     [[nodiscard]] bool done() const { return left_.empty(); }
     [[nodiscard]] bool half_done() const { return 2 * left_.size() <= all_; }
     /// The photo; unpainted pixels are unchanged.
-    [[nodiscard]] Image<Rgba8> picture() && { return std::move(picture_); }
+    [[nodiscard]] Image<Rgba8> image() && { return std::move(image_); }
 
 private:
     // A pixel to paint, and its surface point.
@@ -58,7 +58,7 @@ private:
 
     [[nodiscard]] std::optional<glm::dvec3> seen_by(const Painter& from, const Spot& spot, bool hidden) const;
 
-    Image<Rgba8> picture_;
+    Image<Rgba8> image_;
     int scale_;
     std::vector<Spot> left_;
     std::size_t all_ = 0;  // number of pixels to paint at the start

@@ -64,7 +64,7 @@ private:
 /// place. Thread-safe.
 class SampledHull {
 public:
-    /// Covers all places up to kDeepest along every ray that passes the axis within kDeepest. `spacing` in object
+    /// Covers all places up to kMaxDepth along every ray that passes the axis within kMaxDepth. `spacing` in object
     /// radii.
     SampledHull(VisualHull hull, double spacing);
 

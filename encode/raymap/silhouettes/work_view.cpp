@@ -10,11 +10,11 @@ namespace rs::encode {
 namespace {
 
 // Mean colour weighted by alpha, and mean alpha.
-Rgba8 block_mean(ConstImageView<Rgba8> picture, int x0, int y0, int side) {
+Rgba8 block_mean(ConstImageView<Rgba8> image, int x0, int y0, int side) {
     int r = 0, g = 0, b = 0, a = 0;
     for (int y = y0; y < y0 + side; ++y) {
         for (int x = x0; x < x0 + side; ++x) {
-            const Rgba8 pixel = picture(x, y);
+            const Rgba8 pixel = image(x, y);
             r += pixel.r * pixel.a;
             g += pixel.g * pixel.a;
             b += pixel.b * pixel.a;
@@ -38,10 +38,10 @@ HorizontalRay WorkView::ray_of(double column) const {
     return ray;
 }
 
-WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> picture, int reduction) {
+WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> image, int reduction) {
     WorkView view;
-    view.width = picture.width() / reduction;
-    view.height = picture.height() / reduction;
+    view.width = image.width() / reduction;
+    view.height = image.height() / reduction;
     view.fl_x = camera.fl_x / reduction;
     view.fl_y = camera.fl_y / reduction;
     view.cx = camera.cx / reduction;
@@ -53,13 +53,13 @@ WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> picture, int
     view.columns = Image<Rgba8>(view.height, view.width);
     for (int column = 0; column < view.width; ++column) {
         for (int row = 0; row < view.height; ++row) {
-            view.columns(row, column) = block_mean(picture, column * reduction, row * reduction, reduction);
+            view.columns(row, column) = block_mean(image, column * reduction, row * reduction, reduction);
         }
     }
     return view;
 }
 
-WorkView halved(const WorkView& view) {
+WorkView halve(const WorkView& view) {
     WorkView half = view;
     half.width = view.width / 2;
     half.height = view.height / 2;
@@ -77,7 +77,7 @@ Image<std::uint8_t> soft_pixels(const WorkView& view) {
     constexpr int kRadius_px = 2;
     Image<std::uint8_t> alpha(view.columns.width(), view.columns.height());
     std::ranges::transform(view.columns.pixels(), alpha.pixels().begin(), &Rgba8::a);
-    Image<std::uint8_t> soft = soft_patches(alpha, kRadius_px);
+    Image<std::uint8_t> soft = find_soft_patches(alpha, kRadius_px);
     std::ranges::transform(soft.pixels(), alpha.pixels(), soft.pixels().begin(),
                            [](std::uint8_t patch, int a) { return a < kInside ? patch : std::uint8_t{0}; });
     return soft;

@@ -37,7 +37,7 @@ inline Error no_object_in(int slot) {
 }
 
 struct ExecutedView {
-    Image<Rgba8> picture;
+    Image<Rgba8> image;
     Image<std::int32_t> depth_q20;  // axial, 0 where alpha is 0; empty where none is given or needed
 };
 

@@ -59,11 +59,11 @@ RaySetup set_up_ray(const RaySpaceObject& object, const ViewRegisters& registers
 
     const PlanePoint point = plane_point(ring, registers, i, j);
     if (!point.exists) return kNoRay;
-    const std::uint16_t picture = map_answer(ring, point);
-    if (picture == kNoPicture) return kNoRay;
+    const std::uint16_t image = map_answer(ring, point);
+    if (image == kNoImage) return kNoRay;
 
-    // Section 3: the picture's column, and the rows along it.
-    const CapturedView& view = object.views[picture];
+    // Section 3: the image's column, and the rows along it.
+    const CapturedView& view = object.views[image];
     const CapturedLine& line = view.lines[static_cast<std::size_t>(point.plane)];
     const std::int64_t l_q20 = line.l0_q20 + ((point.x_q20 * line.l1_q30) >> 30);
     if (l_q20 < kNearestDepth_q20) return kNoRay;
@@ -79,7 +79,7 @@ RaySetup set_up_ray(const RaySpaceObject& object, const ViewRegisters& registers
     if (rise_per_row_q24 < -kLargestRise_q24 || rise_per_row_q24 > kLargestRise_q24) return kNoRay;
 
     RaySetup setup;
-    setup.picture = picture;
+    setup.image = image;
     setup.column = static_cast<int>(column);
     setup.lambda_q20 = static_cast<std::int32_t>(point.lambda_q20);
     setup.row_0_q16 = view.cy_q16 - ((m_q16 * (height_q20 - view.height_q20)) >> 20);

@@ -1,5 +1,5 @@
 #pragma once
-// Sections 2 and 3 of engine/RECONSTRUCTION.md: from a pixel of the view to a column of a captured picture and the walk
+// Sections 2 and 3 of engine/RECONSTRUCTION.md: from a pixel of the view to a column of a captured image and the walk
 // of rows along it. There is one piece of code for it, shared by the scalar definition and the fast core.
 
 #include "engine/core/definition/view_registers.hpp"
@@ -23,17 +23,17 @@ struct PlanePoint {
 
 PlanePoint plane_point(const Ring& ring, const ViewRegisters& registers, int i, int j);
 
-// What the RS map holds for the ray: a view, or kNoPicture.
+// What the RS map holds for the ray: a view, or kNoImage.
 std::uint16_t map_answer(const Ring& ring, const PlanePoint& point);
 
 struct RaySetup {
-    int picture = -1;  // -1: there is no ray
+    int image = -1;  // -1: there is no ray
     int column = 0;
     std::int64_t row_0_q16 = 0;
     std::int64_t row_step_q16 = 0;
     std::int32_t lambda_q20 = 0;  // axial depth of the reference plane
 
-    // Row of the picture for view row j; may lie outside of the picture.
+    // Row of the image for view row j; may lie outside of the image.
     [[nodiscard]] std::int64_t row(int j) const { return (row_0_q16 + j * row_step_q16) >> 16; }
 };
 

@@ -8,25 +8,21 @@
 namespace rs::engine {
 namespace {
 
-// The texels of unpacked pictures, as shape_pixel() reads them.
+// The texels of unpacked images, as shape_pixel() reads them.
 struct StoredTexels {
     const RaySpaceObject& object;
 
-    [[nodiscard]] const PlanarPicture& picture(int view) const {
-        return object.pictures[static_cast<std::size_t>(view)];
-    }
-    [[nodiscard]] Rgba8 color(int view, int column, int row) const { return rgba_at(picture(view), column, row); }
-    [[nodiscard]] int detail(int view, int column, int row) const {
-        return texel_detail_at(picture(view), column, row);
-    }
+    [[nodiscard]] const PlanarImage& image(int view) const { return object.images[static_cast<std::size_t>(view)]; }
+    [[nodiscard]] Rgba8 color(int view, int column, int row) const { return rgba_at(image(view), column, row); }
+    [[nodiscard]] int detail(int view, int column, int row) const { return texel_detail_at(image(view), column, row); }
 };
 
 ShapePixel plane_pixel(const RaySpaceObject& object, const ViewRegisters& registers, int i, int j) {
     const RaySetup ray = set_up_ray(object, registers, i, j);
-    if (ray.picture < 0) return {};
+    if (ray.image < 0) return {};
     const std::int64_t row = ray.row(j);
     if (row < 0 || row >= object.height) return {};
-    return {rgba_at(object.pictures[static_cast<std::size_t>(ray.picture)], ray.column, static_cast<int>(row)),
+    return {rgba_at(object.images[static_cast<std::size_t>(ray.image)], ray.column, static_cast<int>(row)),
             ray.lambda_q20};
 }
 

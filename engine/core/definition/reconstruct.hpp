@@ -10,7 +10,7 @@
 
 namespace rs::engine {
 
-// `out` has the view's size. All pictures of the ring must be loaded. `lambda_q20`, where not empty, has that size too
+// `out` has the view's size. All images of the ring must be loaded. `lambda_q20`, where not empty, has that size too
 // and receives the axial depth of what is shown: object radii from the viewpoint that `registers` hold, along the
 // viewing axis; 0 where alpha is 0. An object without a shape map lies on its reference planes.
 void reconstruct_scalar(const RaySpaceObject& object, const ViewRegisters& registers, ImageView<Rgba8> out,

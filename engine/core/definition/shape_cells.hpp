@@ -11,7 +11,7 @@
 
 namespace rs::engine {
 
-// How far the blend of two pictures leans: 0, the first alone; 16, the second alone.
+// How far the blend of two images leans: 0, the first alone; 16, the second alone.
 inline constexpr std::int32_t kBothShow = 8;
 
 // A surface beside or between cells.
@@ -41,7 +41,7 @@ struct CellColumns {
     std::int32_t line_part = 0;      // of the second line, likewise
 };
 
-// Of a cell: 0 where the first picture alone shows it, 1 where both do, 2.
+// Of a cell: 0 where the first image alone shows it, 1 where both do, 2.
 inline int lean_of(ShapeCell cell) {
     return cell.shown == ShapeCell::kByFirst ? 0 : cell.shown == ShapeCell::kBySecond ? 2 : 1;
 }

@@ -21,11 +21,11 @@ struct ShapePixel {
 
 // A surface of less alpha does not cover its pixel: at the end of a march those behind it are needed, too.
 inline constexpr int kCoveringAlpha = 230;
-inline constexpr std::int32_t kNearest_q20 = 1 << 17;  // axial depth in a captured picture
+inline constexpr std::int32_t kNearest_q20 = 1 << 17;  // axial depth in a captured image
 
 // A bilinear sample: sums over four texels of weight * alpha (the weights add up to 64) and of weight * alpha * colour.
 struct SampleSum {
-    bool exists = false;  // the point lies in the picture's frame
+    bool exists = false;  // the point lies in the image's frame
     std::int32_t a = 0, r = 0, g = 0, b = 0;
     std::int32_t detail = 0;  // to be added to r, g and b; 0 with the bilinear filter
 };
@@ -52,13 +52,13 @@ inline Rgba8 resolve(const SampleSum& sum) {
 // Section 7. `texels.color(view, column, row)` gives a stored pixel as Rgba8, `texels.detail(view, column, row)` its
 // texel_detail_at().
 template <class Texels>
-SampleSum sample_picture(const RaySpaceObject& object, const ShapePicture& picture, int d_q3, std::int32_t y_q16,
-                         TexelFilter filter, const Texels& texels) {
-    const CapturedView& view = object.views[static_cast<std::size_t>(picture.view)];
-    const std::int32_t l_q20 = picture.l0_q20 + ((d_q3 * picture.l1_q24) >> 7);
+SampleSum sample_image(const RaySpaceObject& object, const ShapeImage& image, int d_q3, std::int32_t y_q16,
+                       TexelFilter filter, const Texels& texels) {
+    const CapturedView& view = object.views[static_cast<std::size_t>(image.view)];
+    const std::int32_t l_q20 = image.l0_q20 + ((d_q3 * image.l1_q24) >> 7);
     if (l_q20 < kNearest_q20) return {};
     const auto inverse_q20 = static_cast<std::int32_t>((std::int64_t{1} << 40) / l_q20);
-    const std::int32_t n_q12 = picture.n0_q12 + ((d_q3 * picture.n1_q12) >> 3);
+    const std::int32_t n_q12 = image.n0_q12 + ((d_q3 * image.n1_q12) >> 3);
     const std::int32_t column_q8 = (view.cx_q16 >> 8) + multiply_shift(n_q12, inverse_q20, 24);
     const std::int32_t m_q12 = multiply_shift(view.fl_y_q16 >> 8, inverse_q20, 16);
     const std::int32_t row_q8 = (view.cy_q16 >> 8) - multiply_shift(m_q12, y_q16 - (view.height_q20 >> 4), 20);
@@ -73,7 +73,7 @@ SampleSum sample_picture(const RaySpaceObject& object, const ShapePicture& pictu
     const int bottom = std::min((y_q3 >> 3) + 1, object.height - 1);
     SampleSum sum{true};
     const auto add = [&](int column, int row, int weight) {
-        const Rgba8 t = texels.color(picture.view, column, row);
+        const Rgba8 t = texels.color(image.view, column, row);
         sum.a += weight * t.a;
         sum.r += weight * t.a * t.r;
         sum.g += weight * t.a * t.g;
@@ -87,20 +87,20 @@ SampleSum sample_picture(const RaySpaceObject& object, const ShapePicture& pictu
     add(right, bottom, fx * fy);
     if (filter == TexelFilter::kBilinear) return sum;
 
-    const auto detail = [&](int column, int row) { return texels.detail(picture.view, column, row); };
+    const auto detail = [&](int column, int row) { return texels.detail(image.view, column, row); };
     const int detail_sum = (8 - fx) * (8 - fy) * detail(left, top) + (8 - fx) * fy * detail(left, bottom) +
                            fx * (8 - fy) * detail(right, top) + fx * fy * detail(right, bottom);
     sum.detail = sample_detail(filter, fx, fy, sum.a, detail_sum);
     return sum;
 }
 
-// Section 8: how much the second picture has of 256, where a surface leans.
+// Section 8: how much the second image has of 256, where a surface leans.
 inline int leaning_weight(int weight, int lean) {
     if (lean <= kBothShow) return (weight * lean + 4) >> 3;
     return weight + (((256 - weight) * (lean - kBothShow) + 4) >> 3);
 }
 
-// Section 8: what both pictures show of a surface at depth d_q3. `rise_q24`: the view's rise form at the pixel, q32,
+// Section 8: what both images show of a surface at depth d_q3. `rise_q24`: the view's rise form at the pixel, q32,
 // shifted right by 8.
 struct ShownSurface {
     SampleSum sum;  // does not exist, or has a = 0, where neither shows it; the weights add up to 64 * 256
@@ -114,8 +114,8 @@ ShownSurface shown_surface(const RaySpaceObject& object, const ViewRegisters& re
     shown.lambda_q20 = setup.lambda0_q20 + ((d_q3 * setup.lambda1_q21) >> 4);
     if (shown.lambda_q20 <= 0) return {};
     const std::int32_t y_q16 = (registers.b_q20 >> 4) + multiply_shift(shown.lambda_q20, rise_q24, 28);
-    const auto sample = [&](const ShapePicture& picture) {
-        return sample_picture(object, picture, d_q3, y_q16, registers.filter, texels);
+    const auto sample = [&](const ShapeImage& image) {
+        return sample_image(object, image, d_q3, y_q16, registers.filter, texels);
     };
     const SampleSum first = setup.weight < 256 ? sample(setup.first) : SampleSum{};
     const SampleSum second = setup.weight > 0 ? sample(setup.second) : SampleSum{};
@@ -153,7 +153,7 @@ ShapePixel shape_pixel(const RaySpaceObject& object, const ViewRegisters& regist
     CellMarch march(shape, setup, registers.b_q20, rise_q24);
     SurfaceCell cell = march.next();
     if (setup.weight == 0 || setup.weight == 256) {
-        // On a captured line that picture answers alone, whatever the depth.
+        // On a captured line that image answers alone, whatever the depth.
         return pixel(shown_at(cell.exists() ? cell.depth_q3 : setup.foot_depth_q3));
     }
     ShapePixel nearer;  // the first that shows something, but does not cover the pixel

@@ -97,8 +97,8 @@ CellColumns cells_around(const ShapeMap& shape, const Bracket& bracket, std::int
     return columns;
 }
 
-ShapePicture along_ray(const RaySpaceObject& object, const Ring& ring, int n, int plane, const VerticalPlaneRay& ray,
-                       std::int64_t depth_low_q20, std::int64_t depth_step_q24) {
+ShapeImage along_ray(const RaySpaceObject& object, const Ring& ring, int n, int plane, const VerticalPlaneRay& ray,
+                     std::int64_t depth_low_q20, std::int64_t depth_step_q24) {
     const int view = ring.views[static_cast<std::size_t>(n)];
     const CapturedLine& line = object.views[static_cast<std::size_t>(view)].lines[static_cast<std::size_t>(plane)];
     const NormalLine& normal =
@@ -110,14 +110,14 @@ ShapePicture along_ray(const RaySpaceObject& object, const Ring& ring, int n, in
     const std::int64_t l_along_q30 = (ray.sine_q30 * line.l1_q30 - ray.cosine_q30 * normal.l2_q30) >> 30;
     const std::int64_t n_foot_q16 = line.q0_q16 + ((x_q20 * line.q1_q16 + z_q20 * normal.q2_q16) >> 20);
     const std::int64_t n_along_q16 = (ray.sine_q30 * line.q1_q16 - ray.cosine_q30 * normal.q2_q16) >> 30;
-    ShapePicture picture;
-    picture.view = view;
-    picture.l0_q20 = static_cast<std::int32_t>(l_foot_q20 + ((depth_low_q20 * l_along_q30) >> 30));
-    picture.l1_q24 = static_cast<std::int32_t>((depth_step_q24 * l_along_q30) >> 30);
-    picture.n0_q12 = static_cast<std::int32_t>((n_foot_q16 + ((depth_low_q20 * n_along_q16) >> 20)) >> 4);
-    picture.n1_q12 =
+    ShapeImage image;
+    image.view = view;
+    image.l0_q20 = static_cast<std::int32_t>(l_foot_q20 + ((depth_low_q20 * l_along_q30) >> 30));
+    image.l1_q24 = static_cast<std::int32_t>((depth_step_q24 * l_along_q30) >> 30);
+    image.n0_q12 = static_cast<std::int32_t>((n_foot_q16 + ((depth_low_q20 * n_along_q16) >> 20)) >> 4);
+    image.n1_q12 =
         static_cast<std::int32_t>(std::clamp((depth_step_q24 * n_along_q16) >> 28, -kMostPerStep, kMostPerStep));
-    return picture;
+    return image;
 }
 
 }  // namespace
@@ -128,7 +128,7 @@ ShapeSetup set_up_shape(const RaySpaceObject& object, const ViewRegisters& regis
     const PlanePoint point = plane_point(ring, registers, i, j);
     if (!point.exists) return {};
     const std::uint16_t hint = map_answer(ring, point);
-    if (hint == kNoPicture) return {};
+    if (hint == kNoImage) return {};
     const auto place = std::find(ring.views.begin(), ring.views.end(), hint) - ring.views.begin();
 
     const VerticalPlaneRay ray = vertical_plane_ray(point);

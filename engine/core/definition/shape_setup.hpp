@@ -11,9 +11,9 @@
 
 namespace rs::engine {
 
-// A captured picture along the view ray. At depth d_q3, eighths of a step: axial depth l = l0 + (d_q3 * l1 >> 7),
+// A captured image along the view ray. At depth d_q3, eighths of a step: axial depth l = l0 + (d_q3 * l1 >> 7),
 // lateral offset times focal length n = n0 + (d_q3 * n1 >> 3).
-struct ShapePicture {
+struct ShapeImage {
     std::int32_t view = -1;
     std::int32_t l0_q20 = 0;
     std::int32_t l1_q24 = 0;
@@ -23,9 +23,9 @@ struct ShapePicture {
 
 struct ShapeSetup {
     bool has_ray = false;
-    ShapePicture first;
-    ShapePicture second;
-    std::int32_t weight = 0;           // of the second picture, 0..256
+    ShapeImage first;
+    ShapeImage second;
+    std::int32_t weight = 0;           // of the second image, 0..256
     CellColumns cells;                 // without columns there is no shape, and d = 0 is the foot
     std::int32_t foot_depth_q3 = 0;    // the depth of the foot
     std::int32_t lambda_foot_q20 = 0;  // axial depth in the view

@@ -32,9 +32,9 @@ std::int8_t texel_detail_at(int width, int height, int column, int row, const Lu
                         luma(column, row + 1));
 }
 
-/// texel_detail_at() of an unpacked picture.
-inline std::int8_t texel_detail_at(const PlanarPicture& picture, int column, int row) {
-    return texel_detail_at(picture.y.width(), picture.y.height(), column, row, picture.y, picture.a);
+/// texel_detail_at() of an unpacked image.
+inline std::int8_t texel_detail_at(const PlanarImage& image, int column, int row) {
+    return texel_detail_at(image.y.width(), image.y.height(), column, row, image.y, image.a);
 }
 
 /// Strength of the smooth filter, 1/64.

@@ -86,7 +86,7 @@ int nearest_ring(const RaySpaceObject& object, const glm::dvec3& viewpoint) {
     return static_cast<int>(best - object.rings.begin());
 }
 
-// The view's pixels per object radius at the axis, relative to the captured pictures'.
+// The view's pixels per object radius at the axis, relative to the captured images'.
 double magnification(const RaySpaceObject& object, const Ring& ring, const Camera& camera) {
     const CapturedView& captured = object.views[ring.views.front()];
     const double distance = std::ldexp(std::hypot(captured.lines.front().l0_q20, captured.height_q20), -20);
@@ -114,9 +114,9 @@ glm::dvec3 prepared_viewpoint(const RaySpaceObject& object, const Camera& camera
 }
 
 Status check_registers(const RaySpaceObject& object, const ViewRegisters& r) {
-    if (r.width < 1 || r.height < 1 || r.width > kMaxPictureSide_px || r.height > kMaxPictureSide_px) {
+    if (r.width < 1 || r.height < 1 || r.width > kMaxImageSide_px || r.height > kMaxImageSide_px) {
         return view_error("its size of " + std::to_string(r.width) + "x" + std::to_string(r.height) +
-                          " is outside 1.." + std::to_string(kMaxPictureSide_px) + " pixels");
+                          " is outside 1.." + std::to_string(kMaxImageSide_px) + " pixels");
     }
     if (r.ring < 0 || static_cast<std::size_t>(r.ring) >= object.rings.size()) {
         return view_error("it is of ring " + std::to_string(r.ring) + ", and the object has " +
@@ -149,11 +149,11 @@ Status check_registers(const RaySpaceObject& object, const ViewRegisters& r) {
 Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera_in_rig,
                                    std::optional<TexelFilter> filter) {
     if (object.rings.empty()) return view_error("the object holds no ring of views");
-    if (camera_in_rig.width < 1 || camera_in_rig.height < 1 || camera_in_rig.width > kMaxPictureSide_px ||
-        camera_in_rig.height > kMaxPictureSide_px) {
+    if (camera_in_rig.width < 1 || camera_in_rig.height < 1 || camera_in_rig.width > kMaxImageSide_px ||
+        camera_in_rig.height > kMaxImageSide_px) {
         return view_error("its size of " + std::to_string(camera_in_rig.width) + "x" +
-                          std::to_string(camera_in_rig.height) + " is outside 1.." +
-                          std::to_string(kMaxPictureSide_px) + " pixels");
+                          std::to_string(camera_in_rig.height) + " is outside 1.." + std::to_string(kMaxImageSide_px) +
+                          " pixels");
     }
     if (!(camera_in_rig.fl_x > 0) || !(camera_in_rig.fl_y > 0)) return view_error("its focal length is not above 0");
     if (!(rotation_error(camera_in_rig) < 1e-3))
@@ -176,7 +176,7 @@ Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& c
 
     const std::string too_wide =
         camera.fl_x < camera_in_rig.fl_x
-            ? "it is so far from the object that the object is but a few pixels of so wide a picture; narrow the field "
+            ? "it is so far from the object that the object is but a few pixels of so wide an image; narrow the field "
               "of view"
             : "its field of view is too wide (a ray is more than 8 times as far from the viewing axis as it is deep); "
               "use a "

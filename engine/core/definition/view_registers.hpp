@@ -27,12 +27,12 @@ struct PlaneRegisters {
     LinearForm along_tangent;  // direction . tangent
 };
 
-/// How a ring with a shape map samples its pictures (engine/RECONSTRUCTION.md, section 7). Rings without one fetch the
+/// How a ring with a shape map samples its images (engine/RECONSTRUCTION.md, section 7). Rings without one fetch the
 /// nearest pixel.
 enum class TexelFilter : std::uint8_t {
     kBilinear = 0,
     kSharp = 1,   // bilinear plus luma detail: close to bicubic
-    kSmooth = 2,  // bilinear minus luma detail: a low-pass filter for views smaller than the pictures
+    kSmooth = 2,  // bilinear minus luma detail: a low-pass filter for views smaller than the images
 };
 
 struct ViewRegisters {
@@ -54,7 +54,7 @@ struct ViewRegisters {
 /// Computes the registers of a view. A viewpoint farther than 200 radii is moved to 200, with the field of view
 /// narrowed so that the object's image stays the same. Pure; thread-safe.
 /// \param camera  in the units of the object's rig (RaySpaceObject::units_per_radius)
-/// \param filter  the default depends on the object's size in the view relative to the captured pictures: sharp from
+/// \param filter  the default depends on the object's size in the view relative to the captured images: sharp from
 ///                0.95, smooth up to 0.75, else bilinear
 /// \return        an error that names the quantity where the camera leaves the ranges of RECONSTRUCTION.md: sizes of
 ///                1..8192 px, focal length above 0 and wide enough, finite numbers

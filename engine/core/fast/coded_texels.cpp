@@ -10,34 +10,31 @@
 namespace rs::engine {
 namespace {
 
-// Texels that the pictures are apart: whole pages of colours and of details.
-std::size_t texels_per_picture(const codec::CodedPictures& coded) {
-    const std::int64_t texels = TexelLayout{coded.width, coded.height, {}}.picture_texels();
+// Texels that the images are apart: whole pages of colours and of details.
+std::size_t texels_per_image(const codec::CodedImages& coded) {
+    const std::int64_t texels = TexelLayout{coded.width, coded.height, {}}.image_texels();
     return ReservedMemory::whole_pages(static_cast<std::size_t>(texels));
 }
 
 }  // namespace
 
-Result<std::unique_ptr<CodedTexels>> CodedTexels::create(std::shared_ptr<const codec::CodedPictures> coded,
+Result<std::unique_ptr<CodedTexels>> CodedTexels::create(std::shared_ptr<const codec::CodedImages> coded,
                                                          const std::string& name, std::int64_t budget_bytes) {
     // Lanes without a ray read texel 0, which must be nobody's.
     TexelLayout layout{coded->width, coded->height, {}};
-    const std::size_t per_picture = texels_per_picture(*coded);
+    const std::size_t per_image = texels_per_image(*coded);
     std::size_t size = ReservedMemory::whole_pages(1);
-    for (const codec::CodedPicture& picture : coded->pictures) {
-        layout.picture_start.push_back(static_cast<std::int32_t>(size));
-        if (picture.loaded()) size += per_picture;
+    for (const codec::CodedImage& image : coded->images) {
+        layout.image_start.push_back(static_cast<std::int32_t>(size));
+        if (image.loaded()) size += per_image;
         if (size > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) return too_many_texels(name);
     }
-    Result<ReservedMemory> memory = ReservedMemory::create(size * sizeof(Rgba8), name);
-    if (!memory) return memory.error();
-    Result<ReservedMemory> details =
-        ReservedMemory::create(ReservedMemory::whole_pages(size + TexelLayout::kLeastColumn), name);
-    if (!details) return details.error();
-    Result<std::unique_ptr<SampleStore>> samples = SampleStore::create(std::move(coded), name);
-    if (!samples) return samples.error();
+    RS_ASSIGN_OR_RETURN(ReservedMemory memory, ReservedMemory::create(size * sizeof(Rgba8), name));
+    RS_ASSIGN_OR_RETURN(ReservedMemory details,
+                        ReservedMemory::create(ReservedMemory::whole_pages(size + TexelLayout::kLeastColumn), name));
+    RS_ASSIGN_OR_RETURN(std::unique_ptr<SampleStore> samples, SampleStore::create(std::move(coded), name));
     return std::unique_ptr<CodedTexels>(
-        new CodedTexels(std::move(*samples), std::move(layout), std::move(*memory), std::move(*details), budget_bytes));
+        new CodedTexels(std::move(samples), std::move(layout), std::move(memory), std::move(details), budget_bytes));
 }
 
 CodedTexels::CodedTexels(std::unique_ptr<SampleStore> samples, TexelLayout layout, ReservedMemory memory,
@@ -47,37 +44,37 @@ CodedTexels::CodedTexels(std::unique_ptr<SampleStore> samples, TexelLayout layou
       memory_(std::move(memory)),
       details_(std::move(details)),
       budget_bytes_(budget_bytes),
-      spans_(layout_.picture_start.size() * static_cast<std::size_t>(layout_.width)),
-      tile_columns_(layout_.picture_start.size() * static_cast<std::size_t>(samples_->coded().tile_columns())),
-      texel_bytes_(layout_.picture_start.size()) {}
+      spans_(layout_.image_start.size() * static_cast<std::size_t>(layout_.width)),
+      tile_columns_(layout_.image_start.size() * static_cast<std::size_t>(samples_->coded().tile_columns())),
+      texel_bytes_(layout_.image_start.size()) {}
 
-void CodedTexels::ensure(int picture, int first, int last) {
-    const codec::CodedPictures& coded = samples_->coded();
-    samples_->mark_used(picture);
+void CodedTexels::ensure(int image, int first, int last) {
+    const codec::CodedImages& coded = samples_->coded();
+    samples_->mark_used(image);
     for (int column = first >> coded.tile_width_log2; column <= last >> coded.tile_width_log2; ++column) {
-        DoneFlag& flag = tile_columns_[static_cast<std::size_t>(picture * coded.tile_columns() + column)];
-        if (!flag.done()) flag.ensure([&] { fill_tile_column(picture, column); });
+        DoneFlag& flag = tile_columns_[static_cast<std::size_t>(image * coded.tile_columns() + column)];
+        if (!flag.done()) flag.ensure([&] { fill_tile_column(image, column); });
     }
 }
 
-void CodedTexels::need_tile_column(int picture, int tile_column) {
-    const codec::CodedPictures& coded = samples_->coded();
+void CodedTexels::need_tile_column(int image, int tile_column) {
+    const codec::CodedImages& coded = samples_->coded();
     if (tile_column < 0 || tile_column >= coded.tile_columns()) return;
-    const codec::CodedPicture& from = coded.pictures[static_cast<std::size_t>(picture)];
+    const codec::CodedImage& from = coded.images[static_cast<std::size_t>(image)];
     for (int row = 0; row < coded.tile_rows(); ++row) {
         const int tile = row * coded.tile_columns() + tile_column;
-        if (from.tiles[static_cast<std::size_t>(tile)].present) samples_->need_tile(picture, tile);
+        if (from.tiles[static_cast<std::size_t>(tile)].present) samples_->need_tile(image, tile);
     }
 }
 
 // Tiles that are not present are left as they are: no texel of theirs was ever written, so they are transparent.
-void CodedTexels::fill_tile_column(int picture, int tile_column) {
-    const codec::CodedPictures& coded = samples_->coded();
-    const codec::CodedPicture& from = coded.pictures[static_cast<std::size_t>(picture)];
+void CodedTexels::fill_tile_column(int image, int tile_column) {
+    const codec::CodedImages& coded = samples_->coded();
+    const codec::CodedImage& from = coded.images[static_cast<std::size_t>(image)];
     const int first = tile_column << coded.tile_width_log2;
     const int last = std::min(first + coded.tile_width(), layout_.width) - 1;
     // Details at the edges of the tile column depend on the pixels beside it.
-    for (const int needed : {tile_column - 1, tile_column, tile_column + 1}) need_tile_column(picture, needed);
+    for (const int needed : {tile_column - 1, tile_column, tile_column + 1}) need_tile_column(image, needed);
     int top = layout_.height;
     int bottom = 0;
     for (int row = 0; row < coded.tile_rows(); ++row) {
@@ -86,25 +83,25 @@ void CodedTexels::fill_tile_column(int picture, int tile_column) {
         codec::TilePlace place = codec::place_of_tile(coded, static_cast<std::size_t>(tile));
         place.width = std::min(place.width, layout_.width - place.left);
         place.height = std::min(place.height, layout_.height - place.top);
-        convert_tile(picture, place);
+        convert_tile(image, place);
         top = std::min(top, place.top);
         bottom = place.top + place.height;
     }
     for (int column = first; column <= last; ++column) {
-        Rgba8* const texels = texel(layout_.column_start(picture, column));
+        Rgba8* const texels = texel(layout_.column_start(image, column));
         RowSpan span{top, std::max(top, bottom)};
         while (span.begin < span.end && texels[span.begin].a == 0) ++span.begin;
         while (span.begin < span.end && texels[span.end - 1].a == 0) --span.end;
-        spans_[layout_.span_index(picture, column)] = span.begin < span.end ? span : RowSpan{};
-        find_details(picture, column, span.begin, span.end);
+        spans_[layout_.span_index(image, column)] = span.begin < span.end ? span : RowSpan{};
+        find_details(image, column, span.begin, span.end);
     }
-    texel_bytes_[static_cast<std::size_t>(picture)].fetch_add(
+    texel_bytes_[static_cast<std::size_t>(image)].fetch_add(
         static_cast<std::int64_t>(kTexelBytes) * (last - first + 1) * layout_.column_stride(),
         std::memory_order_relaxed);
 }
 
-void CodedTexels::convert_tile(int picture, const codec::TilePlace& place) {
-    const codec::ConstPlaneViews planes = samples_->planes(picture);
+void CodedTexels::convert_tile(int image, const codec::TilePlace& place) {
+    const codec::ConstPlaneViews planes = samples_->planes(image);
     // Row by row into a buffer, so that samples are read as they lie, and from there column by column.
     constexpr int kMostSide = 1 << codec::kMaxTileLog2;
     Rgba8 tile[kMostSide * kMostSide];
@@ -120,7 +117,7 @@ void CodedTexels::convert_tile(int picture, const codec::TilePlace& place) {
     }
     const int bottom = place.top + place.height;
     for (int x = 0; x < place.width; ++x) {
-        Rgba8* const texels = texel(layout_.column_start(picture, place.left + x));
+        Rgba8* const texels = texel(layout_.column_start(image, place.left + x));
         for (int y = 0; y < place.height; ++y) texels[place.top + y] = tile[y * kMostSide + x];
         if (place.top == 0) texels[-1] = texels[0];
         if (bottom == layout_.height) texels[bottom] = texels[bottom - 1];
@@ -128,20 +125,20 @@ void CodedTexels::convert_tile(int picture, const codec::TilePlace& place) {
     const int rim_top = place.top - (place.top == 0 ? 1 : 0);
     const int rim_bottom = bottom + (bottom == layout_.height ? 1 : 0);
     const auto repeat = [&](int from, int to) {
-        std::copy(texel(layout_.column_start(picture, from)) + rim_top,
-                  texel(layout_.column_start(picture, from)) + rim_bottom,
-                  texel(layout_.column_start(picture, to)) + rim_top);
+        std::copy(texel(layout_.column_start(image, from)) + rim_top,
+                  texel(layout_.column_start(image, from)) + rim_bottom,
+                  texel(layout_.column_start(image, to)) + rim_top);
     };
     if (place.left == 0) repeat(0, -1);
     if (place.left + place.width == layout_.width) repeat(layout_.width - 1, layout_.width);
 }
 
 // Computes the details of the rows [top, bottom) of a column.
-void CodedTexels::find_details(int picture, int column, int top, int bottom) {
-    const codec::ConstPlaneViews planes = samples_->planes(picture);
+void CodedTexels::find_details(int image, int column, int top, int bottom) {
+    const codec::ConstPlaneViews planes = samples_->planes(image);
     const auto luma = [&](int x, int y) { return int{planes[0].row(y)[x]}; };
     const auto alpha = [&](int x, int y) { return int{planes[3].row(y)[x]}; };
-    std::int8_t* const details = detail(layout_.column_start(picture, column));
+    std::int8_t* const details = detail(layout_.column_start(image, column));
     for (int row = top; row < bottom; ++row) {
         details[row] = texel_detail_at(layout_.width, layout_.height, column, row, luma, alpha);
     }
@@ -159,9 +156,9 @@ void CodedTexels::end_view() {
     --views_under_way_;
 }
 
-std::int64_t CodedTexels::decoded_bytes_of(int picture) const {
-    return samples_->decoded_bytes(picture) +
-           texel_bytes_[static_cast<std::size_t>(picture)].load(std::memory_order_relaxed);
+std::int64_t CodedTexels::decoded_bytes_of(int image) const {
+    return samples_->decoded_bytes(image) +
+           texel_bytes_[static_cast<std::size_t>(image)].load(std::memory_order_relaxed);
 }
 
 std::int64_t CodedTexels::decoded_bytes() const {
@@ -173,27 +170,27 @@ std::int64_t CodedTexels::decoded_bytes() const {
 void CodedTexels::forget_over_budget() {
     std::int64_t bytes = decoded_bytes();
     if (bytes <= budget_bytes_) return;
-    std::vector<std::pair<std::int64_t, int>> pictures;  // last used, number
+    std::vector<std::pair<std::int64_t, int>> images;  // last used, number
     for (int p = 0; p < static_cast<int>(texel_bytes_.size()); ++p) {
-        if (decoded_bytes_of(p) > 0) pictures.emplace_back(samples_->last_used(p), p);
+        if (decoded_bytes_of(p) > 0) images.emplace_back(samples_->last_used(p), p);
     }
-    std::sort(pictures.begin(), pictures.end());
-    for (const auto& [used, picture] : pictures) {
+    std::sort(images.begin(), images.end());
+    for (const auto& [used, image] : images) {
         if (bytes <= budget_bytes_) return;
-        bytes -= decoded_bytes_of(picture);
-        forget(picture);
+        bytes -= decoded_bytes_of(image);
+        forget(image);
     }
 }
 
-void CodedTexels::forget(int picture) {
-    samples_->forget(picture);
-    const std::size_t texels = texels_per_picture(samples_->coded());
-    const auto start = static_cast<std::size_t>(layout_.picture_start[static_cast<std::size_t>(picture)]);
+void CodedTexels::forget(int image) {
+    samples_->forget(image);
+    const std::size_t texels = texels_per_image(samples_->coded());
+    const auto start = static_cast<std::size_t>(layout_.image_start[static_cast<std::size_t>(image)]);
     memory_.release(start * sizeof(Rgba8), texels * sizeof(Rgba8));
     details_.release(start, texels);
-    texel_bytes_[static_cast<std::size_t>(picture)].store(0, std::memory_order_relaxed);
+    texel_bytes_[static_cast<std::size_t>(image)].store(0, std::memory_order_relaxed);
     const int columns = samples_->coded().tile_columns();
-    for (int c = 0; c < columns; ++c) tile_columns_[static_cast<std::size_t>(picture * columns + c)].reset();
+    for (int c = 0; c < columns; ++c) tile_columns_[static_cast<std::size_t>(image * columns + c)].reset();
 }
 
 }  // namespace rs::engine

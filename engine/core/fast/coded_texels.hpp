@@ -1,6 +1,6 @@
 #pragma once
-// Fills a texel store from compressed pictures: a column of tiles when one of its columns is first needed. Between
-// views, the least recently used pictures are freed, so that the decoded ones stay within a budget.
+// Fills a texel store from compressed images: a column of tiles when one of its columns is first needed. Between
+// views, the least recently used images are freed, so that the decoded ones stay within a budget.
 
 #include "engine/core/fast/done_flag.hpp"
 #include "engine/core/fast/reserved_memory.hpp"
@@ -36,50 +36,48 @@ struct TexelLayout {
 
     int width = 0;
     int height = 0;
-    std::vector<std::int32_t> picture_start;  // index of texel (-1, -1)
+    std::vector<std::int32_t> image_start;  // index of texel (-1, -1)
 
     // Of columns with both rims.
     [[nodiscard]] std::int32_t column_stride() const { return std::max(height + 2, kLeastColumn); }
-    [[nodiscard]] std::int64_t picture_texels() const { return (std::int64_t{width} + 2) * column_stride(); }
-    [[nodiscard]] std::int32_t column_start(int picture, int column) const {
-        return picture_start[static_cast<std::size_t>(picture)] + (column + 1) * column_stride() + 1;
+    [[nodiscard]] std::int64_t image_texels() const { return (std::int64_t{width} + 2) * column_stride(); }
+    [[nodiscard]] std::int32_t column_start(int image, int column) const {
+        return image_start[static_cast<std::size_t>(image)] + (column + 1) * column_stride() + 1;
     }
     // Place of a column's RowSpan.
-    [[nodiscard]] std::size_t span_index(int picture, int column) const {
-        return static_cast<std::size_t>(picture) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+    [[nodiscard]] std::size_t span_index(int image, int column) const {
+        return static_cast<std::size_t>(image) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
     }
 };
 
 // Where indices of 32 bits do not reach.
 inline Error too_many_texels(const std::string& name) {
     return {name +
-            ": its pictures have more than 2^31 pixels, which the renderer cannot address; "
-            "encode the object with fewer or smaller pictures"};
+            ": its images have more than 2^31 pixels, which the renderer cannot address; "
+            "encode the object with fewer or smaller images"};
 }
 
 class CodedTexels {
 public:
-    // `budget_bytes`: of samples and texels together. Pictures of views being rendered are kept even beyond it.
-    static Result<std::unique_ptr<CodedTexels>> create(std::shared_ptr<const codec::CodedPictures> coded,
+    // `budget_bytes`: of samples and texels together. Images of views being rendered are kept even beyond it.
+    static Result<std::unique_ptr<CodedTexels>> create(std::shared_ptr<const codec::CodedImages> coded,
                                                        const std::string& name, std::int64_t budget_bytes);
 
-    // Pictures do not share memory pages, nor with texel 0 (texel_store.hpp).
+    // Images do not share memory pages, nor with texel 0 (texel_store.hpp).
     [[nodiscard]] const TexelLayout& layout() const { return layout_; }
     [[nodiscard]] const Rgba8* texels() const { return texel(0); }
     [[nodiscard]] const std::int8_t* details() const { return detail(0); }
-    [[nodiscard]] RowSpan occupied(int picture, int column) const {
-        return spans_[layout_.span_index(picture, column)];
-    }
+    [[nodiscard]] RowSpan occupied(int image, int column) const { return spans_[layout_.span_index(image, column)]; }
 
     // Called before and after every rendered view; ensure() and reads of texels are allowed only in between.
     void begin_view();
     void end_view();
 
-    // Makes the texels and details of columns [first, last] of a loaded picture valid, with their borders and spans;
+    // Makes the texels and details of columns [first, last] of a loaded image valid, with their borders and spans;
     // 0 <= first <= last < width. Thread-safe.
-    void ensure(int picture, int first, int last);
+    void ensure(int image, int first, int last);
 
-    // Of all pictures.
+    // Of all images.
     [[nodiscard]] std::int64_t decoded_bytes() const;
 
 private:
@@ -89,13 +87,13 @@ private:
     [[nodiscard]] std::int8_t* detail(std::ptrdiff_t index) const {
         return reinterpret_cast<std::int8_t*>(details_.data()) + index;
     }
-    [[nodiscard]] std::int64_t decoded_bytes_of(int picture) const;
-    void fill_tile_column(int picture, int tile_column);
-    void need_tile_column(int picture, int tile_column);
-    void convert_tile(int picture, const codec::TilePlace& place);
-    void find_details(int picture, int column, int top, int bottom);
+    [[nodiscard]] std::int64_t decoded_bytes_of(int image) const;
+    void fill_tile_column(int image, int tile_column);
+    void need_tile_column(int image, int tile_column);
+    void convert_tile(int image, const codec::TilePlace& place);
+    void find_details(int image, int column, int top, int bottom);
     void forget_over_budget();
-    void forget(int picture);
+    void forget(int image);
 
     std::unique_ptr<SampleStore> samples_;
     TexelLayout layout_;
@@ -103,8 +101,8 @@ private:
     ReservedMemory details_;
     std::int64_t budget_bytes_;
     std::vector<RowSpan> spans_;
-    std::vector<DoneFlag> tile_columns_;                  // [picture][tile column]
-    std::vector<std::atomic<std::int64_t>> texel_bytes_;  // [picture]: that are valid
+    std::vector<DoneFlag> tile_columns_;                  // [image][tile column]
+    std::vector<std::atomic<std::int64_t>> texel_bytes_;  // [image]: that are valid
     std::mutex mutex_;
     int views_under_way_ = 0;
 };

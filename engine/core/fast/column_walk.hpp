@@ -1,5 +1,5 @@
 #pragma once
-// The inner loop of the fast core: a strip of view columns, each walking down a column of a captured picture at its own
+// The inner loop of the fast core: a strip of view columns, each walking down a column of a captured image at its own
 // pace, written out row by row.
 
 #include "rayspace/image/image.hpp"

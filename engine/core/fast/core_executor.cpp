@@ -10,9 +10,8 @@ int CoreExecutor::hold(std::shared_ptr<const Renderer> renderer) {
 }
 
 Result<std::optional<int>> CoreExecutor::load(const RaySpaceObject& object) {
-    Result<Renderer> renderer = Renderer::create(object);
-    if (!renderer) return renderer.error();
-    return std::optional<int>(hold(std::make_shared<const Renderer>(std::move(*renderer))));
+    RS_ASSIGN_OR_RETURN(Renderer renderer, Renderer::create(object));
+    return std::optional<int>(hold(std::make_shared<const Renderer>(std::move(renderer))));
 }
 
 Status CoreExecutor::evict(int slot) {
@@ -26,9 +25,9 @@ Result<std::vector<ExecutedView>> CoreExecutor::render(const std::vector<SlotVie
         const auto found = held_.find(slot);
         if (found == held_.end()) return no_object_in(slot);
         ExecutedView& view = drawn.emplace_back();
-        view.picture = Image<Rgba8>(registers.width, registers.height);
+        view.image = Image<Rgba8>(registers.width, registers.height);
         if (depth) view.depth_q20 = Image<std::int32_t>(registers.width, registers.height);
-        found->second->render(registers, view.picture, view.depth_q20);
+        found->second->render(registers, view.image, view.depth_q20);
     }
     return drawn;
 }

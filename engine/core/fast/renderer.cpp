@@ -62,10 +62,10 @@ ColumnStrip set_up_strip(const RaySpaceObject& object, const TexelStore& texels,
     for (int lane = 0; lane < columns; ++lane) {
         const RaySetup ray = set_up_ray(object, registers, first_column + lane, 0);
         ViewRows rows;
-        if (ray.picture >= 0) {
-            texels.ensure(ray.picture, ray.column, ray.column);
-            rows = rows_within(ray, texels.occupied(ray.picture, ray.column), registers.height);
-            strip.start[lane] = texels.column_start(ray.picture, ray.column);
+        if (ray.image >= 0) {
+            texels.ensure(ray.image, ray.column, ray.column);
+            rows = rows_within(ray, texels.occupied(ray.image, ray.column), registers.height);
+            strip.start[lane] = texels.column_start(ray.image, ray.column);
             // Modulo 2^32, see ColumnStrip.
             strip.row_0_q16[lane] = static_cast<std::int32_t>(ray.row_0_q16);
             strip.row_step_q16[lane] = static_cast<std::int32_t>(ray.row_step_q16);
@@ -100,17 +100,17 @@ void render_pixels(const Pixel& pixel, ImageView<Rgba8> out, ImageView<std::int3
 
 }  // namespace
 
-Status substitute_missing_pictures(RaySpaceObject& object) {
-    const bool coded = shows_coded_pictures(object);
+Status substitute_missing_images(RaySpaceObject& object) {
+    const bool coded = shows_coded_images(object);
     const auto is_loaded = [&](std::uint16_t view) {
-        return coded ? object.coded->pictures[view].loaded() : !object.pictures[view].empty();
+        return coded ? object.coded->images[view].loaded() : !object.images[view].empty();
     };
     for (Ring& ring : object.rings) {
         const int count = static_cast<int>(ring.views.size());
         const auto loaded = [&](int n) { return is_loaded(ring.views[static_cast<std::size_t>(n)]); };
-        std::vector<std::uint16_t> stand_in(object.views.size(), kNoPicture);
+        std::vector<std::uint16_t> stand_in(object.views.size(), kNoImage);
         for (int n = 0; n < count; ++n) {
-            for (int away = 0; away <= count / 2 && stand_in[ring.views[static_cast<std::size_t>(n)]] == kNoPicture;
+            for (int away = 0; away <= count / 2 && stand_in[ring.views[static_cast<std::size_t>(n)]] == kNoImage;
                  ++away) {
                 for (const int candidate : {(n - away + count) % count, (n + away) % count}) {
                     if (!loaded(candidate)) continue;
@@ -118,13 +118,13 @@ Status substitute_missing_pictures(RaySpaceObject& object) {
                     break;
                 }
             }
-            if (stand_in[ring.views[static_cast<std::size_t>(n)]] == kNoPicture) {
-                return Error{object.name + ": a ring has no picture loaded; read the object at a higher level"};
+            if (stand_in[ring.views[static_cast<std::size_t>(n)]] == kNoImage) {
+                return Error{object.name + ": a ring has no image loaded; read the object at a higher level"};
             }
         }
         if (!std::all_of(ring.views.begin(), ring.views.end(), is_loaded)) ring.shape = {};
         for (std::uint16_t& cell : ring.cells) {
-            if (cell != kNoPicture) cell = stand_in[cell];
+            if (cell != kNoImage) cell = stand_in[cell];
         }
     }
     return {};
@@ -133,12 +133,11 @@ Status substitute_missing_pictures(RaySpaceObject& object) {
 Renderer::Renderer(RaySpaceObject object, TexelStore texels) : object_(std::move(object)), texels_(std::move(texels)) {}
 
 Result<Renderer> Renderer::create(RaySpaceObject object, const RendererOptions& options) {
-    if (const Status status = substitute_missing_pictures(object); !status) return status.error();
-    Result<TexelStore> texels = TexelStore::create(object, options.decoded_budget_bytes);
-    if (!texels) return texels.error();
-    object.pictures.clear();
-    object.pictures.shrink_to_fit();
-    return Renderer(std::move(object), std::move(*texels));
+    RS_TRY(substitute_missing_images(object));
+    RS_ASSIGN_OR_RETURN(TexelStore texels, TexelStore::create(object, options.decoded_budget_bytes));
+    object.images.clear();
+    object.images.shrink_to_fit();
+    return Renderer(std::move(object), std::move(texels));
 }
 
 std::int64_t Renderer::memory_bytes() const {
@@ -195,11 +194,11 @@ void Renderer::render_tilted(const ViewRegisters& registers, ImageView<Rgba8> ou
                              ImageView<std::int32_t> lambda) const {
     const auto pixel = [&](int i, int j) -> ShapePixel {
         const RaySetup ray = set_up_ray(object_, registers, i, j);
-        if (ray.picture < 0) return {};
+        if (ray.image < 0) return {};
         const std::int64_t row = ray.row(j);
         if (row < 0 || row >= object_.height) return {};
-        texels_.ensure(ray.picture, ray.column, ray.column);
-        return {texels_.texels()[texels_.column_start(ray.picture, ray.column) + row], ray.lambda_q20};
+        texels_.ensure(ray.image, ray.column, ray.column);
+        return {texels_.texels()[texels_.column_start(ray.image, ray.column) + row], ray.lambda_q20};
     };
     render_pixels(pixel, out, lambda);
 }

@@ -5,22 +5,22 @@
 namespace rs::engine {
 namespace {
 
-using codec::CodedPictures;
+using codec::CodedImages;
 
-std::size_t plane_bytes(const CodedPictures& coded) {
+std::size_t plane_bytes(const CodedImages& coded) {
     return static_cast<std::size_t>(coded.coded_width()) * static_cast<std::size_t>(coded.coded_height());
 }
 
-std::size_t picture_bytes(const CodedPictures& coded) {
+std::size_t image_bytes(const CodedImages& coded) {
     return ReservedMemory::whole_pages(4 * plane_bytes(coded));
 }
 
 // What decoding needs to come to an end, and not to read what is not there.
-bool can_be_predicted(const CodedPictures& coded, std::size_t view) {
-    const codec::CodedPicture& picture = coded.pictures[view];
-    for (std::size_t r = 0; r < static_cast<std::size_t>(picture.head.references()); ++r) {
-        const std::size_t reference = picture.head.reference[r];
-        if (reference >= coded.pictures.size() || !coded.pictures[reference].loaded()) return false;
+bool can_be_predicted(const CodedImages& coded, std::size_t view) {
+    const codec::CodedImage& image = coded.images[view];
+    for (std::size_t r = 0; r < static_cast<std::size_t>(image.head.references()); ++r) {
+        const std::size_t reference = image.head.reference[r];
+        if (reference >= coded.images.size() || !coded.images[reference].loaded()) return false;
         if (coded.levels[reference] >= coded.levels[view]) return false;
     }
     return true;
@@ -29,10 +29,10 @@ bool can_be_predicted(const CodedPictures& coded, std::size_t view) {
 // Sees to it that a tile's references are decoded before it reads them.
 class References final : public codec::ReferenceListener {
 public:
-    References(SampleStore& store, const codec::PictureHead& head) : store_(store), head_(head) {}
+    References(SampleStore& store, const codec::ImageHead& head) : store_(store), head_(head) {}
 
     void need(int reference, int left, int top, int right, int bottom) override {
-        const CodedPictures& coded = store_.coded();
+        const CodedImages& coded = store_.coded();
         const int view = head_.reference[static_cast<std::size_t>(reference)];
         const int last_column = (right - 1) >> coded.tile_width_log2;
         const int last_row = (bottom - 1) >> coded.tile_height_log2;
@@ -45,37 +45,37 @@ public:
 
 private:
     SampleStore& store_;
-    const codec::PictureHead& head_;
+    const codec::ImageHead& head_;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<SampleStore>> SampleStore::create(std::shared_ptr<const CodedPictures> coded,
+Result<std::unique_ptr<SampleStore>> SampleStore::create(std::shared_ptr<const CodedImages> coded,
                                                          const std::string& name) {
     const auto tiles = static_cast<std::size_t>(coded->tile_columns() * coded->tile_rows());
-    for (std::size_t v = 0; v < coded->pictures.size(); ++v) {
-        if (!coded->pictures[v].loaded()) continue;
-        if (coded->pictures[v].tiles.size() != tiles || coded->levels.size() != coded->pictures.size() ||
+    for (std::size_t v = 0; v < coded->images.size(); ++v) {
+        if (!coded->images[v].loaded()) continue;
+        if (coded->images[v].tiles.size() != tiles || coded->levels.size() != coded->images.size() ||
             !can_be_predicted(*coded, v)) {
-            return Error{name + ": picture " + std::to_string(v) +
-                         " is predicted from pictures that are not loaded, or has wrong tiles; read the object again"};
+            return Error{name + ": image " + std::to_string(v) +
+                         " is predicted from images that are not loaded, or has wrong tiles; read the object again"};
         }
     }
-    Result<ReservedMemory> memory = ReservedMemory::create(coded->pictures.size() * picture_bytes(*coded), name);
-    if (!memory) return memory.error();
-    return std::unique_ptr<SampleStore>(new SampleStore(std::move(coded), std::move(*memory)));
+    RS_ASSIGN_OR_RETURN(ReservedMemory memory,
+                        ReservedMemory::create(coded->images.size() * image_bytes(*coded), name));
+    return std::unique_ptr<SampleStore>(new SampleStore(std::move(coded), std::move(memory)));
 }
 
-SampleStore::SampleStore(std::shared_ptr<const CodedPictures> coded, ReservedMemory memory)
+SampleStore::SampleStore(std::shared_ptr<const CodedImages> coded, ReservedMemory memory)
     : coded_(std::move(coded)),
       memory_(std::move(memory)),
-      tiles_per_picture_(static_cast<std::size_t>(coded_->tile_columns() * coded_->tile_rows())),
-      tiles_(coded_->pictures.size() * tiles_per_picture_),
-      pictures_(coded_->pictures.size()) {}
+      tiles_per_image_(static_cast<std::size_t>(coded_->tile_columns() * coded_->tile_rows())),
+      tiles_(coded_->images.size() * tiles_per_image_),
+      images_(coded_->images.size()) {}
 
 codec::PlaneViews SampleStore::writable_planes(int view) const {
     auto* const first =
-        reinterpret_cast<std::uint8_t*>(memory_.data()) + static_cast<std::size_t>(view) * picture_bytes(*coded_);
+        reinterpret_cast<std::uint8_t*>(memory_.data()) + static_cast<std::size_t>(view) * image_bytes(*coded_);
     const int width = coded_->coded_width();
     codec::PlaneViews planes;
     for (std::size_t p = 0; p < planes.size(); ++p) {
@@ -96,7 +96,7 @@ void SampleStore::need_tile(int view, int tile) {
 
 void SampleStore::decode(int view, int tile) {
     mark_used(view);
-    const codec::PictureHead& head = coded_->pictures[static_cast<std::size_t>(view)].head;
+    const codec::ImageHead& head = coded_->images[static_cast<std::size_t>(view)].head;
     std::array<codec::ConstPlaneViews, 2> references;
     for (std::size_t r = 0; r < static_cast<std::size_t>(head.references()); ++r) {
         references[r] = planes(head.reference[r]);
@@ -106,15 +106,15 @@ void SampleStore::decode(int view, int tile) {
     codec::decode_tile(*coded_, static_cast<std::size_t>(view), static_cast<std::size_t>(tile), references, &listener,
                        writable_planes(view));
     const codec::TilePlace place = codec::place_of_tile(*coded_, static_cast<std::size_t>(tile));
-    pictures_[static_cast<std::size_t>(view)].bytes.fetch_add(std::int64_t{4} * place.width * place.height,
-                                                              std::memory_order_relaxed);
+    images_[static_cast<std::size_t>(view)].bytes.fetch_add(std::int64_t{4} * place.width * place.height,
+                                                            std::memory_order_relaxed);
 }
 
 void SampleStore::forget(int view) {
-    const std::size_t size = picture_bytes(*coded_);
+    const std::size_t size = image_bytes(*coded_);
     memory_.release(static_cast<std::size_t>(view) * size, size);
-    pictures_[static_cast<std::size_t>(view)].bytes.store(0, std::memory_order_relaxed);
-    for (std::size_t t = 0; t < tiles_per_picture_; ++t) tiles_[tile_index(view, static_cast<int>(t))].reset();
+    images_[static_cast<std::size_t>(view)].bytes.store(0, std::memory_order_relaxed);
+    for (std::size_t t = 0; t < tiles_per_image_; ++t) tiles_[tile_index(view, static_cast<int>(t))].reset();
 }
 
 }  // namespace rs::engine

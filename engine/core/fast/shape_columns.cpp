@@ -19,16 +19,16 @@ constexpr int kMargin = 2;
 
 }  // namespace
 
-ColumnRange columns_read(const RaySpaceObject& object, const ShapePicture& picture) {
+ColumnRange columns_read(const RaySpaceObject& object, const ShapeImage& image) {
     const ColumnRange whole{0, object.width - 1};
-    const std::int32_t cx_q8 = object.views[static_cast<std::size_t>(picture.view)].cx_q16 >> 8;
+    const std::int32_t cx_q8 = object.views[static_cast<std::size_t>(image.view)].cx_q16 >> 8;
     // The column is a quotient of linear functions of depth, and so between its values at the ends where the divisor
     // is above zero at both.
     std::int64_t least_q8 = 0;
     std::int64_t most_q8 = 0;
     for (const int d_q3 : {0, 255 * 8}) {
-        const std::int64_t l_q20 = picture.l0_q20 + ((std::int64_t{d_q3} * picture.l1_q24) >> 7);
-        const std::int64_t n_q12 = picture.n0_q12 + ((std::int64_t{d_q3} * picture.n1_q12) >> 3);
+        const std::int64_t l_q20 = image.l0_q20 + ((std::int64_t{d_q3} * image.l1_q24) >> 7);
+        const std::int64_t n_q12 = image.n0_q12 + ((std::int64_t{d_q3} * image.n1_q12) >> 3);
         if (l_q20 < kNearest_q20 || l_q20 > kFarthestBracket_q20) return whole;
         if (n_q12 < -kMostLateral_q12 || n_q12 > kMostLateral_q12) return whole;
         const auto inverse_q20 = static_cast<std::int32_t>((std::int64_t{1} << 40) / l_q20);

@@ -1,5 +1,5 @@
 #pragma once
-// Which columns of a captured picture a ray with height may read: to have them decoded before it does.
+// Which columns of a captured image a ray with height may read: to have them decoded before it does.
 
 #include "engine/core/definition/shape_setup.hpp"
 #include "rayspace/object/ray_space_object.hpp"
@@ -12,7 +12,7 @@ struct ColumnRange {
     int last = -1;
 };
 
-// All columns that sample_picture() (shape_pixel.hpp) takes texels from at any depth 0 .. 255, and perhaps a few more.
-ColumnRange columns_read(const RaySpaceObject& object, const ShapePicture& picture);
+// All columns that sample_image() (shape_pixel.hpp) takes texels from at any depth 0 .. 255, and perhaps a few more.
+ColumnRange columns_read(const RaySpaceObject& object, const ShapeImage& image);
 
 }  // namespace rs::engine

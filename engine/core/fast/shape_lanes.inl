@@ -127,7 +127,7 @@ struct TexelQuads {
     Vector lower_detail;
 };
 
-// Where the pictures' texels stand (texel_store.hpp).
+// Where the images' texels stand (texel_store.hpp).
 struct TexelGrid {
     const std::int32_t* texels;
     const std::int8_t* details;  // null with the bilinear filter
@@ -145,8 +145,8 @@ HWY_INLINE Vector left_and_right(Vector left, Vector right) {
     return odd_and_even_halves(hn::ShiftLeft<16>(right), left);
 }
 
-// Those at places x, y from texel (0, 0) of a picture, whose index is `start`, in eighths of a texel; zero where not
-// `requested`. The rows of a view column go down the pictures: of few windows on a column, kLanes + 1 texels each, all
+// Those at places x, y from texel (0, 0) of an image, whose index is `start`, in eighths of a texel; zero where not
+// `requested`. The rows of a view column go down the images: of few windows on a column, kLanes + 1 texels each, all
 // of them are taken.
 HWY_INLINE TexelQuads fetch(const TexelGrid& grid, std::int32_t start, Vector x_q3, Vector y_q3, LaneMask requested) {
     alignas(64) std::int32_t columns[kBlockRows];
@@ -170,7 +170,7 @@ HWY_INLINE TexelQuads fetch(const TexelGrid& grid, std::int32_t start, Vector x_
     }
     while (!hn::AllFalse(Lanes(), requested)) {
         const auto lane = hn::FindFirstTrue(Lanes(), requested);
-        // A row further down the view may lie a little higher in the picture.
+        // A row further down the view may lie a little higher in the image.
         const std::int32_t top = std::max(std::min(rows[lane] - kLanes / 8, grid.height - kLanes), -1);
         const std::int32_t begin = columns[lane] + top;
         const std::int32_t* const left = grid.texels + start + begin;

@@ -10,19 +10,19 @@
 namespace rs::engine {
 namespace {
 
-ShapePictureColumn picture_column(const RaySpaceObject& object, const TexelStore& texels, const ShapePicture& picture) {
+ShapeImageColumn image_column(const RaySpaceObject& object, const TexelStore& texels, const ShapeImage& image) {
     if (texels.is_coded()) {
-        const ColumnRange columns = columns_read(object, picture);
-        if (columns.first <= columns.last) texels.ensure(picture.view, columns.first, columns.last);
+        const ColumnRange columns = columns_read(object, image);
+        if (columns.first <= columns.last) texels.ensure(image.view, columns.first, columns.last);
     }
-    const CapturedView& view = object.views[static_cast<std::size_t>(picture.view)];
-    ShapePictureColumn column;
+    const CapturedView& view = object.views[static_cast<std::size_t>(image.view)];
+    ShapeImageColumn column;
     column.used = true;
-    column.start = texels.column_start(picture.view, 0);
-    column.l0_q20 = picture.l0_q20;
-    column.l1_q24 = picture.l1_q24;
-    column.n0_q12 = picture.n0_q12;
-    column.n1_q12 = picture.n1_q12;
+    column.start = texels.column_start(image.view, 0);
+    column.l0_q20 = image.l0_q20;
+    column.l1_q24 = image.l1_q24;
+    column.n0_q12 = image.n0_q12;
+    column.n1_q12 = image.n1_q12;
     column.cx_q8 = view.cx_q16 >> 8;
     column.cy_q8 = view.cy_q16 >> 8;
     column.fl_y_q8 = view.fl_y_q16 >> 8;
@@ -164,8 +164,8 @@ void set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, 
         if (n >= columns) continue;
         const ShapeSetup setup = set_up_shape(object, registers, first_column + n, 0);
         if (!setup.has_ray) continue;
-        if (setup.weight < 256) column.first = picture_column(object, texels, setup.first);
-        if (setup.weight > 0) column.second = picture_column(object, texels, setup.second);
+        if (setup.weight < 256) column.first = image_column(object, texels, setup.first);
+        if (setup.weight > 0) column.second = image_column(object, texels, setup.second);
         column.weight = setup.weight;
         // Without a shape a ray shows the foot's depth 0: what one without surfaces does, since its weight is 0.
         column.alone = setup.weight == 0 || setup.weight == 256;

@@ -1,6 +1,6 @@
 #pragma once
 // The inner loop of the fast core for objects with a shape map: each view column follows its own line of cells and its
-// own two captured pictures, many rows at once. The SIMD twin of shape_pixel.hpp: each lane computes the same numbers
+// own two captured images, many rows at once. The SIMD twin of shape_pixel.hpp: each lane computes the same numbers
 // as shape_pixel().
 //
 // Upright views only: one set-up serves a column, and all pixels of a row have the same rise.
@@ -21,8 +21,8 @@ namespace rs::engine {
 // How many rows of a column are written at once.
 inline constexpr int kBlockRows = 16;
 
-// ShapePicture and what it needs of CapturedView.
-struct ShapePictureColumn {
+// ShapeImage and what it needs of CapturedView.
+struct ShapeImageColumn {
     bool used = false;       // else the column does not sample it
     std::int32_t start = 0;  // index of texel (0, 0)
     std::int32_t l0_q20 = 0;
@@ -39,10 +39,10 @@ struct ShapePictureColumn {
 struct ShapeColumn {
     std::int32_t first_row = 0;  // of the view; the column shows nothing outside of first_row .. end_row - 1
     std::int32_t end_row = 0;
-    ShapePictureColumn first;
-    ShapePictureColumn second;
+    ShapeImageColumn first;
+    ShapeImageColumn second;
     std::int32_t weight = 0;
-    bool alone = false;  // one picture has all the weight
+    bool alone = false;  // one image has all the weight
     // No ray of the column marches, and no number of its set-up saturates (engine/RECONSTRUCTION.md, section 6).
     bool level = false;
     // SurfaceColumn and its entries; first_middle: the middle of the first entry's band.
@@ -73,7 +73,7 @@ struct ShapeWalk {
     const std::int8_t* details = nullptr;  // TexelStore's; null with the bilinear filter
     TexelFilter filter = TexelFilter::kBilinear;
     std::int32_t column_stride = 0;
-    std::int32_t width = 0;  // of the captured pictures
+    std::int32_t width = 0;  // of the captured images
     std::int32_t height = 0;
     std::int32_t rows = 0;            // of the view
     std::int32_t first_rise_q24 = 0;  // of the view's rows: all others lie between

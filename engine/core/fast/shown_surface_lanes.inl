@@ -1,4 +1,4 @@
-// What both pictures show of a surface (shown_surface() and laid_over() of shape_pixel.hpp) on vectors, a row of the
+// What both images show of a surface (shown_surface() and laid_over() of shape_pixel.hpp) on vectors, a row of the
 // column per lane. No include guard: shape_walk.cpp includes it once for each SIMD target.
 
 #include "engine/core/definition/shape_pixel.hpp"
@@ -14,16 +14,15 @@ struct SamplePlace {
     Vector y_q3;
 };
 
-// sample_picture() of the lanes `requested`, as far as the texels.
-HWY_INLINE SamplePlace sample_place(const ShapeWalk& walk, const ShapePictureColumn& picture, Vector d, Vector y_q16,
+// sample_image() of the lanes `requested`, as far as the texels.
+HWY_INLINE SamplePlace sample_place(const ShapeWalk& walk, const ShapeImageColumn& image, Vector d, Vector y_q16,
                                     LaneMask requested) {
-    const Vector l = hn::Add(number(picture.l0_q20), hn::ShiftRight<7>(hn::Mul(d, number(picture.l1_q24))));
+    const Vector l = hn::Add(number(image.l0_q20), hn::ShiftRight<7>(hn::Mul(d, number(image.l1_q24))));
     const Vector inverse_l = inverse(l);
-    const Vector n = hn::Add(number(picture.n0_q12), hn::ShiftRight<3>(hn::Mul(d, number(picture.n1_q12))));
-    const Vector column = hn::Add(number(picture.cx_q8), multiply_shift_within<24>(n, inverse_l));
-    const Vector m = multiply_shift_within<16>(number(picture.fl_y_q8), inverse_l);
-    const Vector row =
-        hn::Sub(number(picture.cy_q8), multiply_shift<20>(m, hn::Sub(y_q16, number(picture.height_q16))));
+    const Vector n = hn::Add(number(image.n0_q12), hn::ShiftRight<3>(hn::Mul(d, number(image.n1_q12))));
+    const Vector column = hn::Add(number(image.cx_q8), multiply_shift_within<24>(n, inverse_l));
+    const Vector m = multiply_shift_within<16>(number(image.fl_y_q8), inverse_l);
+    const Vector row = hn::Sub(number(image.cy_q8), multiply_shift<20>(m, hn::Sub(y_q16, number(image.height_q16))));
     SamplePlace place;
     place.exists = hn::And(hn::And(requested, hn::Gt(l, number(kNearest_q20 - 1))),
                            hn::And(within(column, walk.width << 8), within(row, walk.height << 8)));
@@ -38,7 +37,7 @@ struct Sample {
     Vector detail;  // codes, q6; 0 with the bilinear filter
 };
 
-// Where both pictures are looked at for a surface.
+// Where both images are looked at for a surface.
 struct SurfacePlace {
     Vector lambda_q20;
     SamplePlace first;
@@ -51,11 +50,11 @@ HWY_INLINE SurfacePlace surface_place(const ShapeWalk& walk, const ShapeColumn& 
     place.lambda_q20 = hn::Add(number(column.lambda0_q20), hn::ShiftRight<4>(hn::Mul(d, number(column.lambda1_q21))));
     const LaneMask looked_at = hn::And(requested, hn::Gt(place.lambda_q20, hn::Zero(Lanes())));
     const Vector y_q16 = hn::Add(number(walk.b_q16), multiply_shift_within<28>(place.lambda_q20, rise));
-    const auto in_picture = [&](const ShapePictureColumn& picture) {
-        return sample_place(walk, picture, d, y_q16, picture.used ? looked_at : none());
+    const auto in_image = [&](const ShapeImageColumn& image) {
+        return sample_place(walk, image, d, y_q16, image.used ? looked_at : none());
     };
-    place.first = in_picture(column.first);
-    place.second = in_picture(column.second);
+    place.first = in_image(column.first);
+    place.second = in_image(column.second);
     return place;
 }
 
@@ -77,7 +76,7 @@ HWY_INLINE Vector weight_of_second(const ShapeColumn& column, Vector surface, La
     return hn::IfThenElse(hn::Gt(lean, both), to_second, share(weight, lean));
 }
 
-// Inside of the object: where every texel of both pictures is opaque, resolve(mix()) is a mean of eight texels whose
+// Inside of the object: where every texel of both images is opaque, resolve(mix()) is a mean of eight texels whose
 // weights are 64 * 256 together.
 HWY_INLINE Vector opaque_colour(const Sample& first, const Sample& second, Vector weight, bool has_detail) {
     const Vector half = number(1 << 13);
@@ -111,10 +110,10 @@ HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeColumn& colu
     const TexelGrid grid{reinterpret_cast<const std::int32_t*>(walk.texels), walk.details, walk.column_stride,
                          walk.height};
     const bool has_detail = walk.details != nullptr;
-    const auto sample = [&](const SamplePlace& of, const ShapePictureColumn& picture) {
+    const auto sample = [&](const SamplePlace& of, const ShapeImageColumn& image) {
         const Vector x = hn::And(of.x_q3, number(7));
         const Vector y = hn::And(of.y_q3, number(7));
-        Sample taken{texel_weights(x, y), fetch(grid, picture.start, of.x_q3, of.y_q3, of.exists), zero};
+        Sample taken{texel_weights(x, y), fetch(grid, image.start, of.x_q3, of.y_q3, of.exists), zero};
         if (has_detail) taken.detail = detail_codes(walk.filter, taken.texels, taken.weights, x, y);
         return taken;
     };

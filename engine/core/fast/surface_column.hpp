@@ -15,7 +15,7 @@ namespace rs::engine {
 //
 // Where all four cells around it lie on one surface, `smooth` alone gives how deep that is at h_part eighths of the
 // way: (8 * low + h_part * difference + 32) >> 6, with low = its lower kLowBits bits and difference = its upper 16,
-// signed; both pictures show it.
+// signed; both images show it.
 inline constexpr int kLowBits = 14;
 inline constexpr std::int32_t kSurfaceSteps = 1 << 14;    // ... or the cells differ, and 8 * low + h_part * difference
                                                           // is a place in `steps`

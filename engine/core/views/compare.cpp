@@ -2,53 +2,49 @@
 
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/image/picture_metrics.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image/image_metrics.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 namespace rs::engine {
 namespace {
 
 struct Measured {
     ComparedView view;
-    PictureDifference difference;
+    ImageDifference difference;
 };
 
 Result<Measured> compare_view(const Renderer& renderer, const std::filesystem::path& folder, const RigView& view) {
-    const std::filesystem::path path = picture_path(folder, view);
-    const Result<Image<Rgba8>> truth = read_picture(path);
-    if (!truth) return truth.error();
-    if (truth->width() != view.camera.width || truth->height() != view.camera.height) {
+    const std::filesystem::path path = image_path(folder, view);
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> truth, read_image(path));
+    if (truth.width() != view.camera.width || truth.height() != view.camera.height) {
         return Error{path.string() + ": has another size than its frame in " + kRigFileName + " says; make them agree"};
     }
     const Result<ViewRegisters> registers = prepare_view(renderer.object(), view.camera);
     if (!registers) return Error{path.string() + ": " + registers.error().message};
     Image<Rgba8> rendered(view.camera.width, view.camera.height);
     renderer.render(*registers, rendered);
-    const PictureDifference difference = compare_pictures(rendered, *truth);
+    const ImageDifference difference = compare_images(rendered, truth);
     return Measured{{view.file_path, difference.psnr_db(), difference.ssim}, difference};
 }
 
 }  // namespace
 
 Result<Comparison> compare_with_set(const Renderer& renderer, const std::filesystem::path& set, Progress* progress) {
-    const Result<Rig> rig = read_rig(set);
-    if (!rig) return rig.error();
-    if (rig->views.empty()) return Error{set.string() + ": holds no frames to compare with"};
+    RS_ASSIGN_OR_RETURN(const Rig rig, read_rig(set));
+    if (rig.views.empty()) return Error{set.string() + ": holds no frames to compare with"};
     const std::filesystem::path folder = std::filesystem::is_directory(set) ? set : set.parent_path();
 
-    const int count = static_cast<int>(rig->views.size());
+    const int count = static_cast<int>(rig.views.size());
     Comparison comparison;
-    comparison.views.resize(rig->views.size());
-    std::vector<PictureDifference> differences(rig->views.size());
-    const Status compared = for_each_in_parallel(count, "comparing", progress, [&](int i) -> Status {
+    comparison.views.resize(rig.views.size());
+    std::vector<ImageDifference> differences(rig.views.size());
+    RS_TRY(for_each_in_parallel(count, "comparing", progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
-        Result<Measured> measured = compare_view(renderer, folder, rig->views[n]);
-        if (!measured) return measured.error();
-        comparison.views[n] = std::move(measured->view);
-        differences[n] = measured->difference;
+        RS_ASSIGN_OR_RETURN(Measured measured, compare_view(renderer, folder, rig.views[n]));
+        comparison.views[n] = std::move(measured.view);
+        differences[n] = measured.difference;
         return {};
-    });
-    if (!compared) return compared.error();
+    }));
     const DifferenceSummary summary = summarise(differences);
     comparison.mean_psnr_db = summary.mean_psnr_db;
     comparison.pooled_psnr_db = summary.pooled_psnr_db;

@@ -1,6 +1,6 @@
 #pragma once
-// Rendering every pose of a capture set and measuring the distance to its pictures
-// (rayspace/image/picture_metrics.hpp).
+// Rendering every pose of a capture set and measuring the distance to its images
+// (rayspace/image/image_metrics.hpp).
 
 #include "engine/core/fast/renderer.hpp"
 #include "rayspace/base/progress.hpp"
@@ -13,7 +13,7 @@
 namespace rs::engine {
 
 struct ComparedView {
-    std::string picture;
+    std::string image;
     double psnr_db = 0;
     double ssim = 0;
 };

@@ -3,7 +3,7 @@
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/core/fast/renderer.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/geometry/ray_space.hpp"
 
 #include <algorithm>
@@ -76,12 +76,11 @@ Camera random_camera(const RaySpaceObject& object, Random& random, Pose pose) {
 }  // namespace
 
 Result<ConformanceReport> check_conformance(RaySpaceObject object, int views, std::uint64_t seed, Progress* progress) {
-    if (const Status status = substitute_missing_pictures(object); !status) return status.error();
-    const Result<Renderer> renderer = Renderer::create(object);
-    if (!renderer) return renderer.error();
-    if (shows_coded_pictures(object)) {  // the definition reads them unpacked
-        object.pictures.resize(object.views.size());
-        codec::decode_pictures(object);
+    RS_TRY(substitute_missing_images(object));
+    RS_ASSIGN_OR_RETURN(const Renderer renderer, Renderer::create(object));
+    if (shows_coded_images(object)) {  // the definition reads them unpacked
+        object.images.resize(object.views.size());
+        codec::decode_images(object);
     }
 
     ConformanceReport report;
@@ -91,16 +90,16 @@ Result<ConformanceReport> check_conformance(RaySpaceObject object, int views, st
         constexpr Pose kPoses[] = {Pose::upright, Pose::on_ring, Pose::upright, Pose::tilted};
         const Pose pose = kPoses[n % 4];
         const Camera camera = random_camera(object, random, pose);
-        const Result<ViewRegisters> registers = prepare_view(object, camera, static_cast<TexelFilter>(n % 3));
-        if (!registers) return registers.error();
+        RS_ASSIGN_OR_RETURN(const ViewRegisters registers,
+                            prepare_view(object, camera, static_cast<TexelFilter>(n % 3)));
         Image<Rgba8> defined(camera.width, camera.height);
         Image<Rgba8> rendered(camera.width, camera.height);
         Image<std::int32_t> defined_depth(camera.width, camera.height);
         Image<std::int32_t> rendered_depth(camera.width, camera.height);
-        reconstruct_scalar(object, *registers, defined, defined_depth);
-        renderer->render(*registers, rendered, rendered_depth);
+        reconstruct_scalar(object, registers, defined, defined_depth);
+        renderer.render(registers, rendered, rendered_depth);
         ++report.views;
-        report.upright_views += registers->upright();
+        report.upright_views += registers.upright();
         report.on_ring_views += pose == Pose::on_ring;
         report.pixels += std::int64_t{camera.width} * camera.height;
         for (std::size_t i = 0; i < defined.pixels().size(); ++i) {

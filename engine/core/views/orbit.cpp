@@ -13,15 +13,14 @@ Result<Camera> first_captured_camera(const RaySpaceObject& object) {
     if (object.rig_json.empty()) {
         return Error{object.name + ": holds no rig to take a camera from; give the cameras with --poses"};
     }
-    Result<Rig> rig = rig_from_json(object.rig_json, object.name + " (its rig)");
-    if (!rig) return rig.error();
-    if (rig->views.empty() || object.rings.empty() || object.rings.front().views.empty()) {
+    RS_ASSIGN_OR_RETURN(Rig rig, rig_from_json(object.rig_json, object.name + " (its rig)"));
+    if (rig.views.empty() || object.rings.empty() || object.rings.front().views.empty()) {
         return Error{object.name + ": holds no views"};
     }
-    return rig->views[object.rings.front().views.front()].camera;
+    return rig.views[object.rings.front().views.front()].camera;
 }
 
-// Scales the picture to the new shape, its middle staying the middle.
+// Scales the image to the new shape, its middle staying the middle.
 void reshape(Camera& camera, const ViewShape& shape) {
     const int width = shape.width > 0 ? shape.width : camera.width;
     const int height = shape.height > 0 ? shape.height : camera.height;
@@ -38,29 +37,27 @@ void reshape(Camera& camera, const ViewShape& shape) {
 }  // namespace
 
 Result<std::vector<Camera>> orbit_cameras(const RaySpaceObject& object, int count, const ViewShape& shape) {
-    Result<Camera> first = first_captured_camera(object);
-    if (!first) return first.error();
-    reshape(*first, shape);
+    RS_ASSIGN_OR_RETURN(Camera first, first_captured_camera(object));
+    reshape(first, shape);
     std::vector<Camera> cameras;
     for (int i = 0; i < count; ++i) {
         const double angle = 2 * kPi * i / count;
         const glm::dmat4 turn(std::cos(angle), 0, -std::sin(angle), 0, 0, 1, 0, 0, std::sin(angle), 0, std::cos(angle),
                               0, 0, 0, 0, 1);
-        cameras.push_back(*first);
-        cameras.back().world_from_camera = turn * first->world_from_camera;
+        cameras.push_back(first);
+        cameras.back().world_from_camera = turn * first.world_from_camera;
     }
     return cameras;
 }
 
 Result<Camera> camera_from_eye(const RaySpaceObject& object, const glm::dvec3& eye, const glm::dvec3& at,
                                const ViewShape& shape) {
-    Result<Camera> captured = first_captured_camera(object);
-    if (!captured) return captured.error();
+    RS_ASSIGN_OR_RETURN(Camera captured, first_captured_camera(object));
     if (glm::distance(eye, at) < 1e-6) return Error{"--eye and --at are the same point; move one of them"};
-    reshape(*captured, shape);
-    const double fov_x = 2 * std::atan(captured->width / (2 * captured->fl_x));
-    return look_at_camera(eye * object.units_per_radius, at * object.units_per_radius, fov_x, captured->width,
-                          captured->height);
+    reshape(captured, shape);
+    const double fov_x = 2 * std::atan(captured.width / (2 * captured.fl_x));
+    return look_at_camera(eye * object.units_per_radius, at * object.units_per_radius, fov_x, captured.width,
+                          captured.height);
 }
 
 }  // namespace rs::engine

@@ -17,16 +17,16 @@ void append_bytes(std::span<const Byte> bytes, std::size_t words, std::vector<st
     }
 }
 
-std::uint64_t reference_bytes(const codec::PictureHead& head) {
+std::uint64_t reference_bytes(const codec::ImageHead& head) {
     const int count = head.references();
     const auto a = count > 0 ? head.reference[0] : std::uint16_t{kNoReferenceByte};
     const auto b = count > 1 ? head.reference[1] : a;
     return std::uint64_t{a} << 48U | std::uint64_t{b} << 56U;
 }
 
-void append_tile(const codec::CodedPicture& picture, std::size_t tile, int words, std::vector<std::uint64_t>& out) {
-    const std::span<const std::byte> bytes = picture.tile_bytes(tile);
-    out.push_back(codec::board_tile_classes(bytes) | reference_bytes(picture.head));
+void append_tile(const codec::CodedImage& image, std::size_t tile, int words, std::vector<std::uint64_t>& out) {
+    const std::span<const std::byte> bytes = image.tile_bytes(tile);
+    out.push_back(codec::board_tile_classes(bytes) | reference_bytes(image.head));
     append_bytes(bytes.subspan(std::min(bytes.size(), std::size_t{codec::kBoardTileHeadBytes})),
                  static_cast<std::size_t>(words) - 1, out);
 }
@@ -55,34 +55,34 @@ BookCounts book_counts(const codec::BoardCode& code) {
 
 }  // namespace
 
-Status has_board_pictures(const RaySpaceObject& object) {
+Status has_board_images(const RaySpaceObject& object) {
     const std::string remedy =
-        "; encode it with --profile board, or use prototype-2000, which holds pictures of "
+        "; encode it with --profile board, or use prototype-2000, which holds images of "
         "--profile raw";
     if (object.coded == nullptr) {
         return Error{object.name +
-                     ": its pictures are not compressed, and compressed-2000 holds those of profile "
+                     ": its images are not compressed, and compressed-2000 holds those of profile "
                      "board" +
                      remedy};
     }
     if (object.coded->profile != codec::Profile::kBoard) {
-        return Error{object.name + ": its pictures are of profile " + codec::name_of(object.coded->profile) +
+        return Error{object.name + ": its images are of profile " + codec::name_of(object.coded->profile) +
                      ", and compressed-2000 unpacks those of profile board" + remedy};
     }
-    const std::vector<codec::CodedPicture>& pictures = object.coded->pictures;
-    if (pictures.size() != object.views.size() ||
-        std::any_of(pictures.begin(), pictures.end(), [](const codec::CodedPicture& p) { return !p.loaded(); })) {
-        return Error{object.name + ": not all of its pictures are loaded; read it at its full level"};
+    const std::vector<codec::CodedImage>& images = object.coded->images;
+    if (images.size() != object.views.size() ||
+        std::any_of(images.begin(), images.end(), [](const codec::CodedImage& p) { return !p.loaded(); })) {
+        return Error{object.name + ": not all of its images are loaded; read it at its full level"};
     }
     return {};
 }
 
-std::array<std::uint64_t, kObjectRegions> coded_words(const codec::CodedPictures& coded) {
-    return {picture_words(coded, false), picture_words(coded, true), tile_table_words(coded), book_words(coded.board)};
+std::array<std::uint64_t, kObjectRegions> coded_words(const codec::CodedImages& coded) {
+    return {image_words(coded, false), image_words(coded, true), tile_table_words(coded), book_words(coded.board)};
 }
 
-void add_coded_pictures(const codec::CodedPictures& coded, const Placement& placement, WordAddress books,
-                        ObjectRegisters& r, std::vector<MemorySegment>& segments) {
+void add_coded_images(const codec::CodedImages& coded, const Placement& placement, WordAddress books,
+                      ObjectRegisters& r, std::vector<MemorySegment>& segments) {
     const auto at = [&](Region region) { return placement.first[static_cast<std::size_t>(region)]; };
     r.coded_width = coded.coded_width();
     r.coded_height = coded.coded_height();
@@ -97,17 +97,17 @@ void add_coded_pictures(const codec::CodedPictures& coded, const Placement& plac
     MemorySegment flat{at(Region::flat_tiles), {}};
     MemorySegment predicted{at(Region::predicted_tiles), {}};
     MemorySegment table{r.tile_table, {}};
-    for (const codec::CodedPicture& picture : coded.pictures) {
-        MemorySegment& into = picture.head.references() > 0 ? predicted : flat;
+    for (const codec::CodedImage& image : coded.images) {
+        MemorySegment& into = image.head.references() > 0 ? predicted : flat;
         for (int column = 0; column < coded.tile_columns(); ++column) {
             std::uint64_t two = 0;
             for (int row = 0; row < r.table_pitch; ++row) {
                 std::uint32_t entry = kNoTile;
                 const auto tile = static_cast<std::size_t>(row * coded.tile_columns() + column);
-                const int words = row < coded.tile_rows() ? tile_words(coded, picture, tile) : 0;
+                const int words = row < coded.tile_rows() ? tile_words(coded, image, tile) : 0;
                 if (words > 0) {
                     entry = into.address + static_cast<WordAddress>(into.words.size());
-                    append_tile(picture, tile, words, into.words);
+                    append_tile(image, tile, words, into.words);
                 }
                 two |= std::uint64_t{entry} << (row % 2 * 32);
                 if (row % 2 == 1) {

@@ -17,19 +17,19 @@ constexpr int words_of(int items, int items_per_word) {
     return (items + items_per_word - 1) / items_per_word;
 }
 
-// Columns of a plane, `bits` to a sample; sample (x, y) is value(picture, x, y).
+// Columns of a plane, `bits` to a sample; sample (x, y) is value(image, x, y).
 template <class Value>
 MemorySegment columns(WordAddress address, const RaySpaceObject& object, int width, int height, int bits,
                       Value&& value) {
     const int per_word = 64 / bits;
     const auto pitch = static_cast<std::size_t>(words_of(height, per_word));
     MemorySegment segment{address, {}};
-    segment.words.resize(object.pictures.size() * static_cast<std::size_t>(width) * pitch);
+    segment.words.resize(object.images.size() * static_cast<std::size_t>(width) * pitch);
     std::uint64_t* column = segment.words.data();
-    for (const PlanarPicture& picture : object.pictures) {
+    for (const PlanarImage& image : object.images) {
         for (int x = 0; x < width; ++x, column += pitch) {
             for (int y = 0; y < height; ++y) {
-                column[y / per_word] |= static_cast<std::uint64_t>(value(picture, x, y)) << (bits * (y % per_word));
+                column[y / per_word] |= static_cast<std::uint64_t>(value(image, x, y)) << (bits * (y % per_word));
             }
         }
     }
@@ -41,7 +41,7 @@ MemorySegment map_and_lines(WordAddress address, const RaySpaceObject& object) {
     MemorySegment segment{address, {}};
     segment.words.resize((ring.cells.size() + 7) / 8);
     for (std::size_t n = 0; n < ring.cells.size(); ++n) {
-        const std::uint64_t cell = ring.cells[n] == kNoPicture ? kNoPictureByte : ring.cells[n];
+        const std::uint64_t cell = ring.cells[n] == kNoImage ? kNoImageByte : ring.cells[n];
         segment.words[n / 8] |= cell << (8 * (n % 8));
     }
     for (const CapturedView& view : object.views) {
@@ -55,8 +55,8 @@ MemorySegment map_and_lines(WordAddress address, const RaySpaceObject& object) {
     return segment;
 }
 
-void add_raw_pictures(const RaySpaceObject& object, const Placement& placement, ObjectRegisters& r,
-                      std::vector<MemorySegment>& segments) {
+void add_raw_images(const RaySpaceObject& object, const Placement& placement, ObjectRegisters& r,
+                    std::vector<MemorySegment>& segments) {
     const auto at = [&](Region region) { return placement.first[static_cast<std::size_t>(region)]; };
     r.luma_pitch = words_of(object.height, 8);
     r.chroma_pitch = words_of(half_size(object.height), 4);
@@ -64,31 +64,31 @@ void add_raw_pictures(const RaySpaceObject& object, const Placement& placement, 
     r.luma = at(Region::luma);
     r.chroma = at(Region::chroma);
     r.alpha = at(Region::alpha);
-    segments.push_back(
-        columns(r.alpha, object, object.width, object.height, 2,
-                [](const PlanarPicture& p, int x, int y) { return codec::level_of_alpha(p.a(x, y), kAlphaBits); }));
+    segments.push_back(columns(r.alpha, object, object.width, object.height, 2, [](const PlanarImage& p, int x, int y) {
+        return codec::level_of_alpha(p.a(x, y), kAlphaBits);
+    }));
     segments.push_back(columns(r.chroma, object, half_size(object.width), half_size(object.height), 16,
-                               [](const PlanarPicture& p, int x, int y) { return p.u(x, y) | p.v(x, y) << 8; }));
+                               [](const PlanarImage& p, int x, int y) { return p.u(x, y) | p.v(x, y) << 8; }));
     segments.push_back(columns(r.luma, object, object.width, object.height, 8,
-                               [](const PlanarPicture& p, int x, int y) { return p.y(x, y); }));
+                               [](const PlanarImage& p, int x, int y) { return p.y(x, y); }));
 }
 
 }  // namespace
 
-Status has_raw_pictures(const RaySpaceObject& object) {
+Status has_raw_images(const RaySpaceObject& object) {
     if (object.coded != nullptr) {
-        return Error{object.name + ": its pictures are of profile " + codec::name_of(object.coded->profile) +
+        return Error{object.name + ": its images are of profile " + codec::name_of(object.coded->profile) +
                      ", and this board holds raw ones (U and V at half size); encode it with --profile raw" +
                      (object.coded->profile == codec::Profile::kBoard
                           ? ", or use compressed-2000"
                           : ", or with --profile board for compressed-2000")};
     }
-    if (object.pictures.size() != object.views.size() ||
-        std::any_of(object.pictures.begin(), object.pictures.end(), [](const PlanarPicture& p) { return p.empty(); })) {
-        return Error{object.name + ": not all of its pictures are loaded; read it at its full level, unpacked"};
+    if (object.images.size() != object.views.size() ||
+        std::any_of(object.images.begin(), object.images.end(), [](const PlanarImage& p) { return p.empty(); })) {
+        return Error{object.name + ": not all of its images are loaded; read it at its full level, unpacked"};
     }
-    for (const PlanarPicture& picture : object.pictures) {
-        if (picture.chroma_shift != 1) {
+    for (const PlanarImage& image : object.images) {
+        if (image.chroma_shift != 1) {
             return Error{object.name +
                          ": stores colour at full size, and the board has U and V at half size; encode it "
                          "with colour at half size"};
@@ -98,8 +98,8 @@ Status has_raw_pictures(const RaySpaceObject& object) {
 }
 
 RaySpaceObject with_board_alpha(RaySpaceObject object) {
-    for (PlanarPicture& picture : object.pictures) {
-        for (std::uint8_t& a : picture.a.pixels()) {
+    for (PlanarImage& image : object.images) {
+        for (std::uint8_t& a : image.a.pixels()) {
             a = static_cast<std::uint8_t>(codec::alpha_of_level(codec::level_of_alpha(a, kAlphaBits), kAlphaBits));
         }
     }
@@ -110,7 +110,7 @@ void set_map_registers(const RaySpaceObject& object, ObjectRegisters& r) {
     const Ring& ring = object.rings.front();
     r.width = object.width;
     r.height = object.height;
-    r.pictures = static_cast<int>(object.views.size());
+    r.images = static_cast<int>(object.views.size());
     r.planes = ring.planes;
     r.x_cells = ring.x_cells;
     r.u_cells = ring.u_cells;
@@ -154,18 +154,18 @@ BoardFootprint maps_and_lines(const RaySpaceObject& object, std::uint64_t line_w
     return footprint;
 }
 
-void add_coded(const codec::CodedPictures& coded, BoardFootprint& footprint) {
-    footprint.tile_bytes = 8 * (picture_words(coded, false) + picture_words(coded, true));
+void add_coded(const codec::CodedImages& coded, BoardFootprint& footprint) {
+    footprint.tile_bytes = 8 * (image_words(coded, false) + image_words(coded, true));
     footprint.tile_table_bytes = 8 * tile_table_words(coded);
     footprint.book_bytes = 8 * book_words(coded.board);
 }
 
-// The boards of 2000: one ring, its map and lines in one table, the pictures as the derived class has them.
+// The boards of 2000: one ring, its map and lines in one table, the images as the derived class has them.
 class LayoutOf2000 : public ObjectLayout {
 public:
     [[nodiscard]] Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const override {
         if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
-        if (Status status = has_pictures(object); !status) return status;
+        if (Status status = has_images(object); !status) return status;
         if (Status status = fits(object, limits); !status) return status;
         if (object.rings.front().shape.empty()) return {};
         return Error{object.name +
@@ -175,7 +175,7 @@ public:
 
     [[nodiscard]] Words words(const RaySpaceObject& object) const override {
         const Ring& ring = object.rings.front();
-        Words words = picture_words(object);
+        Words words = image_words(object);
         words[static_cast<std::size_t>(Region::tables)] +=
             (ring.cells.size() + 7) / 8 + 2 * object.views.size() * static_cast<std::uint64_t>(1 + ring.planes);
         return words;
@@ -189,29 +189,29 @@ public:
         r.map = placement.first[static_cast<std::size_t>(Region::tables)];
         r.lines = r.map + static_cast<WordAddress>((ring.cells.size() + 7) / 8);
         image.segments.push_back(map_and_lines(r.map, object));
-        add_pictures(object, placement, r.map + static_cast<WordAddress>(image.segments.back().words.size()), image);
+        add_images(object, placement, r.map + static_cast<WordAddress>(image.segments.back().words.size()), image);
         return image;
     }
 
 protected:
-    [[nodiscard]] virtual Status has_pictures(const RaySpaceObject& object) const = 0;
-    [[nodiscard]] virtual Words picture_words(const RaySpaceObject& object) const = 0;
+    [[nodiscard]] virtual Status has_images(const RaySpaceObject& object) const = 0;
+    [[nodiscard]] virtual Words image_words(const RaySpaceObject& object) const = 0;
     // `behind_tables`: the first word of its region that is free.
-    virtual void add_pictures(const RaySpaceObject& object, const Placement& placement, WordAddress behind_tables,
-                              ObjectImage& image) const = 0;
+    virtual void add_images(const RaySpaceObject& object, const Placement& placement, WordAddress behind_tables,
+                            ObjectImage& image) const = 0;
 };
 
 class RawLayout final : public LayoutOf2000 {
 public:
     [[nodiscard]] BoardFootprint footprint(const RaySpaceObject& object) const override {
-        const std::uint64_t pictures = object.views.size();
+        const std::uint64_t images = object.views.size();
         const auto area = [](int width, int height) {
             return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
         };
         BoardFootprint footprint = maps_and_lines(object, 2);
-        footprint.luma_bytes = pictures * area(object.width, object.height);
-        footprint.chroma_bytes = pictures * 2 * area(half_size(object.width), half_size(object.height));
-        footprint.alpha_bytes = pictures * ((area(object.width, object.height) * kAlphaBits + 7) / 8);
+        footprint.luma_bytes = images * area(object.width, object.height);
+        footprint.chroma_bytes = images * 2 * area(half_size(object.width), half_size(object.height));
+        footprint.alpha_bytes = images * ((area(object.width, object.height) * kAlphaBits + 7) / 8);
         return footprint;
     }
     [[nodiscard]] RaySpaceObject as_drawn(RaySpaceObject object) const override {
@@ -219,8 +219,8 @@ public:
     }
 
 private:
-    [[nodiscard]] Status has_pictures(const RaySpaceObject& object) const override { return has_raw_pictures(object); }
-    [[nodiscard]] Words picture_words(const RaySpaceObject& object) const override {
+    [[nodiscard]] Status has_images(const RaySpaceObject& object) const override { return has_raw_images(object); }
+    [[nodiscard]] Words image_words(const RaySpaceObject& object) const override {
         const auto columns_of = [&](int width, int words) {
             return object.views.size() * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(words);
         };
@@ -228,9 +228,9 @@ private:
                 columns_of(half_size(object.width), words_of(half_size(object.height), 4)),
                 columns_of(object.width, words_of(object.height, 32)), 0};
     }
-    void add_pictures(const RaySpaceObject& object, const Placement& placement, WordAddress,
-                      ObjectImage& image) const override {
-        add_raw_pictures(object, placement, image.registers, image.segments);
+    void add_images(const RaySpaceObject& object, const Placement& placement, WordAddress,
+                    ObjectImage& image) const override {
+        add_raw_images(object, placement, image.registers, image.segments);
     }
 };
 
@@ -243,15 +243,11 @@ public:
     }
 
 private:
-    [[nodiscard]] Status has_pictures(const RaySpaceObject& object) const override {
-        return has_board_pictures(object);
-    }
-    [[nodiscard]] Words picture_words(const RaySpaceObject& object) const override {
-        return coded_words(*object.coded);
-    }
-    void add_pictures(const RaySpaceObject& object, const Placement& placement, WordAddress behind_tables,
-                      ObjectImage& image) const override {
-        add_coded_pictures(*object.coded, placement, behind_tables, image.registers, image.segments);
+    [[nodiscard]] Status has_images(const RaySpaceObject& object) const override { return has_board_images(object); }
+    [[nodiscard]] Words image_words(const RaySpaceObject& object) const override { return coded_words(*object.coded); }
+    void add_images(const RaySpaceObject& object, const Placement& placement, WordAddress behind_tables,
+                    ObjectImage& image) const override {
+        add_coded_images(*object.coded, placement, behind_tables, image.registers, image.segments);
     }
 };
 
@@ -262,7 +258,7 @@ public:
         if (object.coded != nullptr) {
             add_coded(*object.coded, footprint);
         } else {
-            footprint.luma_bytes = 8 * object.views.size() * raw_picture_words(object.width, object.height);
+            footprint.luma_bytes = 8 * object.views.size() * raw_image_words(object.width, object.height);
         }
         for (const Ring& ring : object.rings) footprint.shape_bytes += 8 * cell_words(ring.shape);
         return footprint;
@@ -270,12 +266,12 @@ public:
     [[nodiscard]] Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const override {
         if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
         if (object.coded != nullptr && object.coded->profile != codec::Profile::kBoard) {
-            return Error{object.name + ": its pictures are of profile " + codec::name_of(object.coded->profile) +
+            return Error{object.name + ": its images are of profile " + codec::name_of(object.coded->profile) +
                          ", and the board unpacks those of profile board; encode it with --profile board or --profile "
                          "raw"};
         }
         const bool coded = object.coded != nullptr;
-        if (Status status = coded ? has_board_pictures(object) : has_raw_pictures(object); !status) return status;
+        if (Status status = coded ? has_board_images(object) : has_raw_images(object); !status) return status;
         return fits(object, limits);
     }
     [[nodiscard]] Words words(const RaySpaceObject& object) const override { return parallel_object_words(object); }
@@ -291,9 +287,9 @@ const ObjectLayout& layout_of(BoardKind kind) {
     static const CodedLayout kCoded;
     static const ParallelLayout kParallel;
     switch (kind) {
-        case BoardKind::raw_pictures:
+        case BoardKind::raw_images:
             return kRaw;
-        case BoardKind::coded_pictures:
+        case BoardKind::coded_images:
             return kCoded;
         case BoardKind::any_object:
             break;

@@ -1,6 +1,6 @@
 #pragma once
-// An object as it lies on the board's disk and in its memory: pictures column by column, alpha in 2 bits, the RS map a
-// byte per cell, cameras and lines in records (the layouts stand in picture_scan.hpp and line_reader.hpp).
+// An object as it lies on the board's disk and in its memory: images column by column, alpha in 2 bits, the RS map a
+// byte per cell, cameras and lines in records (the layouts stand in image_scan.hpp and line_reader.hpp).
 
 #include "engine/model/blocks/memory/disk_controller.hpp"
 #include "engine/model/layout/memory_map.hpp"
@@ -19,17 +19,17 @@ inline constexpr int kAlphaBits = 2;
 // The numbers of its RS map.
 void set_map_registers(const RaySpaceObject& object, ObjectRegisters& registers);
 
-// Fails where pictures are not there as Y, U and V at half size, and alpha.
-Status has_raw_pictures(const RaySpaceObject& object);
+// Fails where images are not there as Y, U and V at half size, and alpha.
+Status has_raw_images(const RaySpaceObject& object);
 
-// Bytes of board memory that an object takes; planes of pictures and maps are stored without gaps.
+// Bytes of board memory that an object takes; planes of images and maps are stored without gaps.
 struct BoardFootprint {
     std::uint64_t luma_bytes = 0;
     std::uint64_t chroma_bytes = 0;
     std::uint64_t alpha_bytes = 0;
-    std::uint64_t map_bytes = 0;    // one byte per cell: at most 120 pictures and "none"
+    std::uint64_t map_bytes = 0;    // one byte per cell: at most 120 images and "none"
     std::uint64_t lines_bytes = 0;  // 16 bytes per view, 16 per view and plane
-    // Of coded pictures (coded_layout.hpp), instead of luma, chroma and alpha.
+    // Of coded images (coded_layout.hpp), instead of luma, chroma and alpha.
     std::uint64_t tile_bytes = 0;
     std::uint64_t tile_table_bytes = 0;
     std::uint64_t book_bytes = 0;
@@ -53,7 +53,7 @@ public:
     ObjectLayout& operator=(const ObjectLayout&) = delete;
     virtual ~ObjectLayout() = default;
 
-    // Bytes that the object takes; of a board of coded pictures it has them, all loaded.
+    // Bytes that the object takes; of a board of coded images it has them, all loaded.
     [[nodiscard]] virtual BoardFootprint footprint(const RaySpaceObject& object) const = 0;
     // Fails with the limit that the objects exceed together, with the image buffer for a full cycle of views.
     [[nodiscard]] Status fit_together(std::span<const RaySpaceObject> objects, const BoardLimits& limits) const;
@@ -61,7 +61,7 @@ public:
     [[nodiscard]] Status fits(const RaySpaceObject& object, const BoardLimits& limits) const;
 
     // Fails where a board cannot hold or draw the object, with the reason and the remedy: it does not fit, it has a
-    // shape map, or its pictures are not loaded, or not of the board's kind.
+    // shape map, or its images are not loaded, or not of the board's kind.
     [[nodiscard]] virtual Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const = 0;
     // The object that is really drawn. Bit equality is with this one.
     [[nodiscard]] virtual RaySpaceObject as_drawn(RaySpaceObject object) const { return object; }
@@ -71,7 +71,7 @@ public:
 };
 const ObjectLayout& layout_of(BoardKind kind);
 
-// Alpha rounded to 2 bits, as boards of BoardKind::raw_pictures hold it.
+// Alpha rounded to 2 bits, as boards of BoardKind::raw_images hold it.
 RaySpaceObject with_board_alpha(RaySpaceObject object);
 
 }  // namespace rs::engine::model

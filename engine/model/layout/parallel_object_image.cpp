@@ -12,9 +12,9 @@
 namespace rs::engine::model {
 namespace {
 
-// Pictures by place: those of the ring in turning order, then what no ray shows but others may be predicted from.
-struct PictureOrder {
-    explicit PictureOrder(const RaySpaceObject& object) : place_of(object.views.size(), -1) {
+// Images by place: those of the ring in turning order, then what no ray shows but others may be predicted from.
+struct ImageOrder {
+    explicit ImageOrder(const RaySpaceObject& object) : place_of(object.views.size(), -1) {
         for (const std::uint16_t view : object.rings.front().views) add(view);
         for (std::size_t view = 0; view < place_of.size(); ++view) {
             if (place_of[view] < 0) add(view);
@@ -34,11 +34,11 @@ std::uint64_t map_words(const Ring& ring) {
     return (ring.cells.size() + 7) / 8;
 }
 
-void append_map(const Ring& ring, const PictureOrder& order, std::vector<std::uint64_t>& out) {
+void append_map(const Ring& ring, const ImageOrder& order, std::vector<std::uint64_t>& out) {
     const std::size_t first = out.size();
     out.resize(first + map_words(ring));
     for (std::size_t n = 0; n < ring.cells.size(); ++n) {
-        const int cell = ring.cells[n] == kNoPicture ? kNoPictureByte : order.place_of[ring.cells[n]];
+        const int cell = ring.cells[n] == kNoImage ? kNoImageByte : order.place_of[ring.cells[n]];
         out[first + n / 8] |= static_cast<std::uint64_t>(cell) << (8 * (n % 8));
     }
 }
@@ -50,7 +50,7 @@ std::uint64_t gap_word(const ShapeMap& shape, std::size_t n) {
     return word_pair(shape.gaps[n].lines | beside << 16, static_cast<std::int32_t>(shape.gaps[n].first_line));
 }
 
-void append_records(const RaySpaceObject& object, const PictureOrder& order, std::vector<std::uint64_t>& out) {
+void append_records(const RaySpaceObject& object, const ImageOrder& order, std::vector<std::uint64_t>& out) {
     const Ring& ring = object.rings.front();
     const bool has_shape = !ring.shape.empty();
     for (std::size_t n = 0; n < ring.views.size(); ++n) {
@@ -80,7 +80,7 @@ void append_cells(const ShapeMap& shape, std::vector<std::uint64_t>& out) {
     }
 }
 
-void append_raw_block(const PlanarPicture& picture, int x0, int y0, std::vector<std::uint64_t>& out) {
+void append_raw_block(const PlanarImage& image, int x0, int y0, std::vector<std::uint64_t>& out) {
     const auto column = [&](const Image<std::uint8_t>& plane, int x) {
         std::uint64_t word = 0;
         for (int n = 0; n < 8; ++n) {
@@ -91,37 +91,37 @@ void append_raw_block(const PlanarPicture& picture, int x0, int y0, std::vector<
     for (int x = x0; x < x0 + 8; x += 2) {
         std::uint64_t chroma = 0;
         for (int n = 0; n < 4; ++n) {
-            if (x / 2 >= picture.u.width() || y0 / 2 + n >= picture.u.height()) continue;
-            chroma |= std::uint64_t{picture.u(x / 2, y0 / 2 + n)} << (16 * n);
-            chroma |= std::uint64_t{picture.v(x / 2, y0 / 2 + n)} << (16 * n + 8);
+            if (x / 2 >= image.u.width() || y0 / 2 + n >= image.u.height()) continue;
+            chroma |= std::uint64_t{image.u(x / 2, y0 / 2 + n)} << (16 * n);
+            chroma |= std::uint64_t{image.v(x / 2, y0 / 2 + n)} << (16 * n + 8);
         }
         out.push_back(chroma);
         for (const int at : {x, x + 1}) {
-            out.push_back(column(picture.y, at));
-            out.push_back(column(picture.a, at));
+            out.push_back(column(image.y, at));
+            out.push_back(column(image.a, at));
         }
     }
 }
 
-void add_raw_blocks(const RaySpaceObject& object, const PictureOrder& order, ObjectRegisters& r,
+void add_raw_blocks(const RaySpaceObject& object, const ImageOrder& order, ObjectRegisters& r,
                     std::vector<MemorySegment>& segments) {
     MemorySegment segment{r.raw_blocks, {}};
     for (const std::size_t view : order.view_at) {
         for (int column = 0; column < r.block_columns; ++column) {
             for (int row = 0; row < r.block_rows; ++row) {
-                append_raw_block(object.pictures[view], 8 * column, 8 * row, segment.words);
+                append_raw_block(object.images[view], 8 * column, 8 * row, segment.words);
             }
         }
     }
     segments.push_back(std::move(segment));
 }
 
-// The same pictures by place.
-codec::CodedPictures by_place(const codec::CodedPictures& coded, const PictureOrder& order) {
-    codec::CodedPictures out = coded;
+// The same images by place.
+codec::CodedImages by_place(const codec::CodedImages& coded, const ImageOrder& order) {
+    codec::CodedImages out = coded;
     for (std::size_t place = 0; place < order.view_at.size(); ++place) {
-        out.pictures[place] = coded.pictures[order.view_at[place]];
-        codec::PictureHead& head = out.pictures[place].head;
+        out.images[place] = coded.images[order.view_at[place]];
+        codec::ImageHead& head = out.images[place].head;
         for (int n = 0; n < head.references(); ++n) {
             std::uint16_t& reference = head.reference[static_cast<std::size_t>(n)];
             reference = static_cast<std::uint16_t>(order.place_of[reference]);
@@ -162,7 +162,7 @@ std::array<std::uint64_t, kObjectRegions> parallel_object_words(const RaySpaceOb
         words = coded_words(*object.coded);
     } else {
         words[static_cast<std::size_t>(Region::flat_tiles)] =
-            object.views.size() * raw_picture_words(object.width, object.height);
+            object.views.size() * raw_image_words(object.width, object.height);
     }
     words[static_cast<std::size_t>(Region::tables)] +=
         map_words(ring) + ring.views.size() * static_cast<std::uint64_t>(record_words(ring.planes)) +
@@ -172,11 +172,11 @@ std::array<std::uint64_t, kObjectRegions> parallel_object_words(const RaySpaceOb
 
 ObjectImage parallel_object_image(const RaySpaceObject& object, const Placement& placement) {
     const Ring& ring = object.rings.front();
-    const PictureOrder order(object);
+    const ImageOrder order(object);
     ObjectImage image;
     ObjectRegisters& r = image.registers;
     set_map_registers(object, r);
-    r.pictures = static_cast<int>(ring.views.size());
+    r.images = static_cast<int>(ring.views.size());
     r.map = placement.first[static_cast<std::size_t>(Region::tables)];
     MemorySegment tables{r.map, {}};
     const auto here = [&] { return r.map + static_cast<WordAddress>(tables.words.size()); };
@@ -194,9 +194,9 @@ ObjectImage parallel_object_image(const RaySpaceObject& object, const Placement&
         r.block_rows = (object.height + 7) / 8;
         add_raw_blocks(object, order, r, image.segments);
     } else if (order.is_file_order()) {
-        add_coded_pictures(*object.coded, placement, books, r, image.segments);
+        add_coded_images(*object.coded, placement, books, r, image.segments);
     } else {
-        add_coded_pictures(by_place(*object.coded, order), placement, books, r, image.segments);
+        add_coded_images(by_place(*object.coded, order), placement, books, r, image.segments);
     }
     return image;
 }

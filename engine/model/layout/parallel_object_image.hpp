@@ -7,7 +7,7 @@
 
 namespace rs::engine::model {
 
-// Words per region. Region::flat_tiles also holds raw pictures.
+// Words per region. Region::flat_tiles also holds raw images.
 std::array<std::uint64_t, kObjectRegions> parallel_object_words(const RaySpaceObject& object);
 
 // `object` is drawable by such a board.

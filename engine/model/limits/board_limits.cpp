@@ -14,13 +14,13 @@ Error over(const RaySpaceObject& object, const std::string& what, std::int64_t v
 }  // namespace
 
 Status within_limits(const RaySpaceObject& object, const BoardLimits& limits) {
-    const auto pictures = static_cast<std::int64_t>(object.views.size());
-    if (pictures > limits.pictures_per_object) {
-        return over(object, "pictures:", pictures, limits.pictures_per_object, "take fewer views");
+    const auto images = static_cast<std::int64_t>(object.views.size());
+    if (images > limits.images_per_object) {
+        return over(object, "pictures:", images, limits.images_per_object, "take fewer views");
     }
-    if (std::max(object.width, object.height) > limits.picture_side_px) {
-        return over(object, "picture side:", std::max(object.width, object.height), limits.picture_side_px,
-                    "scale the pictures down");
+    if (std::max(object.width, object.height) > limits.image_side_px) {
+        return over(object, "image side:", std::max(object.width, object.height), limits.image_side_px,
+                    "scale the images down");
     }
     for (const Ring& ring : object.rings) {
         if (ring.planes > limits.planes) {
@@ -32,7 +32,7 @@ Status within_limits(const RaySpaceObject& object, const BoardLimits& limits) {
         }
         if (ring.shape.bands > limits.shape_bands) {
             return over(object, "bands of height in its shape map:", ring.shape.bands, limits.shape_bands,
-                        "encode it from smaller pictures, or with --raymap plane");
+                        "encode it from smaller images, or with --raymap plane");
         }
     }
     if (object.rings.size() > 1) {

@@ -2,7 +2,7 @@
 // What the published board holds, as numbers. Whether objects fit, their layout knows (layout/object_image.hpp).
 //
 // Source: Sakagawa et al., section 5: one FPGA at 40 MHz, 20 objects, 15 views per rendering cycle, at most 120
-// pictures of 512x512 and 12 reference planes of at most 1024 cells a side per object, Y, U, V and alpha uncompressed
+// images of 512x512 and 12 reference planes of at most 1024 cells a side per object, Y, U, V and alpha uncompressed
 // with U and V at half width and height, 1 GByte of memory for objects, RS maps and the double-buffered
 // reconstructed-image buffer.
 
@@ -16,9 +16,9 @@ namespace rs::engine {
 
 // What objects a board holds.
 enum class BoardKind {
-    raw_pictures,    // Y, U, V and alpha in 2 bits; an RS map
-    coded_pictures,  // pictures of profile `board`, kept as they are; an RS map
-    any_object,      // either kind of pictures, alpha in 8 bits, with a shape map or without: the parallel board
+    raw_images,    // Y, U, V and alpha in 2 bits; an RS map
+    coded_images,  // images of profile `board`, kept as they are; an RS map
+    any_object,    // either kind of images, alpha in 8 bits, with a shape map or without: the parallel board
 };
 
 inline constexpr int kMostBands = 384;  // of a shape map: the parallel board's place for a column of cells
@@ -26,13 +26,13 @@ inline constexpr int kMostBands = 384;  // of a shape map: the parallel board's 
 struct BoardLimits {
     int objects = 20;
     int views_per_cycle = 15;
-    int pictures_per_object = 120;
-    int picture_side_px = 512;
+    int images_per_object = 120;
+    int image_side_px = 512;
     int planes = 12;
     int map_side = 1024;
     int image_buffer_side_px = 512;  // the largest reconstructed image, R, G, B and alpha, in two buffers
     std::uint64_t memory_bytes = std::uint64_t{1} << 30;
-    BoardKind kind = BoardKind::raw_pictures;
+    BoardKind kind = BoardKind::raw_images;
     int shape_bands = std::numeric_limits<int>::max();  // of a shape map, which boards of two kinds do not draw
 };
 

@@ -1,19 +1,19 @@
 #pragma once
-// How the pictures of profile `board` lie in board memory. The driver unpacks an object so when it loads it, and the
+// How the images of profile `board` lie in board memory. The driver unpacks an object so when it loads it, and the
 // readers need no arithmetic for it but additions and two products of few bits:
 //
-//     tile table  32 bits a tile, two to a word, low half first; entry of (picture p, tile column i, tile row j) at
+//     tile table  32 bits a tile, two to a word, low half first; entry of (image p, tile column i, tile row j) at
 //                 (p * tile_columns + i) * table_pitch + j, table_pitch: the tile rows, rounded up to an even number.
 //                 An entry is the word address of the tile; all ones: the tile shows nothing.
-//     tile        word 0: the 16 classes of its blocks (48 bits) | reference a (8 bits) | reference b (8): pictures,
+//     tile        word 0: the 16 classes of its blocks (48 bits) | reference a (8 bits) | reference b (8): images,
 //                 255 without; with one reference both are it. Then the records, as in the file (encode/FORMAT.md,
 //                 "Board tiles"), followed by zeros where the file's bytes end early and up to a whole word.
 //     codebooks   as CODE's frame expands: eight bytes to a word
 //
-// The tiles of a picture lie one behind the other, column by column.
+// The tiles of an image lie one behind the other, column by column.
 
 #include "rayspace/codec/board/board_tile.hpp"
-#include "rayspace/codec/code/coded_pictures.hpp"
+#include "rayspace/codec/code/coded_images.hpp"
 
 #include <cstdint>
 
@@ -42,27 +42,27 @@ constexpr int tile_table_pitch(int tile_rows) {
     return (tile_rows + 1) / 2 * 2;
 }
 
-inline std::uint64_t tile_table_words(const codec::CodedPictures& coded) {
-    return coded.pictures.size() * static_cast<std::uint64_t>(coded.tile_columns()) *
+inline std::uint64_t tile_table_words(const codec::CodedImages& coded) {
+    return coded.images.size() * static_cast<std::uint64_t>(coded.tile_columns()) *
            static_cast<std::uint64_t>(tile_table_pitch(coded.tile_rows()) / 2);
 }
 
 // 0: the tile shows nothing.
-inline int tile_words(const codec::CodedPictures& coded, const codec::CodedPicture& picture, std::size_t tile) {
-    if (!picture.tiles[tile].present) return 0;
-    const std::uint64_t classes = codec::board_tile_classes(picture.tile_bytes(tile));
+inline int tile_words(const codec::CodedImages& coded, const codec::CodedImage& image, std::size_t tile) {
+    if (!image.tiles[tile].present) return 0;
+    const std::uint64_t classes = codec::board_tile_classes(image.tile_bytes(tile));
     if (classes == 0) return 0;
-    const auto& sizes = coded.board.classes[picture.head.references() > 0 ? 1 : 0];
+    const auto& sizes = coded.board.classes[image.head.references() > 0 ? 1 : 0];
     return 1 + (record_offset(classes, codec::kBoardTileBlocks, sizes) + 7) / 8;
 }
 
-// Words of the tiles of all pictures with (`predicted`), or without references.
-inline std::uint64_t picture_words(const codec::CodedPictures& coded, bool predicted) {
+// Words of the tiles of all images with (`predicted`), or without references.
+inline std::uint64_t image_words(const codec::CodedImages& coded, bool predicted) {
     std::uint64_t words = 0;
-    for (const codec::CodedPicture& picture : coded.pictures) {
-        if ((picture.head.references() > 0) != predicted) continue;
-        for (std::size_t t = 0; t < picture.tiles.size(); ++t) {
-            words += static_cast<std::uint64_t>(tile_words(coded, picture, t));
+    for (const codec::CodedImage& image : coded.images) {
+        if ((image.head.references() > 0) != predicted) continue;
+        for (std::size_t t = 0; t < image.tiles.size(); ++t) {
+            words += static_cast<std::uint64_t>(tile_words(coded, image, t));
         }
     }
     return words;

@@ -1,8 +1,8 @@
 #pragma once
-// How an object lies in every memory channel of a parallel board, pictures numbered by their views' places in the ring.
+// How an object lies in every memory channel of a parallel board, images numbered by their views' places in the ring.
 //
-//     RS map           a byte per cell: picture, 255 without
-//     picture record   4 + 4 K words, of picture n from n * (4 + 4 K):
+//     RS map           a byte per cell: image, 255 without
+//     image record   4 + 4 K words, of image n from n * (4 + 4 K):
 //                          cx | cy << 32,  fl_y | height << 32,  S | b << 16 | first_line << 32,  0
 //                                                          (of the gap behind n; b: 1 where the gap before it has
 //                                                          lines, plus 2 where the one behind it has)
@@ -10,11 +10,11 @@
 //                          l0 | l1 << 32,  q0 | q1 << 32,  l2 | q2 << 32,  va | vc << 32
 //     shape cells      four to a word, the lowest bits first: depth | shown << 8; every column (a place in p of a line)
 //                      begins with a word
-//     raw pictures     blocks of 8x8 texels, a picture's column by column, 20 words each: for each pair of texel
+//     raw images     blocks of 8x8 texels, an image's column by column, 20 words each: for each pair of texel
 //     columns
 //                      their four (U, V) pairs, then Y and alpha of the left one, Y and alpha of the right one; what
-//                      lies beyond the picture is 0
-//     coded pictures   coded_layout.hpp
+//                      lies beyond the image is 0
+//     coded images   coded_layout.hpp
 
 #include "rayspace/object/shape_map.hpp"
 
@@ -24,8 +24,8 @@ namespace rs::engine::model {
 
 inline constexpr int kRawBlockWords = 20;
 
-// Of a picture of so many pixels.
-constexpr std::uint64_t raw_picture_words(int width, int height) {
+// Of an image of so many pixels.
+constexpr std::uint64_t raw_image_words(int width, int height) {
     return static_cast<std::uint64_t>((width + 7) / 8) * static_cast<std::uint64_t>((height + 7) / 8) * kRawBlockWords;
 }
 

@@ -101,9 +101,9 @@ BoardReport make_report(const Board& board, const BoardRun& run) {
     report.cycles = static_cast<int>(run.cycles.size());
     for (const RenderedCycle& cycle : run.cycles) {
         report.render_cycles += cycle.render_cycles();
-        report.pictures += static_cast<int>(cycle.pictures.size());
-        for (const Image<Rgba8>& picture : cycle.pictures) {
-            report.pixels += static_cast<std::int64_t>(picture.pixels().size());
+        report.images += static_cast<int>(cycle.images.size());
+        for (const Image<Rgba8>& image : cycle.images) {
+            report.pixels += static_cast<std::int64_t>(image.pixels().size());
         }
     }
     const double clock_hz = 1e6 * top.config.clock_mhz;
@@ -134,7 +134,7 @@ std::string report_json(const BoardReport& report) {
     OrderedJson json{{"config", report.config},
                      {"clock_mhz", report.clock_mhz},
                      {"rendering_cycles", report.cycles},
-                     {"pictures", report.pictures},
+                     {"pictures", report.images},
                      {"pixels", report.pixels},
                      {"render_cycles", report.render_cycles},
                      {"mpixels_per_second", report.pixels_per_second / 1e6},

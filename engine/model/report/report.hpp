@@ -46,9 +46,9 @@ struct BoardReport {
     std::string config;
     double clock_mhz = 0;
     int cycles = 0;  // rendering cycles
-    int pictures = 0;
+    int images = 0;
     std::int64_t pixels = 0;
-    Interval rendering;               // until the last picture stood in the image buffer
+    Interval rendering;               // until the last image stood in the image buffer
     Interval delivering;              // from the first finished rendering cycle until the last had arrived at the host
     std::uint64_t board_cycles = 0;   // of the whole run
     std::uint64_t render_cycles = 0;  // board cycles in which a rendering cycle was drawn, all added up

@@ -31,9 +31,8 @@ std::string change(const std::string& id, int bits, std::uint64_t value) {
 
 Result<std::unique_ptr<Waveform>> Waveform::open(const std::filesystem::path& path, BoardTop& board,
                                                  std::uint64_t most_cycles) {
-    Result<StagedFile> file = StagedFile::create(path);
-    if (!file) return file.error();
-    std::unique_ptr<Waveform> wave(new Waveform(std::move(*file), board, most_cycles));
+    RS_ASSIGN_OR_RETURN(StagedFile file, StagedFile::create(path));
+    std::unique_ptr<Waveform> wave(new Waveform(std::move(file), board, most_cycles));
     wave->declare();
     Waveform* self = wave.get();
     board.simulator.observe([self](std::uint64_t cycle) { self->sample(cycle); });

@@ -30,9 +30,9 @@ BoardConfig prototype_2000() {
 BoardConfig compressed_2000() {
     BoardConfig config = prototype_2000();
     config.name = "compressed-2000";
-    config.limits.kind = BoardKind::coded_pictures;
+    config.limits.kind = BoardKind::coded_images;
     config.limits.objects = kCodedObjects;
-    // Pictures with references apart from those without: so the hops of a prediction meet in no bank.
+    // Images with references apart from those without: so the hops of a prediction meet in no bank.
     config.memory.regions.objects = {
         {{"flat_tiles", 0, 2}, {"predicted_tiles", 2, 4}, {"tile_table", 6, 1}, {"tables", 7, 8}}};
     return config;
@@ -81,8 +81,8 @@ void for_each_number(Config& c, Visit&& visit) {
     if (kind.most_pipes > 0) visit("pipes", c.pipes, 1, kind.most_pipes);
     visit("limits/objects", c.limits.objects, 1, kind.most_objects);
     visit("limits/views_per_cycle", c.limits.views_per_cycle, 1, 15);
-    visit("limits/pictures_per_object", c.limits.pictures_per_object, 1, 120);
-    visit("limits/picture_side_px", c.limits.picture_side_px, 1, 512);
+    visit("limits/pictures_per_object", c.limits.images_per_object, 1, 120);
+    visit("limits/picture_side_px", c.limits.image_side_px, 1, 512);
     visit("limits/planes", c.limits.planes, 1, 12);
     visit("limits/map_side", c.limits.map_side, 1, 1024);
     if (kind.most_bands > 0) visit("limits/shape_bands", c.limits.shape_bands, 1, kind.most_bands);
@@ -258,9 +258,8 @@ Result<BoardConfig> read_board_config(const std::string& name_or_path) {
     if (!std::filesystem::exists(name_or_path)) {
         return Error{name_or_path + ": neither a built-in configuration (" + listed_built_ins() + ") nor a file"};
     }
-    const Result<std::vector<std::byte>> bytes = read_file(name_or_path, kCap_bytes);
-    if (!bytes) return bytes.error();
-    return parse_board_config(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()), name_or_path);
+    RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(name_or_path, kCap_bytes));
+    return parse_board_config(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), name_or_path);
 }
 
 std::string board_config_json(const BoardConfig& config) {

@@ -36,7 +36,7 @@ struct SdramShape {
     [[nodiscard]] std::uint64_t words_per_bank() const { return std::uint64_t{1} << (row_bits + column_bits); }
 };
 
-// The banks of each kind of data; the streams of a picture never meet in a bank.
+// The banks of each kind of data; the streams of an image never meet in a bank.
 struct RegionBanks {
     const char* name = "";
     int first = 0;
@@ -66,7 +66,7 @@ struct PciSettings {
     int target_clocks = 8;       // from the address to the first data: the host bridge snoops the processor's cache
     int wait_per_transfer = 1;   // the board's wait states to a 32-bit transfer
     int register_clocks = 4;     // a register write of the host
-    int interrupt_clocks = 330;  // from the end of a picture's transfer to the next: the driver's 10 us
+    int interrupt_clocks = 330;  // from the end of an image's transfer to the next: the driver's 10 us
     int retry_every = 0;         // fault injection: the target has every n-th burst tried again; 0 = never
 };
 
@@ -95,7 +95,7 @@ struct BoardConfig {
     [[nodiscard]] double pci_mhz() const { return double(clock_mhz) * clock_period / pci.period; }
 };
 
-// "prototype-2000": the published board. "compressed-2000": the same with pictures that stay compressed in its memory.
+// "prototype-2000": the published board. "compressed-2000": the same with images that stay compressed in its memory.
 // "parallel": sixteen pipes, each with a memory channel, that draw objects with a shape map too.
 std::vector<std::string> built_in_configs();
 

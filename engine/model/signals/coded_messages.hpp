@@ -1,6 +1,6 @@
 #pragma once
-// What travels in the FIFOs of block decompression. Hop 0 is the picture that answers a view column, hop 1 the one that
-// a block of it is predicted from, and so on; a picture is at most three hops away from one without references.
+// What travels in the FIFOs of block decompression. Hop 0 is the image that answers a view column, hop 1 the one that
+// a block of it is predicted from, and so on; an image is at most three hops away from one without references.
 
 #include "engine/model/signals/messages.hpp"
 #include "rayspace/codec/code/board_code.hpp"
@@ -17,8 +17,8 @@ struct BlockAsk {
     int view = 0;
     bool first = false;  // of a view column: nothing is known of the tile
     bool down = true;    // the rows are needed from the top to the bottom
-    int picture = 0;
-    int column = 0;     // of the picture
+    int image = 0;
+    int column = 0;     // of the image
     int block_row = 0;  // rows 8 * block_row ..
     unsigned rows = 0;  // bit r: row 8 * block_row + r
     [[nodiscard]] int block() const { return ((column >> 3) & 3) * 4 + (block_row & 3); }  // of its tile
@@ -46,7 +46,7 @@ struct AskedRecord {
     static constexpr int kBits = BlockAsk::kBits + 3 + 1 + 2 * 7 + 2 + 3;
     BlockAsk ask;
     int class_number = 0;
-    bool predicted_picture = false;  // which classes
+    bool predicted_image = false;  // which classes
     std::array<int, 2> references{};
     int lane = 0;   // first byte in the first word: 0, 2, 4, 6
     int words = 0;  // 0 .. 4
@@ -87,7 +87,7 @@ struct CodedPixel {
     bool shows = false;
     bool begins = false;   // the next hop's record is another one than that of the pixel before
     bool pending = false;  // a record of the next hop is needed
-    int row = 0;           // of the next hop's picture
+    int row = 0;           // of the next hop's image
     int column = 0;        // of its block, 0 .. 7
     std::array<std::uint8_t, 3> flat{};
     Alpha alpha = Alpha::none;
@@ -97,7 +97,7 @@ struct CodedPixel {
 };
 
 inline std::string text(const BlockAsk& m) {
-    return "view " + std::to_string(m.view) + " picture " + std::to_string(m.picture) + " column " +
+    return "view " + std::to_string(m.view) + " image " + std::to_string(m.image) + " column " +
            std::to_string(m.column) + " block row " + std::to_string(m.block_row);
 }
 inline std::string text(const FoundTile& m) {

@@ -46,28 +46,28 @@ struct MappedRay {
     int plane = 0;
     std::int64_t x_q20 = 0;
     std::int64_t lambda_q20 = 0;
-    int picture = 0;
+    int image = 0;
     std::int64_t u_q28 = 0, n_q28 = 0, t_q28 = 0;
 };
 
-// Line reader: the picture's camera and its line of the plane.
+// Line reader: the image's camera and its line of the plane.
 struct RayLine {
     static constexpr int kBits = 4 + 1 + 23 + 29 + 7 + 8 * 32;
     int view = 0;
     bool has_ray = false;
     std::int64_t x_q20 = 0;
     std::int64_t lambda_q20 = 0;
-    int picture = 0;
+    int image = 0;
     std::int32_t cx_q16 = 0, cy_q16 = 0, fl_y_q16 = 0, height_q20 = 0;
     std::int32_t l0_q20 = 0, l1_q30 = 0, q0_q16 = 0, q1_q16 = 0;
 };
 
-// Vertical compensation: column of the picture, and the rows along it (section 3).
+// Vertical compensation: column of the image, and the rows along it (section 3).
 struct ColumnWalk {
     static constexpr int kBits = 4 + 1 + 7 + 9 + 46 + 36;
     int view = 0;
     bool has_ray = false;
-    int picture = 0;
+    int image = 0;
     int column = 0;
     std::int64_t row_0_q16 = 0;
     std::int64_t row_step_q16 = 0;
@@ -122,7 +122,7 @@ struct SampleTag {
 };
 
 struct YuvaPixel {
-    // Uncompressed pictures have alpha in 2 bits, which are repeated four times to 8 where it is 0, 85, 170 or 255.
+    // Uncompressed images have alpha in 2 bits, which are repeated four times to 8 where it is 0, 85, 170 or 255.
     static constexpr int kBits = 4 + 3 * 8 + 2;
     static constexpr int kBitsOfCoded = 4 + 3 * 8 + 8;
     int view = 0;
@@ -142,12 +142,12 @@ struct Done {
     int number = 0;
 };
 
-// To the bus: the head of a picture, or one of its words.
+// To the bus: the head of an image, or one of its words.
 struct ImageWord {
     static constexpr int kBits = 64 + 1 + 1;
     std::uint64_t data = 0;  // head: number of words | view << 32
     bool head = false;
-    bool last_view = false;  // head: no picture follows in this cycle
+    bool last_view = false;  // head: no image follows in this cycle
 };
 
 struct StartCommand {
@@ -165,14 +165,14 @@ inline std::string text(const RayPoint& m) {
     return "view " + std::to_string(m.view) + (m.has_ray ? " cell byte " + std::to_string(m.cell_byte) : " no ray");
 }
 inline std::string text(const MappedRay& m) {
-    return "view " + std::to_string(m.view) + (m.has_ray ? " picture " + std::to_string(m.picture) : " no ray");
+    return "view " + std::to_string(m.view) + (m.has_ray ? " image " + std::to_string(m.image) : " no ray");
 }
 inline std::string text(const RayLine& m) {
-    return "view " + std::to_string(m.view) + (m.has_ray ? " picture " + std::to_string(m.picture) : " no ray");
+    return "view " + std::to_string(m.view) + (m.has_ray ? " image " + std::to_string(m.image) : " no ray");
 }
 inline std::string text(const ColumnWalk& m) {
     return "view " + std::to_string(m.view) +
-           (m.has_ray ? " picture " + std::to_string(m.picture) + " column " + std::to_string(m.column) : " no ray");
+           (m.has_ray ? " image " + std::to_string(m.image) + " column " + std::to_string(m.column) : " no ray");
 }
 inline std::string text(const PlacedColumn& m) {
     return "view " + std::to_string(m.view) + (m.has_ray ? " luma at " + std::to_string(m.luma) : " no ray");

@@ -1,6 +1,6 @@
 #pragma once
 // What travels in the FIFOs of a parallel board's pipe, from a column's ray to the pixels of a patch. In such a board a
-// picture's number is its view's place in the ring (parallel_layout.hpp).
+// image's number is its view's place in the ring (parallel_layout.hpp).
 //
 // A *patch* is 16 columns and 8 rows of a view: pixel `id` is slot * 128 + row * 16 + column, where `slot` is one of
 // the four patches under way. A *stripe* is 16 columns over the whole height; `stripe` counts a pipe's stripes,
@@ -25,19 +25,19 @@ inline constexpr int kStripeSlots = 2;
 // What is known of a column's ray, and so what a pixel of it is.
 enum class RayKind {
     none,   // no ray
-    plane,  // the object has no shape map: a walk down a picture column (section 3)
+    plane,  // the object has no shape map: a walk down an image column (section 3)
     foot,   // it has one, but not for this ray: the object lies at the foot (section 5)
     shape,  // a ray with bands
 };
 
-// Bracket finder: the two pictures beside the ray (section 5).
+// Bracket finder: the two images beside the ray (section 5).
 struct BracketedRay {
     static constexpr int kBits = 4 + 2 + 4 + 23 + 29 + 31 + 32 + 7 + 7 + 31 + 31 + 11 + 27 + 2;
     int view = 0;
     RayKind kind = RayKind::none;
     int plane = 0;
     std::int64_t x_q20 = 0, lambda_q20 = 0, n_q28 = 0, t_q28 = 0;
-    int first = 0;  // picture; the one that the RS map names, where the ray has no gap
+    int first = 0;  // image; the one that the RS map names, where the ray has no gap
     int second = 0;
     std::int64_t from_first_q20 = 0;  // f
     std::int64_t width_q20 = 0;       // w
@@ -47,25 +47,25 @@ struct BracketedRay {
     bool lines_behind = false;
 };
 
-// A picture's camera, and its line of the plane with what belongs to it along the normal.
-struct PictureLine {
+// An image's camera, and its line of the plane with what belongs to it along the normal.
+struct ImageLine {
     static constexpr int kBits = 10 * 32;
     std::int32_t cx_q16 = 0, cy_q16 = 0, fl_y_q16 = 0, height_q20 = 0;
     std::int32_t l0_q20 = 0, l1_q30 = 0, q0_q16 = 0, q1_q16 = 0;
     std::int32_t l2_q30 = 0, q2_q16 = 0;
 };
 
-// Picture reader: the ray with the lines of its pictures.
+// Image reader: the ray with the lines of its images.
 struct LinedRay {
-    static constexpr int kBits = BracketedRay::kBits + 2 * PictureLine::kBits;
+    static constexpr int kBits = BracketedRay::kBits + 2 * ImageLine::kBits;
     BracketedRay ray;
-    std::array<PictureLine, 2> picture{};
+    std::array<ImageLine, 2> image{};
 };
 
-// A captured picture along the ray: everything linear in the depth (section 5).
-struct PictureSetup {
+// A captured image along the ray: everything linear in the depth (section 5).
+struct ImageSetup {
     static constexpr int kBits = 7 + 30 + 20 + 31 + 22 + 3 * 31 + 29;
-    int picture = 0;
+    int image = 0;
     std::int64_t l0_q20 = 0, l1_q24 = 0, q0_q12 = 0, q1_q12 = 0;
     std::int32_t cx_q16 = 0, cy_q16 = 0, fl_y_q16 = 0, height_q20 = 0;
 };
@@ -74,20 +74,20 @@ struct PictureSetup {
 struct ColumnSetup {
     static constexpr int kHeadBits = 4 + 2 + 2 + 4;
     static constexpr int kBits =
-        kHeadBits + 7 + 9 + 46 + 36 + 2 * PictureSetup::kBits + 9 + 3 * 30 + 25 + 22 + 2 * 27 + 2 * 13 + 2 * 3;
+        kHeadBits + 7 + 9 + 46 + 36 + 2 * ImageSetup::kBits + 9 + 3 * 30 + 25 + 22 + 2 * 27 + 2 * 13 + 2 * 3;
     static constexpr int kRiseBits = kHeadBits + 30 + 25 + 22;
     static constexpr int kMarchBits = kHeadBits + 9 + 3 + 3 + 1;
-    static constexpr int kPlaceBits = kHeadBits + 46 + 36 + 9 + 2 * PictureSetup::kBits + 9 + 30 + 23;
+    static constexpr int kPlaceBits = kHeadBits + 46 + 36 + 9 + 2 * ImageSetup::kBits + 9 + 30 + 23;
     int view = 0;
     RayKind kind = RayKind::none;
     int stripe = 0;           // band reader
     int column = 0;           // of the stripe; band reader
     bool same_cells = false;  // as the column before it has; band reader
     // plane
-    int picture = 0, picture_column = 0;
+    int image = 0, image_column = 0;
     std::int64_t row_0_q16 = 0, row_step_q16 = 0;
     // foot, shape
-    std::array<PictureSetup, 2> pictures{};
+    std::array<ImageSetup, 2> images{};
     int weight = 0;
     std::int64_t lambda_foot_q20 = 0, lambda0_q20 = 0, lambda1_q21 = 0;
     std::int64_t inverse_r_q20 = 0, inverse_rho_q20 = 0;
@@ -162,13 +162,13 @@ struct MarchAgain {
     MarchState state;
 };
 
-// What belongs to a sample behind its place: of which picture, and what follows when the surface is complete.
+// What belongs to a sample behind its place: of which image, and what follows when the surface is complete.
 struct SampleHead {
     static constexpr int kBits = 9 + 1 + 1 + 9 + 1 + 1 + MarchState::kBits;
     int id = 0;
     bool is_there = false;  // else: a token that only ends its surface
-    bool second = false;    // picture
-    int weight = 0;         // of the second picture
+    bool second = false;    // image
+    int weight = 0;         // of the second image
     bool last = false;      // of its surface
     bool final = false;
     MarchState next;
@@ -180,17 +180,17 @@ struct PlacedSample {
     SampleHead head;
     int view = 0;
     bool inside = false;
-    int picture = 0;
+    int image = 0;
     int left = 0, top = 0;
     int fx = 0, fy = 0;                                 // eighths
-    bool right_is_left = false, bottom_is_top = false;  // at the picture's rim
+    bool right_is_left = false, bottom_is_top = false;  // at the image's rim
 };
 
 // A block of 8x8 texels that is to come into a line of the cache.
 struct TexelFill {
     static constexpr int kBits = 4 + 7 + 6 + 6 + 7 + 10;
     int view = 0;
-    int picture = 0;
+    int image = 0;
     int block_column = 0;
     int block_row = 0;
     int line = 0;
@@ -238,7 +238,7 @@ inline std::string id_text(int id) {
     return "pixel " + std::to_string(id);
 }
 inline std::string text(const BracketedRay& m) {
-    return "view " + std::to_string(m.view) + " kind " + std::to_string(static_cast<int>(m.kind)) + " pictures " +
+    return "view " + std::to_string(m.view) + " kind " + std::to_string(static_cast<int>(m.kind)) + " images " +
            std::to_string(m.first) + "," + std::to_string(m.second);
 }
 inline std::string text(const LinedRay& m) {
@@ -268,10 +268,10 @@ inline std::string text(const MarchAgain& m) {
     return id_text(m.id) + " from " + std::to_string(m.state.begin);
 }
 inline std::string text(const PlacedSample& m) {
-    return id_text(m.head.id) + (m.inside ? " picture " + std::to_string(m.picture) : " outside");
+    return id_text(m.head.id) + (m.inside ? " image " + std::to_string(m.image) : " outside");
 }
 inline std::string text(const TexelFill& m) {
-    return "picture " + std::to_string(m.picture) + " block " + std::to_string(m.block_column) + "," +
+    return "image " + std::to_string(m.image) + " block " + std::to_string(m.block_column) + "," +
            std::to_string(m.block_row) + " line " + std::to_string(m.line);
 }
 inline std::string text(const FillTarget& m) {

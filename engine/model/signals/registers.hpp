@@ -48,9 +48,9 @@ struct ShapeRegisters {
 // fixed point as in RECONSTRUCTION.md.
 struct ObjectRegisters {
     bool valid = false;  // loaded as a whole
-    int width = 0;       // px, of every picture
+    int width = 0;       // px, of every image
     int height = 0;
-    int pictures = 0;
+    int images = 0;
     int planes = 0;
     int x_cells = 0;
     int u_cells = 0;
@@ -58,7 +58,7 @@ struct ObjectRegisters {
     std::int32_t x_cells_per_unit_q12 = 0;
     std::int32_t u_half_q28 = 0;
     std::int32_t u_cells_per_unit_q12 = 0;
-    int luma_pitch = 0;  // words per picture column
+    int luma_pitch = 0;  // words per image column
     int chroma_pitch = 0;
     int alpha_pitch = 0;
     WordAddress luma = 0;
@@ -67,7 +67,7 @@ struct ObjectRegisters {
     WordAddress map = 0;
     WordAddress lines = 0;
 
-    // Of an object with pictures of profile `board` (coded_layout.hpp), instead of those of luma, chroma and alpha.
+    // Of an object with images of profile `board` (coded_layout.hpp), instead of those of luma, chroma and alpha.
     int coded_width = 0;  // px; 10 bits
     int coded_height = 0;
     int tile_columns = 0;  // 5 bits
@@ -78,9 +78,9 @@ struct ObjectRegisters {
     BookCounts book_counts;
     std::array<std::array<codec::RecordClass, codec::kBoardClasses>, 2> classes{};  // a byte each
     // On a parallel board (parallel_layout.hpp).
-    bool coded = false;          // its pictures are those of profile `board`
+    bool coded = false;          // its images are those of profile `board`
     WordAddress raw_blocks = 0;  // else
-    int block_columns = 0;       // of a raw picture, 7 bits
+    int block_columns = 0;       // of a raw image, 7 bits
     int block_rows = 0;
     ShapeRegisters shape;
 
@@ -116,7 +116,7 @@ struct RegisterFile {
     std::vector<ObjectRegisters> loaded;   // written by the disk controller, taken over by the render controller
     std::array<ViewBank, 2> banks{};
     int active = 0;                                  // the bank that is rendered, and the image buffer that is written
-    std::array<std::vector<int>, 2> buffer_words{};  // [buffer][view]: kept until the host has the pictures
+    std::array<std::vector<int>, 2> buffer_words{};  // [buffer][view]: kept until the host has the images
     std::array<std::vector<int>, 2> buffer_pitches{};  // words per column, likewise
     WordAddress images = 0;                            // the first image buffer
     WordAddress words_per_buffer = 0;                  // from there to the second

@@ -118,7 +118,7 @@ void decode_board_block(const BoardCode& code, const RecordClass& record_class, 
     }
 }
 
-void decode_board_tile(const BoardCode& code, const PictureHead& head, std::span<const std::byte> bytes,
+void decode_board_tile(const BoardCode& code, const ImageHead& head, std::span<const std::byte> bytes,
                        const TilePlace& place, const std::array<ConstPlaneViews, 2>& references,
                        ReferenceListener* listener, const PlaneViews& out) {
     const auto& classes = code.classes[head.references() > 0 ? 1 : 0];

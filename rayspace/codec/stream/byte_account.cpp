@@ -5,7 +5,7 @@
 #include "rayspace/codec/context_states.hpp"
 #include "rayspace/codec/dense_tile_decoder.hpp"
 #include "rayspace/codec/stream/coded_chunks.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 
 #include <array>
 #include <cmath>
@@ -72,15 +72,15 @@ private:
     Bits& bits_;
 };
 
-std::vector<AccountEntry> account_of_tiles(const CodedPictures& coded) {
+std::vector<AccountEntry> account_of_tiles(const CodedImages& coded) {
     Bits sum{};
     std::mutex mutex;
     decode_planes(coded, [&](std::size_t view, std::size_t tile, const auto& references, const PlaneViews& out) {
-        const CodedPicture& picture = coded.pictures[view];
-        if (!picture.tiles[tile].present) return decode_tile(coded, view, tile, references, nullptr, out);
+        const CodedImage& image = coded.images[view];
+        if (!image.tiles[tile].present) return decode_tile(coded, view, tile, references, nullptr, out);
         Bits bits{};
-        CountingReader reader(picture.tile_bytes(tile), coded.dense, bits);
-        DenseTileDecoder(reader, coded.dense, picture.head, place_of_tile(coded, tile), references, nullptr, out)
+        CountingReader reader(image.tile_bytes(tile), coded.dense, bits);
+        DenseTileDecoder(reader, coded.dense, image.head, place_of_tile(coded, tile), references, nullptr, out)
             .decode();
         const std::lock_guard lock(mutex);
         for (std::size_t p = 0; p < kPurposes; ++p) sum[p] += bits[p];
@@ -92,19 +92,19 @@ std::vector<AccountEntry> account_of_tiles(const CodedPictures& coded) {
     return entries;
 }
 
-std::vector<AccountEntry> account_of_records(const CodedPictures& coded) {
+std::vector<AccountEntry> account_of_records(const CodedImages& coded) {
     double motion = 0;
     double colours = 0;
     double blocks = 0;
     double quarters = 0;
     double alpha = 0;
     double heads = 0;
-    for (const CodedPicture& picture : coded.pictures) {
-        const auto& classes = coded.board.classes[picture.head.references() > 0 ? 1 : 0];
-        for (std::size_t t = 0; t < picture.tiles.size(); ++t) {
-            if (!picture.tiles[t].present) continue;
+    for (const CodedImage& image : coded.images) {
+        const auto& classes = coded.board.classes[image.head.references() > 0 ? 1 : 0];
+        for (std::size_t t = 0; t < image.tiles.size(); ++t) {
+            if (!image.tiles[t].present) continue;
             heads += kBoardTileHeadBytes;
-            const std::uint64_t tile_classes = board_tile_classes(picture.tile_bytes(t));
+            const std::uint64_t tile_classes = board_tile_classes(image.tile_bytes(t));
             for (int b = 0; b < kBoardTileBlocks; ++b) {
                 const auto number = static_cast<std::size_t>((tile_classes >> (3 * b)) & 7U);
                 if (number == 0) continue;
@@ -125,23 +125,23 @@ std::vector<AccountEntry> account_of_records(const CodedPictures& coded) {
 
 }  // namespace
 
-std::vector<AccountEntry> account_bytes(const CodedPictures& coded) {
+std::vector<AccountEntry> account_bytes(const CodedImages& coded) {
     std::vector<AccountEntry> entries =
         coded.profile == Profile::kBoard ? account_of_records(coded) : account_of_tiles(coded);
     double tiles = 0;
     double whole = 0;
     double of_references = 0;
-    for (std::size_t v = 0; v < coded.pictures.size(); ++v) {
-        const auto size = static_cast<double>(coded_picture_payload(coded, v).size());
+    for (std::size_t v = 0; v < coded.images.size(); ++v) {
+        const auto size = static_cast<double>(coded_image_payload(coded, v).size());
         whole += size;
-        tiles += static_cast<double>(coded.pictures[v].bytes.size());
+        tiles += static_cast<double>(coded.images[v].bytes.size());
         if (coded.levels[v] == 0) of_references += size;
     }
     double accounted = 0;
     for (const AccountEntry& entry : entries) accounted += entry.bytes;
     entries.push_back({coded.profile == Profile::kBoard ? "padding of records" : "tiles' rounding", tiles - accounted});
     entries.push_back({"offsets and heads", whole - tiles});
-    entries.push_back({"(of all these, pictures of level 0)", of_references});
+    entries.push_back({"(of all these, images of level 0)", of_references});
     return entries;
 }
 

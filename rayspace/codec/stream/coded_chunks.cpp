@@ -11,10 +11,10 @@
 namespace rs::codec {
 namespace {
 
-constexpr std::uint16_t kEven = 2048;  // the probability of contexts that are not listed
-constexpr int kProbabilityUnit = 16;   // of those that are
+constexpr std::uint16_t kEven = 2048;  // probability of contexts that are not listed
+constexpr int kProbabilityUnit = 16;   // unit of listed probabilities
 
-// Bits, the lowest of each byte first.
+// Writes bits, the lowest of each byte first.
 void put_bits(ByteWriter& out, const std::vector<bool>& bits) {
     for (std::size_t begin = 0; begin < bits.size(); begin += 8) {
         unsigned byte = 0;
@@ -24,7 +24,7 @@ void put_bits(ByteWriter& out, const std::vector<bool>& bits) {
     }
 }
 
-// False where there are too few bytes, or bits behind the last one that are not zero.
+// Reads bits. Returns false if there are too few bytes, or padding bits that are not zero.
 bool take_bits(ByteReader& in, std::vector<bool>& bits) {
     const auto bytes = in.take((bits.size() + 7) / 8);
     if (!in.ok()) return false;
@@ -47,7 +47,7 @@ void put_size(ByteWriter& out, std::uint32_t size) {
     out.put(static_cast<std::uint8_t>(size));
 }
 
-// Above kMaxTile_bytes where it is no size, or not the shortest form of one.
+// Reads a size; a value above kMaxTile_bytes if it is invalid or not in its shortest form.
 std::uint32_t take_size(ByteReader& in) {
     constexpr std::uint32_t kWrong = kMaxTile_bytes + 1;
     std::uint32_t size = 0;
@@ -59,7 +59,7 @@ std::uint32_t take_size(ByteReader& in) {
     return kWrong;
 }
 
-Status check_references(const CodedPictures& coded, std::size_t view, const PictureHead& head) {
+Status check_references(const CodedImages& coded, std::size_t view, const ImageHead& head) {
     if (head.reference[0] == kNoReference && head.reference[1] != kNoReference) {
         return Error{"has a second reference without a first"};
     }
@@ -68,18 +68,18 @@ Status check_references(const CodedPictures& coded, std::size_t view, const Pict
     }
     for (std::size_t r = 0; r < static_cast<std::size_t>(head.references()); ++r) {
         const std::size_t reference = head.reference[r];
-        if (reference >= coded.pictures.size()) {
+        if (reference >= coded.images.size()) {
             return out_of_range("a reference", static_cast<long long>(reference), 0,
-                                static_cast<long long>(coded.pictures.size()) - 1);
+                                static_cast<long long>(coded.images.size()) - 1);
         }
         if (coded.levels[reference] >= coded.levels[view]) {
-            return Error{"is predicted from picture " + std::to_string(reference) + ", whose level is not lower"};
+            return Error{"is predicted from image " + std::to_string(reference) + ", whose level is not lower"};
         }
     }
     return {};
 }
 
-// What a dense object makes use of: bits of the byte `features`.
+// Features of a dense object: bits of the byte `features`.
 constexpr unsigned kDeblocking = 1;
 constexpr unsigned kAdaptation = 2;
 constexpr unsigned kSignDataHiding = 4;
@@ -90,7 +90,7 @@ std::uint8_t features_of(const DenseCode& dense) {
                                      (dense.sign_data_hiding ? kSignDataHiding : 0U));
 }
 
-// What follows in the chunk CODE of dense pictures, to its end.
+// Reads the dense part of chunk CODE, to its end.
 Status take_dense_code(ByteReader& in, DenseCode& dense) {
     if (dense.has_edge_alpha()) {
         for (std::uint8_t& off : dense.edge_alpha) off = in.get<std::uint8_t>();
@@ -112,7 +112,7 @@ Status take_dense_code(ByteReader& in, DenseCode& dense) {
 
 }  // namespace
 
-std::vector<std::byte> code_payload(const CodedPictures& coded) {
+std::vector<std::byte> code_payload(const CodedImages& coded) {
     ByteWriter out;
     out.put(static_cast<std::uint8_t>(coded.profile));
     out.put(static_cast<std::uint8_t>(coded.tile_width_log2));
@@ -137,7 +137,7 @@ std::vector<std::byte> code_payload(const CodedPictures& coded) {
     return out.bytes();
 }
 
-Status parse_code(std::span<const std::byte> payload, std::size_t views, int width, int height, CodedPictures& coded) {
+Status parse_code(std::span<const std::byte> payload, std::size_t views, int width, int height, CodedImages& coded) {
     ByteReader in(payload);
     const auto profile = in.get<std::uint8_t>();
     const auto tile_width_log2 = in.get<std::uint8_t>();
@@ -165,7 +165,7 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     }
     const int most_codings = board ? 0 : static_cast<int>(AlphaCoding::kDepths);
     if (alpha_coding > most_codings) return out_of_range("the coding of alpha", alpha_coding, 0, most_codings);
-    constexpr int kBits[][2] = {{1, kMaxAlphaLevelBits}, {1, 2}, {3, kMaxAlphaBits}};  // of each coding
+    constexpr int kBits[][2] = {{1, kMaxAlphaLevelBits}, {1, 2}, {3, kMaxAlphaBits}};  // [coding]
     const int fewest_bits = board ? 0 : kBits[alpha_coding][0];
     const int most_bits = board ? 0 : kBits[alpha_coding][1];
     if (alpha_bits < fewest_bits || alpha_bits > most_bits) {
@@ -193,58 +193,57 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     for (std::size_t v = 0; v < views; ++v) {
         coded.levels[v] = static_cast<std::uint8_t>(levels[v]);
         if (coded.levels[v] >= kProgressiveLevels) {
-            return out_of_range("the level of picture " + std::to_string(v), coded.levels[v], 0,
-                                kProgressiveLevels - 1);
+            return out_of_range("the level of image " + std::to_string(v), coded.levels[v], 0, kProgressiveLevels - 1);
         }
     }
     Status rest = board ? take_board_code(in, coded.board) : take_dense_code(in, coded.dense);
     if (!rest) return rest;
-    coded.pictures.assign(views, {});
+    coded.images.assign(views, {});
     return {};
 }
 
-std::vector<std::byte> coded_picture_payload(const CodedPictures& coded, std::size_t view) {
-    const CodedPicture& picture = coded.pictures[view];
+std::vector<std::byte> coded_image_payload(const CodedImages& coded, std::size_t view) {
+    const CodedImage& image = coded.images[view];
     ByteWriter out;
-    out.put(kCodedPicture);
-    out.put(static_cast<std::uint8_t>(picture.head.step));
-    for (const std::uint16_t reference : picture.head.reference) out.put(reference);
-    for (const MotionVector motion : picture.head.global_motion) {
+    out.put(kCodedImage);
+    out.put(static_cast<std::uint8_t>(image.head.step));
+    for (const std::uint16_t reference : image.head.reference) out.put(reference);
+    for (const MotionVector motion : image.head.global_motion) {
         out.put(motion.x);
         out.put(motion.y);
     }
     out.put_zeros(2);
     std::vector<bool> present;
-    for (const TileSpan& tile : picture.tiles) present.push_back(tile.present);
+    for (const TileSpan& tile : image.tiles) present.push_back(tile.present);
     put_bits(out, present);
-    for (const TileSpan& tile : picture.tiles) {
+    for (const TileSpan& tile : image.tiles) {
         if (tile.present) put_size(out, tile.size);
     }
-    out.put(std::span<const std::byte>(picture.bytes));
+    out.put(std::span<const std::byte>(image.bytes));
     return out.bytes();
 }
 
-Status parse_coded_picture(std::span<const std::byte> payload, std::size_t view, CodedPictures& coded) {
+Status parse_coded_image(std::span<const std::byte> payload, std::size_t view, CodedImages& coded) {
     ByteReader in(payload);
-    CodedPicture picture;
+    CodedImage image;
     const auto coding = in.get<std::uint8_t>();
-    picture.head.step = in.get<std::uint8_t>();
-    for (std::uint16_t& reference : picture.head.reference) reference = in.get<std::uint16_t>();
-    for (MotionVector& motion : picture.head.global_motion) {
+    image.head.step = in.get<std::uint8_t>();
+    for (std::uint16_t& reference : image.head.reference) reference = in.get<std::uint16_t>();
+    for (MotionVector& motion : image.head.global_motion) {
         motion.x = in.get<std::int16_t>();
         motion.y = in.get<std::int16_t>();
     }
     const bool reserved_is_zero = in.take_zeros(2);
     if (!in.ok()) return Error{"is too short"};
-    if (coding != kCodedPicture) {
-        return Error{"has picture coding " + std::to_string(coding) +
+    if (coding != kCodedImage) {
+        return Error{"has image coding " + std::to_string(coding) +
                      ", which is not that of an object with a chunk CODE; encode the object anew"};
     }
     const bool board = coded.profile == Profile::kBoard;
     const int largest_step = board ? 0 : kMaxStep;
-    if (picture.head.step > largest_step) return out_of_range("its quantiser step", picture.head.step, 0, largest_step);
-    if (Status status = check_references(coded, view, picture.head); !status) return status;
-    for (const MotionVector motion : picture.head.global_motion) {
+    if (image.head.step > largest_step) return out_of_range("its quantiser step", image.head.step, 0, largest_step);
+    if (Status status = check_references(coded, view, image.head); !status) return status;
+    for (const MotionVector motion : image.head.global_motion) {
         for (const int component : {int{motion.x}, int{motion.y}}) {
             const int largest = board ? 0 : kMaxMotion_q2;
             if (std::abs(component) > largest) {
@@ -257,7 +256,7 @@ Status parse_coded_picture(std::span<const std::byte> payload, std::size_t view,
     std::vector<bool> present(static_cast<std::size_t>(coded.tile_columns()) *
                               static_cast<std::size_t>(coded.tile_rows()));
     if (!take_bits(in, present)) return Error{"ends within its list of tiles, or lists some that do not exist"};
-    picture.tiles.resize(present.size());
+    image.tiles.resize(present.size());
     std::uint64_t begin = 0;  // may pass 2^32: 2^18 tiles are possible
     for (std::size_t t = 0; t < present.size(); ++t) {
         if (!present[t]) continue;
@@ -266,19 +265,19 @@ Status parse_coded_picture(std::span<const std::byte> payload, std::size_t view,
             return Error{"gives tile " + std::to_string(t) + " no size of 0.." + std::to_string(kMaxTile_bytes) +
                          " in its shortest form"};
         }
-        picture.tiles[t] = {static_cast<std::uint32_t>(begin), size, true};
+        image.tiles[t] = {static_cast<std::uint32_t>(begin), size, true};
         begin += size;
     }
     if (in.left() != begin) {
         return Error{"has " + std::to_string(in.left()) + " bytes of tiles instead of " + std::to_string(begin)};
     }
     const auto bytes = in.take(static_cast<std::size_t>(begin));  // at most 2^30: the size of a chunk
-    picture.bytes.assign(bytes.begin(), bytes.end());
-    coded.pictures[view] = std::move(picture);
+    image.bytes.assign(bytes.begin(), bytes.end());
+    coded.images[view] = std::move(image);
     return {};
 }
 
-std::uint64_t tile_table_bytes(const CodedPictures& coded) {
+std::uint64_t tile_table_bytes(const CodedImages& coded) {
     return sizeof(TileSpan) * static_cast<std::uint64_t>(coded.tile_columns()) *
            static_cast<std::uint64_t>(coded.tile_rows());
 }

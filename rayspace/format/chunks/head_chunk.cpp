@@ -1,4 +1,4 @@
-// HEAD: object.name, units_per_radius, width and height; as many (empty) views and rings as there will be.
+// Chunk HEAD: object.name, units_per_radius, width, height, and the numbers of views and rings, which it creates empty.
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
@@ -25,8 +25,8 @@ Payload head_payload(const RaySpaceObject& object, std::uint32_t) {
     return out.bytes();
 }
 
-Status parse_head(Bytes payload, UnreadObject& unread, std::uint32_t) {
-    RaySpaceObject& object = unread.object;
+Status parse_head(Bytes payload, PartialObject& partial, std::uint32_t) {
+    RaySpaceObject& object = partial.object;
     ByteReader in(payload);
     const auto width = in.get<std::uint32_t>();
     const auto height = in.get<std::uint32_t>();
@@ -35,10 +35,9 @@ Status parse_head(Bytes payload, UnreadObject& unread, std::uint32_t) {
     object.units_per_radius = in.get_double();
     const auto name_bytes = in.get<std::uint32_t>();
     if (!in.ok()) return Error{"is too short"};
-    if (width < 1 || width > kMaxPictureSide_px)
-        return out_of_range("the pictures' width", width, 1, kMaxPictureSide_px);
-    if (height < 1 || height > kMaxPictureSide_px) {
-        return out_of_range("the pictures' height", height, 1, kMaxPictureSide_px);
+    if (width < 1 || width > kMaxImageSide_px) return out_of_range("the images' width", width, 1, kMaxImageSide_px);
+    if (height < 1 || height > kMaxImageSide_px) {
+        return out_of_range("the images' height", height, 1, kMaxImageSide_px);
     }
     if (views < 1 || views > kMaxViews) return out_of_range("the number of views", views, 1, kMaxViews);
     if (rings < 1 || rings > kMaxRings) return out_of_range("the number of rings", rings, 1, kMaxRings);
@@ -48,7 +47,7 @@ Status parse_head(Bytes payload, UnreadObject& unread, std::uint32_t) {
     object.height = static_cast<int>(height);
     object.views.resize(views);
     object.rings.resize(rings);
-    object.pictures.resize(views);
+    object.images.resize(views);
     const Bytes name = in.take(name_bytes);
     object.name.assign(reinterpret_cast<const char*>(name.data()), name.size());
     return {};
@@ -58,7 +57,7 @@ bool is_printable_utf8(const std::string& text) {
     const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
     if (std::any_of(text.begin(), text.end(), is_control)) return false;
     try {
-        (void)nlohmann::json(text).dump();  // throws on what is no UTF-8
+        (void)nlohmann::json(text).dump();  // throws if it is not UTF-8
         return true;
     } catch (const nlohmann::json::exception&) {
         return false;
@@ -66,10 +65,10 @@ bool is_printable_utf8(const std::string& text) {
 }
 
 Status check_head(const RaySpaceObject& object, std::uint32_t) {
-    const auto is_side = [](int side) { return side >= 1 && side <= kMaxPictureSide_px; };
+    const auto is_side = [](int side) { return side >= 1 && side <= kMaxImageSide_px; };
     if (!is_side(object.width) || !is_side(object.height)) {
-        return Error{"pictures of " + std::to_string(object.width) + "x" + std::to_string(object.height) +
-                     " pixels; each side must be 1.." + std::to_string(kMaxPictureSide_px)};
+        return Error{"images of " + std::to_string(object.width) + "x" + std::to_string(object.height) +
+                     " pixels; each side must be 1.." + std::to_string(kMaxImageSide_px)};
     }
     if (object.views.empty() || object.views.size() > kMaxViews) {
         return Error{std::to_string(object.views.size()) + " views; 1.." + std::to_string(kMaxViews) + " are possible"};
@@ -77,7 +76,7 @@ Status check_head(const RaySpaceObject& object, std::uint32_t) {
     if (object.rings.empty() || object.rings.size() > kMaxRings) {
         return Error{std::to_string(object.rings.size()) + " rings; 1.." + std::to_string(kMaxRings) + " are possible"};
     }
-    if (object.pictures.size() != object.views.size()) return Error{"not as many pictures as views"};
+    if (object.images.size() != object.views.size()) return Error{"not as many images as views"};
     if (object.name.size() > kMaxName_bytes || !is_printable_utf8(object.name)) {
         return Error{"its name is longer than " + std::to_string(kMaxName_bytes) + " bytes or no printable UTF-8"};
     }
@@ -88,7 +87,7 @@ Status check_head(const RaySpaceObject& object, std::uint32_t) {
 }
 
 std::int64_t held_by_head(const RaySpaceObject& object, std::uint32_t) {
-    return held_by(object.views) + held_by(object.rings) + held_by(object.pictures);
+    return heap_bytes_of(object.views) + heap_bytes_of(object.rings) + heap_bytes_of(object.images);
 }
 
 }  // namespace
@@ -98,7 +97,7 @@ ChunkKind head_chunk() {
             .payload = head_payload,
             .parse = parse_head,
             .validate = check_head,
-            .held_bytes = held_by_head};
+            .heap_bytes = held_by_head};
 }
 
 }  // namespace rs::object_chunks

@@ -30,7 +30,7 @@ Weighted halved(const Weighted& fine) {
     return coarse;
 }
 
-// The value of `coarse`, whose weights are all 1, at the centre of pixel (x, y) of the picture twice as fine; bilinear.
+// The value of `coarse`, whose weights are all 1, at the centre of pixel (x, y) of the image twice as fine; bilinear.
 RgbaF between(const Weighted& coarse, int x, int y) {
     const int x0 = std::clamp((x - 1) >> 1, 0, coarse.width() - 1);
     const int y0 = std::clamp((y - 1) >> 1, 0, coarse.height() - 1);
@@ -58,12 +58,12 @@ void fill_from(const Weighted& coarse, Weighted& fine) {
     }
 }
 
-Image<Rgba8> with_spread_colours(ConstImageView<Rgba8> picture) {
+Image<Rgba8> with_spread_colours(ConstImageView<Rgba8> image) {
     std::vector<Weighted> pyramid;
-    pyramid.emplace_back(picture.width(), picture.height());
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            const Rgba8& p = picture(x, y);
+    pyramid.emplace_back(image.width(), image.height());
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            const Rgba8& p = image(x, y);
             if (p.a > 0) pyramid[0](x, y) = {float(p.r), float(p.g), float(p.b), 1};
         }
     }
@@ -71,12 +71,12 @@ Image<Rgba8> with_spread_colours(ConstImageView<Rgba8> picture) {
     RgbaF& top = pyramid.back()(0, 0);
     top = top.a > 0 ? RgbaF{top.r / top.a, top.g / top.a, top.b / top.a, 1} : RgbaF{0, 0, 0, 1};
     for (std::size_t level = pyramid.size() - 1; level-- > 0;) fill_from(pyramid[level + 1], pyramid[level]);
-    Image<Rgba8> filled(picture.width(), picture.height());
+    Image<Rgba8> filled(image.width(), image.height());
     const auto byte = [](float value) { return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.F, 255.F))); };
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
             const RgbaF& p = pyramid[0](x, y);
-            filled(x, y) = picture(x, y).a > 0 ? picture(x, y) : Rgba8{byte(p.r), byte(p.g), byte(p.b), 0};
+            filled(x, y) = image(x, y).a > 0 ? image(x, y) : Rgba8{byte(p.r), byte(p.g), byte(p.b), 0};
         }
     }
     return filled;
@@ -84,20 +84,20 @@ Image<Rgba8> with_spread_colours(ConstImageView<Rgba8> picture) {
 
 }  // namespace
 
-Image<Rgba8> with_background(ConstImageView<Rgba8> picture, Background background) {
-    if (background == Background::kSpread) return with_spread_colours(picture);
-    Image<Rgba8> filled(picture.width(), picture.height());
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            if (picture(x, y).a > 0) filled(x, y) = picture(x, y);
+Image<Rgba8> with_background(ConstImageView<Rgba8> image, Background background) {
+    if (background == Background::kSpread) return with_spread_colours(image);
+    Image<Rgba8> filled(image.width(), image.height());
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            if (image(x, y).a > 0) filled(x, y) = image(x, y);
         }
     }
     return filled;
 }
 
-Image<Rgba8> made_opaque(Image<Rgba8> picture) {
-    for (Rgba8& p : picture.pixels()) p.a = 255;
-    return picture;
+Image<Rgba8> made_opaque(Image<Rgba8> image) {
+    for (Rgba8& p : image.pixels()) p.a = 255;
+    return image;
 }
 
 }  // namespace rs::bench

@@ -8,13 +8,13 @@ namespace rs::bench {
 
 enum class Background {
     kBlack,
-    kSpread,  // the object's colours spread outwards, ever smoother (pull-push over a pyramid of halved pictures)
+    kSpread,  // the object's colours spread outwards, ever smoother (pull-push over a pyramid of halved images)
 };
 
 // Pixels of alpha 0 get the background's colour; alpha stays, and so do all other pixels.
-Image<Rgba8> with_background(ConstImageView<Rgba8> picture, Background background);
+Image<Rgba8> with_background(ConstImageView<Rgba8> image, Background background);
 
-// The same picture, opaque.
-Image<Rgba8> made_opaque(Image<Rgba8> picture);
+// The same image, opaque.
+Image<Rgba8> made_opaque(Image<Rgba8> image);
 
 }  // namespace rs::bench

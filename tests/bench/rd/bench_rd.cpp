@@ -1,9 +1,9 @@
-// Picture coding against what people would use today: PSNR over rate of Rayspace's objects, ASTC, JPEG, WebP and x265,
-// measured in one run on the same pictures.
+// Image coding against what people would use today: PSNR over rate of Rayspace's objects, ASTC, JPEG, WebP and x265,
+// measured in one run on the same images.
 //
 //     bench_rd --work DIR --csv rd.csv --svg rd.svg [--only anchors|ours|NAME]... [--encoder rs-encode] SET...
 //
-// Rate: bits per pixel of the 8x8 blocks (of the upright pictures, counted from the top left) that the object touches,
+// Rate: bits per pixel of the 8x8 blocks (of the upright images, counted from the top left) that the object touches,
 // so that nobody is paid for empty background. Quality: PSNR over object pixels (alpha >= 128) of straight sRGB, the
 // squared error pooled over all views. rd_ratios.csv gets the rates relative to ASTC at equal PSNR.
 
@@ -41,7 +41,7 @@ bool contains(const std::vector<std::string>& list, const std::string& word) {
 }
 
 Result<Wanted> wanted_of(const std::vector<std::string>& only) {
-    // Without a choice: everything but raw pictures, which nobody would compare with.
+    // Without a choice: everything but raw images, which nobody would compare with.
     const std::vector<std::string> words = only.empty() ? std::vector<std::string>{"anchors", "ours"} : only;
     Wanted wanted;
     for (const std::string& word : words) {
@@ -64,27 +64,27 @@ Result<Wanted> wanted_of(const std::vector<std::string>& only) {
     return wanted;
 }
 
-std::string about(const ReferencePictures& pictures) {
-    return std::to_string(pictures.views.size()) + " views of " + std::to_string(pictures.width) + "x" +
-           std::to_string(pictures.height) + ", " + std::to_string(pictures.touched_blocks) + " touched blocks";
+std::string about(const ReferenceImages& images) {
+    return std::to_string(images.views.size()) + " views of " + std::to_string(images.width) + "x" +
+           std::to_string(images.height) + ", " + std::to_string(images.touched_blocks) + " touched blocks";
 }
 
 Result<SetResult> measure_set(const std::string& folder, const Wanted& wanted, const std::string& encoder,
                               const WorkFolder& work, Progress& progress) {
-    const Result<ReferencePictures> pictures = read_reference_pictures(folder, &progress);
-    if (!pictures) return pictures.error();
+    const Result<ReferenceImages> images = read_reference_images(folder, &progress);
+    if (!images) return images.error();
     std::vector<Measurement> measured;
     if (!wanted.profiles.empty()) {
-        const auto ours = measure_ours(*pictures, wanted.profiles, encoder, work, progress);
+        const auto ours = measure_ours(*images, wanted.profiles, encoder, work, progress);
         if (!ours) return ours.error();
         measured = *ours;
     }
     if (!wanted.anchors.empty()) {
-        const auto anchors = measure_anchors(*pictures, wanted.anchors, work, progress);
+        const auto anchors = measure_anchors(*images, wanted.anchors, work, progress);
         if (!anchors) return anchors.error();
         measured.insert(measured.end(), anchors->begin(), anchors->end());
     }
-    return SetResult{pictures->name, about(*pictures), best_variants(measured)};
+    return SetResult{images->name, about(*images), best_variants(measured)};
 }
 
 Status run(const Arguments& arguments) {
@@ -117,7 +117,7 @@ int main(int argc, char** argv) {
     const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
     arguments.encoder = error ? "rs-encode" : (self.parent_path() / "rs-encode").string();
 
-    CLI::App app("PSNR over rate of Rayspace's picture coding and of what people would use today.", "bench_rd");
+    CLI::App app("PSNR over rate of Rayspace's image coding and of what people would use today.", "bench_rd");
     app.add_option("--work", arguments.work, "folder for temporary files and for the anchors' results")->required();
     app.add_option("--csv", arguments.csv, "points to write; NAME_ratios.csv beside it gets the comparison")
         ->required();

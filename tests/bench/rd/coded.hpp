@@ -18,7 +18,7 @@ struct Coded {
     bool has_alpha = false;  // whether the codec stores alpha, and error.alpha_error means anything
 };
 
-// Small text files in a folder, named after the hash of a key that says everything the answer depends on: pictures,
+// Small text files in a folder, named after the hash of a key that says everything the answer depends on: images,
 // codec, settings, version of the tool. A file that cannot be understood counts as not there.
 class CodedCache {
 public:

@@ -5,10 +5,10 @@
 
 namespace rs::bench {
 
-Measurement measurement_of(const ReferencePictures& pictures, const std::string& codec, const std::string& variant,
+Measurement measurement_of(const ReferenceImages& images, const std::string& codec, const std::string& variant,
                            const std::string& setting, const Coded& coded) {
-    Measurement measured{pictures.name, codec, variant, setting, coded.bytes, 0, 0, std::nullopt};
-    measured.bpp = pictures.bits_per_pixel(coded.bytes);
+    Measurement measured{images.name, codec, variant, setting, coded.bytes, 0, 0, std::nullopt};
+    measured.bpp = images.bits_per_pixel(coded.bytes);
     measured.psnr_db = coded.error.psnr_db();
     if (coded.has_alpha) measured.alpha_mae = coded.error.alpha_mae();
     return measured;

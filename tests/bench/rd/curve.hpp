@@ -20,7 +20,7 @@ struct Measurement {
     std::optional<double> alpha_mae;  // of codecs that store alpha
 };
 
-Measurement measurement_of(const ReferencePictures& pictures, const std::string& codec, const std::string& variant,
+Measurement measurement_of(const ReferenceImages& images, const std::string& codec, const std::string& variant,
                            const std::string& setting, const Coded& coded);
 
 // Points of falling cost only: what costs more than a better point of the same curve is left out. By rising dB.

@@ -24,13 +24,13 @@ double ObjectError::alpha_mae() const {
     return static_cast<double>(alpha_error) / static_cast<double>(std::max<std::int64_t>(1, block_pixels));
 }
 
-ObjectError object_error(const ReferencePictures& pictures, std::size_t view, ConstImageView<Rgba8> decoded) {
-    const Image<Rgba8>& original = pictures.views[view];
+ObjectError object_error(const ReferenceImages& images, std::size_t view, ConstImageView<Rgba8> decoded) {
+    const Image<Rgba8>& original = images.views[view];
     RS_CHECK(decoded.width() == original.width() && decoded.height() == original.height());
     ObjectError sum;
     for (int y = 0; y < original.height(); ++y) {
         for (int x = 0; x < original.width(); ++x) {
-            if (pictures.touched[view](x / kBlock_px, y / kBlock_px) == 0) continue;
+            if (images.touched[view](x / kBlock_px, y / kBlock_px) == 0) continue;
             const Rgba8& p = original(x, y);
             const Rgba8& q = decoded(x, y);
             ++sum.block_pixels;

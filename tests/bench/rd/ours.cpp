@@ -23,7 +23,7 @@ const std::vector<Profile>& profiles() {
     return table;
 }
 
-Result<Coded> read_back(const ReferencePictures& pictures, const std::filesystem::path& encoder,
+Result<Coded> read_back(const ReferenceImages& images, const std::filesystem::path& encoder,
                         const std::filesystem::path& file) {
     const Result<ContainerReader> container = ContainerReader::open(file);
     if (!container) return container.error();
@@ -39,29 +39,29 @@ Result<Coded> read_back(const ReferencePictures& pictures, const std::filesystem
     const std::filesystem::path folder = file.parent_path() / "ours-pictures";
     const Result<std::string> ran = run_tool({encoder.string(), "extract", file.string(), "-o", folder.string(), "-q"});
     if (!ran) return ran.error();
-    const Result<ReferencePictures> decoded = read_reference_pictures(folder, nullptr);
+    const Result<ReferenceImages> decoded = read_reference_images(folder, nullptr);
     std::error_code ignored;
     std::filesystem::remove_all(folder, ignored);
     if (!decoded) return decoded.error();
-    if (decoded->views.size() != pictures.views.size() || decoded->width != pictures.width ||
-        decoded->height != pictures.height) {
-        return Error{file.string() + ": does not hold the set's pictures at their size; try another --encoder"};
+    if (decoded->views.size() != images.views.size() || decoded->width != images.width ||
+        decoded->height != images.height) {
+        return Error{file.string() + ": does not hold the set's images at their size; try another --encoder"};
     }
-    for (std::size_t view = 0; view < pictures.views.size(); ++view) {
-        coded.error += object_error(pictures, view, decoded->views[view]);
+    for (std::size_t view = 0; view < images.views.size(); ++view) {
+        coded.error += object_error(images, view, decoded->views[view]);
     }
     return coded;
 }
 
-Result<Coded> code_ours(const ReferencePictures& pictures, const std::vector<std::string>& options,
+Result<Coded> code_ours(const ReferenceImages& images, const std::vector<std::string>& options,
                         const std::filesystem::path& encoder, const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "ours.rso";
-    std::vector<std::string> command = {encoder.string(), "build", pictures.folder.string(), "-o", file.string(), "-q"};
+    std::vector<std::string> command = {encoder.string(), "build", images.folder.string(), "-o", file.string(), "-q"};
     command.insert(command.end(), options.begin(), options.end());
     // The quicker of the RS maps: neither is counted.
     command.insert(command.end(), {"--raymap", "plane"});
     if (const Result<std::string> ran = run_tool(command); !ran) return ran.error();
-    Result<Coded> coded = read_back(pictures, encoder, file);
+    Result<Coded> coded = read_back(images, encoder, file);
     std::error_code ignored;
     std::filesystem::remove(file, ignored);
     return coded;
@@ -96,7 +96,7 @@ Status check_encoder(const std::filesystem::path& encoder, const std::set<std::s
     return {};
 }
 
-Result<std::vector<Measurement>> measure_ours(const ReferencePictures& pictures, const std::set<std::string>& names,
+Result<std::vector<Measurement>> measure_ours(const ReferenceImages& images, const std::set<std::string>& names,
                                               const std::filesystem::path& encoder, const WorkFolder& work,
                                               Progress& progress) {
     struct Point {
@@ -113,12 +113,12 @@ Result<std::vector<Measurement>> measure_ours(const ReferencePictures& pictures,
             points.push_back({profile.name, "q" + number, {"--profile", profile.name, "--quality", number}});
         }
     }
-    progress.start(pictures.name + ": ours", static_cast<std::int64_t>(points.size()));
+    progress.start(images.name + ": ours", static_cast<std::int64_t>(points.size()));
     std::vector<Measurement> measured;
     for (const Point& point : points) {
-        const Result<Coded> coded = code_ours(pictures, point.options, encoder, work.scratch());
+        const Result<Coded> coded = code_ours(images, point.options, encoder, work.scratch());
         if (!coded) return coded.error();
-        measured.push_back(measurement_of(pictures, point.profile, "", point.setting, *coded));
+        measured.push_back(measurement_of(images, point.profile, "", point.setting, *coded));
         progress.advance();
     }
     progress.finish();

@@ -32,7 +32,7 @@ struct CodecStyle {
 constexpr std::array<CodecStyle, 8> kStyles = {{
     {"dense", "Rayspace dense", "#d1261f", 2.6},
     {"board", "Rayspace board", "#e08a1e", 2.0},
-    {"raw", "Rayspace, pictures stored raw", "#b0641a", 2.6},
+    {"raw", "Rayspace, images stored raw", "#b0641a", 2.6},
     {"astc", "ASTC medium, 4x4 to 12x12", "#1c1e21", 1.6},
     {"jpeg", "JPEG", "#8a94a3", 1.6},
     {"webp", "WebP", "#1c8a4c", 1.6},
@@ -202,7 +202,7 @@ std::string rate_plot_svg(const std::vector<SetResult>& results) {
     std::string svg =
         "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" width=\"" + width + "\" height=\"" + height +
         "\" viewBox=\"0 0 " + width + " " + height +
-        "\" style=\"background:#fff;font:13px sans-serif\">\n<title>Picture coding: PSNR over rate</title>\n"
+        "\" style=\"background:#fff;font:13px sans-serif\">\n<title>Image coding: PSNR over rate</title>\n"
         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
     const auto place_x = [](std::size_t n) { return static_cast<double>(n % kColumns) * kPanelWidth_px; };
     const auto place_y = [](std::size_t n) { return static_cast<double>(n / kColumns) * kPanelHeight_px; };

@@ -1,5 +1,5 @@
 #pragma once
-// The curves of all sets in one picture: a panel per set, rate on a logarithmic axis, one legend for all.
+// The curves of all sets in one image: a panel per set, rate on a logarithmic axis, one legend for all.
 // (rayspace/page/line_plot.hpp draws single plots over linear axes, with fewer colours than there are codecs.)
 
 #include "tests/bench/rd/anchors/best_variant.hpp"
@@ -10,7 +10,7 @@
 
 namespace rs::bench {
 
-// A picture of its own, on white, for a README. Of a curve CODEC-444 only that part is drawn, dashed, where it is
+// An image of its own, on white, for a README. Of a curve CODEC-444 only that part is drawn, dashed, where it is
 // better than CODEC's.
 std::string rate_plot_svg(const std::vector<SetResult>& results);
 

@@ -15,7 +15,7 @@ struct SetResult {
     std::vector<ChosenCurve> curves;
 };
 
-// Where curves are read off. Photographs are noisier than traced pictures, and nobody pays for their noise.
+// Where curves are read off. Photographs are noisier than traced images, and nobody pays for their noise.
 std::vector<double> target_dbs(const std::string& set);
 
 // set,codec,setting,bytes,bpp,psnr_db,alpha_mae. The variant stands in the setting; curves of rejected variants are

@@ -1,5 +1,5 @@
 #pragma once
-// Drawn photographs of a drum that stands on a printed board, with exact truth.
+// Rendered photos of a drum on a printed board, with ground truth.
 
 #include "capture/calibration/board/board_sheet.hpp"
 #include "tests/capture/calibration/drawn_drum.hpp"
@@ -11,8 +11,8 @@ namespace rs::test {
 
 struct BoardPhotos {
     struct Photo {
-        Image<Rgba8> picture;  // opaque
-        Image<Rgba8> mask;     // white where the drum is
+        Image<Rgba8> image;  // opaque
+        Image<Rgba8> mask;   // white inside the drum
     };
 
     BoardPhotos() {
@@ -21,7 +21,7 @@ struct BoardPhotos {
         for (int i = 0; i < 10; ++i) model.angles_rad.push_back(i * radians(36) + (i % 3) * radians(0.7));
         design.squares_x = design.squares_y = 7;
         design.square_mm = 24;
-        const auto drawn = capture::board_picture(design, kDpi);
+        const auto drawn = capture::board_image(design, kDpi);
         if (drawn) printed = *drawn;
         drum.height = 0.1;
         drum.radius = 0.06;
@@ -34,9 +34,9 @@ struct BoardPhotos {
         const glm::dvec3 from = capture::turned({0, 0, 1}, -model.angles_rad[view]);
         const capture::TableRays rays(model.lens, model.pose, -model.angles_rad[view]);
         constexpr int kSide = 3;
-        for (int y = 0; y < photo.picture.height(); ++y) {
-            for (int x = 0; x < photo.picture.width(); ++x) {
-                Rgba8& pixel = photo.picture(x, y);
+        for (int y = 0; y < photo.image.height(); ++y) {
+            for (int x = 0; x < photo.image.width(); ++x) {
+                Rgba8& pixel = photo.image(x, y);
                 photo.mask(x, y) = {pixel.a, pixel.a, pixel.a, 255};
                 if (pixel.a == 255) continue;
                 double light = 0;
@@ -65,7 +65,7 @@ private:
     static constexpr double kBackdrop = 0.3;
     static constexpr double kUnitsPerMm = 0.0026;
 
-    // Of a point of the disc; the board lies turned and off the middle.
+    // Maps a point of the disc to the board, which is rotated and off-centre.
     [[nodiscard]] double light_at(const glm::dvec3& p) const {
         const glm::dvec3 q = capture::turned(p - glm::dvec3(0.01, 0, -0.015), 0.3) / kUnitsPerMm;
         const double per_mm = kDpi / 25.4;

@@ -1,8 +1,8 @@
 #pragma once
-// Turns of a board whose every number is known, for the tests of calibrating with a board.
+// Synthetic turns of a board with ground truth, for tests of board calibration.
 
 #include "capture/calibration/board/board_detection.hpp"
-#include "capture/calibration/board/board_start.hpp"
+#include "capture/calibration/board/board_initialization.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <cmath>
@@ -22,7 +22,7 @@ struct TurnOptions {
     double k2 = 0.02;
 };
 
-// 1600 x 1200 px; the board lies off-centre, turned and half a degree out of level.
+// 1600 x 1200 px; the board is off-centre, rotated and half a degree out of level.
 inline capture::BoardTurn make_turn(const TurnOptions& options, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> either(-1, 1);
@@ -52,7 +52,7 @@ inline glm::dvec3 corner_in_table(const capture::BoardTurn& turn, const capture:
     return capture::turned(p, turn.model.angles_rad[view]);
 }
 
-// Every corner inside of the picture with Gaussian noise; a share of them unseen.
+// All corners inside the image with Gaussian noise; a share of them is dropped.
 inline std::vector<capture::BoardCorners> corners_of(const capture::BoardTurn& turn, const capture::BoardDesign& design,
                                                      double noise_px, double unseen, std::uint32_t seed) {
     std::mt19937 random(seed);

@@ -1,5 +1,5 @@
 #pragma once
-// Photographs of a printed board, drawn through the turntable's model, lens distortion included.
+// Photos of a printed board, rendered through the turntable model, lens distortion included.
 
 #include "capture/calibration/board/board_detection.hpp"
 #include "rayspace/image/linear_light.hpp"
@@ -13,7 +13,7 @@
 
 namespace rs::test {
 
-// The board as a function of a point on it, in squares from the top left; 0 ink, 1 paper.
+// Value of the board at a point, in squares from the top left; 0 ink, 1 paper.
 class PrintedBoard {
 public:
     explicit PrintedBoard(const capture::BoardDesign& design)
@@ -43,7 +43,7 @@ private:
     std::map<int, std::vector<bool>> cells_;
 };
 
-// The turn of make_turn() with a smaller picture.
+// The turn of make_turn() with a smaller image.
 inline capture::BoardTurn small_turn(const TurnOptions& options, std::uint32_t seed) {
     capture::BoardTurn turn = make_turn(options, seed);
     capture::Lens& lens = turn.model.lens;
@@ -53,7 +53,7 @@ inline capture::BoardTurn small_turn(const TurnOptions& options, std::uint32_t s
     return turn;
 }
 
-// Paper and ink are grey, around the board is table; a disc of `hidden_mm` radius upright in the middle hides what is
+// Paper and ink are grey, surrounded by table; an upright disc of radius `hidden_mm` at the centre hides the board
 // behind it, as an object does.
 inline Image<Rgba8> drawn(const capture::BoardTurn& turn, const capture::BoardDesign& design, std::size_t view,
                           double hidden_mm = 0) {
@@ -62,8 +62,8 @@ inline Image<Rgba8> drawn(const capture::BoardTurn& turn, const capture::BoardDe
     const capture::Lens& lens = turn.model.lens;
     std::mt19937 random(static_cast<std::uint32_t>(view) + 50);
     std::normal_distribution<float> noise(0, 1.5F);
-    Image<Rgba8> picture(lens.width, lens.height);
-    const double angle = -turn.model.angles_rad[view];  // into the object's frame
+    Image<Rgba8> image(lens.width, lens.height);
+    const double angle = -turn.model.angles_rad[view];  // into the object frame
     const glm::dvec3 from = capture::turned({0, 0, 1}, angle);
     const capture::TableRays rays(lens, turn.model.pose, angle);
     for (int y = 0; y < lens.height; ++y) {
@@ -87,10 +87,10 @@ inline Image<Rgba8> drawn(const capture::BoardTurn& turn, const capture::BoardDe
             }
             const float grey = srgb8_from_linear(light / (kSamples * kSamples)) + noise(random);
             const auto code = static_cast<std::uint8_t>(std::clamp(std::lround(grey), 0L, 255L));
-            picture(x, y) = {code, code, code, 255};
+            image(x, y) = {code, code, code, 255};
         }
     }
-    return picture;
+    return image;
 }
 
 struct Found {

@@ -1,6 +1,6 @@
 #pragma once
-// Drawn pictures of a spotted drum on a turntable, with exact truth: a short upright cylinder of solid noise with a
-// flat top, so that its surface has features all around and its outline says nothing of the angle.
+// Rendered images of a spotted drum on a turntable, with ground truth: a short upright cylinder of solid noise with a
+// flat top, so that its surface has features all around and its silhouette does not depend on the angle.
 
 #include "capture/calibration/model/turntable_model.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -18,8 +18,8 @@ namespace rs::test {
 struct Drum {
     double radius = 0.13;
     double height = 0.2;
-    double middle = -0.364;  // where turn_model() looks
-    double grain = 0.028;    // length over which the noise changes
+    double middle = -0.364;  // height of the point at the centre of turn_model()'s image
+    double grain = 0.028;    // length scale of the noise
     bool is_spotted = true;
 };
 
@@ -47,7 +47,7 @@ inline double noise(const glm::dvec3& p) {
     return sum;
 }
 
-// Where a ray from `origin` first meets the drum.
+// First intersection of a ray from `origin` with the drum.
 inline std::optional<glm::dvec3> hit(const Drum& drum, const glm::dvec3& origin, const glm::dvec3& d) {
     const double a = d.x * d.x + d.z * d.z;
     const double b = origin.x * d.x + origin.z * d.z;
@@ -64,7 +64,7 @@ inline std::optional<glm::dvec3> hit(const Drum& drum, const glm::dvec3& origin,
     return std::nullopt;
 }
 
-// Linear light.
+// Linear intensity.
 inline glm::dvec3 colour(const Drum& drum, const glm::dvec3& p) {
     if (!drum.is_spotted) return {0.32, 0.18, 0.1};
     const glm::dvec3 q = p / drum.grain + glm::dvec3(50.3);
@@ -76,15 +76,15 @@ inline glm::dvec3 colour(const Drum& drum, const glm::dvec3& p) {
 
 }  // namespace drum
 
-// The drum as view `view` shows it, straight alpha; 3 x 3 rays per pixel.
+// Rendered view `view` of the drum, straight alpha; 3 x 3 rays per pixel.
 inline Image<Rgba8> drawn_drum(const Drum& drum, const capture::TurntableModel& model, std::size_t view) {
     constexpr int kSide = 3;
     const double angle = model.angles_rad[view];
     const glm::dvec3 origin = capture::turned({0, 0, 1}, -angle);
-    Image<Rgba8> picture(model.lens.width, model.lens.height);
+    Image<Rgba8> image(model.lens.width, model.lens.height);
     const capture::TableRays rays(model.lens, model.pose, -angle);
-    for_each_index(picture.height(), [&](int y) {
-        for (int x = 0; x < picture.width(); ++x) {
+    for_each_index(image.height(), [&](int y) {
+        for (int x = 0; x < image.width(); ++x) {
             glm::dvec3 sum(0.0);
             int inside = 0;
             for (int s = 0; s < kSide * kSide; ++s) {
@@ -98,14 +98,14 @@ inline Image<Rgba8> drawn_drum(const Drum& drum, const capture::TurntableModel& 
             }
             if (inside == 0) continue;
             const auto code = [&](double light) { return srgb8_from_linear(static_cast<float>(light / inside)); };
-            picture(x, y) = {code(sum.x), code(sum.y), code(sum.z),
-                             static_cast<std::uint8_t>(std::lround(255.0 * inside / (kSide * kSide)))};
+            image(x, y) = {code(sum.x), code(sum.y), code(sum.z),
+                           static_cast<std::uint8_t>(std::lround(255.0 * inside / (kSide * kSide)))};
         }
     });
-    return picture;
+    return image;
 }
 
-// 320 x 256 px, 20 degrees from above, the drum half as wide as the picture.
+// 320 x 256 px, 20 degrees from above, the drum half as wide as the image.
 inline capture::TurntableModel drum_turn(int views, double step_rad) {
     capture::TurntableModel model;
     model.lens = {320, 256, 620, 160, 128, 0, 0};

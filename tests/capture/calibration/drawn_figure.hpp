@@ -26,7 +26,7 @@ inline std::vector<Ellipsoid> figure() {
             {{-0.05, -0.40, -0.06}, {0.06, 0.03, 0.08}}};
 }
 
-// A body of revolution: nothing in its outline changes.
+// A body of revolution: its silhouette does not change.
 inline std::vector<Ellipsoid> bottle() {
     return {{{0, -0.30, 0}, {0.09, 0.13, 0.09}}, {{0, -0.17, 0}, {0.035, 0.1, 0.035}}};
 }
@@ -34,7 +34,7 @@ inline std::vector<Ellipsoid> bottle() {
 inline TurntableModel turn_of_figure(int views) {
     TurntableModel model;
     model.lens = {320, 240, 420, 160, 120, 0, 0};
-    // The axis runs 12 px to the right of the picture's middle.
+    // The axis is 12 px to the right of the image centre.
     model.pose = {std::atan(-12.0 / 420), radians(15), radians(1)};
     for (int i = 0; i < views; ++i) model.angles_rad.push_back(2 * kPi * i / views);
     return model;

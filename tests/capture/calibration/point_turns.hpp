@@ -1,5 +1,5 @@
 #pragma once
-// Turns of a body of points whose every number is known, for the tests of calibrating with points of the object.
+// Synthetic turns of a point cloud with ground truth, for tests of point-based calibration.
 
 #include "capture/calibration/model/turntable_model.hpp"
 #include "capture/calibration/points/bundle.hpp"
@@ -16,7 +16,7 @@
 
 namespace rs::test {
 
-// 1000 x 800 px, the camera 20 degrees above, equal steps.
+// 1000 x 800 px, elevation 20 degrees, equal steps.
 inline capture::TurntableModel turn_model(int views, double step_rad, double roll_rad = 0.02) {
     capture::TurntableModel model;
     model.lens = {1000, 800, 1700, 500, 400, -0.1, 0};
@@ -26,11 +26,11 @@ inline capture::TurntableModel turn_model(int views, double step_rad, double rol
 }
 
 struct SurfacePoint {
-    glm::dvec3 p{0.0};  // of the object at angle 0
+    glm::dvec3 p{0.0};  // on the object at angle 0
     double facing_rad = 0;
 };
 
-// On an upright body before the middle of turn_model()'s picture, at various distances from the axis.
+// Points on an upright body at the centre of turn_model()'s image, at various distances from the axis.
 inline std::vector<SurfacePoint> surface_points(int count, std::uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> share(0, 1);
@@ -44,10 +44,11 @@ inline std::vector<SurfacePoint> surface_points(int count, std::uint32_t seed) {
     return points;
 }
 
-// View i's camera, where one camera does not see all.
+// Camera of view i, if the views have different cameras.
 using ModelOfView = std::vector<capture::TurntableModel>;
 
-// Points are seen within 65 degrees of facing the camera. [point]; with fewer than three views it has no track.
+// Points are visible within 65 degrees of facing the camera. Result: [point]; points with fewer than three views have
+// no track.
 inline std::vector<capture::Track> tracks_of(const ModelOfView& models, const std::vector<SurfacePoint>& points,
                                              double noise_px, std::uint32_t seed) {
     std::mt19937 random(seed);
@@ -75,13 +76,13 @@ inline std::vector<capture::Track> tracks_of(const capture::TurntableModel& mode
     return tracks_of(ModelOfView(model.angles_rad.size(), model), points, noise_px, seed);
 }
 
-// What a matcher would say of neighbouring views.
-inline std::vector<capture::PairOfViews> pairs_of(const std::vector<capture::Track>& tracks) {
-    std::map<std::pair<int, int>, capture::PairOfViews> pairs;
+// Pairs of neighbouring views as a matcher would report them.
+inline std::vector<capture::MatchedPair> pairs_of(const std::vector<capture::Track>& tracks) {
+    std::map<std::pair<int, int>, capture::MatchedPair> pairs;
     for (const capture::Track& track : tracks) {
         for (std::size_t i = 1; i < track.seen.size(); ++i) {
             const capture::Observation &a = track.seen[i - 1], &b = track.seen[i];
-            capture::PairOfViews& pair = pairs[{a.view, b.view}];
+            capture::MatchedPair& pair = pairs[{a.view, b.view}];
             pair.first = a.view;
             pair.second = b.view;
             ++pair.matches;
@@ -89,7 +90,7 @@ inline std::vector<capture::PairOfViews> pairs_of(const std::vector<capture::Tra
             pair.spread_y_px += std::abs(b.p.y - a.p.y);
         }
     }
-    std::vector<capture::PairOfViews> all;
+    std::vector<capture::MatchedPair> all;
     for (auto& [views, pair] : pairs) {
         pair.spread_x_px /= pair.matches;
         pair.spread_y_px /= pair.matches;
@@ -98,7 +99,7 @@ inline std::vector<capture::PairOfViews> pairs_of(const std::vector<capture::Tra
     return all;
 }
 
-// A bundle begins a little off.
+// A bundle with a slightly wrong start.
 inline capture::TurntableModel disturbed(capture::TurntableModel model) {
     model.lens.f_px *= 1.08;
     model.lens.k1 = 0;

@@ -125,7 +125,7 @@ TEST(BoxOf, IsTheBoundingBoxOfTheNonZeroPixels) {
                 if (mask(y, x) != 0) around |= cv::Rect(x, y, 1, 1);
             }
         }
-        ASSERT_EQ(box_of(mask), around) << mask;
+        ASSERT_EQ(bounding_box(mask), around) << mask;
     }
 }
 

@@ -1,4 +1,4 @@
-// Photographs that make no turn, or hardly one: what is wrong and what to do is said, and nothing half done is left.
+// Photos that are not a turn, or hardly: errors state the problem and the remedy, and no partial output remains.
 
 #include "capture/photos/import.hpp"
 #include "rayspace/geometry/rig.hpp"
@@ -21,28 +21,28 @@ using testing::HasSubstr;
 
 class BadPhotos : public test::DrumPhotos {};
 
-TEST_F(BadPhotos, BlurredPicturesGetARemedy) {
+TEST_F(BadPhotos, BlurredImagesGetARemedy) {
     test::Drum soft;
-    soft.grain = 0.4;  // all detail gone
+    soft.grain = 0.4;  // no detail left
     for (std::size_t i = 0; i < test::kViews; ++i) write(i, test::drawn_drum(soft, test::drum_model(), i));
     options_.calibration = CalibrationChoice::kTracks;
-    expect_error(AllOf(HasSubstr("points of the object can be followed"), HasSubstr("rs-capture board")));
+    expect_error(AllOf(HasSubstr("points of the object can be tracked"), HasSubstr("rs-capture board")));
 }
 
 TEST_F(BadPhotos, ARigOfOtherPhotographsIsRefused) {
     write_spotted();
     options_.known = truth();
-    options_.known.pictures[7] = "images/other.png";
+    options_.known.images[7] = "images/other.png";
     expect_error(AllOf(HasSubstr("07.png"), HasSubstr("give its rig")));
     options_.known = truth();
-    options_.known.pictures.clear();
+    options_.known.images.clear();
     options_.known.known.angles_rad->pop_back();
-    expect_error(AllOf(HasSubstr("17 views"), HasSubstr("18 photographs")));
+    expect_error(AllOf(HasSubstr("17 views"), HasSubstr("18 photos")));
 }
 
-TEST_F(BadPhotos, ALastPictureThatClosesTheTurnIsLeftOut) {
+TEST_F(BadPhotos, ALastImageThatClosesTheTurnIsLeftOut) {
     write_spotted();
-    // Not the first picture again, or it would be known by its pixels: half a degree on.
+    // Half a degree beyond the first image, so that it is not detected as a repeat by its pixels.
     TurntableModel model = test::drum_model();
     model.angles_rad.push_back(-radians(360.5));
     write(test::kViews, test::drawn_drum({}, model, test::kViews));
@@ -69,7 +69,7 @@ TEST_F(BadPhotos, MovedTripodsAndMixedCamerasAreNamed) {
     }
     options_.calibration = CalibrationChoice::kTracks;
     expect_error(ContainsRegex("tripod moved at about (0[89]|10).png\\? Take the turn again"));
-    options_.calibration = CalibrationChoice::kAuto;  // goes on with less, and says so
+    options_.calibration = CalibrationChoice::kAuto;  // falls back to less, with a note
     const Result<ImportReport> report = import_photos(options_, nullptr);
     ASSERT_TRUE(report.ok()) << report.error().message;
     EXPECT_THAT(report->notes, Contains(AllOf(HasSubstr("no calibration from points"), HasSubstr("tripod moved"))));
@@ -86,7 +86,7 @@ TEST_F(BadPhotos, MovedTripodsAndMixedCamerasAreNamed) {
     expect_error(HasSubstr("one camera, one zoom"));
 }
 
-TEST_F(BadPhotos, TooFewOrEmptyPicturesAreRefused) {
+TEST_F(BadPhotos, TooFewOrEmptyImagesAreRefused) {
     for (std::size_t i = 0; i < 3; ++i) write(i, test::spotted()[i]);
     options_.calibration = CalibrationChoice::kTracks;
     expect_error(HasSubstr("take at least 5, better 36"));

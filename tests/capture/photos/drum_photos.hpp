@@ -1,8 +1,8 @@
 #pragma once
-// A folder of drawn photographs of a drum with alpha, and what must hold where importing them fails.
+// Folder of rendered photos of a drum with alpha, and the common expectations for failed imports.
 
 #include "capture/photos/import.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/calibration/drawn_drum.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -21,14 +21,14 @@ inline capture::TurntableModel drum_model() {
     return drum_turn(kViews, -radians(20));
 }
 
-// Cut out already.
+// Photos with alpha.
 inline const std::vector<Image<Rgba8>>& spotted() {
-    static const auto kPictures = [] {
-        std::vector<Image<Rgba8>> pictures;
-        for (std::size_t i = 0; i < kViews; ++i) pictures.push_back(drawn_drum({}, drum_model(), i));
-        return pictures;
+    static const auto kImages = [] {
+        std::vector<Image<Rgba8>> images;
+        for (std::size_t i = 0; i < kViews; ++i) images.push_back(drawn_drum({}, drum_model(), i));
+        return images;
     }();
-    return kPictures;
+    return kImages;
 }
 
 inline Image<Rgba8> plain(std::size_t view) {
@@ -48,11 +48,11 @@ protected:
         std::filesystem::create_directory(folder_ / "photos");
         options_.photos = folder_ / "photos";
         options_.output = folder_ / "set";
-        options_.known.known.f_px = 620;  // keeps the search for a start short
+        options_.known.known.f_px = 620;  // shortens the search for a start
         options_.turning = capture::Turning::kClockwise;
     }
-    void write(std::size_t view, const Image<Rgba8>& picture) const {
-        const Status status = write_png(folder_ / "photos" / file_name(view), picture);
+    void write(std::size_t view, const Image<Rgba8>& image) const {
+        const Status status = write_png(folder_ / "photos" / file_name(view), image);
         ASSERT_TRUE(status.ok()) << status.error().message;
     }
     void write_spotted() const {
@@ -61,7 +61,7 @@ protected:
     void write_plain() const {
         for (std::size_t i = 0; i < kViews; ++i) write(i, plain(i));
     }
-    // The rig that made the drawings, as another tool might give it.
+    // The rig of the renderings, as another tool might provide it.
     [[nodiscard]] capture::KnownFile truth() const {
         capture::KnownFile file;
         const capture::TurntableModel model = drum_model();
@@ -70,7 +70,7 @@ protected:
         file.known.distortion = {0, 0};
         file.known.pose = model.pose;
         file.known.angles_rad = model.angles_rad;
-        for (std::size_t i = 0; i < kViews; ++i) file.pictures.push_back("images/" + file_name(i));
+        for (std::size_t i = 0; i < kViews; ++i) file.images.push_back("images/" + file_name(i));
         return file;
     }
     void expect_error(const testing::Matcher<std::string>& words) const {

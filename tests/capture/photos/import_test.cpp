@@ -1,8 +1,8 @@
 #include "capture/photos/import.hpp"
 
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
-#include "tests/capture/photos/turn_of_pictures.hpp"
+#include "rayspace/image_io/image_io.hpp"
+#include "tests/capture/photos/turn_of_images.hpp"
 #include "tests/support/camera_jpeg.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -24,7 +24,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-// photos/1.png .. N.png, drawn over white; no rig is looked for: a disc that always looks the same has none.
+// photos/1.png .. N.png, composited over white; no calibration: a disc that always looks the same does not allow one.
 class ImportTest : public testing::Test {
 protected:
     void SetUp() override {
@@ -35,14 +35,14 @@ protected:
         options_.turning = Turning::kClockwise;
         options_.calibration = CalibrationChoice::kNominal;
     }
-    void write(int number, const Image<Rgba8>& picture) const {
-        const Status status = write_png(photo(number), picture);
+    void write(int number, const Image<Rgba8>& image) const {
+        const Status status = write_png(photo(number), image);
         ASSERT_TRUE(status.ok()) << status.error().message;
     }
     [[nodiscard]] std::filesystem::path photo(int number) const {
         return folder_ / "photos" / (std::to_string(number) + ".png");
     }
-    // Everything in the test's folder besides the photographs.
+    // All files in the test's folder except the photos.
     [[nodiscard]] bool output_is_clean() const {
         const std::filesystem::directory_iterator entries(folder_.path());
         return std::all_of(begin(entries), end(entries),
@@ -73,7 +73,7 @@ TEST_F(ImportTest, MakesACaptureSet) {
     for (int i = 0; i < 12; ++i) {
         const RigView& view = rig->views[static_cast<std::size_t>(i)];
         EXPECT_NEAR(view.camera.cx, report->nominal.axis_x_px, 1e-9);
-        const Result<Image<Rgba8>> cut = read_picture(picture_path(options_.output, view));
+        const Result<Image<Rgba8>> cut = read_image(image_path(options_.output, view));
         ASSERT_TRUE(cut.ok()) << cut.error().message;
         const test::DrawnView truth = test::draw_view(turn_, i);
         double wrong = 0;
@@ -84,7 +84,7 @@ TEST_F(ImportTest, MakesACaptureSet) {
     }
 }
 
-// The same, as a phone keeps what it took on its side, with its lens.
+// The same, stored on its side with EXIF data, as a phone does.
 TEST_F(ImportTest, TurnsWhatAPhoneTookOnItsSide) {
     for (int i = 0; i < turn_.views; ++i) {
         const Image<Rgba8> shown = test::draw_view(turn_, i).photo;
@@ -108,7 +108,7 @@ TEST_F(ImportTest, TurnsWhatAPhoneTookOnItsSide) {
     EXPECT_NEAR(report->nominal.fov_deg, 2 * std::atan(half_mm / 50) * 180 / 3.14159265, 1e-3);
     const Result<Rig> rig = read_rig(options_.output);
     ASSERT_TRUE(rig.ok()) << rig.error().message;
-    const Result<Image<Rgba8>> cut = read_picture(picture_path(options_.output, rig->views[3]));
+    const Result<Image<Rgba8>> cut = read_image(image_path(options_.output, rig->views[3]));
     ASSERT_TRUE(cut.ok()) << cut.error().message;
     const test::DrawnView truth = test::draw_view(turn_, 3);
     double wrong = 0;
@@ -130,7 +130,7 @@ TEST_F(ImportTest, RefusesMasksThatMayBeOfOtherPixels) {
     ASSERT_FALSE(report.ok());
     EXPECT_THAT(report.error().message, HasSubstr("EXIF orientation is 3"));
     EXPECT_TRUE(output_is_clean());
-    // One of them turned, which a tool that makes masks may have followed.
+    // One photo with another orientation, which a mask tool may have applied.
     for (int i = 0; i < turn_.views; ++i) {
         const std::filesystem::path jpeg = folder_ / "photos" / (std::to_string(i + 1) + ".jpg");
         ASSERT_TRUE(write_jpeg(jpeg, test::draw_view(turn_, i).photo, 98).ok());
@@ -163,7 +163,7 @@ TEST_F(ImportTest, LargePhotographsAreWorkedOnSmaller) {
     EXPECT_THAT(refused.error().message, HasSubstr("--max-side"));
 }
 
-// A piece of furniture that masks hold, too, and a flag at the border that changes.
+// A piece of furniture that is included in the masks, and a flag at the border that changes.
 TEST_F(ImportTest, RefusesStaticBackgroundAtTheBorderUnlessForced) {
     std::filesystem::create_directory(folder_ / "masks");
     options_.segmentation.masks = folder_ / "masks";
@@ -228,11 +228,11 @@ TEST_F(ImportTest, SaysSoWhereThereIsNoFullTurn) {
     options_.degrees_per_view = 5;
     const Result<ImportReport> report = import_photos(options_, nullptr);
     ASSERT_TRUE(report.ok()) << report.error().message;
-    EXPECT_EQ(report->nominal.axis_from, "picture middle");
+    EXPECT_EQ(report->nominal.axis_from, "image middle");
     EXPECT_THAT(report->notes, testing::Contains(HasSubstr("--axis-x")));
 }
 
-TEST_F(ImportTest, ACorruptPictureLeavesNothing) {
+TEST_F(ImportTest, ACorruptImageLeavesNothing) {
     const auto size = std::filesystem::file_size(photo(7));
     std::filesystem::resize_file(photo(7), size / 2);
     const Result<ImportReport> report = import_photos(options_, nullptr);
@@ -259,16 +259,16 @@ TEST_F(ImportTest, AViewThatIsAllObjectLeavesNothing) {
 
 TEST_F(ImportTest, AViewWithItsOwnAlphaMayBeAllObject) {
     for (int i = 1; i <= turn_.views; ++i) {
-        Image<Rgba8> picture(turn_.width, turn_.height, Rgba8{190, 60, static_cast<std::uint8_t>(20 * i), 255});
-        for (int y = 0; y < turn_.height && i != 5; ++y) picture(0, y).a = picture(1, y).a = 0;
-        write(i, picture);
+        Image<Rgba8> image(turn_.width, turn_.height, Rgba8{190, 60, static_cast<std::uint8_t>(20 * i), 255});
+        for (int y = 0; y < turn_.height && i != 5; ++y) image(0, y).a = image(1, y).a = 0;
+        write(i, image);
     }
     const Result<ImportReport> report = import_photos(options_, nullptr);
     ASSERT_TRUE(report.ok()) << report.error().message;
     EXPECT_EQ(report->max_coverage, 1);
 }
 
-// Counts the photographs that were done under each label.
+// Counts the photos processed under each label.
 class Counts final : public Progress {
 public:
     void start(const std::string& label, std::int64_t total) override {
@@ -285,7 +285,7 @@ public:
 };
 
 TEST_F(ImportTest, StopsAtTheFirstFailureOfEitherPass) {
-    tbb::task_arena one_thread(1);  // photographs are then taken in their order
+    tbb::task_arena one_thread(1);  // photos are then processed in order
     write(1, Image<Rgba8>(turn_.width, turn_.height, turn_.backdrop));
     Counts cutting;
     ASSERT_FALSE(one_thread.execute([&] { return import_photos(options_, &cutting); }).ok());
@@ -300,7 +300,7 @@ TEST_F(ImportTest, StopsAtTheFirstFailureOfEitherPass) {
     EXPECT_EQ(looking.done, 0);
 }
 
-// Everything below `folder`.
+// All files below `folder`.
 std::vector<std::string> names_below(const std::filesystem::path& folder) {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) names.push_back(entry.path());
@@ -310,7 +310,7 @@ std::vector<std::string> names_below(const std::filesystem::path& folder) {
 
 TEST_F(ImportTest, RefusesToReplaceItsOwnPhotographs) {
     ASSERT_TRUE(import_photos(options_, nullptr).ok());
-    // The pictures of a set are photographs with alpha: without the check they would be replaced by themselves.
+    // A set's images are photos with alpha: without the check they would be replaced by themselves.
     const std::filesystem::path set = options_.output;
     const auto before = names_below(folder_.path());
     std::filesystem::create_directory_symlink(set, folder_ / "link");
@@ -326,7 +326,7 @@ TEST_F(ImportTest, RefusesToReplaceItsOwnPhotographs) {
         ASSERT_FALSE(report.ok()) << photos << " " << output;
         EXPECT_THAT(report.error().message, HasSubstr(photos.string()));
         EXPECT_THAT(report.error().message, HasSubstr(output.string() + ": "));
-        EXPECT_THAT(report.error().message, HasSubstr("the folder of photographs"));
+        EXPECT_THAT(report.error().message, HasSubstr("the folder of photos"));
     }
     std::filesystem::remove(folder_ / "link");
     EXPECT_EQ(names_below(folder_.path()), before);

@@ -1,4 +1,4 @@
-// `rs-capture synth` as a user meets it where something is wrong.
+// Usage errors and failures of `rs-capture synth`.
 
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -48,7 +48,7 @@ protected:
 };
 
 TEST_F(SynthCommand, WrongNumbersAreUsageErrorsBeforeAnythingIsRead) {
-    // There is no such scene, which would be a failure (exit code 1).
+    // The scene does not exist, which would be a failure (exit code 1).
     for (const char* size : {"0x5", "12", "12x", "axb", "-3x4", "99999999x2"}) {
         const ToolRun run = synth(in("gone.obj"), in("set"), {"--size", size});
         EXPECT_EQ(run.exit_code, 2) << size;
@@ -102,7 +102,7 @@ TEST_F(SynthCommand, NeverReplacesTheFolderOfItsInput) {
     expect_refused(synth(in("a.obj"), in("elsewhere"), {"--poses", in("set/transforms.json")}), "elsewhere",
                    "transforms.json");
     EXPECT_TRUE(std::filesystem::exists(folder_ / "set" / "inside.obj"));
-    // A name that only begins alike is another folder.
+    // A name with the same prefix is another folder.
     EXPECT_EQ(small(in("set/inside.obj"), in("se")).exit_code, 0);
 }
 

@@ -1,8 +1,8 @@
 #pragma once
-// Files that the tests of mesh formats write and read.
+// Test files of mesh formats.
 
 #include "capture/tracer/scene/mesh_file.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <gtest/gtest.h>
 
@@ -24,9 +24,9 @@ inline std::string read_bytes(const std::filesystem::path& path) {
 
 // 2x2: red at the top left, everything else blue.
 inline void write_texture(const std::filesystem::path& path) {
-    Image<Rgba8> picture(2, 2, {0, 0, 255, 255});
-    picture(0, 0) = {255, 0, 0, 255};
-    const Status written = write_png(path, picture.view());
+    Image<Rgba8> image(2, 2, {0, 0, 255, 255});
+    image(0, 0) = {255, 0, 0, 255};
+    const Status written = write_png(path, image.view());
     ASSERT_TRUE(written) << written.error().message;
 }
 

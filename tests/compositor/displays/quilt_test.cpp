@@ -1,6 +1,6 @@
 #include "compositor/displays/quilt.hpp"
 
-#include "compositor/displays/stereo_picture.hpp"
+#include "compositor/displays/stereo_image.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <gmock/gmock.h>
@@ -29,12 +29,12 @@ TEST(Quilt, ViewsShareThePlaneOfFocus) {
         for (const Camera& camera : cameras) {
             EXPECT_NEAR(camera.project(in_focus).x, at.x, 1e-9);
             EXPECT_NEAR(camera.project(in_focus).y, at.y, 1e-9);
-            // What is behind goes with the eye, to the right.
+            // Points behind the focal plane move with the eye, to the right.
             EXPECT_GT(camera.project(behind).x, before);
             before = camera.project(behind).x;
         }
     }
-    // The cone is that between the outermost eyes, from the point in focus.
+    // The cone is the angle between the outermost eyes as seen from the focal point.
     const glm::dvec3 target = middle.centre() + focus * middle.forward();
     const glm::dvec3 to_first = glm::normalize(cameras.front().centre() - target);
     const glm::dvec3 to_last = glm::normalize(cameras.back().centre() - target);
@@ -61,7 +61,7 @@ TEST(Quilt, TheNameTellsTheLayout) {
     EXPECT_EQ(quilt_path("shop.png", {8, 6, 640, 360}), "shop_qs8x6a1.778.png");
 }
 
-TEST(Quilt, LayoutsThatMakeNoPictureAreRefused) {
+TEST(Quilt, LayoutsThatMakeNoImageAreRefused) {
     EXPECT_TRUE(parse_quilt("5x9", 420, 560, "--quilt").ok());
     for (const char* wrong : {"", "5", "5x", "x9", "0x9", "-1x9", "5x9x", "5x9 ", "1x1", "20x9", "99999999999x1"}) {
         const auto layout = parse_quilt(wrong, 420, 560, "--quilt");
@@ -70,17 +70,17 @@ TEST(Quilt, LayoutsThatMakeNoPictureAreRefused) {
     }
 }
 
-TEST(Stereo, PicturesOfBothEyesAreOne) {
+TEST(Stereo, ImagesOfBothEyesAreOne) {
     const Image<Rgba8> left(2, 1, kA), right(2, 1, kB);
-    const Image<Rgba8> beside = stereo_picture(StereoForm::kSideBySide, left, right);
+    const Image<Rgba8> beside = stereo_image(StereoForm::kSideBySide, left, right);
     ASSERT_EQ(beside.width(), 4);
     EXPECT_EQ(beside(1, 0), kA);
     EXPECT_EQ(beside(2, 0), kB);
-    const Image<Rgba8> above = stereo_picture(StereoForm::kTopBottom, left, right);
+    const Image<Rgba8> above = stereo_image(StereoForm::kTopBottom, left, right);
     ASSERT_EQ(above.height(), 2);
     EXPECT_EQ(above(1, 0), kA);
     EXPECT_EQ(above(1, 1), kB);
-    EXPECT_EQ(stereo_picture(StereoForm::kAnaglyph, left, right)(0, 0), (Rgba8{10, 120, 130, 255}));
+    EXPECT_EQ(stereo_image(StereoForm::kAnaglyph, left, right)(0, 0), (Rgba8{10, 120, 130, 255}));
 }
 
 }  // namespace

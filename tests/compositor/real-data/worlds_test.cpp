@@ -1,4 +1,4 @@
-// Worlds that others made: all load, and show something where there is something.
+// Third-party worlds: all load, and are not empty.
 
 #include "compositor/gl/context.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
@@ -48,10 +48,10 @@ TEST(RealWorlds, AllAreShown) {
                                   : camera_at(scene->viewpoints.front(), kWidth, kHeight);
         auto compositor = FrameCompositor::create(*scene, {}, {.width = kWidth, .height = kHeight});
         ASSERT_TRUE(compositor) << compositor.error().message;
-        const auto picture = compositor->compose(camera);
-        ASSERT_TRUE(picture) << picture.error().message;
-        const Rgba8 corner = (*picture)(0, 0);
-        const auto shown = std::count_if(picture->pixels().begin(), picture->pixels().end(),
+        const auto image = compositor->compose(camera);
+        ASSERT_TRUE(image) << image.error().message;
+        const Rgba8 corner = (*image)(0, 0);
+        const auto shown = std::count_if(image->pixels().begin(), image->pixels().end(),
                                          [&](const Rgba8& pixel) { return pixel != corner; });
         EXPECT_GT(shown, world.stem() == "light_radius" ? 0 : 100);
         EXPECT_THAT(context->take_errors(), ::testing::IsEmpty());

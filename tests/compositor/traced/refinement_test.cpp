@@ -13,20 +13,20 @@
 namespace rs::compositor {
 namespace {
 
-// Pictures come from coarse to fine, whatever the time they take, and begin() drops the old view.
+// Images get finer whatever time they take, and begin() cancels the previous view.
 TEST(Refinement, GoesFromCoarseToFineAndBeginsAnew) {
     Refinement refinement([] { return renderer_of(small_room()); });
     const auto wait_for = [&](int passes) {
         const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-        std::shared_ptr<const Image<Rgba8>> picture;
+        std::shared_ptr<const Image<Rgba8>> image;
         while (std::chrono::steady_clock::now() < patience) {
             if (const auto step = refinement.take()) {
-                picture = step->picture;
-                if (step->passes >= passes) return picture;
+                image = step->image;
+                if (step->passes >= passes) return image;
             }
             std::this_thread::yield();
         }
-        return picture;
+        return image;
     };
     const Camera first = looking_from({3, 2, 4}, {0, 0.4, 0}, 50);
     const Camera second = looking_from({0, 5, 0.1}, {0, 0, 0}, 20);
@@ -43,7 +43,7 @@ TEST(Refinement, GoesFromCoarseToFineAndBeginsAnew) {
     EXPECT_FALSE(refinement.failure());
 }
 
-TEST(Refinement, WaitsWhileTheFirstPictureIsDrawn) {
+TEST(Refinement, WaitsWhileTheFirstImageIsDrawn) {
     Refinement refinement([] { return renderer_of(small_room()); });
     refinement.begin(looking_from({3, 2, 4}, {0, 0.4, 0}, 50));
     const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
@@ -53,10 +53,10 @@ TEST(Refinement, WaitsWhileTheFirstPictureIsDrawn) {
         return step;
     };
     ASSERT_TRUE(next());
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // it is drawn
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // time to draw it
     EXPECT_FALSE(refinement.take());
     EXPECT_TRUE(next());
-    // Another view, and the end, need not wait for that.
+    // Another view, and the end, do not wait for that.
     refinement.begin(looking_from({0, 5, 0.1}, {0, 0, 0}, 20));
     ASSERT_TRUE(next());
     refinement.begin(looking_from({0, 5, 0.1}, {0, 0, 0}, 30));
@@ -76,9 +76,9 @@ TEST(Refinement, ChangesItsLightWithoutANewTracer) {
         const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
         for (std::shared_ptr<const Image<Rgba8>> first; std::chrono::steady_clock::now() < patience;) {
             const auto step = refinement.take();
-            if (step && step->passes == 1) first = step->picture;
+            if (step && step->passes == 1) first = step->image;
             if (first) return *first;
-            // The first pass may have been overtaken.
+            // The first pass may have been skipped.
             if (step && step->passes > 1) refinement.begin(camera);
             std::this_thread::yield();
         }
@@ -98,38 +98,38 @@ TEST(Refinement, ChangesItsLightWithoutANewTracer) {
     EXPECT_EQ(made, 1);
 }
 
-// Begun anew all the time, it still shows something now and then.
-TEST(Refinement, FinishesTheFirstPictureOfEachView) {
+// Continuous restarts still produce images.
+TEST(Refinement, FinishesTheFirstImageOfEachView) {
     Refinement refinement([] { return renderer_of(small_room()); });
     const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
-    int pictures = 0;
-    for (int i = 0; pictures < 3 && std::chrono::steady_clock::now() < patience; ++i) {
+    int images = 0;
+    for (int i = 0; images < 3 && std::chrono::steady_clock::now() < patience; ++i) {
         const Camera camera = looking_from({3 + 1e-4 * i, 2, 4}, {0, 0.4, 0}, 200);
         refinement.begin(camera);
         const auto step = refinement.take();
         if (!step) continue;
-        ++pictures;
-        EXPECT_EQ(step->picture->width(), 200);
+        ++images;
+        EXPECT_EQ(step->image->width(), 200);
         EXPECT_LE(step->camera.centre().x, camera.centre().x);
     }
-    EXPECT_EQ(pictures, 3);
+    EXPECT_EQ(images, 3);
 }
 
 TEST(Refinement, AGridIsTheMiddleOfItsPixels) {
     auto renderer = renderer_of(small_room());
     ASSERT_TRUE(renderer);
     const Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 50);
-    const auto coarse = renderer->coarse_picture(camera, 16);
+    const auto coarse = renderer->coarse_image(camera, 16);
     ASSERT_TRUE(coarse);
     EXPECT_EQ(coarse->width(), 50);
     for (int y = 0; y < 50; ++y) {
         for (int x = 0; x < 50; ++x) ASSERT_EQ((*coarse)(x, y), (*coarse)(x / 16 * 16, y / 16 * 16));
     }
     std::atomic<bool> stop{true};
-    EXPECT_FALSE(renderer->coarse_picture(camera, 4, &stop));
+    EXPECT_FALSE(renderer->coarse_image(camera, 4, &stop));
 }
 
-TEST(Refinement, SaysWhyThereAreNoPictures) {
+TEST(Refinement, SaysWhyThereAreNoImages) {
     Refinement refinement([]() -> Result<TracedRenderer> { return Error{"no tracer today"}; });
     refinement.begin(looking_from({3, 2, 4}, {0, 0.4, 0}, 50));
     const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);

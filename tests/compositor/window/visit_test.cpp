@@ -1,9 +1,9 @@
-// A visit in a window on a virtual display: open, walk, look, pick, turn, take a picture, resize, leave. Skipped where
+// A visit in a window on a virtual display: open, walk, look, pick, turn, take an image, resize, leave. Skipped where
 // there is no Xvfb.
 
 #include "compositor/window/visit.hpp"
 
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/compositor/objects.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/virtual_display.hpp"
@@ -43,7 +43,7 @@ protected:
         side.world_from_camera[3] = glm::dvec4(3, 1, 6, 1);
         side.description = "from the side";
         options.viewpoints = {front, side};
-        options.pictures = work_.path();
+        options.images = work_.path();
         options.samples = 1;
         auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.waits = true}, nullptr,
                                                    std::make_unique<test::ObjectsInMemory>(kObjectRed));
@@ -74,9 +74,9 @@ protected:
         visit_->window().inject(KeyEvent{key, false});
     }
     [[nodiscard]] int red_pixels() const {
-        const Image<Rgba8> picture = visit_->picture();
+        const Image<Rgba8> image = visit_->image();
         int count = 0;
-        for (const Rgba8 p : picture.pixels()) count += p.r > 150 && p.g < 90;
+        for (const Rgba8 p : image.pixels()) count += p.r > 150 && p.g < 90;
         return count;
     }
 
@@ -133,12 +133,12 @@ TEST_F(VisitInWindow, ViewpointsAreTravelledTo) {
     EXPECT_NEAR(visit_->visitor().eye.x, 0, 1e-9);
 }
 
-TEST_F(VisitInWindow, PicturesAreTakenHome) {
+TEST_F(VisitInWindow, ImagesAreTakenHome) {
     press(Key::kScreenshot);
     ASSERT_TRUE(step());
-    const Result<Image<Rgba8>> shot = read_picture(work_ / "screenshot-1.png");
+    const Result<Image<Rgba8>> shot = read_image(work_ / "screenshot-1.png");
     ASSERT_TRUE(shot.ok()) << shot.error().message;
-    EXPECT_EQ(*shot, visit_->picture());
+    EXPECT_EQ(*shot, visit_->image());
     press(Key::kScreenshot);
     ASSERT_TRUE(step());
     EXPECT_TRUE(std::filesystem::exists(work_ / "screenshot-2.png"));
@@ -152,12 +152,12 @@ TEST_F(VisitInWindow, PicturesAreTakenHome) {
 
 TEST_F(VisitInWindow, TTracesTheLightAndHoldsTheViewStill) {
     const int red_before = red_pixels();
-    const Image<Rgba8> raster = visit_->picture();
+    const Image<Rgba8> raster = visit_->image();
     press(Key::kTrace);
     const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     while (visit_->panel().passes < 2 && std::chrono::steady_clock::now() < patience) ASSERT_TRUE(step(0.001));
     ASSERT_GE(visit_->panel().passes, 2);
-    EXPECT_NE(visit_->picture(), raster);          // the wall is lit by other means,
+    EXPECT_NE(visit_->image(), raster);            // the wall is lit by other means,
     EXPECT_NEAR(red_pixels(), red_before, 20);     // the drum stands before it as it did,
     const glm::dvec3 eye = visit_->visitor().eye;  // and nobody moves.
     visit_->window().inject(KeyEvent{Key::kForward, true});
@@ -166,7 +166,7 @@ TEST_F(VisitInWindow, TTracesTheLightAndHoldsTheViewStill) {
     visit_->window().inject(KeyEvent{Key::kForward, false});
     press(Key::kTrace);
     ASSERT_TRUE(step(0.001));
-    EXPECT_EQ(visit_->picture(), raster);
+    EXPECT_EQ(visit_->image(), raster);
 }
 
 TEST_F(VisitInWindow, WhoStandsStillFindsTheTracerMade) {
@@ -178,9 +178,9 @@ TEST_F(VisitInWindow, WhoStandsStillFindsTheTracerMade) {
     EXPECT_FALSE(visit_->has_tracer());
     for (int n = 0; n < 6; ++n) ASSERT_TRUE(step(0.1));
     EXPECT_TRUE(visit_->has_tracer());
-    const Image<Rgba8> raster = visit_->picture();
+    const Image<Rgba8> raster = visit_->image();
     ASSERT_TRUE(step(0.1));
-    EXPECT_EQ(visit_->picture(), raster) << "nothing is shown of it";
+    EXPECT_EQ(visit_->image(), raster) << "nothing is shown of it";
 }
 
 TEST_F(VisitInWindow, WhoWalksOnByTracedLightSeesWhereHeGoes) {
@@ -194,23 +194,23 @@ TEST_F(VisitInWindow, WhoWalksOnByTracedLightSeesWhereHeGoes) {
         ASSERT_GE(visit_->panel().passes, passes);
     };
     wait_for(1);
-    const Image<Rgba8> before = visit_->picture();
+    const Image<Rgba8> before = visit_->image();
     const glm::dvec3 eye = visit_->visitor().eye;
     visit_->window().inject(KeyEvent{Key::kForward, true});
-    // The view never stands still, and yet there are pictures of it.
+    // The view never stands still, and yet there are images of it.
     Image<Rgba8> last = before;
-    int pictures = 0;
-    while (pictures < 3 && std::chrono::steady_clock::now() < patience) {
+    int images = 0;
+    while (images < 3 && std::chrono::steady_clock::now() < patience) {
         ASSERT_TRUE(step(0.01));
-        if (visit_->picture() != last) ++pictures;
-        last = visit_->picture();
+        if (visit_->image() != last) ++images;
+        last = visit_->image();
     }
-    EXPECT_EQ(pictures, 3);
+    EXPECT_EQ(images, 3);
     EXPECT_NE(visit_->visitor().eye, eye);
     visit_->window().inject(KeyEvent{Key::kForward, false});
     ASSERT_TRUE(step(0.001));
     wait_for(2);
-    EXPECT_NE(visit_->picture(), before);
+    EXPECT_NE(visit_->image(), before);
 }
 
 TEST_F(VisitInWindow, SwitchesSwitchAndEscapeLeaves) {

@@ -1,7 +1,7 @@
-// Objects with coded pictures in files: the chunks, what is refused, and what damage does.
+// Files with coded images: chunks, rejected payloads, and damage.
 
 #include "rayspace/codec/stream/coded_chunks.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "tests/support/coded_object.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -35,17 +35,17 @@ TEST_F(CodedFile, RoundTrip) {
     ASSERT_NE(read->coded, nullptr);
     EXPECT_EQ(code_payload(*read->coded), code_payload(*object_.coded));
     for (std::size_t v = 0; v < object_.views.size(); ++v) {
-        EXPECT_EQ(coded_picture_payload(*read->coded, v), coded_picture_payload(*object_.coded, v));
+        EXPECT_EQ(coded_image_payload(*read->coded, v), coded_image_payload(*object_.coded, v));
     }
-    decode_pictures(object_);
-    EXPECT_EQ(read->pictures, object_.pictures);
+    decode_images(object_);
+    EXPECT_EQ(read->images, object_.images);
 }
 
 TEST_F(CodedFile, MayStayCoded) {
     const auto read = read_object(file_, {.decode = false});
     ASSERT_TRUE(read.ok()) << read.error().message;
-    for (const PlanarPicture& picture : read->pictures) EXPECT_TRUE(picture.empty());
-    for (const CodedPicture& picture : read->coded->pictures) EXPECT_TRUE(picture.loaded());
+    for (const PlanarImage& image : read->images) EXPECT_TRUE(image.empty());
+    for (const CodedImage& image : read->coded->images) EXPECT_TRUE(image.loaded());
 }
 
 TEST_F(CodedFile, LevelsAreLoadedOneByOne) {
@@ -53,7 +53,7 @@ TEST_F(CodedFile, LevelsAreLoadedOneByOne) {
         const auto read = read_object(file_, {.max_level = level});
         ASSERT_TRUE(read.ok()) << read.error().message;
         for (std::size_t v = 0; v < read->views.size(); ++v) {
-            EXPECT_EQ(!read->pictures[v].empty(), read->coded->levels[v] <= level);
+            EXPECT_EQ(!read->images[v].empty(), read->coded->levels[v] <= level);
         }
     }
 }
@@ -64,11 +64,11 @@ TEST_F(CodedFile, MemoryIsCapped) {
     EXPECT_NE(read.error().message.find("memory"), std::string::npos) << read.error().message;
 }
 
-// What CODE must not say. Offsets as in encode/FORMAT.md.
+// Invalid payloads of CODE. Offsets as in encode/FORMAT.md.
 TEST_F(CodedFile, EveryFieldOfTheSharedPartIsChecked) {
     const std::vector<std::byte> sound = code_payload(*object_.coded);
     const auto parse = [&](const std::vector<std::byte>& payload) {
-        CodedPictures coded;
+        CodedImages coded;
         return parse_code(payload, object_.views.size(), object_.width, object_.height, coded).ok();
     };
     ASSERT_TRUE(parse(sound));
@@ -92,13 +92,13 @@ TEST_F(CodedFile, EveryFieldOfTheSharedPartIsChecked) {
     EXPECT_FALSE(parse(longer));
 }
 
-TEST_F(CodedFile, EveryFieldOfAPictureIsChecked) {
-    constexpr std::size_t kView = 1;  // of level 3, with two references
-    ASSERT_EQ(object_.coded->pictures[kView].head.references(), 2);
-    const std::vector<std::byte> sound = coded_picture_payload(*object_.coded, kView);
+TEST_F(CodedFile, EveryFieldOfAImageIsChecked) {
+    constexpr std::size_t kView = 1;  // a view of level 3, with two references
+    ASSERT_EQ(object_.coded->images[kView].head.references(), 2);
+    const std::vector<std::byte> sound = coded_image_payload(*object_.coded, kView);
     const auto parse = [&](const std::vector<std::byte>& payload) {
-        CodedPictures coded = *object_.coded;
-        return parse_coded_picture(payload, kView, coded).ok();
+        CodedImages coded = *object_.coded;
+        return parse_coded_image(payload, kView, coded).ok();
     };
     ASSERT_TRUE(parse(sound));
     const auto refused = [&](const char* what, const std::function<void(std::vector<std::byte>&)>& damage) {
@@ -117,7 +117,7 @@ TEST_F(CodedFile, EveryFieldOfAPictureIsChecked) {
     refused("a reference to itself", [&](auto& p) { set(p, 2, 1); });
     refused("a reference of the same level", [&](auto& p) { set(p, 2, 3); });
     refused("a second reference only", [&](auto& p) { set(p, 2, 65535); });
-    refused("the same reference twice", [&](auto& p) { set(p, 4, object_.coded->pictures[kView].head.reference[0]); });
+    refused("the same reference twice", [&](auto& p) { set(p, 4, object_.coded->images[kView].head.reference[0]); });
     for (const std::size_t offset : {6, 8, 10, 12}) {
         refused("a vector too far right", [&](auto& p) { set(p, offset, 1024); });
         refused("a vector too far left", [&](auto& p) { set(p, offset, 65536 - 1024); });
@@ -138,32 +138,32 @@ TEST_F(CodedFile, EveryFieldOfAPictureIsChecked) {
     EXPECT_FALSE(parse(longer));
 }
 
-// Nothing in a tile's bytes can be wrong: any bytes, probabilities, steps and vectors decode to some samples. The
-// sanitizers' builds look at what is touched on the way.
+// Any bytes, probabilities, steps and vectors of a tile decode to some samples. Sanitizer builds check the memory
+// accesses.
 TEST_F(CodedFile, AnyBytesDecode) {
     std::mt19937 random(2024);
     for (int round = 0; round < 60; ++round) {
-        CodedPictures coded = *object_.coded;
+        CodedImages coded = *object_.coded;
         coded.dense.has_masks = random() % 2 == 0;
         coded.dense.alpha_bits = 1 + static_cast<int>(random() % (coded.dense.has_masks ? 6 : 4));
         for (auto& p : coded.dense.probabilities) p = static_cast<std::uint16_t>(16 * (1 + random() % 255));
-        for (CodedPicture& picture : coded.pictures) {
-            picture.head.step = static_cast<int>(random() % (kMaxStep + 1));
-            for (auto& motion : picture.head.global_motion) {
+        for (CodedImage& image : coded.images) {
+            image.head.step = static_cast<int>(random() % (kMaxStep + 1));
+            for (auto& motion : image.head.global_motion) {
                 motion = {static_cast<std::int16_t>(static_cast<int>(random() % 2047) - 1023),
                           static_cast<std::int16_t>(static_cast<int>(random() % 2047) - 1023)};
             }
-            picture.bytes.resize(picture.tiles.size() * 200);
-            for (auto& b : picture.bytes) b = static_cast<std::byte>(random());
-            for (std::size_t t = 0; t < picture.tiles.size(); ++t) {
-                picture.tiles[t] = {static_cast<std::uint32_t>(t * 200), static_cast<std::uint32_t>(random() % 200),
-                                    true};
+            image.bytes.resize(image.tiles.size() * 200);
+            for (auto& b : image.bytes) b = static_cast<std::byte>(random());
+            for (std::size_t t = 0; t < image.tiles.size(); ++t) {
+                image.tiles[t] = {static_cast<std::uint32_t>(t * 200), static_cast<std::uint32_t>(random() % 200),
+                                  true};
             }
         }
         RaySpaceObject object = object_;
-        object.coded = std::make_shared<CodedPictures>(std::move(coded));
-        decode_pictures(object);
-        ASSERT_EQ(object.pictures.back().y.width(), object.width);
+        object.coded = std::make_shared<CodedImages>(std::move(coded));
+        decode_images(object);
+        ASSERT_EQ(object.images.back().y.width(), object.width);
     }
 }
 

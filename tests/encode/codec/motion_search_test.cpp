@@ -1,8 +1,8 @@
-// The search of motion vectors against all vectors in reach.
+// Compares the motion search with an exhaustive search.
 
 #include "encode/codec/motion_search.hpp"
 
-#include "encode/codec/source_picture.hpp"
+#include "encode/codec/source_image.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,18 +18,18 @@ namespace {
 
 using codec::MotionVector;
 
-// Smooth waves with noise; a part is transparent.
+// Smooth waves with noise; partly transparent.
 Image<Rgba8> waves(double phase, std::uint64_t seed) {
     std::mt19937_64 random(seed);
-    Image<Rgba8> picture(64, 48);
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
+    Image<Rgba8> image(64, 48);
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
             const double light = 120 + 50 * std::sin(0.3 * x + phase) + 40 * std::cos(0.21 * y - 0.1 * x);
             const auto code = static_cast<std::uint8_t>(light + static_cast<double>(random() % 9));
-            picture(x, y) = {code, code, code, static_cast<std::uint8_t>(x + y < 40 ? 0 : 255)};
+            image(x, y) = {code, code, code, static_cast<std::uint8_t>(x + y < 40 ? 0 : 255)};
         }
     }
-    return picture;
+    return image;
 }
 
 float bits_of(MotionVector vector, MotionVector from) {
@@ -41,10 +41,10 @@ float bits_of(MotionVector vector, MotionVector from) {
     return bits;
 }
 
-// Of one vector: prediction by the codec, valid samples, the mean with `other` where there is one.
+// Cost of one vector: prediction by the codec over valid samples, averaged with `other` if given.
 float cost_of(const MotionSearch& search, MotionVector vector, MotionVector from, const std::uint8_t* other) {
     std::vector<std::uint8_t> samples(static_cast<std::size_t>(search.size) * static_cast<std::size_t>(search.size));
-    codec::predict_from_picture(search.reference, search.x, search.y, vector, search.size, samples.data(), search.size);
+    codec::predict_from_image(search.reference, search.x, search.y, vector, search.size, samples.data(), search.size);
     int sum = 0;
     for (int y = 0; y < search.size; ++y) {
         for (int x = 0; x < search.size; ++x) {
@@ -59,7 +59,7 @@ float cost_of(const MotionSearch& search, MotionVector vector, MotionVector from
 
 class MotionSearchTest : public ::testing::TestWithParam<int> {
 protected:
-    MotionSearchTest() : source_(source_picture(waves(0.4, 1), 8)), reference_(source_picture(waves(0, 2), 8)) {
+    MotionSearchTest() : source_(source_image(waves(0.4, 1), 8)), reference_(source_image(waves(0, 2), 8)) {
         search_ = {.source = &source_,
                    .reference = reference_.planes[0],
                    .x = 16,
@@ -70,8 +70,8 @@ protected:
                    .fractions = false,
                    .bit_cost = 3};
     }
-    SourcePicture source_;
-    SourcePicture reference_;
+    SourceImage source_;
+    SourceImage reference_;
     MotionSearch search_;
 };
 
@@ -80,13 +80,13 @@ TEST_P(MotionSearchTest, NoWholeVectorInReachIsBetter) {
     const MotionVector from{5, -3};
     for (const std::uint8_t* mixed : {static_cast<const std::uint8_t*>(nullptr), other.data()}) {
         for (const MotionVector start : {MotionVector{0, 0}, MotionVector{9, -6}, MotionVector{-64, 0}}) {
-            const FoundMotion found = find_motion(search_, std::vector{start}, from, mixed);
+            const MotionMatch found = search_motion(search_, std::vector{start}, from, mixed);
             float least = std::numeric_limits<float>::infinity();
             const int x0 = (start.x + 2) >> 2;
             const int y0 = (start.y + 2) >> 2;
             for (int y = y0 - search_.reach_y; y <= y0 + search_.reach_y; ++y) {
                 for (int x = x0 - search_.reach_x; x <= x0 + search_.reach_x; ++x) {
-                    // Wholly inside of the picture.
+                    // Only positions inside of the image.
                     if (search_.x + x < 0 || search_.y + y < 0 ||
                         search_.x + x + search_.size > search_.reference.width() ||
                         search_.y + y + search_.size > search_.reference.height()) {
@@ -106,12 +106,12 @@ TEST_P(MotionSearchTest, AQuarterOfASampleIsFound) {
     search_.fractions = true;
     search_.bit_cost = 0;
     for (const MotionVector truth : {MotionVector{7, -5}, MotionVector{-9, 2}, MotionVector{4, 8}}) {
-        SourcePicture moved = source_;
+        SourceImage moved = source_;
         search_.source = &moved;
         Image<std::uint8_t>& y_plane = moved.planes[0];
-        codec::predict_from_picture(search_.reference, search_.x, search_.y, truth, search_.size,
-                                    y_plane.row(search_.y) + search_.x, y_plane.view().stride());
-        const FoundMotion found = find_motion(search_, std::vector{MotionVector{0, 0}}, {0, 0});
+        codec::predict_from_image(search_.reference, search_.x, search_.y, truth, search_.size,
+                                  y_plane.row(search_.y) + search_.x, y_plane.view().stride());
+        const MotionMatch found = search_motion(search_, std::vector{MotionVector{0, 0}}, {0, 0});
         EXPECT_EQ(found.vector, truth);
         EXPECT_EQ(found.cost, 0);
     }

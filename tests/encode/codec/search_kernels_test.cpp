@@ -1,10 +1,10 @@
-// The encoder's sums over samples against formulas written out, and what efforts do.
+// Compares the encoder's search kernels with plain formulas; compares effort levels.
 
 #include "encode/codec/search_kernels.hpp"
 
 #include "encode/codec/coders.hpp"
 #include "encode/codec/dense_encoder.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/codec/syntax.hpp"
 #include "tests/support/coded_object.hpp"
 
@@ -70,7 +70,7 @@ TEST(SearchKernels, SumsAreThoseOfTheFormulas) {
     }
 }
 
-// Entry (v, u) of a block is the sum over its samples times (-1)^(bits that v and y, u and x have in common).
+// Entry (v, u) of a block is the sum over its samples times (-1)^(number of common bits of v and y, and of u and x).
 TEST(SearchKernels, HadamardTransformsAreThoseOfTheFormula) {
     std::mt19937 random(2);
     for (int round = 0; round < 40; ++round) {
@@ -138,36 +138,36 @@ TEST(CostTable, LevelsCostWhatTheirDecisionsDo) {
         const int near = static_cast<int>(random() % 5);
         const bool must_be = random() % 2 == 0;
         const int level = static_cast<int>(random() % 40) + (must_be ? 1 : 0);
-        Estimator bits(costs);
+        CostEstimator bits(costs);
         codec::syntax::magnitude(bits, kind, band, near, must_be, level);
         ASSERT_NEAR(costs.level(kind, band, near, must_be, level), bits.bits() + (level != 0 ? 1.0F : 0.0F), 1e-4);
         const int size = (kind & 2) != 0 ? 16 : 8;
         const int place = static_cast<int>(random() % static_cast<unsigned>(size * size));
-        Estimator of_place(costs);
+        CostEstimator of_place(costs);
         codec::syntax::last_place(of_place, kind, size, place);
         ASSERT_NEAR(costs.last_place(kind, place), of_place.bits(), 1e-4);
     }
 }
 
-// On drawn pictures, which have little to choose from.
+// Uses drawn images, whose modes differ little.
 TEST(SearchEffort, MoreOfItGivesABetterBargain) {
     RaySpaceObject object = test::small_object({.views_per_ring = 12, .width = 160, .height = 96});
-    const std::vector<Image<Rgba8>> pictures = test::drawn_pictures(object);
-    std::vector<SourcePicture> sources;
-    for (const auto& picture : pictures) sources.push_back(source_picture(picture, 2));
-    // Bytes, and the error as bytes of the same worth: a decibel is about a seventh of them.
+    const std::vector<Image<Rgba8>> images = test::drawn_images(object);
+    std::vector<SourceImage> sources;
+    for (const auto& image : images) sources.push_back(source_image(image, 2));
+    // Bytes, plus the error as equivalent bytes: a decibel is about a seventh of the bytes.
     const auto price = [&](int effort) {
         DenseSettings settings;
         settings.step = 8;
         settings.effort = effort;
-        const EncodedPictures encoded = encode_dense(object, sources, settings);
+        const EncodedImages encoded = encode_dense(object, sources, settings);
         double bytes = 0;
-        for (const auto& picture : encoded.coded.pictures) bytes += static_cast<double>(picture.bytes.size());
+        for (const auto& image : encoded.coded.images) bytes += static_cast<double>(image.bytes.size());
         return bytes * std::pow(10.0, -encoded.psnr_db / 16);
     };
-    const double most = price(kMostEffort);
+    const double most = price(kMaxEffort);
     EXPECT_LT(most, price(kLeastEffort));
-    EXPECT_LT(price(kUsualEffort), 1.1 * most);
+    EXPECT_LT(price(kDefaultEffort), 1.1 * most);
     EXPECT_LT(price(kLeastEffort), 1.3 * most);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Working pictures of the drawn balls, and the plain twin of the visual hull.
+// Working views of the drawn balls, and a plain implementation of the visual hull.
 
 #include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -26,9 +26,9 @@ inline std::vector<WorkView> drawn_views(const Rig& rig) {
     std::vector<WorkView> views;
     for (const RigView& view : rig.views) {
         Camera camera = view.camera;
-        const Image<Rgba8> picture = test::drawn_picture(camera);
+        const Image<Rgba8> image = test::drawn_image(camera);
         camera.world_from_camera[3] = glm::dvec4(camera.centre() / rig.object_radius, 1);
-        views.push_back(make_work_view(camera, picture, 1));
+        views.push_back(make_work_view(camera, image, 1));
     }
     return views;
 }
@@ -39,10 +39,10 @@ inline std::vector<const WorkView*> pointers(const std::vector<WorkView>& views)
     return found;
 }
 
-// The plain twin of heights_above: ask every silhouette about one point.
+/// Plain version of heights_above: tests one point against every silhouette.
 inline bool is_allowed(const std::vector<WorkView>& views, const glm::dvec2& place, double y, int margin) {
     for (const WorkView& view : views) {
-        const SeenColumn seen = view.see(place);
+        const ProjectedColumn seen = view.see(place);
         if (seen.axial <= 0 || seen.column < 0 || seen.column >= view.width) continue;
         const double row = view.row_of(y, seen.axial);
         if (row < 0 || row >= view.height) continue;

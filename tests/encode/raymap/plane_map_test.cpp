@@ -57,7 +57,7 @@ TEST(CapturedView, RefusesWhatTheFormatCannotHold) {
     EXPECT_NE(captured_view(camera, 12).error().message.find("focal length"), std::string::npos);
 }
 
-// For a cell, the picture whose ray through the same plane point deviates least in angle.
+// The image whose ray through the cell's plane point deviates least in angle.
 TEST(PlaneMap, HoldsTheNearestRayOfEveryCell) {
     const test::RingObjectOptions ring_options{.views = 17, .width = 64, .height = 48, .fl_px = 70};
     const Rig rig = test::ring_rig(ring_options);
@@ -85,13 +85,13 @@ TEST(PlaneMap, HoldsTheNearestRayOfEveryCell) {
                 }
                 const std::uint16_t cell = ring.cells[ring.cell_index(k, xi, ui)];
                 if (best > 1e8) {
-                    EXPECT_EQ(cell, kNoPicture);
+                    EXPECT_EQ(cell, kNoImage);
                     continue;
                 }
-                ASSERT_NE(cell, kNoPicture);
+                ASSERT_NE(cell, kNoImage);
                 const glm::dvec3 centre = rig.views[cell].camera.centre();
                 const double angle = std::atan(viewpoint_line(centre, plane).u_at(x));
-                // Near the border of two pictures the favoured one may be up to a quarter of their distance farther.
+                // Near the border of two images the preferred one may be up to a quarter of their distance farther.
                 const double off = std::abs(angle - std::atan(u));
                 EXPECT_GE(off, best - 1e-9);
                 EXPECT_LE(off, best * 5 / 3 + 1e-9);
@@ -104,8 +104,8 @@ TEST(PlaneMap, HoldsTheNearestRayOfEveryCell) {
     EXPECT_GT(exact, answered * 8 / 10);
 }
 
-// Half-way between two captured viewpoints all columns come from one picture.
-TEST(PlaneMap, HalfWayViewpointsSeeOnePicture) {
+// Half-way between two captured viewpoints all columns come from one image.
+TEST(PlaneMap, HalfWayViewpointsSeeOneImage) {
     const Rig rig = test::ring_rig({.views = 51});
     const Ring ring = make_plane_map(rig, find_rings(rig).front(), {.planes = 12, .x_cells = 512, .u_cells = 512});
     const double x_half = ring.x_half_q20 / 1048576.0;
@@ -113,7 +113,7 @@ TEST(PlaneMap, HalfWayViewpointsSeeOnePicture) {
     for (int i = 0; i < 51; ++i) {
         const double azimuth = 2 * kPi * (i + 0.5) / 51;
         const glm::dvec3 viewpoint(3.5 * std::sin(azimuth), 0, 3.5 * std::cos(azimuth));
-        std::set<int> pictures;
+        std::set<int> images;
         for (int column = -40; column <= 40; ++column) {
             const glm::dvec3 at = glm::dvec3(std::cos(azimuth), 0, -std::sin(azimuth)) * (column / 45.0);
             const test::Ray ray{viewpoint, at - viewpoint};
@@ -122,9 +122,9 @@ TEST(PlaneMap, HalfWayViewpointsSeeOnePicture) {
             ASSERT_TRUE(place);
             const int xi = static_cast<int>((place->x + x_half) * 512 / (2 * x_half));
             const int ui = static_cast<int>((place->u + u_half) * 512 / (2 * u_half));
-            pictures.insert(ring.cells[ring.cell_index(k, xi, ui)]);
+            images.insert(ring.cells[ring.cell_index(k, xi, ui)]);
         }
-        EXPECT_EQ(pictures.size(), 1U) << "between views " << i << " and " << i + 1;
+        EXPECT_EQ(images.size(), 1U) << "between views " << i << " and " << i + 1;
     }
 }
 

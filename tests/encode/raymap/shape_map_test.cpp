@@ -1,4 +1,4 @@
-// Shape maps found from pictures: whole objects of ordinary and odd sets.
+// Shape maps estimated from images, for regular and unusual sets.
 
 #include "encode/raymap/shape_map.hpp"
 
@@ -46,7 +46,7 @@ double psnr_of(const BuiltObject& built, const std::filesystem::path& truth) {
     return comparison->mean_psnr_db;
 }
 
-// `count` cameras that look at it from above, the first at an azimuth.
+// `count` cameras above the object, the first at an azimuth.
 Rig ring_above(int count, double first_deg, double elevation_deg) {
     return make_ring({.count = count,
                       .distance = 3.5,
@@ -57,7 +57,7 @@ Rig ring_above(int count, double first_deg, double elevation_deg) {
                       .first_rad = radians(first_deg)});
 }
 
-TEST(ShapeMap, BeatsThePlaneHalfwayAndKeepsCapturedPictures) {
+TEST(ShapeMap, BeatsThePlaneHalfwayAndKeepsCapturedImages) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", drawn_ring(24));
     test::write_drawn_set(folder / "halfway", drawn_ring(24, 7.5));
@@ -94,7 +94,7 @@ TEST(ShapeMap, ARingThatContradictsIsLeftOut) {
     Rig turned_wrong = ring_above(16, 0, 10);
     for (RigView& view : turned_wrong.views) view.camera.cx += 12;
     two.views.insert(two.views.end(), turned_wrong.views.begin(), turned_wrong.views.end());
-    // Pictures of the right cameras, and then the wrong numbers for those of the second ring.
+    // Images are drawn with the correct cameras; the second ring then gets wrong parameters.
     Rig right = two;
     for (RigView& view : right.views) view.camera.cx = one.views[0].camera.cx;
     test::write_drawn_set(folder / "one", one, striped_ball);
@@ -116,39 +116,39 @@ TEST(ShapeMap, APartThatOneCutOutLacksIsNotLostSeenFromElsewhere) {
     test::write_drawn_set(folder / "halfway", halfway, striped_ball);
     const double whole_db = psnr_of(build(folder / "set"), folder / "halfway");
     const std::filesystem::path lacking = folder / "set" / "12.png";
-    Result<Image<Rgba8>> picture = read_picture(lacking);
-    ASSERT_TRUE(picture.ok());
+    Result<Image<Rgba8>> image = read_image(lacking);
+    ASSERT_TRUE(image.ok());
     for (int y = 20; y < 44; ++y) {
-        for (int x = 52; x < 76; ++x) (*picture)(x, y) = {};
+        for (int x = 52; x < 76; ++x) (*image)(x, y) = {};
     }
-    ASSERT_TRUE(write_png(lacking, *picture).ok());
-    EXPECT_GT(psnr_of(build(folder / "set"), folder / "halfway"), whole_db - 0.02);  // .06 less where it is lost
+    ASSERT_TRUE(write_png(lacking, *image).ok());
+    EXPECT_GT(psnr_of(build(folder / "set"), folder / "halfway"), whole_db - 0.02);  // 0.06 less if it is lost
 }
 
-// Makes everything transparent in a square of a picture of a set.
-void cut_away(const std::filesystem::path& picture_file, int left, int top, int side) {
-    Result<Image<Rgba8>> picture = read_picture(picture_file);
-    ASSERT_TRUE(picture.ok());
+// Makes a square of an image of a set transparent.
+void make_transparent(const std::filesystem::path& image_file, int left, int top, int side) {
+    Result<Image<Rgba8>> image = read_image(image_file);
+    ASSERT_TRUE(image.ok());
     for (int y = top; y < top + side; ++y) {
-        for (int x = left; x < left + side; ++x) (*picture)(x, y) = {};
+        for (int x = left; x < left + side; ++x) (*image)(x, y) = {};
     }
-    ASSERT_TRUE(write_png(picture_file, *picture).ok());
+    ASSERT_TRUE(write_png(image_file, *image).ok());
 }
 
 TEST(ShapeMap, ALargePartThatFewCutOutsLackIsPaintedFromThoseBeside) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", drawn_ring(24), mottled_ball);
     test::write_drawn_set(folder / "whole", drawn_ring(24), mottled_ball);
-    for (const char* const lacking : {"7.png", "15.png"}) cut_away(folder / "set" / lacking, 48, 40, 32);
+    for (const char* const lacking : {"7.png", "15.png"}) make_transparent(folder / "set" / lacking, 48, 40, 32);
     const BuiltObject built = build(folder / "set");
     std::vector<int> completed;
-    for (const auto& [view, picture] : built.completed) completed.push_back(view);
+    for (const auto& [view, image] : built.completed) completed.push_back(view);
     EXPECT_EQ(completed, (std::vector<int>{7, 15}));
-    EXPECT_THAT(built.warnings, Contains(HasSubstr("2 cut-outs lack a large part")));
+    EXPECT_THAT(built.warnings, Contains(HasSubstr("2 masks lack a large part")));
     EXPECT_GT(psnr_of(built, folder / "whole"), psnr_of(built, folder / "set"));
     const Result<CaptureSet> whole = open_capture_set(folder / "whole");
     ASSERT_TRUE(whole.ok());
-    const Result<Image<Rgba8>> truth = read_upright_picture(*whole, 7);
+    const Result<Image<Rgba8>> truth = read_upright_image(*whole, 7);
     ASSERT_TRUE(truth.ok());
     int lost = 0, back = 0;
     for (int y = 40; y < 72; ++y) {
@@ -176,10 +176,10 @@ TEST(ShapeMap, ExactSilhouettesAreNotSearchedForWhatTheyLack) {
     build(folder / "set", MapKind::kShape, &whole);
     EXPECT_THAT(whole.labels, Contains("depth"));
     EXPECT_THAT(whole.labels, Not(Contains("depth at half size")));
-    cut_away(folder / "set" / "7.png", 20, 56, 32);
+    make_transparent(folder / "set" / "7.png", 20, 56, 32);
     build(folder / "set", MapKind::kShape, &lacking);
     EXPECT_THAT(lacking.labels, Contains("depth at half size"));
-    // Cameras that are off: the silhouettes agree within some pixels only, and are not exact.
+    // Inaccurate cameras: the silhouettes agree within some pixels only.
     Rig off = drawn_ring(24);
     for (std::size_t i = 0; i < off.views.size(); ++i) {
         off.views[i].camera.cx += i % 2 == 0 ? 2 : -2;
@@ -195,7 +195,7 @@ TEST(ShapeMap, ExactSilhouettesAreNotSearchedForWhatTheyLack) {
 TEST(ShapeMap, WhereManyCutOutsSeemToLackAPartTheRigIsAtFault) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", drawn_ring(24), mottled_ball);
-    const auto cut = [&](int view) { cut_away(folder / "set" / (std::to_string(view) + ".png"), 40, 32, 48); };
+    const auto cut = [&](int view) { make_transparent(folder / "set" / (std::to_string(view) + ".png"), 40, 32, 48); };
     for (const int view : {0, 5, 10, 14}) cut(view);
     EXPECT_EQ(build(folder / "set").completed.size(), 4U);
     cut(19);
@@ -211,7 +211,7 @@ TEST(ShapeMap, IsTheSameEveryTime) {
 TEST(ShapeMap, LevelsAndLinesFollowUnequalSteps) {
     const test::TemporaryFolder folder;
     Rig rig = drawn_ring(36);
-    // 10-degree steps, but for some that are left out: 20, 30 degrees.
+    // 10-degree steps with gaps of 20 and 30 degrees.
     rig.views.erase(rig.views.begin() + 7);
     rig.views.erase(rig.views.begin() + 20, rig.views.begin() + 22);
     test::write_drawn_set(folder / "set", rig);
@@ -219,7 +219,7 @@ TEST(ShapeMap, LevelsAndLinesFollowUnequalSteps) {
     const BuiltObject shape = build(folder / "set");
     EXPECT_THAT(shape.warnings, IsEmpty());
     const auto& gaps = shape.object.rings[0].shape.gaps;
-    EXPECT_EQ(gaps[0].lines, 4);  // 2 degrees apart, and as far from the captured pictures
+    EXPECT_EQ(gaps[0].lines, 4);  // 2 degrees apart, also from the captured images
     EXPECT_EQ(gaps[6].lines, 9);
     EXPECT_EQ(gaps[19].lines, 14);
     EXPECT_GT(psnr_of(shape, folder / "halfway"),
@@ -232,7 +232,7 @@ TEST(ShapeMap, AMissingSectorIsSaidAndNotInvented) {
     rig.views.erase(rig.views.begin() + 10, rig.views.begin() + 19);
     test::write_drawn_set(folder / "set", rig);
     const BuiltObject shape = build(folder / "set");
-    EXPECT_THAT(shape.warnings, Contains(HasSubstr("no pictures between 90 and 190 degrees")));
+    EXPECT_THAT(shape.warnings, Contains(HasSubstr("no images between 90 and 190 degrees")));
     EXPECT_EQ(shape.object.rings[0].shape.gaps[9].lines, 0);
 }
 
@@ -242,14 +242,14 @@ TEST(ShapeMap, OneAndTwoViews) {
     rig.views.resize(1);
     test::write_drawn_set(folder / "one", rig);
     const BuiltObject one = build(folder / "one");
-    EXPECT_THAT(one.warnings, Contains(HasSubstr("one picture")));
+    EXPECT_THAT(one.warnings, Contains(HasSubstr("one image")));
     EXPECT_NEAR(psnr_of(one, folder / "one"), psnr_of(build(folder / "one", MapKind::kPlane), folder / "one"), 1e-9);
 
     rig = drawn_ring(36);
     rig.views.resize(2);
     test::write_drawn_set(folder / "two", rig);
     const BuiltObject two = build(folder / "two");
-    EXPECT_THAT(two.warnings, Contains(HasSubstr("no pictures between 10 and 0 degrees")));
+    EXPECT_THAT(two.warnings, Contains(HasSubstr("no images between 10 and 0 degrees")));
     EXPECT_NEAR(psnr_of(two, folder / "two"), psnr_of(build(folder / "two", MapKind::kPlane), folder / "two"), 1e-9);
     Rig between = drawn_ring(36, 5);
     between.views.resize(1);
@@ -257,7 +257,7 @@ TEST(ShapeMap, OneAndTwoViews) {
     EXPECT_GT(psnr_of(two, folder / "between"), 18);
 }
 
-TEST(ShapeMap, AnEmptyPictureIsNamedAndHurtsNobodyElse) {
+TEST(ShapeMap, AnEmptyImageIsNamedAndHurtsNobodyElse) {
     const test::TemporaryFolder folder;
     const Rig rig = drawn_ring(24);
     test::write_drawn_set(folder / "set", rig);
@@ -288,34 +288,33 @@ TEST(ShapeMap, AnObjectThatLeavesTheFrameKeepsWhatIsSeen) {
 
 // A ball above a floor with a soft blue stain around it, which covers less than half everywhere.
 Image<Rgba8> ball_over_stain(const Camera& camera) {
-    Image<Rgba8> picture(camera.width, camera.height);
+    Image<Rgba8> image(camera.width, camera.height);
     constexpr double kRadius = 0.35;
     constexpr double kFloor = -0.35;
     constexpr double kStain = 0.9;
     const glm::dvec3 eye = camera.centre();
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
             const glm::dvec3 ray = glm::normalize(camera.ray(x + 0.5, y + 0.5));
             const double along = -glm::dot(ray, eye);
             const double inside = kRadius * kRadius + along * along - glm::dot(eye, eye);
             if (inside >= 0) {
                 const glm::dvec3 hit = eye + (along - std::sqrt(inside)) * ray;
                 const auto code = [](double wave) { return static_cast<std::uint8_t>(160 + std::lround(90 * wave)); };
-                picture(x, y) = {code(std::sin(25 * hit.x)), code(std::cos(25 * hit.y)), code(std::sin(25 * hit.z)),
-                                 255};
+                image(x, y) = {code(std::sin(25 * hit.x)), code(std::cos(25 * hit.y)), code(std::sin(25 * hit.z)), 255};
                 continue;
             }
             if (ray.y >= 0) continue;
             const glm::dvec3 floor = eye + ((kFloor - eye.y) / ray.y) * ray;
             const double out = (floor.x * floor.x + floor.z * floor.z) / (kStain * kStain);
             if (out >= 1) continue;
-            picture(x, y) = {30, 80, 250, static_cast<std::uint8_t>(std::lround(110 * (1 - out)))};
+            image(x, y) = {30, 80, 250, static_cast<std::uint8_t>(std::lround(110 * (1 - out)))};
         }
     }
-    return picture;
+    return image;
 }
 
-TEST(ShapeMap, WhatIsSoftIsShownBetweenPictures) {
+TEST(ShapeMap, WhatIsSoftIsShownBetweenImages) {
     const test::TemporaryFolder folder;
     Rig rig = ring_above(24, 0, 20);
     rig.object_radius = 0.9;

@@ -1,5 +1,5 @@
 #pragma once
-// Balls about the origin: one whose colour depends on height alone, and one without stripes.
+// Balls about the origin: one whose colour depends only on height, and one without stripes.
 
 #include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -12,23 +12,23 @@ namespace rs::encode {
 
 inline constexpr double kBallRadius = 0.8;
 
-// Opaque, in the colour of the place that a ray meets; transparent beside it.
+/// Draws a ball: opaque, coloured by the hit point; transparent beside it.
 template <class Colour>
 Image<Rgba8> drawn_ball(const Camera& camera, const Colour& colour) {
-    Image<Rgba8> picture(camera.width, camera.height);
+    Image<Rgba8> image(camera.width, camera.height);
     const glm::dvec3 eye = camera.centre();
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
             const glm::dvec3 ray = glm::normalize(camera.ray(x + 0.5, y + 0.5));
             const double along = -glm::dot(ray, eye);
             const double inside = kBallRadius * kBallRadius + along * along - glm::dot(eye, eye);
             if (inside < 0) continue;
             const glm::dvec3 found = colour(eye + (along - std::sqrt(inside)) * ray);
             const auto code = [](double wave) { return static_cast<std::uint8_t>(128 + std::lround(100 * wave)); };
-            picture(x, y) = {code(found.r), code(found.g), code(found.b), 255};
+            image(x, y) = {code(found.r), code(found.g), code(found.b), 255};
         }
     }
-    return picture;
+    return image;
 }
 
 inline Image<Rgba8> striped_ball(const Camera& camera) {
@@ -36,7 +36,7 @@ inline Image<Rgba8> striped_ball(const Camera& camera) {
         camera, [](const glm::dvec3& place) { return glm::dvec3(std::sin(35 * place.y), std::cos(35 * place.y), 0); });
 }
 
-// Whose colour is another one everywhere.
+/// A ball with a different colour everywhere.
 inline Image<Rgba8> mottled_ball(const Camera& camera) {
     return drawn_ball(camera, [](const glm::dvec3& place) {
         return glm::dvec3(std::sin(21 * place.x + 5 * place.y), std::sin(19 * place.y - 4 * place.z),
@@ -44,7 +44,7 @@ inline Image<Rgba8> mottled_ball(const Camera& camera) {
     });
 }
 
-// Where the ray of a pixel meets it, as DepthView::depth has it; NaN where it does not.
+/// Depth of the ball at a pixel, as in DepthView::depth; NaN if the ray misses it.
 inline double ball_depth(const WorkView& view, int column, int row) {
     const HorizontalRay ray = view.ray_of(column + 0.5);
     const double rise = (view.height_of(row + 0.5, 1) - view.centre_y) / ray.horizontal_per_axial;

@@ -1,13 +1,13 @@
-// The page of a build: well-formed whatever texts it is given, plots whose points stand where their numbers say,
-// pictures that are what went in.
+// Build report: well-formed for any text, plots with points at the positions of their values, embedded images equal to
+// the input.
 
 #include "encode/report/build_report.hpp"
 #include "encode/report/ring_plan.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "rayspace/page/html_page.hpp"
 #include "rayspace/page/line_plot.hpp"
 #include "rayspace/page/svg_parts.hpp"
-#include "rayspace/pictures/picture_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// Every tag is closed by its own kind, in order; the name of the first that is not, else "".
+// Checks that tags are balanced; returns the name of the first one that is not, else "".
 std::string unbalanced_tag(const std::string& markup) {
     static const std::regex kTag(R"(<(/?)([a-zA-Z0-9]+)((?:[^<>"]|"[^"<>]*")*?)(/?)>)");
     std::vector<std::string> open;
@@ -92,42 +92,42 @@ TEST(HtmlPage, IsWellFormedAndHoldsWhatWasAdded) {
     EXPECT_EQ(unbalanced_tag("<p><b></p></b>"), "p") << "the check itself must be able to fail";
 }
 
-TEST(HtmlPage, APictureInsideIsThePictureScaledDown) {
-    Image<Rgba8> picture(600, 300, {200, 100, 50, 255});
-    const std::vector<CaptionedPicture> row{{picture, "wide \"one\""}, {Image<Rgba8>(20, 40, {1, 2, 3, 255}), "small"}};
-    HtmlPage page("pictures");
-    ASSERT_TRUE(page.pictures(row, 150).ok());
+TEST(HtmlPage, AImageInsideIsTheImageScaledDown) {
+    Image<Rgba8> image(600, 300, {200, 100, 50, 255});
+    const std::vector<CaptionedImage> row{{image, "wide \"one\""}, {Image<Rgba8>(20, 40, {1, 2, 3, 255}), "small"}};
+    HtmlPage page("images");
+    ASSERT_TRUE(page.images(row, 150).ok());
     const std::string text = page.text();
     EXPECT_EQ(unbalanced_tag(text), "");
     EXPECT_THAT(text, HasSubstr("alt=\"wide &quot;one&quot;\" width=\"150\" height=\"75\""));
     EXPECT_THAT(text, HasSubstr("width=\"20\" height=\"40\""));
-    const auto bytes = encode_png(scaled_down(picture, 150), "wide");
+    const auto bytes = encode_png(scaled_down(image, 150), "wide");
     ASSERT_TRUE(bytes.ok());
     EXPECT_THAT(text, HasSubstr("src=\"data:image/png;base64," + base64(*bytes) + "\""));
-    // The bytes are a file that can be read.
+    // The bytes are a readable file.
     const test::TemporaryFolder folder;
     std::ofstream(folder / "p.png", std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
-    const auto read = read_picture(folder / "p.png");
+    const auto read = read_image(folder / "p.png");
     ASSERT_TRUE(read.ok()) << read.error().message;
     EXPECT_EQ(*read, Image<Rgba8>(150, 75, {200, 100, 50, 255}));
-    EXPECT_FALSE(HtmlPage("none").pictures(std::vector<CaptionedPicture>{{{}, "empty"}}).ok());
+    EXPECT_FALSE(HtmlPage("none").images(std::vector<CaptionedImage>{{{}, "empty"}}).ok());
 }
 
 TEST(ScaledDown, AveragesInLinearLightAndByAlpha) {
-    Image<Rgba8> picture(4, 2, {0, 0, 0, 255});
+    Image<Rgba8> image(4, 2, {0, 0, 0, 255});
     for (int y = 0; y < 2; ++y) {
-        picture(0, y) = {255, 255, 255, 255};
-        picture(2, y) = {90, 60, 30, 255};
-        picture(3, y) = {255, 0, 255, 0};
+        image(0, y) = {255, 255, 255, 255};
+        image(2, y) = {90, 60, 30, 255};
+        image(3, y) = {255, 0, 255, 0};
     }
-    const Image<Rgba8> small = scaled_down(picture, 2);
+    const Image<Rgba8> small = scaled_down(image, 2);
     ASSERT_EQ(small.width(), 2);
     ASSERT_EQ(small.height(), 1);
-    EXPECT_EQ(small(0, 0), (Rgba8{188, 188, 188, 255}));  // half of white's light
-    EXPECT_EQ(small(1, 0), (Rgba8{90, 60, 30, 128}));     // the transparent half gives no colour
-    EXPECT_EQ(scaled_down(picture, 4), picture);
-    // Sizes that do not divide: a constant stays what it is, to the last pixel.
+    EXPECT_EQ(small(0, 0), (Rgba8{188, 188, 188, 255}));  // half of the light of white
+    EXPECT_EQ(small(1, 0), (Rgba8{90, 60, 30, 128}));     // the transparent half does not contribute
+    EXPECT_EQ(scaled_down(image, 4), image);
+    // Sizes without a common factor: a constant image stays constant up to the last pixel.
     const Image<Rgba8> odd(101, 67, {77, 88, 99, 255});
     EXPECT_EQ(scaled_down(odd, 40), Image<Rgba8>(40, 27, {77, 88, 99, 255}));
 }
@@ -143,14 +143,14 @@ TEST(Colours, DepthAndErrorRunFromEndToEnd) {
 
     Image<float> depth(2, 1, 1.0F);
     depth(1, 0) = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(depth_picture(depth, 0, 2)(0, 0), depth_colour(0.5F));
-    EXPECT_EQ(depth_picture(depth, 0, 2)(1, 0).a, 0);
+    EXPECT_EQ(depth_image(depth, 0, 2)(0, 0), depth_colour(0.5F));
+    EXPECT_EQ(depth_image(depth, 0, 2)(1, 0).a, 0);
 
     Image<Rgba8> a(3, 1), b(3, 1);
     a(0, 0) = {100, 50, 20, 255};
     b(0, 0) = {100, 82, 20, 255};
     a(1, 0) = {10, 10, 10, 255};  // b is transparent there: the whole colour is wrong
-    const Image<Rgba8> error = error_picture(a, b, 64);
+    const Image<Rgba8> error = error_image(a, b, 64);
     EXPECT_EQ(error(0, 0), heat_colour(0.5F));
     EXPECT_EQ(error(1, 0), heat_colour(10.0F / 64));
     EXPECT_EQ(error(2, 0).a, 0);
@@ -214,27 +214,27 @@ TEST(LinePlot, LongNamesGetRoom) {
     EXPECT_GT(usual.right, plot_frame(plot).right + 100);
 }
 
-TEST(RingPlan, AMissingPictureOfAnEvenTurnIsSeen) {
+TEST(RingPlan, AMissingImageOfAnEvenTurnIsSeen) {
     std::vector<double> azimuths;
     for (int n = 0; n < 36; ++n) azimuths.push_back(radians(10.0 * n));
-    EXPECT_TRUE(missing_sectors(azimuths).empty());
+    EXPECT_TRUE(find_missing_sectors(azimuths).empty());
     azimuths.erase(azimuths.begin() + 5);
-    const auto one = missing_sectors(azimuths);
+    const auto one = find_missing_sectors(azimuths);
     ASSERT_EQ(one.size(), 1U);
     EXPECT_NEAR(degrees(one[0].from_rad), 40, 1e-9);
     EXPECT_NEAR(degrees(one[0].to_rad), 60, 1e-9);
     azimuths.resize(20);  // up to 200 degrees: the rest of the turn is missing, across +Z
-    const auto two = missing_sectors(azimuths);
+    const auto two = find_missing_sectors(azimuths);
     ASSERT_EQ(two.size(), 2U);
     EXPECT_NEAR(degrees(two[1].from_rad), 200, 1e-9);
     EXPECT_NEAR(degrees(two[1].to_rad), 360, 1e-9);
-    EXPECT_TRUE(missing_sectors({0, 1}).empty());
+    EXPECT_TRUE(find_missing_sectors({0, 1}).empty());
 }
 
 TEST(RingPlan, ShowsEveryCameraWhereItStands) {
     Rig rig = make_ring({.count = 12, .distance = 3.5, .fl_px = 60, .width = 48, .height = 40});
     rig.object_radius = 1;
-    std::string svg = svg_of_rings(rig);
+    std::string svg = draw_ring_plan(rig);
     EXPECT_EQ(unbalanced_tag(svg), "") << svg;
     EXPECT_EQ(occurrences(svg, "<path"), 12U);
     // 340 px with a margin of 26: the first camera, on +Z, is at the bottom, the fourth, on +X, to the right.
@@ -242,7 +242,7 @@ TEST(RingPlan, ShowsEveryCameraWhereItStands) {
     EXPECT_THAT(svg, HasSubstr("<path d=\"M314.00 170.00L"));
     EXPECT_TRUE(describe_missing_sectors(rig).empty());
     rig.views.erase(rig.views.begin() + 3);
-    EXPECT_EQ(occurrences(svg_of_rings(rig), "var(--bad)"), 2U);
+    EXPECT_EQ(occurrences(draw_ring_plan(rig), "var(--bad)"), 2U);
     ASSERT_EQ(describe_missing_sectors(rig).size(), 1U);
     EXPECT_EQ(describe_missing_sectors(rig)[0], "from 60.00 to 120.00 degrees (ring 1)");
 }
@@ -250,7 +250,7 @@ TEST(RingPlan, ShowsEveryCameraWhereItStands) {
 BuildReport small_report() {
     BuildReport report;
     report.name = "vase <1>";
-    report.facts = {{"pictures", "12 of 48x40"}};
+    report.facts = {{"images", "12 of 48x40"}};
     report.stages = {{"RS map", 0.25}};
     report.chunks = {{"PICT", 12, 3000}, {"RMAP", 1, 1000}};
     report.rig = make_ring({.count = 12, .fl_px = 60, .width = 48, .height = 40});
@@ -263,28 +263,29 @@ TEST(BuildReport, WhatIsEmptyIsNotShown) {
     ASSERT_TRUE(page.ok());
     EXPECT_EQ(unbalanced_tag(*page), "");
     EXPECT_THAT(*page, HasSubstr("vase &lt;1&gt;"));
-    EXPECT_THAT(*page, HasSubstr("75.00"));  // per cent of the bytes in pictures
-    for (const char* heading : {"Warnings", "Captured", "Visual hull", "Depth found", "Views held out"}) {
+    EXPECT_THAT(*page, HasSubstr("75.00"));  // per cent of the bytes in images
+    for (const char* heading : {"Warnings", "Captured", "Visual hull", "Estimated depth", "Held-out views"}) {
         EXPECT_THAT(*page, Not(HasSubstr(std::string("<h2>") + heading))) << heading;
     }
 }
 
-TEST(BuildReport, ShowsScoresAndPictures) {
+TEST(BuildReport, ShowsScoresAndImages) {
     BuildReport report = small_report();
-    const CaptionedPicture picture{Image<Rgba8>(8, 8, {9, 9, 9, 255}), "some picture"};
+    const CaptionedImage image{Image<Rgba8>(8, 8, {9, 9, 9, 255}), "some image"};
     report.warnings = {"a gap & a hole"};
-    report.captured = {picture};
-    report.hull_pictures = {picture, picture};
-    report.depth_pictures = {picture};
+    report.captured = {image};
+    report.hull_images = {image, image};
+    report.depth_images = {image};
     report.hold_out = "Every 2nd.";
     report.scores = {{"photo", {{1, "1.png", 17.5, 0.8}, {3, "3.png", 18.5, 0.9}}, 18.0, 17.97, 0.85, 0},
                      {"shape", {{1, "1.png", 28.5, 0.95}, {3, "3.png", 27.25, 0.94}}, 27.875, 27.8, 0.945, 3}};
-    report.held_out = {{"view 1", {picture, picture, picture}}};
+    report.held_out = {{"view 1", {image, image, image}}};
     const auto page = build_report_page(report);
     ASSERT_TRUE(page.ok());
     EXPECT_EQ(unbalanced_tag(*page), "");
     EXPECT_EQ(occurrences(*page, "<img "), 7U);
-    for (const char* text : {"a gap &amp; a hole", "<h2>Visual hull", "<h2>Depth found", "27.25", "94.50", "<svg"}) {
+    for (const char* text :
+         {"a gap &amp; a hole", "<h2>Visual hull", "<h2>Estimated depth", "27.25", "94.50", "<svg"}) {
         EXPECT_THAT(*page, HasSubstr(text)) << text;
     }
     report.scores.clear();

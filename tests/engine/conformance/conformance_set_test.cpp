@@ -46,17 +46,17 @@ TEST(ConformanceSet, DefinitionAndCoreAreAsTheHashesSay) {
     }
 }
 
-// A case whose pictures are all empty, or all the same, would hold nothing to be compared.
+// A case whose images are all empty, or all the same, would hold nothing to be compared.
 TEST(ConformanceSet, CasesShowTheirObjects) {
     for (const ConformanceCase& c : the_set().cases) {
-        std::set<std::uint64_t> pictures;
+        std::set<std::uint64_t> images;
         int shown = 0;
         for (const ConformanceView& view : c.views) {
-            pictures.insert(view.rgba_hash);
+            images.insert(view.rgba_hash);
             shown += view.object_pixels;
         }
         EXPECT_GT(shown, 500) << c.name;
-        EXPECT_GT(pictures.size(), c.views.size() / 2) << c.name;
+        EXPECT_GT(images.size(), c.views.size() / 2) << c.name;
     }
 }
 
@@ -69,7 +69,7 @@ TEST(ConformanceSet, OneWrongBitIsFound) {
             return ExecuteView([right = *right, in_depth](std::size_t v) {
                 auto view = right(v);
                 if (v == 1 && in_depth) view->depth_q20(3, 3) ^= 1;
-                if (v == 1 && !in_depth) view->picture(3, 3).g ^= 1;
+                if (v == 1 && !in_depth) view->image(3, 3).g ^= 1;
                 return view;
             });
         };

@@ -1,9 +1,9 @@
 // The data module with a board: who draws what, what happens when the board has no room, fails, or holds an object that
-// is replaced; and a long run of random moves with both executors at work. Every picture is compared with the
+// is replaced; and a long run of random moves with both executors at work. Every image is compared with the
 // definition.
 
 #include "engine/core/definition/reconstruct.hpp"
-#include "engine/driver/data_module.hpp"
+#include "engine/driver/render_session.hpp"
 #include "engine/model/layout/object_image.hpp"
 #include "engine/model/simulated_board.hpp"
 #include "tests/support/random_shape.hpp"
@@ -41,27 +41,27 @@ Camera camera_at(double azimuth, double distance, int width, int height) {
 }
 
 Image<Rgba8> defined(const RaySpaceObject& object, const Camera& camera) {
-    Image<Rgba8> picture(camera.width, camera.height);
-    reconstruct_scalar(object, *prepare_view(object, camera), picture);
-    return picture;
+    Image<Rgba8> image(camera.width, camera.height);
+    reconstruct_scalar(object, *prepare_view(object, camera), image);
+    return image;
 }
 
 model::BoardConfig config() {
     return *model::read_board_config("prototype-2000");
 }
 
-std::vector<Image<Rgba8>> pictures_of(DataModule& module, const std::vector<ViewRequest>& views) {
+std::vector<Image<Rgba8>> images_of(RenderSession& module, const std::vector<ViewRequest>& views) {
     const auto cycle = module.submit(views);
     EXPECT_TRUE(cycle.ok()) << cycle.error().message;
-    auto pictures = module.retrieve(*cycle);
-    EXPECT_TRUE(pictures.ok()) << pictures.error().message;
-    return pictures ? std::move(*pictures) : std::vector<Image<Rgba8>>();
+    auto images = module.retrieve(*cycle);
+    EXPECT_TRUE(images.ok()) << images.error().message;
+    return images ? std::move(*images) : std::vector<Image<Rgba8>>();
 }
 
 // Draws until the board has drawn something, or not for long.
-bool board_comes_in(DataModule& module, const ViewRequest& view, const Image<Rgba8>& expected) {
+bool board_comes_in(RenderSession& module, const ViewRequest& view, const Image<Rgba8>& expected) {
     for (int n = 0; n < 2000; ++n) {
-        EXPECT_EQ(pictures_of(module, {view}).front(), expected);
+        EXPECT_EQ(images_of(module, {view}).front(), expected);
         if (module.statistics().views_by_board > 0) return true;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -70,7 +70,7 @@ bool board_comes_in(DataModule& module, const ViewRequest& view, const Image<Rgb
 
 TEST(SharedBoard, TheCoreDrawsUntilTheBoardHoldsTheObject) {
     const RaySpaceObject object = object_of(1);
-    DataModule module({}, model::make_simulated_board(config()));
+    RenderSession module({}, model::make_simulated_board(config()));
     const auto handle = module.load(object);
     ASSERT_TRUE(handle.ok());
     const Camera camera = camera_at(0.3, 3.1, 24, 20);
@@ -80,7 +80,7 @@ TEST(SharedBoard, TheCoreDrawsUntilTheBoardHoldsTheObject) {
 }
 
 TEST(SharedBoard, WhatTheBoardCannotDrawTheCoreDraws) {
-    DataModule module({}, model::make_simulated_board(config(), true));
+    RenderSession module({}, model::make_simulated_board(config(), true));
     RaySpaceObject shaped = object_of(2);
     std::mt19937_64 random(3);
     shaped.rings[0].shape = test::random_shape(shaped, 0, random, 0.3);
@@ -91,19 +91,18 @@ TEST(SharedBoard, WhatTheBoardCannotDrawTheCoreDraws) {
     const Camera level = camera_at(1, 3, 20, 20);
     const Camera tilted = look_at_camera({1, 1.5, 3}, {0, 0, 0}, 0.6, 20, 20);
     ASSERT_TRUE(board_comes_in(module, {*plain_handle, level}, defined(plain, level)));
-    const DataModuleStatistics before = module.statistics();
-    const auto pictures =
-        pictures_of(module, {{*shaped_handle, level}, {*plain_handle, tilted}, {*plain_handle, level}});
-    ASSERT_EQ(pictures.size(), 3U);
-    EXPECT_EQ(pictures[0], defined(shaped, level));
-    EXPECT_EQ(pictures[1], defined(plain, tilted));
-    EXPECT_EQ(pictures[2], defined(plain, level));
+    const RenderSessionStatistics before = module.statistics();
+    const auto images = images_of(module, {{*shaped_handle, level}, {*plain_handle, tilted}, {*plain_handle, level}});
+    ASSERT_EQ(images.size(), 3U);
+    EXPECT_EQ(images[0], defined(shaped, level));
+    EXPECT_EQ(images[1], defined(plain, tilted));
+    EXPECT_EQ(images[2], defined(plain, level));
     EXPECT_EQ(module.statistics().views_by_board, before.views_by_board + 1);
     EXPECT_EQ(module.statistics().views_by_core, before.views_by_core + 2);
 }
 
 TEST(SharedBoard, ABoardWithoutFiltersRendersShapeMapsBilinearly) {
-    DataModule module({}, model::make_simulated_board(*model::read_board_config("parallel"), true));
+    RenderSession module({}, model::make_simulated_board(*model::read_board_config("parallel"), true));
     RaySpaceObject shaped = object_of(6);
     test::make_middle_opaque(shaped);
     std::mt19937_64 random(7);
@@ -112,9 +111,9 @@ TEST(SharedBoard, ABoardWithoutFiltersRendersShapeMapsBilinearly) {
     ASSERT_TRUE(handle.ok());
     const Camera camera = camera_at(1, 3, 40, 36);
     const auto with = [&](TexelFilter filter) {
-        Image<Rgba8> picture(camera.width, camera.height);
-        reconstruct_scalar(shaped, *prepare_view(shaped, camera, filter), picture);
-        return picture;
+        Image<Rgba8> image(camera.width, camera.height);
+        reconstruct_scalar(shaped, *prepare_view(shaped, camera, filter), image);
+        return image;
     };
     EXPECT_TRUE(board_comes_in(module, {*handle, camera}, with(TexelFilter::kBilinear)));
     EXPECT_NE(with(TexelFilter::kBilinear), with(TexelFilter::kSharp));
@@ -126,16 +125,16 @@ TEST(SharedBoard, ALoadThatFailsLeavesTheObjectToTheCore) {
     slow.disk.stall_cycles = 10'000'000;
     slow.disk.timeout_cycles = 100'000;
     const RaySpaceObject object = object_of(5);
-    DataModule module({}, model::make_simulated_board(slow));
+    RenderSession module({}, model::make_simulated_board(slow));
     const auto handle = module.load(object);
     ASSERT_TRUE(handle.ok());
     const Camera camera = camera_at(2, 3.3, 24, 20);
     for (int n = 0; n < 2000 && module.statistics().board.failed_loads == 0; ++n) {
-        EXPECT_EQ(pictures_of(module, {{*handle, camera}}).front(), defined(object, camera));
+        EXPECT_EQ(images_of(module, {{*handle, camera}}).front(), defined(object, camera));
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    EXPECT_EQ(pictures_of(module, {{*handle, camera}}).front(), defined(object, camera));
-    const DataModuleStatistics statistics = module.statistics();
+    EXPECT_EQ(images_of(module, {{*handle, camera}}).front(), defined(object, camera));
+    const RenderSessionStatistics statistics = module.statistics();
     EXPECT_EQ(statistics.board.failed_loads, 1);
     EXPECT_EQ(statistics.views_by_board, 0);
     EXPECT_NE(statistics.board.last_failure.find("disk"), std::string::npos) << statistics.board.last_failure;
@@ -162,13 +161,13 @@ private:
 
 TEST(SharedBoard, ACycleThatFailsIsDrawnByTheCore) {
     const RaySpaceObject object = object_of(6);
-    DataModule module({}, std::make_unique<BrokenBoard>());
+    RenderSession module({}, std::make_unique<BrokenBoard>());
     const auto handle = module.load(object);
     ASSERT_TRUE(handle.ok());
     const Camera camera = camera_at(4, 2.8, 22, 26);
     for (int n = 0; n < 2000 && module.statistics().board.failed_cycles < 2; ++n) {
-        const auto pictures = pictures_of(module, std::vector<ViewRequest>(4, {*handle, camera}));
-        for (const Image<Rgba8>& picture : pictures) ASSERT_EQ(picture, defined(object, camera));
+        const auto images = images_of(module, std::vector<ViewRequest>(4, {*handle, camera}));
+        for (const Image<Rgba8>& image : images) ASSERT_EQ(image, defined(object, camera));
     }
     EXPECT_GE(module.statistics().board.failed_cycles, 2);
     EXPECT_EQ(module.statistics().views_by_board, 0);
@@ -186,13 +185,13 @@ public:
 
 TEST(SharedBoard, AnObjectThatTheDriverCannotLoadIsDrawnByTheCore) {
     const RaySpaceObject object = object_of(6);
-    DataModule module({}, std::make_unique<ExhaustedBoard>());
+    RenderSession module({}, std::make_unique<ExhaustedBoard>());
     const auto handle = module.load(object);
     ASSERT_TRUE(handle.ok());
     const Camera camera = camera_at(4, 2.8, 22, 26);
     for (int n = 0; n < 2000 && module.statistics().board.failed_loads == 0; ++n) {
-        const auto pictures = pictures_of(module, std::vector<ViewRequest>(4, {*handle, camera}));
-        for (const Image<Rgba8>& picture : pictures) ASSERT_EQ(picture, defined(object, camera));
+        const auto images = images_of(module, std::vector<ViewRequest>(4, {*handle, camera}));
+        for (const Image<Rgba8>& image : images) ASSERT_EQ(image, defined(object, camera));
     }
     EXPECT_GE(module.statistics().board.failed_loads, 1);
     EXPECT_EQ(module.statistics().views_by_board, 0);
@@ -204,7 +203,7 @@ void draw_random_cycles(int cycles) {
     constexpr int kObjects = 24;
     model::BoardConfig few = config();
     few.limits.objects = 20;
-    DataModule module({.objects = 64, .cycles_in_flight = 2}, model::make_simulated_board(few, true));
+    RenderSession module({.objects = 64, .cycles_in_flight = 2}, model::make_simulated_board(few, true));
     std::vector<RaySpaceObject> objects;
     for (int n = 0; n < kObjects; ++n) objects.push_back(object_of(100 + static_cast<std::uint64_t>(n)));
 
@@ -231,10 +230,10 @@ void draw_random_cycles(int cycles) {
     const auto check_one = [&] {
         const Pending oldest = std::move(pending.front());
         pending.pop_front();
-        const auto pictures = module.retrieve(oldest.cycle);
-        ASSERT_TRUE(pictures.ok()) << pictures.error().message;
+        const auto images = module.retrieve(oldest.cycle);
+        ASSERT_TRUE(images.ok()) << images.error().message;
         for (std::size_t v = 0; v < oldest.objects.size(); ++v) {
-            ASSERT_EQ((*pictures)[v], defined(objects[oldest.objects[v]], oldest.cameras[v])) << "view " << v;
+            ASSERT_EQ((*images)[v], defined(objects[oldest.objects[v]], oldest.cameras[v])) << "view " << v;
         }
     };
     for (int n = 0; n < cycles; ++n) {
@@ -265,7 +264,7 @@ void draw_random_cycles(int cycles) {
         pending.push_back(std::move(next));
     }
     while (!pending.empty()) check_one();
-    const DataModuleStatistics statistics = module.statistics();
+    const RenderSessionStatistics statistics = module.statistics();
     EXPECT_EQ(statistics.cycles, cycles);
     EXPECT_EQ(statistics.views_by_board + statistics.views_by_core, 15 * cycles);
     EXPECT_GT(statistics.views_by_board, 0);

@@ -1,5 +1,5 @@
 #pragma once
-// A board's pictures beside those of the scalar definition, and one run of it beside another.
+// A board's images beside those of the scalar definition, and one run of it beside another.
 
 #include "tests/engine/model/board_test_objects.hpp"
 
@@ -27,12 +27,12 @@ inline rs::test::RingObjectOptions random_ring(std::mt19937_64& random, int fewe
 }
 
 struct Compared {
-    int pairs = 0;           // of a view and its picture
+    int pairs = 0;           // of a view and its image
     std::int64_t shown = 0;  // pixels that are not clear, in all
 };
 
 // Places the object and draws twenty random upright views of at most `most_px` pixels a side in two rendering cycles.
-// Every picture must be the definition's of `stored`: the object as the board keeps it.
+// Every image must be the definition's of `stored`: the object as the board keeps it.
 inline void compare_random_views(Board& board, const RaySpaceObject& object, const RaySpaceObject& stored,
                                  std::mt19937_64& random, int most_px, Compared& compared) {
     const Result<int> slot = board.place(object);
@@ -52,23 +52,23 @@ inline void compare_random_views(Board& board, const RaySpaceObject& object, con
     ASSERT_TRUE(run.ok()) << run.error().message;
     std::size_t at = 0;
     for (const RenderedCycle& cycle : run->cycles) {
-        for (const Image<Rgba8>& picture : cycle.pictures) {
+        for (const Image<Rgba8>& image : cycle.images) {
             const Image<Rgba8> expected = defined(stored, registers[at++]);
-            ASSERT_EQ(picture, expected) << "view " << at - 1;
+            ASSERT_EQ(image, expected) << "view " << at - 1;
             for (const Rgba8& p : expected.pixels()) compared.shown += p.a != 0;
             ++compared.pairs;
         }
     }
 }
 
-// Two runs of the same work: every picture, when it was done, and how long every block was at what.
+// Two runs of the same work: every image, when it was done, and how long every block was at what.
 inline void expect_same_run(const BoardRun& run, const BoardRun& expected, const Board& board) {
     ASSERT_EQ(run.cycles.size(), expected.cycles.size());
     for (std::size_t c = 0; c < run.cycles.size(); ++c) {
         EXPECT_EQ(run.cycles[c].started, expected.cycles[c].started);
         EXPECT_EQ(run.cycles[c].rendered, expected.cycles[c].rendered);
         EXPECT_EQ(run.cycles[c].arrived, expected.cycles[c].arrived);
-        EXPECT_EQ(run.cycles[c].pictures, expected.cycles[c].pictures);
+        EXPECT_EQ(run.cycles[c].images, expected.cycles[c].images);
     }
     ASSERT_EQ(run.end.blocks.size(), expected.end.blocks.size());
     for (std::size_t b = 0; b < run.end.blocks.size(); ++b) {

@@ -1,4 +1,4 @@
-// Cycles of whole pictures: the same in any tick order, memory reads as a formula says, golden counts, and the
+// Cycles of whole images: the same in any tick order, memory reads as a formula says, golden counts, and the
 // published figures.
 
 #include "engine/core/definition/ray_setup.hpp"
@@ -14,7 +14,7 @@ struct Scene {
     std::vector<std::vector<engine::ViewRegisters>> cycles;
 };
 
-// Pictures that the object fills, of `side` pixels, from an object whose pictures have that size too.
+// Images that the object fills, of `side` pixels, from an object whose images have that size too.
 Scene filled(int side, int views, int cycles) {
     Scene scene{rs::test::ring_object({.views = 36,
                                        .width = side,
@@ -67,8 +67,8 @@ TEST(BoardCycles, TickOrderChangesNeitherCyclesNorBits) {
     }
 }
 
-// Per view column with a ray of the plane: a map word; with a picture: four words of records. Per pair of pixels, with
-// rows of the pictures: alpha once, or twice across words; chroma and Y per pixel. Every pixel half a word out.
+// Per view column with a ray of the plane: a map word; with an image: four words of records. Per pair of pixels, with
+// rows of the images: alpha once, or twice across words; chroma and Y per pixel. Every pixel half a word out.
 TEST(BoardCycles, MemoryReadsAreThoseOfTheFormula) {
     const Scene scene = filled(45, 3, 1);
     Board board(test::prototype());
@@ -81,12 +81,11 @@ TEST(BoardCycles, MemoryReadsAreThoseOfTheFormula) {
     for (const engine::ViewRegisters& view : scene.cycles.front()) {
         for (int i = 0; i < view.width; ++i) {
             const RaySetup ray = set_up_ray(scene.object, view, i, 0);
-            lines += ray.picture >= 0 ? 4 : 0;
+            lines += ray.image >= 0 ? 4 : 0;
             words += static_cast<std::uint64_t>((view.height + 1) / 2);
             for (int j = 0; j < view.height; j += 2) {
                 const auto shows = [&](int at) {
-                    return ray.picture >= 0 && at < view.height && ray.row(at) >= 0 &&
-                           ray.row(at) < scene.object.height;
+                    return ray.image >= 0 && at < view.height && ray.row(at) >= 0 && ray.row(at) < scene.object.height;
                 };
                 const bool both = shows(j) && shows(j + 1);
                 const std::uint64_t alpha = both && ray.row(j) / 32 != ray.row(j + 1) / 32 ? 2 : 1;
@@ -110,7 +109,7 @@ TEST(BoardCycles, MemoryReadsAreThoseOfTheFormula) {
 }
 
 // Written down once from a run whose parts had been checked; a change of any timing shows here.
-TEST(BoardCyclesGolden, FullPictures) {
+TEST(BoardCyclesGolden, FullImages) {
     const auto cycles_of = [](int side, int views) {
         Board board(test::prototype());
         const Result<BoardRun> run = drawn(board, filled(side, views, 1));
@@ -121,7 +120,7 @@ TEST(BoardCyclesGolden, FullPictures) {
 }
 
 // The published table. Nothing of it is put in: DIAGRAM.md derives the figures by hand.
-TEST(PublishedFigures, OnePictureOf512) {
+TEST(PublishedFigures, OneImageOf512) {
     Board board(test::prototype());
     const Result<BoardRun> run = drawn(board, filled(512, 1, 1));
     ASSERT_TRUE(run.ok());
@@ -132,7 +131,7 @@ TEST(PublishedFigures, OnePictureOf512) {
     EXPECT_EQ(report.rendering.limiting_block, "memory_controller");
 }
 
-TEST(PublishedFigures, FifteenPicturesOf256) {
+TEST(PublishedFigures, FifteenImagesOf256) {
     Board board(test::prototype());
     const Result<BoardRun> run = drawn(board, filled(256, 15, 1));
     ASSERT_TRUE(run.ok());
@@ -142,7 +141,7 @@ TEST(PublishedFigures, FifteenPicturesOf256) {
     EXPECT_EQ(report.rendering.limiting_block, "memory_controller");
 }
 
-TEST(PublishedFigures, NineShowroomPicturesAreLimitedByTheHostBus) {
+TEST(PublishedFigures, NineShowroomImagesAreLimitedByTheHostBus) {
     Board board(test::prototype());
     const Result<BoardRun> run = drawn(board, filled(256, 9, 4));
     ASSERT_TRUE(run.ok());
@@ -175,7 +174,7 @@ TEST(PublishedFigures, LoadingRunsAtTwentyMegabytesAndDisturbsNothing) {
         EXPECT_EQ(both->cycles[c].started, alone->cycles[c].started);
         EXPECT_EQ(both->cycles[c].rendered, alone->cycles[c].rendered);
         EXPECT_EQ(both->cycles[c].arrived, alone->cycles[c].arrived);
-        EXPECT_EQ(both->cycles[c].pictures, alone->cycles[c].pictures);
+        EXPECT_EQ(both->cycles[c].images, alone->cycles[c].images);
     }
     ASSERT_TRUE(loading.finish_loads().ok());
     const DiskController::Load& load = loading.top().disk_controller.loads().front();
@@ -184,7 +183,7 @@ TEST(PublishedFigures, LoadingRunsAtTwentyMegabytesAndDisturbsNothing) {
     const auto prepared = prepare_view(second, test::upright_at(1, 3, 0, 1, 50, 50));
     const Result<BoardRun> run = loading.render({{*loading.view(*other, *prepared)}});
     ASSERT_TRUE(run.ok());
-    EXPECT_EQ(run->cycles[0].pictures[0], test::defined(with_board_alpha(second), *prepared));
+    EXPECT_EQ(run->cycles[0].images[0], test::defined(with_board_alpha(second), *prepared));
 }
 
 }  // namespace

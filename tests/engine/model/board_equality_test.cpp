@@ -1,4 +1,4 @@
-// Every bit of the board's pictures is that of the scalar definition.
+// Every bit of the board's images is that of the scalar definition.
 
 #include "tests/engine/model/board_comparison.hpp"
 

@@ -1,4 +1,4 @@
-// What goes wrong, and what the board then does: a stated refusal or a delay, never a torn picture.
+// What goes wrong, and what the board then does: a stated refusal or a delay, never a torn image.
 
 #include "tests/engine/model/board_test_objects.hpp"
 
@@ -17,8 +17,8 @@ BoardView view_of(const Board& board, int slot, const RaySpaceObject& object, do
     return *board.view(slot, *prepare_view(object, camera_at(azimuth)));
 }
 
-void expect_right(const Image<Rgba8>& picture, const RaySpaceObject& object, double azimuth) {
-    EXPECT_EQ(picture, test::defined(with_board_alpha(object), *prepare_view(object, camera_at(azimuth))));
+void expect_right(const Image<Rgba8>& image, const RaySpaceObject& object, double azimuth) {
+    EXPECT_EQ(image, test::defined(with_board_alpha(object), *prepare_view(object, camera_at(azimuth))));
 }
 
 TEST(BoardFaults, BusRetriesCostClocksAndNoBits) {
@@ -31,7 +31,7 @@ TEST(BoardFaults, BusRetriesCostClocksAndNoBits) {
         const int slot = *board.place(object);
         const Result<BoardRun> run = board.render({{view_of(board, slot, object, 0.5)}});
         ASSERT_TRUE(run.ok());
-        expect_right(run->cycles[0].pictures[0], object, 0.5);
+        expect_right(run->cycles[0].images[0], object, 0.5);
         arrived[retry_every > 0] = run->cycles[0].arrived;
         const HostBus::Counters& bus = board.top().host_bus.counters();
         EXPECT_EQ(bus.retries, retry_every > 0 ? bus.bursts / 3 : 0);
@@ -54,7 +54,7 @@ TEST(BoardFaults, ADiskThatPausesDelaysTheObjectAndNothingElse) {
     EXPECT_GT(load.underrun_cycles, 90'000U);
     const Result<BoardRun> run = board.render({{view_of(board, *slot, object, 1.5)}});
     ASSERT_TRUE(run.ok());
-    expect_right(run->cycles[0].pictures[0], object, 1.5);
+    expect_right(run->cycles[0].images[0], object, 1.5);
 }
 
 TEST(BoardFaults, ADiskThatStaysSilentFailsTheLoadAndFreesTheSlot) {
@@ -152,7 +152,7 @@ TEST(BoardFaults, BadRegistersRefuseTheWholeCycle) {
     EXPECT_EQ(board.top().memory().counters().image_words, 0U);
     const Result<BoardRun> run = board.render({{good}});  // and goes on
     ASSERT_TRUE(run.ok());
-    expect_right(run->cycles[0].pictures[0], object, 0);
+    expect_right(run->cycles[0].images[0], object, 0);
 }
 
 TEST(BoardFaults, AThirdCycleOverrunsTheQueueAndLeavesTheOthersWhole) {
@@ -161,9 +161,9 @@ TEST(BoardFaults, AThirdCycleOverrunsTheQueueAndLeavesTheOthersWhole) {
     const int slot = *board.place(object);
     for (int n = 0; n < 3; ++n) board.submit({view_of(board, slot, object, n)});
     const RenderControl& control = board.top().render_control;
-    const auto& pictures = board.top().host_bus.pictures();
+    const auto& images = board.top().host_bus.images();
     const auto done = [&] {
-        return pictures.size() == 2 && pictures.back().words.size() == pictures.back().expected_words &&
+        return images.size() == 2 && images.back().words.size() == images.back().expected_words &&
                control.refusals().size() == 1;
     };
     ASSERT_TRUE(board.top().simulator.run_until(done, 10'000'000).ok());
@@ -172,7 +172,7 @@ TEST(BoardFaults, AThirdCycleOverrunsTheQueueAndLeavesTheOthersWhole) {
     EXPECT_EQ(control.cycles().size(), 2U);
     for (int n = 0; n < 2; ++n) {
         const Image<Rgba8> expected = test::defined(with_board_alpha(object), *prepare_view(object, camera_at(n)));
-        const std::uint64_t word = pictures[static_cast<std::size_t>(n)].words[15 * 16 + 7];
+        const std::uint64_t word = images[static_cast<std::size_t>(n)].words[15 * 16 + 7];
         EXPECT_EQ(static_cast<std::uint8_t>(word), expected(16, 14).r);
         EXPECT_EQ(static_cast<std::uint8_t>(word >> 56), expected(16, 15).a);
     }
@@ -200,10 +200,10 @@ TEST(BoardFaults, ObjectsThatTheBoardCannotDrawAreRefusedWithTheRemedy) {
     shaped.rings.front().shape.gaps.resize(1);
     EXPECT_NE(board.place(shaped).error().message.find("--raymap plane"), std::string::npos);
     RaySpaceObject unloaded = small_plane();
-    unloaded.pictures[3] = {};
-    EXPECT_NE(board.place(unloaded).error().message.find("not all of its pictures"), std::string::npos);
+    unloaded.images[3] = {};
+    EXPECT_NE(board.place(unloaded).error().message.find("not all of its images"), std::string::npos);
     RaySpaceObject full_colour = small_plane();
-    full_colour.pictures[0].chroma_shift = 0;
+    full_colour.images[0].chroma_shift = 0;
     EXPECT_NE(board.place(full_colour).error().message.find("colour at full size"), std::string::npos);
     EXPECT_NE(board.place(rs::test::ring_object({.planes = 13})).error().message.find("--planes"), std::string::npos);
     const RaySpaceObject object = small_plane();
@@ -213,7 +213,7 @@ TEST(BoardFaults, ObjectsThatTheBoardCannotDrawAreRefusedWithTheRemedy) {
     EXPECT_NE(view.error().message.find("tilted"), std::string::npos);
 }
 
-// A host that never takes its pictures back: the bus is stopped by a target that is never ready.
+// A host that never takes its images back: the bus is stopped by a target that is never ready.
 TEST(BoardFaults, ABoardThatStandsStillSaysWhereEverythingIs) {
     BoardConfig config = test::prototype();
     config.no_progress_cycles = 2000;

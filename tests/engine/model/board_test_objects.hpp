@@ -1,5 +1,5 @@
 #pragma once
-// Objects and views for the tests of the board: rings of noise pictures, and cameras that stand upright.
+// Objects and views for the tests of the board: rings of noise images, and cameras that stand upright.
 
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/model/board.hpp"
@@ -17,7 +17,7 @@
 namespace rs::engine::model::test {
 
 // An upright camera at `azimuth`, `distance` and `height` (object radii), looking horizontally at the axis, whose
-// picture shows `half_extent` radii to each side at the axis, along its larger side.
+// image shows `half_extent` radii to each side at the axis, along its larger side.
 inline Camera upright_at(double azimuth, double distance, double height, double half_extent, int width,
                          int view_height) {
     const glm::dvec3 eye(distance * std::sin(azimuth), height, distance * std::cos(azimuth));
@@ -50,9 +50,9 @@ inline BoardConfig prototype() {
 }
 
 inline Image<Rgba8> defined(const RaySpaceObject& object, const engine::ViewRegisters& registers) {
-    Image<Rgba8> picture(registers.width, registers.height);
-    reconstruct_scalar(object, registers, picture);
-    return picture;
+    Image<Rgba8> image(registers.width, registers.height);
+    reconstruct_scalar(object, registers, image);
+    return image;
 }
 
 }  // namespace rs::engine::model::test

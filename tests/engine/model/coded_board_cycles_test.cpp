@@ -1,4 +1,4 @@
-// Cycles and memory reads of the board with compressed pictures.
+// Cycles and memory reads of the board with compressed images.
 
 #include "engine/core/definition/ray_setup.hpp"
 #include "engine/model/limits/coded_layout.hpp"
@@ -20,7 +20,7 @@ struct CountedReads {
         int pixels = 0;
         const bool down = ray.row_step_q16 >= 0;
         const auto end_run = [&] {
-            if (pixels > 0) block(0, ray.picture, ray.column, run_block, run_rows, down);
+            if (pixels > 0) block(0, ray.image, ray.column, run_block, run_rows, down);
             pixels = 0;
             run_rows = 0;
         };
@@ -39,19 +39,19 @@ struct CountedReads {
     }
 
     void block(std::size_t hop, int view, int x, int block_row, unsigned rows, bool down) {
-        const codec::CodedPicture& picture = coded.pictures[static_cast<std::size_t>(view)];
+        const codec::CodedImage& image = coded.images[static_cast<std::size_t>(view)];
         const int tile = block_row / 4 * coded.tile_columns() + x / 32;
         const int number = view * 10'000 + tile;
-        const int words = tile_words(coded, picture, static_cast<std::size_t>(tile));
+        const int words = tile_words(coded, image, static_cast<std::size_t>(tile));
         if (number != last_tile[hop]) {
             ++table[hop];
             tiles[hop] += words > 0 ? 1 : 0;
             last_tile[hop] = number;
         }
         if (words == 0) return;
-        const std::span<const std::byte> bytes = picture.tile_bytes(static_cast<std::size_t>(tile));
+        const std::span<const std::byte> bytes = image.tile_bytes(static_cast<std::size_t>(tile));
         const std::uint64_t classes = codec::board_tile_classes(bytes);
-        const auto& sizes = coded.board.classes[picture.head.references() > 0 ? 1 : 0];
+        const auto& sizes = coded.board.classes[image.head.references() > 0 ? 1 : 0];
         const int place = x / 8 % 4 * 4 + block_row % 4;
         const int number_of_class = block_class(classes, place);
         if (number_of_class == 0) return;
@@ -65,7 +65,7 @@ struct CountedReads {
         };
         const codec::BoardMotion motion = codec::board_motion(static_cast<std::uint16_t>(byte(0) | byte(1) << 8));
         const int reference =
-            picture.head.reference[picture.head.references() < 2 ? 0U : static_cast<unsigned>(motion.reference)];
+            image.head.reference[image.head.references() < 2 ? 0U : static_cast<unsigned>(motion.reference)];
         std::array<unsigned, 64> wanted{};
         for (int n = 0; n < 8; ++n) {
             if (((rows >> n) & 1U) == 0) continue;
@@ -82,7 +82,7 @@ struct CountedReads {
     }
 
     const RaySpaceObject& object;
-    const codec::CodedPictures& coded;
+    const codec::CodedImages& coded;
     std::array<int, kHops> last_tile{};
     std::array<std::uint64_t, kHops> table{}, tiles{}, records{};
 };
@@ -101,7 +101,7 @@ Result<BoardRun> drawn(Board& board, const RaySpaceObject& object, int side, int
 TEST(CodedBoardCycles, MemoryReadsAreThoseOfTheFormula) {
     constexpr int kSide = 70;
     constexpr int kViews = 6;
-    constexpr double kTurn = 1.1;  // to pictures of all levels
+    constexpr double kTurn = 1.1;  // to images of all levels
     std::array<std::uint64_t, kHops> records{};
     for (std::uint64_t seed = 21; seed < 27; ++seed) {
         const RaySpaceObject object = test::random_coded_object(
@@ -113,7 +113,7 @@ TEST(CodedBoardCycles, MemoryReadsAreThoseOfTheFormula) {
             const auto view = *prepare_view(object, test::upright_at(kTurn * v, 3.5, 0, 0.95, kSide, kSide));
             for (int i = 0; i < kSide; ++i) {
                 const RaySetup ray = set_up_ray(object, view, i, 0);
-                if (ray.picture >= 0) counted.column(ray, kSide);
+                if (ray.image >= 0) counted.column(ray, kSide);
             }
         }
         const auto reads = [&](const std::string& client) {
@@ -149,7 +149,7 @@ TEST(CodedBoardCycles, TickOrderChangesNeitherCyclesNorBits) {
     }
 }
 
-// The same pictures, uncompressed on the published board. The books' load is part of it.
+// The same images, uncompressed on the published board. The books' load is part of it.
 TEST(CodedBoardCycles, IsNotSlowerThanThePrototype) {
     const test::EncodedObject object = test::encoded_object(20, 128);
     Board coded_board(test::compressed());

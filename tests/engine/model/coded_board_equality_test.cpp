@@ -1,4 +1,4 @@
-// Every bit of pictures that the board unpacks itself is that of the definition, on the object that rayspace/codec
+// Every bit of images that the board unpacks itself is that of the definition, on the object that rayspace/codec
 // unpacks.
 
 #include "tests/engine/model/board_comparison.hpp"
@@ -34,7 +34,7 @@ TEST(CodedBoardEquality, AnEncodedObjectFromTheDisk) {
         const auto prepared = prepare_view(object, test::upright_at(0.3 * side, 3.5, 0.1, 0.9, side, side));
         const Result<BoardRun> run = board.render({{*board.view(*slot, *prepared)}});
         ASSERT_TRUE(run.ok()) << run.error().message;
-        EXPECT_EQ(run->cycles[0].pictures[0], test::defined(object, *prepared));
+        EXPECT_EQ(run->cycles[0].images[0], test::defined(object, *prepared));
     }
 }
 

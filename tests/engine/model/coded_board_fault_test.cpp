@@ -1,4 +1,4 @@
-// What can go wrong with compressed pictures: the wrong kind of object, an object in the place of another one, too
+// What can go wrong with compressed images: the wrong kind of object, an object in the place of another one, too
 // many.
 
 #include "engine/model/limits/coded_layout.hpp"
@@ -15,7 +15,7 @@ void expect_right(Board& board, int slot, const RaySpaceObject& object) {
     const auto prepared = prepare_view(object, test::upright_at(0.4, 3.5, 0, 0.9, 33, 30));
     const Result<BoardRun> run = board.render({{*board.view(slot, *prepared)}});
     ASSERT_TRUE(run.ok()) << run.error().message;
-    EXPECT_EQ(run->cycles[0].pictures[0], test::defined(object, *prepared));
+    EXPECT_EQ(run->cycles[0].images[0], test::defined(object, *prepared));
 }
 
 TEST(CodedBoardFaults, EachBoardRefusesTheOthersObjectsAndNamesIt) {
@@ -30,14 +30,14 @@ TEST(CodedBoardFaults, EachBoardRefusesTheOthersObjectsAndNamesIt) {
     EXPECT_NE(refusal(test::prototype(), coded).find("use compressed-2000"), std::string::npos);
     EXPECT_NE(refusal(test::compressed(), raw).find("use prototype-2000"), std::string::npos);
     RaySpaceObject dense = raw;
-    dense.coded = std::make_shared<codec::CodedPictures>();
+    dense.coded = std::make_shared<codec::CodedImages>();
     EXPECT_NE(refusal(test::prototype(), dense).find("--profile board for compressed-2000"), std::string::npos);
     EXPECT_NE(refusal(test::compressed(), dense).find("of profile dense"), std::string::npos);
     RaySpaceObject partly = coded;
-    codec::CodedPictures pictures = *coded.coded;
-    pictures.pictures[3].tiles.clear();
-    partly.coded = std::make_shared<codec::CodedPictures>(pictures);
-    EXPECT_NE(refusal(test::compressed(), partly).find("not all of its pictures are loaded"), std::string::npos);
+    codec::CodedImages images = *coded.coded;
+    images.images[3].tiles.clear();
+    partly.coded = std::make_shared<codec::CodedImages>(images);
+    EXPECT_NE(refusal(test::compressed(), partly).find("not all of its images are loaded"), std::string::npos);
 }
 
 // Same slot, same places in memory, other books and tiles: nothing of the first may be left in the pipe.
@@ -69,8 +69,8 @@ TEST(CodedBoardFaults, BooksAreLoadedWhenTheObjectChangesAndOnlyThen) {
     ASSERT_TRUE(run.ok());
     EXPECT_EQ(test::block_decompression(board).book_lookup.book_loads(), 4U);  // a, b, a, b
     const auto prepared = prepare_view(b, test::upright_at(0.4, 3.5, 0, 0.9, 33, 30));
-    EXPECT_EQ(run->cycles[0].pictures[2], test::defined(b, *prepared));
-    EXPECT_EQ(run->cycles[1].pictures[1], test::defined(b, *prepared));
+    EXPECT_EQ(run->cycles[0].images[2], test::defined(b, *prepared));
+    EXPECT_EQ(run->cycles[1].images[1], test::defined(b, *prepared));
     const auto& ports = board.top().memory().read_ports();
     ASSERT_EQ(ports[3].client, "book_lookup");
     EXPECT_EQ(board.top().memory().counters().words_read[3],

@@ -1,9 +1,9 @@
 #pragma once
-// Objects with pictures of profile `board` for the tests of block decompression: random ones, which no encoder makes,
+// Objects with images of profile `board` for the tests of block decompression: random ones, which no encoder makes,
 // and encoded ones.
 
 #include "rayspace/codec/board/board_chunk.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 #include "tests/engine/model/board_test_objects.hpp"
 #include "tests/support/coded_object.hpp"
 
@@ -21,11 +21,11 @@ inline BlockDecompression& block_decompression(Board& board) {
     return dynamic_cast<SingleBoard<BlockDecompression>&>(*board.top().body).reading;
 }
 
-// Every class, all books, tiles of random bytes that are often cut short, tiles that are missing; pictures of four
+// Every class, all books, tiles of random bytes that are often cut short, tiles that are missing; images of four
 // levels with none, one or two references of any lower level, so that predictions are up to three hops long.
-inline codec::CodedPictures random_pictures(const RaySpaceObject& object, std::mt19937_64& random) {
+inline codec::CodedImages random_images(const RaySpaceObject& object, std::mt19937_64& random) {
     const auto below = [&](std::uint64_t n) { return static_cast<int>(random() % n); };
-    codec::CodedPictures coded;
+    codec::CodedImages coded;
     coded.profile = codec::Profile::kBoard;
     coded.width = object.width;
     coded.height = object.height;
@@ -54,11 +54,11 @@ inline codec::CodedPictures random_pictures(const RaySpaceObject& object, std::m
     const auto tiles = static_cast<std::size_t>(coded.tile_columns() * coded.tile_rows());
     for (std::size_t v = 0; v < object.views.size(); ++v) {
         coded.levels.push_back(static_cast<std::uint8_t>(v < 4 ? v : static_cast<std::size_t>(below(4))));
-        coded.pictures.emplace_back();
+        coded.images.emplace_back();
         for (std::size_t t = 0; t < tiles; ++t) {
-            std::vector<std::byte>& bytes = coded.pictures.back().bytes;
+            std::vector<std::byte>& bytes = coded.images.back().bytes;
             const auto size = static_cast<std::uint32_t>(below(3) == 0 ? below(40) : below(430));
-            coded.pictures.back().tiles.push_back({static_cast<std::uint32_t>(bytes.size()), size, below(8) > 0});
+            coded.images.back().tiles.push_back({static_cast<std::uint32_t>(bytes.size()), size, below(8) > 0});
             for (std::uint32_t n = 0; n < size; ++n) bytes.push_back(static_cast<std::byte>(random()));
         }
     }
@@ -71,7 +71,7 @@ inline codec::CodedPictures random_pictures(const RaySpaceObject& object, std::m
             const int level = coded.levels[r];
             if (any ? level <= only : level == only) lower.push_back(static_cast<std::uint16_t>(r));
         }
-        codec::PictureHead& head = coded.pictures[v].head;
+        codec::ImageHead& head = coded.images[v].head;
         const int references = std::min(static_cast<int>(lower.size()), below(8) == 0 ? 0 : 1 + below(2));
         if (references > 0) head.reference[0] = lower[random() % lower.size()];
         if (references > 1) {
@@ -82,17 +82,17 @@ inline codec::CodedPictures random_pictures(const RaySpaceObject& object, std::m
     return coded;
 }
 
-// Both as the board gets it and, in object.pictures, as it is defined.
-inline RaySpaceObject with_coded(RaySpaceObject object, codec::CodedPictures coded) {
-    object.coded = std::make_shared<codec::CodedPictures>(std::move(coded));
-    codec::decode_pictures(object);
+// Both as the board gets it and, in object.images, as it is defined.
+inline RaySpaceObject with_coded(RaySpaceObject object, codec::CodedImages coded) {
+    object.coded = std::make_shared<codec::CodedImages>(std::move(coded));
+    codec::decode_images(object);
     return object;
 }
 
 inline RaySpaceObject random_coded_object(const rs::test::RingObjectOptions& options) {
     RaySpaceObject object = rs::test::ring_object(options);
     std::mt19937_64 random(options.seed);
-    codec::CodedPictures coded = random_pictures(object, random);
+    codec::CodedImages coded = random_images(object, random);
     return with_coded(std::move(object), std::move(coded));
 }
 
@@ -110,9 +110,9 @@ inline EncodedObject encoded_object(int views, int side) {
                                         .planes = 6,
                                         .x_cells = 64,
                                         .u_cells = 64});
-    const std::vector<Image<Rgba8>> pictures = rs::test::drawn_pictures(object.raw);
-    object.coded = with_coded(object.raw, rs::test::code_board_pictures(object.raw, pictures, {}));
-    for (std::size_t v = 0; v < pictures.size(); ++v) object.raw.pictures[v] = planar_from_rgba(pictures[v].view());
+    const std::vector<Image<Rgba8>> images = rs::test::drawn_images(object.raw);
+    object.coded = with_coded(object.raw, rs::test::code_board_images(object.raw, images, {}));
+    for (std::size_t v = 0; v < images.size(); ++v) object.raw.images[v] = planar_from_rgba(images[v].view());
     return object;
 }
 

@@ -54,7 +54,7 @@ struct ColumnReads {
             if (!point.exists) continue;
             ++map;
             const std::uint16_t answer = map_answer(ring, point);
-            if (answer == kNoPicture) continue;
+            if (answer == kNoImage) continue;
             if (ring.shape.empty()) {
                 lines += 4;
                 continue;
@@ -147,7 +147,7 @@ TEST(ParallelBoardCycles, TickOrderChangesNeitherCyclesNorBits) {
     }
 }
 
-// 100 Mpixel/s with decompression, bands and blending on. The object is two balls over the drawn pictures, views that
+// 100 Mpixel/s with decompression, bands and blending on. The object is two balls over the drawn images, views that
 // it fills; the books' load is part of the first rendering cycle, so the second is measured.
 TEST(ParallelBoardCycles, OneHundredMpixelsASecondWithinItsMemory) {
     RaySpaceObject object = test::encoded_object(20, 128).coded;
@@ -164,7 +164,7 @@ TEST(ParallelBoardCycles, OneHundredMpixelsASecondWithinItsMemory) {
     }
     const Result<BoardRun> run = board.render(cycles);
     ASSERT_TRUE(run.ok()) << run.error().message;
-    EXPECT_EQ(run->cycles[1].pictures[0], test::defined(object, registers[1]));
+    EXPECT_EQ(run->cycles[1].images[0], test::defined(object, registers[1]));
     const double mpixels = 40.0 * 512 * 512 / double(run->cycles[1].render_cycles());
     EXPECT_GT(mpixels, 100);
     const BoardReport report = make_report(board, *run);

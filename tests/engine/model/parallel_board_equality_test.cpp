@@ -1,4 +1,4 @@
-// Every bit of the parallel board's pictures is that of the scalar definition: raw and coded pictures, with a shape map
+// Every bit of the parallel board's images is that of the scalar definition: raw and coded images, with a shape map
 // and without, any number of pipes.
 
 #include "tests/engine/model/board_comparison.hpp"
@@ -27,14 +27,14 @@ void compare(const test::AnyObject& kind, std::uint64_t seed, Seen& seen) {
     }
 }
 
-TEST(ParallelBoardEqualityProperty, RawPicturesOnPlanes) {
+TEST(ParallelBoardEqualityProperty, RawImagesOnPlanes) {
     Seen seen;
     ASSERT_NO_FATAL_FAILURE(compare({.coded = false, .shape = false}, 20261123, seen));
     EXPECT_EQ(seen.pairs, 500);
     EXPECT_GT(seen.shown, 60'000);
 }
 
-TEST(ParallelBoardEqualityProperty, CodedPicturesOnPlanes) {
+TEST(ParallelBoardEqualityProperty, CodedImagesOnPlanes) {
     Seen seen;
     ASSERT_NO_FATAL_FAILURE(compare({.coded = true, .shape = false}, 20261124, seen));
     EXPECT_EQ(seen.pairs, 500);
@@ -42,7 +42,7 @@ TEST(ParallelBoardEqualityProperty, CodedPicturesOnPlanes) {
     EXPECT_GT(seen.of_last_hop, 1000U);  // predictions of three hops
 }
 
-TEST(ParallelBoardEqualityProperty, RawPicturesWithShapeMaps) {
+TEST(ParallelBoardEqualityProperty, RawImagesWithShapeMaps) {
     Seen seen;
     ASSERT_NO_FATAL_FAILURE(compare({.coded = false, .shape = true}, 20261125, seen));
     EXPECT_EQ(seen.pairs, 500);
@@ -50,7 +50,7 @@ TEST(ParallelBoardEqualityProperty, RawPicturesWithShapeMaps) {
     EXPECT_GT(seen.sent_back, 10'000U);  // surfaces that did not answer
 }
 
-TEST(ParallelBoardEqualityProperty, CodedPicturesWithShapeMaps) {
+TEST(ParallelBoardEqualityProperty, CodedImagesWithShapeMaps) {
     Seen seen;
     ASSERT_NO_FATAL_FAILURE(compare({.coded = true, .shape = true}, 20261126, seen));
     EXPECT_EQ(seen.pairs, 500);
@@ -83,7 +83,7 @@ TEST(ParallelBoardEquality, ManyObjectsInOneCycleFromTheDisk) {
     const Result<BoardRun> run = board.render(cycles);
     ASSERT_TRUE(run.ok()) << run.error().message;
     for (std::size_t v = 0; v < 26; ++v) {
-        EXPECT_EQ(run->cycles[v / 13].pictures[v % 13], test::defined(objects[v * v % 6], registers[v])) << v;
+        EXPECT_EQ(run->cycles[v / 13].images[v % 13], test::defined(objects[v * v % 6], registers[v])) << v;
     }
 }
 

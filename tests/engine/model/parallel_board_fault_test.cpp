@@ -18,7 +18,7 @@ void expect_right_in_parallel(Board& board, int slot, const RaySpaceObject& obje
     const engine::ViewRegisters view = view_of(object);
     const Result<BoardRun> run = board.render({{*board.view(slot, view)}});
     ASSERT_TRUE(run.ok()) << run.error().message;
-    EXPECT_EQ(run->cycles[0].pictures[0], test::defined(object, view));
+    EXPECT_EQ(run->cycles[0].images[0], test::defined(object, view));
 }
 
 std::string refusal(const RaySpaceObject& object) {
@@ -30,21 +30,21 @@ TEST(ParallelBoardFaults, RefusesWhatItCannotDrawAndSaysWhy) {
     EXPECT_EQ(refusal(small_for_pipes(1)), "");
     EXPECT_EQ(refusal(small_for_pipes(1, false)), "");
     RaySpaceObject dense = small_for_pipes(1, false);
-    dense.coded = std::make_shared<codec::CodedPictures>();
+    dense.coded = std::make_shared<codec::CodedImages>();
     EXPECT_NE(refusal(dense).find("of profile dense"), std::string::npos);
     RaySpaceObject tall = small_for_pipes(1, false);
     tall.rings.front().shape.bands = 385;
     EXPECT_NE(refusal(tall).find("bands of height in its shape map: 385, more than the board's 384"),
               std::string::npos);
     RaySpaceObject missing = small_for_pipes(1, false);
-    missing.pictures[2] = {};
-    EXPECT_NE(refusal(missing).find("not all of its pictures are loaded"), std::string::npos);
+    missing.images[2] = {};
+    EXPECT_NE(refusal(missing).find("not all of its images are loaded"), std::string::npos);
     RaySpaceObject rings = small_for_pipes(1, false);
     rings.rings.push_back(rings.rings.front());
     EXPECT_NE(refusal(rings).find("rings of views: 2"), std::string::npos);
     // The boards of 2000 name this one.
     const Status published =
-        layout_of(BoardKind::raw_pictures).drawable(small_for_pipes(1, false), test::prototype().limits);
+        layout_of(BoardKind::raw_images).drawable(small_for_pipes(1, false), test::prototype().limits);
     EXPECT_NE(published.error().message.find("or use parallel"), std::string::npos);
     const RaySpaceObject object = small_for_pipes(1);
     Camera camera = test::upright_at(0.4, 3.5, 0, 0.9, 40, 40);

@@ -33,13 +33,13 @@ inline void shuffle_views(RaySpaceObject& object, std::mt19937_64& random) {
     for (std::size_t n = 0; n < from.size(); ++n) {
         shuffled.views[n] = rig.views[from[n]];
         object.views[n] = was.views[from[n]];
-        object.pictures[n] = was.pictures[from[n]];
+        object.images[n] = was.images[from[n]];
     }
     object.rig_json = rig_to_json(shuffled);
     Ring& ring = object.rings.front();
     for (std::uint16_t& view : ring.views) view = to[view];
     for (std::uint16_t& cell : ring.cells) {
-        if (cell != kNoPicture) cell = to[cell];
+        if (cell != kNoImage) cell = to[cell];
     }
 }
 
@@ -57,7 +57,7 @@ inline RaySpaceObject any_object(const rs::test::RingObjectOptions& options, con
         object.rings.front().shape = rs::test::random_shape(object, 0, random, empty);
     }
     if (!kind.coded) return object;
-    codec::CodedPictures coded = random_pictures(object, random);
+    codec::CodedImages coded = random_images(object, random);
     return with_coded(std::move(object), std::move(coded));
 }
 

@@ -1,7 +1,7 @@
 // `rs-engine simulate` as a user calls it.
 
 #include "rayspace/format/object_file.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/engine/model/parallel_test_objects.hpp"
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -28,26 +28,26 @@ TEST(SimulateTool, DrawsWritesAndCompares) {
         {"simulate", "prototype-2000", file, file, "--orbit", "3", "--size", "40x32", "--per-cycle", "2", "--load",
          "-o", path("drawn"), "--stats", path("stats.json"), "--chart", path("chart.svg"), "--trace", path("run.vcd")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_NE(run.out.find("6 of 6 pictures equal the definition bit for bit"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("6 of 6 images equal the definition bit for bit"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("MByte/s"), std::string::npos);
     EXPECT_NE(run.out.find("limited by"), std::string::npos);
-    const Result<Image<Rgba8>> picture = read_picture(scratch / "drawn/0005.png");
-    ASSERT_TRUE(picture.ok());
-    EXPECT_EQ(picture->width(), 40);
+    const Result<Image<Rgba8>> image = read_image(scratch / "drawn/0005.png");
+    ASSERT_TRUE(image.ok());
+    EXPECT_EQ(image->width(), 40);
     std::ifstream stats(path("stats.json"));
     EXPECT_EQ(nlohmann::json::parse(stats)["rendering_cycles"], 3);
     EXPECT_GT(std::filesystem::file_size(path("chart.svg")), 1000U);
     EXPECT_GT(std::filesystem::file_size(path("run.vcd")), 1000U);
 }
 
-TEST(SimulateTool, DrawsCompressedPictures) {
+TEST(SimulateTool, DrawsCompressedImages) {
     const rs::test::TemporaryFolder scratch;
     const std::string file = (scratch / "balls.rso").string();
     ASSERT_TRUE(write_object(file, test::encoded_object(12, 64).coded).ok());
     const ToolRun run =
         run_tool(scratch.path(), "rs-engine", {"simulate", "compressed-2000", file, "--orbit", "2", "--size", "40x32"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_NE(run.out.find("2 of 2 pictures equal the definition bit for bit"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("2 of 2 images equal the definition bit for bit"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("160 slots"), std::string::npos) << run.out;
     const ToolRun refused =
         run_tool(scratch.path(), "rs-engine", {"simulate", "prototype-2000", file, "--orbit", "2", "--size", "40x32"});
@@ -67,7 +67,7 @@ TEST(SimulateTool, DrawsShapeMapsOnTheParallelBoard) {
                                  {"simulate", config, file, "--orbit", "2", "--size", "40x32", "--upright", "--stats",
                                   (scratch / "stats.json").string()});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_NE(run.out.find("2 of 2 pictures equal the definition bit for bit"), std::string::npos) << run.out;
+    EXPECT_NE(run.out.find("2 of 2 images equal the definition bit for bit"), std::string::npos) << run.out;
     EXPECT_NE(run.out.find("memory channel 1: "), std::string::npos) << run.out;
     EXPECT_NE(run.out.find(" of 320 MByte/s"), std::string::npos) << run.out;
     EXPECT_EQ(run.out.find("_p1"), std::string::npos) << "blocks of all pipes are added up";

@@ -8,7 +8,7 @@
 
 #include <cstdio>
 
-static rs::Status draw(const char* object_file, const char* picture_file) {
+static rs::Status draw(const char* object_file, const char* image_file) {
     rs::Result<rs::RaySpaceObject> object = rs::read_object(object_file);
     if (!object) return object.error();
     const auto cameras = rs::engine::orbit_cameras(*object, 1, {});
@@ -17,9 +17,9 @@ static rs::Status draw(const char* object_file, const char* picture_file) {
     if (!view) return view.error();
     const auto renderer = rs::engine::Renderer::create(std::move(*object));
     if (!renderer) return renderer.error();
-    rs::Image<rs::Rgba8> picture(cameras->front().width, cameras->front().height);
-    renderer->render(*view, picture);
-    return rs::write_png(picture_file, picture);
+    rs::Image<rs::Rgba8> image(cameras->front().width, cameras->front().height);
+    renderer->render(*view, image);
+    return rs::write_png(image_file, image);
 }
 
 // Lights are in the library, too.
@@ -28,7 +28,7 @@ static bool has_lights() {
 }
 
 int main(int argc, char** argv) {
-    if (argc != 3) return std::fprintf(stderr, "usage: consumer OBJECT.rso PICTURE.png\n"), 2;
+    if (argc != 3) return std::fprintf(stderr, "usage: consumer OBJECT.rso IMAGE.png\n"), 2;
     if (!has_lights()) return std::fprintf(stderr, "consumer: a rectangle has another area\n"), 1;
     const rs::Status done = draw(argv[1], argv[2]);
     if (!done) std::fprintf(stderr, "consumer: %s\n", done.error().message.c_str());

@@ -206,13 +206,13 @@ TEST(StagedFolder, ReplacesOnlyItsOwnKind) {
     }
     const auto other = StagedFolder::create(root / "set", "rendered views");
     ASSERT_FALSE(other.ok());
-    EXPECT_THAT(other.error().message, HasSubstr("holds pictures, which rendered views do not replace"));
+    EXPECT_THAT(other.error().message, HasSubstr("holds images, which rendered views do not replace"));
     {
         auto beside = StagedFolder::create(root / "views", "rendered views");
         ASSERT_TRUE(beside.ok());
         ASSERT_TRUE(beside->commit().ok());
     }
-    EXPECT_THAT(move_into_place(root / "views", root / "set").error().message, HasSubstr("holds pictures"));
+    EXPECT_THAT(move_into_place(root / "views", root / "set").error().message, HasSubstr("holds images"));
     // Those of earlier versions do not say what they hold.
     const std::string list = contents(root.path() / "set" / ".rayspace-files");
     put_text(root.path() / "set" / ".rayspace-files", list.substr(list.find('\n') + 1));
@@ -223,13 +223,13 @@ TEST(StagedFolder, ListsItsFiles) {
     const TemporaryFolder root;
     StagedFolder folder = open_folder(root / "set");
     fs::create_directory(folder.temporary_path() / "images");
-    put_text(folder.temporary_path() / "images" / "a picture", "1");
+    put_text(folder.temporary_path() / "images" / "an image", "1");
     put_text(folder.temporary_path() / "rig", "2");
     ASSERT_TRUE(folder.commit().ok());
     auto files = listed_files(root / "set");
     ASSERT_TRUE(files.ok()) << files.error().message;
     std::sort(files->begin(), files->end());
-    EXPECT_EQ(*files, (std::vector<std::string>{"images/a picture", "rig"}));
+    EXPECT_EQ(*files, (std::vector<std::string>{"images/an image", "rig"}));
     EXPECT_TRUE(fs::exists(list_of_files(root / "set")));
     EXPECT_FALSE(listed_files(root.path()).ok());
 }

@@ -36,7 +36,7 @@ void expect_same(const RaySpaceObject& a, const RaySpaceObject& b) {
     EXPECT_EQ(a.height, b.height);
     EXPECT_EQ(a.views, b.views);
     EXPECT_EQ(a.rings, b.rings);
-    EXPECT_EQ(a.pictures, b.pictures);
+    EXPECT_EQ(a.images, b.images);
 }
 
 Chunk& find(Chunks& chunks, const char* name, std::uint32_t index = 0) {
@@ -51,7 +51,7 @@ void put_number(Chunk& chunk, std::size_t offset, std::uint64_t number, std::siz
     test::put_number(chunk.payload, offset, number, size);
 }
 
-// The error that comes of reading a small object's file after `change`.
+// The error from reading a small object's file after `change`.
 std::string error_after(const std::function<void(Chunks&)>& change, const ReadObjectOptions& options = {}) {
     const TemporaryFolder folder;
     EXPECT_TRUE(write_object(folder / "a.rso", small_object()).ok());
@@ -136,9 +136,9 @@ TEST(ObjectFile, LevelsAreLoadedOneByOne) {
         const auto back = read_object(folder / "a.rso", read_options);
         ASSERT_TRUE(back.ok()) << back.error().message;
         int loaded = 0;
-        for (std::size_t i = 0; i < back->pictures.size(); ++i) {
-            if (back->pictures[i].empty()) continue;
-            EXPECT_EQ(back->pictures[i], object.pictures[i]);
+        for (std::size_t i = 0; i < back->images.size(); ++i) {
+            if (back->images[i].empty()) continue;
+            EXPECT_EQ(back->images[i], object.images[i]);
             EXPECT_LE(progressive_level(static_cast<int>(i % 20)), level);
             ++loaded;
         }
@@ -147,7 +147,7 @@ TEST(ObjectFile, LevelsAreLoadedOneByOne) {
     }
 }
 
-TEST(ObjectFile, PicturesStandInProgressiveOrder) {
+TEST(ObjectFile, ImagesStandInProgressiveOrder) {
     const TemporaryFolder folder;
     SmallObjectOptions options;
     options.rings = 2;
@@ -163,10 +163,10 @@ TEST(ObjectFile, PicturesStandInProgressiveOrder) {
 TEST(ObjectFile, APartlyLoadedObjectIsNotWritten) {
     const TemporaryFolder folder;
     RaySpaceObject object = small_object();
-    object.pictures[3] = {};
+    object.images[3] = {};
     const Status status = write_object(folder / "a.rso", object);
     ASSERT_FALSE(status.ok());
-    EXPECT_THAT(status.error().message, HasSubstr("picture 3 is not loaded"));
+    EXPECT_THAT(status.error().message, HasSubstr("image 3 is not loaded"));
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
@@ -199,8 +199,8 @@ TEST(ObjectFile, NumbersAreCheckedBeforeTheyAllocate) {
     const auto head = [](std::size_t offset, std::uint64_t number, std::size_t size) {
         return error_after([&](Chunks& chunks) { put_number(find(chunks, "HEAD"), offset, number, size); });
     };
-    EXPECT_THAT(head(0, 0, 4), HasSubstr("chunk HEAD 0: the pictures' width is 0; it must be 1..8192"));
-    EXPECT_THAT(head(4, 8193, 4), HasSubstr("the pictures' height is 8193"));
+    EXPECT_THAT(head(0, 0, 4), HasSubstr("chunk HEAD 0: the images' width is 0; it must be 1..8192"));
+    EXPECT_THAT(head(4, 8193, 4), HasSubstr("the images' height is 8193"));
     EXPECT_THAT(head(8, 0xFFFFFFFF, 4), HasSubstr("the number of views is 4294967295"));
     EXPECT_THAT(head(12, 65, 4), HasSubstr("the number of rings is 65"));
     EXPECT_THAT(head(16, 0x7FF0000000000000, 8), HasSubstr("units per radius"));
@@ -227,7 +227,7 @@ TEST(ObjectFile, NumbersAreCheckedBeforeTheyAllocate) {
     const auto map = [](const std::function<void(map_coding::Runs&)>& change) {
         return error_after([&](Chunks& chunks) {
             const Ring small = small_object().rings[0];
-            map_coding::Runs runs = map_coding::runs_of(small.cells, small.u_cells);
+            map_coding::Runs runs = map_coding::encode_runs(small.cells, small.u_cells);
             change(runs);
             find(chunks, "RMAP").payload = object_chunks::map_payload(runs);
         });
@@ -255,11 +255,11 @@ TEST(ObjectFile, NumbersAreCheckedBeforeTheyAllocate) {
     EXPECT_THAT(error_after([](Chunks& chunks) { put_number(find(chunks, "RMAP"), 0, 1025, 4); }),
                 HasSubstr("the number of runs is 1025; it must be 64..1024"));
 
-    const auto picture = [](std::size_t offset, std::uint64_t number) {
+    const auto image = [](std::size_t offset, std::uint64_t number) {
         return error_after([&](Chunks& chunks) { put_number(find(chunks, "PICT", 5), offset, number, 1); });
     };
-    EXPECT_THAT(picture(0, 1), HasSubstr("chunk PICT 5: has picture coding 1, which is not known here; update"));
-    EXPECT_THAT(picture(15, 1), HasSubstr("reserved bytes"));
+    EXPECT_THAT(image(0, 1), HasSubstr("chunk PICT 5: has image coding 1, which is not known here; update"));
+    EXPECT_THAT(image(15, 1), HasSubstr("reserved bytes"));
     EXPECT_THAT(error_after([](Chunks& chunks) { find(chunks, "PICT", 5).payload.pop_back(); }),
                 HasSubstr("is 315 bytes long instead of 316"));
     EXPECT_THAT(error_after([](Chunks& chunks) { find(chunks, "PICT", 5).payload.clear(); }), HasSubstr("is empty"));
@@ -275,7 +275,7 @@ TEST(ObjectFile, RigsMayBeTextOrFrames) {
         });
     };
     const auto frame = [](const std::string& text) {
-        const auto bytes = zstd_frame({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+        const auto bytes = compress_zstd({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
         return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     };
     const std::string text = test::small_object().rig_json;
@@ -293,9 +293,9 @@ TEST(ObjectFile, RigsMayBeTextOrFrames) {
 TEST(ObjectFile, MemoryIsCapped) {
     ReadObjectOptions options;
     options.memory_cap_bytes = 2000;
-    // The map takes 2048 bytes, each picture 300; the map's runs are there twice while it is expanded.
+    // The map takes 2048 bytes, each image 300; the map's runs are in memory twice during decompression.
     const Ring small = small_object().rings[0];
-    const std::uint64_t runs = map_coding::runs_of(small.cells, small.u_cells).views.size();
+    const std::uint64_t runs = map_coding::encode_runs(small.cells, small.u_cells).views.size();
     const std::uint64_t expanding = 2 * map_coding::residual_bytes(64, runs);
     EXPECT_THAT(error_after([](Chunks& chunks) { find(chunks, "RIGJ").payload.clear(); }, options),
                 HasSubstr("needs 1 MiB of memory, more than"));
@@ -309,7 +309,7 @@ TEST(ObjectFile, MemoryIsCapped) {
     EXPECT_EQ(error_after([](Chunks& chunks) { find(chunks, "RIGJ").payload.clear(); }, options), "read without error");
 }
 
-TEST(ObjectFile, UnwantedPicturesAreNotTouched) {
+TEST(ObjectFile, UnwantedImagesAreNotTouched) {
     ReadObjectOptions options;
     options.max_level = 0;
     EXPECT_EQ(error_after([](Chunks& chunks) { find(chunks, "PICT", 1).payload.clear(); }, options),

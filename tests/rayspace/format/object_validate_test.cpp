@@ -27,18 +27,18 @@ TEST(ValidateObject, TheSmallObjectIsValidAndNotTrivial) {
     std::vector<int> uses(8);
     const RaySpaceObject object = small_object();
     for (const std::uint16_t view : object.rings[0].cells) {
-        if (view != kNoPicture) ++uses[view];
+        if (view != kNoImage) ++uses[view];
     }
     for (const int n : uses) EXPECT_GT(n, 50);
 }
 
 TEST(ValidateObject, Head) {
-    EXPECT_THAT(error_after([](RaySpaceObject& o) { o.width = 0; }), HasSubstr("O: pictures of 0x10 pixels"));
-    EXPECT_THAT(error_after([](RaySpaceObject& o) { o.height = kMaxPictureSide_px + 1; }), HasSubstr("12x8193"));
+    EXPECT_THAT(error_after([](RaySpaceObject& o) { o.width = 0; }), HasSubstr("O: images of 0x10 pixels"));
+    EXPECT_THAT(error_after([](RaySpaceObject& o) { o.height = kMaxImageSide_px + 1; }), HasSubstr("12x8193"));
     EXPECT_THAT(error_after([](RaySpaceObject& o) { o.views.clear(); }), HasSubstr("0 views"));
     EXPECT_THAT(error_after([](RaySpaceObject& o) { o.rings.clear(); }), HasSubstr("0 rings"));
     EXPECT_THAT(error_after([](RaySpaceObject& o) { o.rings.resize(kMaxRings + 1); }), HasSubstr("65 rings"));
-    EXPECT_THAT(error_after([](RaySpaceObject& o) { o.pictures.pop_back(); }), HasSubstr("not as many pictures"));
+    EXPECT_THAT(error_after([](RaySpaceObject& o) { o.images.pop_back(); }), HasSubstr("not as many images"));
     EXPECT_THAT(error_after([](RaySpaceObject& o) { o.name = std::string(256, 'a'); }), HasSubstr("name"));
     EXPECT_THAT(error_after([](RaySpaceObject& o) { o.name = "a\nb"; }), HasSubstr("name"));
     EXPECT_THAT(error_after([](RaySpaceObject& o) { o.name = "\xff"; }), HasSubstr("name"));
@@ -148,14 +148,14 @@ TEST(ValidateObject, EveryViewIsInOneRing) {
     EXPECT_THAT(error_after([](RaySpaceObject& o) {
                     o.rig_json.clear();
                     o.views.push_back(o.views.back());
-                    o.pictures.push_back(o.pictures.back());
+                    o.images.push_back(o.images.back());
                 }),
                 HasSubstr("view 8 belongs to no ring"));
     test::SmallObjectOptions two;
     two.rings = 2;
     RaySpaceObject object = small_object(two);
     EXPECT_TRUE(validate_object(object, "O").ok());
-    object.rings[0].cells[0] = 8;  // of the other ring
+    object.rings[0].cells[0] = 8;  // a view of the other ring
     EXPECT_THAT(validate_object(object, "O").error().message,
                 HasSubstr("ring 0: plane 0, row 0 of its map names view 8"));
 }
@@ -167,18 +167,18 @@ TEST(ValidateObject, CellsNameViewsThatLookAtThem) {
     EXPECT_THAT(error_after([](RaySpaceObject& o) {
                     Ring& ring = o.rings[0];
                     const std::uint16_t view = ring.cells[0];
-                    ASSERT_NE(view, kNoPicture);
+                    ASSERT_NE(view, kNoImage);
                     o.views[view].lines[0] = {-(1 << 20), 0, 0, 0};
                 }),
                 HasSubstr("which looks away from it"));
 }
 
-TEST(ValidateObject, PicturesAreWholeOrAbsent) {
-    EXPECT_EQ(error_after([](RaySpaceObject& o) { o.pictures[1] = {}; }), "valid");
-    EXPECT_THAT(error_after([](RaySpaceObject& o) { o.pictures[1].v = {}; }), HasSubstr("picture 1: its planes"));
-    EXPECT_THAT(error_after([](RaySpaceObject& o) { o.pictures[1].a = Image<std::uint8_t>(12, 9); }),
-                HasSubstr("picture 1: its planes"));
-    EXPECT_THAT(error_after([](RaySpaceObject& o) { o.pictures[1].y = {}; }), HasSubstr("picture 1: its planes"));
+TEST(ValidateObject, ImagesAreWholeOrAbsent) {
+    EXPECT_EQ(error_after([](RaySpaceObject& o) { o.images[1] = {}; }), "valid");
+    EXPECT_THAT(error_after([](RaySpaceObject& o) { o.images[1].v = {}; }), HasSubstr("image 1: its planes"));
+    EXPECT_THAT(error_after([](RaySpaceObject& o) { o.images[1].a = Image<std::uint8_t>(12, 9); }),
+                HasSubstr("image 1: its planes"));
+    EXPECT_THAT(error_after([](RaySpaceObject& o) { o.images[1].y = {}; }), HasSubstr("image 1: its planes"));
 }
 
 }  // namespace

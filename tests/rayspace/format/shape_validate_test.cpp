@@ -144,8 +144,8 @@ TEST(ValidateShape, Cells) {
     EXPECT_EQ(with({100, 3}), "valid");
     EXPECT_EQ(with({1, 0}), "cell 7 has a depth and no surface");
     EXPECT_EQ(with({255, 0}), "cell 7 has a depth and no surface");
-    EXPECT_EQ(with({2, 4}), "cell 7 is shown by pictures that its gap does not have");
-    EXPECT_EQ(with({0, 255}), "cell 7 is shown by pictures that its gap does not have");
+    EXPECT_EQ(with({2, 4}), "cell 7 is shown by images that its gap does not have");
+    EXPECT_EQ(with({0, 255}), "cell 7 is shown by images that its gap does not have");
 }
 
 }  // namespace

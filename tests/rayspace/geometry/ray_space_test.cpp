@@ -133,7 +133,7 @@ TEST(RectificationProperty, TheUprightCameraSeesTheSameRays) {
         const glm::dvec3 ray = camera.ray(x, y);
         EXPECT_NEAR(glm::dot(glm::normalize(ray), glm::normalize(upright.ray(p.x / p.z, p.y / p.z))), 1, 1e-12);
 
-        // A column of the upright picture is a vertical plane.
+        // A column of the upright image is a vertical plane.
         const glm::dvec3 top = upright.ray(123.5, 0), bottom = upright.ray(123.5, 480);
         EXPECT_NEAR(top.x * bottom.z - top.z * bottom.x, 0, 1e-12);
     }
@@ -149,7 +149,7 @@ TEST(Rectification, AnUprightCameraStaysAsItIs) {
     }
 }
 
-TEST(Rectification, LooksTheWayTheTopOfThePicturePointsWhenTheCameraLooksStraightDown) {
+TEST(Rectification, LooksTheWayTheTopOfTheImagePointsWhenTheCameraLooksStraightDown) {
     Camera camera = look_at_camera({0, 3, 0}, {0, 0, 0}, radians(40), 64, 64);
     const Camera upright = upright_camera(camera);
     EXPECT_LT(rotation_error(upright), 1e-12);

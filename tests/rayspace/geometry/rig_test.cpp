@@ -1,7 +1,7 @@
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/image.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -234,14 +234,14 @@ TEST(Rig, WriteRefusesWhatJsonCannotHold) {
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
-TEST(Rig, TakesTheSizeFromTheFirstPicture) {
+TEST(Rig, TakesTheSizeFromTheFirstImage) {
     const TemporaryFolder folder;
     std::filesystem::create_directory(folder / "train");
     const auto text = R"({"camera_angle_x":0.7,"frames":[{"file_path":"./train/r_0","transform_matrix":)" +
                       std::string(kIdentity) + "}]}";
     std::ofstream(folder / kRigFileName) << text;
     EXPECT_THAT(read_rig(folder.path()).error().message,
-                HasSubstr("no w and h, and they cannot be read from its picture"));
+                HasSubstr("no w and h, and they cannot be read from its image"));
     ASSERT_TRUE(write_png(folder.path() / "train" / "r_0.png", Image<Rgba8>(20, 10)).ok());
     const auto rig = read_rig(folder.path());
     ASSERT_TRUE(rig.ok()) << rig.error().message;
@@ -251,12 +251,12 @@ TEST(Rig, TakesTheSizeFromTheFirstPicture) {
     EXPECT_EQ(rig->views[0].file_path, "./train/r_0");
 }
 
-TEST(Rig, PicturePathAddsTheExtensionWhereNeeded) {
+TEST(Rig, ImagePathAddsTheExtensionWhereNeeded) {
     const TemporaryFolder folder;
     const auto path_of = [&](const std::string& name) {
         RigView view;
         view.file_path = name;
-        return picture_path(folder.path(), view).filename().string();
+        return image_path(folder.path(), view).filename().string();
     };
     std::ofstream(folder / "there.jpg") << "x";
     std::ofstream(folder / "frame.01.png") << "x";

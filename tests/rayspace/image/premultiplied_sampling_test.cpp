@@ -7,35 +7,35 @@
 namespace rs {
 namespace {
 
-TEST(PremultipliedPicture, SamplesAreThoseOfThePlainFunction) {
+TEST(PremultipliedImage, SamplesAreThoseOfThePlainFunction) {
     std::minstd_rand random(11);
     std::uniform_int_distribution<int> code(0, 255);
     const auto any = [&] { return static_cast<std::uint8_t>(code(random)); };
-    // Covered everywhere; but for a rim; between two slopes, with bare rows below.
+    // Opaque everywhere; except for a rim; between two slopes, with transparent rows below.
     for (const int bare : {0, 1, 2}) {
-        Image<Rgba8> picture(23, 17);
-        for (int y = 0; y < picture.height(); ++y) {
-            for (int x = 0; x < picture.width(); ++x) {
+        Image<Rgba8> image(23, 17);
+        for (int y = 0; y < image.height(); ++y) {
+            for (int x = 0; x < image.width(); ++x) {
                 const bool is_rim = x < 5 || y < 3 || x > 18 || y > 12;
                 const bool is_bare =
                     bare == 1 ? is_rim : bare == 2 && (x > 2 * y - 4 || x < 18 - 2 * y || (y > 9 && y < 15));
                 const std::uint8_t alpha = any() < 100 ? 255 : any();
-                picture(x, y) = {any(), any(), any(), is_bare ? std::uint8_t{0} : alpha};
+                image(x, y) = {any(), any(), any(), is_bare ? std::uint8_t{0} : alpha};
             }
         }
-        const PremultipliedPicture ready(picture);
+        const PremultipliedImage ready(image);
         std::uniform_real_distribution<double> across(-6, 29), down(-6, 23);
         for (int i = 0; i < 20'000; ++i) {
             const double x = across(random), y = down(random);
-            ASSERT_EQ(ready.sample(x, y), sample_premultiplied(picture, x, y)) << x << ", " << y;
+            ASSERT_EQ(ready.sample(x, y), sample_premultiplied(image, x, y)) << x << ", " << y;
         }
         EXPECT_EQ(ready.sample(1e9, -1e9), Rgba8{});
     }
 }
 
-TEST(PremultipliedPicture, OfNothingIsNothing) {
-    EXPECT_EQ(PremultipliedPicture(Image<Rgba8>(4, 4)).sample(2, 2), Rgba8{});
-    EXPECT_EQ(PremultipliedPicture(Image<Rgba8>()).sample(0, 0), Rgba8{});
+TEST(PremultipliedImage, OfNothingIsNothing) {
+    EXPECT_EQ(PremultipliedImage(Image<Rgba8>(4, 4)).sample(2, 2), Rgba8{});
+    EXPECT_EQ(PremultipliedImage(Image<Rgba8>()).sample(0, 0), Rgba8{});
 }
 
 }  // namespace

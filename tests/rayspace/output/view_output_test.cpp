@@ -6,15 +6,15 @@ namespace rs {
 namespace {
 
 TEST(OutputKind, FollowsTheName) {
-    EXPECT_EQ(*output_kind("a/view.png"), OutputKind::picture);
-    EXPECT_EQ(*output_kind("VIEW.PNG"), OutputKind::picture);
+    EXPECT_EQ(*output_kind("a/view.png"), OutputKind::image);
+    EXPECT_EQ(*output_kind("VIEW.PNG"), OutputKind::image);
     EXPECT_EQ(*output_kind("turn.mp4"), OutputKind::video);
     EXPECT_EQ(*output_kind("views"), OutputKind::folder);
     EXPECT_EQ(*output_kind("set.v2"), OutputKind::folder);
     EXPECT_NE(output_kind("view.JPG").error().message.find("view.JPG"), std::string::npos);
 }
 
-TEST(RigOfViews, NumbersItsPictures) {
+TEST(RigOfViews, NumbersItsImages) {
     const Rig rig = rig_of_views(std::vector<Camera>(12, look_at_camera({0, 0, 3}, {0, 0, 0}, 0.7, 8, 6)));
     ASSERT_EQ(rig.views.size(), 12U);
     EXPECT_EQ(rig.views[0].file_path, "0000.png");

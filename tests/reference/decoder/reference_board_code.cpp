@@ -18,7 +18,7 @@ std::string read_class(std::uint8_t byte, bool may_be_predicted, BoardClass& rea
     read.quarter_stages = byte >> 4;
     if (read.block_stages > 2) return "more block stages than 2";
     if (read.quarter_stages > 4) return "more quarter stages than 4";
-    if (read.is_predicted && !may_be_predicted) return "a predicted class for pictures without references";
+    if (read.is_predicted && !may_be_predicted) return "a predicted class for images without references";
     return "";
 }
 

@@ -12,7 +12,7 @@ int signed_value(const Codebook& book, int at) {
     return value < 128 ? value : value - 256;
 }
 
-// The quarter of sample (x, y) of a block, and the sample's place in it.
+// The quarter of sample (x, y) of a block, and the sample's index in it.
 int quarter_of(int x, int y) {
     return 2 * (y / 4) + x / 4;
 }
@@ -22,10 +22,10 @@ int place_in_quarter(int x, int y) {
 
 }  // namespace
 
-BoardTileDecoder::BoardTileDecoder(const Code& code, std::array<const Picture*, 2> references, int t, Bytes bytes,
-                                   Picture& picture)
-    : code_(code.board), references_(references), bytes_(bytes), picture_(picture) {
-    const int columns = ceil_div(picture.width, 32);
+BoardTileDecoder::BoardTileDecoder(const Code& code, std::array<const DecodedImage*, 2> references, int t, Bytes bytes,
+                                   DecodedImage& image)
+    : code_(code.board), references_(references), bytes_(bytes), image_(image) {
+    const int columns = ceil_div(image.width, 32);
     tile_x_ = 32 * (t % columns);
     tile_y_ = 32 * (t / columns);
 }
@@ -35,7 +35,7 @@ void BoardTileDecoder::decode() {
     for (int i = 0; i < 6; ++i) classes += static_cast<std::uint64_t>(next_byte()) << (8 * i);
     for (int b = 0; b < 16; ++b) {
         const std::size_t number = (classes >> (3 * b)) & 7;
-        if (number == 0) continue;  // the picture's samples are those of empty blocks
+        if (number == 0) continue;  // the image's samples are those of empty blocks
         show(read_record(b, code_.classes[references_[0] != nullptr ? 1 : 0][number]));
     }
 }
@@ -76,17 +76,17 @@ BoardTileDecoder::Record BoardTileDecoder::read_record(int b, const BoardClass& 
 void BoardTileDecoder::show(const Record& record) {
     for (int y = 0; y < 8; ++y) {
         for (int x = 0; x < 8; ++x) {
-            if (record.x + x >= picture_.width || record.y + y >= picture_.height) continue;
+            if (record.x + x >= image_.width || record.y + y >= image_.height) continue;
             for (int plane = 0; plane < 3; ++plane) {
-                sample(picture_, plane, record.x + x, record.y + y) =
+                sample(image_, plane, record.x + x, record.y + y) =
                     static_cast<std::uint8_t>(std::clamp(colour(record, plane, x, y), 0, 255));
             }
-            sample(picture_, 3, record.x + x, record.y + y) = static_cast<std::uint8_t>(alpha(record, x, y));
+            sample(image_, 3, record.x + x, record.y + y) = static_cast<std::uint8_t>(alpha(record, x, y));
         }
     }
 }
 
-// Of sample (x, y) of the block, before it is clamped.
+// The colour of sample (x, y) of the block, before clamping.
 int BoardTileDecoder::colour(const Record& record, int plane, int x, int y) const {
     int sum = record.kind.is_predicted ? nearest_sample(*record.reference, plane, record.x + x + record.motion.x,
                                                         record.y + y + record.motion.y)

@@ -62,7 +62,7 @@ std::string read_fields(Bytes payload, Code& code) {
     return "";
 }
 
-// CODE: "Then, of dense pictures"
+// CODE: "Then, of dense images"
 std::string read_probabilities(Bytes payload, Code& code) {
     if (code.alpha_coding == 1 && code.alpha_bits == 1) {
         if (payload.size() < code.edge_alpha.size()) return "CODE is shorter than its edge_alpha";

@@ -18,31 +18,31 @@ struct EdgeLine {
 
 using EdgeHalf = std::array<EdgeLine, 4>;
 
-std::uint8_t& across(Picture& picture, const Edge& edge, int line, int distance) {
+std::uint8_t& across(DecodedImage& image, const Edge& edge, int line, int distance) {
     const int x = edge.x + (edge.is_upright ? distance : line);
     const int y = edge.y + (edge.is_upright ? line : distance);
-    return sample(picture, edge.plane, x, y);
+    return sample(image, edge.plane, x, y);
 }
 
-EdgeLine line_at(Picture& picture, const Edge& edge, int line) {
+EdgeLine line_at(DecodedImage& image, const Edge& edge, int line) {
     EdgeLine samples{};
     for (int i = 0; i < 4; ++i) {
-        samples.p[static_cast<std::size_t>(i)] = across(picture, edge, line, -1 - i);
-        samples.q[static_cast<std::size_t>(i)] = across(picture, edge, line, i);
+        samples.p[static_cast<std::size_t>(i)] = across(image, edge, line, -1 - i);
+        samples.q[static_cast<std::size_t>(i)] = across(image, edge, line, i);
     }
     return samples;
 }
 
 // "all clamped to 0 .. 255"
-void put_line(const EdgeLine& samples, Picture& picture, const Edge& edge, int line) {
+void put_line(const EdgeLine& samples, DecodedImage& image, const Edge& edge, int line) {
     for (int i = 0; i < 4; ++i) {
         const std::size_t at = static_cast<std::size_t>(i);
-        across(picture, edge, line, -1 - i) = static_cast<std::uint8_t>(std::clamp(samples.p[at], 0, 255));
-        across(picture, edge, line, i) = static_cast<std::uint8_t>(std::clamp(samples.q[at], 0, 255));
+        across(image, edge, line, -1 - i) = static_cast<std::uint8_t>(std::clamp(samples.p[at], 0, 255));
+        across(image, edge, line, i) = static_cast<std::uint8_t>(std::clamp(samples.q[at], 0, 255));
     }
 }
 
-// "It is flat if for its first and for its last line": what is asked of each of the two.
+// "It is flat if for its first and for its last line": the condition for each of the two.
 bool is_flat(const EdgeLine& line, int t, int b) {
     const auto& [p, q] = line;
     return 2 * (line.bend_p() + line.bend_q()) < b >> 2 && std::abs(p[3] - p[0]) + std::abs(q[0] - q[3]) < b >> 3 &&
@@ -91,15 +91,15 @@ EdgeHalf smooth_half(const EdgeHalf& half, int t, int b) {
 
 }  // namespace
 
-void smooth_edge(Picture& picture, const Edge& edge) {
+void smooth_edge(DecodedImage& image, const Edge& edge) {
     const int t = (6 * edge.q + 512) >> 10;
     const int b = edge.q >> 4;
     if (t == 0) return;
     for (int begin = 0; begin < 8; begin += 4) {
         EdgeHalf half{};
-        for (int i = 0; i < 4; ++i) half[static_cast<std::size_t>(i)] = line_at(picture, edge, begin + i);
+        for (int i = 0; i < 4; ++i) half[static_cast<std::size_t>(i)] = line_at(image, edge, begin + i);
         half = smooth_half(half, t, b);
-        for (int i = 0; i < 4; ++i) put_line(half[static_cast<std::size_t>(i)], picture, edge, begin + i);
+        for (int i = 0; i < 4; ++i) put_line(half[static_cast<std::size_t>(i)], image, edge, begin + i);
     }
 }
 

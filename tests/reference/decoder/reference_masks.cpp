@@ -77,7 +77,7 @@ void TileDecoder::make_alpha() {
                 read_depths(x, y);
             } else {
                 for (int i = 0; i < 64; ++i) {
-                    sample(picture_, 3, tile_x_ + x + i % 8, tile_y_ + y + i / 8) =
+                    sample(image_, 3, tile_x_ + x + i % 8, tile_y_ + y + i / 8) =
                         block.alpha == AlphaClass::kOpaque ? 255 : 0;
                 }
             }
@@ -91,7 +91,7 @@ void TileDecoder::make_smooth_alpha(int block_x, int block_y) {
             const bool is_in = level_in_tile(x, y) == 1;
             const int c = is_in ? 16 - mask_sum(x, y) : mask_sum(x, y);
             const int off = c == 0 ? 0 : code_.edge_alpha.at(static_cast<std::size_t>((is_in ? 12 : 0) + c - 1));
-            sample(picture_, 3, tile_x_ + x, tile_y_ + y) = static_cast<std::uint8_t>(is_in ? 255 - off : off);
+            sample(image_, 3, tile_x_ + x, tile_y_ + y) = static_cast<std::uint8_t>(is_in ? 255 - off : off);
         }
     }
 }
@@ -115,8 +115,7 @@ void TileDecoder::read_depths(int block_x, int block_y) {
                                                       : read_difference(x, y, p, sum);
             depths_[static_cast<std::size_t>(y * width_ + x)] = depth;
             const int level = mask == 1 ? full_ - depth : depth;
-            sample(picture_, 3, tile_x_ + x, tile_y_ + y) =
-                static_cast<std::uint8_t>((255 * level + full_ / 2) / full_);
+            sample(image_, 3, tile_x_ + x, tile_y_ + y) = static_cast<std::uint8_t>((255 * level + full_ / 2) / full_);
         }
     }
 }

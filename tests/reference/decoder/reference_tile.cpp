@@ -15,18 +15,18 @@ int median(int a, int b, int c) {
 }  // namespace
 
 // Samples, tiles, blocks
-TileDecoder::TileDecoder(const Code& code, const Pict& pict, std::array<const Picture*, 2> references, int t,
-                         Bytes bytes, Picture& picture)
+TileDecoder::TileDecoder(const Code& code, const Pict& pict, std::array<const DecodedImage*, 2> references, int t,
+                         Bytes bytes, DecodedImage& image)
     : code_(code),
       pict_(pict),
       references_(references),
-      picture_(picture),
+      image_(image),
       bits_(bytes, code.probability, code.is_adaptive) {
-    const int columns = ceil_div(picture.width, code.tile_width);
+    const int columns = ceil_div(image.width, code.tile_width);
     tile_x_ = code.tile_width * (t % columns);
     tile_y_ = code.tile_height * (t / columns);
-    width_ = std::min(code.tile_width, picture.width - tile_x_);
-    height_ = std::min(code.tile_height, picture.height - tile_y_);
+    width_ = std::min(code.tile_width, image.width - tile_x_);
+    height_ = std::min(code.tile_height, image.height - tile_y_);
     full_ = (1 << code.alpha_bits) - 1;
     blocks_.resize(static_cast<std::size_t>(width_ / 8 * (height_ / 8)));
     levels_.resize(static_cast<std::size_t>(width_ * height_));
@@ -174,7 +174,7 @@ int TileDecoder::read_difference(int component) {
     return is_negative ? -magnitude : magnitude;
 }
 
-// Reconstruction: "The step index of Y is the picture's; of U and V that plus the offset in CODE, clamped to 0 .. 63."
+// Reconstruction: "The step index of Y is the image's; of U and V that plus the offset in CODE, clamped to 0 .. 63."
 int TileDecoder::step_index(int plane) const {
     const int offset = plane == 0 ? 0 : plane == 1 ? code_.u_offset : code_.v_offset;
     return std::clamp(pict_.step + offset, 0, 63);
@@ -206,7 +206,7 @@ void TileDecoder::predict(const Part& part) {
     for (int plane = 0; plane < 3; ++plane) {
         Square predicted(part.n);
         if (part.source == Source::kIntra) {
-            predicted = predict_from_neighbours(picture_, plane, x, y, part.n, part.mode, has_source(part.left),
+            predicted = predict_from_neighbours(image_, plane, x, y, part.n, part.mode, has_source(part.left),
                                                 has_source(part.upper));
         } else if (part.source == Source::kBoth) {
             const Square a = predict_from_reference(*references_[0], plane, x, y, part.n, part.vector[0]);
@@ -220,7 +220,7 @@ void TileDecoder::predict(const Part& part) {
         }
         for (int py = 0; py < part.n; ++py) {
             for (int px = 0; px < part.n; ++px) {
-                sample(picture_, plane, x + px, y + py) = static_cast<std::uint8_t>(predicted.at(px, py));
+                sample(image_, plane, x + px, y + py) = static_cast<std::uint8_t>(predicted.at(px, py));
             }
         }
     }
@@ -230,7 +230,7 @@ void TileDecoder::predict(const Part& part) {
 void TileDecoder::add(const Square& r, int plane, int x, int y) {
     for (int py = 0; py < r.n; ++py) {
         for (int px = 0; px < r.n; ++px) {
-            std::uint8_t& s = sample(picture_, plane, tile_x_ + x + px, tile_y_ + y + py);
+            std::uint8_t& s = sample(image_, plane, tile_x_ + x + px, tile_y_ + y + py);
             s = static_cast<std::uint8_t>(std::clamp(s + r.at(px, py), 0, 255));
         }
     }
@@ -244,7 +244,7 @@ void TileDecoder::smooth_edges(int plane, bool is_upright) {
             const Block& a = is_upright ? block_at(x - 8, y) : block_at(x, y - 8);
             const bool is_in_macroblock = (is_upright ? x : y) % 16 == 8;
             if (!is_smoothed(a, block_at(x, y), is_in_macroblock)) continue;
-            smooth_edge(picture_, {plane, tile_x_ + x, tile_y_ + y, is_upright, q});
+            smooth_edge(image_, {plane, tile_x_ + x, tile_y_ + y, is_upright, q});
         }
     }
 }

@@ -17,7 +17,7 @@ void fit_header_checksum(Bytes& file) {
     set_number(file, 40, static_cast<std::int64_t>(XXH64(file.data(), 40, 0)), 8);
 }
 
-// A number of the header.
+// Changes a number of the header.
 Damage header_damage(const std::string& name, std::size_t offset, std::size_t size, std::int64_t value,
                      const std::string& words) {
     return {name, kBase, words, [=](Draft& draft) {
@@ -28,7 +28,7 @@ Damage header_damage(const std::string& name, std::size_t offset, std::size_t si
             }};
 }
 
-// A number of the first entry of the table.
+// Changes a number of the first table entry.
 Damage table_damage(const std::string& name, std::size_t offset, std::size_t size, std::int64_t value,
                     const std::string& words) {
     return {name, kBase, words, [=](Draft& draft) {
@@ -39,7 +39,7 @@ Damage table_damage(const std::string& name, std::size_t offset, std::size_t siz
             }};
 }
 
-// Anything, without new checksums.
+// Changes any bytes, without new checksums.
 Damage bytes_damage(const std::string& name, const std::string& words, const std::function<void(Bytes&)>& change) {
     return {name, kBase, words, [=](Draft& draft) { draft.afterwards = change; }};
 }
@@ -61,7 +61,7 @@ Damage swapped(const std::string& name, const std::string& base, Key a, Key b, c
             [=](Draft& d) { std::swap(d.chunks[d.place(a.name, a.index)], d.chunks[d.place(b.name, b.index)]); }};
 }
 
-// `chunk` moved to just before `before`.
+// Moves `chunk` to just before `before`.
 Damage moved(const std::string& name, const std::string& base, Key chunk, Key before, const std::string& words) {
     return {"order-" + name, base, words, [=](Draft& d) {
                 const auto from = d.chunks.begin() + static_cast<std::ptrdiff_t>(d.place(chunk.name, chunk.index));
@@ -104,8 +104,7 @@ std::vector<Damage> container_damages() {
                          file.resize(file.size() + 16);
                          fuzz::seal(file);
                      }),
-        {"table-twins", kBase, "chunk PICT 1 | there twice",
-         [](Draft& d) { d.chunks[d.place(kPicture, 2)].index = 1; }},
+        {"table-twins", kBase, "chunk PICT 1 | there twice", [](Draft& d) { d.chunks[d.place(kImage, 2)].index = 1; }},
         table_damage("payload-checksum", 24, 8, 1, "chunk HEAD 0 | its checksum"),
         bytes_damage("padding", "chunk HEAD 0 | padding",
                      [](Bytes& file) {
@@ -123,7 +122,7 @@ std::vector<Damage> order_damages() {
     const std::string kUnknown = "unknown or out of place";
     return {
         added("unknown", kBase, {{'N', 'E', 'W', 'S'}, 0, one_byte}, "chunk NEWS 0 | " + kUnknown),
-        added("picture-too-many", kBase, {kPicture, 99, one_byte}, "chunk PICT 99 | " + kUnknown),
+        added("picture-too-many", kBase, {kImage, 99, one_byte}, "chunk PICT 99 | " + kUnknown),
         added("second-code", kBoard, {kCode, 1, one_byte}, "chunk CODE 1 | " + kUnknown),
         added("shape-of-no-ring", kShaped, {kShape, 9, one_byte}, "chunk shap 9 | out of place"),
         added("second-foot", kStanding, {kFoot, 1, Bytes(4)}, "chunk foot 1 | out of place"),
@@ -134,18 +133,18 @@ std::vector<Damage> order_damages() {
         missing(kBase, kViews, 0, "no chunk VIEW 0"),
         missing(kBase, kRing, 0, "no chunk RING 0"),
         missing(kBase, kMap, 0, kUnknown),
-        missing(kBase, kPicture, 0, kUnknown),
-        missing(kBase, kPicture, 1, "no chunk PICT 1"),
+        missing(kBase, kImage, 0, kUnknown),
+        missing(kBase, kImage, 1, "no chunk PICT 1"),
         missing(kBoard, kCode, 0, kUnknown),
         swapped("view-before-rig", kBase, {kRig, 0}, {kViews, 0}, kUnknown),
         swapped("map-before-ring", kBase, {kRing, 0}, {kMap, 0}, kUnknown),
         swapped("rings", kShaped, {kRing, 0}, {kRing, 1}, kUnknown),
-        swapped("pictures", kBase, {kPicture, 0}, {kPicture, 1}, kUnknown),
-        moved("head-last", kBase, {kHead, 0}, {kPicture, 0}, kUnknown),
+        swapped("pictures", kBase, {kImage, 0}, {kImage, 1}, kUnknown),
+        moved("head-last", kBase, {kHead, 0}, {kImage, 0}, kUnknown),
         moved("code-behind-maps", kBoard, {kCode, 0}, {kMap, 0}, kUnknown),
         moved("shape-before-map", kShaped, {kShape, 1}, {kMap, 1}, "chunk shap 1 | out of place"),
         moved("shape-behind-another-map", kShaped, {kShape, 1}, {kRing, 1}, "chunk shap 1 | out of place"),
-        moved("shape-behind-a-picture", kShaped, {kShape, 1}, {kPicture, 1},
+        moved("shape-behind-a-picture", kShaped, {kShape, 1}, {kImage, 1},
               "out of place, where chunk shap 1 should stand"),
     };
 }

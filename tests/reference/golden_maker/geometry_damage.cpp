@@ -38,7 +38,7 @@ map_coding::Runs runs_in(const Bytes& map, std::size_t rows) {
     constexpr std::size_t kFrame = 4;
     const Bytes content = content_of(Bytes(map.begin() + kFrame, map.end()));
     const std::span plane(reinterpret_cast<const std::uint8_t*>(content.data()), content.size());
-    return map_coding::runs_of_residuals(plane, rows, (plane.size() - 2 * rows) / 4);
+    return map_coding::decode_run_residuals(plane, rows, (plane.size() - 2 * rows) / 4);
 }
 Damage map(const std::string& name, const std::string& words, const std::function<void(map_coding::Runs&)>& change,
            const std::string& base = kBase) {
@@ -80,7 +80,7 @@ Damage longer(const std::string& name, ChunkName chunk, int bytes, const std::st
             }};
 }
 
-// The units per radius.
+// Changes the units per radius.
 Damage radius(const std::string& name, double value) {
     std::int64_t bits = 0;
     static_assert(sizeof bits == sizeof value);
@@ -93,8 +93,8 @@ std::vector<Damage> sizes() {
         longer("head-short", kHead, -1, "bytes long"),         longer("head-long", kHead, 1, "bytes long"),
         longer("view-short", kViews, -1, "bytes long"),        longer("view-long", kViews, 1, "bytes long"),
         longer("ring-short", kRing, -1, "bytes of lines"),     longer("ring-long", kRing, 1, "bytes of lines"),
-        longer("map-empty", kMap, -1000000, "number of runs"), longer("picture-short", kPicture, -1, "bytes long"),
-        longer("picture-long", kPicture, 1, "bytes long"),
+        longer("map-empty", kMap, -1000000, "number of runs"), longer("picture-short", kImage, -1, "bytes long"),
+        longer("picture-long", kImage, 1, "bytes long"),
     };
 }
 
@@ -161,16 +161,16 @@ std::vector<Damage> rules() {
         {"foot-short", kStanding, "chunk foot 0 | bytes long", [](Draft& d) { d.payload(kFoot).pop_back(); }},
         {"view-in-no-ring", kBase, "view 2 belongs to no ring",
          [](Draft& d) {
-             // A ring of the first two views. The third has no picture, which would have no place in the order, and
-             // no cell of the map.
-             d.chunks.erase(d.chunks.begin() + static_cast<std::ptrdiff_t>(d.place(kPicture, 2)));
+             // A ring of the first two views. The third view has no image, which would have no position in the order,
+             // and no cell of the map.
+             d.chunks.erase(d.chunks.begin() + static_cast<std::ptrdiff_t>(d.place(kImage, 2)));
              Bytes& ring = d.payload(kRing);
              ring.resize(kLines + 16 * kPlanes * 2);
              ring.erase(ring.begin() + kViewList + 4, ring.begin() + kViewList + 6);
              set_number(ring, 6, 2, 2);
-             constexpr std::uint16_t kNoPicture = 65535, kWidth = 3;
+             constexpr std::uint16_t kNoImage = 65535, kWidth = 3;
              d.payload(kMap) = map_payload({std::vector<std::uint16_t>(kPlanes * 2, 1),
-                                            std::vector<std::uint16_t>(kPlanes * 2, kNoPicture),
+                                            std::vector<std::uint16_t>(kPlanes * 2, kNoImage),
                                             std::vector<std::uint16_t>(kPlanes * 2, kWidth)});
          }},
         map("run-of-0", "chunk RMAP 0 | a run of 0", [](map_coding::Runs& r) { r.lengths[0] = 0; }),
@@ -206,15 +206,15 @@ std::vector<Damage> rules() {
             "raw-shape"),
         {"map-cell-behind-the-camera", kBase, "looks away",
          [](Draft& d) {
-             // Every line of the first row's view.
+             // All lines of the first row's view.
              const std::size_t named = runs_in(d.payload(kMap), kPlanes * 2).views[0];
              for (std::size_t k = 0; k < kPlanes; ++k) {
                  set_number(d.payload(kRing), kLines + 16 * (named * kPlanes + k), -(std::int64_t{1} << 27), 4);
              }
          }},
-        number_damage("picture-coding-7", kBase, kPicture, 1, 0, 1, 7, "chunk PICT 1 | picture coding 7"),
-        number_damage("picture-coded-without-code", kBase, kPicture, 1, 0, 1, 1, "chunk PICT 1 | picture coding 1"),
-        number_damage("picture-reserved", kBase, kPicture, 1, 15, 1, 1, "chunk PICT 1 | reserved"),
+        number_damage("picture-coding-7", kBase, kImage, 1, 0, 1, 7, "chunk PICT 1 | image coding 7"),
+        number_damage("picture-coded-without-code", kBase, kImage, 1, 0, 1, 1, "chunk PICT 1 | image coding 1"),
+        number_damage("picture-reserved", kBase, kImage, 1, 15, 1, 1, "chunk PICT 1 | reserved"),
     };
 }
 

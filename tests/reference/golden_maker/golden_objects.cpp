@@ -13,7 +13,7 @@ namespace {
 
 using reference::Profile;
 
-// 3 views a ring; maps of 2 x 3 cells: what geometry_damage.cpp and shape_damage.cpp rely on.
+// 3 views per ring; maps of 2 x 3 cells, as required by geometry_damage.cpp and shape_damage.cpp.
 test::SmallObjectOptions smallest(int rings) {
     test::SmallObjectOptions options;
     options.rings = rings;
@@ -42,54 +42,54 @@ struct DrawnSize {
     bool has_shape;
 };
 
-RaySpaceObject without_pictures(const DrawnSize& size) {
+RaySpaceObject without_images(const DrawnSize& size) {
     test::SmallObjectOptions options;
     options.width = size.width;
     options.height = size.height;
     options.views_per_ring = size.views;
     options.rings = size.rings;
     RaySpaceObject object = size.has_shape ? test::small_object_with_shape(options) : test::small_object(options);
-    for (PlanarPicture& picture : object.pictures) picture = {};
+    for (PlanarImage& image : object.images) image = {};
     return object;
 }
 
 RaySpaceObject dense(const DrawnSize& size, int tile_width_log2, int tile_height_log2, int alpha_bits, double step) {
-    RaySpaceObject object = without_pictures(size);
+    RaySpaceObject object = without_images(size);
     encode::DenseSettings settings;
     settings.tile_width_log2 = tile_width_log2;
     settings.tile_height_log2 = tile_height_log2;
     settings.alpha_bits = alpha_bits;
     settings.step = step;
     object.coded =
-        std::make_shared<codec::CodedPictures>(test::code_pictures(object, test::drawn_pictures(object), settings));
+        std::make_shared<codec::CodedImages>(test::code_images(object, test::drawn_images(object), settings));
     return object;
 }
 
 RaySpaceObject board(const DrawnSize& size, double step) {
-    RaySpaceObject object = without_pictures(size);
+    RaySpaceObject object = without_images(size);
     encode::BoardSettings settings;
     settings.step = step;
-    object.coded = std::make_shared<codec::CodedPictures>(
-        test::code_board_pictures(object, test::drawn_pictures(object), settings));
+    object.coded =
+        std::make_shared<codec::CodedImages>(test::code_board_images(object, test::drawn_images(object), settings));
     return object;
 }
 
-// A stream with a picture of two references, tiles that do not fill the last byte of their list, and all four levels,
-// that has no more bytes than this, and no less than half as many; of dense pictures with alpha so coded, and all
-// features if as masks, else none.
+// A random stream that has an image with two references, tiles that do not fill the last byte of their list, and all
+// four levels, and that has between half of `most_bytes` and `most_bytes` bytes; dense images have the given alpha
+// coding, with all features for masks and none otherwise.
 RaySpaceObject random_object(Profile profile, std::size_t most_bytes, bool has_masks = false) {
     for (std::uint64_t seed = 1; seed < 100000; ++seed) {
         const reference::Stream stream = reference::random_stream(seed, profile);
         std::size_t bytes = stream.code.size();
         for (const auto& pict : stream.picts) bytes += pict.size();
         if (bytes > most_bytes || 2 * bytes < most_bytes) continue;
-        auto coded = std::make_shared<codec::CodedPictures>();
+        auto coded = std::make_shared<codec::CodedImages>();
         RS_CHECK(reference::parse_stream(stream, *coded).empty());
         bool has_two = false;
-        for (const codec::CodedPicture& picture : coded->pictures) has_two |= picture.head.references() == 2;
+        for (const codec::CodedImage& image : coded->images) has_two |= image.head.references() == 2;
         unsigned levels = 0;
         for (const std::uint8_t level : coded->levels) levels |= 1U << level;
-        const std::size_t tiles = coded->pictures[0].tiles.size();
+        const std::size_t tiles = coded->images[0].tiles.size();
         const bool is_tame = profile == Profile::kBoard || coded->dense.probabilities[0] != 2048;
         if (!has_two || tiles % 8 == 0 || tiles < 2 || levels != 15 || !is_tame) continue;
         const codec::DenseCode& dense = coded->dense;
@@ -97,7 +97,7 @@ RaySpaceObject random_object(Profile profile, std::size_t most_bytes, bool has_m
                                dense.adaptation == has_masks && dense.sign_data_hiding == has_masks;
         if (profile == Profile::kDense && !is_wanted) continue;
         RaySpaceObject object =
-            without_pictures({coded->width, coded->height, static_cast<int>(coded->pictures.size()), 1, false});
+            without_images({coded->width, coded->height, static_cast<int>(coded->images.size()), 1, false});
         object.coded = coded;
         return object;
     }

@@ -1,5 +1,5 @@
-// Writes the golden files: `make_golden tests/reference/golden`. A golden file changes only with a written reason: run
-// it when the format changes, and say so in tests/reference/golden/README.md.
+// Writes the golden files: `make_golden tests/reference/golden`. A golden file changes only with a written reason:
+// after a format change, run it and update tests/reference/golden/README.md.
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "tests/reference/golden_maker/golden_damage.hpp"
@@ -37,7 +37,7 @@ Result<golden::Draft> draft_of(const ContainerReader& file) {
     return draft;
 }
 
-// What is there already, but for the coding of the lines, which write_object() does not leave to choose.
+// Rewrites the file with plain line coding, which write_object() cannot select.
 Status rewrite_with_plain_lines(const fs::path& path, const RaySpaceObject& object) {
     const auto file = ContainerReader::open(path);
     if (!file) return file.error();
@@ -55,7 +55,7 @@ using Drafts = std::map<std::string, golden::Draft>;
 Status write_valid(const fs::path& folder, Drafts& drafts) {
     std::string text =
         "# FILE VIEW Y U V ALPHA: XXH64 (seed 0) of the planes' samples, row by row without gaps. U and V of coded\n"
-        "# pictures are of full size, as they are decoded; of raw ones as the file holds them.\n";
+        "# images are of full size, as they are decoded; of raw ones as the file holds them.\n";
     fs::create_directories(folder / "valid");
     for (const auto& [name, object, has_plain_lines] : golden::golden_objects()) {
         const fs::path path = folder / "valid" / (name + ".rso");
@@ -89,7 +89,7 @@ Status write_invalid(const fs::path& folder, const Drafts& drafts) {
     add(golden::code_damages(drafts.at("dense-random-small"), drafts.at("dense-random-masks-small"),
                              drafts.at("board-random-small")));
     for (const char* base : {"dense-random-small", "board-random-small"}) {
-        add(golden::picture_damages(base, drafts.at(base)));
+        add(golden::image_damages(base, drafts.at(base)));
     }
     fs::create_directories(folder / "invalid");
     for (const golden::Damage& damage : damages) {

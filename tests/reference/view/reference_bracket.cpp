@@ -8,7 +8,7 @@ namespace {
 
 constexpr Whole kWidest_q20 = power(21) + power(16);  // "|.| < 2^21 + 2^16"
 
-// "The vertical plane of the ray." False: no ray.
+// "The vertical plane of the ray." Returns false if there is no ray.
 bool find_vertical_plane(const ShapeMap& shape, const engine::PlaneRegisters& plane, const PlaneRay& at,
                          ShapeRay& ray) {
     const Whole a = plane.a_q20;
@@ -33,7 +33,7 @@ bool find_vertical_plane(const ShapeMap& shape, const engine::PlaneRegisters& pl
     return true;
 }
 
-// A ring's views, gaps and lines under turning numbers: behind N - 1 comes 0 again.
+// A ring's views, gaps and lines with cyclic numbers: N - 1 is followed by 0.
 struct Turning {
     const Ring& ring;
     Whole N = static_cast<Whole>(ring.views.size());
@@ -123,11 +123,11 @@ void find_cells(const Turning& turning, Whole g, const PlaneRay& at, ShapeRay& r
 }
 
 // "Everything linear in d."
-PictureOfRay picture_of_ray(const RaySpaceObject& object, const Turning& turning, Whole g, std::size_t k,
-                            const ShapeRay& ray) {
-    PictureOfRay picture;
-    picture.index = turning.ring.views[turning.index(g)];
-    const CapturedLine& line = object.views[picture.index].lines[k];
+ImageOfRay image_of_ray(const RaySpaceObject& object, const Turning& turning, Whole g, std::size_t k,
+                        const ShapeRay& ray) {
+    ImageOfRay image;
+    image.index = turning.ring.views[turning.index(g)];
+    const CapturedLine& line = object.views[image.index].lines[k];
     const NormalLine& normal = turning.normal_line(g, k);
     const Whole l0 = line.l0_q20, l1 = line.l1_q30, l2 = normal.l2_q30;
     const Whole q0 = line.q0_q16, q1 = line.q1_q16, q2 = normal.q2_q16;
@@ -142,12 +142,12 @@ PictureOfRay picture_of_ray(const RaySpaceObject& object, const Turning& turning
     const Whole q_foot = q0 + (below(xf * q1 + zf * q2, 52.1, "xf * q1 + zf * q2") >> 20);
     below(q_foot, std::log2(std::exp2(31) + std::exp2(32.05)), "q_foot");
     const Whole q_along = at_most(at_most(sine * q1 - cosine * q2, 61, "sine * q1 - cosine * q2") >> 30, 31, "q_along");
-    picture.L0 = l_foot + (below(low * l_along, 52.1, "low * l_along") >> 30);
-    below(picture.L0, std::log2(std::exp2(28) + std::exp2(23.1)), "L0");
-    picture.L1 = at_most((step * l_along) >> 30, 19, "L1");
-    picture.Q0 = below((q_foot + (below(low * q_along, 52.1, "low * q_along") >> 20)) >> 4, 29.4, "Q0");
-    picture.Q1 = clamp((step * q_along) >> 28, -power(20), power(20));
-    return picture;
+    image.L0 = l_foot + (below(low * l_along, 52.1, "low * l_along") >> 30);
+    below(image.L0, std::log2(std::exp2(28) + std::exp2(23.1)), "L0");
+    image.L1 = at_most((step * l_along) >> 30, 19, "L1");
+    image.Q0 = below((q_foot + (below(low * q_along, 52.1, "low * q_along") >> 20)) >> 4, 29.4, "Q0");
+    image.Q1 = clamp((step * q_along) >> 28, -power(20), power(20));
+    return image;
 }
 
 }  // namespace
@@ -156,7 +156,7 @@ std::optional<ShapeRay> shape_ray(const RaySpaceObject& object, const engine::Vi
                                   Branches& branches) {
     const Turning turning{object.rings[static_cast<std::size_t>(view.ring)]};
     const std::vector<std::uint16_t>& views = turning.ring.views;
-    const Whole near = std::find(views.begin(), views.end(), at.picture) - views.begin();
+    const Whole near = std::find(views.begin(), views.end(), at.image) - views.begin();
     ShapeRay ray;
     if (!find_vertical_plane(turning.ring.shape, view.planes[at.k], at, ray)) {
         branches.take(Branch::foot_too_far);
@@ -165,10 +165,10 @@ std::optional<ShapeRay> shape_ray(const RaySpaceObject& object, const engine::Vi
     if (const std::optional<Whole> g = find_gap(turning, near, at, branches)) {
         ray.has_shape = true;
         find_cells(turning, *g, at, ray, branches);
-        ray.first = picture_of_ray(object, turning, *g, at.k, ray);
-        ray.second = picture_of_ray(object, turning, *g + 1, at.k, ray);
+        ray.first = image_of_ray(object, turning, *g, at.k, ray);
+        ray.second = image_of_ray(object, turning, *g + 1, at.k, ray);
     } else {
-        ray.first = picture_of_ray(object, turning, near, at.k, ray);
+        ray.first = image_of_ray(object, turning, near, at.k, ray);
     }
     ray.lambda0 = ray.lambda_foot + floor_div(ray.low << 28, ray.r);
     below(ray.lambda0, std::log2(std::exp2(29) + std::exp2(25.1)), "lambda0");

@@ -19,17 +19,17 @@ struct Sum {
 };
 
 // Section 7, "Detail".
-Whole detail_of(const PlanarPicture& picture, Whole W, Whole H, Whole i, Whole j, Branches& branches) {
+Whole detail_of(const PlanarImage& image, Whole W, Whole H, Whole i, Whole j, Branches& branches) {
     if (i == 0 || i == W - 1 || j == 0 || j == H - 1) {
         branches.take(Branch::no_detail_at_a_border);
         return 0;
     }
     const auto column = static_cast<int>(i), row = static_cast<int>(j);
-    Whole laplacian = 4 * Whole{picture.y(column, row)};
-    bool is_opaque = picture.a(column, row) == 255;
+    Whole laplacian = 4 * Whole{image.y(column, row)};
+    bool is_opaque = image.a(column, row) == 255;
     for (const auto& [x, y] : {std::pair{-1, 0}, {1, 0}, {0, -1}, {0, 1}}) {
-        laplacian -= picture.y(column + x, row + y);
-        is_opaque = is_opaque && picture.a(column + x, row + y) == 255;
+        laplacian -= image.y(column + x, row + y);
+        is_opaque = is_opaque && image.a(column + x, row + y) == 255;
     }
     if (!is_opaque) {
         branches.take(Branch::no_detail_beside_transparency);
@@ -40,22 +40,22 @@ Whole detail_of(const PlanarPicture& picture, Whole W, Whole H, Whole i, Whole j
     return clamp(D, -128, 127);
 }
 
-// Section 7; nothing: outside.
-std::optional<Sum> sample(const RaySpaceObject& object, const engine::ViewRegisters& view, const PictureOfRay& picture,
+// Section 7; nullopt: outside.
+std::optional<Sum> sample(const RaySpaceObject& object, const engine::ViewRegisters& view, const ImageOfRay& image,
                           Whole d, Whole y, Branches& branches) {
-    const CapturedView& captured = object.views[picture.index];
+    const CapturedView& captured = object.views[image.index];
     const Whole W = object.width, H = object.height;
     const double kPlace = std::log2(std::exp2(22) + std::exp2(29));
-    at_most(picture.Q1, 20, "Q1");
+    at_most(image.Q1, 20, "Q1");
     within(d, 0, 2040, "d");
-    const Whole l = below(picture.L0 + (below(d * picture.L1, 30, "d * L1") >> 7), 28.1, "l");
+    const Whole l = below(image.L0 + (below(d * image.L1, 30, "d * L1") >> 7), 28.1, "l");
     if (l < power(17)) {
         branches.take(Branch::too_near);
         return {};
     }
     const Whole inv = at_most(floor_div(power(40), l), 23, "inv");
     require(inv >= 3566, "inv", inv);  // 2^11.8 is 3565.8
-    const Whole offset = below(picture.Q0 + (below(d * picture.Q1, 31, "d * Q1") >> 3), 30, "Q0 + (d * Q1 >> 3)");
+    const Whole offset = below(image.Q0 + (below(d * image.Q1, 31, "d * Q1") >> 3), 30, "Q0 + (d * Q1 >> 3)");
     const Whole column =
         (captured.cx_q16 >> 8) + never_held(below(offset * inv, 53, "(Q0 + ...) * inv") >> 24, "column");
     const Whole unheld_m = below((captured.fl_y_q16 >> 8) * inv, 45, "(fl_y >> 8) * inv") >> 16;
@@ -66,7 +66,7 @@ std::optional<Sum> sample(const RaySpaceObject& object, const engine::ViewRegist
     below(column, kPlace, "column");
     below(row, kPlace, "row");
     if (column < 0 || column >= W << 8 || row < 0 || row >= H << 8) {
-        branches.take(Branch::beside_the_picture);
+        branches.take(Branch::beside_the_image);
         return {};
     }
     const Whole X = (column - 112) >> 5, fx = X & 7;
@@ -76,7 +76,7 @@ std::optional<Sum> sample(const RaySpaceObject& object, const engine::ViewRegist
     if (left == right || top == bottom) branches.take(Branch::at_a_border);
     Sum sum;
     const auto add = [&](Whole i, Whole j, Whole weight) {
-        const Colour texel = stored_colour(object.pictures[picture.index], i, j);
+        const Colour texel = stored_colour(object.images[image.index], i, j);
         sum.add({texel.A, texel.A * texel.R, texel.A * texel.G, texel.A * texel.B}, weight);
     };
     add(left, top, (8 - fx) * (8 - fz));
@@ -90,7 +90,7 @@ std::optional<Sum> sample(const RaySpaceObject& object, const engine::ViewRegist
         branches.take(Branch::bilinear);
         return sum;
     }
-    const auto D = [&](Whole i, Whole j) { return detail_of(object.pictures[picture.index], W, H, i, j, branches); };
+    const auto D = [&](Whole i, Whole j) { return detail_of(object.images[image.index], W, H, i, j, branches); };
     const Whole e = at_most((8 - fx) * (8 - fz) * D(left, top) + (8 - fx) * fz * D(left, bottom) +
                                 fx * (8 - fz) * D(right, top) + fx * fz * D(right, bottom),
                             13, "e");
@@ -129,11 +129,11 @@ std::optional<Shown> shown_at(const RaySpaceObject& object, const engine::ViewRe
         if (lean > 8) branches.take(Branch::leans_to_second);
         const Whole w = within(lean <= 8 ? (weight * lean + 4) >> 3 : weight + (((256 - weight) * (lean - 8) + 4) >> 3),
                                0, 256, "w");
-        branches.take(Branch::both_pictures);
+        branches.take(Branch::both_images);
         shown.sum.add(*s1, 256 - w);
         shown.sum.add(*s2, w);
     } else if (s1 || s2) {
-        branches.take(s1 ? Branch::first_picture_alone : Branch::second_picture_alone);
+        branches.take(s1 ? Branch::first_image_alone : Branch::second_image_alone);
         shown.sum.add(s1 ? *s1 : *s2, 256);
     } else {
         branches.take(Branch::both_outside);

@@ -8,7 +8,7 @@ namespace {
 // Sections 3 and 4.
 ReferencePixel pixel_on_plane(const RaySpaceObject& object, const engine::ViewRegisters& view, int i, int j,
                               const PlaneRay& ray, Branches& branches) {
-    const CapturedView& captured = object.views[ray.picture];
+    const CapturedView& captured = object.views[ray.image];
     const CapturedLine& line = captured.lines[ray.k];
     const auto no_ray = [&](Branch why) {
         branches.take(why);
@@ -33,7 +33,7 @@ ReferencePixel pixel_on_plane(const RaySpaceObject& object, const engine::ViewRe
     const Whole row = (row_0 + j * step) >> 16;
     if (row < 0 || row >= object.height) return no_ray(Branch::outside_on_plane);
 
-    const Colour colour = stored_colour(object.pictures[ray.picture], column, row);
+    const Colour colour = stored_colour(object.images[ray.image], column, row);
     branches.take(Branch::shown_on_plane);
     if (colour.A == 0) return {};
     return {static_cast<std::uint8_t>(colour.R), static_cast<std::uint8_t>(colour.G),
@@ -79,22 +79,22 @@ std::optional<PlaneRay> plane_ray(const RaySpaceObject& object, const engine::Vi
     require(x > -(power(21) + power(16)) && x < power(21) + power(16), "x", x);
     const Whole xi = clamp(((x + x_half) * ring.x_cells_per_unit_q12) >> 32, 0, ring.x_cells - 1);
     const Whole ui = clamp(((u + ring.u_half_q28) * ring.u_cells_per_unit_q12) >> 40, 0, ring.u_cells - 1);
-    ray.picture = ring.cells[static_cast<std::size_t>((static_cast<Whole>(k) * ring.x_cells + xi) * ring.u_cells + ui)];
-    if (ray.picture == 65535) {
-        branches.take(Branch::no_picture);
+    ray.image = ring.cells[static_cast<std::size_t>((static_cast<Whole>(k) * ring.x_cells + xi) * ring.u_cells + ui)];
+    if (ray.image == 65535) {
+        branches.take(Branch::no_image);
         return {};
     }
     return ray;
 }
 
-Colour stored_colour(const PlanarPicture& picture, Whole column_of_picture, Whole row_of_picture) {
-    const int column = static_cast<int>(column_of_picture);
-    const int row = static_cast<int>(row_of_picture);
-    const int shift = picture.chroma_shift;
-    const Whole Y = picture.y(column, row);
-    const Whole A = picture.a(column, row);
-    const Whole U = picture.u(column >> shift, row >> shift);
-    const Whole V = picture.v(column >> shift, row >> shift);
+Colour stored_colour(const PlanarImage& image, Whole column_of_image, Whole row_of_image) {
+    const int column = static_cast<int>(column_of_image);
+    const int row = static_cast<int>(row_of_image);
+    const int shift = image.chroma_shift;
+    const Whole Y = image.y(column, row);
+    const Whole A = image.a(column, row);
+    const Whole U = image.u(column >> shift, row >> shift);
+    const Whole V = image.v(column >> shift, row >> shift);
     if (A == 0) return {};
     const Whole base = (Y << 16) + 32768;
     return {clamp((base + 91881 * (V - 128)) >> 16, 0, 255),

@@ -1,7 +1,6 @@
 #pragma once
-// A second answer to every pixel: engine/RECONSTRUCTION.md written down once more from its text alone, in its order and
-// with its names, without a thought for speed. Whole numbers are 128 bits wide, and where the section "Ranges" bounds
-// one, the bound is checked.
+// Second implementation of engine/RECONSTRUCTION.md, written from its text only, in its order and with its names,
+// without regard to speed. Integers have 128 bits, and the bounds of the section "Ranges" are checked.
 
 #include "engine/core/definition/view_registers.hpp"
 #include "rayspace/object/ray_space_object.hpp"
@@ -13,11 +12,11 @@
 
 namespace rs::reference {
 
-// The branches of the text, counted as they are taken.
+/// Branches of the text, counted when taken.
 enum class Branch {
     plane_behind_or_edge_on,  // section 2
     misses_or_too_far,
-    no_picture,
+    no_image,
     shown_on_plane,  // 3, 4
     outside_on_plane,
     too_near_on_plane,
@@ -68,7 +67,7 @@ enum class Branch {
     one_of_eight_lacks,
     met_after_another,
     too_near,  // 7
-    beside_the_picture,
+    beside_the_image,
     transparent,
     seen,
     at_a_border,
@@ -81,9 +80,9 @@ enum class Branch {
     detail_clamped,
     behind_the_viewer,  // 8
     transparent_hides,
-    both_pictures,
-    first_picture_alone,
-    second_picture_alone,
+    both_images,
+    first_image_alone,
+    second_image_alone,
     both_outside,
     no_shape,
     weight_is_0,
@@ -117,22 +116,22 @@ struct ReferencePixel {
     bool operator==(const ReferencePixel&) const = default;
 };
 
-// Section 2: of a ray that is one.
+/// Section 2: a valid ray.
 struct PlaneRay {
     std::size_t k = 0;
     Whole n = 0, T = 0, u = 0, x = 0, lambda = 0;
-    std::size_t picture = 0;
+    std::size_t image = 0;
 };
 std::optional<PlaneRay> plane_ray(const RaySpaceObject& object, const engine::ViewRegisters& view, int i, int j,
                                   Branches& branches);
 
-// Section 4: of a stored pixel.
+/// Section 4: colour of a stored pixel.
 struct Colour {
     Whole R = 0, G = 0, B = 0, A = 0;
 };
-Colour stored_colour(const PlanarPicture& picture, Whole column, Whole row);
+Colour stored_colour(const PlanarImage& image, Whole column, Whole row);
 
-// `object` has passed validate_object, all of its pictures are loaded, and `view` has passed check_registers.
+/// Renders pixel (i, j). `object` has passed validate_object and has all its images; `view` has passed check_registers.
 ReferencePixel reference_pixel(const RaySpaceObject& object, const engine::ViewRegisters& view, int i, int j,
                                Branches& branches);
 

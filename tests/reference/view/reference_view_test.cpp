@@ -1,6 +1,7 @@
-// The scalar definition of rendering against a second transcription of engine/RECONSTRUCTION.md (reference_view.hpp):
-// every pixel of random views of random objects, bit for bit, colour and depth. The transcription checks the bounds of
-// the section "Ranges" as it goes and counts the branches of the text, each of which must have been taken.
+// Compares the scalar definition of rendering with a second implementation of engine/RECONSTRUCTION.md
+// (reference_view.hpp): every pixel of random views of random objects, bit for bit, colour and depth. The second
+// implementation checks the bounds of the section "Ranges" and counts the branches of the text, each of which must be
+// taken.
 
 #include "tests/reference/view/reference_view.hpp"
 
@@ -26,30 +27,30 @@ using test::Random;
 
 struct Drawn {
     RaySpaceObject object;
-    double distance = 0;       // of the captures
-    double camera_height = 0;  // of the first ring
-    double fov_rad = 0;        // that holds the object from the captures' distance
+    double distance = 0;       // distance of the captured cameras
+    double camera_height = 0;  // height of the first ring
+    double fov_rad = 0;        // field of view that contains the object at `distance`
 };
 
-// Pictures whose U and V are as large as Y.
+// Expands U and V of the images to the size of Y.
 void enlarge_chroma(RaySpaceObject& object, Random& random) {
-    for (PlanarPicture& picture : object.pictures) {
-        picture.chroma_shift = 0;
-        for (Image<std::uint8_t>* plane : {&picture.u, &picture.v}) {
+    for (PlanarImage& image : object.images) {
+        image.chroma_shift = 0;
+        for (Image<std::uint8_t>* plane : {&image.u, &image.v}) {
             *plane = Image<std::uint8_t>(object.width, object.height);
             for (std::uint8_t& sample : plane->pixels()) sample = static_cast<std::uint8_t>(random.whole(0, 255));
         }
     }
 }
 
-// Pictures of whose columns some show next to nothing and some a part, as at rims.
+// Makes some columns of the images nearly or partly transparent, as at silhouettes.
 void thin_out(RaySpaceObject& object, Random& random) {
-    for (PlanarPicture& picture : object.pictures) {
+    for (PlanarImage& image : object.images) {
         for (int column = 0; column < object.width; ++column) {
             const int kind = random.whole(0, 2);
             for (int row = 0; row < object.height; ++row) {
                 const int alpha = kind == 0 ? random.whole(0, 1) : kind == 1 ? random.whole(40, 200) : 255;
-                picture.a(column, row) = static_cast<std::uint8_t>(alpha);
+                image.a(column, row) = static_cast<std::uint8_t>(alpha);
             }
         }
     }
@@ -125,7 +126,7 @@ struct Compared {
     std::int64_t shown = 0;
 };
 
-// False, with the pixel's place, at the first difference.
+// Returns false, with the pixel's position, at the first difference.
 bool equals_definition(const RaySpaceObject& object, const ViewRegisters& view, Compared& compared) {
     Image<Rgba8> colour(view.width, view.height);
     Image<std::int32_t> lambda(view.width, view.height);
@@ -170,7 +171,7 @@ bool equals_definition_from_everywhere(Compared& compared, bool with_shape, std:
 
 void expect_taken(const Branches& branches, std::size_t from, std::size_t to) {
     for (std::size_t n = from; n <= to; ++n) {
-        if (n == static_cast<std::size_t>(Branch::foot_too_far)) continue;  // from the ends of the ranges only
+        if (n == static_cast<std::size_t>(Branch::foot_too_far)) continue;  // taken only at the ends of the ranges
         EXPECT_GT(branches.taken[n], 0) << "number " << n << " of enum class Branch was never taken";
     }
 }
@@ -180,7 +181,7 @@ TEST(ReferenceViewProperty, TheTextGivesTheDefinitionsPixelsAndEachOfItsBranches
     ASSERT_TRUE(equals_definition_from_everywhere(compared, true, 1, 400));
     EXPECT_GT(compared.shown * 10, compared.pixels);
     expect_taken(compared.branches, static_cast<std::size_t>(Branch::plane_behind_or_edge_on),
-                 static_cast<std::size_t>(Branch::no_picture));
+                 static_cast<std::size_t>(Branch::no_image));
     expect_taken(compared.branches, static_cast<std::size_t>(Branch::foot_too_far),
                  static_cast<std::size_t>(Branch::count) - 1);
 }
@@ -221,7 +222,7 @@ void move_map_to_ends(ShapeMap& shape, Ends& ends) {
     if (ends.one_of(2)) shape.depth_step_q24 = ends.in(1, 1 << 18);
     shape.jump = ends.in(1, 255);
     if (ends.one_of(2)) shape.thickness = ends.in(0, 255);
-    const bool are_scattered = ends.one_of(3);  // so that the search for the gap strays
+    const bool are_scattered = ends.one_of(3);  // the search for the gap takes more steps
     for (NormalLine& line : shape.normal_lines) {
         if (are_scattered) line.a_q20 = ends.within(-k20, k20);
         if (are_scattered) line.c_q20 = ends.within(-2 * k20, 2 * k20);
@@ -253,13 +254,14 @@ void move_cameras_to_ends(RaySpaceObject& object, Ends& ends) {
     }
 }
 
-// Any place within 256 radii, at which a ray of the view's middle still passes the object.
+// Any position within 256 radii from which a ray of the view's middle passes the object.
 void move_viewpoint_to_ends(ViewRegisters& view, Random& random, Ends& ends) {
     view.b_q20 = ends.below(k28);
     const int i = view.width / 2, j = view.height / 2;
     for (engine::PlaneRegisters& plane : view.planes) {
         const auto n = static_cast<double>(-plane.along_normal.at(i, j));
-        // A third of the viewpoints are about 512 from the plane along the viewing axis, n / 2^32 being per unit.
+        // A third of the viewpoints are about 512 from the plane along the viewing axis; n / 2^32 is the scale per
+        // unit.
         plane.c_q20 =
             ends.one_of(3) ? static_cast<std::int32_t>(std::clamp(n / 8, 1.0 - k28, k28 - 1.0)) : ends.below(k28);
         const double a = -static_cast<double>(plane.along_tangent.at(i, j)) / n * plane.c_q20 + random.real(-k20, k20);
@@ -279,7 +281,7 @@ TEST(ReferenceViewProperty, NumbersAtTheEndsOfTheirRangesKeepTheBoundsOfTheTextA
         if (ends.one_of(3)) move_cameras_to_ends(drawn.object, ends);
         const Status valid = validate_object(drawn.object, "drawn object");
         ASSERT_TRUE(valid.ok()) << valid.error().message;
-        // From nearly overhead rays have the least horizontal length.
+        // Nearly overhead, rays have the least horizontal length.
         const double beside = ends.one_of(2) ? 0.12 : 1;
         const glm::dvec3 eye(beside * random.real(0.4, 1.3), random.real(-2, 2), beside * random.real(0.1, 3));
         const double scale = ends.one_of(4) ? 90 : 1;
@@ -302,8 +304,8 @@ TEST(ReferenceViewProperty, NumbersAtTheEndsOfTheirRangesKeepTheBoundsOfTheTextA
     }
 }
 
-// Captured cameras that come too near to the plane, or enlarge it too much, for section 3. A row of the view that looks
-// along the horizontal keeps to the row cy of the picture however large that is.
+// Captured cameras that are too close to the plane, or enlarge it too much, for section 3. A horizontal row of the view
+// stays at row cy of the image for any enlargement.
 TEST(ReferenceViewProperty, NumbersAtTheEndsOfTheirRangesGiveTheDefinitionsPixelsOfObjectsWithoutAShapeMap) {
     Compared compared;
     for (std::uint64_t seed = 3001; seed < 3401; ++seed) {
@@ -320,7 +322,7 @@ TEST(ReferenceViewProperty, NumbersAtTheEndsOfTheirRangesGiveTheDefinitionsPixel
                 line.q1_q16 = ends.one_of(2) ? 0 : ends.below(k30);
             }
         }
-        if (!validate_object(drawn.object, "drawn object")) continue;  // a line may look away
+        if (!validate_object(drawn.object, "drawn object")) continue;  // a camera may face away from the plane
         Camera camera = camera_of(drawn, random, Pose::captured);
         camera.cy = random.whole(0, camera.height - 1) + 0.5;
         const Result<ViewRegisters> view = engine::prepare_view(drawn.object, camera);

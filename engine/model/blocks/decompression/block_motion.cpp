@@ -23,7 +23,7 @@ BlockRecord block_record(const codec::RecordClass& of, const std::array<std::uin
     return record;
 }
 
-ReferenceAsks reference_asks(const BlockAsk& ask, int picture, int motion_x, int motion_y, int coded_width,
+ReferenceAsks reference_asks(const BlockAsk& ask, int image, int motion_x, int motion_y, int coded_width,
                              int coded_height) {
     ReferenceAsks asks;
     const int column = moved(ask.column, motion_x, coded_width);
@@ -32,8 +32,7 @@ ReferenceAsks reference_asks(const BlockAsk& ask, int picture, int motion_x, int
         if (((ask.rows >> r) & 1U) == 0) continue;
         const int row = moved(8 * ask.block_row + r, motion_y, coded_height);
         if (asks.count == 0 || asks.ask[static_cast<std::size_t>(asks.count) - 1].block_row != row >> 3) {
-            asks.ask[static_cast<std::size_t>(asks.count++)] = {ask.view, false,    ask.down, picture,
-                                                                column,   row >> 3, 0};
+            asks.ask[static_cast<std::size_t>(asks.count++)] = {ask.view, false, ask.down, image, column, row >> 3, 0};
         }
         asks.ask[static_cast<std::size_t>(asks.count) - 1].rows |= 1U << (row & 7);
     }
@@ -78,7 +77,7 @@ Activity BlockMotion::hand_over() {
     if (!record.empty) {
         const ObjectRegisters& object = registers_.object_of(asked.ask.view);
         const codec::RecordClass& of =
-            object.classes[asked.predicted_picture ? 1 : 0][static_cast<std::size_t>(asked.class_number)];
+            object.classes[asked.predicted_image ? 1 : 0][static_cast<std::size_t>(asked.class_number)];
         if (of.predicted && (asks_ == nullptr || !asks_->can_push())) return Activity::output_full;
         std::array<std::uint8_t, 32> bytes{};
         for (int n = 0; n < of.bytes(); ++n) {

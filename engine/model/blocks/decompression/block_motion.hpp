@@ -14,7 +14,7 @@ namespace rs::engine::model {
 // The arithmetic without the clock. The record of class `of`; bytes as they stand in memory, zero behind the record.
 BlockRecord block_record(const codec::RecordClass& of, const std::array<std::uint8_t, 32>& bytes);
 
-// Where a row or column of a predicted picture is taken from: clamped to the coded size.
+// Where a row or column of a predicted image is taken from: clamped to the coded size.
 constexpr int moved(int place, int motion, int coded_size) {
     const int at = place + motion;
     return at < 0 ? 0 : at >= coded_size ? coded_size - 1 : at;
@@ -25,7 +25,7 @@ struct ReferenceAsks {
     int count = 0;
     std::array<BlockAsk, 2> ask;
 };
-ReferenceAsks reference_asks(const BlockAsk& ask, int picture, int motion_x, int motion_y, int coded_width,
+ReferenceAsks reference_asks(const BlockAsk& ask, int image, int motion_x, int motion_y, int coded_width,
                              int coded_height);
 
 class BlockMotion final : public Block {

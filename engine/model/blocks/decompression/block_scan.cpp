@@ -43,7 +43,7 @@ Activity BlockScan::tick(std::uint64_t) {
     pixel.shows = pixel.pending = shows;
     if (shows) {
         if (run_ == 0) {
-            ask_ = {column_.view, first_, column_.row_step_q16 >= 0, column_.picture, column_.column, block_row, 0};
+            ask_ = {column_.view, first_, column_.row_step_q16 >= 0, column_.image, column_.column, block_row, 0};
             first_ = false;
             pixel.begins = true;
         }

@@ -1,5 +1,5 @@
 #pragma once
-// Raster generator, vertical, of a board with compressed pictures: walks the rows of a view column downwards, a pixel
+// Raster generator, vertical, of a board with compressed images: walks the rows of a view column downwards, a pixel
 // per cycle, by adding the row step (a 46-bit adder), and joins pixels that lie in the same block of 8x8 samples into a
 // run. A run's request goes out when it has ended, with the rows that it really needs; the pixels themselves wait in
 // `pixels_0`, which must be longer than a run. A view of odd height has an empty last pixel: two make a word.

@@ -16,7 +16,7 @@ Activity TileFinder::tick(std::uint64_t) {
     if (!out_.can_push()) return Activity::output_full;
     const BlockAsk& ask = in_.front();
     const ObjectRegisters& object = registers_.object_of(ask.view);
-    const int column = ask.picture * object.tile_columns + (ask.column >> 5);
+    const int column = ask.image * object.tile_columns + (ask.column >> 5);
     const int entry = column * object.table_pitch + (ask.block_row >> 2);
     // Within a view column all blocks are of one object; what was known before it may be of one that is gone.
     const bool same = !ask.first && entry == last_entry_;
@@ -92,10 +92,10 @@ Activity RecordReader::tick(std::uint64_t) {
     record.ask = asked.ask;
     record.class_number = block_class(head_, block);
     const auto byte = [&](int n) { return static_cast<int>((head_ >> (8 * n)) & 255U); };
-    record.predicted_picture = byte(6) != kNoReferenceByte;
+    record.predicted_image = byte(6) != kNoReferenceByte;
     record.references = {byte(6), byte(7)};
     if (record.class_number > 0) {
-        const auto& classes = registers_.object_of(asked.ask.view).classes[record.predicted_picture ? 1 : 0];
+        const auto& classes = registers_.object_of(asked.ask.view).classes[record.predicted_image ? 1 : 0];
         const int offset = record_offset(head_, block, classes);
         const int bytes = classes[static_cast<std::size_t>(record.class_number)].bytes();
         record.lane = offset & 7;

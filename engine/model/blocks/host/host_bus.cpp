@@ -73,9 +73,9 @@ Activity HostBus::decide(std::uint64_t now) {
     if (words_left_ == 0 && words_.can_pop() && words_.front().head) {
         const ImageWord head = words_.pop();
         words_left_ = static_cast<int>(head.data & 0xFFFFFFFFU);
-        pictures_.push_back(
+        images_.push_back(
             {static_cast<int>(head.data >> 32U), head.last_view, now, {}, static_cast<std::size_t>(words_left_)});
-        pictures_.back().words.reserve(pictures_.back().expected_words);
+        images_.back().words.reserve(images_.back().expected_words);
         return Activity::busy;
     }
     const bool host_asks = next_program_ < programs_.size();
@@ -103,8 +103,8 @@ Activity HostBus::transfer(std::uint64_t now) {
     --burst_left_;
     counters_.image_bytes += 4;
     if (burst_left_ % 2 == 0) {  // the second half: the word has gone
-        pictures_.back().words.push_back(words_.pop().data);
-        pictures_.back().arrived = now;
+        images_.back().words.push_back(words_.pop().data);
+        images_.back().arrived = now;
         --words_left_;
     }
     if (burst_left_ > 0) {
@@ -116,7 +116,7 @@ Activity HostBus::transfer(std::uint64_t now) {
 
 Activity HostBus::after_burst() {
     if (words_left_ == 0) {
-        if (pictures_.back().last_view) transferred_.push({});
+        if (images_.back().last_view) transferred_.push({});
         enter(State::interrupt, 1 + settings_.interrupt_clocks);
     } else {
         enter(State::turnaround, 1);

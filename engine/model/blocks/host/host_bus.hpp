@@ -1,12 +1,12 @@
 #pragma once
 // Host bus: 32-bit PCI at 33 MHz, and what the board does on it. Two masters: the host, which writes the registers of a
-// rendering cycle and starts it, and the board, which writes pictures into the host's memory in bursts.
+// rendering cycle and starts it, and the board, which writes images into the host's memory in bursts.
 //
 // A burst of W words of 64 bits takes, clock by clock:
 //
 //     grant_clocks | address | target_clocks | 2 W times (wait_per_transfer | transfer) | turnaround
 //
-// and is requested when the words have crossed to the bus's clock (or are the rest of a picture). A target that is busy
+// and is requested when the words have crossed to the bus's clock (or are the rest of an image). A target that is busy
 // answers with a retry: the master lets go for two clocks and requests the same words again; none is lost or doubled.
 // The host's register writes alternate with bursts, so neither shuts out the other.
 
@@ -25,8 +25,8 @@ public:
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override;
 
-    [[nodiscard]] const std::deque<HostPicture>& pictures() const { return pictures_; }
-    std::deque<HostPicture>& pictures() { return pictures_; }
+    [[nodiscard]] const std::deque<HostImage>& images() const { return images_; }
+    std::deque<HostImage>& images() { return images_; }
     struct Counters {
         std::uint64_t bursts = 0;
         std::uint64_t retries = 0;
@@ -56,11 +56,11 @@ private:
     bool host_was_last_ = false;
     std::uint64_t next_program_ = 0;
     int registers_left_ = -1;  // of the next program; -1: not begun
-    int words_left_ = 0;       // of the picture
+    int words_left_ = 0;       // of the image
     int burst_left_ = 0;       // transfers of 32 bits
     bool retry_ = false;
     Counters counters_;
-    std::deque<HostPicture> pictures_;
+    std::deque<HostImage> images_;
 };
 
 }  // namespace rs::engine::model

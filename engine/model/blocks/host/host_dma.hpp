@@ -1,5 +1,5 @@
 #pragma once
-// Host DMA, the board's half: reads a finished image buffer word by word and sends it across to the bus, each picture
+// Host DMA, the board's half: reads a finished image buffer word by word and sends it across to the bus, each image
 // behind a head that states its size; frees the buffer when the bus has carried the last word. Where the columns of a
 // view lie in several channels (stripes.hpp) it requests the words of a stripe from one, and the next when they have
 // come.

@@ -1,6 +1,6 @@
 #pragma once
 // What stands in the host's memory: the register values that its driver writes for each rendering cycle, and the
-// pictures that the board sends. Not blocks: the world around the board.
+// images that the board sends. Not blocks: the world around the board.
 
 #include "engine/model/signals/registers.hpp"
 #include "rayspace/base/check.hpp"
@@ -36,7 +36,7 @@ private:
     std::uint64_t forgotten_ = 0;
 };
 
-struct HostPicture {
+struct HostImage {
     int view = 0;
     bool last_view = false;
     std::uint64_t arrived = 0;  // bus clock of its last word

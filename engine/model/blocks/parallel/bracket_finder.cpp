@@ -15,11 +15,11 @@ BracketFinder::BracketFinder(const RegisterFile& registers, Fifo<MappedRay>& in,
       out_(writes(out)) {}
 
 // True in word_ when answered_.
-Activity BracketFinder::read(int picture, int word) {
+Activity BracketFinder::read(int image, int word) {
     if (!requested_) {
         if (!requests_.can_push()) return Activity::memory_port;
         const ObjectRegisters& object = registers_.object_of(in_.front().view);
-        const int at = picture * record_words(object.planes) + word;
+        const int at = image * record_words(object.planes) + word;
         requests_.push({object.lines + static_cast<WordAddress>(at), false});
         requested_ = true;
         return Activity::busy;
@@ -30,9 +30,9 @@ Activity BracketFinder::read(int picture, int word) {
     return Activity::busy;
 }
 
-Activity BracketFinder::crossing(int picture, Crossing& into) {
+Activity BracketFinder::crossing(int image, Crossing& into) {
     const MappedRay& ray = in_.front();
-    if (!answered_) return read(picture, plane_words(ray.plane) + 3);
+    if (!answered_) return read(image, plane_words(ray.plane) + 3);
     if (++multiplying_ < kMultiplyCycles) return Activity::busy;
     into = {true, low_half(word_) + ((ray.u_q28 * high_half(word_)) >> 28)};
     requested_ = answered_ = false;
@@ -56,7 +56,7 @@ Activity BracketFinder::hand_over(const BracketedRay& ray) {
 
 Activity BracketFinder::decide() {
     const MappedRay& ray = in_.front();
-    const int count = registers_.object_of(ray.view).pictures;
+    const int count = registers_.object_of(ray.view).images;
     BracketedRay out{ray.view,
                      RayKind::foot,
                      ray.plane,
@@ -64,8 +64,8 @@ Activity BracketFinder::decide() {
                      ray.lambda_q20,
                      ray.n_q28,
                      ray.t_q28,
-                     ray.picture,
-                     ray.picture,
+                     ray.image,
+                     ray.image,
                      0,
                      0,
                      0,
@@ -110,16 +110,16 @@ Activity BracketFinder::tick(std::uint64_t) {
         case Step::idle:
             if (!ray.has_ray || !object.shape.exists) {
                 return hand_over({ray.view, ray.has_ray ? RayKind::plane : RayKind::none, ray.plane, ray.x_q20,
-                                  ray.lambda_q20, 0, 0, ray.picture, ray.picture, 0, 0, 0, 0, false, false});
+                                  ray.lambda_q20, 0, 0, ray.image, ray.image, 0, 0, 0, 0, false, false});
             }
             step_ = Step::near;
-            return crossing(ray.picture, first_);
+            return crossing(ray.image, first_);
         case Step::near: {
-            const Activity activity = crossing(ray.picture, first_);
+            const Activity activity = crossing(ray.image, first_);
             if (!first_.known) return activity;
-            gap_ = ray.picture;
+            gap_ = ray.image;
             if (first_.x_q20 > ray.x_q20) {
-                gap_ = (gap_ + object.pictures - 1) % object.pictures;
+                gap_ = (gap_ + object.images - 1) % object.images;
                 second_ = first_;
                 first_.known = false;
             }
@@ -143,7 +143,7 @@ Activity BracketFinder::tick(std::uint64_t) {
         case Step::first:
         case Step::second: {
             Crossing& wanted = step_ == Step::first ? first_ : second_;
-            const Activity activity = crossing(step_ == Step::first ? gap_ : (gap_ + 1) % object.pictures, wanted);
+            const Activity activity = crossing(step_ == Step::first ? gap_ : (gap_ + 1) % object.images, wanted);
             if (wanted.known) next_step();
             return activity;
         }

@@ -1,7 +1,7 @@
 #pragma once
-// Bracket finder (RECONSTRUCTION.md, section 5): between which two captured rays a view ray lies. From the picture that
-// the RS map names it steps along the ring, at most N looks. It reads, one after the other, the words of picture
-// records that a look needs and does not have yet: S and first_line of a gap, and the viewpoint of a picture, whose
+// Bracket finder (RECONSTRUCTION.md, section 5): between which two captured rays a view ray lies. From the image that
+// the RS map names it steps along the ring, at most N looks. It reads, one after the other, the words of image
+// records that a look needs and does not have yet: S and first_line of a gap, and the viewpoint of an image, whose
 // parallel ray's crossing X takes a product of 9 cycles. With one ray at a time, rays of objects without a shape map
 // pass.
 
@@ -27,8 +27,8 @@ private:
         bool known = false;
         std::int64_t x_q20 = 0;
     };
-    Activity crossing(int picture, Crossing& into);
-    Activity read(int picture, int word);
+    Activity crossing(int image, Crossing& into);
+    Activity read(int image, int word);
     void next_step();
     Activity decide();
     Activity hand_over(const BracketedRay& ray);

@@ -6,7 +6,7 @@
 namespace rs::engine::model {
 namespace {
 
-// On a captured line that picture answers alone, and no second surface is needed.
+// On a captured line that image answers alone, and no second surface is needed.
 bool is_alone(const ColumnSetup& column) {
     return column.weight == 0 || column.weight == 256;
 }

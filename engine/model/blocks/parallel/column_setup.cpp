@@ -12,14 +12,14 @@ struct PlaneRay {
     std::int64_t low_q20 = 0, step_q24 = 0;
 };
 
-PictureSetup along_ray(const PlaneRay& ray, int picture, const PictureLine& line) {
+ImageSetup along_ray(const PlaneRay& ray, int image, const ImageLine& line) {
     constexpr std::int64_t kMostPerStep = std::int64_t{1} << 20;
     const std::int64_t l_foot_q20 = line.l0_q20 + ((ray.foot_x_q20 * line.l1_q30 + ray.foot_z_q20 * line.l2_q30) >> 30);
     const std::int64_t l_along_q30 = (ray.sine_q30 * line.l1_q30 - ray.cosine_q30 * line.l2_q30) >> 30;
     const std::int64_t q_foot_q16 = line.q0_q16 + ((ray.foot_x_q20 * line.q1_q16 + ray.foot_z_q20 * line.q2_q16) >> 20);
     const std::int64_t q_along_q16 = (ray.sine_q30 * line.q1_q16 - ray.cosine_q30 * line.q2_q16) >> 30;
-    PictureSetup setup;
-    setup.picture = picture;
+    ImageSetup setup;
+    setup.image = image;
     setup.l0_q20 = l_foot_q20 + ((ray.low_q20 * l_along_q30) >> 30);
     setup.l1_q24 = (ray.step_q24 * l_along_q30) >> 30;
     setup.q0_q12 = (q_foot_q16 + ((ray.low_q20 * q_along_q16) >> 20)) >> 4;
@@ -87,9 +87,9 @@ bool set_up_shape_column(const BoardView& view, const ObjectRegisters& object, c
         out.weight = static_cast<int>(divide(512 * f + w, 2 * w).value);
         find_cells(shape, ray, divide(f * (std::int64_t{256} * ray.lines), w).value,
                    ((p_q20 + shape.p_half_q20) * shape.p_cells_per_unit_q12) >> 24, out);
-        out.pictures[1] = along_ray(along, ray.second, in.picture[1]);
+        out.images[1] = along_ray(along, ray.second, in.image[1]);
     }
-    out.pictures[0] = along_ray(along, ray.first, in.picture[0]);
+    out.images[0] = along_ray(along, ray.first, in.image[0]);
     out.lambda0_q20 = out.lambda_foot_q20 + divide(along.low_q20 * (std::int64_t{1} << 28), r_q28).value;
     out.lambda1_q21 = divide(along.step_q24 << 25, r_q28).value;
     return true;
@@ -99,7 +99,7 @@ ColumnSetupStage::ColumnSetupStage(const RegisterFile& registers, Fifo<LinedRay>
     : SerialStage("column_setup",
                   "latency and interval " + std::to_string(kShapeLatency) + " (" + std::to_string(kTooFarLatency) +
                       " too far; without a shape map " + std::to_string(VerticalCompensation::kLatency) + ", " +
-                      std::to_string(VerticalCompensation::kOutsideLatency) + " outside of the picture, " +
+                      std::to_string(VerticalCompensation::kOutsideLatency) + " outside of the image, " +
                       std::to_string(VerticalCompensation::kTooNearLatency) + " too near; " +
                       std::to_string(kNoRayLatency) + " without a ray)",
                   in, out),
@@ -113,7 +113,7 @@ int ColumnSetupStage::work(const LinedRay& in, ColumnSetup& out) {
         const bool near = set_up_shape_column(registers_.view(in.ray.view), registers_.object_of(in.ray.view), in, out);
         return near ? kShapeLatency : kTooFarLatency;
     }
-    const PictureLine& p = in.picture[0];
+    const ImageLine& p = in.image[0];
     ColumnWalk walk;
     const int latency = compensated(registers_,
                                     {in.ray.view, true, in.ray.x_q20, in.ray.lambda_q20, in.ray.first, p.cx_q16,
@@ -121,8 +121,8 @@ int ColumnSetupStage::work(const LinedRay& in, ColumnSetup& out) {
                                     walk);
     if (!walk.has_ray) return latency;
     out.kind = RayKind::plane;
-    out.picture = walk.picture;
-    out.picture_column = walk.column;
+    out.image = walk.image;
+    out.image_column = walk.column;
     out.row_0_q16 = walk.row_0_q16;
     out.row_step_q16 = walk.row_step_q16;
     return latency;

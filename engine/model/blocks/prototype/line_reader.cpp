@@ -25,7 +25,7 @@ LineReader::LineReader(const RegisterFile& registers, Fifo<MappedRay>& in, Fifo<
 void LineReader::ask() {
     const MappedRay& ray = in_.front();
     const ObjectRegisters& object = registers_.object_of(ray.view);
-    const int record = ray.picture * (1 + object.planes);
+    const int record = ray.image * (1 + object.planes);
     const int word = requested_ < 2 ? 2 * record + requested_ : 2 * (record + 1 + ray.plane) + requested_ - 2;
     requests_.push({object.lines + static_cast<WordAddress>(word), false});
     ++requested_;
@@ -62,7 +62,7 @@ Activity LineReader::tick(std::uint64_t) {
         return activity;
     }
     if (!out_.can_push()) return Activity::output_full;
-    out_.push({ray.view, true, ray.x_q20, ray.lambda_q20, ray.picture, low(words_[0]), high(words_[0]), low(words_[1]),
+    out_.push({ray.view, true, ray.x_q20, ray.lambda_q20, ray.image, low(words_[0]), high(words_[0]), low(words_[1]),
                high(words_[1]), low(words_[2]), high(words_[2]), low(words_[3]), high(words_[3])});
     in_.pop();
     multiplying_ = requested_ = answered_ = 0;

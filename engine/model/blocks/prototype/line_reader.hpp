@@ -1,8 +1,8 @@
 #pragma once
-// Line reader: the four words of a picture's camera and of its line of the reference plane (ray_space_object.hpp,
+// Line reader: the four words of an image's camera and of its line of the reference plane (ray_space_object.hpp,
 // CapturedView and CapturedLine), which stand together:
 //
-//     record of picture p, words 2 (p (1 + K)) ..:  cx | cy << 32,  fl_y | height << 32,
+//     record of image p, words 2 (p (1 + K)) ..:  cx | cy << 32,  fl_y | height << 32,
 //         then for plane k, words 2 (p (1 + K) + 1 + k) ..:  l0 | l1 << 32,  q0 | q1 << 32
 //
 // 9 cycles for the address's product, four requests, four answers.

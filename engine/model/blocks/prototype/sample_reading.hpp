@@ -5,7 +5,7 @@
 //
 // Two alphas of 2 bits nearly always lie in the same word of 32 rows, so one read serves the pair; a word of U and V
 // pairs serves both colour differences. A pixel that shows nothing takes the same way with null reads, so that pixels
-// stay in order and the rate of the board does not depend on the picture.
+// stay in order and the rate of the board does not depend on the image.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/messages.hpp"

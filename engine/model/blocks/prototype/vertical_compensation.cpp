@@ -5,7 +5,7 @@ namespace rs::engine::model {
 VerticalCompensation::VerticalCompensation(const RegisterFile& registers, Fifo<RayLine>& in, Fifo<ColumnWalk>& out)
     : SerialStage("vertical_compensation",
                   "latency and interval " + std::to_string(kLatency) + " (" + std::to_string(kOutsideLatency) +
-                      " outside of the picture, " + std::to_string(kTooNearLatency) + " too near, " +
+                      " outside of the image, " + std::to_string(kTooNearLatency) + " too near, " +
                       std::to_string(kNoRayLatency) + " without a ray)",
                   in, out),
       registers_(registers) {}
@@ -26,7 +26,7 @@ int compensated(const RegisterFile& registers, const RayLine& in, ColumnWalk& ou
     const Quotient offset_q16 = divide(lateral_q16 * (std::int64_t{1} << 20), l_q20);
     const Quotient m_q16 = divide(std::int64_t{in.fl_y_q16} << 20, l_q20);
     const std::int64_t rise_q24 = (in.lambda_q20 * view.sy_q32) >> 28;
-    // A quotient of 2^32 and more lies 2^16 columns beside the principal point, which lies within 2^14 of the picture.
+    // A quotient of 2^32 and more lies 2^16 columns beside the principal point, which lies within 2^14 of the image.
     if (offset_q16.overflow || m_q16.overflow || m_q16.value >= kLargestRowScale_q16) return Timing::kOutsideLatency;
     const std::int64_t column = (in.cx_q16 + offset_q16.value) >> 16;
     if (column < 0 || column >= registers.object_of(in.view).width) return Timing::kOutsideLatency;
@@ -34,7 +34,7 @@ int compensated(const RegisterFile& registers, const RayLine& in, ColumnWalk& ou
 
     const std::int64_t height_q20 = view.b_q20 + ((in.lambda_q20 * (view.s0_q32 >> 4)) >> 28);
     out.has_ray = true;
-    out.picture = in.picture;
+    out.image = in.image;
     out.column = static_cast<int>(column);
     out.row_0_q16 = in.cy_q16 - ((m_q16.value * (height_q20 - in.height_q20)) >> 20);
     out.row_step_q16 = -((m_q16.value * rise_q24) >> 24);

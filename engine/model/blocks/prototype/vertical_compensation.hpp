@@ -1,5 +1,5 @@
 #pragma once
-// Vertical compensation: column of the captured picture, first row and rows per view row (RECONSTRUCTION.md, section 3;
+// Vertical compensation: column of the captured image, first row and rows per view row (RECONSTRUCTION.md, section 3;
 // the paper's eq. 2).
 //
 //     cycle  1       take the ray                       multiplier 2..10   x * l1

@@ -24,8 +24,8 @@ Activity MapReader::tick(std::uint64_t) {
         if (!answers_.can_pop()) return Activity::memory_data;
         if (!out_.can_push()) return Activity::output_full;
         const std::uint64_t word = answers_.pop().data;
-        ray.picture = static_cast<int>((word >> (8 * (point.cell_byte % 8))) & 255U);
-        ray.has_ray = ray.picture != kNoPictureByte;
+        ray.image = static_cast<int>((word >> (8 * (point.cell_byte % 8))) & 255U);
+        ray.has_ray = ray.image != kNoImageByte;
         requested_ = false;
     } else if (!out_.can_push()) {
         return Activity::output_full;

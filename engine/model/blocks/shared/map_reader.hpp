@@ -1,5 +1,5 @@
 #pragma once
-// RS map reader: one byte of the map gives the captured picture that answers the column; 255: none does.
+// RS map reader: one byte of the map gives the captured image that answers the column; 255: none does.
 // One column at a time: request, wait, choose the byte.
 
 #include "engine/model/clock/block.hpp"
@@ -7,7 +7,7 @@
 
 namespace rs::engine::model {
 
-inline constexpr int kNoPictureByte = 255;
+inline constexpr int kNoImageByte = 255;
 
 class MapReader final : public Block {
 public:

@@ -24,17 +24,17 @@ void place_texels(PlacedSample& out, std::int32_t column_q8, std::int32_t row_q8
     out.fy = y_q3 & 7;
 }
 
-void place_in_picture(PlacedSample& out, const PictureSetup& picture, int d_q3, std::int32_t y_q16,
-                      const ObjectRegisters& object) {
+void place_in_image(PlacedSample& out, const ImageSetup& image, int d_q3, std::int32_t y_q16,
+                    const ObjectRegisters& object) {
     constexpr std::int64_t kNearest_q20 = std::int64_t{1} << 17;
-    out.picture = picture.picture;
-    const std::int64_t l_q20 = picture.l0_q20 + ((d_q3 * picture.l1_q24) >> 7);
+    out.image = image.image;
+    const std::int64_t l_q20 = image.l0_q20 + ((d_q3 * image.l1_q24) >> 7);
     if (l_q20 < kNearest_q20) return;
     const auto inverse_q20 = narrow(divide(std::int64_t{1} << 40, l_q20).value);
-    const std::int32_t q_q12 = narrow(picture.q0_q12 + ((d_q3 * picture.q1_q12) >> 3));
-    const std::int32_t column_q8 = (picture.cx_q16 >> 8) + multiply_shift(q_q12, inverse_q20, 24);
-    const std::int32_t m_q12 = multiply_shift(picture.fl_y_q16 >> 8, inverse_q20, 16);
-    const std::int32_t row_q8 = (picture.cy_q16 >> 8) - multiply_shift(m_q12, y_q16 - (picture.height_q20 >> 4), 20);
+    const std::int32_t q_q12 = narrow(image.q0_q12 + ((d_q3 * image.q1_q12) >> 3));
+    const std::int32_t column_q8 = (image.cx_q16 >> 8) + multiply_shift(q_q12, inverse_q20, 24);
+    const std::int32_t m_q12 = multiply_shift(image.fl_y_q16 >> 8, inverse_q20, 16);
+    const std::int32_t row_q8 = (image.cy_q16 >> 8) - multiply_shift(m_q12, y_q16 - (image.height_q20 >> 4), 20);
     if (column_q8 < 0 || column_q8 >= object.width << 8 || row_q8 < 0 || row_q8 >= object.height << 8) return;
     place_texels(out, column_q8, row_q8, object);
 }
@@ -53,9 +53,9 @@ SurfaceSamples placed_samples(const MetSurface& met, const ColumnSetup& column, 
         PlacedSample& out = samples.sample[static_cast<std::size_t>(samples.count++)] = blank;
         const std::int64_t row = (column.row_0_q16 + met.pixel.row * column.row_step_q16) >> 16;
         out.head.is_there = true;
-        out.picture = column.picture;
+        out.image = column.image;
         out.inside = row >= 0 && row < object.height;
-        out.left = column.picture_column;
+        out.left = column.image_column;
         out.top = static_cast<int>(out.inside ? row : 0);
     } else {
         blank.head.weight = leaning_weight(column.weight, met.lean);
@@ -66,7 +66,7 @@ SurfaceSamples placed_samples(const MetSurface& met, const ColumnSetup& column, 
             PlacedSample& out = samples.sample[static_cast<std::size_t>(samples.count++)] = blank;
             out.head.is_there = true;
             out.head.second = second == 1;
-            place_in_picture(out, column.pictures[static_cast<std::size_t>(second)], met.depth_q3, y_q16, object);
+            place_in_image(out, column.images[static_cast<std::size_t>(second)], met.depth_q3, y_q16, object);
         }
     }
     if (samples.count == 0) samples.sample[static_cast<std::size_t>(samples.count++)] = blank;

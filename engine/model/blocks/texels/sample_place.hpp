@@ -1,5 +1,5 @@
 #pragma once
-// Sample place: of a met surface its samples in the two pictures, and of a sample the texels that it takes
+// Sample place: of a met surface its samples in the two images, and of a sample the texels that it takes
 // (RECONSTRUCTION.md, section 7 to the four texels; section 3 for a ray without a shape map). A sample per cycle, up to
 // two of a surface, one token of a surface without any. Behind one another: lambda, height (a product each); beside
 // them l, the pipelined divider (1 / l), column and rows per radius, row; place of the texels.

@@ -24,7 +24,7 @@ bool FillFetch::begin() {
     first_ = object.serial != serial_;
     serial_ = object.serial;
     requested_ = sent_ = 0;
-    const int block = (fill_.picture * object.block_columns + fill_.block_column) * object.block_rows + fill_.block_row;
+    const int block = (fill_.image * object.block_columns + fill_.block_column) * object.block_rows + fill_.block_row;
     next_ = object.raw_blocks + static_cast<WordAddress>(block * kRawBlockWords);
     return active_ = true;
 }
@@ -33,8 +33,7 @@ bool FillFetch::begin() {
 bool FillFetch::fetch_coded() {
     bool moved = false;
     if (requested_ < 8 && asks_.can_push()) {
-        asks_.push(
-            {fill_.view, first_, true, fill_.picture, 8 * fill_.block_column + requested_, fill_.block_row, 0xFF});
+        asks_.push({fill_.view, first_, true, fill_.image, 8 * fill_.block_column + requested_, fill_.block_row, 0xFF});
         first_ = false;
         ++requested_;
         moved = true;

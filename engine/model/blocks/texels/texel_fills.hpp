@@ -1,5 +1,5 @@
 #pragma once
-// Fill fetch: has a block of 8x8 texels fetched, column by column. Of coded pictures it requests each of the block's
+// Fill fetch: has a block of 8x8 texels fetched, column by column. Of coded images it requests each of the block's
 // columns from the readers of hop 0 and sends the 64 pixels that the records are joined with; of raw ones it
 // requests the block's words from memory. The line for which the texels are goes ahead to the cache.
 

@@ -10,11 +10,11 @@ TexelTags::TexelTags(const RegisterFile& registers, Fifo<PlacedSample>& in, Fifo
       fills_(writes(fills)),
       out_(writes(out)) {}
 
-int TexelTags::find(int picture, int block_column, int block_row) const {
-    const int set = set_of(picture, block_column, block_row);
+int TexelTags::find(int image, int block_column, int block_row) const {
+    const int set = set_of(image, block_column, block_row);
     for (int way = 0; way < 2; ++way) {
         const Line& line = lines_[static_cast<std::size_t>(2 * set + way)];
-        if (line.valid && line.picture == picture && line.block_column == block_column && line.block_row == block_row) {
+        if (line.valid && line.image == image && line.block_column == block_column && line.block_row == block_row) {
             return 2 * set + way;
         }
     }
@@ -29,9 +29,9 @@ bool TexelTags::needs_fill(const PlacedSample& sample, WaitingSample& waiting, T
         if ((right && sample.fx == 0) || (bottom && sample.fy == 0)) continue;  // of weight 0
         const int x = sample.left + (right && !sample.right_is_left ? 1 : 0);
         const int y = sample.top + (bottom && !sample.bottom_is_top ? 1 : 0);
-        const int line = find(sample.picture, x >> 3, y >> 3);
+        const int line = find(sample.image, x >> 3, y >> 3);
         if (line < 0) {
-            fill = {sample.view, sample.picture, x >> 3, y >> 3, 0, 0};
+            fill = {sample.view, sample.image, x >> 3, y >> 3, 0, 0};
             return true;
         }
         waiting.line[static_cast<std::size_t>(n)] = line;
@@ -42,13 +42,13 @@ bool TexelTags::needs_fill(const PlacedSample& sample, WaitingSample& waiting, T
 
 // The older line of the block's set; not one that the sample in front needs, for a sample needs one block of a set.
 int TexelTags::replace(const TexelFill& fill) {
-    const int set = set_of(fill.picture, fill.block_column, fill.block_row);
+    const int set = set_of(fill.image, fill.block_column, fill.block_row);
     int& older = older_[static_cast<std::size_t>(set)];
     const int line = 2 * set + older;
     older ^= 1;
     Line& replaced = lines_[static_cast<std::size_t>(line)];
     replaced.valid = true;
-    replaced.picture = fill.picture;
+    replaced.image = fill.image;
     replaced.block_column = fill.block_column;
     replaced.block_row = fill.block_row;
     return line;

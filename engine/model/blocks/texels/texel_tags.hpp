@@ -4,7 +4,7 @@
 // waits in `waiting` until the block is there, while the next samples are looked at. So fetching runs ahead of reading
 // by as many samples as that FIFO holds.
 //
-// 128 lines: 64 sets of 2, the set from the low two bits of picture, block column and block row. The four blocks of a
+// 128 lines: 64 sets of 2, the set from the low two bits of image, block column and block row. The four blocks of a
 // sample differ in the lowest bit of column or row, so a tag memory for each of these four parities gives all of them
 // in one cycle. A line that is replaced may still be read by samples ahead: its fill carries the number of the last of
 // them and is not written before that one has been read.
@@ -33,15 +33,15 @@ public:
 private:
     struct Line {
         bool valid = false;
-        int picture = 0, block_column = 0, block_row = 0;
+        int image = 0, block_column = 0, block_row = 0;
         std::uint64_t last_use = 0;  // number of the sample, counted from 1
     };
     // Line of the block, or -1.
-    [[nodiscard]] int find(int picture, int block_column, int block_row) const;
+    [[nodiscard]] int find(int image, int block_column, int block_row) const;
     bool needs_fill(const PlacedSample& sample, WaitingSample& waiting, TexelFill& fill);
     int replace(const TexelFill& fill);
-    static int set_of(int picture, int block_column, int block_row) {
-        return (picture & 3) * 16 + (block_column & 3) * 4 + (block_row & 3);
+    static int set_of(int image, int block_column, int block_row) {
+        return (image & 3) * 16 + (block_column & 3) * 4 + (block_row & 3);
     }
 
     const RegisterFile& registers_;

@@ -24,9 +24,9 @@ constexpr const char* kBlack = "black";
 
 // Everything that an anchor may be given, made when it is first asked for: a run that finds all in the cache needs
 // none.
-class ShownPictures {
+class ShownImages {
 public:
-    explicit ShownPictures(const ReferencePictures& pictures) : pictures_(pictures) {}
+    explicit ShownImages(const ReferenceImages& images) : images_(images) {}
     const std::vector<Image<Rgba8>>& with_alpha(const std::string& background) {
         return background == kSpread ? filled(with_alpha_[1], Background::kSpread, false)
                                      : filled(with_alpha_[0], Background::kBlack, false);
@@ -39,11 +39,11 @@ public:
 private:
     const std::vector<Image<Rgba8>>& filled(std::vector<Image<Rgba8>>& place, Background background, bool is_opaque) {
         if (!place.empty()) return place;
-        place.resize(pictures_.views.size());
+        place.resize(images_.views.size());
         const auto fill = [&](int view) -> Status {
             const auto n = static_cast<std::size_t>(view);
-            Image<Rgba8> picture = with_background(pictures_.views[n], background);
-            place[n] = is_opaque ? made_opaque(std::move(picture)) : std::move(picture);
+            Image<Rgba8> image = with_background(images_.views[n], background);
+            place[n] = is_opaque ? made_opaque(std::move(image)) : std::move(image);
             return {};
         };
         const Status always_ok = for_each_in_parallel(static_cast<int>(place.size()), "", nullptr, fill);
@@ -51,7 +51,7 @@ private:
         return place;
     }
 
-    const ReferencePictures& pictures_;
+    const ReferenceImages& images_;
     std::vector<Image<Rgba8>> with_alpha_[2];
     std::vector<Image<Rgba8>> opaque_[2];
 };
@@ -75,15 +75,15 @@ std::string setting_name(const Anchor& anchor, int setting) {
 // Makes the list of all anchors; the tools' versions are asked for only where their codec is wanted.
 class AnchorList {
 public:
-    AnchorList(const ReferencePictures& pictures, ShownPictures& shown, const std::filesystem::path& folder)
-        : pictures_(pictures), shown_(shown), folder_(folder) {}
+    AnchorList(const ReferenceImages& images, ShownImages& shown, const std::filesystem::path& folder)
+        : images_(images), shown_(shown), folder_(folder) {}
 
     Status add_astc(const std::string& name, bool with_alpha) {
         const Result<std::string> version = run_tool({"astcenc", "-version"});
         if (!version) return version.error();
         for (const std::string background : {kBlack, kSpread}) {
             const auto code = [=, this](int block_px) {
-                return code_astc(pictures_, shown_.with_alpha(background), block_px, with_alpha, folder_);
+                return code_astc(images_, shown_.with_alpha(background), block_px, with_alpha, folder_);
             };
             add({name,
                  (with_alpha ? "rgba " : "rgb ") + background,
@@ -100,7 +100,7 @@ public:
         const std::vector<int> qualities = {10, 20, 30, 40, 50, 60, 70, 80, 85, 90, 95};
         for (const std::string background : {kBlack, kSpread}) {
             const auto code = [=, this](int quality) {
-                return code_stills(pictures_, shown_.opaque(background), codec, quality);
+                return code_stills(images_, shown_.opaque(background), codec, quality);
             };
             add({name, background, "q", {30, 80}, qualities, "OpenCV " CV_VERSION, code});
         }
@@ -116,8 +116,7 @@ public:
         for (const bool tune_psnr : {false, true}) {
             for (const std::string background : {kBlack, kSpread}) {
                 const auto code = [=, this](int crf) {
-                    return code_x265(pictures_, shown_.opaque(background), {intra, full_chroma, tune_psnr, crf},
-                                     folder_);
+                    return code_x265(images_, shown_.opaque(background), {intra, full_chroma, tune_psnr, crf}, folder_);
                 };
                 add({name, background + (tune_psnr ? " tune-psnr" : ""), "crf", probes, factors, *version, code});
             }
@@ -134,22 +133,22 @@ private:
         anchors_.push_back(std::move(anchor));
     }
 
-    const ReferencePictures& pictures_;
-    ShownPictures& shown_;
+    const ReferenceImages& images_;
+    ShownImages& shown_;
     std::filesystem::path folder_;
     std::vector<Anchor> anchors_;
 };
 
-std::string cache_key(const ReferencePictures& pictures, const Anchor& anchor, const std::string& setting) {
-    return "1 " + std::to_string(pictures.hash) + " " + anchor.codec + " " + anchor.variant + " " + setting + " (" +
+std::string cache_key(const ReferenceImages& images, const Anchor& anchor, const std::string& setting) {
+    return "1 " + std::to_string(images.hash) + " " + anchor.codec + " " + anchor.variant + " " + setting + " (" +
            anchor.version_key + ")";
 }
 
 // Measures anchors of one set, with what the answers of all of them need.
 class AnchorMeter {
 public:
-    AnchorMeter(const ReferencePictures& pictures, const CodedCache& cache, Progress& progress)
-        : pictures_(pictures), cache_(cache), progress_(progress) {}
+    AnchorMeter(const ReferenceImages& images, const CodedCache& cache, Progress& progress)
+        : images_(images), cache_(cache), progress_(progress) {}
 
     // The variants of one curve.
     Status measure(std::span<const Anchor> variants) {
@@ -180,7 +179,7 @@ private:
 
     Status measure(const Anchor& anchor, int setting, std::vector<Measurement>& measured) {
         const std::string name = setting_name(anchor, setting);
-        const std::string key = cache_key(pictures_, anchor, name);
+        const std::string key = cache_key(images_, anchor, name);
         std::optional<Coded> coded = cache_.find(key);
         if (!coded) {
             const Result<Coded> fresh = anchor.code(setting);
@@ -188,12 +187,12 @@ private:
             if (Status status = cache_.store(key, *fresh); !status) return status;
             coded = *fresh;
         }
-        measured.push_back(measurement_of(pictures_, anchor.codec, anchor.variant, name, *coded));
+        measured.push_back(measurement_of(images_, anchor.codec, anchor.variant, name, *coded));
         progress_.advance();
         return {};
     }
 
-    const ReferencePictures& pictures_;
+    const ReferenceImages& images_;
     const CodedCache& cache_;
     Progress& progress_;
     std::vector<Measurement> measured_;
@@ -207,11 +206,11 @@ const std::vector<std::string>& anchor_names() {
     return names;
 }
 
-Result<std::vector<Measurement>> measure_anchors(const ReferencePictures& pictures, const std::set<std::string>& names,
+Result<std::vector<Measurement>> measure_anchors(const ReferenceImages& images, const std::set<std::string>& names,
                                                  const WorkFolder& work, Progress& progress) {
     const CodedCache cache(work.anchors());
-    ShownPictures shown(pictures);
-    AnchorList list(pictures, shown, work.scratch());
+    ShownImages shown(images);
+    AnchorList list(images, shown, work.scratch());
     for (const bool with_alpha : {false, true}) {
         const std::string name = with_alpha ? "astc-rgba" : "astc";
         if (!names.contains(name)) continue;
@@ -237,8 +236,8 @@ Result<std::vector<Measurement>> measure_anchors(const ReferencePictures& pictur
         const Anchor& any = left.front();
         steps += static_cast<std::int64_t>((curves.back().size() - 1) * any.probes.size() + any.settings.size());
     }
-    progress.start(pictures.name + ": anchors", steps);
-    AnchorMeter meter(pictures, cache, progress);
+    progress.start(images.name + ": anchors", steps);
+    AnchorMeter meter(images, cache, progress);
     for (const std::span<const Anchor> variants : curves) {
         if (Status status = meter.measure(variants); !status) return status.error();
     }

@@ -19,7 +19,7 @@ const std::vector<std::string>& anchor_names();
 // The curves in `names`. Each is tried in all its variants at two settings; the variant that is best for it there is
 // measured at all of them. What is in the work folder already is not measured again. Errors: a tool is not installed or
 // fails.
-Result<std::vector<Measurement>> measure_anchors(const ReferencePictures& pictures, const std::set<std::string>& names,
+Result<std::vector<Measurement>> measure_anchors(const ReferenceImages& images, const std::set<std::string>& names,
                                                  const WorkFolder& work, Progress& progress);
 
 }  // namespace rs::bench

@@ -1,6 +1,6 @@
 #include "tests/bench/rd/anchors/astc_anchor.hpp"
 
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/bench/rd/anchors/tool_process.hpp"
 #include "tests/bench/rd/background.hpp"
 
@@ -18,29 +18,29 @@ struct BlockPlace {
     int y = 0;
 };
 
-bool shows_something(const Image<Rgba8>& picture, const BlockPlace& place, int block_px) {
-    for (int y = place.y; y < std::min(place.y + block_px, picture.height()); ++y) {
-        for (int x = place.x; x < std::min(place.x + block_px, picture.width()); ++x) {
-            if (picture(x, y).a > 0) return true;
+bool shows_something(const Image<Rgba8>& image, const BlockPlace& place, int block_px) {
+    for (int y = place.y; y < std::min(place.y + block_px, image.height()); ++y) {
+        for (int x = place.x; x < std::min(place.x + block_px, image.width()); ++x) {
+            if (image(x, y).a > 0) return true;
         }
     }
     return false;
 }
 
-std::vector<BlockPlace> visible_blocks(const ReferencePictures& pictures, int block_px) {
+std::vector<BlockPlace> visible_blocks(const ReferenceImages& images, int block_px) {
     std::vector<BlockPlace> places;
-    for (std::size_t view = 0; view < pictures.views.size(); ++view) {
-        for (int y = 0; y < pictures.height; y += block_px) {
-            for (int x = 0; x < pictures.width; x += block_px) {
+    for (std::size_t view = 0; view < images.views.size(); ++view) {
+        for (int y = 0; y < images.height; y += block_px) {
+            for (int x = 0; x < images.width; x += block_px) {
                 const BlockPlace place{view, x, y};
-                if (shows_something(pictures.views[view], place, block_px)) places.push_back(place);
+                if (shows_something(images.views[view], place, block_px)) places.push_back(place);
             }
         }
     }
     return places;
 }
 
-// Block n of the packed picture stands in column n % columns, row n / columns.
+// Block n of the packed image stands in column n % columns, row n / columns.
 struct Packing {
     int block_px;
     int columns;
@@ -56,7 +56,7 @@ Image<Rgba8> packed(const std::vector<Image<Rgba8>>& shown, const std::vector<Bl
         const Image<Rgba8>& from = shown[places[n].view];
         for (int y = 0; y < packing.block_px; ++y) {
             for (int x = 0; x < packing.block_px; ++x) {
-                // Past the picture's edge its last pixels are repeated, as astcenc does.
+                // Past the image's edge its last pixels are repeated, as astcenc does.
                 atlas(packing.x(n) + x, packing.y(n) + y) =
                     from(std::min(places[n].x + x, from.width() - 1), std::min(places[n].y + y, from.height() - 1));
             }
@@ -65,13 +65,13 @@ Image<Rgba8> packed(const std::vector<Image<Rgba8>>& shown, const std::vector<Bl
     return atlas;
 }
 
-std::vector<Image<Rgba8>> unpacked(const ReferencePictures& pictures, const Image<Rgba8>& atlas,
+std::vector<Image<Rgba8>> unpacked(const ReferenceImages& images, const Image<Rgba8>& atlas,
                                    const std::vector<BlockPlace>& places, const Packing& packing) {
-    std::vector<Image<Rgba8>> views(pictures.views.size(), Image<Rgba8>(pictures.width, pictures.height));
+    std::vector<Image<Rgba8>> views(images.views.size(), Image<Rgba8>(images.width, images.height));
     for (std::size_t n = 0; n < places.size(); ++n) {
         Image<Rgba8>& to = views[places[n].view];
-        for (int y = 0; y < std::min(packing.block_px, pictures.height - places[n].y); ++y) {
-            for (int x = 0; x < std::min(packing.block_px, pictures.width - places[n].x); ++x) {
+        for (int y = 0; y < std::min(packing.block_px, images.height - places[n].y); ++y) {
+            for (int x = 0; x < std::min(packing.block_px, images.width - places[n].x); ++x) {
                 to(places[n].x + x, places[n].y + y) = atlas(packing.x(n) + x, packing.y(n) + y);
             }
         }
@@ -81,9 +81,9 @@ std::vector<Image<Rgba8>> unpacked(const ReferencePictures& pictures, const Imag
 
 }  // namespace
 
-Result<Coded> code_astc(const ReferencePictures& pictures, const std::vector<Image<Rgba8>>& shown, int block_px,
+Result<Coded> code_astc(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown, int block_px,
                         bool with_alpha, const std::filesystem::path& folder) {
-    const std::vector<BlockPlace> places = visible_blocks(pictures, block_px);
+    const std::vector<BlockPlace> places = visible_blocks(images, block_px);
     const Packing packing{block_px, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(places.size()))))};
     Image<Rgba8> atlas = packed(shown, places, packing);
     if (!with_alpha) atlas = made_opaque(std::move(atlas));
@@ -93,7 +93,7 @@ Result<Coded> code_astc(const ReferencePictures& pictures, const std::vector<Ima
     const std::string size = std::to_string(block_px) + "x" + std::to_string(block_px);
     const Result<std::string> ran = run_tool({"astcenc", "-ts", in.string(), out.string(), size, "-medium"});
     if (!ran) return ran.error();
-    const Result<Image<Rgba8>> decoded = read_picture(out);
+    const Result<Image<Rgba8>> decoded = read_image(out);
     if (!decoded) return decoded.error();
     if (decoded->width() != atlas.width() || decoded->height() != atlas.height()) {
         return Error{out.string() + ": astcenc wrote another size than it was given; try another version of it"};
@@ -101,8 +101,8 @@ Result<Coded> code_astc(const ReferencePictures& pictures, const std::vector<Ima
     Coded coded;
     coded.bytes = kAstcBlock_bytes * places.size();
     coded.has_alpha = with_alpha;
-    const std::vector<Image<Rgba8>> views = unpacked(pictures, *decoded, places, packing);
-    for (std::size_t view = 0; view < views.size(); ++view) coded.error += object_error(pictures, view, views[view]);
+    const std::vector<Image<Rgba8>> views = unpacked(images, *decoded, places, packing);
+    for (std::size_t view = 0; view < views.size(); ++view) coded.error += object_error(images, view, views[view]);
     return coded;
 }
 

@@ -7,25 +7,25 @@
 namespace rs::bench {
 namespace {
 
-cv::Mat3b bgr_of(const Image<Rgba8>& picture) {
-    cv::Mat3b bgr(picture.height(), picture.width());
+cv::Mat3b bgr_of(const Image<Rgba8>& image) {
+    cv::Mat3b bgr(image.height(), image.width());
     for (int y = 0; y < bgr.rows; ++y) {
-        for (int x = 0; x < bgr.cols; ++x) bgr(y, x) = {picture(x, y).b, picture(x, y).g, picture(x, y).r};
+        for (int x = 0; x < bgr.cols; ++x) bgr(y, x) = {image(x, y).b, image(x, y).g, image(x, y).r};
     }
     return bgr;
 }
 
 Image<Rgba8> rgba_of(const cv::Mat3b& bgr) {
-    Image<Rgba8> picture(bgr.cols, bgr.rows);
+    Image<Rgba8> image(bgr.cols, bgr.rows);
     for (int y = 0; y < bgr.rows; ++y) {
-        for (int x = 0; x < bgr.cols; ++x) picture(x, y) = {bgr(y, x)[2], bgr(y, x)[1], bgr(y, x)[0], 255};
+        for (int x = 0; x < bgr.cols; ++x) image(x, y) = {bgr(y, x)[2], bgr(y, x)[1], bgr(y, x)[0], 255};
     }
-    return picture;
+    return image;
 }
 
 }  // namespace
 
-Result<Coded> code_stills(const ReferencePictures& pictures, const std::vector<Image<Rgba8>>& shown, StillCodec codec,
+Result<Coded> code_stills(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown, StillCodec codec,
                           int quality) {
     const bool jpeg = codec == StillCodec::kJpeg;
     const std::vector<int> parameters =
@@ -34,15 +34,15 @@ Result<Coded> code_stills(const ReferencePictures& pictures, const std::vector<I
     std::vector<Coded> parts(shown.size());
     const auto code = [&](int view) -> Status {
         const auto n = static_cast<std::size_t>(view);
-        const Error failure{pictures.name + ": view " + std::to_string(view) + ": OpenCV cannot code " +
+        const Error failure{images.name + ": view " + std::to_string(view) + ": OpenCV cannot code " +
                             (jpeg ? "JPEG" : "WebP") + "; is it built with that codec?"};
         try {
             std::vector<std::uint8_t> file;
             if (!cv::imencode(jpeg ? ".jpg" : ".webp", bgr_of(shown[n]), file, parameters)) return failure;
             const cv::Mat decoded = cv::imdecode(file, cv::IMREAD_COLOR);
-            if (decoded.rows != pictures.height || decoded.cols != pictures.width) return failure;
+            if (decoded.rows != images.height || decoded.cols != images.width) return failure;
             parts[n].bytes = file.size();
-            parts[n].error = object_error(pictures, n, rgba_of(decoded));
+            parts[n].error = object_error(images, n, rgba_of(decoded));
         } catch (const cv::Exception& exception) {
             return Error{failure.message + " " + exception.what()};
         }

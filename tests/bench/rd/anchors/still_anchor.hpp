@@ -1,5 +1,5 @@
 #pragma once
-// JPEG and WebP: every picture a file of its own. All bytes of the files count; alpha is not stored.
+// JPEG and WebP: every image a file of its own. All bytes of the files count; alpha is not stored.
 
 #include "tests/bench/rd/coded.hpp"
 
@@ -13,8 +13,8 @@ enum class StillCodec {
     kWebp,  // libwebp, lossy
 };
 
-// `shown` are the opaque pictures to code, view by view. quality 1..100.
-Result<Coded> code_stills(const ReferencePictures& pictures, const std::vector<Image<Rgba8>>& shown, StillCodec codec,
+// `shown` are the opaque images to code, view by view. quality 1..100.
+Result<Coded> code_stills(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown, StillCodec codec,
                           int quality);
 
 }  // namespace rs::bench

@@ -14,7 +14,7 @@ Status write_film(const std::filesystem::path& path, const std::vector<Image<Rgb
     std::vector<std::vector<std::byte>> frames(shown.size());
     const auto convert = [&](int n) -> Status {
         const auto view = static_cast<std::size_t>(n);
-        frames[view] = frame_from_picture(shown[view], format);
+        frames[view] = frame_from_image(shown[view], format);
         return {};
     };
     if (Status status = for_each_in_parallel(static_cast<int>(shown.size()), "", nullptr, convert); !status) {
@@ -30,9 +30,9 @@ Status write_film(const std::filesystem::path& path, const std::vector<Image<Rgb
 
 }  // namespace
 
-Result<Coded> code_x265(const ReferencePictures& pictures, const std::vector<Image<Rgba8>>& shown,
+Result<Coded> code_x265(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown,
                         const X265Settings& settings, const std::filesystem::path& folder) {
-    const FrameFormat format{pictures.width, pictures.height, settings.full_chroma};
+    const FrameFormat format{images.width, images.height, settings.full_chroma};
     const std::filesystem::path in = folder / "x265-in.yuv";
     const std::filesystem::path stream = folder / "x265.hevc";
     const std::filesystem::path out = folder / "x265-out.yuv";
@@ -75,7 +75,7 @@ Result<Coded> code_x265(const ReferencePictures& pictures, const std::vector<Ima
     const auto compare = [&](int n) -> Status {
         const auto view = static_cast<std::size_t>(n);
         const auto frame = std::span(*film).subspan(view * format.frame_bytes(), format.frame_bytes());
-        errors[view] = object_error(pictures, view, picture_from_frame(frame, format));
+        errors[view] = object_error(images, view, image_from_frame(frame, format));
         return {};
     };
     if (Status status = for_each_in_parallel(static_cast<int>(shown.size()), "", nullptr, compare); !status) {

@@ -17,8 +17,8 @@ struct X265Settings {
     int crf = 28;
 };
 
-// `shown` are the opaque pictures to code, view by view. `folder` takes temporary files.
-Result<Coded> code_x265(const ReferencePictures& pictures, const std::vector<Image<Rgba8>>& shown,
+// `shown` are the opaque images to code, view by view. `folder` takes temporary files.
+Result<Coded> code_x265(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown,
                         const X265Settings& settings, const std::filesystem::path& folder);
 
 }  // namespace rs::bench

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as the raw planar frames that video encoders read and write: all of Y, then U, then V, frame after frame.
+// Images as the raw planar frames that video encoders read and write: all of Y, then U, then V, frame after frame.
 // Colours are converted as Rayspace itself does (rayspace/object/yuv.hpp), so that the conversion favours nobody.
 
 #include "rayspace/image/image.hpp"
@@ -11,7 +11,7 @@
 namespace rs::bench {
 
 struct FrameFormat {
-    int width = 0;  // px, of the pictures; frames are one larger where that is odd
+    int width = 0;  // px, of the images; frames are one larger where that is odd
     int height = 0;
     bool full_chroma = false;  // 4:4:4, else 4:2:0
 
@@ -21,9 +21,9 @@ struct FrameFormat {
     [[nodiscard]] std::size_t frame_bytes() const;
 };
 
-// The picture's alpha must be 255 throughout.
-std::vector<std::byte> frame_from_picture(ConstImageView<Rgba8> picture, const FrameFormat& format);
+// The image's alpha must be 255 throughout.
+std::vector<std::byte> frame_from_image(ConstImageView<Rgba8> image, const FrameFormat& format);
 // Opaque. frame.size() is format.frame_bytes().
-Image<Rgba8> picture_from_frame(std::span<const std::byte> frame, const FrameFormat& format);
+Image<Rgba8> image_from_frame(std::span<const std::byte> frame, const FrameFormat& format);
 
 }  // namespace rs::bench

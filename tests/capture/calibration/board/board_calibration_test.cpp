@@ -1,4 +1,4 @@
-// Calibrating with a board, from corners that are computed: the errors, and whether the stated deviations cover them.
+// Board calibration from synthetic corners: errors, and whether the stated deviations cover them.
 
 #include "capture/calibration/board/board_calibration.hpp"
 
@@ -164,7 +164,7 @@ TEST(BoardCalibration, WhatIsKnownIsHeld) {
     EXPECT_NEAR(c.rms_px, 0.1 * std::sqrt(2.0), 0.01);
 
     known = {};
-    known.step_rad = -options.step_rad;  // the wrong way round
+    known.step_rad = -options.step_rad;  // wrong direction
     const auto wrong = calibrate_with_board(views, {}, 1600, 1200, known);
     ASSERT_FALSE(wrong);
     EXPECT_NE(wrong.error().message.find("direction of turning"), std::string::npos) << wrong.error().message;

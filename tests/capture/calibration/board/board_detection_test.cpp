@@ -1,4 +1,4 @@
-// The board's corners in pictures that are drawn through the turntable's model, lens distortion included.
+// Corner detection in board images rendered through the turntable model, lens distortion included.
 
 #include "capture/calibration/board/board_calibration.hpp"
 #include "capture/calibration/board/board_sheet.hpp"
@@ -69,14 +69,14 @@ TEST(BoardDetectionOfHidden, ABlankBoardIsFoundByEitherDesign) {
     const BoardTurn turn = small_turn(options, 3);
     BoardDesign blank;
     blank.blank_mm = 60;
-    const Image<Rgba8> picture = drawn(turn, blank, 2);
+    const Image<Rgba8> image = drawn(turn, blank, 2);
     for (const BoardDesign& design : {blank, BoardDesign{}}) {
-        const auto seen = detect_board(picture.view(), design);
+        const auto seen = detect_board(image.view(), design);
         ASSERT_TRUE(seen);
         const Found found = compare(*seen, turn, design, 2);
         EXPECT_GE(found.count, 24U);
         EXPECT_LT(found.rms_px, 0.1);
-        // Without its marker a white square still is one, so only a missing black square takes a corner away.
+        // A white square without its marker is still white, so only a missing black square removes a corner.
         for (const SeenCorner& one : seen->corners) {
             const int x = one.corner % 8, y = one.corner / 8;
             for (const int dx : {0, 1}) {
@@ -89,7 +89,7 @@ TEST(BoardDetectionOfHidden, ABlankBoardIsFoundByEitherDesign) {
     }
 }
 
-TEST(BoardDetectionOfHidden, APictureWithoutABoardShowsNone) {
+TEST(BoardDetectionOfHidden, AImageWithoutABoardShowsNone) {
     std::mt19937 random(1);
     Image<std::uint8_t> noise(320, 240);
     for (std::uint8_t& pixel : noise.pixels()) pixel = static_cast<std::uint8_t>(random());
@@ -102,15 +102,15 @@ TEST(BoardDetectionOfHidden, APictureWithoutABoardShowsNone) {
     EXPECT_FALSE(detect_board(std::as_const(noise).view(), wrong));
 }
 
-TEST(BoardDetectionOfPrint, ThePrintedPictureIsItselfDetected) {
+TEST(BoardDetectionOfPrint, ThePrintedImageIsItselfDetected) {
     BoardDesign blank;
     blank.blank_mm = 50;
     BoardDesign other{7, 11, 12, 0.6, "5x5_50", 0};
     for (const BoardDesign& design : {BoardDesign{}, blank, other}) {
         const double dpi = 96;
-        const auto picture = board_picture(design, dpi);
-        ASSERT_TRUE(picture) << picture.error().message;
-        const auto seen = detect_board(picture->view(), design);
+        const auto image = board_image(design, dpi);
+        ASSERT_TRUE(image) << image.error().message;
+        const auto seen = detect_board(image->view(), design);
         ASSERT_TRUE(seen);
         std::size_t printed = 0;
         for (int i = 0; i < corner_count(design); ++i) printed += corner_is_printed(design, i) ? 1 : 0;
@@ -123,7 +123,7 @@ TEST(BoardDetectionOfPrint, ThePrintedPictureIsItselfDetected) {
     }
 }
 
-TEST(BoardDetectionOfTurn, PicturesGiveTheModel) {
+TEST(BoardDetectionOfTurn, ImagesGiveTheModel) {
     test::TurnOptions options;
     options.views = 6;
     options.elevation_deg = 30;
@@ -143,7 +143,7 @@ TEST(BoardDetectionOfTurn, PicturesGiveTheModel) {
     EXPECT_NEAR(degrees(c.model.angles_rad[3]), degrees(turn.model.angles_rad[3]), 0.05);
 
     const auto failing = [&](int view) -> Result<Image<Rgba8>> {
-        return Error{"picture " + std::to_string(view) + " is damaged"};
+        return Error{"image " + std::to_string(view) + " is damaged"};
     };
     EXPECT_FALSE(detect_boards(3, failing, {}, nullptr));
 }

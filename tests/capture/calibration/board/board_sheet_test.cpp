@@ -1,4 +1,4 @@
-// The printed board: the design's words, and exact sizes on paper.
+// The printed board: parsing of designs, and exact sizes on paper.
 
 #include "capture/calibration/board/board_sheet.hpp"
 
@@ -45,7 +45,7 @@ TEST(BoardDesign, BlankTakesSquaresAndCornersOutOfTheMiddleOnly) {
     EXPECT_TRUE(corner_is_printed(design, 0));
 }
 
-// "MediaBox [0 0 W H]" and every "x y w h re" of the page's content, in points.
+// Parses "MediaBox [0 0 W H]" and every "x y w h re" of the page's content, in points.
 TEST(BoardPdf, HasExactMillimetres) {
     const BoardDesign design;
     const auto pdf = board_pdf(design, "a4");
@@ -58,7 +58,7 @@ TEST(BoardPdf, HasExactMillimetres) {
     EXPECT_NEAR(width, 210 * kPoints_per_mm, 1e-3);
     EXPECT_NEAR(height, 297 * kPoints_per_mm, 1e-3);
 
-    // The matrix takes millimetres to points; the squares' union is the board.
+    // The matrix maps millimetres to points; the union of the squares is the board.
     std::istringstream lines(*pdf);
     double scale = 0, left = 0, right = 0, bottom = 0;
     int squares = 0;
@@ -111,19 +111,19 @@ TEST(BoardPdf, WhatDoesNotFitIsRefusedWithWhatFits) {
     EXPECT_TRUE(board_pdf(design, "a3"));
     EXPECT_FALSE(board_pdf({}, "napkin"));
     design = {12, 8, 18, 0.7, "4x4_50", 0};
-    EXPECT_TRUE(board_pdf(design, "a4")) << "lies on its side";
+    EXPECT_TRUE(board_pdf(design, "a4")) << "fits in landscape";
 }
 
-TEST(BoardPicture, HasABorderOfOneSquareAndARefusedSizeIsAnError) {
-    const auto picture = board_picture({}, 254);
-    ASSERT_TRUE(picture);
-    EXPECT_EQ(picture->width(), 11 * 180);
-    EXPECT_EQ((*picture)(179, 179).r, 255);
-    EXPECT_EQ((*picture)(180, 180).r, 0);
-    EXPECT_EQ((*picture)(359, 359).r, 0);
-    EXPECT_EQ((*picture)(360, 180).r, 255);
-    EXPECT_FALSE(board_picture({}, 2400));
-    EXPECT_FALSE(board_picture({}, 0));
+TEST(BoardImage, HasABorderOfOneSquareAndARefusedSizeIsAnError) {
+    const auto image = board_image({}, 254);
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->width(), 11 * 180);
+    EXPECT_EQ((*image)(179, 179).r, 255);
+    EXPECT_EQ((*image)(180, 180).r, 0);
+    EXPECT_EQ((*image)(359, 359).r, 0);
+    EXPECT_EQ((*image)(360, 180).r, 255);
+    EXPECT_FALSE(board_image({}, 2400));
+    EXPECT_FALSE(board_image({}, 0));
 }
 
 TEST(BoardSvg, HasTheSizeInMillimetres) {

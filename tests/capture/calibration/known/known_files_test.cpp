@@ -24,7 +24,7 @@ TurntableModel turn_model() {
     return model;
 }
 
-// In a world of its own: turned, moved and scaled.
+// In another world frame: rotated, shifted and scaled.
 glm::dmat4 elsewhere(const glm::dmat4& world_from_camera) {
     const glm::dmat4 moved = look_at_camera({1, 2, 3}, {-4, 1, 0.5}, 1, 10, 10).world_from_camera;
     glm::dmat4 scaled = world_from_camera;
@@ -32,8 +32,8 @@ glm::dmat4 elsewhere(const glm::dmat4& world_from_camera) {
     return moved * scaled;
 }
 
-// As the Middlebury sets are written; every camera is turned by about `noise_rad`, view 5 stands farther away by `step`
-// of its distance.
+// Text as in the Middlebury sets; every camera is rotated by about `noise_rad`, view 5 is farther away by `step` times
+// its distance.
 std::string middlebury_text(const TurntableModel& model, double noise_rad = 0, double step = 0) {
     std::mt19937 random(3);
     std::normal_distribution<double> normal(0, 1);
@@ -64,8 +64,8 @@ std::string opencv_yaml(const std::string& more = "", const std::string& coeffic
            coefficients + " ]\n" + more;
 }
 
-std::string opencv_message(const std::string& text, PicturePixels pictures = {}) {
-    const auto file = opencv_intrinsics_from(text, "x.yml", pictures);
+std::string opencv_message(const std::string& text, ImagePixels images = {}) {
+    const auto file = opencv_intrinsics_from(text, "x.yml", images);
     return file.ok() ? "accepted" : file.error().message;
 }
 
@@ -137,7 +137,7 @@ TEST(OpencvIntrinsics, SurviveHostileFiles) {
         EXPECT_EQ(message.rfind("x.yml: ", 0), 0U) << text.substr(0, 40) << " -> " << message;
         EXPECT_EQ(message.find('\n'), std::string::npos);
     }
-    // Every cut, and bytes changed at random.
+    // Every truncation, and random byte changes.
     const std::string good = opencv_yaml("image_width: 640\nimage_height: 480\n");
     for (std::size_t length = 0; length < good.size(); ++length) (void)opencv_message(good.substr(0, length));
     std::mt19937 random(5);
@@ -153,9 +153,9 @@ TEST(MiddleburyParameters, GiveTheTurnThatTheyWereMadeFrom) {
     const auto file = middlebury_parameters_from(middlebury_text(model), "x_par.txt");
     ASSERT_TRUE(file.ok()) << file.error().message;
     expect_turn(file->known, model, 1e-9);
-    ASSERT_EQ(file->pictures.size(), 16U);
-    EXPECT_EQ(file->pictures[3], "view3.png");
-    // Small errors of a calibration view by view are averaged.
+    ASSERT_EQ(file->images.size(), 16U);
+    EXPECT_EQ(file->images[3], "view3.png");
+    // Small errors of a per-view calibration are averaged.
     const auto noisy = middlebury_parameters_from(middlebury_text(model, radians(0.1)), "x_par.txt");
     ASSERT_TRUE(noisy.ok()) << noisy.error().message;
     expect_turn(noisy->known, model, radians(0.25));
@@ -174,10 +174,10 @@ TEST(MiddleburyParameters, RefuseWhatIsNotATurntable) {
     const std::string shaken = middlebury_message(middlebury_text(model, radians(3)));
     EXPECT_NE(shaken.find("directions are off"), std::string::npos) << shaken;
     const std::string moved = middlebury_message(middlebury_text(model, 0, 0.1));
-    EXPECT_NE(moved.find("places are off"), std::string::npos) << moved;
+    EXPECT_NE(moved.find("positions are off"), std::string::npos) << moved;
     TurntableModel still = model;
     for (double& angle : still.angles_rad) angle = 0;
-    EXPECT_NE(middlebury_message(middlebury_text(still)).find("do not turn"), std::string::npos);
+    EXPECT_NE(middlebury_message(middlebury_text(still)).find("no rotation relative"), std::string::npos);
     still.angles_rad.resize(2);
     EXPECT_NE(middlebury_message(middlebury_text(still)).find("at least 3"), std::string::npos);
 }
@@ -219,7 +219,7 @@ TEST(KnownRig, GivesTheTurnOfATransformsJson) {
     ASSERT_TRUE(file.ok()) << file.error().message;
     expect_turn(file->known, model, 1e-9);
     EXPECT_EQ(file->known.distortion, glm::dvec2(-0.05, 0));
-    EXPECT_EQ(file->pictures[2], "images/2.png");
+    EXPECT_EQ(file->images[2], "images/2.png");
     const auto other_size = read_known_rig(path, {320, 240});
     ASSERT_FALSE(other_size.ok());
     EXPECT_NE(other_size.error().message.find("640 x 480"), std::string::npos);

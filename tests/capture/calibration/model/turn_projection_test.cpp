@@ -32,7 +32,7 @@ TEST(TurnProjection, ShowsPointsWhereTheModelDoes) {
 TEST(TurnProjection, SlopesAreDifferences) {
     const TurnProjection turn(tilted_turn());
     constexpr double kStep = 1e-6;
-    const auto moving = turn.project_moving(kPoint, 3);
+    const auto moving = turn.project_with_jacobian(kPoint, 3);
     ASSERT_TRUE(moving.has_value());
     EXPECT_LT(glm::distance(moving->px, *turn.project(kPoint, 3)), 1e-9);
     for (int k = 0; k < 3; ++k) {

@@ -1,4 +1,4 @@
-// Stated deviations against the scatter of what is really found when the noise is drawn anew.
+// Stated deviations compared with the scatter of the estimates over repeated random noise.
 
 #include "capture/calibration/points/model_covariance.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kDraws = 40;
 
-// Of one number: root mean squares of what is stated and of what is off.
+// Root mean squares of the stated deviation and of the true error of one number.
 struct Tally {
     double stated2 = 0;
     double off2 = 0;
@@ -32,11 +32,11 @@ struct Tally {
 };
 
 struct DrawnErrors {
-    double noise_px = 0;  // of every observation by itself
-    double side_px = 0;   // of every tenth of the turn, whose points seem to shift as they turn
+    double noise_px = 0;  // independent noise of every observation
+    double side_px = 0;   // common shift of the points of every tenth of the turn
 };
 
-// Adds to the tracks of each side of the object an error of its own.
+// Adds a common error to the tracks of each side of the object.
 void shift_sides(std::vector<Track>& tracks, const TurntableModel& truth, double side_px, std::uint32_t seed) {
     constexpr int kSides = 10;
     std::mt19937 random(seed);
@@ -60,7 +60,7 @@ void shift_sides(std::vector<Track>& tracks, const TurntableModel& truth, double
     }
 }
 
-// What the options hold stands at its true value at the start.
+// Constants have their true values at the start.
 Bundle bundle_of_draw(const TurntableModel& truth, const BundleOptions& options, const DrawnErrors& errors,
                       std::uint32_t seed) {
     auto tracks = test::tracks_of(truth, test::surface_points(160, 11), errors.noise_px, seed);
@@ -74,10 +74,10 @@ double mean(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// Of a turn's f, k1, tilt, roll, axis position and angles.
+// Checks the deviations of f, k1, tilt, roll, axis position and angles.
 void expect_honest(const TurntableModel& truth, const BundleOptions& options, const DrawnErrors& errors) {
     Tally f, k1, tilt, roll, position, angles;
-    const bool sideways = lies_sideways(truth.pose);
+    const bool sideways = has_sideways_axis(truth.pose);
     const double at_px = 0.5 * (sideways ? truth.lens.width : truth.lens.height);
     const auto axis = [&](const TurntableModel& model) {
         return (sideways ? axis_row(model.lens, model.pose, at_px) : axis_column(model.lens, model.pose, at_px))
@@ -85,7 +85,7 @@ void expect_honest(const TurntableModel& truth, const BundleOptions& options, co
     };
     for (int draw = 0; draw < kDraws; ++draw) {
         const Bundle bundle = bundle_of_draw(truth, options, errors, 100 + static_cast<std::uint32_t>(draw));
-        const ModelDeviations stated = bundle_deviations(bundle, options, at_px);
+        const ModelDeviations stated = bundle_standard_deviations(bundle, options, at_px);
         const TurntableModel& found = bundle.model;
         f.add(stated.f_px, found.lens.f_px - truth.lens.f_px);
         if (options.free.k1) k1.add(stated.k1, found.lens.k1 - truth.lens.k1);
@@ -135,9 +135,9 @@ TEST(BundleDeviations, WhatIsHeldHasNone) {
     const TurntableModel truth = test::turn_model(24, radians(15));
     BundleOptions options;
     options.free.f = options.free.tilt = false;
-    options.free.angles = AngleFreedom::kHeld;
+    options.free.angles = AngleFreedom::kConstant;
     const Bundle bundle = bundle_of_draw(truth, options, {.noise_px = 0.3}, 5);
-    const ModelDeviations stated = bundle_deviations(bundle, options, 400);
+    const ModelDeviations stated = bundle_standard_deviations(bundle, options, 400);
     EXPECT_EQ(stated.f_px, 0);
     EXPECT_EQ(stated.cx, 0);
     EXPECT_EQ(stated.k1, 0);
@@ -151,9 +151,9 @@ TEST(BundleDeviations, WhatIsHeldHasNone) {
 TEST(BundleDeviations, AreInfiniteWhereTooLittleIsSeen) {
     const TurntableModel truth = test::turn_model(24, radians(15));
     Bundle bundle = bundle_of_draw(truth, {}, {.noise_px = 0.3}, 6);
-    bundle.tracks.resize(8);  // of 27 unknowns
+    bundle.tracks.resize(8);  // for 27 unknowns
     bundle.points.resize(8);
-    const ModelDeviations stated = bundle_deviations(bundle, {}, 400);
+    const ModelDeviations stated = bundle_standard_deviations(bundle, {}, 400);
     EXPECT_TRUE(std::isinf(stated.f_px));
     EXPECT_TRUE(std::isinf(stated.tilt_rad));
     EXPECT_TRUE(std::isinf(stated.axis_position_px));
@@ -166,7 +166,7 @@ TEST(BundleDeviations, FallWithTheNoise) {
     loud.loss_px = 0.8;
     quiet.loss_px = 0.2;
     const auto of = [&](const BundleOptions& options, double noise_px) {
-        return bundle_deviations(bundle_of_draw(truth, options, {.noise_px = noise_px}, 7), options, 400);
+        return bundle_standard_deviations(bundle_of_draw(truth, options, {.noise_px = noise_px}, 7), options, 400);
     };
     EXPECT_NEAR(of(loud, 0.4).f_px / of(quiet, 0.1).f_px, 4, 0.4);
 }

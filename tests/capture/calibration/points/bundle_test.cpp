@@ -39,11 +39,11 @@ TEST(Bundle, RecoversTheModelOfExactPoints) {
     Bundle bundle = make_bundle(test::disturbed(truth), tracks);
     ASSERT_GT(bundle.tracks.size(), 100U);
     BundleOptions options = all_free();
-    options.loss_px = 0.01;  // the priors are as heavy as the loss is wide
+    options.loss_px = 0.01;  // weight of the priors is proportional to it
     Bundle rough = bundle;
     ASSERT_TRUE(adjust(rough, all_free()).has_value());
     bundle = rough;
-    options.most_iterations = 200;
+    options.max_iterations = 200;
     ASSERT_TRUE(adjust(bundle, options).has_value());
     EXPECT_LT(rms_px(bundle), 0.002);
     EXPECT_NEAR(bundle.model.lens.f_px, truth.lens.f_px, 0.2);
@@ -64,7 +64,7 @@ TEST(Bundle, StaysNearTheTruthWithNoise) {
     EXPECT_NEAR(bundle.model.pose.tilt_rad, truth.pose.tilt_rad, radians(0.5));
     EXPECT_NEAR(bundle.model.pose.roll_rad, truth.pose.roll_rad, radians(0.05));
     EXPECT_LT(worst_angle_error(bundle.model, truth), radians(0.1));
-    // sigma sqrt(2) of two components, less what the fit takes of it.
+    // sigma sqrt(2) for two components, minus the degrees of freedom of the fit.
     EXPECT_NEAR(rms_px(bundle), 0.3 * std::sqrt(2.0), 0.04);
     EXPECT_NEAR(robust_deviation_px(bundle), 0.3, 0.03);
 }
@@ -78,7 +78,7 @@ TEST(Bundle, HoldsWhatIsNotFree) {
     Bundle bundle = make_bundle(start, tracks);
     BundleOptions options;
     options.free.f = options.free.roll = false;
-    options.free.angles = AngleFreedom::kHeld;
+    options.free.angles = AngleFreedom::kConstant;
     ASSERT_TRUE(adjust(bundle, options).has_value());
     EXPECT_EQ(bundle.model.lens.f_px, 1650);
     EXPECT_EQ(bundle.model.pose.roll_rad, 0.015);
@@ -108,7 +108,7 @@ TEST(Bundle, ItsCostIsThatOfWeightedResiduals) {
     }
     TurntableModel start = truth;
     start.pose.pan_rad += 0.002;
-    start.lens.k1 = 0;  // held, and as expected
+    start.lens.k1 = 0;  // constant, and equal to its prior
     Bundle bundle = make_bundle(start, tracks);
     const BundleOptions options;
     const auto by_hand = [&] {
@@ -131,7 +131,7 @@ TEST(Bundle, ItsCostIsThatOfWeightedResiduals) {
 TEST(Bundle, NoLensIsTooShortToBeSoughtButOneMayBeKnown) {
     const TurntableModel truth = test::turn_model(12, radians(30));
     TurntableModel start = truth;
-    start.lens.f_px = 99;  // of a picture 1000 px wide
+    start.lens.f_px = 99;  // for an image 1000 px wide
     Bundle bundle = make_bundle(truth, test::tracks_of(truth, test::surface_points(60, 6), 0.3, 6));
     bundle.model = start;
     Bundle known = bundle;
@@ -155,11 +155,11 @@ TEST(Bundle, TriangulatesOnlyWhatRaysDetermine) {
     const auto tracks = test::tracks_of(model, points, 0, 5);
     ASSERT_EQ(tracks.size(), points.size());
     for (std::size_t i = 0; i < tracks.size(); ++i) {
-        const auto p = triangulated(model, tracks[i]);
+        const auto p = triangulate(model, tracks[i]);
         ASSERT_TRUE(p.has_value());
         EXPECT_LT(glm::distance(*p, points[i].p), 1e-6);
     }
-    EXPECT_FALSE(triangulated(model, Track{{tracks[0].seen[0]}}).has_value());
+    EXPECT_FALSE(triangulate(model, Track{{tracks[0].seen[0]}}).has_value());
 }
 
 TEST(Bundle, DropsOutliersAndWhatTheyLeaveTooShort) {
@@ -170,10 +170,10 @@ TEST(Bundle, DropsOutliersAndWhatTheyLeaveTooShort) {
     const int before = observation_count(bundle);
     EXPECT_EQ(drop_outliers(bundle, 0.5), 0);
 
-    bundle.tracks[4].seen[2].p.x += 3;  // one of many
-    bundle.tracks[7].seen.resize(3);    // one of three: two are no track
+    bundle.tracks[4].seen[2].p.x += 3;  // one of many observations
+    bundle.tracks[7].seen.resize(3);    // one of three: two are too few for a track
     bundle.tracks[7].seen[1].p.y -= 3;
-    bundle.tracks[9].seen[0].p.x += 3;  // counts little, so it stays
+    bundle.tracks[9].seen[0].p.x += 3;  // low weight, so it stays
     bundle.tracks[9].seen[0].weight = glm::dmat2(0.1);
     const int lost_by_cutting = static_cast<int>(clean[7].seen.size()) - 3;
     EXPECT_EQ(drop_outliers(bundle, 0.5), 2);
@@ -192,20 +192,20 @@ TEST(Bundle, KeepsTheObservationsThatAgree) {
     const auto clean = test::tracks_of(model, test::surface_points(40, 7), 0.1, 7);
     auto tracks = clean;
     int wrong = 0;
-    for (std::size_t i = 0; i < tracks.size(); i += 2) {  // a third of every other track went elsewhere
+    for (std::size_t i = 0; i < tracks.size(); i += 2) {  // a third of every other track is wrong
         for (std::size_t k = 1; k < tracks[i].seen.size(); k += 3, ++wrong) {
             tracks[i].seen[k].p += glm::dvec2(25 + 5 * static_cast<double>(k), -30);
         }
     }
-    const Bundle bundle = make_agreeing_bundle(model, tracks, 2);
+    const Bundle bundle = make_robust_bundle(model, tracks, 2);
     ASSERT_EQ(bundle.tracks.size(), tracks.size());
     EXPECT_EQ(observation_count(bundle), observation_count(make_bundle(model, clean)) - wrong);
     EXPECT_LT(rms_px(bundle), 0.2);
 
-    Track nonsense;  // no three observations of one point
+    Track nonsense;  // no three observations agree on a point
     for (int k = 0; k < 4; ++k)
         nonsense.seen.push_back({k, {100.0 + 200 * k, k % 2 == 0 ? 100 : 700}, glm::dmat2(1.0)});
-    EXPECT_TRUE(make_agreeing_bundle(model, std::vector<Track>{nonsense}, 2).tracks.empty());
+    EXPECT_TRUE(make_robust_bundle(model, std::vector<Track>{nonsense}, 2).tracks.empty());
 }
 
 TEST(Bundle, CountsObservationsOfEachView) {

@@ -9,7 +9,7 @@
 namespace rs::capture {
 namespace {
 
-// Of length kDescriptorUnit, one of them all in one number.
+// Descriptors of length kDescriptorUnit, one of them with a single nonzero element.
 Descriptors random_descriptors(std::size_t count, unsigned seed) {
     std::minstd_rand random(seed);
     std::exponential_distribution<double> number(1);

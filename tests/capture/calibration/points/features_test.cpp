@@ -18,7 +18,7 @@ struct Spot {
     double height = 0;  // grey values
 };
 
-// One in every square of `every_px`, drawn anew by each seed; of 30 px they stand alone.
+// One spot in every square of `every_px`, random for each seed; at 30 px the spots are isolated.
 std::vector<Spot> drawn_spots(unsigned seed, int every_px) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> within(-every_px / 6.0, every_px / 6.0), wide(1.8, 3.5), high(-60, 60);
@@ -33,9 +33,9 @@ std::vector<Spot> drawn_spots(unsigned seed, int every_px) {
     return spots;
 }
 
-CalibrationPicture picture_of(const std::vector<Spot>& spots, double gain = 1, double bias = 0) {
-    CalibrationPicture picture{Image<std::uint8_t>(kSpotsSide_px, kSpotsSide_px),
-                               Image<std::uint8_t>(kSpotsSide_px, kSpotsSide_px, 255)};
+CalibrationImage image_of(const std::vector<Spot>& spots, double gain = 1, double bias = 0) {
+    CalibrationImage image{Image<std::uint8_t>(kSpotsSide_px, kSpotsSide_px),
+                           Image<std::uint8_t>(kSpotsSide_px, kSpotsSide_px, 255)};
     for (int y = 0; y < kSpotsSide_px; ++y) {
         for (int x = 0; x < kSpotsSide_px; ++x) {
             double value = 120;
@@ -43,26 +43,26 @@ CalibrationPicture picture_of(const std::vector<Spot>& spots, double gain = 1, d
                 const glm::dvec2 d = (glm::dvec2(x + 0.5, y + 0.5) - spot.at) / spot.deviation_px;
                 value += spot.height * std::exp(-0.5 * glm::dot(d, d));
             }
-            picture.grey(x, y) = static_cast<std::uint8_t>(std::lround(gain * value + bias));
+            image.grey(x, y) = static_cast<std::uint8_t>(std::lround(gain * value + bias));
         }
     }
-    return picture;
+    return image;
 }
 
-// A quarter turn: what is seen at (x, y) is then seen at (side - y, x).
-CalibrationPicture quarter_turned(const CalibrationPicture& picture) {
-    CalibrationPicture turned = picture;
+// Rotates by a quarter turn: (x, y) moves to (side - y, x).
+CalibrationImage quarter_turned(const CalibrationImage& image) {
+    CalibrationImage turned = image;
     for (int y = 0; y < kSpotsSide_px; ++y) {
-        for (int x = 0; x < kSpotsSide_px; ++x) turned.grey(kSpotsSide_px - 1 - y, x) = picture.grey(x, y);
+        for (int x = 0; x < kSpotsSide_px; ++x) turned.grey(kSpotsSide_px - 1 - y, x) = image.grey(x, y);
     }
     return turned;
 }
 
-ViewFeatures features_in(const CalibrationPicture& picture, const FollowOptions& options = {}) {
-    return find_features(std::vector{picture}, options, nullptr).front();
+ViewFeatures features_in(const CalibrationImage& image, const TrackingOptions& options = {}) {
+    return find_features(std::vector{image}, options, nullptr).front();
 }
 
-// From `at` to the feature nearest to it.
+// Offset from `at` to the nearest feature.
 glm::dvec2 off(const ViewFeatures& features, const glm::dvec2& at) {
     const auto nearer = [&](const glm::dvec2& a, const glm::dvec2& b) {
         return glm::distance(a, at) < glm::distance(b, at);
@@ -72,12 +72,12 @@ glm::dvec2 off(const ViewFeatures& features, const glm::dvec2& at) {
 
 TEST(Features, SpotsAreFoundWhereTheyAreButNotAtTheObjectsRim) {
     const std::vector<Spot> spots = drawn_spots(1, 30);
-    CalibrationPicture picture = picture_of(spots);
-    const int object_from = static_cast<int>(spots[3].at.x) - 2;  // that spot is on the object, at its rim
-    for (int y = 0; y < kSpotsSide_px; ++y) std::fill_n(picture.alpha.row(y), object_from, std::uint8_t{0});
-    const FollowOptions options;
-    const double rim = object_from + options.rim_px;
-    const ViewFeatures features = features_in(picture, options);
+    CalibrationImage image = image_of(spots);
+    const int object_from = static_cast<int>(spots[3].at.x) - 2;  // that spot is on the object, near its border
+    for (int y = 0; y < kSpotsSide_px; ++y) std::fill_n(image.alpha.row(y), object_from, std::uint8_t{0});
+    const TrackingOptions options;
+    const double rim = object_from + options.margin_px;
+    const ViewFeatures features = features_in(image, options);
     ASSERT_FALSE(features.positions.empty());
     int looked_for = 0;
     std::vector<glm::dvec2> found;
@@ -94,14 +94,14 @@ TEST(Features, SpotsAreFoundWhereTheyAreButNotAtTheObjectsRim) {
     for (const glm::dvec2& here : found) mean += here / count;
     for (const glm::dvec2& here : found) squares += glm::dot(here - mean, here - mean) / count;
     EXPECT_LT(std::sqrt(squares), 0.06);  // px
-    // OpenCV before 4.8 finds all of them a quarter of a pixel to the right and below; alignment has no part in that.
+    // OpenCV before 4.8 localizes all features a quarter of a pixel to the right and below; alignment is not affected.
     EXPECT_GT(std::min(mean.x, mean.y), -0.05);
     EXPECT_LT(std::max(mean.x, mean.y), 0.28);
     for (const glm::dvec2& p : features.positions) EXPECT_GE(p.x, rim);
 }
 
 TEST(Features, DescriptorsHaveOneLength) {
-    const ViewFeatures features = features_in(picture_of(drawn_spots(3, 12)));
+    const ViewFeatures features = features_in(image_of(drawn_spots(3, 12)));
     ASSERT_GT(features.positions.size(), 50U);
     ASSERT_EQ(features.descriptors.size(), features.positions.size() * kDescriptorNumbers);
     for (std::size_t i = 0; i < features.positions.size(); ++i) {
@@ -115,10 +115,10 @@ TEST(Features, DescriptorsHaveOneLength) {
 
 TEST(Features, AreAlikeInOtherLightAndTurned) {
     const std::vector<Spot> spots = drawn_spots(4, 12);
-    const CalibrationPicture picture = picture_of(spots);
-    const ViewFeatures first = features_in(picture);
+    const CalibrationImage image = image_of(spots);
+    const ViewFeatures first = features_in(image);
     const auto expect_alike = [&](const ViewFeatures& second, const auto& place) {
-        const std::vector<FeatureMatch> matches = alike(first, second, 0.8);
+        const std::vector<FeatureMatch> matches = match_features(first, second, 0.8);
         std::size_t right = 0;
         for (const FeatureMatch& match : matches) {
             const glm::dvec2 expected = place(first.positions[static_cast<std::size_t>(match.first)]);
@@ -128,11 +128,12 @@ TEST(Features, AreAlikeInOtherLightAndTurned) {
         EXPECT_GT(matches.size(), first.positions.size() / 2);
         EXPECT_GT(static_cast<double>(right), 0.97 * static_cast<double>(matches.size()));
     };
-    expect_alike(features_in(picture_of(spots, 0.6, 40)), [](const glm::dvec2& p) { return p; });
-    expect_alike(features_in(quarter_turned(picture)),
+    expect_alike(features_in(image_of(spots, 0.6, 40)), [](const glm::dvec2& p) { return p; });
+    expect_alike(features_in(quarter_turned(image)),
                  [](const glm::dvec2& p) { return glm::dvec2(kSpotsSide_px - p.y, p.x); });
-    // Of another picture next to nothing is alike.
-    EXPECT_LT(alike(first, features_in(picture_of(drawn_spots(5, 12))), 0.8).size(), first.positions.size() / 10);
+    // Hardly any feature matches another image.
+    EXPECT_LT(match_features(first, features_in(image_of(drawn_spots(5, 12))), 0.8).size(),
+              first.positions.size() / 10);
 }
 
 }  // namespace

@@ -11,28 +11,28 @@
 namespace rs::capture {
 namespace {
 
-// A picture of smooth noise on a disc.
-CalibrationPicture noisy_disc(int width, int height, unsigned seed) {
+// An image of smooth noise on a disc.
+CalibrationImage noisy_disc(int width, int height, unsigned seed) {
     std::minstd_rand random(seed);
     std::uniform_int_distribution<int> grey(40, 220);
-    CalibrationPicture picture{Image<std::uint8_t>(width, height), Image<std::uint8_t>(width, height)};
+    CalibrationImage image{Image<std::uint8_t>(width, height), Image<std::uint8_t>(width, height)};
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
-            picture.grey(x, y) = static_cast<std::uint8_t>(grey(random));
+            image.grey(x, y) = static_cast<std::uint8_t>(grey(random));
             const bool inside = std::hypot(x - 0.5 * width, y - 0.5 * height) < 0.45 * height;
-            picture.alpha(x, y) = inside ? 255 : 0;
+            image.alpha(x, y) = inside ? 255 : 0;
         }
     }
-    return picture;
+    return image;
 }
 
-// What PatchPicture holds, pixel by pixel as it is written down.
-struct PlainPicture {
+// Reference implementation of PatchImage, pixel by pixel.
+struct PlainImage {
     Image<double> smooth;
     Image<std::uint8_t> alpha;
 
-    explicit PlainPicture(const CalibrationPicture& picture)
-        : smooth(picture.grey.width(), picture.grey.height()), alpha(picture.alpha) {
+    explicit PlainImage(const CalibrationImage& image)
+        : smooth(image.grey.width(), image.grey.height()), alpha(image.alpha) {
         constexpr std::array<double, 5> kKernel{0.03, 0.235, 0.47, 0.235, 0.03};
         for (int y = 0; y < smooth.height(); ++y) {
             for (int x = 0; x < smooth.width(); ++x) {
@@ -40,8 +40,8 @@ struct PlainPicture {
                     for (int dx = -2; dx <= 2; ++dx) {
                         smooth(x, y) += kKernel[static_cast<std::size_t>(dx + 2)] *
                                         kKernel[static_cast<std::size_t>(dy + 2)] *
-                                        picture.grey(std::clamp(x + dx, 0, smooth.width() - 1),
-                                                     std::clamp(y + dy, 0, smooth.height() - 1));
+                                        image.grey(std::clamp(x + dx, 0, smooth.width() - 1),
+                                                   std::clamp(y + dy, 0, smooth.height() - 1));
                     }
                 }
             }
@@ -74,10 +74,10 @@ glm::dvec2 place(const Warp& warp, int i, int j) {
            warp.bent[2] * static_cast<double>(i * j);
 }
 
-TEST(PatchPicture, ShowsWhatPlainSamplingShows) {
-    const CalibrationPicture picture = noisy_disc(90, 70, 3);
-    const PatchPicture fast(picture);
-    const PlainPicture plain(picture);
+TEST(PatchImage, ShowsWhatPlainSamplingShows) {
+    const CalibrationImage image = noisy_disc(90, 70, 3);
+    const PatchImage fast(image);
+    const PlainImage plain(image);
     int counted = 0, left_out = 0;
     for (const glm::dvec2 centre : {glm::dvec2(45.3, 35.8), glm::dvec2(30.02, 22.97), glm::dvec2(72.5, 40)}) {
         const Warp warp = some_warp(centre);
@@ -101,16 +101,16 @@ TEST(PatchPicture, ShowsWhatPlainSamplingShows) {
     EXPECT_GT(left_out, 30);
 }
 
-TEST(PatchPicture, NothingIsSolidWhereThereIsNoObject) {
-    CalibrationPicture picture = noisy_disc(40, 30, 3);
-    std::fill(picture.alpha.pixels().begin(), picture.alpha.pixels().end(), std::uint8_t{250});
-    const PatchPicture fast(picture);
+TEST(PatchImage, NothingIsSolidWhereThereIsNoObject) {
+    CalibrationImage image = noisy_disc(40, 30, 3);
+    std::fill(image.alpha.pixels().begin(), image.alpha.pixels().end(), std::uint8_t{250});
+    const PatchImage fast(image);
     EXPECT_FALSE(fast.is_solid({20, 15}));
     EXPECT_EQ(fast.row(some_warp({20, 15}), 0).counts, PatchRow{});
-    EXPECT_FALSE(PatchPicture(noisy_disc(40, 30, 3)).is_solid({1e9, -1e9}));
+    EXPECT_FALSE(PatchImage(noisy_disc(40, 30, 3)).is_solid({1e9, -1e9}));
 }
 
-// Pixel by pixel, as it is written down.
+// Reference implementation, pixel by pixel.
 PatchEquations plain_patch_equations(std::span<const SeenRow> seen, std::span<const PatchRow> texture,
                                      std::span<const PatchRow> weight, float less, const glm::dvec2& deeper,
                                      bool curvature_is_known) {
@@ -141,7 +141,7 @@ class PatchEquationsTest : public testing::TestWithParam<bool> {};
 
 TEST_P(PatchEquationsTest, AreThoseOfAllPixels) {
     const bool curvature_is_known = GetParam();
-    const PatchPicture picture(noisy_disc(90, 70, 5));
+    const PatchImage image(noisy_disc(90, 70, 5));
     const Warp warp = some_warp({58.2, 37.1});
     std::minstd_rand random(7);
     std::uniform_real_distribution<float> number(-30, 30), share(0, 1);
@@ -151,7 +151,7 @@ TEST_P(PatchEquationsTest, AreThoseOfAllPixels) {
     PatchSums sums(curvature_is_known);
     for (std::size_t row = 0; row < kPatchSide_px; ++row) {
         const int j = static_cast<int>(row) - kPatchHalf_px;
-        seen[row] = picture.row(warp, j);
+        seen[row] = image.row(warp, j);
         for (std::size_t c = 0; c + 1 < kPatchColumns; ++c) {
             texture[row][c] = number(random);
             weight[row][c] = share(random) * seen[row].counts[c];
@@ -162,7 +162,7 @@ TEST_P(PatchEquationsTest, AreThoseOfAllPixels) {
     const PatchEquations plain = plain_patch_equations(seen, texture, weight, kLess, warp.deeper, curvature_is_known);
     for (int k = 0; k < kPatchUnknowns; ++k) {
         for (int l = 0; l < kPatchUnknowns; ++l) {
-            // In proportion to the slopes' lengths.
+            // Relative to the lengths of the derivatives.
             const double size = std::sqrt(plain.normal(k, k) * plain.normal(l, l));
             EXPECT_NEAR(fast.normal(k, l), plain.normal(k, l), 1e-5 * size) << k << ", " << l;
         }

@@ -15,14 +15,14 @@ namespace {
 
 constexpr double kStep_px = 7;
 
-// One point before the axis, seen by the first views of a turn.
+// One point in front of the axis, visible in the first views of a turn.
 Bundle one_point(int views) {
     Bundle bundle;
     bundle.model = test::turn_model(36, radians(10));
     bundle.points = {{0, -std::tan(radians(20)), 0.1}};
     Track track;
     for (int view = 0; view < views; ++view) {
-        track.seen.push_back({view, *projected(bundle.model, bundle.points[0], view)});
+        track.seen.push_back({view, *project_point(bundle.model, bundle.points[0], view)});
     }
     bundle.tracks = {track};
     return bundle;
@@ -39,7 +39,7 @@ TEST(PatchGrowth, PointsComeOneStepBesideAsFarFromTheCamera) {
         grow(bundle, reduction, 1000);
         ASSERT_EQ(bundle.tracks.size(), 5U);
         ASSERT_EQ(bundle.points.size(), 5U);
-        const Observation middle = middle_of_arc(bundle.model, bundle.tracks[0]);
+        const Observation middle = reference_observation(bundle.model, bundle.tracks[0]);
         ASSERT_EQ(middle.view, 2);
         glm::dvec2 sum(0.0);
         for (std::size_t i = 1; i < 5; ++i) {
@@ -49,7 +49,7 @@ TEST(PatchGrowth, PointsComeOneStepBesideAsFarFromTheCamera) {
             EXPECT_NEAR(glm::length(aside), kStep_px * reduction, 0.05 * kStep_px * reduction);
             sum += aside;
             for (const Observation& seen : bundle.tracks[i].seen) {
-                const auto expected = projected(bundle.model, bundle.points[i], seen.view);
+                const auto expected = project_point(bundle.model, bundle.points[i], seen.view);
                 EXPECT_LT(glm::distance(*expected, seen.p), 1e-9);
             }
         }
@@ -61,7 +61,7 @@ TEST(PatchGrowth, NoPlaceGetsASecondPoint) {
     Bundle bundle = one_point(3);
     for (int round = 0; round < 4; ++round) grow(bundle, 1, 100000);
     EXPECT_GT(bundle.tracks.size(), 25U);
-    // No two points of the middle view lie in one square of a step.
+    // No two points of the middle view are in the same cell.
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
         for (std::size_t k = i + 1; k < bundle.tracks.size(); ++k) {
             const glm::dvec2 a = glm::floor(bundle.tracks[i].seen[1].p / kStep_px);
@@ -83,7 +83,7 @@ TEST(PatchGrowth, ThereAreNoMoreObservationsThanAskedFor) {
     ASSERT_GT(grown, before);
     grow(some, 1, before + grown / 3);
     EXPECT_NEAR(observation_count(some) - before, grown / 3, grown / 30);
-    // Evenly spread: some grew from early points, some from late ones.
+    // Evenly spaced: some candidates are neighbours of early points, some of late ones.
     const auto is_of_some = [&](const glm::dvec3& p) {
         return std::find(some.points.begin(), some.points.end(), p) != some.points.end();
     };
@@ -97,13 +97,13 @@ TEST(PatchGrowth, ThereAreNoMoreObservationsThanAskedFor) {
     EXPECT_NEAR(share(middle, all.points.size()), 1.0 / 3, 0.05);
 }
 
-TEST(PatchGrowth, NothingGrowsBesideThePicture) {
+TEST(PatchGrowth, NothingGrowsBesideTheImage) {
     Bundle bundle = one_point(3);
-    const Observation middle = middle_of_arc(bundle.model, bundle.tracks[0]);
+    const Observation middle = reference_observation(bundle.model, bundle.tracks[0]);
     bundle.model.lens.width = static_cast<int>(middle.p.x) + 1;  // the point is in the last column
     grow(bundle, 1, 1000);
     for (const Track& track : bundle.tracks) {
-        EXPECT_LT(middle_of_arc(bundle.model, track).p.x, bundle.model.lens.width);
+        EXPECT_LT(reference_observation(bundle.model, track).p.x, bundle.model.lens.width);
     }
     EXPECT_LT(bundle.tracks.size(), 5U);
 }

@@ -11,7 +11,7 @@ namespace rs::capture {
 namespace {
 
 constexpr int kTextureSide_px = 120;
-constexpr double kTextureNoise = 2;  // grey values, one deviation
+constexpr double kTextureNoise = 2;  // grey values, one standard deviation
 
 // Grey values of about 40..210 with detail in all directions.
 double texture(const glm::dvec2& p) {
@@ -19,12 +19,12 @@ double texture(const glm::dvec2& p) {
            20 * std::sin(0.85 * p.y + 0.1 * p.x + 2);
 }
 
-// What a camera sees of the texture: p_in_picture = matrix * (p_in_texture - middle) + middle + shift.
+// View of the texture: p_in_image = matrix * (p_in_texture - middle) + middle + shift.
 struct Look {
     glm::dmat2 matrix{1.0};
     glm::dvec2 shift{0.0};
     double gain = 1;
-    double slope = 0;  // of the light, grey values per px to the right
+    double slope = 0;  // of the illumination, grey values per px to the right
     [[nodiscard]] glm::dvec2 seen(const glm::dvec2& p) const { return matrix * (p - middle()) + middle() + shift; }
     [[nodiscard]] glm::dvec2 shown(const glm::dvec2& p) const {
         return glm::inverse(matrix) * (p - middle() - shift) + middle();
@@ -33,22 +33,22 @@ struct Look {
 };
 
 template <class Grey>
-PatchPicture noisy_picture(unsigned seed, const Grey& grey) {
+PatchImage noisy_image(unsigned seed, const Grey& grey) {
     std::mt19937 random(seed);
     std::normal_distribution<double> noise(0, kTextureNoise);
-    CalibrationPicture picture{Image<std::uint8_t>(kTextureSide_px, kTextureSide_px),
-                               Image<std::uint8_t>(kTextureSide_px, kTextureSide_px, 255)};
+    CalibrationImage image{Image<std::uint8_t>(kTextureSide_px, kTextureSide_px),
+                           Image<std::uint8_t>(kTextureSide_px, kTextureSide_px, 255)};
     for (int y = 0; y < kTextureSide_px; ++y) {
         for (int x = 0; x < kTextureSide_px; ++x) {
             const double value = grey(glm::dvec2(x + 0.5, y + 0.5)) + noise(random);
-            picture.grey(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
+            image.grey(x, y) = static_cast<std::uint8_t>(std::clamp(std::lround(value), 0L, 255L));
         }
     }
-    return PatchPicture(picture);
+    return PatchImage(image);
 }
 
-PatchPicture look_at(const Look& look, unsigned seed) {
-    return noisy_picture(seed, [&](const glm::dvec2& p) {
+PatchImage detect(const Look& look, unsigned seed) {
+    return noisy_image(seed, [&](const glm::dvec2& p) {
         return look.gain * texture(look.shown(p)) + look.slope * (p.x - kTextureSide_px / 2.0);
     });
 }
@@ -62,15 +62,15 @@ std::vector<glm::dvec2> places() {
 }
 
 TEST(Patch, AKnownWarpIsFoundToAFewHundredthsOfAPixel) {
-    const PatchPicture before = look_at({}, 1);
+    const PatchImage before = detect({}, 1);
     const Look look{glm::dmat2({0.93, 0.06}, {-0.08, 1.05}), {0.63, -0.41}, 0.8, 0.25};
-    const PatchPicture after = look_at(look, 2);
+    const PatchImage after = detect(look, 2);
     for (const bool curvature_is_known : {true, false}) {
         double squares = 0, worst_matrix = 0;
         for (const glm::dvec2& place : places()) {
-            const std::optional<Patch> patch = textured_patch(before, place);
+            const std::optional<Patch> patch = extract_patch(before, place);
             ASSERT_TRUE(patch.has_value());
-            Warp warp;  // as a first bundle expects it: a pixel and a half off, unturned
+            Warp warp;  // predicted by a first bundle: a pixel and a half off, not rotated
             warp.centre = look.seen(place) + glm::dvec2(1.2, -0.9);
             warp.deeper = {0.4, 0.1};
             const std::optional<Alignment> found = align(after, *patch, warp, curvature_is_known);
@@ -81,17 +81,17 @@ TEST(Patch, AKnownWarpIsFoundToAFewHundredthsOfAPixel) {
                 worst_matrix = std::max(worst_matrix, glm::length(found->matrix[k] - look.matrix[k]));
             }
         }
-        EXPECT_LT(std::sqrt(squares), 0.03) << curvature_is_known;  // of a coordinate
+        EXPECT_LT(std::sqrt(squares), 0.03) << curvature_is_known;  // per coordinate
         EXPECT_LT(worst_matrix, 0.04) << curvature_is_known;
     }
 }
 
 TEST(Patch, NothingIsFoundWhereThereIsNoTexture) {
-    const PatchPicture plain = noisy_picture(5, [](const glm::dvec2& p) { return 60 + 0.8 * p.x; });
-    const PatchPicture textured = look_at({}, 6);
+    const PatchImage plain = noisy_image(5, [](const glm::dvec2& p) { return 60 + 0.8 * p.x; });
+    const PatchImage textured = detect({}, 6);
     for (const glm::dvec2& place : places()) {
-        EXPECT_FALSE(textured_patch(plain, place).has_value());
-        const std::optional<Patch> patch = textured_patch(textured, place);
+        EXPECT_FALSE(extract_patch(plain, place).has_value());
+        const std::optional<Patch> patch = extract_patch(textured, place);
         ASSERT_TRUE(patch.has_value());
         Warp warp;
         warp.centre = place;
@@ -100,15 +100,15 @@ TEST(Patch, NothingIsFoundWhereThereIsNoTexture) {
 }
 
 TEST(Patch, NothingIsFoundThatIsNotWhereItIsExpected) {
-    const PatchPicture before = look_at({}, 7), after = look_at({}, 8);
-    const PatchPicture covered = noisy_picture(9, [](const glm::dvec2& p) {  // by what looks otherwise
+    const PatchImage before = detect({}, 7), after = detect({}, 8);
+    const PatchImage covered = noisy_image(9, [](const glm::dvec2& p) {  // by another texture
         return 50 + 0.6 * texture(p) + 45 * std::sin(0.5 * p.x - 0.9 * p.y);
     });
     for (const glm::dvec2& place : places()) {
-        const std::optional<Patch> patch = textured_patch(before, place);
+        const std::optional<Patch> patch = extract_patch(before, place);
         ASSERT_TRUE(patch.has_value());
         Warp warp;
-        warp.centre = place + glm::dvec2(3.4, 0);  // farther than it may move
+        warp.centre = place + glm::dvec2(3.4, 0);  // farther than the allowed movement
         const std::optional<Alignment> far = align(after, *patch, warp, true);
         EXPECT_TRUE(!far || glm::distance(far->seen.p, place) > 1);
         warp.centre = place;

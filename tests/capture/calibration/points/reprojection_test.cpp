@@ -13,7 +13,7 @@
 namespace rs::capture {
 namespace {
 
-// The same residual, differentiated by Ceres.
+// The same residual with automatic derivatives by Ceres.
 struct PlainReprojection {
     Observation seen;
 
@@ -28,7 +28,7 @@ struct PlainReprojection {
     }
 };
 
-// Rows of derivatives as Ceres has them.
+// Derivatives in Ceres' row-major layout.
 struct Derived {
     std::array<double, 2> residual{};
     std::array<double, 10> by_lens{};

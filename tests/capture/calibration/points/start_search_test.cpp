@@ -19,7 +19,7 @@ Lens middle_lens(const TurntableModel& truth) {
     return {truth.lens.width, truth.lens.height, 0, truth.lens.width / 2.0, truth.lens.height / 2.0, 0, 0};
 }
 
-// A share of the observations lies anywhere: wrong matches.
+// A share of the observations is at random positions: wrong matches.
 std::vector<Track> noisy_tracks(const TurntableModel& truth, double wrong, std::uint32_t seed) {
     std::vector<Track> tracks = test::tracks_of(truth, test::surface_points(55, seed), kNoise_px, seed);
     std::mt19937 random(seed + 1000);
@@ -35,11 +35,11 @@ std::vector<Track> noisy_tracks(const TurntableModel& truth, double wrong, std::
 
 std::optional<Start> start_of(const TurntableModel& truth, const KnownInputs& known = {}, double wrong = 0.1) {
     const std::vector<Track> tracks = noisy_tracks(truth, wrong, 21);
-    return find_start(tracks, test::pairs_of(tracks), static_cast<int>(truth.angles_rad.size()), middle_lens(truth),
-                      known);
+    return find_initial_model(tracks, test::pairs_of(tracks), static_cast<int>(truth.angles_rad.size()),
+                              middle_lens(truth), known);
 }
 
-// An axis that lies sideways has no upper end: the same pictures come of either.
+// A sideways axis has no upper end: both models give the same images.
 TurntableModel seen_from_above(TurntableModel model) {
     if (model.pose.tilt_rad > 0) return model;
     model.pose = {-model.pose.pan_rad, -model.pose.tilt_rad,
@@ -48,7 +48,7 @@ TurntableModel seen_from_above(TurntableModel model) {
     return model;
 }
 
-// Near enough for the bundle that follows.
+// Accurate enough for the following bundle.
 void expect_good_start(const std::optional<Start>& start, const TurntableModel& truth, double step_rad) {
     ASSERT_TRUE(start.has_value());
     const TurntableModel found = seen_from_above(start->model);
@@ -64,11 +64,11 @@ class SensesAndCounts : public testing::TestWithParam<double> {};
 
 TEST_P(SensesAndCounts, AreFoundAmongWrongMatches) {
     const double step_rad = GetParam();
-    // 36 photographs whatever the step: where it is 360 / 35 degrees, the last one repeats the first.
+    // 36 photos for any step: with 360 / 35 degrees, the last one repeats the first.
     const TurntableModel truth = test::turn_model(36, step_rad);
     const auto start = start_of(truth);
     expect_good_start(start, truth, step_rad);
-    EXPECT_GT(2 * start->agreeing, 3 * start->other_sense);
+    EXPECT_GT(2 * start->agreeing, 3 * start->agreeing_opposite);
 }
 
 INSTANTIATE_TEST_SUITE_P(Turns, SensesAndCounts,
@@ -94,7 +94,7 @@ TEST(StartSearch, BearsUnequalSteps) {
     std::mt19937 random(4);
     std::normal_distribution<double> unsteady(0, radians(0.8));
     for (std::size_t i = 1; i < 36; ++i) truth.angles_rad[i] += unsteady(random);
-    for (std::size_t i = 20; i < 36; ++i) truth.angles_rad[i] -= radians(5);  // one step half as long again
+    for (std::size_t i = 20; i < 36; ++i) truth.angles_rad[i] -= radians(5);  // one step is half as long again
     const auto start = start_of(truth);
     ASSERT_TRUE(start.has_value());
     EXPECT_NEAR(degrees(start->model.angles_rad[1]), -10, 0.4);
@@ -109,17 +109,17 @@ TEST(StartSearch, HoldsWhatIsKnown) {
     const TurntableModel truth = test::turn_model(24, radians(7.5));  // half a turn
     KnownInputs known;
     known.f_px = 1700;
-    known.step_rad = -radians(7.5);  // its sign is not what is known
+    known.step_rad = -radians(7.5);  // only its absolute value is used
     const auto start = start_of(truth, known);
     ASSERT_TRUE(start.has_value());
     EXPECT_EQ(start->model.lens.f_px, 1700);
     EXPECT_NEAR(start->model.angles_rad[5], truth.angles_rad[5], 1e-12);
 
-    known.counter_clockwise = false;  // against what the pictures show
+    known.counter_clockwise = false;  // contradicts the images
     const auto forced = start_of(truth, known);
     if (forced) {
         EXPECT_LT(forced->model.angles_rad[1], 0);
-        EXPECT_EQ(forced->other_sense, 0);
+        EXPECT_EQ(forced->agreeing_opposite, 0);
         EXPECT_LT(forced->agreeing, start->agreeing);
     }
     KnownInputs all;
@@ -138,7 +138,7 @@ TEST(StartSearch, PointsThatGoAnywhereHaveNone) {
     if (start) {
         EXPECT_LT(start->agreeing, 60);
     }
-    EXPECT_FALSE(find_start({}, {}, 24, middle_lens(test::turn_model(24, radians(15))), {}).has_value());
+    EXPECT_FALSE(find_initial_model({}, {}, 24, middle_lens(test::turn_model(24, radians(15))), {}).has_value());
 }
 
 }  // namespace

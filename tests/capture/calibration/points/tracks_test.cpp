@@ -1,4 +1,4 @@
-// Points followed over drawn pictures whose every number is known, and the calibration that stands on them.
+// Tracking of points in synthetic images with ground truth, and the calibration based on them.
 
 #include "capture/calibration/points/tracks.hpp"
 
@@ -25,18 +25,18 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-TurnPictures pictures_of(const TurntableModel& model, const test::Drum& drum = {}) {
-    TurnPictures turn;
+TurnImages images_of(const TurntableModel& model, const test::Drum& drum = {}) {
+    TurnImages turn;
     turn.width = model.lens.width;
     turn.height = model.lens.height;
     turn.names = test::photograph_names(model.angles_rad.size());
     for (std::size_t i = 0; i < model.angles_rad.size(); ++i) {
-        turn.pictures.push_back(calibration_picture(test::drawn_drum(drum, model, i), 1));
+        turn.images.push_back(calibration_image(test::drawn_drum(drum, model, i), 1));
     }
     return turn;
 }
 
-// What keeps the search for a start short where a test is not about it.
+// Restricts the start search in tests of other features.
 KnownInputs lens_and_sense() {
     KnownInputs known;
     known.f_px = 620;
@@ -48,12 +48,12 @@ TurntableModel truth() {
     return test::drum_turn(24, -radians(15));
 }
 
-const TurnPictures& drum_pictures() {
-    static const TurnPictures kPictures = pictures_of(truth());
-    return kPictures;
+const TurnImages& drum_images() {
+    static const TurnImages kImages = images_of(truth());
+    return kImages;
 }
 
-// Median over tracks of how far the point that explains them best under the true model misses them.
+// Median over tracks of the residual of the best point under the true model.
 double median_miss_px(const std::vector<Track>& tracks) {
     std::vector<double> misses;
     for (const Track& track : tracks) {
@@ -74,10 +74,10 @@ void expect_well_formed(const std::vector<Track>& tracks, int views) {
 }
 
 TEST(Tracks, FollowPointsOfADrum) {
-    const TurnPictures& turn = drum_pictures();
-    const auto follower = PointFollower::look_at(turn.pictures, 1, {}, nullptr);
-    ASSERT_TRUE(follower.ok()) << follower.error().message;
-    const auto found = follower->follow(nullptr);
+    const TurnImages& turn = drum_images();
+    const auto tracker = PointTracker::detect(turn.images, 1, {}, nullptr);
+    ASSERT_TRUE(tracker.ok()) << tracker.error().message;
+    const auto found = tracker->track(nullptr);
     ASSERT_TRUE(found.ok()) << found.error().message;
     ASSERT_GT(found->tracks.size(), 100U);
     expect_well_formed(found->tracks, 24);
@@ -85,33 +85,33 @@ TEST(Tracks, FollowPointsOfADrum) {
     ASSERT_EQ(found->features.size(), 24U);
     EXPECT_GT(*std::min_element(found->features.begin(), found->features.end()), 60);
     bool closes = false;
-    for (const PairOfViews& pair : found->pairs) {
+    for (const MatchedPair& pair : found->pairs) {
         if (pair.matches == 0) continue;
         EXPECT_GT(pair.spread_x_px, pair.spread_y_px) << pair.first << " " << pair.second;
         const int apart = (pair.second - pair.first + 24) % 24;
-        if (apart <= 2) {  // clockwise: the front goes to the left
+        if (apart <= 2) {  // clockwise: the front moves to the left
             EXPECT_LT(pair.motion_x_px, 0) << pair.first << " " << pair.second;
         }
         closes = closes || (pair.first == 23 && pair.second == 0) || (pair.first == 0 && pair.second == 23);
     }
     EXPECT_TRUE(closes) << "the last view is next to the first";
 
-    const auto guided = follower->follow_guided(truth(), 0.15, 2);
+    const auto guided = tracker->track_guided(truth(), 0.15, 2);
     ASSERT_TRUE(guided.ok()) << guided.error().message;
     expect_well_formed(*guided, 24);
     const auto right = [](const std::vector<Track>& tracks) {
-        return observation_count(make_agreeing_bundle(truth(), tracks, 1.5));
+        return observation_count(make_robust_bundle(truth(), tracks, 1.5));
     };
     EXPECT_GT(right(*guided), right(found->tracks));
 }
 
 TEST(Tracks, PositionsAreInPixelsOfThePhotographs) {
-    const TurnPictures& turn = drum_pictures();
-    const std::vector<CalibrationPicture> few(turn.pictures.begin(), turn.pictures.begin() + 6);
-    const auto whole = PointFollower::look_at(few, 1, {}, nullptr);
-    const auto reduced = PointFollower::look_at(few, 3, {}, nullptr);
+    const TurnImages& turn = drum_images();
+    const std::vector<CalibrationImage> few(turn.images.begin(), turn.images.begin() + 6);
+    const auto whole = PointTracker::detect(few, 1, {}, nullptr);
+    const auto reduced = PointTracker::detect(few, 3, {}, nullptr);
     ASSERT_TRUE(whole.ok() && reduced.ok());
-    const auto a = whole->follow(nullptr), b = reduced->follow(nullptr);
+    const auto a = whole->track(nullptr), b = reduced->track(nullptr);
     ASSERT_TRUE(a.ok() && b.ok());
     EXPECT_EQ(a->features, b->features);
     ASSERT_FALSE(b->tracks.empty());
@@ -128,13 +128,13 @@ TEST(Tracks, PositionsAreInPixelsOfThePhotographs) {
 }
 
 TEST(Tracks, DoNotDependOnTheNumberOfThreads) {
-    const TurnPictures& turn = drum_pictures();
-    const std::vector<CalibrationPicture> few(turn.pictures.begin(), turn.pictures.begin() + 8);
-    const auto follow = [&](int threads) {
+    const TurnImages& turn = drum_images();
+    const std::vector<CalibrationImage> few(turn.images.begin(), turn.images.begin() + 8);
+    const auto track_with = [&](int threads) {
         tbb::task_arena arena(threads);
-        return arena.execute([&] { return PointFollower::look_at(few, 1, {}, nullptr)->follow(nullptr)->tracks; });
+        return arena.execute([&] { return PointTracker::detect(few, 1, {}, nullptr)->track(nullptr)->tracks; });
     };
-    const auto one = follow(1), two = follow(2);
+    const auto one = track_with(1), two = track_with(2);
     ASSERT_EQ(one.size(), two.size());
     for (std::size_t i = 0; i < one.size(); ++i) {
         ASSERT_EQ(one[i].seen.size(), two[i].seen.size());
@@ -146,31 +146,31 @@ TEST(Tracks, DoNotDependOnTheNumberOfThreads) {
 }
 
 TEST(Tracks, NothingIsLookedForOnTheBackdrop) {
-    TurnPictures turn = drum_pictures();
-    turn.pictures.resize(6);
-    for (CalibrationPicture& picture : turn.pictures) {  // a pattern beside the object
+    TurnImages turn = drum_images();
+    turn.images.resize(6);
+    for (CalibrationImage& image : turn.images) {  // a texture outside the object
         for (int y = 0; y < 256; ++y) {
             for (int x = 0; x < 320; ++x) {
-                if (picture.alpha(x, y) == 0) picture.grey(x, y) = (x / 16 + y / 16) % 2 == 0 ? 110 : 140;
+                if (image.alpha(x, y) == 0) image.grey(x, y) = (x / 16 + y / 16) % 2 == 0 ? 110 : 140;
             }
         }
     }
-    const auto found = PointFollower::look_at(turn.pictures, 1, {}, nullptr)->follow(nullptr);
+    const auto found = PointTracker::detect(turn.images, 1, {}, nullptr)->track(nullptr);
     ASSERT_TRUE(found.ok());
     ASSERT_FALSE(found->tracks.empty());
     for (const Track& track : found->tracks) {
         for (const Observation& seen : track.seen) {
-            const CalibrationPicture& picture = turn.pictures[static_cast<std::size_t>(seen.view)];
-            EXPECT_GT(picture.alpha(static_cast<int>(seen.p.x), static_cast<int>(seen.p.y)), 250);
+            const CalibrationImage& image = turn.images[static_cast<std::size_t>(seen.view)];
+            EXPECT_GT(image.alpha(static_cast<int>(seen.p.x), static_cast<int>(seen.p.y)), 250);
         }
     }
 }
 
-TEST(Tracks, CalibrationPicturesAreMeans) {
-    Image<Rgba8> picture(5, 4, {100, 100, 100, 255});
-    picture(0, 0) = {200, 200, 200, 255};
-    picture(2, 0).a = 1;
-    const CalibrationPicture half = calibration_picture(picture, 2);
+TEST(Tracks, CalibrationImagesAreMeans) {
+    Image<Rgba8> image(5, 4, {100, 100, 100, 255});
+    image(0, 0) = {200, 200, 200, 255};
+    image(2, 0).a = 1;
+    const CalibrationImage half = calibration_image(image, 2);
     EXPECT_EQ(half.grey.width(), 2);
     EXPECT_EQ(half.grey.height(), 2);
     EXPECT_EQ(half.grey(0, 0), 125);
@@ -182,7 +182,7 @@ TEST(Tracks, CalibrationPicturesAreMeans) {
 TEST(TrackCalibration, FindsTheTurnOfADrum) {
     KnownInputs sense;
     sense.counter_clockwise = false;
-    const auto found = calibrate_with_tracks(drum_pictures(), sense, nullptr);
+    const auto found = calibrate_with_tracks(drum_images(), sense, nullptr);
     ASSERT_TRUE(found.ok()) << found.error().message;
     const Calibration& calibration = found->calibration;
     const TurntableModel expected = truth();
@@ -201,27 +201,27 @@ TEST(TrackCalibration, FindsTheTurnOfADrum) {
     EXPECT_LT(*calibration.held_out_rms_px, 0.5);
     EXPECT_GT(*calibration.held_out_rms_px, 0);
     EXPECT_TRUE(calibration.warnings.empty()) << calibration.warnings[0];
-    // The deviations own up to the errors.
+    // The deviations cover the errors.
     EXPECT_LT(std::abs(calibration.model.lens.f_px - expected.lens.f_px), 4 * calibration.deviations.f_px);
     EXPECT_LT(calibration.deviations.f_px, 0.05 * expected.lens.f_px);
 }
 
-// A lens that explains the points best but folds the picture's corners over: something else bends their ways.
-TEST(TrackCalibration, TakesNoLensThatFoldsItsPicture) {
+// The best lens folds the image corners over: another effect than distortion causes the deviations.
+TEST(TrackCalibration, TakesNoLensThatFoldsItsImage) {
     TurntableModel bent = truth();
     bent.lens.k1 = -3;
     ASSERT_FALSE(undistorted(bent.lens, {0, 0}).has_value());
-    const auto found = calibrate_with_tracks(pictures_of(bent), lens_and_sense(), nullptr);
+    const auto found = calibrate_with_tracks(images_of(bent), lens_and_sense(), nullptr);
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_EQ(found->calibration.model.lens.k1, 0);
-    EXPECT_THAT(found->calibration.warnings, Contains(HasSubstr("do not show how the lens distorts")));
+    EXPECT_THAT(found->calibration.warnings, Contains(HasSubstr("do not determine the lens distortion")));
 }
 
 TEST(TrackCalibration, NamesTheViewsThatStandWrongOrAreBlurred) {
     TurntableModel model = truth();
     model.angles_rad[9] += radians(1.8);
-    TurnPictures turn = pictures_of(model);
-    Image<std::uint8_t>& grey = turn.pictures[17].grey;
+    TurnImages turn = images_of(model);
+    Image<std::uint8_t>& grey = turn.images[17].grey;
     cv::Mat wrapped(grey.height(), grey.width(), CV_8U, &grey(0, 0), static_cast<std::size_t>(grey.view().stride()));
     cv::GaussianBlur(wrapped, wrapped, {}, 7);
     const auto found = calibrate_with_tracks(turn, lens_and_sense(), nullptr);
@@ -231,20 +231,20 @@ TEST(TrackCalibration, NamesTheViewsThatStandWrongOrAreBlurred) {
     EXPECT_THAT(warnings, Contains(AllOf(HasSubstr("017.jpg"), HasSubstr("is it blurred?"))));
 }
 
-TEST(TrackCalibration, SaysWhatIsWrongWithPicturesThatMakeNoTurn) {
-    const auto message = [](const TurnPictures& turn) {
+TEST(TrackCalibration, SaysWhatIsWrongWithImagesThatMakeNoTurn) {
+    const auto message = [](const TurnImages& turn) {
         const auto found = calibrate_with_tracks(turn, lens_and_sense(), nullptr);
         EXPECT_FALSE(found.ok());
         return found.ok() ? "" : found.error().message;
     };
-    TurnPictures few = drum_pictures();
-    few.pictures.resize(3);
+    TurnImages few = drum_images();
+    few.images.resize(3);
     few.names.resize(3);
     EXPECT_THAT(message(few), HasSubstr("take at least 5"));
 
     test::Drum plain;
     plain.is_spotted = false;
-    EXPECT_THAT(message(pictures_of(truth(), plain)), HasSubstr("needs a board under it (rs-capture board)"));
+    EXPECT_THAT(message(images_of(truth(), plain)), HasSubstr("needs a board under it (rs-capture board)"));
 }
 
 }  // namespace

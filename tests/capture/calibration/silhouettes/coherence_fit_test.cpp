@@ -29,19 +29,19 @@ TurntableModel drifted(TurntableModel model) {
 }
 
 struct Known {
-    NumberPlaces places;
+    ParameterIndices places;
     Eigen::MatrixXd covariance;
 };
 
-// What points that are followed for a short way know: steps well, their sums badly.
+// Covariance from short tracks: steps are accurate, their sums are not.
 Known known_by_short_tracks(const TurntableModel& model) {
     BundleFreedom free;
     free.k1 = true;
-    NumberPlaces places(free, std::vector<bool>(model.angles_rad.size(), true));
+    ParameterIndices places(free, std::vector<bool>(model.angles_rad.size(), true));
     Eigen::VectorXd deviation = Eigen::VectorXd::Constant(places.count, radians(0.03));
     deviation(places.camera[0]) = 0.01 * model.lens.f_px;
     deviation(places.camera[3]) = 0.02;
-    for (std::size_t k = CameraNumber::kPan; k < kCameraNumbers; ++k) deviation(places.camera[k]) = radians(0.1);
+    for (std::size_t k = CameraParameter::kPan; k < kCameraParameters; ++k) deviation(places.camera[k]) = radians(0.1);
     Eigen::MatrixXd covariance = deviation.cwiseAbs2().asDiagonal();
     for (const int harmonic : {1, 2}) {
         for (const double phase : {0.0, kPi / 2}) {
@@ -55,7 +55,7 @@ Known known_by_short_tracks(const TurntableModel& model) {
     return {places, covariance};
 }
 
-// But for a turn of all.
+// Error without a common rotation.
 double angles_error_rad(const TurntableModel& found, const TurntableModel& truth) {
     const auto n = static_cast<double>(truth.angles_rad.size());
     double mean = 0, square = 0;
@@ -87,7 +87,7 @@ TEST(CoherenceFit, MendsAnglesThatDriftAroundTheTurn) {
     EXPECT_GT(angles_error_rad(start, truth), radians(0.4));
     EXPECT_LT(angles_error_rad(fit->model, truth), radians(0.15));
     EXPECT_LT(fit->consistency_residual_px, 0.2);
-    // It is known better now, and not better than it is.
+    // The deviations decrease, and still cover the error.
     double variance = 0, before = 0;
     for (const int place : places.angles) {
         if (place < 0) continue;
@@ -110,7 +110,7 @@ TEST(CoherenceFit, IsTheSameOnAnyNumberOfThreads) {
     EXPECT_EQ(many->model.lens.f_px, alone->model.lens.f_px);
 }
 
-// What a body of revolution shows is the same at any angle, and is no reason to turn or to bend anything.
+// A body of revolution looks the same at any angle; neither angles nor lens may change.
 TEST(CoherenceFit, ABodyOfRevolutionSaysNothing) {
     const TurntableModel truth = turn_of_figure(kCoherentViews);
     const auto [places, covariance] = known_by_short_tracks(truth);
@@ -123,8 +123,8 @@ TEST(CoherenceFit, ABodyOfRevolutionSaysNothing) {
 TEST(CoherenceFit, AnglesThatAreHeldStay) {
     const TurntableModel truth = turn_of_figure(kCoherentViews);
     BundleFreedom free;
-    free.angles = AngleFreedom::kHeld;
-    const NumberPlaces places(free, std::vector<bool>(truth.angles_rad.size(), true));
+    free.angles = AngleFreedom::kConstant;
+    const ParameterIndices places(free, std::vector<bool>(truth.angles_rad.size(), true));
     const Eigen::MatrixXd covariance = 1e-4 * Eigen::MatrixXd::Identity(places.count, places.count);
     const SilhouetteTurn turn = turn_of(masks_of_figure());
     EXPECT_FALSE(fit_coherence(truth, places, covariance, turn, turn.reduction(), {}).has_value());

@@ -21,7 +21,7 @@ TurntableModel in_px_of(const SilhouetteTurn& turn, TurntableModel model) {
     return model;
 }
 
-// A ray's least distance over all views, at many depths, the best of them looked at more finely: nothing is left out.
+// Exhaustive reference: minimum distance over all views at many depths, refined around the best.
 double plain_residual(const SilhouetteTurn& turn, const TurntableModel& model, std::size_t view, const glm::dvec2& edge,
                       double reach) {
     const auto direction = table_ray(model.lens, model.pose, edge);
@@ -75,8 +75,8 @@ TEST(ConsistencyResiduals, ResidualsAreThoseOfPlainSearch) {
         for (std::size_t view = 0; view < scene.turn.views(); ++view) {
             for (const glm::dvec2& edge : scene.turn.edges(view)) {
                 const double plain = plain_residual(scene.turn, model, view, edge, 0.25);
-                // Golden sections may end at the lesser of two tops; plain search goes in steps, and finds less than
-                // the best.
+                // Golden-section search may end at a local maximum; the reference samples in steps and may miss the
+                // maximum.
                 EXPECT_LT(fast[at], plain + 0.1) << at;
                 EXPECT_GT(fast[at], plain - 0.15) << at;
                 sum += std::abs(fast[at] - plain);
@@ -93,8 +93,8 @@ TEST(ConsistencyResiduals, WhatContradictsARayHereDoesSoBesideIt) {
     const TurntableModel model = in_px_of(scene.turn, bent(scene.truth));
     RayDepths depths;
     const std::vector<double> here = consistency_residuals_px(scene.turn, model, {}, &depths);
-    const std::vector<RayVerdict> verdicts = ray_verdicts(scene.turn, model, {}, depths, 1.5, 8);
-    const std::vector<double> again = residuals_by_verdicts(scene.turn, model, {}, verdicts);
+    const std::vector<RayContradictions> verdicts = find_contradictions(scene.turn, model, {}, depths, 1.5, 8);
+    const std::vector<double> again = residuals_from_contradictions(scene.turn, model, {}, verdicts);
     ASSERT_EQ(again.size(), here.size());
     std::size_t views = 0;
     for (std::size_t i = 0; i < here.size(); ++i) {
@@ -106,7 +106,7 @@ TEST(ConsistencyResiduals, WhatContradictsARayHereDoesSoBesideIt) {
     TurntableModel beside = model;
     beside.pose.roll_rad += 0.002;
     const std::vector<double> whole = consistency_residuals_px(scene.turn, beside, {}, &depths);
-    const std::vector<double> quick = residuals_by_verdicts(scene.turn, beside, {}, verdicts);
+    const std::vector<double> quick = residuals_from_contradictions(scene.turn, beside, {}, verdicts);
     double apart = 0, moved = 0;
     for (std::size_t i = 0; i < here.size(); ++i) {
         apart += std::abs(whole[i] - quick[i]);

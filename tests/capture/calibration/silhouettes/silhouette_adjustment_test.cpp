@@ -1,4 +1,4 @@
-// What the adjustment makes of residuals that are linear in their numbers, where the answer can be written down.
+// The adjustment of residuals that are linear in their numbers, with known solutions.
 
 #include "capture/calibration/silhouettes/silhouette_adjustment.hpp"
 
@@ -11,7 +11,7 @@
 namespace rs::capture {
 namespace {
 
-// Residuals z - at of both numbers, each `times` over, then others that no number changes.
+// Residuals z - at of both numbers, each `times` times, then others that are constant.
 struct Line {
     Eigen::Vector2d at{1, -2};
     int times = 50;
@@ -32,9 +32,9 @@ struct Line {
 
 constexpr double kFar_px = 1e6;  // no residual is an outlier
 
-Eigen::VectorXd adjusted(Line& line, const SilhouetteErrors& errors, double disbelief = 1) {
+Eigen::VectorXd adjusted(Line& line, const SilhouetteErrors& errors, double prior_scale = 1) {
     SilhouetteAdjustment adjustment(line.comparison(), errors);
-    adjustment.expect(errors, disbelief);
+    adjustment.expect(errors, prior_scale);
     Eigen::VectorXd z = Eigen::VectorXd::Zero(2);
     EXPECT_TRUE(adjustment.improve(z, 50, 1e-9));
     return z;
@@ -43,7 +43,7 @@ Eigen::VectorXd adjusted(Line& line, const SilhouetteErrors& errors, double disb
 TEST(SilhouetteAdjustment, WeighsOutlinesAgainstWhatWasKnown) {
     Line line;
     const SilhouetteErrors errors{4, kFar_px, 0.5};
-    // Each number has half of the four points: an information of 2 / 0.25 beside 1.
+    // Each number is measured by half of the four points: an information of 2 / 0.25, plus 1 of the prior.
     const double share = 8.0 / 9.0;
     const Eigen::VectorXd z = adjusted(line, errors);
     EXPECT_NEAR(z(0), share * 1, 1e-6);
@@ -53,7 +53,7 @@ TEST(SilhouetteAdjustment, WeighsOutlinesAgainstWhatWasKnown) {
     EXPECT_NEAR(information(0, 0), 8, 1e-6);
     EXPECT_NEAR(information(0, 1), 0, 1e-6);
     EXPECT_NEAR(adjustment.cost(z), 8 * std::pow(1 - share, 2) * 5 + share * share * 5, 1e-6);
-    line.times = 500;  // of the same outlines
+    line.times = 500;  // of the same silhouettes
     EXPECT_NEAR(adjusted(line, errors)(0), share, 1e-6);
     EXPECT_NEAR(adjusted(line, errors, 10)(0), 80.0 / 81.0, 1e-6);
 }
@@ -65,7 +65,7 @@ TEST(SilhouetteAdjustment, OutliersCountLittle) {
     line.others.assign(30, 40);
     EXPECT_NEAR(adjusted(line, errors)(0), before, 0.001);
     SilhouetteAdjustment adjustment(line.comparison(), errors);
-    // Of 130 residuals 30 are worth a whole outlier_px each, however far they are.
+    // 30 of 130 residuals saturate at outlier_px each, however large they are.
     EXPECT_NEAR(adjustment.cost(line.at), 1000 * 100 * 30 / 130.0 + 5, 30);
 }
 
@@ -73,12 +73,12 @@ TEST(SilhouetteAdjustment, OutlinesAreBelievedAsFarAsTheyAgree) {
     Line line;
     const SilhouetteErrors errors{40, kFar_px, 0.1, true};
     SilhouetteAdjustment fine(line.comparison(), errors);
-    EXPECT_NEAR(fine.information(line.at)(0, 0), 40 / 0.01 / 2, 1e-3);  // no more than 0.1 px allow
+    EXPECT_NEAR(fine.information(line.at)(0, 0), 40 / 0.01 / 2, 1e-3);  // limited by the deviation of 0.1 px
     line.others.assign(100, 0.5);
     line.others.insert(line.others.end(), 100, -0.5);
     SilhouetteAdjustment coarse(line.comparison(), errors);
     EXPECT_NEAR(coarse.information(line.at)(0, 0), 40.0 / (200 * 0.25) * 50, 1e-3);
-    // Where the cost is least its slope is none: n dS / S + 2 z.
+    // At the minimum the derivative of the cost is zero: n dS / S + 2 z.
     const Eigen::VectorXd z = adjusted(line, errors);
     const double off = z(0) - 1, sum = 50 * 5 * off * off + 200 * 0.25;
     EXPECT_NEAR(40 * 50 * off / sum + z(0), 0, 1e-4);

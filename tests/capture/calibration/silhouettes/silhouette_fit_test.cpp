@@ -14,7 +14,7 @@ TEST(SilhouetteFit, FindsAKnownOffsetWithinItsDeviations) {
     TurntableModel truth = turn_of_figure(16);
     const SilhouetteTurn turn = *SilhouetteTurn::of(drawn(figure(), truth));
     for (double* const px : {&truth.lens.f_px, &truth.lens.cx, &truth.lens.cy}) *px /= turn.reduction();
-    SilhouetteParameters off;  // changes add up, so the fit must take them back
+    SilhouetteParameters off;  // changes are additive, so the fit must undo them
     off.value[SilhouetteParameters::kAxis] = 5;
     off.value[SilhouetteParameters::kTilt] = radians(-4);
     off.value[SilhouetteParameters::kRoll] = radians(1.5);
@@ -25,7 +25,7 @@ TEST(SilhouetteFit, FindsAKnownOffsetWithinItsDeviations) {
     const SilhouetteFit fit = fit_silhouettes(problem, {}, rays, 30);
     EXPECT_LT(fit.cost, 0.05 * silhouette_cost(problem, {}, rays));
     EXPECT_NEAR(fit.cost, silhouette_cost(problem, fit.at, rays), 1e-9 * fit.cost);
-    // What a deviation may be at most for the outlines to be of use: px, rad, rad, -, -.
+    // Largest useful deviations: px, rad, rad, -, -.
     constexpr std::array<double, SilhouetteParameters::kCount> kUseful = {0.3, 0.02, 0.005, 0, 0.005};
     for (std::size_t i = 0; i < SilhouetteParameters::kCount; ++i) {
         if (!problem.free[i]) {

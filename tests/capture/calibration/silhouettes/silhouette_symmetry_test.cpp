@@ -1,4 +1,4 @@
-// The axis from what the outlines of a turn cover together, of bodies without any symmetry whose axis is known.
+// Axis from the region that the silhouettes of a turn cover together, for asymmetric bodies with a known axis.
 
 #include "capture/calibration/silhouettes/silhouette_symmetry.hpp"
 
@@ -18,7 +18,7 @@ struct Ball {
     double radius = 0;
 };
 
-// Far from symmetrical: one arm, and a trunk beside the axis.
+// An asymmetric body: one arm, and a trunk beside the axis.
 std::vector<Ball> balls() {
     return {{{0.03, -0.24, 0.02}, 0.07},
             {{0.05, -0.30, -0.01}, 0.09},
@@ -35,9 +35,9 @@ TurntableModel turn_of_silhouettes(int views, double roll_rad = 0.01) {
     return model;
 }
 
-// `on_left_px`: by how much the cut-outs lack the left side of the object.
+// `on_left_px`: width that is missing at the left side of all masks.
 Image<std::uint8_t> covered_of(const TurntableModel& model, int on_left_px = 0) {
-    std::vector<CalibrationPicture> pictures;
+    std::vector<CalibrationImage> images;
     for (const double angle : model.angles_rad) {
         Image<std::uint8_t> alpha(model.lens.width, model.lens.height);
         for (int y = 0; y < alpha.height(); ++y) {
@@ -59,12 +59,12 @@ Image<std::uint8_t> covered_of(const TurntableModel& model, int on_left_px = 0) 
             for (int x = on_left_px; x < alpha.width(); ++x)
                 cut(x, y) = std::min(alpha(x, y), alpha(x - on_left_px, y));
         }
-        pictures.push_back({{}, std::move(cut)});
+        images.push_back({{}, std::move(cut)});
     }
-    return covered_together(pictures);
+    return union_of_alphas(images);
 }
 
-double error_px(const TurntableModel& truth, const AxisPlace& found) {
+double error_px(const TurntableModel& truth, const AxisPosition& found) {
     return found.position_px - axis_position(truth.lens, truth.pose, found.at_px).value();
 }
 
@@ -75,7 +75,7 @@ TEST(SilhouetteSymmetry, FindsTheAxisFromAStartBesideIt) {
         TurntableModel start = truth;
         start.pose.pan_rad += beside_rad;
         start.lens.f_px *= 1.02;
-        const auto found = axis_of_silhouettes(covered, 1, start);
+        const auto found = axis_from_silhouettes(covered, 1, start);
         ASSERT_TRUE(found);
         EXPECT_LT(std::abs(error_px(truth, *found)), 0.25) << beside_rad;
         EXPECT_LT(found->deviation_px, 0.3);
@@ -90,7 +90,7 @@ TEST(SilhouetteSymmetry, FindsAnAxisThatLiesSideways) {
     std::swap(truth.lens.cx, truth.lens.cy);
     TurntableModel start = truth;
     start.pose.pan_rad += 0.006;
-    const auto found = axis_of_silhouettes(covered_of(truth), 1, start);
+    const auto found = axis_from_silhouettes(covered_of(truth), 1, start);
     ASSERT_TRUE(found);
     EXPECT_LT(std::abs(error_px(truth, *found)), 0.25);
 }
@@ -101,58 +101,58 @@ TEST(SilhouetteSymmetry, CountsInPixelsOfThePhotographs) {
     for (double* number : {&photographs.lens.f_px, &photographs.lens.cx, &photographs.lens.cy}) *number *= 3;
     photographs.lens.width *= 3;
     photographs.lens.height *= 3;
-    const auto found = axis_of_silhouettes(covered_of(truth), 3, photographs);
+    const auto found = axis_from_silhouettes(covered_of(truth), 3, photographs);
     ASSERT_TRUE(found);
     EXPECT_LT(std::abs(error_px(photographs, *found)), 0.75);
 }
 
 TEST(SilhouetteSymmetry, IsLessSureOfFewerViewsAndSilentWithoutAFullTurn) {
     const TurntableModel many = turn_of_silhouettes(36), few = turn_of_silhouettes(12);
-    const auto of_many = axis_of_silhouettes(covered_of(many), 1, many);
-    const auto of_few = axis_of_silhouettes(covered_of(few), 1, few);
+    const auto of_many = axis_from_silhouettes(covered_of(many), 1, many);
+    const auto of_few = axis_from_silhouettes(covered_of(few), 1, few);
     ASSERT_TRUE(of_many && of_few);
     EXPECT_GT(of_few->deviation_px, 3 * of_many->deviation_px);
     EXPECT_GT(3 * of_few->deviation_px, std::abs(error_px(few, *of_few)));
     TurntableModel part = many;
     part.angles_rad.resize(30);
-    EXPECT_FALSE(axis_of_silhouettes(covered_of(part), 1, part));
+    EXPECT_FALSE(axis_from_silhouettes(covered_of(part), 1, part));
 }
 
-TEST(SilhouetteSymmetry, DoesNotUseRowsCutOffByThePicture) {
+TEST(SilhouetteSymmetry, DoesNotUseRowsCutOffByTheImage) {
     TurntableModel truth = turn_of_silhouettes(36);
     truth.pose.pan_rad = 0.235;  // the widest rows reach beyond the left border
     const Image<std::uint8_t> covered = covered_of(truth);
     int cut_off = 0;
     for (int y = 0; y < covered.height(); ++y) cut_off += covered(0, y) >= 128 ? 1 : 0;
     ASSERT_GT(cut_off, 10);
-    const auto found = axis_of_silhouettes(covered, 1, truth);
+    const auto found = axis_from_silhouettes(covered, 1, truth);
     ASSERT_TRUE(found);
     EXPECT_LT(std::abs(error_px(truth, *found)), std::max(0.4, 2 * found->deviation_px));
 }
 
-// What is lacking on one side is seen as an axis half as far beside: the sign of the measure.
+// A strip missing on one side shifts the axis by half its width; tests the sign of the measurement.
 TEST(SilhouetteSymmetry, FollowsWhatTheCutOutsLack) {
     const TurntableModel truth = turn_of_silhouettes(36);
-    const auto whole = axis_of_silhouettes(covered_of(truth), 1, truth);
-    const auto lacking = axis_of_silhouettes(covered_of(truth, 4), 1, truth);
+    const auto whole = axis_from_silhouettes(covered_of(truth), 1, truth);
+    const auto lacking = axis_from_silhouettes(covered_of(truth, 4), 1, truth);
     ASSERT_TRUE(whole && lacking);
     EXPECT_NEAR(lacking->position_px - whole->position_px, 2, 0.4);
 }
 
 TEST(AgreedAxis, WeighsWhatAgreesAndBelievesOutlinesWhereTextureGlides) {
-    const AxisPlace near = agreed_axis({300, 100.0, 0.2}, {300, 100.2, 0.2});
+    const AxisPosition near = combine_axes({300, 100.0, 0.2}, {300, 100.2, 0.2});
     EXPECT_NEAR(near.position_px, 100.1, 1e-9);
     EXPECT_NEAR(near.deviation_px, 0.2 / std::sqrt(2.0), 1e-9);
-    const AxisPlace apart = agreed_axis({300, 102.0, 0.2}, {300, 100.0, 0.2});
+    const AxisPosition apart = combine_axes({300, 102.0, 0.2}, {300, 100.0, 0.2});
     EXPECT_NEAR(apart.position_px, 100.0, 0.05);
     EXPECT_NEAR(apart.deviation_px, 0.2, 0.01);
-    const AxisPlace unsure = agreed_axis({300, 102.0, 0.2}, {300, 100.0, 2});
+    const AxisPosition unsure = combine_axes({300, 102.0, 0.2}, {300, 100.0, 2});
     EXPECT_NEAR(unsure.position_px, 102.0, 0.05);
 }
 
 TEST(AgreedAxis, IsReachedByThePanAlone) {
     const TurntableModel model = turn_of_silhouettes(36);
-    const auto moved = with_axis_at(model, {200, 190, 0.1});
+    const auto moved = move_axis_to(model, {200, 190, 0.1});
     ASSERT_TRUE(moved);
     EXPECT_NEAR(axis_position(moved->lens, moved->pose, 200).value(), 190, 1e-5);
     EXPECT_EQ(moved->pose.tilt_rad, model.pose.tilt_rad);

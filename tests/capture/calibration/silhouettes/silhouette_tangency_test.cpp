@@ -1,5 +1,5 @@
-// Camera and angles from tangent planes common to two outlines, of a cloud of points whose turn is known. The hull of a
-// cloud is a polyhedron, and tangent planes touch it at corners, so truth leaves no residual.
+// Camera and angles from common tangent planes of two silhouettes, for a point cloud with a known turn. The hull of a
+// cloud is a polyhedron, and tangent planes touch it at vertices, so the true model has no residual.
 
 #include "capture/calibration/silhouettes/silhouette_tangency.hpp"
 
@@ -38,7 +38,7 @@ std::vector<glm::dvec3> cloud() {
     return points;
 }
 
-// All points of the cloud as each view sees them: their hull is the outline's.
+// Projections of all points of the cloud into each view: their hull is that of the silhouette.
 std::vector<SilhouetteHull> hulls_of_cloud(const TurntableModel& model, double noise_px) {
     std::mt19937 random(7);
     const auto noise = [&] {
@@ -63,18 +63,18 @@ double largest(const std::vector<double>& values) {
     return most;
 }
 
-NumberPlaces all_places() {
+ParameterIndices all_places() {
     BundleFreedom free;
     free.k1 = true;
     return {free, std::vector<bool>(kTangencyViews, true)};
 }
 
-// What tracks know: f to 1 %, k1 to 0.05, directions to 0.1 degrees, angles to 0.2 degrees each.
-Eigen::MatrixXd roughly_known(const NumberPlaces& places, const TurntableModel& model) {
+// Covariance of typical tracks: f to 1 %, k1 to 0.05, directions to 0.1 degrees, angles to 0.2 degrees each.
+Eigen::MatrixXd roughly_known(const ParameterIndices& places, const TurntableModel& model) {
     Eigen::VectorXd deviation = Eigen::VectorXd::Constant(places.count, radians(0.2));
     deviation(places.camera[0]) = 0.01 * model.lens.f_px;
     deviation(places.camera[3]) = 0.05;
-    for (std::size_t k = CameraNumber::kPan; k < kCameraNumbers; ++k) deviation(places.camera[k]) = radians(0.1);
+    for (std::size_t k = CameraParameter::kPan; k < kCameraParameters; ++k) deviation(places.camera[k]) = radians(0.1);
     return deviation.cwiseAbs2().asDiagonal();
 }
 
@@ -96,7 +96,7 @@ TEST(SilhouetteTangency, FitMendsFocalLengthAndAnglesThatDrift) {
     start.pose.tilt_rad += radians(0.06);
     for (double& angle : start.angles_rad) angle += radians(0.15) * std::sin(angle);
     const auto hulls = hulls_of_cloud(truth, 0.05);
-    const NumberPlaces places = all_places();
+    const ParameterIndices places = all_places();
     const auto fit = fit_tangency(start, places, roughly_known(places, start), hulls, 0.3);
     ASSERT_TRUE(fit.has_value());
     EXPECT_NEAR(fit->model.lens.f_px / truth.lens.f_px, 1, 0.003);
@@ -112,7 +112,7 @@ TEST(SilhouetteTangency, FitMendsFocalLengthAndAnglesThatDrift) {
     EXPECT_GT(3 * std::sqrt(fit->covariance(f, f)), std::abs(fit->model.lens.f_px - truth.lens.f_px));
 }
 
-// A start whose f and tilt are off by several of the deviations of roughly_known().
+// A start whose f and tilt are off by several deviations of roughly_known().
 TurntableModel far_start(const TurntableModel& truth) {
     TurntableModel start = truth;
     start.lens.f_px *= 1.05;
@@ -128,7 +128,7 @@ TEST(SilhouetteTangency, OutlinesAreJudgedByHowTheyAgreeInTheEnd) {
     std::vector<double> before = tangency_residuals(start, hulls, comparable_views(start, hulls));
     for (double& residual : before) residual = std::abs(residual);
     EXPECT_GT(median(before), 2 * kWorst_px);
-    const NumberPlaces places = all_places();
+    const ParameterIndices places = all_places();
     const auto fit = fit_tangency(start, places, roughly_known(places, start), hulls, kWorst_px);
     ASSERT_TRUE(fit.has_value());
     EXPECT_LT(fit->deviation_px, kWorst_px);
@@ -138,7 +138,7 @@ TEST(SilhouetteTangency, OutlinesAreJudgedByHowTheyAgreeInTheEnd) {
 TEST(SilhouetteTangency, WhatClaimedTooMuchIsBelievedLess) {
     const TurntableModel truth = turn_of_cloud();
     const auto hulls = hulls_of_cloud(truth, 1);
-    const NumberPlaces places = all_places();
+    const ParameterIndices places = all_places();
     const auto known = roughly_known(places, truth);
     const auto near = fit_tangency(truth, places, known, hulls, 3);
     const auto far = fit_tangency(far_start(truth), places, known, hulls, 3);
@@ -150,7 +150,7 @@ TEST(SilhouetteTangency, WhatClaimedTooMuchIsBelievedLess) {
 
 TEST(SilhouetteTangency, OutlinesThatDoNotAgreeSayNothing) {
     const TurntableModel truth = turn_of_cloud();
-    const NumberPlaces places = all_places();
+    const ParameterIndices places = all_places();
     const auto known = roughly_known(places, truth);
     EXPECT_FALSE(fit_tangency(truth, places, known, hulls_of_cloud(truth, 4), 0.3).has_value());
     EXPECT_TRUE(fit_tangency(truth, places, known, hulls_of_cloud(truth, 4), 30).has_value());
@@ -162,16 +162,16 @@ TEST(SilhouetteTangency, HullsLieWhereAlphaIsHalf) {
     const TurntableModel model = turn_of_cloud();
     constexpr double kRadius_px = 40;
     const auto disc = [&](double x_px, double y_px) {
-        CalibrationPicture picture{Image<std::uint8_t>(360, 288), Image<std::uint8_t>(360, 288)};
+        CalibrationImage image{Image<std::uint8_t>(360, 288), Image<std::uint8_t>(360, 288)};
         for (int y = 0; y < 288; ++y) {
             for (int x = 0; x < 360; ++x) {
                 const double inside = kRadius_px - std::hypot(x + 0.5 - x_px, y + 0.5 - y_px);
-                picture.alpha(x, y) = static_cast<std::uint8_t>(std::lround(255 * std::clamp(inside + 0.5, 0.0, 1.0)));
+                image.alpha(x, y) = static_cast<std::uint8_t>(std::lround(255 * std::clamp(inside + 0.5, 0.0, 1.0)));
             }
         }
-        return picture;
+        return image;
     };
-    std::vector<CalibrationPicture> turn;
+    std::vector<CalibrationImage> turn;
     turn.push_back(disc(180.3, 140.6));
     turn.push_back(disc(20, 140));  // cut off
     const auto hulls = silhouette_hulls(turn, 2, model);

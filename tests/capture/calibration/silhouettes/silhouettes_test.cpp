@@ -32,7 +32,7 @@ double axis_error_px(const TurntableModel& found, const TurntableModel& truth) {
     return worst;
 }
 
-// Without the mean, which is a matter of convention.
+// Without the mean, which is a convention.
 double angles_rms_deg(const TurntableModel& found, const TurntableModel& truth) {
     const auto n = static_cast<double>(truth.angles_rad.size());
     double sum = 0;
@@ -64,7 +64,7 @@ TEST(Silhouettes, FindAxisTiltAndRollOfABodyWithoutSymmetry) {
     EXPECT_LT(angles_rms_deg(found->model, truth), 0.15);
     EXPECT_NEAR(degrees(found->step_rad), 360.0 / kViews, 0.1);
     EXPECT_TRUE(found->warnings.empty()) << found->warnings[0];
-    // The deviations own up to the errors and are of use.
+    // The deviations cover the errors and are small enough to be useful.
     const ModelDeviations& d = found->deviations;
     EXPECT_GT(3 * d.tilt_rad, std::abs(found->model.pose.tilt_rad - radians(15)));
     EXPECT_LT(d.tilt_rad, radians(1.5));
@@ -72,7 +72,7 @@ TEST(Silhouettes, FindAxisTiltAndRollOfABodyWithoutSymmetry) {
     EXPECT_LT(d.axis_position_px, 0.5);
     EXPECT_LT(d.f_px, 0.1 * truth.lens.f_px);
     EXPECT_LT(d.angles_rad[3], radians(1));
-    EXPECT_TRUE(std::isinf(d.cx));  // the principal point is an assumption
+    EXPECT_TRUE(std::isinf(d.cx));  // the principal point is assumed
 }
 
 TEST(Silhouettes, FindStepsThatAreNotEqual) {
@@ -105,7 +105,7 @@ TEST(Silhouettes, FindStepsThatAreNotEqual) {
     EXPECT_NEAR(degrees(angles_rad[1]), 360.0 / kViews, 0.1);
 }
 
-// With masks that are smaller than the photographs.
+// With masks smaller than the photos.
 TEST(Silhouettes, HoldWhatIsKnown) {
     const TurntableModel truth = turn_of_figure(kViews);
     TurntableModel start = level_start(truth);
@@ -137,7 +137,7 @@ TEST(Silhouettes, DoNotPretendToKnowWhatABodyOfRevolutionHides) {
     const std::vector<Image<std::uint8_t>> masks(24, drawn(bottle(), one_view)[0]);
     const auto found = calibrate_with_silhouettes(masks, level_start(truth), {});
     ASSERT_TRUE(found.ok()) << found.error().message;
-    // Where the axis runs in the picture is seen.
+    // The position of the axis in the image is determined.
     EXPECT_LT(axis_error_px(found->model, truth), 1);
     const ModelDeviations& d = found->deviations;
     EXPECT_GT(d.tilt_rad, radians(10));
@@ -146,7 +146,7 @@ TEST(Silhouettes, DoNotPretendToKnowWhatABodyOfRevolutionHides) {
     EXPECT_GT(3 * d.f_px, std::abs(found->model.lens.f_px - truth.lens.f_px));
     EXPECT_LT(std::abs(found->model.pose.tilt_rad), radians(20));
     EXPECT_TRUE(std::isinf(d.angles_rad[3]));
-    EXPECT_LT(angles_rms_deg(found->model, truth), 0.01);  // where the start has them
+    EXPECT_LT(angles_rms_deg(found->model, truth), 0.01);  // equal to the start
     ASSERT_FALSE(found->warnings.empty());
     EXPECT_NE(found->warnings[0].find("how far the camera looks down"), std::string::npos);
 }
@@ -170,17 +170,17 @@ TEST(Silhouettes, RefuseInputsThatDoNotFitTogether) {
     masks[4] = Image<std::uint8_t>(320, 240);
     EXPECT_NE(message(masks, truth).find("view 5 shows no object"), std::string::npos);
     masks[4] = Image<std::uint8_t>(320, 240, 255);
-    EXPECT_NE(message(masks, truth).find("view 5 has hardly any outline"), std::string::npos);
+    EXPECT_NE(message(masks, truth).find("view 5 has hardly any contour"), std::string::npos);
     masks[4] = Image<std::uint8_t>(32, 24, 255);
     EXPECT_NE(message(masks, truth).find("view 5 differs in size"), std::string::npos);
     masks.resize(3);
-    EXPECT_NE(message(masks, truth).find("3 views say too little"), std::string::npos);
+    EXPECT_NE(message(masks, truth).find("3 views are too few"), std::string::npos);
     TurntableModel other = truth;
     other.angles_rad.pop_back();
     EXPECT_NE(message(figure_masks(), other).find("23 angles"), std::string::npos);
     other = truth;
     other.lens.width = 400;
-    EXPECT_NE(message(figure_masks(), other).find("no reduced pictures"), std::string::npos);
+    EXPECT_NE(message(figure_masks(), other).find("no reduced images"), std::string::npos);
 }
 
 TEST(Silhouettes, TheOtherSenseOfTurningIsNoticed) {
@@ -190,10 +190,10 @@ TEST(Silhouettes, TheOtherSenseOfTurningIsNoticed) {
     const auto found = calibrate_with_silhouettes(figure_masks(), start, {});
     if (found.ok()) {
         ASSERT_FALSE(found->warnings.empty());
-        EXPECT_NE(found->warnings[0].find("the other sense of turning"), std::string::npos) << found->warnings[0];
+        EXPECT_NE(found->warnings[0].find("the other direction of turning"), std::string::npos) << found->warnings[0];
         EXPECT_LT(found->model.pose.tilt_rad, 0);
     } else {
-        EXPECT_NE(found.error().message.find("sense of turning"), std::string::npos);
+        EXPECT_NE(found.error().message.find("direction of turning"), std::string::npos);
     }
 }
 

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-// A turn judged as calibrate_with_tracks() judges one.
+// Runs the checks of calibrate_with_tracks() on a turn.
 struct Judged {
     Status accepted;
     std::vector<std::string> warnings;
@@ -28,19 +28,19 @@ struct Judged {
 
 Judged judge(const std::vector<Track>& tracks, const TurntableModel& start, std::vector<int> features = {}) {
     BundleOptions options;
-    Bundle bundle = make_agreeing_bundle(start, tracks, 12);
+    Bundle bundle = make_robust_bundle(start, tracks, 12);
     for (const double limit_px : {6.0, 3.0}) {
         EXPECT_TRUE(adjust(bundle, options).has_value());
-        bundle = make_agreeing_bundle(bundle.model, tracks, limit_px);
+        bundle = make_robust_bundle(bundle.model, tracks, limit_px);
     }
     EXPECT_TRUE(adjust(bundle, options).has_value());
     const std::size_t views = start.angles_rad.size();
     const std::vector<int> candidates = observations_per_view(tracks, views);
     if (features.empty()) features.assign(views, 500);
-    const ModelDeviations deviations = bundle_deviations(bundle, options, 400);
+    const ModelDeviations deviations = bundle_standard_deviations(bundle, options, 400);
     const std::vector<std::string> names = test::photograph_names(views);
     std::vector<std::string> warnings = step_warnings(bundle.model.angles_rad, deviations, names);
-    for (std::string& line : picture_warnings(bundle, candidates, features, names)) warnings.push_back(std::move(line));
+    for (std::string& line : image_warnings(bundle, candidates, features, names)) warnings.push_back(std::move(line));
     return {accept(bundle, deviations, candidates, names), std::move(warnings)};
 }
 
@@ -71,15 +71,15 @@ TEST(TurnDiagnosis, NamesTheViewThatStandsWrong) {
     }
 }
 
-TEST(TurnDiagnosis, NamesAStepGapAndPictureTakenTwice) {
+TEST(TurnDiagnosis, NamesAStepGapAndImageTakenTwice) {
     const TurntableModel equal = test::turn_model(30, -radians(10));
     TurntableModel truth = equal;
-    for (std::size_t i = 12; i < 30; ++i) truth.angles_rad[i] -= radians(10);  // one picture is missing
+    for (std::size_t i = 12; i < 30; ++i) truth.angles_rad[i] -= radians(10);  // one image is missing
     EXPECT_THAT(judge(truth, truth).warnings, Contains(HasSubstr("gap of 20.0 degrees between 011.jpg and 012.jpg")));
 
     truth = equal;
     for (std::size_t i = 5; i < 30; ++i) truth.angles_rad[i] += radians(10);  // the turntable had not turned
-    EXPECT_THAT(judge(truth, truth).warnings, Contains(HasSubstr("005.jpg stands where 004.jpg does")));
+    EXPECT_THAT(judge(truth, truth).warnings, Contains(HasSubstr("005.jpg is at the angle of 004.jpg")));
     EXPECT_THAT(repeated_views(truth.angles_rad), ElementsAre(5));
 
     truth = equal;
@@ -87,7 +87,7 @@ TEST(TurnDiagnosis, NamesAStepGapAndPictureTakenTwice) {
     EXPECT_THAT(judge(truth, truth).warnings, Contains(HasSubstr("from 008.jpg to 009.jpg is 12.0 degrees")));
 }
 
-// As of every n-th frame of a film.
+// As with every n-th frame of a video.
 TEST(TurnDiagnosis, ManyUnevenStepsAreOneLine) {
     TurntableModel truth = test::turn_model(36, radians(10));
     for (std::size_t i = 1; i < truth.angles_rad.size(); i += 2) truth.angles_rad[i] += radians(2);
@@ -137,7 +137,7 @@ TEST(TurnDiagnosis, NamesAViewWhoseObjectWasMoved) {
     EXPECT_THAT(judged.warnings, Contains(AllOf(HasSubstr("020.jpg does not fit"), HasSubstr("leave it out"))));
 }
 
-// From view `from` on the camera stands elsewhere.
+// The camera is moved from view `from` on.
 Judged with_moved_tripod(std::size_t from) {
     const TurntableModel truth = test::turn_model(36, radians(10));
     test::ModelOfView models(36, truth);
@@ -149,7 +149,7 @@ Judged with_moved_tripod(std::size_t from) {
     return judge(test::tracks_of(models, test::surface_points(250, 33), 0.2, 33), truth);
 }
 
-TEST(TurnDiagnosis, AMovedTripodIsAnErrorThatNamesThePicture) {
+TEST(TurnDiagnosis, AMovedTripodIsAnErrorThatNamesTheImage) {
     for (const std::size_t from : {14U, 18U, 22U}) {
         const Judged judged = with_moved_tripod(from);
         ASSERT_FALSE(judged.accepted.ok());
@@ -171,7 +171,7 @@ TEST(TurnDiagnosis, TwoCamerasAreAnErrorThatSaysSo) {
     EXPECT_THAT(judged.accepted.error().message, Not(HasSubstr("tripod")));
 }
 
-TEST(TurnDiagnosis, PicturesOutOfOrderAreAnError) {
+TEST(TurnDiagnosis, ImagesOutOfOrderAreAnError) {
     TurntableModel shuffled = test::turn_model(36, radians(10));
     for (std::size_t i = 1; i + 1 < 36; i += 3) std::swap(shuffled.angles_rad[i], shuffled.angles_rad[i + 1]);
     const Judged judged = judge(shuffled, shuffled);

@@ -1,7 +1,7 @@
 #include "capture/photos/background/background_model.hpp"
 
 #include "capture/photos/background/background_estimate.hpp"
-#include "tests/capture/photos/turn_of_pictures.hpp"
+#include "tests/capture/photos/turn_of_images.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -64,7 +64,7 @@ TEST(BackgroundModel, DarkRoomIsNotBlack) {
             }
         }
         EXPECT_EQ(estimate_background(survey_of(photos), {}, "x")->kind, kind);
-        photos.resize(3);  // too few to tell static pixels
+        photos.resize(3);  // too few to identify static pixels
         EXPECT_EQ(estimate_background(survey_of(photos), {}, "x")->kind, BackgroundKind::kBlack);
     }
 }

@@ -18,7 +18,7 @@ namespace {
 constexpr int kRows_width = 160, kRows_height = 120, kRows_frames = 12;
 constexpr std::uint8_t kGrey = 190;
 
-// A dark box that stands on row 80 and moves to the right from frame to frame.
+// A dark box on row 80 and moves to the right from frame to frame.
 bool in_box(int frame, int x, int y) {
     return std::abs(x - 60 - 3 * frame) < 16 && y >= 30 && y < 80;
 }

@@ -1,6 +1,6 @@
 #include "capture/photos/foreground/alpha_estimation.hpp"
 
-#include "tests/capture/photos/turn_of_pictures.hpp"
+#include "tests/capture/photos/turn_of_images.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-// Frame selection on synthetic films with known angles.
+// Frame selection on synthetic videos with known angles.
 
-#include "capture/photos/intake/film/frame_selection.hpp"
+#include "capture/photos/intake/video/frame_selection.hpp"
 
 #include "tests/capture/photos/intake/turning_ellipsoid.hpp"
 
@@ -14,7 +14,7 @@
 namespace rs::capture {
 namespace {
 
-// Synthetic film with the angle of each frame.
+// Synthetic video with the angle of each frame.
 struct Film {
     std::vector<double> angles_deg;
     std::vector<FrameCopy> copies;
@@ -25,18 +25,18 @@ Film make_film(
     const std::function<test::TurningEllipsoid(std::size_t)>& look = [](std::size_t) {
         return test::TurningEllipsoid();
     }) {
-    Film film;
+    Film video;
     for (std::size_t i = 0; i < frames; ++i) {
-        film.angles_deg.push_back(angle_deg(i));
-        film.copies.push_back(make_frame_copy(test::film_frame(look(i), radians(film.angles_deg.back()))));
+        video.angles_deg.push_back(angle_deg(i));
+        video.copies.push_back(make_frame_copy(test::film_frame(look(i), radians(video.angles_deg.back()))));
     }
-    return film;
+    return video;
 }
 
-std::vector<double> gaps_deg(const Film& film, const FrameSelection& selection) {
+std::vector<double> gaps_deg(const Film& video, const FrameSelection& selection) {
     std::vector<double> gaps;
     for (std::size_t k = 1; k < selection.frames.size(); ++k) {
-        gaps.push_back(film.angles_deg[selection.frames[k]] - film.angles_deg[selection.frames[k - 1]]);
+        gaps.push_back(video.angles_deg[selection.frames[k]] - video.angles_deg[selection.frames[k - 1]]);
     }
     return gaps;
 }
@@ -54,39 +54,39 @@ double relative_deviation(const std::vector<double>& values) {
     return std::sqrt(squares / static_cast<double>(values.size())) / m;
 }
 
-double turn_deg(const Film& film, const TurnRange& turn) {
-    return film.angles_deg[turn.end] - film.angles_deg[turn.begin];
+double turn_deg(const Film& video, const TurnRange& turn) {
+    return video.angles_deg[turn.end] - video.angles_deg[turn.begin];
 }
 
 TEST(FrameSelection, SelectsOneTurnEvenly) {
-    Film film = make_film(300, [](std::size_t i) { return 1.5 * static_cast<double>(i); });
-    const FrameSelection selection = select_frames(film.copies, {}, nullptr);
+    Film video = make_film(300, [](std::size_t i) { return 1.5 * static_cast<double>(i); });
+    const FrameSelection selection = select_frames(video.copies, {}, nullptr);
     ASSERT_TRUE(selection.turn.is_closed);
     EXPECT_TRUE(selection.is_speed_measured);
-    EXPECT_NEAR(turn_deg(film, selection.turn), 360, 1.5);
+    EXPECT_NEAR(turn_deg(video, selection.turn), 360, 1.5);
     EXPECT_GE(selection.frames.size(), 66U);
     EXPECT_LE(selection.frames.size(), 72U);
-    EXPECT_LT(relative_deviation(gaps_deg(film, selection)), 0.25);
+    EXPECT_LT(relative_deviation(gaps_deg(video, selection)), 0.25);
 }
 
 TEST(FrameSelection, SelectsTheRequestedCount) {
-    Film film = make_film(320, [](std::size_t i) { return 1.25 * static_cast<double>(i); });
-    const FrameSelection selection = select_frames(film.copies, {48, false}, nullptr);
+    Film video = make_film(320, [](std::size_t i) { return 1.25 * static_cast<double>(i); });
+    const FrameSelection selection = select_frames(video.copies, {48, false}, nullptr);
     EXPECT_EQ(selection.frames.size(), 48U);
-    EXPECT_LT(relative_deviation(gaps_deg(film, selection)), 0.2);
+    EXPECT_LT(relative_deviation(gaps_deg(video, selection)), 0.2);
 }
 
 TEST(FrameSelection, FollowsATurntableThatSpeedsUp) {
     // Three times as fast at the end.
-    Film film = make_film(400, [](std::size_t i) {
+    Film video = make_film(400, [](std::size_t i) {
         const double t = static_cast<double>(i) / 399;
         return 400 * (t + t * t) / 2;
     });
-    const FrameSelection selection = select_frames(film.copies, {}, nullptr);
+    const FrameSelection selection = select_frames(video.copies, {}, nullptr);
     ASSERT_TRUE(selection.turn.is_closed);
-    EXPECT_NEAR(turn_deg(film, selection.turn), 360, 1.5);
+    EXPECT_NEAR(turn_deg(video, selection.turn), 360, 1.5);
     EXPECT_TRUE(selection.is_speed_measured);
-    const std::vector<double> gaps = gaps_deg(film, selection);
+    const std::vector<double> gaps = gaps_deg(video, selection);
     EXPECT_LT(relative_deviation(gaps), 0.25);
     const std::vector<double> first(gaps.begin(), gaps.begin() + 20), last(gaps.end() - 20, gaps.end());
     EXPECT_NEAR(mean(last) / mean(first), 1, 0.2);
@@ -99,58 +99,58 @@ TEST(FrameSelection, FollowsTheTrendWhereTheCameraIsLevel) {
         level.radii = {40, 40, 40};
         return level;
     };
-    Film film = make_film(
+    Film video = make_film(
         300,
         [](std::size_t i) {
             const double t = static_cast<double>(i) / 299;
             return 400 * (t + t * t / 2) / 1.5;
         },
         look);
-    const FrameSelection selection = select_frames(film.copies, {}, nullptr);
+    const FrameSelection selection = select_frames(video.copies, {}, nullptr);
     ASSERT_TRUE(selection.turn.is_closed);
     EXPECT_FALSE(selection.is_speed_measured);
-    const std::vector<double> gaps = gaps_deg(film, selection);
+    const std::vector<double> gaps = gaps_deg(video, selection);
     const std::vector<double> first(gaps.begin(), gaps.begin() + 20), last(gaps.end() - 20, gaps.end());
     EXPECT_NEAR(mean(last) / mean(first), 1, 0.25);
 }
 
 TEST(FrameSelection, RemovesFramesWithoutRotation) {
-    // Stands still for 60 frames, turns by 420 degrees in 280, and stands still again.
-    Film film = make_film(
+    // Pauses for 60 frames, turns by 420 degrees in 280, and pauses again.
+    Film video = make_film(
         400, [](std::size_t i) { return 1.5 * static_cast<double>(std::clamp<std::size_t>(i, 60, 340) - 60); });
-    const FrameSelection selection = select_frames(film.copies, {}, nullptr);
+    const FrameSelection selection = select_frames(video.copies, {}, nullptr);
     ASSERT_TRUE(selection.turn.is_closed);
     EXPECT_GE(selection.turn.begin, 57U);
-    EXPECT_NEAR(turn_deg(film, selection.turn), 360, 1.5);
+    EXPECT_NEAR(turn_deg(video, selection.turn), 360, 1.5);
 }
 
 TEST(FrameSelection, KeepsOneOfTwoTurns) {
-    Film film = make_film(500, [](std::size_t i) { return 10 + 1.6 * static_cast<double>(i); });
-    const FrameSelection selection = select_frames(film.copies, {}, nullptr);
+    Film video = make_film(500, [](std::size_t i) { return 10 + 1.6 * static_cast<double>(i); });
+    const FrameSelection selection = select_frames(video.copies, {}, nullptr);
     ASSERT_TRUE(selection.turn.is_closed);
-    EXPECT_NEAR(turn_deg(film, selection.turn), 360, 1.6);
+    EXPECT_NEAR(turn_deg(video, selection.turn), 360, 1.6);
 }
 
 TEST(FrameSelection, SelectsAllOfAPartialTurn) {
-    Film film = make_film(250, [](std::size_t i) { return 1.2 * static_cast<double>(i); });
-    const FrameSelection selection = select_frames(film.copies, {60, false}, nullptr);
+    Film video = make_film(250, [](std::size_t i) { return 1.2 * static_cast<double>(i); });
+    const FrameSelection selection = select_frames(video.copies, {60, false}, nullptr);
     EXPECT_FALSE(selection.turn.is_closed);
     EXPECT_LE(selection.turn.begin, 4U);
     EXPECT_GE(selection.turn.end, 246U);
     EXPECT_EQ(selection.frames.size(), 60U);
-    EXPECT_LT(relative_deviation(gaps_deg(film, selection)), 0.25);
+    EXPECT_LT(relative_deviation(gaps_deg(video, selection)), 0.25);
 }
 
 TEST(FrameSelection, PrefersSharpFrames) {
     const auto is_sharp = [](std::size_t i) { return i % 3 == 1; };
-    Film film = make_film(
+    Film video = make_film(
         280, [](std::size_t i) { return 1.5 * static_cast<double>(i); },
         [&](std::size_t i) {
             test::TurningEllipsoid look;
             look.blur_rad = is_sharp(i) ? 0 : radians(5);
             return look;
         });
-    const FrameSelection selection = select_frames(film.copies, {}, nullptr);
+    const FrameSelection selection = select_frames(video.copies, {}, nullptr);
     const auto sharp = std::ranges::count_if(selection.frames, is_sharp);
     EXPECT_GE(static_cast<double>(sharp), 0.95 * static_cast<double>(selection.frames.size()));
     EXPECT_GE(selection.frames.size(), 36U);
@@ -159,36 +159,36 @@ TEST(FrameSelection, PrefersSharpFrames) {
 TEST(FrameSelection, SkipsStepsWithBlurredFramesUnlessACountIsGiven) {
     // Sharp only every 10 degrees.
     const auto look = [](std::size_t i) {
-        test::TurningEllipsoid film;
-        film.blur_rad = i % 10 == 0 ? 0 : radians(6);
-        return film;
+        test::TurningEllipsoid video;
+        video.blur_rad = i % 10 == 0 ? 0 : radians(6);
+        return video;
     };
     const auto angle = [](std::size_t i) { return static_cast<double>(i); };
-    Film film = make_film(380, angle, look);
-    const FrameSelection free = select_frames(film.copies, {}, nullptr);
+    Film video = make_film(380, angle, look);
+    const FrameSelection free = select_frames(video.copies, {}, nullptr);
     EXPECT_NEAR(static_cast<double>(free.frames.size()), 36, 3);
-    const FrameSelection exact = select_frames(film.copies, {72, false}, nullptr);
+    const FrameSelection exact = select_frames(video.copies, {72, false}, nullptr);
     EXPECT_EQ(exact.frames.size(), 72U);
 }
 
 TEST(FrameSelection, IgnoresExposureChanges) {
     const auto look = [](std::size_t i) {
-        test::TurningEllipsoid film;
-        film.exposure = 1 + 0.2 * std::sin(0.05 * static_cast<double>(i));
-        return film;
+        test::TurningEllipsoid video;
+        video.exposure = 1 + 0.2 * std::sin(0.05 * static_cast<double>(i));
+        return video;
     };
-    Film film = make_film(
+    Film video = make_film(
         300, [](std::size_t i) { return 1.4 * static_cast<double>(i); }, look);
-    const FrameSelection selection = select_frames(film.copies, {}, nullptr);
+    const FrameSelection selection = select_frames(video.copies, {}, nullptr);
     ASSERT_TRUE(selection.turn.is_closed);
-    EXPECT_NEAR(turn_deg(film, selection.turn), 360, 1.5);
-    EXPECT_LT(relative_deviation(gaps_deg(film, selection)), 0.25);
+    EXPECT_NEAR(turn_deg(video, selection.turn), 360, 1.5);
+    EXPECT_LT(relative_deviation(gaps_deg(video, selection)), 0.25);
 }
 
 TEST(FrameSelection, AcceptsFewFrames) {
     for (const std::size_t count : {1U, 2U, 3U, 7U, 12U}) {
-        Film film = make_film(count, [](std::size_t i) { return 20 * static_cast<double>(i); });
-        const FrameSelection selection = select_frames(film.copies, {}, nullptr);
+        Film video = make_film(count, [](std::size_t i) { return 20 * static_cast<double>(i); });
+        const FrameSelection selection = select_frames(video.copies, {}, nullptr);
         EXPECT_LE(selection.frames.size(), count);
         EXPECT_GE(selection.frames.size(), (count + 1) / 2);
         EXPECT_TRUE(std::ranges::is_sorted(selection.frames));
@@ -196,8 +196,8 @@ TEST(FrameSelection, AcceptsFewFrames) {
 }
 
 TEST(FrameSelection, AcceptsAFilmWithoutMotion) {
-    Film film = make_film(40, [](std::size_t) { return 0.0; });
-    const FrameSelection selection = select_frames(film.copies, {}, nullptr);
+    Film video = make_film(40, [](std::size_t) { return 0.0; });
+    const FrameSelection selection = select_frames(video.copies, {}, nullptr);
     EXPECT_FALSE(selection.turn.is_closed);
     EXPECT_EQ(std::ranges::count(selection.moving.pixels(), 0), std::ssize(selection.moving.pixels()));
 }

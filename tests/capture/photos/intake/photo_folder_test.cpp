@@ -1,8 +1,8 @@
 #include "capture/photos/intake/photo_folder.hpp"
 
-#include "capture/photos/intake/photograph.hpp"
+#include "capture/photos/intake/photo_reader.hpp"
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/camera_jpeg.hpp"
 #include "tests/support/png_header.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -21,7 +21,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-void write_picture(const std::filesystem::path& path, int width, int height) {
+void write_image(const std::filesystem::path& path, int width, int height) {
     const Status status = write_png(path, Image<Rgba8>(width, height, Rgba8{1, 2, 3, 255}));
     ASSERT_TRUE(status.ok()) << status.error().message;
 }
@@ -54,14 +54,14 @@ TEST(NaturalOrder, IsTotal) {
     }
 }
 
-TEST(PhotoFolder, ListsPicturesOnlyInOrder) {
+TEST(PhotoFolder, ListsImagesOnlyInOrder) {
     const test::TemporaryFolder folder;
     for (const char* name : {"10.png", "9.png", "2.PNG"}) {
-        // The writer chooses the format by itself; the name's case is what is tested.
-        write_picture(folder / "x.png", 4, 3);
+        // The writer detects the format from the lower-case extension; the test is about the case of the name.
+        write_image(folder / "x.png", 4, 3);
         std::filesystem::rename(folder / "x.png", folder / name);
     }
-    std::ofstream(folder / "notes.txt") << "not a picture";
+    std::ofstream(folder / "notes.txt") << "not an image";
     std::ofstream(folder / ".hidden.png") << "not one either";
     const Result<PhotoFolder> found = open_photo_folder(folder.path());
     ASSERT_TRUE(found.ok()) << found.error().message;
@@ -73,7 +73,7 @@ TEST(PhotoFolder, ListsPicturesOnlyInOrder) {
     EXPECT_EQ(found->height, 3);
 }
 
-TEST(PhotoFolder, TakesAPictureOnceThatIsThereInTwoFormats) {
+TEST(PhotoFolder, TakesAImageOnceThatIsThereInTwoFormats) {
     const test::TemporaryFolder folder;
     const auto opened = [&] {
         const Result<PhotoFolder> found = open_photo_folder(folder.path());
@@ -82,29 +82,29 @@ TEST(PhotoFolder, TakesAPictureOnceThatIsThereInTwoFormats) {
     };
     const Image<Rgba8> grey(4, 3, Rgba8{9, 9, 9, 255});
     for (const char* name : {"1.jpg", "2.jpg", "3.jpg"}) ASSERT_TRUE(write_jpeg(folder / name, grey, 90).ok());
-    for (const char* name : {"1.png", "2.png"}) write_picture(folder / name, 8, 6);
+    for (const char* name : {"1.png", "2.png"}) write_image(folder / name, 8, 6);
     EXPECT_THAT(file_names(opened()), ElementsAre("1.jpg", "2.jpg", "3.jpg")) << "the format that most have";
     EXPECT_THAT(opened().in_other_formats, ElementsAre("1.png", "2.png"));
-    write_picture(folder / "3.png", 8, 6);
+    write_image(folder / "3.png", 8, 6);
     EXPECT_THAT(file_names(opened()), ElementsAre("1.jpg", "2.jpg", "3.jpg")) << "as many: the PNGs may be masks";
-    write_picture(folder / "4.png", 8, 6);
+    write_image(folder / "4.png", 8, 6);
     EXPECT_THAT(file_names(opened()), ElementsAre("1.png", "2.png", "3.png", "4.png"));
     EXPECT_THAT(opened().in_other_formats, ElementsAre("1.jpg", "2.jpg", "3.jpg"));
 }
 
-TEST(PhotoFolder, RefusesWhatHoldsNoPictures) {
+TEST(PhotoFolder, RefusesWhatHoldsNoImages) {
     const test::TemporaryFolder folder;
     const Result<PhotoFolder> empty = open_photo_folder(folder.path());
     ASSERT_FALSE(empty.ok());
-    EXPECT_THAT(empty.error().message, HasSubstr(folder.path().string() + ": holds no pictures"));
+    EXPECT_THAT(empty.error().message, HasSubstr(folder.path().string() + ": holds no images"));
     EXPECT_FALSE(open_photo_folder(folder / "absent").ok());
 }
 
-TEST(PhotoFolder, NamesTwoPicturesOfDifferentSize) {
+TEST(PhotoFolder, NamesTwoImagesOfDifferentSize) {
     const test::TemporaryFolder folder;
-    write_picture(folder / "1.png", 6, 4);
-    write_picture(folder / "2.png", 6, 4);
-    write_picture(folder / "3.png", 6, 5);
+    write_image(folder / "1.png", 6, 4);
+    write_image(folder / "2.png", 6, 4);
+    write_image(folder / "3.png", 6, 5);
     const Result<PhotoFolder> found = open_photo_folder(folder.path());
     ASSERT_FALSE(found.ok());
     for (const char* part : {"3.png", "6x5", "1.png", "6x4"}) EXPECT_THAT(found.error().message, HasSubstr(part));
@@ -116,18 +116,18 @@ TEST(PhotoFolder, TurnsAllAsMostWantToBeShown) {
     Result<PhotoFolder> found = open_photo_folder(folder.path());
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_EQ(found->orientation, 6);
-    EXPECT_EQ(found->otherwise_turned, 0);
+    EXPECT_EQ(found->other_orientation_count, 0);
     test::write_oriented_jpeg(folder / "2.jpg", 1);
     found = open_photo_folder(folder.path());
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_EQ(found->orientation, 6);
-    EXPECT_EQ(found->otherwise_turned, 1);
+    EXPECT_EQ(found->other_orientation_count, 1);
 }
 
-// An editor saved one of pictures that are stored on their side upright, with its pixels turned.
+// An editor saved one of several images that are stored on their side upright, with rotated pixels.
 TEST(PhotoFolder, TurnsEachAsItStatesWhereOnlySomeLieOnTheirSide) {
     const test::TemporaryFolder folder;
-    // White at the top: stored at the left, as the row of a file of orientation 6 is a column of what it shows.
+    // White at the top: stored at the left, because orientation 6 displays stored rows as columns.
     Image<Rgba8> lying(48, 32, Rgba8{9, 9, 9, 255}), upright(32, 48, Rgba8{9, 9, 9, 255});
     for (int y = 0; y < 32; ++y) {
         for (int x = 0; x < 16; ++x) lying(x, y) = {255, 255, 255, 255};
@@ -137,17 +137,17 @@ TEST(PhotoFolder, TurnsEachAsItStatesWhereOnlySomeLieOnTheirSide) {
     }
     for (const char* name : {"1.jpg", "3.jpg", "4.jpg"}) {
         ASSERT_TRUE(write_jpeg(folder / name, lying, 90).ok());
-        // The last is of a camera that looks down and does not know where up is.
+        // The last photo is of a camera that looks down and cannot sense its orientation.
         test::add_exif(folder / name, std::string_view(name) == "4.jpg" ? 8 : 6);
     }
     ASSERT_TRUE(write_jpeg(folder / "2.jpg", upright, 90).ok());
     const Result<PhotoFolder> found = open_photo_folder(folder.path());
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_EQ(found->own_orientations, (std::vector<int>{6, 1, 6, 6}));
-    EXPECT_EQ(found->otherwise_turned, 1);
-    EXPECT_TRUE(found->turns_unnoticed());
+    EXPECT_EQ(found->other_orientation_count, 1);
+    EXPECT_TRUE(found->has_ambiguous_orientation());
     for (std::size_t i = 0; i < 4; ++i) {
-        const Result<Image<Rgba8>> shown = read_photograph(*found, i);
+        const Result<Image<Rgba8>> shown = read_photo(*found, i);
         ASSERT_TRUE(shown.ok()) << shown.error().message;
         EXPECT_EQ(shown->width(), 32);
         EXPECT_EQ(shown->height(), 48);
@@ -170,49 +170,49 @@ TEST(PhotoFolder, SaysWhatPhotographsShowWhenTheyAreTurned) {
         EXPECT_EQ(found->shown_width, orientation == 6 ? 32 : 48);
         EXPECT_EQ(found->shown_height, orientation == 6 ? 48 : 32);
         EXPECT_EQ(found->width, found->shown_width);
-        // A mask of 48 x 32 tells by its size that it is not of what the third shows; of the second it does not.
-        EXPECT_EQ(found->turns_unnoticed(), orientation == 3);
+        // By its size, a mask of 48 x 32 does not fit the displayed third photo; for the second it is ambiguous.
+        EXPECT_EQ(found->has_ambiguous_orientation(), orientation == 3);
     }
-    const Error error = turned_beside(*open_photo_folder(folder.path()), "--masks there");
+    const Error error = ambiguous_orientation_error(*open_photo_folder(folder.path()), "--masks there");
     for (const char* part : {"--masks there", "orientation is 6", "exiftran"})
         EXPECT_THAT(error.message, HasSubstr(part));
 }
 
 TEST(PhotoFolder, MakesLargePhotographsSmaller) {
     const test::TemporaryFolder folder;
-    write_picture(folder / "1.png", 400, 381);
+    write_image(folder / "1.png", 400, 381);
     const auto opened = [&](int max_side_px) {
         const Result<PhotoFolder> found = open_photo_folder(folder.path(), max_side_px);
         EXPECT_TRUE(found.ok());
         return *found;
     };
-    EXPECT_EQ(opened(kMaxPictureSide_px).width, 400);
-    EXPECT_EQ(opened(320).width, 400) << "to a quarter more they stay";
+    EXPECT_EQ(opened(kMaxImageSide_px).width, 400);
+    EXPECT_EQ(opened(320).width, 400) << "up to a quarter larger is not reduced";
     EXPECT_EQ(opened(320).reduction, 1);
     const PhotoFolder small = opened(128);
     EXPECT_EQ(small.reduction, 3.125);
     EXPECT_EQ(small.width, 128);
-    EXPECT_EQ(small.height, 121);  // 121.92: what is left over goes
+    EXPECT_EQ(small.height, 121);  // 121.92: the remainder is cropped
     EXPECT_EQ(small.shown_width, 400);
-    EXPECT_EQ(small.in_picture({200, 190.5}), glm::dvec2(64, 60.5)) << "the middle stays the middle";
-    EXPECT_EQ(small.in_picture({200 + 31.25, 190.5 - 62.5}), glm::dvec2(74, 40.5));
+    EXPECT_EQ(small.in_image({200, 190.5}), glm::dvec2(64, 60.5)) << "the centre is unchanged";
+    EXPECT_EQ(small.in_image({200 + 31.25, 190.5 - 62.5}), glm::dvec2(74, 40.5));
 }
 
 TEST(PhotoFolder, LeavesAPixelOfAThinPhotograph) {
     const test::TemporaryFolder folder;
-    write_picture(folder / "1.png", 2600, 1);
+    write_image(folder / "1.png", 2600, 1);
     const Result<PhotoFolder> thin = open_photo_folder(folder.path(), 2048);
     ASSERT_TRUE(thin.ok()) << thin.error().message;
     EXPECT_EQ(thin->reduction, 1);
     EXPECT_EQ(thin->width, 2600);
-    write_picture(folder / "1.png", 2600, 20);
+    write_image(folder / "1.png", 2600, 20);
     EXPECT_EQ(open_photo_folder(folder.path(), 64)->height, 1);
 }
 
-TEST(PhotoFolder, TakesPhotographsThatAreLargerThanPictures) {
+TEST(PhotoFolder, TakesPhotographsThatAreLargerThanImages) {
     const test::TemporaryFolder folder;
-    write_picture(folder / "1.png", kMaxPictureSide_px, 64);
-    // write_png() writes none as large: its header is made to claim so, which is all that is read here.
+    write_image(folder / "1.png", kMaxImageSide_px, 64);
+    // write_png() cannot write images as large; only the header is modified, because only that is read.
     const auto claim = [&](std::uint32_t width) {
         auto png = read_file(folder / "1.png", 1 << 20);
         ASSERT_TRUE(png.ok()) << png.error().message;
@@ -220,10 +220,10 @@ TEST(PhotoFolder, TakesPhotographsThatAreLargerThanPictures) {
         ASSERT_TRUE(write_file(folder / "1.png", *png).ok());
     };
     claim(9504);
-    const Result<PhotoFolder> large = open_photo_folder(folder.path(), kMaxPictureSide_px);
+    const Result<PhotoFolder> large = open_photo_folder(folder.path(), kMaxImageSide_px);
     ASSERT_TRUE(large.ok()) << large.error().message;
     EXPECT_EQ(large->shown_width, 9504);
-    EXPECT_EQ(large->width, kMaxPictureSide_px);
+    EXPECT_EQ(large->width, kMaxImageSide_px);
     claim(16385);
     EXPECT_FALSE(open_photo_folder(folder.path()).ok());
 }
@@ -241,13 +241,13 @@ TEST(PhotoFolder, KnowsTheLensThatAllPhotographsState) {
 
 TEST(PhotoFolder, TakesWhatPhonesWrite) {
     for (const char* name : {"a.jpg", "IMG_1.HEIC", "b.heif", "c.avif", "d.tif"})
-        EXPECT_TRUE(is_picture_name(name)) << name;
-    for (const char* name : {"a.cr2", "heic", "b.txt"}) EXPECT_FALSE(is_picture_name(name)) << name;
+        EXPECT_TRUE(is_image_name(name)) << name;
+    for (const char* name : {"a.cr2", "heic", "b.txt"}) EXPECT_FALSE(is_image_name(name)) << name;
 }
 
-TEST(PhotoFolder, NamesAPictureThatIsNone) {
+TEST(PhotoFolder, NamesAImageThatIsNone) {
     const test::TemporaryFolder folder;
-    write_picture(folder / "1.png", 6, 4);
+    write_image(folder / "1.png", 6, 4);
     std::ofstream(folder / "2.png") << "no PNG at all";
     const Result<PhotoFolder> found = open_photo_folder(folder.path());
     ASSERT_FALSE(found.ok());

@@ -1,7 +1,7 @@
 #include "capture/photos/masks/mask_folder.hpp"
 
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/support/real_data.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -122,7 +122,7 @@ TEST_F(Masks, OfAHalfTransparentObjectKeepItsAlpha) {
     EXPECT_EQ((*mask)(kMask_width / 2, kMask_height / 2), 200);
     EXPECT_EQ((*mask)(2, 2), 0);
     expect_disc({"read by their alpha",
-                 "15 % of the masks are grey; codes from 128 are taken as object. Where grey is "
+                 "15 % of the masks are grey; codes from 128 are read as object. If grey is "
                  "the object's alpha, give --masks-alpha"});
 }
 
@@ -135,13 +135,13 @@ TEST_F(Masks, OfAnotherKindThanTheOthersAreRefused) {
 
 TEST_F(Masks, OfZeroAndOneAreScaled) {
     write_all([](bool object) { return grey(object ? 1 : 0); });
-    expect_disc({"masks hold 0 and 1 only; 1 is taken as white"});
-    expect_disc({"masks hold 0 and 1 only; 1 is taken as white"}, MaskKind::kAlpha);
+    expect_disc({"masks hold 0 and 1 only; 1 is read as white"});
+    expect_disc({"masks hold 0 and 1 only; 1 is read as white"}, MaskKind::kAlpha);
 }
 
 TEST_F(Masks, WithALabelForTheObjectAreScaled) {
     write_all([](bool object) { return object ? Rgba8{0, 64, 0, 255} : Rgba8{0, 0, 0, 255}; });
-    expect_disc({"masks hold 0 and 64 only; 64 is taken as white"});
+    expect_disc({"masks hold 0 and 64 only; 64 is read as white"});
 }
 
 TEST_F(Masks, OfOneGreyKeepItAsAlpha) {
@@ -160,7 +160,7 @@ TEST_F(Masks, ThatAreInvertedAreTurnedWithANote) {
 
 TEST_F(Masks, OfZeroAndOneMayBeInvertedToo) {
     write_all([](bool object) { return grey(object ? 0 : 1); });
-    expect_disc({"1 is taken as white", "inverted"});
+    expect_disc({"1 is read as white", "inverted"});
 }
 
 TEST_F(Masks, ThatAreInvertedInTheMinorityAreNamed) {
@@ -247,7 +247,7 @@ TEST_F(Masks, ThatAreMissingAreCounted) {
 
 TEST_F(Masks, ThatCannotBeReadAreNamed) {
     write_all(black_and_white);
-    ASSERT_TRUE(write_file(folder_ / "c.png", "no picture").ok());
+    ASSERT_TRUE(write_file(folder_ / "c.png", "no image").ok());
     EXPECT_THAT(open_error(), HasSubstr("c.png"));
     const Result<MaskFolder> nowhere = MaskFolder::open(folder_ / "none", photos(), MaskKind::kBinary);
     ASSERT_FALSE(nowhere.ok());
@@ -306,7 +306,7 @@ TEST(RealMasks, AreReadOrRefused) {
     expect_read("cutout", "read by their alpha");
     expect_read("rgba-alpha", "read by their alpha");
     expect_read("inverted", "inverted");
-    expect_read("zero-one", "1 is taken as white");
+    expect_read("zero-one", "1 is read as white");
     expect_read("half-size", "resized to 240x192");
     const auto error = [&](const std::string& name) {
         const Result<MaskFolder> masks = open(name);

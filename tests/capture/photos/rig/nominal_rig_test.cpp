@@ -9,22 +9,22 @@
 namespace rs::capture {
 namespace {
 
-// A ball whose centre circles the axis at `orbit` (heights from `bottom`), in perspective, as the camera of `rig` sees
-// it.
+// Silhouette of a ball whose centre circles the axis at `orbit` (heights from `bottom`), projected by the camera of
+// `rig`.
 Image<Rgba8> silhouette(const Camera& camera, const glm::dvec3& centre, double radius) {
-    Image<Rgba8> picture(camera.width, camera.height);
+    Image<Rgba8> image(camera.width, camera.height);
     for (int y = 0; y < camera.height; ++y) {
         for (int x = 0; x < camera.width; ++x) {
             const glm::dvec3 ray = glm::normalize(camera.ray(x + 0.5, y + 0.5));
             const glm::dvec3 to_ball = centre - camera.centre();
             const double miss = glm::length(to_ball - ray * glm::dot(ray, to_ball));
-            if (miss <= radius) picture(x, y) = {255, 255, 255, 255};
+            if (miss <= radius) image(x, y) = {255, 255, 255, 255};
         }
     }
-    return picture;
+    return image;
 }
 
-// Also where the camera looks down: the axis stands upright in the picture all the same.
+// Also for a camera that looks down: the axis is still vertical in the image.
 TEST(TurnSilhouette, FindsTheAxisOfATurnInPerspective) {
     for (const double elevation_deg : {0.0, 20.0}) {
         Camera camera = look_at_camera({0, 6 * std::tan(radians(elevation_deg)), 6}, {0, 0, 0}, radians(30), 320, 240);
@@ -57,12 +57,12 @@ TEST(NominalRig, TheOutermostRayTouchesTheUnitCircle) {
     for (const double extent_px : {1.0, 80.0, 200.0, 900.0}) {
         const double fl_px = 640;
         const double distance = distance_for_unit_radius(extent_px, fl_px);
-        // Distance of the axis from the ray through `extent_px`, by hand: d sin(theta).
+        // Distance of the axis from the ray through `extent_px`: d sin(theta).
         EXPECT_NEAR(distance * std::sin(std::atan(extent_px / fl_px)), 1, 1e-12);
     }
 }
 
-TEST(NominalRig, SeesTheObjectWhereThePicturesShowIt) {
+TEST(NominalRig, SeesTheObjectWhereTheImagesShowIt) {
     NominalRigOptions options;
     options.width = 640;
     options.height = 480;
@@ -83,7 +83,7 @@ TEST(NominalRig, SeesTheObjectWhereThePicturesShowIt) {
         const glm::dvec3 on_axis = view.camera.project({0, 0.3, 0});
         EXPECT_NEAR(on_axis.x, 333, 1e-9);
         EXPECT_NEAR(view.camera.project({0, 0, 0}).y, 230, 1e-9);
-        // The wider side is the left one: 233 px. The circle's tangent point as this camera sees it:
+        // The wider side is the left one: 233 px. The circle's tangent point in the image of this camera:
         const double distance = glm::length(view.camera.centre());
         const glm::dvec3 towards = -view.camera.forward();
         const glm::dvec3 tangent = towards / distance - view.camera.right() * std::sqrt(1 - 1 / (distance * distance));

@@ -1,9 +1,9 @@
-// What import takes for the rig: the surest that works, and what it says about that which did not.
+// Choice of the rig by import: the most accurate method that succeeds, and notes on those that failed.
 
 #include "capture/photos/import.hpp"
 #include "capture/photos/report/import_page.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/calibration/board_photos.hpp"
 #include "tests/capture/calibration/drawn_figure.hpp"
 #include "tests/capture/photos/drum_photos.hpp"
@@ -46,11 +46,11 @@ TEST_F(PhotoCalibrationTest, PointsAreTakenFirstWhereNothingElseIsGiven) {
     EXPECT_EQ(made["standard_deviations"]["f_px"], 0) << "it was given";
     EXPECT_EQ(rig->views[3].extras["source_file"], "03.png");
 
-    // The page has the pictures and the tables.
+    // The page has the images and the tables.
     const Result<std::string> page = import_page(options_.photos, *report);
     ASSERT_TRUE(page.ok()) << page.error().message;
-    for (const char* part : {"<table", "focal length, px", "620.0", "held", "median step", "Mattes on magenta",
-                             "The axis and the points", "data:image/", "<svg", "There is nothing to warn of"}) {
+    for (const char* part : {"<table", "focal length, px", "620.0", "fixed", "median step", "Alpha mattes over magenta",
+                             "The axis and the points", "data:image/", "<svg", "No warnings"}) {
         EXPECT_THAT(*page, HasSubstr(part));
     }
 }
@@ -99,7 +99,7 @@ TEST_F(PhotoCalibrationTest, WithoutPointsTheOutlinesAndThenAssumptionsAreTaken)
 
     options_.calibration = CalibrationChoice::kTracks;
     std::filesystem::remove_all(options_.output);
-    expect_error(AllOf(HasSubstr("points of the object can be followed"), HasSubstr("rs-capture board")));
+    expect_error(AllOf(HasSubstr("points of the object can be tracked"), HasSubstr("rs-capture board")));
 }
 
 TEST_F(PhotoCalibrationTest, AChoiceIsTakenOrFails) {
@@ -115,26 +115,26 @@ TEST_F(PhotoCalibrationTest, AChoiceIsTakenOrFails) {
     EXPECT_TRUE(std::isinf(found.deviations.angles_rad[3]));
     const auto page = import_page(options_.photos, *outlines);
     ASSERT_TRUE(page.ok()) << page.error().message;
-    EXPECT_THAT(*page, HasSubstr("the outlines of the object alone"));
+    EXPECT_THAT(*page, HasSubstr("the silhouettes of the object alone"));
 
     options_.calibration = CalibrationChoice::kNominal;
     const Result<ImportReport> nominal = import_photos(options_, nullptr);
     ASSERT_TRUE(nominal.ok()) << nominal.error().message;
     EXPECT_EQ(nominal->method, CalibrationMethod::kNominal);
     EXPECT_FALSE(nominal->calibration.calibration.has_value());
-    EXPECT_THAT(nominal->notes, Contains(HasSubstr("takes nothing of what was given as known")));
+    EXPECT_THAT(nominal->notes, Contains(HasSubstr("ignores the values given by --known")));
     const auto plain_page = import_page(options_.photos, *nominal);
     ASSERT_TRUE(plain_page.ok()) << plain_page.error().message;
-    EXPECT_THAT(*plain_page, AllOf(HasSubstr("little but assumptions"), Not(HasSubstr("Estimates"))));
+    EXPECT_THAT(*plain_page, AllOf(HasSubstr("Based on assumptions"), Not(HasSubstr("Estimates"))));
 }
 
 Image<Rgba8> grey_where(const Image<std::uint8_t>& mask) {
-    Image<Rgba8> picture(mask.width(), mask.height());
-    for (std::size_t i = 0; i < mask.pixels().size(); ++i) picture.pixels()[i] = {120, 120, 120, mask.pixels()[i]};
-    return picture;
+    Image<Rgba8> image(mask.width(), mask.height());
+    for (std::size_t i = 0; i < mask.pixels().size(); ++i) image.pixels()[i] = {120, 120, 120, mask.pixels()[i]};
+    return image;
 }
 
-// One picture is there twice, and the turn lacks its last.
+// One image is duplicated, and the last of the turn is missing.
 TEST_F(PhotoCalibrationTest, OutlinesMayRepeatAndLackAView) {
     constexpr std::size_t kFigureViews = 24;
     constexpr std::size_t kTwice = 9;
@@ -152,7 +152,7 @@ TEST_F(PhotoCalibrationTest, OutlinesMayRepeatAndLackAView) {
     EXPECT_LT(report->calibration.calibration->rms_px, 0.3);
 }
 
-// Without texture nothing tells the sense of turning but that outlines of the other one disagree.
+// Without texture the direction of turning follows only from silhouettes that are inconsistent with the other.
 TEST_F(PhotoCalibrationTest, OutlinesTellTheSenseOfTurning) {
     constexpr int kFigureViews = 16;
     const TurntableModel truth = turn_of_figure(kFigureViews);
@@ -165,12 +165,12 @@ TEST_F(PhotoCalibrationTest, OutlinesTellTheSenseOfTurning) {
     ASSERT_TRUE(report.ok()) << report.error().message;
     EXPECT_EQ(report->nominal.turning, Turning::kClockwise);
     EXPECT_EQ(report->turning, Turning::kCounterClockwise);
-    EXPECT_THAT(report->notes, Contains(HasSubstr("outlines fit this one better")));
+    EXPECT_THAT(report->notes, Contains(HasSubstr("silhouettes fit this direction better")));
     const TurntableModel& found = report->calibration.calibration->model;
     EXPECT_NEAR(degrees(found.pose.tilt_rad), degrees(truth.pose.tilt_rad), 1);
 }
 
-// 347 x 1081 px are halved to 173 x 540, not quite of the same shape.
+// 347 x 1081 px are halved to 173 x 540, with a slightly different aspect ratio.
 TEST_F(PhotoCalibrationTest, OutlinesMayBeOfAnyShape) {
     TurntableModel model = test::drum_turn(12, -radians(30));
     model.lens = {347, 1081, 900, 170, 500, 0, 0};
@@ -188,14 +188,14 @@ TEST_F(PhotoCalibrationTest, OutlinesMayBeOfAnyShape) {
     EXPECT_NEAR(*axis_column(found.lens, found.pose, 500), *axis_column(model.lens, model.pose, 500), 0.5);
 }
 
-// The drum stands on a printed board before a backdrop like paper; only the mask knows the object.
+// The drum is on a printed board before a paper-like backdrop; only the mask separates the object.
 TEST_F(PhotoCalibrationTest, ABoardIsTakenBeforeAllElse) {
     const test::BoardPhotos photos;
     std::filesystem::create_directory(folder_ / "photos" / "masks");
     options_.segmentation.masks = folder_ / "photos" / "masks";
     for (std::size_t i = 0; i < photos.model.angles_rad.size(); ++i) {
         const test::BoardPhotos::Photo photo = photos.taken(i);
-        write(i, photo.picture);
+        write(i, photo.image);
         ASSERT_TRUE(write_png(options_.segmentation.masks / test::file_name(i), photo.mask).ok());
     }
     options_.known = {};
@@ -216,7 +216,7 @@ TEST_F(PhotoCalibrationTest, ABoardIsTakenBeforeAllElse) {
     ASSERT_TRUE(page.ok()) << page.error().message;
     EXPECT_THAT(*page, HasSubstr("the printed board on the turntable"));
 
-    // One word wrong about the board, and nothing is found on it.
+    // One wrong parameter of the board, so that no board is detected.
     options_.board->dictionary = "5x5_50";
     options_.calibration = CalibrationChoice::kBoard;
     std::filesystem::remove_all(options_.output);
@@ -231,7 +231,7 @@ TEST_F(PhotoCalibrationTest, MasksTellTheObject) {
             for (int x = 0; x < 320; ++x) {
                 const std::uint8_t a = photo(x, y).a;
                 mask(x, y) = {a, a, a, 255};
-                // A backdrop that no one could cut by its colour.
+                // A backdrop that cannot be segmented by colour.
                 if (a < 255) photo(x, y) = {static_cast<std::uint8_t>(60 + (x * 7 + y * 3) % 120), 90, 80, 255};
             }
         }

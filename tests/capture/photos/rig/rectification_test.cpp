@@ -1,8 +1,8 @@
 #include "capture/photos/rig/rectification.hpp"
 
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/image/image_metrics.hpp"
 #include "rayspace/image/linear_light.hpp"
-#include "rayspace/image/picture_metrics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -36,26 +36,26 @@ Rgba8 pattern(const glm::dvec3& ray) {
 }
 
 Image<Rgba8> drawn(const Lens& lens, const CameraPose& pose) {
-    Image<Rgba8> picture(lens.width, lens.height);
+    Image<Rgba8> image(lens.width, lens.height);
     for (int y = 0; y < lens.height; ++y) {
         for (int x = 0; x < lens.width; ++x) {
-            if (const auto ray = table_ray(lens, pose, {x + 0.5, y + 0.5})) picture(x, y) = pattern(*ray);
+            if (const auto ray = table_ray(lens, pose, {x + 0.5, y + 0.5})) image(x, y) = pattern(*ray);
         }
     }
-    return picture;
+    return image;
 }
 
-TurnSilhouette::Box visible_box(const Image<Rgba8>& picture) {
-    TurnSilhouette outline(picture.width(), picture.height());
-    outline.add(picture);
+TurnSilhouette::Box visible_box(const Image<Rgba8>& image) {
+    TurnSilhouette outline(image.width(), image.height());
+    outline.add(image);
     return outline.visible();
 }
 
-Image<Rgba8> without_hidden_colours(Image<Rgba8> picture) {
-    for (Rgba8& pixel : picture.pixels()) {
+Image<Rgba8> without_hidden_colours(Image<Rgba8> image) {
+    for (Rgba8& pixel : image.pixels()) {
         if (pixel.a == 0) pixel = {};
     }
-    return picture;
+    return image;
 }
 
 double psnr_of_rectification(const TurntableModel& model) {
@@ -70,21 +70,21 @@ double psnr_of_rectification(const TurntableModel& model) {
     EXPECT_TRUE(frame.ok()) << frame.error().message;
     if (!frame) return 0;
     const Image<Rgba8> upright = without_hidden_colours(rectified(model, *frame, photo));
-    return compare_pictures_psnr(upright, drawn(frame->lens, {})).psnr_db();
+    return compare_images_psnr(upright, drawn(frame->lens, {})).psnr_db();
 }
 
-TEST(Rectification, EqualsThePictureOfAnUprightCamera) {
+TEST(Rectification, EqualsTheImageOfAnUprightCamera) {
     const double psnr_db = psnr_of_rectification(crooked_model());
     EXPECT_GT(psnr_db, 45);
     RecordProperty("psnr_db", std::to_string(psnr_db));
-    // The score can tell: half a degree of tilt is plainly worse.
+    // The score is sensitive: half a degree of tilt is clearly worse.
     TurntableModel wrong = crooked_model();
     const Image<Rgba8> photo = drawn(wrong.lens, wrong.pose);
     wrong.pose.tilt_rad += radians(0.5);
     const auto frame = plan_upright_frame(wrong, std::array{visible_box(photo)});
     ASSERT_TRUE(frame.ok());
     const Image<Rgba8> upright = without_hidden_colours(rectified(wrong, *frame, photo));
-    EXPECT_LT(compare_pictures_psnr(upright, drawn(frame->lens, {})).psnr_db(), 35);
+    EXPECT_LT(compare_images_psnr(upright, drawn(frame->lens, {})).psnr_db(), 35);
 }
 
 TEST(Rectification, AMovedPhotographIsPutBack) {
@@ -92,17 +92,17 @@ TEST(Rectification, AMovedPhotographIsPutBack) {
     const Image<Rgba8> photo = drawn(model.lens, model.pose);
     const auto frame = plan_upright_frame(model, std::array{visible_box(photo)});
     ASSERT_TRUE(frame.ok());
-    const PicturePlace place{{13, -8}, 0.9};
-    Lens moved = model.lens;  // a place is another lens: nothing is resampled
+    const ImagePlace place{{13, -8}, 0.9};
+    Lens moved = model.lens;  // a shift is equivalent to another lens: exact without resampling
     const glm::dvec2 principal =
         place.seen({moved.cx, moved.cy}, glm::dvec2(model.lens.width, model.lens.height) / 2.0);
     moved.f_px *= place.scale;
     moved.cx = principal.x;
     moved.cy = principal.y;
     const Image<Rgba8> upright = without_hidden_colours(rectified(model, *frame, drawn(moved, model.pose), place));
-    EXPECT_GT(compare_pictures_psnr(upright, drawn(frame->lens, {})).psnr_db(), 42);
+    EXPECT_GT(compare_images_psnr(upright, drawn(frame->lens, {})).psnr_db(), 42);
     const Image<Rgba8> ignored = without_hidden_colours(rectified(model, *frame, drawn(moved, model.pose)));
-    EXPECT_LT(compare_pictures_psnr(ignored, drawn(frame->lens, {})).psnr_db(), 30);
+    EXPECT_LT(compare_images_psnr(ignored, drawn(frame->lens, {})).psnr_db(), 30);
 }
 
 TEST(Rectification, AnAxisThatLiesSidewaysIsTurnedUpright) {
@@ -193,7 +193,7 @@ TEST(Rectification, ContinuesColoursBeyondTheEdge) {
     const Image<Rgba8> upright = rectified(model, *frame, photo);
     int hidden = 0;
     for (const Rgba8& pixel : upright.pixels()) {
-        // No rim, neither dark nor bright: at every coverage it is the object's colour, and so under alpha 0.
+        // No rim, neither dark nor bright: pixels of every coverage, also of alpha 0, have the object's colour.
         if (pixel.a > 0 || pixel.r > 0) {
             EXPECT_NEAR(pixel.r, 200, 1);
             EXPECT_NEAR(pixel.g, 120, 1);
@@ -204,7 +204,7 @@ TEST(Rectification, ContinuesColoursBeyondTheEdge) {
     EXPECT_GT(hidden, 500);
 }
 
-// A soft spot where the calibrated camera sees the point; small, because perspective moves the centroid of a wide one.
+// A soft spot at the point's projection; small, because perspective shifts the centroid of a wide one.
 Image<Rgba8> spot(const TurntableModel& model, const glm::dvec2& p) {
     Image<Rgba8> photo(model.lens.width, model.lens.height);
     for (int y = 0; y < photo.height(); ++y) {
@@ -216,16 +216,16 @@ Image<Rgba8> spot(const TurntableModel& model, const glm::dvec2& p) {
     return photo;
 }
 
-glm::dvec2 centroid(const Image<Rgba8>& picture) {
+glm::dvec2 centroid(const Image<Rgba8>& image) {
     glm::dvec3 sum(0);
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x)
-            sum += static_cast<double>(picture(x, y).a) * glm::dvec3(x + 0.5, y + 0.5, 1);
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x)
+            sum += static_cast<double>(image(x, y).a) * glm::dvec3(x + 0.5, y + 0.5, 1);
     }
     return glm::dvec2(sum) / sum.z;
 }
 
-TEST(Rectification, TheRigSeesPointsWhereTheRectifiedPicturesShowThem) {
+TEST(Rectification, TheRigSeesPointsWhereTheRectifiedImagesShowThem) {
     const TurntableModel model = crooked_model();
     const auto frame = plan_upright_frame(model, std::array{TurnSilhouette::Box{90, 390, 40, 320}});
     ASSERT_TRUE(frame.ok());
@@ -235,7 +235,7 @@ TEST(Rectification, TheRigSeesPointsWhereTheRectifiedPicturesShowThem) {
     EXPECT_EQ(rig.object_radius, 1);
     const double distance = std::hypot(rig.views[0].camera.centre().x, rig.views[0].camera.centre().z);
     const double camera_height = rig.views[0].camera.centre().y;
-    EXPECT_GT(camera_height, 0.2 * distance);  // it looks down
+    EXPECT_GT(camera_height, 0.2 * distance);  // the camera looks down
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
         const Camera& camera = rig.views[i].camera;
         EXPECT_TRUE(is_upright(camera));
@@ -243,7 +243,7 @@ TEST(Rectification, TheRigSeesPointsWhereTheRectifiedPicturesShowThem) {
         EXPECT_NEAR(glm::length(glm::cross(camera.forward(), glm::dvec3(camera.centre().x, 0, camera.centre().z))), 0,
                     1e-12);
         for (const glm::dvec3& p : {glm::dvec3(0.1, -0.25, 0.05), glm::dvec3(-0.08, -0.36, 0.1)}) {
-            // In units of the camera's distance, seen by the crooked camera, against object radii, seen by the rig.
+            // In units of the camera's distance, in the distorted camera; in object radii in the rig.
             const auto seen = project(model.lens, model.pose, turned(p, model.angles_rad[i]));
             ASSERT_TRUE(seen.has_value());
             const glm::dvec2 shown = centroid(rectified(model, *frame, spot(model, *seen)));
@@ -261,7 +261,7 @@ TEST(Rectification, TheRigKnowsTheGround) {
     const TurnSilhouette::Box visible{60, 300, 30, 250};
     EXPECT_EQ(make_rig(model, *frame, visible).foot_height, std::nullopt);
     const Rig rig = make_rig(model, *frame, visible, -0.37);
-    // Where the axis meets the ground, in the photograph's camera and in the rig's.
+    // Intersection of the axis and the ground, in the photo's camera and in the rig's.
     const auto seen = project(Lens(frame->lens), {}, {0, -0.37, 0});
     ASSERT_TRUE(seen.has_value() && rig.foot_height.has_value());
     const glm::dvec3 ground(0, *rig.foot_height, 0);

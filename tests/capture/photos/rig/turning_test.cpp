@@ -15,12 +15,12 @@ constexpr double kDiscRadius_px = 90;
 constexpr double kHeight_px = 130;
 constexpr double kAxis_px = 120;
 
-// An upright textured cylinder from far away, seen from `elevation_deg` above. Nearer means lower in the picture.
+// An upright textured cylinder at a large distance, from `elevation_deg` above. Nearer points are lower in the image.
 Image<Rgba8> cylinder(double turned_rad, double elevation_deg, double contrast) {
     const double e = radians(elevation_deg);
-    Image<Rgba8> picture(240, 220);
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
+    Image<Rgba8> image(240, 220);
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
             const double across = (x + 0.5 - kAxis_px) / kDiscRadius_px;
             if (std::abs(across) >= 1) continue;
             const double azimuth = std::asin(across);  // 0 is the front, growing to the right
@@ -31,10 +31,10 @@ Image<Rgba8> cylinder(double turned_rad, double elevation_deg, double contrast) 
             const double texture =
                 std::sin(11 * t + 0.07 * up) * std::sin(0.21 * up - 5 * t) + std::sin(23 * t) * std::cos(0.16 * up);
             const auto code = static_cast<std::uint8_t>(128 + contrast * texture / 2);
-            picture(x, y) = {code, code, code, 255};
+            image(x, y) = {code, code, code, 255};
         }
     }
-    return picture;
+    return image;
 }
 
 // `sense` +1: the texture moves to the right on the front.
@@ -55,13 +55,13 @@ TEST(FindTurning, ReadsBothSensesFromAboveAndFromTheSide) {
 
 TEST(FindTurning, WhatComesNearerSinks) {
     const TurningEvidence evidence = find_turning(turn(-1, 12), kAxis_px, kDiscRadius_px, kStep_rad, true);
-    // A point at x goes towards the camera by x times the step, and sin(12 degrees) of that is seen as sinking.
+    // A point at x approaches the camera by x times the step; sin(12 degrees) of that is downward motion.
     EXPECT_NEAR(evidence.sink_slope, radians(360.0 / kTurning_views) * std::sin(radians(12)), 0.01);
     EXPECT_GT(evidence.sink_slope, 8 * evidence.sink_slope_error);
 }
 
-// The step says how far patches go, not the number of views. Texture that repeats is found in wrong places where the
-// search goes too far, and not found at all where it ends too early.
+// The search range depends on the step, not on the number of views. Repetitive texture is matched at wrong positions if
+// the range is too large, and not matched at all if it is too small.
 TEST(FindTurning, SearchesAsFarAsAStepOfAPartOfATurnGoes) {
     const double step_rad = radians(5);
     std::vector<Image<Rgba8>> views = turn(-1, 12, 120, step_rad);

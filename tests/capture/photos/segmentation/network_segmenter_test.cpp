@@ -15,7 +15,7 @@ bool is_disc(int x, int y) {
     return y >= 66 && y < 84 && x >= 20 && x < 100;
 }
 
-// A block that moves from photo to photo, standing on the disc.
+// A block on the disc that moves from photo to photo.
 bool is_object(int photo, int x, int y) {
     const int left = 45 + 3 * photo;
     return x >= left && x < left + 12 && y >= 30 && y < 75;

@@ -2,8 +2,8 @@
 
 #include "capture/photos/segmentation/background_model_segmenter.hpp"
 #include "tests/capture/photos/backdrop_behind.hpp"
-#include "tests/capture/photos/cut_out.hpp"
-#include "tests/capture/photos/turn_of_pictures.hpp"
+#include "tests/capture/photos/segment_photo.hpp"
+#include "tests/capture/photos/turn_of_images.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,7 +47,8 @@ TEST(CutOutBeforeBlack, KeepsABlackStrapUnlessTheBackgroundIsNoisy) {
         const Result<BackgroundModel> backdrop = test::backdrop_behind(photos);
         ASSERT_TRUE(backdrop.ok()) << backdrop.error().message;
         EXPECT_EQ(backdrop->black, drawn.black);
-        const Image<Rgba8> cut = test::cut_out(BackgroundModelSegmenter(*backdrop, turn.width, turn.height), photos[2]);
+        const Image<Rgba8> cut =
+            test::segment_photo(BackgroundModelSegmenter(*backdrop, turn.width, turn.height), photos[2]);
         int strap_pixels = 0;
         int elsewhere = 0;
         for (int y = 0; y < turn.height; ++y) {
@@ -85,7 +86,7 @@ TEST(CutOutBeforeBlack, FillsFadingInsidesAndKeepsHolesWithARim) {
             if (std::hypot(x - 110, y - 60) < kBlackRadius_px) photo(x, y) = turn.backdrop;
         }
     }
-    const Image<Rgba8> cut = test::cut_out(BackgroundModelSegmenter(*backdrop, turn.width, turn.height), photo);
+    const Image<Rgba8> cut = test::segment_photo(BackgroundModelSegmenter(*backdrop, turn.width, turn.height), photo);
     int lost = 0, closed = 0;
     for (int y = 0; y < turn.height; ++y) {
         for (int x = 0; x < turn.width; ++x) {

@@ -3,7 +3,7 @@
 #include "capture/photos/segmentation/background_model_segmenter.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "tests/capture/photos/backdrop_behind.hpp"
-#include "tests/capture/photos/cut_out.hpp"
+#include "tests/capture/photos/segment_photo.hpp"
 
 #include <gtest/gtest.h>
 
@@ -109,15 +109,15 @@ TEST(CutOutBeforeGrey, KeepsABodyOfSimilarGreyAndTheLoop) {
             SCOPED_TRACE(view);
             const GreyBox box(view);
             const auto i = static_cast<std::size_t>(view);
-            const BoxErrors errors = errors_of(test::cut_out(cutter, photos[i]), box, true);
+            const BoxErrors errors = errors_of(test::segment_photo(cutter, photos[i]), box, true);
             EXPECT_LE(errors.lost, 60) << "of 7000";
             EXPECT_LE(errors.added, 60);
             EXPECT_EQ(errors.loop_closed, 0);
-            const BoxErrors in_studio = errors_of(test::cut_out(studio, photos[i]), box, true);
+            const BoxErrors in_studio = errors_of(test::segment_photo(studio, photos[i]), box, true);
             EXPECT_LE(in_studio.lost, 60);
             EXPECT_LE(in_studio.added, 60);
             EXPECT_EQ(in_studio.loop_closed, 0);
-            EXPECT_GT(errors_of(test::cut_out(without, photos[i]), box, true).lost, 3000)
+            EXPECT_GT(errors_of(test::segment_photo(without, photos[i]), box, true).lost, 3000)
                 << "without flat_grey, noise is assumed";
         }
     }
@@ -130,7 +130,7 @@ TEST(CutOutBeforeGrey, KeepsABodyWithoutADarkPart) {
     for (const int view : {0, 3, 7}) {
         SCOPED_TRACE(view);
         const BoxErrors errors =
-            errors_of(test::cut_out(cutter, photos[static_cast<std::size_t>(view)]), GreyBox(view), false);
+            errors_of(test::segment_photo(cutter, photos[static_cast<std::size_t>(view)]), GreyBox(view), false);
         EXPECT_LE(errors.lost, 60) << "of 6300";
         EXPECT_LE(errors.added, 60);
     }
@@ -152,7 +152,7 @@ TEST(CutOutBeforeGrey, IgnoresAShopsLogo) {
         ASSERT_TRUE(background.ok());
         ASSERT_TRUE(background->flat_grey.has_value());
         const Image<Rgba8> cut =
-            test::cut_out(BackgroundModelSegmenter(*background, kBoxes_width, kBoxes_height), photos[3]);
+            test::segment_photo(BackgroundModelSegmenter(*background, kBoxes_width, kBoxes_height), photos[3]);
         const BoxErrors errors = errors_of(cut, GreyBox(3), true);
         EXPECT_LE(errors.lost, 60);
         EXPECT_LE(errors.added, 60) << "of a logo of 500";
@@ -172,7 +172,7 @@ TEST(CutOutBeforeGrey, IgnoresDeviationsOfOneCode) {
     const BackgroundModel background = estimate_box_background(photos);
     ASSERT_TRUE(background.flat_grey.has_value());
     const BackgroundModelSegmenter cutter(background, kBoxes_width, kBoxes_height);
-    const BoxErrors errors = errors_of(test::cut_out(cutter, photos[3]), GreyBox(3), true);
+    const BoxErrors errors = errors_of(test::segment_photo(cutter, photos[3]), GreyBox(3), true);
     EXPECT_LE(errors.lost, 60);
     EXPECT_LE(errors.added, 60);
     EXPECT_EQ(errors.loop_closed, 0);
@@ -188,8 +188,8 @@ TEST(CutOutBeforeGrey, UsesTheGeneralModelForAnotherExposure) {
     unknown.flat_grey.reset();
     const BackgroundModelSegmenter cutter(background, kBoxes_width, kBoxes_height),
         without(unknown, kBoxes_width, kBoxes_height);
-    EXPECT_EQ(test::cut_out(cutter, photos[3]), test::cut_out(without, photos[3]));
-    EXPECT_LE(errors_of(test::cut_out(cutter, photos[4]), GreyBox(4), true).lost, 60);
+    EXPECT_EQ(test::segment_photo(cutter, photos[3]), test::segment_photo(without, photos[3]));
+    EXPECT_LE(errors_of(test::segment_photo(cutter, photos[4]), GreyBox(4), true).lost, 60);
 }
 
 TEST(FlatGrey, IsNotDetectedWithNoiseOrColourOrATable) {

@@ -5,7 +5,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "tests/capture/photos/backdrop_behind.hpp"
-#include "tests/capture/photos/cut_out.hpp"
+#include "tests/capture/photos/segment_photo.hpp"
 
 #include <gtest/gtest.h>
 
@@ -99,7 +99,7 @@ TEST(CutOutInAStudio, KeepsSidesInTheColourOfAShadowAndRemovesTheShadow) {
         for (const int view : {0, 3, 7}) {
             SCOPED_TRACE(view);
             const StudioErrors errors =
-                errors_of(test::cut_out(cutter, photos[static_cast<std::size_t>(view)]), ShadedBox(view));
+                errors_of(test::segment_photo(cutter, photos[static_cast<std::size_t>(view)]), ShadedBox(view));
             EXPECT_LE(errors.body_lost, 60) << "of 5400";
             EXPECT_LE(errors.added, 150);
             EXPECT_LE(errors.loop_closed, 10) << "of 197";
@@ -146,7 +146,7 @@ TEST(CutOutInAStudio, RemovesTheFloorThatIsLitInSomePhotosOnly) {
     const BackgroundModelSegmenter cutter(*backdrop, kWidth, kHeight);
     for (const int view : {0, 5, 9, 12}) {
         SCOPED_TRACE(view);
-        const Image<Rgba8> cut = test::cut_out(cutter, photos[static_cast<std::size_t>(view)]);
+        const Image<Rgba8> cut = test::segment_photo(cutter, photos[static_cast<std::size_t>(view)]);
         int lost = 0, added = 0;
         for (int y = 0; y < kHeight; ++y) {
             for (int x = 0; x < kWidth; ++x) {
@@ -280,7 +280,7 @@ TEST(CutOutInAStudio, IgnoresALogo) {
     const Result<BackgroundModel> backdrop = test::backdrop_behind(photos);
     ASSERT_TRUE(backdrop.ok()) << backdrop.error().message;
     const Image<Rgba8> cut =
-        test::cut_out(BackgroundModelSegmenter(*backdrop, kStudio_width, kStudio_height), photos[3]);
+        test::segment_photo(BackgroundModelSegmenter(*backdrop, kStudio_width, kStudio_height), photos[3]);
     EXPECT_LE(errors_of(cut, ShadedBox(3)).body_lost, 60) << "of 5400";
     for (int y = 0; y < kStudio_height; ++y) {
         for (int x = 0; x < kStudio_width; ++x) {
@@ -317,7 +317,7 @@ TEST(ForegroundMask, VisibleBackgroundIsCertainWhateverItsColour) {
     EXPECT_EQ(foreground_score(photo, plate, {})(10, 10), -kCertainScore);
 }
 
-// No shadow falls above the ground that the object stands on.
+// No shadow falls above the ground below the object.
 TEST(ForegroundMask, AmbiguousPixelsAboveShadowsAreRatherForeground) {
     CleanPlateView plate = studio_plate();
     const LinearRgb background = plate.background.light(10, 10);

@@ -1,8 +1,8 @@
 #include "capture/photos/segmentation/background_model_segmenter.hpp"
 
 #include "rayspace/image/linear_light.hpp"
-#include "tests/capture/photos/cut_out.hpp"
-#include "tests/capture/photos/turn_of_pictures.hpp"
+#include "tests/capture/photos/segment_photo.hpp"
+#include "tests/capture/photos/turn_of_images.hpp"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ Errors errors_of(const test::DrawnTurn& turn) {
     double weight = 0;
     for (int i = 0; i < turn.views; i += 3) {
         const test::DrawnView view = test::draw_view(turn, i);
-        const Image<Rgba8> cut = test::cut_out(cutter, view.photo);
+        const Image<Rgba8> cut = test::segment_photo(cutter, view.photo);
         for (int y = 0; y < turn.height; ++y) {
             for (int x = 0; x < turn.width; ++x) {
                 const double truth = view.alpha(x, y);
@@ -84,7 +84,7 @@ TEST(CutOut, RemovesASoftShadow) {
     const BackgroundModelSegmenter cutter(background_of(turn), turn.width, turn.height);
     for (int i = 0; i < turn.views; ++i) {
         const test::DrawnView view = test::draw_view(turn, i);
-        const Image<Rgba8> cut = test::cut_out(cutter, view.photo);
+        const Image<Rgba8> cut = test::segment_photo(cutter, view.photo);
         double shadow_alpha = 0;
         double missing = 0;
         for (int y = 0; y < turn.height; ++y) {
@@ -110,7 +110,7 @@ TEST(CutOut, KeepsATrueHoleOpenAndFillsAGreyInside) {
         for (int x = 30; x < 50; ++x) photo(x, y) = turn.backdrop;          // hole
         for (int x = 80; x < 110; ++x) photo(x, y) = {205, 205, 205, 255};  // grey leather
     }
-    const Image<Rgba8> cut = test::cut_out(cutter, photo);
+    const Image<Rgba8> cut = test::segment_photo(cutter, photo);
     EXPECT_EQ(cut(40, 50).a, 0);
     EXPECT_EQ(cut(95, 50).a, 255);
     EXPECT_EQ(cut(95, 50), photo(95, 50));
@@ -125,9 +125,9 @@ TEST(CutOut, RemovesSpecks) {
     for (int y = 100; y < 103; ++y) {
         for (int x = 10; x < 13; ++x) photo(x, y) = {230, 230, 230, 255};  // chalk
     }
-    EXPECT_EQ(test::cut_out(cutter, photo)(11, 101).a, 0);
+    EXPECT_EQ(test::segment_photo(cutter, photo)(11, 101).a, 0);
     photo(static_cast<int>(turn.axis_x_px), turn.height / 2) = {60, 70, 180, 255};  // one pixel of the disc
-    EXPECT_EQ(test::cut_out(cutter, photo)(static_cast<int>(turn.axis_x_px), turn.height / 2).a, 255);
+    EXPECT_EQ(test::segment_photo(cutter, photo)(static_cast<int>(turn.axis_x_px), turn.height / 2).a, 255);
 }
 
 // Lamps that warm up, and a camera that adjusts its exposure: the background differs in every photo.
@@ -148,7 +148,7 @@ TEST(CutOut, AdaptsToTheExposure) {
         const BackgroundModelSegmenter cutter(*backdrop, turn.width, turn.height);
         for (int i = 0; i < turn.views; ++i) {
             const Image<float> truth = test::draw_view(turn, i).alpha;
-            const Image<Rgba8> cut = test::cut_out(cutter, survey.samples[static_cast<std::size_t>(i)]);
+            const Image<Rgba8> cut = test::segment_photo(cutter, survey.samples[static_cast<std::size_t>(i)]);
             double wrong = 0;
             for (int y = 0; y < turn.height; ++y) {
                 for (int x = 0; x < turn.width; ++x) wrong += std::abs(cut(x, y).a / 255.0 - truth(x, y));
@@ -180,7 +180,7 @@ TEST(CutOut, KeepsStaticSurfacesOfTheObject) {
     EXPECT_EQ(backdrop->always_covered(78, 60), 255) << "the surface between the bands";
     EXPECT_EQ(backdrop->always_covered(20, 60), 0);
     EXPECT_EQ(backdrop->always_visible(20, 60), 255);
-    const Image<Rgba8> cut = test::cut_out(BackgroundModelSegmenter(*backdrop, 160, 120), survey.samples[0]);
+    const Image<Rgba8> cut = test::segment_photo(BackgroundModelSegmenter(*backdrop, 160, 120), survey.samples[0]);
     for (int y = 40; y < 80; ++y) {
         for (int x = 66; x < 90; ++x) ASSERT_EQ(cut(x, y).a, 255) << x << "," << y;
     }
@@ -211,7 +211,7 @@ TEST(CutOut, RemovesAStaticShadow) {
     const Result<BackgroundModel> backdrop = estimate_background(survey, {}, "drawn");
     ASSERT_TRUE(backdrop.ok()) << backdrop.error().message;
     EXPECT_EQ(backdrop->always_covered(55, 72), 0);
-    const Image<Rgba8> cut = test::cut_out(BackgroundModelSegmenter(*backdrop, 160, 120), survey.samples[0]);
+    const Image<Rgba8> cut = test::segment_photo(BackgroundModelSegmenter(*backdrop, 160, 120), survey.samples[0]);
     for (int y = 64; y < 82; ++y) {
         for (int x = 42; x < 66; ++x) ASSERT_EQ(cut(x, y).a, 0) << x << "," << y;
         for (int x = 74; x < 102; ++x) ASSERT_EQ(cut(x, y).a, 255) << x << "," << y;
@@ -294,7 +294,7 @@ TEST(CutOut, PreservesTheAlphaOfTheInput) {
     for (int y = 0; y < 40; ++y) {
         for (int x = 0; x < 60; ++x) alpha(x, y) = photo(x, y).a;
     }
-    const Image<Rgba8> cut = make_cutout(photo, Segmentation{alpha, true});
+    const Image<Rgba8> cut = make_foreground_image(photo, Segmentation{alpha, true});
     for (int y = 0; y < 40; ++y) {
         for (int x = 0; x < 60; ++x) {
             if (photo(x, y).a > 0) {

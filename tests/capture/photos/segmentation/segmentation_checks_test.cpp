@@ -16,27 +16,27 @@ using testing::IsEmpty;
 
 constexpr int kChecked_width = 100, kChecked_height = 80;
 
-// Cut-outs in which something covers columns 20 to 59 of the lower border, in one colour or in changing ones.
-std::vector<Image<Rgba8>> cutouts_at_border(int count, bool changes) {
-    std::vector<Image<Rgba8>> cutouts;
+// Foreground images in which something covers columns 20 to 59 of the lower border, in one colour or in changing ones.
+std::vector<Image<Rgba8>> foregrounds_at_border(int count, bool changes) {
+    std::vector<Image<Rgba8>> foregrounds;
     for (int i = 0; i < count; ++i) {
-        Image<Rgba8> cutout(kChecked_width, kChecked_height);
+        Image<Rgba8> foreground(kChecked_width, kChecked_height);
         const auto code = static_cast<std::uint8_t>(changes ? 40 * i % 256 : 90);
         for (int y = 40; y < kChecked_height; ++y) {
-            for (int x = 20; x < 60; ++x) cutout(x, y) = {code, 60, 30, 255};
+            for (int x = 20; x < 60; ++x) foreground(x, y) = {code, 60, 30, 255};
         }
-        cutouts.push_back(std::move(cutout));
+        foregrounds.push_back(std::move(foreground));
     }
-    return cutouts;
+    return foregrounds;
 }
 
 TEST(StaticAtBorder, TellsBackgroundFromATurningObject) {
-    EXPECT_TRUE(is_static_at_border(cutouts_at_border(6, false)));
-    EXPECT_FALSE(is_static_at_border(cutouts_at_border(6, true)));
+    EXPECT_TRUE(is_static_at_border(foregrounds_at_border(6, false)));
+    EXPECT_FALSE(is_static_at_border(foregrounds_at_border(6, true)));
 }
 
 TEST(StaticAtBorder, NeedsSixPhotosAndAnObject) {
-    EXPECT_FALSE(is_static_at_border(cutouts_at_border(5, false)));
+    EXPECT_FALSE(is_static_at_border(foregrounds_at_border(5, false)));
     EXPECT_FALSE(is_static_at_border({}));
     EXPECT_FALSE(is_static_at_border(std::vector<Image<Rgba8>>(6, Image<Rgba8>(kChecked_width, kChecked_height))));
 }
@@ -105,7 +105,7 @@ TEST(SegmentationChecks, ContactWithTheBorderIsAProblemInMostPhotos) {
 
 TEST(SegmentationChecks, StaticContactIsKeptBackground) {
     CheckedTurn t(0.3, true);
-    t.turn.small = cutouts_at_border(12, false);
+    t.turn.small = foregrounds_at_border(12, false);
     EXPECT_THAT(check_segmentation(t.folder, t.turn, SegmenterKind::kBackground).problems,
                 ElementsAre(HasSubstr("never changes")));
 }

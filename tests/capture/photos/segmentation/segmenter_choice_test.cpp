@@ -1,7 +1,7 @@
 #include "capture/photos/segmentation/segmenter_choice.hpp"
 
-#include "rayspace/pictures/picture_io.hpp"
-#include "tests/capture/photos/turn_of_pictures.hpp"
+#include "rayspace/image_io/image_io.hpp"
+#include "tests/capture/photos/turn_of_images.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -38,7 +38,7 @@ protected:
         }
         Result<PhotoFolder> photos = open_photo_folder(folder_ / "photos");
         if (!photos) return photos.error();
-        return take_in(std::move(*photos), nullptr);
+        return run_intake(std::move(*photos), nullptr);
     }
     ChosenSegmenter chosen(const SegmenterRequest& request, const Rgba8& background = {255, 255, 255, 255}) {
         const Result<Intake> taken = intake(background);

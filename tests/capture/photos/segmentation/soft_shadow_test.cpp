@@ -1,6 +1,6 @@
 #include "capture/photos/segmentation/soft_shadow.hpp"
 
-#include "capture/photos/segmentation/cutout.hpp"
+#include "capture/photos/segmentation/foreground_image.hpp"
 #include "rayspace/image/linear_light.hpp"
 
 #include <gtest/gtest.h>
@@ -54,17 +54,17 @@ TEST(SoftShadow, CutoutOverTheFloorLooksLikeThePhoto) {
     const ShadowScene s = shadow_scene();
     Segmentation segmentation{s.mask, false};
     segmentation.shadow = estimate_shadow(s.photo, s.background, s.mask);
-    const Image<Rgba8> cutout = make_cutout(s.photo, segmentation);
+    const Image<Rgba8> foreground = make_foreground_image(s.photo, segmentation);
     for (int y = 35; y < 68; y += 3) {
         for (int x = 33; x < 95; x += 2) {
             if (std::abs(x - 60) < 4 || std::abs(y - 50) < 6) continue;
-            const Rgba8& c = cutout(x, y);
+            const Rgba8& c = foreground(x, y);
             const float alpha = c.a / 255.0F;
             const float composed = alpha * linear_from_srgb8(c.g) + (1 - alpha) * kFloor;
             EXPECT_NEAR(srgb8_from_linear(composed), s.photo(x, y).g, 8) << x << "," << y;
         }
     }
-    EXPECT_EQ(cutout(75, 60).g, 0) << "black";
+    EXPECT_EQ(foreground(75, 60).g, 0) << "black";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Instant radiosity against path tracing: both go to the same picture, whatever shines and whatever reflects.
+// Instant radiosity against path tracing: both converge to the same image for all lights and surfaces.
 
 #include "capture/tracer/integrator/radiosity.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
@@ -46,26 +46,26 @@ Light ceiling_area() {
     return rectangle_light({-0.3F, 0.98F, -0.3F}, {0.6F, 0, 0}, {0, 0, 0.6F}, glm::vec3(6.0F));
 }
 
-Image<RgbaF> picture_of(const Scene& scene, RenderMethod method, int samples) {
+Image<RgbaF> image_of(const Scene& scene, RenderMethod method, int samples) {
     RenderOptions options;
     options.method = method;
     options.samples_per_pixel = samples;
     options.max_bounces = 12;
-    return render(Scene(scene), look_at_camera({0, 0, 3.5}, {0, 0, 0}, radians(38), 16, 16), options).picture;
+    return render(Scene(scene), look_at_camera({0, 0, 3.5}, {0, 0, 0}, radians(38), 16, 16), options).image;
 }
 
-glm::dvec3 mean_of(const Image<RgbaF>& picture, int x0, int y0, int x1, int y1) {
+glm::dvec3 mean_of(const Image<RgbaF>& image, int x0, int y0, int x1, int y1) {
     glm::dvec3 sum(0);
     for (int y = y0; y < y1; ++y) {
-        for (int x = x0; x < x1; ++x) sum += glm::dvec3(picture(x, y).r, picture(x, y).g, picture(x, y).b);
+        for (int x = x0; x < x1; ++x) sum += glm::dvec3(image(x, y).r, image(x, y).g, image(x, y).b);
     }
     return sum / static_cast<double>((x1 - x0) * (y1 - y0));
 }
 
-// Of the whole and of each quarter.
+// Mean of the image and of each quarter.
 void expect_same_light(const Scene& scene) {
-    const Image<RgbaF> path = picture_of(scene, RenderMethod::kPath, 2048);
-    const Image<RgbaF> radiosity = picture_of(scene, RenderMethod::kRadiosity, 256);
+    const Image<RgbaF> path = image_of(scene, RenderMethod::kPath, 2048);
+    const Image<RgbaF> radiosity = image_of(scene, RenderMethod::kRadiosity, 256);
     const auto compare = [&](int x0, int y0, int x1, int y1, double tolerance) {
         const glm::dvec3 expected = mean_of(path, x0, y0, x1, y1), found = mean_of(radiosity, x0, y0, x1, y1);
         for (int c = 0; c < 3; ++c) {
@@ -150,7 +150,7 @@ TEST(Radiosity, GoesByEverySurfaceAsPathsDo) {
     }
 }
 
-// A curtain a little before a wall, far from the origin, so that rays step off it by more than light has to go.
+// A curtain close to a wall, far from the origin, so that ray offsets exceed the gap between them.
 TEST(Radiosity, GoesThroughWhatHangsBeforeAWall) {
     Material cloth = material_of(SurfaceKind::diffuse, glm::vec3(0.9F));
     cloth.translucency = 0.7F;
@@ -163,31 +163,30 @@ TEST(Radiosity, GoesThroughWhatHangsBeforeAWall) {
         for (glm::vec3& p : mesh.positions) p.x += kAway;
     }
     for (Light& light : scene.lights) light.location.x += kAway;
-    const auto picture = [&](RenderMethod method, int samples) {
+    const auto image = [&](RenderMethod method, int samples) {
         RenderOptions options;
         options.method = method;
         options.samples_per_pixel = samples;
-        return render(Scene(scene), look_at_camera({kAway, 0, 3.5}, {kAway, 0, 0}, radians(38), 16, 16), options)
-            .picture;
+        return render(Scene(scene), look_at_camera({kAway, 0, 3.5}, {kAway, 0, 0}, radians(38), 16, 16), options).image;
     };
-    const Image<RgbaF> path = picture(RenderMethod::kPath, 8192), radiosity = picture(RenderMethod::kRadiosity, 1024);
-    // Where the curtain is seen, the ball left out.
+    const Image<RgbaF> path = image(RenderMethod::kPath, 8192), radiosity = image(RenderMethod::kRadiosity, 1024);
+    // Pixels of the curtain without the ball.
     const glm::dvec3 expected = mean_of(path, 4, 3, 12, 7), found = mean_of(radiosity, 4, 3, 12, 7);
     EXPECT_NEAR(found.g, expected.g, 0.04 * expected.g);
 }
 
-// Larger pictures are interleaved: each pixel of a square has virtual lights of its own.
-TEST(Radiosity, InterleavedPicturesHaveTheLightOfPaths) {
+// Large images are interleaved: each pixel of a square has its own virtual lights.
+TEST(Radiosity, InterleavedImagesHaveTheLightOfPaths) {
     Scene scene = room_with_ball(material_of(SurfaceKind::glossy, {0.2F, 0.5F, 0.7F}, 0.4F));
     scene.lights.push_back(ceiling_area());
-    const auto picture = [&](RenderMethod method, int side, int samples) {
+    const auto image = [&](RenderMethod method, int side, int samples) {
         RenderOptions options;
         options.method = method;
         options.samples_per_pixel = samples;
-        return render(Scene(scene), look_at_camera({0, 0, 3.5}, {0, 0, 0}, radians(38), side, side), options).picture;
+        return render(Scene(scene), look_at_camera({0, 0, 3.5}, {0, 0, 0}, radians(38), side, side), options).image;
     };
-    const Image<RgbaF> path = picture(RenderMethod::kPath, 16, 2048);
-    const Image<RgbaF> radiosity = picture(RenderMethod::kRadiosity, 256, 12);
+    const Image<RgbaF> path = image(RenderMethod::kPath, 16, 2048);
+    const Image<RgbaF> radiosity = image(RenderMethod::kRadiosity, 256, 12);
     for (int quarter = 0; quarter < 4; ++quarter) {
         const int x = quarter % 2, y = quarter / 2;
         const glm::dvec3 expected = mean_of(path, 8 * x, 8 * y, 8 * x + 8, 8 * y + 8);
@@ -219,8 +218,7 @@ TEST(Radiosity, PassesGiveTheSameBitsHoweverGrouped) {
     }
 }
 
-// The camera stands in a room that gets light round two corners only; most virtual lights are where no light comes
-// from.
+// The camera is in a room lit around two corners only; most virtual lights do not contribute.
 TEST(Radiosity, KeepsVirtualLightsThatTheCameraSeesTheLightOf) {
     Scene scene;
     const int white = add_material(scene, material_of(SurfaceKind::diffuse, glm::vec3(0.6F)));
@@ -239,15 +237,15 @@ TEST(Radiosity, KeepsVirtualLightsThatTheCameraSeesTheLightOf) {
     const auto models = make_surface_models(scene.materials);
     const LightTransport transport(scene, *rays, lights, models);
     const Camera camera = look_at_camera({-3.5, 0, 0.9}, {-1, 0, -0.5}, radians(60), 12, 12);
-    const RayPicture picture{12, 12, camera.centre(), camera.forward(),
-                             [&](double x, double y) { return camera.ray(x, y); }};
-    // The mean over the picture of each pass, and how far the passes are from each other.
+    const RayImage image{12, 12, camera.centre(), camera.forward(),
+                         [&](double x, double y) { return camera.ray(x, y); }};
+    // Image mean of each pass, and the variance over the passes.
     struct Found {
         double mean, deviation, lights;
     };
     const auto found = [&](bool importance) {
         constexpr int kPasses = 512;
-        const RadiosityTracer tracer(transport, {.importance = importance}, picture, 7, 0, kPasses);
+        const RadiosityTracer tracer(transport, {.importance = importance}, image, 7, 0, kPasses);
         double sum = 0, squares = 0;
         for (int pass = 0; pass < kPasses; ++pass) {
             double of_pass = 0;
@@ -268,7 +266,7 @@ TEST(Radiosity, KeepsVirtualLightsThatTheCameraSeesTheLightOf) {
     const Found off = found(false), on = found(true);
     EXPECT_NEAR(on.mean, off.mean, 4 * off.deviation / std::sqrt(512.0) * off.mean);
     EXPECT_NEAR(on.lights, off.lights, 0.35 * off.lights);
-    // As the error goes with the root of their number: a third of the lights would do.
+    // The error is proportional to the inverse root of the number of lights: equal to a third of the lights.
     EXPECT_LT(on.deviation, off.deviation / std::sqrt(3.0))
         << on.lights << " lights a pass; " << off.lights << " without";
     RecordProperty("off", std::to_string(off.deviation));

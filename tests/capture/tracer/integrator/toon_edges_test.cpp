@@ -1,4 +1,4 @@
-// Lines of cartoons, against where edges are.
+// Toon edge lines against analytic edge positions.
 
 #include "tests/capture/tracer/test_shapes.hpp"
 
@@ -13,7 +13,7 @@
 namespace rs::capture::test {
 namespace {
 
-// Everything white, lines black.
+// White surfaces, black lines.
 RenderOptions lines(float radius, int samples = 1) {
     RenderOptions options;
     options.method = RenderMethod::kToon;
@@ -33,11 +33,11 @@ bool is_line(const RgbaF& p) {
     return p.a > 0 && p.g < 0.5F;
 }
 
-int count_lines(const Image<RgbaF>& picture) {
-    return static_cast<int>(std::ranges::count_if(picture.pixels(), is_line));
+int count_lines(const Image<RgbaF>& image) {
+    return static_cast<int>(std::ranges::count_if(image.pixels(), is_line));
 }
 
-// Flat faces, outer sides outwards.
+// Flat faces with outward winding.
 Mesh make_box(const glm::vec3& low, const glm::vec3& high) {
     Mesh box;
     box.name = "box";
@@ -65,7 +65,7 @@ Mesh transformed(Mesh mesh, const glm::mat3& m, const glm::vec3& move) {
     return mesh;
 }
 
-// About an axis that is none of the picture's.
+// Rotation about an axis that is not aligned with the image.
 glm::mat3 oblique_turn() {
     const glm::vec3 a = glm::normalize(glm::vec3(0.3F, 1, 0.2F)),
                     b = glm::normalize(glm::cross(a, glm::vec3(1, 0, 0.4F)));
@@ -81,11 +81,11 @@ TEST(ToonEdges, ACubeHasItsEdgesAndNoOthers) {
     const glm::mat3 turn = oblique_turn();
     const Camera camera = look_at_camera({0.4, 1.3, 4}, {0, 0, 0}, radians(36), 512, 512);
     const float radius = static_cast<float>(1.2 * 4.2 / camera.fl_x);
-    const Image<RgbaF> picture =
+    const Image<RgbaF> image =
         render(scene_of(transformed(make_box(glm::vec3(-0.7F), glm::vec3(0.7F)), turn, {}), white()), camera,
                lines(radius))
-            .picture;
-    // Each edge between faces of which one at least is seen.
+            .image;
+    // Edges with at least one visible face.
     std::vector<std::pair<glm::dvec2, glm::dvec2>> edges;
     const auto seen = [&](const glm::vec3& normal) {
         return glm::dot(camera.centre() - glm::dvec3(turn * (0.7F * normal)), glm::dvec3(turn * normal)) > 0;
@@ -110,7 +110,7 @@ TEST(ToonEdges, ACubeHasItsEdgesAndNoOthers) {
             bool near = false;
             for (int y = static_cast<int>(p.y) - 2; y <= static_cast<int>(p.y) + 2; ++y) {
                 for (int x = static_cast<int>(p.x) - 2; x <= static_cast<int>(p.x) + 2; ++x) {
-                    near = near || (is_line(picture(x, y)) && glm::distance(p, glm::dvec2(x + 0.5, y + 0.5)) <= 1.5);
+                    near = near || (is_line(image(x, y)) && glm::distance(p, glm::dvec2(x + 0.5, y + 0.5)) <= 1.5);
                 }
             }
             ++asked;
@@ -119,7 +119,7 @@ TEST(ToonEdges, ACubeHasItsEdgesAndNoOthers) {
     }
     for (int y = 0; y < 512; ++y) {
         for (int x = 0; x < 512; ++x) {
-            if (!is_line(picture(x, y))) continue;
+            if (!is_line(image(x, y))) continue;
             ++drawn;
             right += std::ranges::any_of(edges, [&](const auto& edge) {
                 return distance_to_segment({x + 0.5, y + 0.5}, edge.first, edge.second) <= 1.5;
@@ -145,8 +145,8 @@ TEST(ToonEdges, SteepPlanesHaveNoneWhereTheirDepthAloneWouldSaySo) {
             render(scene_of(make_quad(glm::vec3(-30, 0, 0) - 30.0F * down, 60.0F * down, {60, 0, 0}), white()), camera,
                    options);
         ASSERT_NEAR(drawn.depth(64, 64), 4, 0.2);
-        EXPECT_EQ(count_lines(drawn.picture), 0) << tilt_deg << " degrees";
-        // The paper's first attempt: anything within the radius that is deeper or less deep by more than a threshold.
+        EXPECT_EQ(count_lines(drawn.image), 0) << tilt_deg << " degrees";
+        // The paper's first method: depth differences above a threshold within the radius.
         const int reach = static_cast<int>(kRadius * camera.fl_x / 4);
         for (int y = reach; y < 128 - reach; ++y) {
             for (int x = 0; x < 128; ++x) {
@@ -165,16 +165,16 @@ TEST(ToonEdges, ASmoothSphereHasAnOutlineOnly) {
     const Camera camera = front_camera(4, 34, 400);
     const double outline_px = camera.fl_x / std::sqrt(15.0),
                  line_px = static_cast<double>(kRadius) * camera.fl_x / 3.87;
-    for (const int splits : {4, 6}) {  // coarse facets, too
-        const Image<RgbaF> picture = render(scene_of(make_sphere(splits), white()), camera, lines(kRadius)).picture;
+    for (const int splits : {4, 6}) {  // including coarse facets
+        const Image<RgbaF> image = render(scene_of(make_sphere(splits), white()), camera, lines(kRadius)).image;
         int inside = 0, outline = 0, missing = 0;
         for (int y = 0; y < 400; ++y) {
             for (int x = 0; x < 400; ++x) {
                 const double from_outline = outline_px - glm::distance(glm::dvec2(x + 0.5, y + 0.5), glm::dvec2(200));
-                if (picture(x, y).a < 1) continue;
-                inside += is_line(picture(x, y)) && from_outline > line_px + 1.5;
+                if (image(x, y).a < 1) continue;
+                inside += is_line(image(x, y)) && from_outline > line_px + 1.5;
                 outline += from_outline < 0.8 * line_px;
-                missing += !is_line(picture(x, y)) && from_outline < 0.8 * line_px;
+                missing += !is_line(image(x, y)) && from_outline < 0.8 * line_px;
             }
         }
         EXPECT_EQ(inside, 0) << splits;
@@ -183,16 +183,16 @@ TEST(ToonEdges, ASmoothSphereHasAnOutlineOnly) {
     }
 }
 
-// Across the middle of a picture, where a line runs along (-across.y, across.x): how much of it is dark, in pixels.
-double dark_width(const Image<RgbaF>& picture, const glm::vec2& across) {
-    const double middle = 0.5 * picture.width();
+// Width in pixels of a line along (-across.y, across.x) through the centre of an image.
+double dark_width(const Image<RgbaF>& image, const glm::vec2& across) {
+    const double middle = 0.5 * image.width();
     double width = 0;
     int scans = 0;
     for (double along = -3; along <= 3; along += 0.5, ++scans) {
         for (double s = -middle + 4; s < middle - 4; s += 0.125) {
             const int x = static_cast<int>(middle + s * across.x - along * across.y),
                       y = static_cast<int>(middle - s * across.y - along * across.x);
-            width += 0.125 * static_cast<double>(picture(x, y).a * (1 - picture(x, y).g));
+            width += 0.125 * static_cast<double>(image(x, y).a * (1 - image(x, y).g));
         }
     }
     return width / scans;
@@ -205,7 +205,7 @@ TEST(ToonEdges, LinesAreAsWideAsTheirRadiusFromThere) {
          std::vector<std::pair<double, double>>{{0.7, 2}, {0.7, 6}, {3, 6}, {9, 2}, {16, 6}, {30, 2}}) {
         const Camera camera = front_camera(z, 10, 96);
         const auto radius = static_cast<float>(radius_px * z / camera.fl_x);
-        // Edges that stand, lie and lean; halfway between four, eight and sixteen diameters, too.
+        // Vertical, horizontal and slanted edges, including halfway between four, eight and sixteen diameters.
         for (const double lean_deg : {0.0, 5.625, 22.5, 45.0, 123.75}) {
             const auto lean = static_cast<float>(radians(lean_deg));
             const glm::vec3 across(std::cos(lean), std::sin(lean), 0), along(-across.y, across.x, 0);
@@ -219,8 +219,8 @@ TEST(ToonEdges, LinesAreAsWideAsTheirRadiusFromThere) {
                                     make_quad(20.0F * along, 3.0F * (down - out), -40.0F * along)};
                 }
                 const double sides = edge == kBeforeNothing || edge == kBeforeAWall ? 1 : 2;
-                const Image<RgbaF> picture = render(std::move(scene), camera, lines(radius, 4)).picture;
-                const double width = dark_width(picture, across) / sides;
+                const Image<RgbaF> image = render(std::move(scene), camera, lines(radius, 4)).image;
+                const double width = dark_width(image, across) / sides;
                 worst = std::max(worst, std::abs(width - radius_px));
                 EXPECT_NEAR(width, radius_px, 0.7)
                     << "edge " << edge << ", radius " << radius_px << ", " << lean_deg << " degrees, z " << z;
@@ -257,15 +257,15 @@ TEST(ToonEdges, AMirrorShowsTheEdgesOfTheMirroredMesh) {
     Overlap overlap, of_depth;
     for (int y = 1; y < 255; ++y) {
         for (int x = 1; x < 255; ++x) {
-            // What stands before the mirror hides some of it.
+            // The object in front of the mirror hides part of it.
             const glm::dvec3 ray = camera.ray(x + 0.5, y + 0.5);
             const double to_mirror = -camera.centre().z / ray.z * glm::dot(ray, camera.forward());
             if (!(ray.z < 0) || std::abs(in_mirror.depth(x, y) - to_mirror) > 1e-3) continue;
-            const bool truth = is_line(drawn.picture(x, y));
-            const bool line = in_mirror.picture(x, y).g < 0.5F && drawn.picture(x, y).a > 0;
+            const bool truth = is_line(drawn.image(x, y));
+            const bool line = in_mirror.image(x, y).g < 0.5F && drawn.image(x, y).a > 0;
             overlap.both += truth && line;
             overlap.any += truth || line;
-            // The usual way, edges of the picture's depths, sees the mirror.
+            // Edges of the depth image would show the mirror's plane.
             const auto d = [&](int i, int k) { return in_mirror.depth(x + i, y + k); };
             const float gx = d(1, -1) + 2 * d(1, 0) + d(1, 1) - d(-1, -1) - 2 * d(-1, 0) - d(-1, 1);
             const float gy = d(-1, 1) + 2 * d(0, 1) + d(1, 1) - d(-1, -1) - 2 * d(0, -1) - d(1, -1);
@@ -288,7 +288,7 @@ TEST(ToonEdges, GlassShowsTheEdgesBehindIt) {
             scene.meshes.push_back(make_box({-9, -9, 2}, {9, 9, 2.02F}));
             scene.meshes.back().material = 1;
         }
-        return render(std::move(scene), front_camera(4, 20, 200), lines(0.02F)).picture;
+        return render(std::move(scene), front_camera(4, 20, 200), lines(0.02F)).image;
     };
     const Image<RgbaF> without = drawn(false), with = drawn(true);
     Overlap overlap;

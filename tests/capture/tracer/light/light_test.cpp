@@ -1,4 +1,4 @@
-// Light sources against the formulas of radiometry.
+// Light sources against radiometric formulas.
 
 #include "capture/tracer/integrator/sampler.hpp"
 #include "capture/tracer/light/environment_map.hpp"
@@ -19,7 +19,7 @@ RenderOptions direct_light(int samples) {
     return options;
 }
 
-// A camera above the origin that sees a patch of the plane y = 0 of about 0.02 a side.
+// A camera above the origin with a patch of the plane y = 0 of about 0.02 a side in view.
 Camera patch_camera() {
     return look_at_camera({0, 1, 0.5}, {0, 0, 0}, radians(1.0), 8, 8);
 }
@@ -33,14 +33,14 @@ TEST(DirectionalLight, LambertSphereFollowsItsFormula) {
     int compared = 0;
     for (int y = 0; y < camera.height; ++y) {
         for (int x = 0; x < camera.width; ++x) {
-            if (rendering.picture(x, y).a < 1.0F) continue;
+            if (rendering.image(x, y).a < 1.0F) continue;
             const glm::dvec3 d = glm::normalize(camera.ray(x + 0.5, y + 0.5));
             const double b = glm::dot(camera.centre(), d);
             const double discriminant = b * b - glm::dot(camera.centre(), camera.centre()) + 1.0;
             if (discriminant < 0.01) continue;  // at the limb a pixel spans too many normals
             const glm::vec3 normal(camera.centre() + d * (-b - std::sqrt(discriminant)));
             const float expected = 0.6F / kPiF * 3.0F * std::max(0.0F, glm::dot(normal, to_light));
-            EXPECT_NEAR(rendering.picture(x, y).g, expected, 0.012F) << x << ", " << y;
+            EXPECT_NEAR(rendering.image(x, y).g, expected, 0.012F) << x << ", " << y;
             ++compared;
         }
     }
@@ -54,8 +54,8 @@ TEST(DirectionalLight, CoarseSphereShowsNoFacetsAtTheTerminator) {
     const Camera camera = front_camera(8.0, 15.0, 64);
     const Rendering rendering = render(std::move(scene), camera, direct_light(16));
     for (int x = 36; x < 56; ++x) {
-        const double along = (x + 0.5 - 32.0) / camera.fl_x * 7.0;  // about where the ray meets the sphere
-        EXPECT_NEAR(rendering.picture(x, 32).g, along, 0.06) << x;
+        const double along = (x + 0.5 - 32.0) / camera.fl_x * 7.0;  // approximate position of the hit
+        EXPECT_NEAR(rendering.image(x, 32).g, along, 0.06) << x;
     }
 }
 
@@ -64,7 +64,7 @@ TEST(PointLight, FallsOffWithTheSquareOfDistance) {
     for (const float distance : {1.0F, 2.0F, 5.0F}) {
         Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::diffuse, glm::vec3(0.5F)));
         scene.lights.push_back(point_light({0, distance, 0}, glm::vec3(2.0F)));
-        const double mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(4)).picture).g;
+        const double mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(4)).image).g;
         EXPECT_NEAR(mean, 0.5 / kPi * 2.0 / (distance * distance), 2e-3 * mean);
         if (distance == 1.0F) at_one = mean;
         EXPECT_NEAR(mean * distance * distance, at_one, 2e-3 * at_one);
@@ -82,21 +82,21 @@ TEST(RectangleLight, GivesTheAnalyticFormFactor) {
     // cross(u, v) points down.
     scene.lights.push_back(rectangle_light({-1.5F, 1, -0.5F}, {3, 0, 0}, {0, 0, 1}, glm::vec3(4.0F)));
     ASSERT_LT(glm::cross(glm::vec3(3, 0, 0), glm::vec3(0, 0, 1)).y, 0.0F);
-    const double mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(1024)).picture).g;
+    const double mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(1024)).image).g;
     EXPECT_NEAR(mean, 0.7 * 4.0 * form_factor, 0.005 * mean);
 }
 
 TEST(RectangleLight, IsDarkFromBehindAndSeenInMirrorsOnly) {
     Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::mirror, glm::vec3(0.9F)));
     scene.lights.push_back(rectangle_light({-5, 3, -5}, {10, 0, 0}, {0, 0, 10}, glm::vec3(4.0F)));
-    const Camera camera = patch_camera();  // below the light, which is larger than what it sees
-    EXPECT_NEAR(mean_radiance(render(scene, camera, direct_light(4)).picture).g, 0.9 * 4.0, 1e-4);
+    const Camera camera = patch_camera();  // below the light, which is larger than the field of view
+    EXPECT_NEAR(mean_radiance(render(scene, camera, direct_light(4)).image).g, 0.9 * 4.0, 1e-4);
     std::swap(scene.lights[0].half_u, scene.lights[0].half_v);
-    EXPECT_EQ(mean_radiance(render(scene, camera, direct_light(4)).picture).g, 0.0);
+    EXPECT_EQ(mean_radiance(render(scene, camera, direct_light(4)).image).g, 0.0);
 }
 
 TEST(Emitter, LightsLikeARectangleOfTheSameSize) {
-    // Directly above the patch and off to the side, so that light samples and hits by chance both matter.
+    // Directly above the patch and off to the side, so that both light samples and BSDF samples matter.
     for (const float offset : {0.0F, 1.0F}) {
         Scene by_light = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
         by_light.lights.push_back(rectangle_light({offset - 0.5F, 0.6F, -0.5F}, {1, 0, 0}, {0, 0, 1}, glm::vec3(2.0F)));
@@ -107,10 +107,10 @@ TEST(Emitter, LightsLikeARectangleOfTheSameSize) {
         by_mesh.materials.push_back(lamp);
         by_mesh.meshes.push_back(make_quad({offset - 0.5F, 0.6F, -0.5F}, {1, 0, 0}, {0, 0, 1}));
         by_mesh.meshes.back().material = 1;
-        // Below the lamp, for it hides the floor from above.
+        // Below the lamp, which hides the floor from above.
         const Camera camera = look_at_camera({0, 0.4, 0.5}, {0, 0, 0}, radians(1.0), 8, 8);
-        const double expected = mean_radiance(render(by_light, camera, direct_light(512)).picture).g;
-        const double mean = mean_radiance(render(by_mesh, camera, direct_light(512)).picture).g;
+        const double expected = mean_radiance(render(by_light, camera, direct_light(512)).image).g;
+        const double mean = mean_radiance(render(by_mesh, camera, direct_light(512)).image).g;
         EXPECT_GT(expected, 0.1);
         EXPECT_NEAR(mean, expected, 0.01 * expected) << offset;
     }
@@ -132,9 +132,9 @@ Scene half_lamp_scene(const RgbaF& right_half, bool painted) {
 }
 
 double floor_radiance(Scene scene, int samples = 1024) {
-    // Below the lamp, for it hides the floor from above.
+    // Below the lamp, which hides the floor from above.
     const Camera camera = look_at_camera({0, 0.4, 0.5}, {0, 0, 0}, radians(1.0), 8, 8);
-    return mean_radiance(render(std::move(scene), camera, direct_light(samples)).picture).g;
+    return mean_radiance(render(std::move(scene), camera, direct_light(samples)).image).g;
 }
 
 TEST(Emitter, DoesNotShineThroughItsHoles) {
@@ -146,7 +146,7 @@ TEST(Emitter, DoesNotShineThroughItsHoles) {
 }
 
 TEST(Emitter, ShinesAsItsTextureIsPainted) {
-    // The look-up is bilinear and repeats: 1 at s = 1/4, falling to 0 at 3/4 and rising again, as if cut into thin
+    // The look-up is bilinear and periodic: 1 at s = 1/4, falling to 0 at 3/4 and rising again; equivalent to thin
     // strips of that radiance.
     Scene strips = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
     constexpr int kStrips = 64;
@@ -187,7 +187,7 @@ Environment sunny_environment() {
 TEST(EnvironmentMap, ImportanceSamplingEqualsTheIntegral) {
     const Environment environment = sunny_environment();
     const EnvironmentMap map(environment);
-    // Irradiance on a surface that looks up, by a fine midpoint rule.
+    // Irradiance on an upward-facing surface, by a fine midpoint rule.
     glm::dvec3 irradiance(0);
     constexpr int kRows = 512;
     constexpr int kColumns = 2048;
@@ -202,7 +202,7 @@ TEST(EnvironmentMap, ImportanceSamplingEqualsTheIntegral) {
     }
     Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
     scene.environment = environment;
-    const glm::dvec3 mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(1024)).picture);
+    const glm::dvec3 mean = mean_radiance(render(std::move(scene), patch_camera(), direct_light(1024)).image);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], irradiance[c] / kPi, 0.01 * mean[c]) << c;
 }
 
@@ -230,7 +230,7 @@ TEST(EnvironmentMap, SamplesCarryTheirDensityWhichSumsToOne) {
 TEST(EnvironmentMap, DirectionsFollowTheConvention) {
     Environment environment;
     environment.pixels = Image<RgbaF>(64, 32);
-    environment.pixels(48, 16) = {1, 0, 0, 1};  // a quarter turn from the middle column: +X
+    environment.pixels(48, 16) = {1, 0, 0, 1};  // a quarter turn from the central column: +X
     environment.pixels(5, 0) = {0, 1, 0, 1};    // top row: +Y
     for (int x = 0; x < 64; ++x) environment.pixels(x, 0).g = 1;
     const EnvironmentMap map(environment);

@@ -1,4 +1,4 @@
-// glTF and GLB files, and what their materials become.
+// glTF and GLB files and the conversion of their materials.
 
 #include "capture/tracer/scene/mesh_file.hpp"
 #include "tests/capture/tracer/mesh_files.hpp"
@@ -102,15 +102,15 @@ TEST(GltfFile, RoughPlasticIsGlossy) {
     EXPECT_NEAR(material.roughness, 0.7F, 1e-6F);
 }
 
-// The material of a quad with one picture, whose glTF material is `changes` over an empty one.
+// The material of a quad with one image, whose glTF material is `changes` over an empty one.
 Result<Scene> read_gltf_material(const std::filesystem::path& folder, const nlohmann::json& changes,
-                                 const Image<Rgba8>& picture) {
+                                 const Image<Rgba8>& image) {
     Gltf gltf = make_gltf(nlohmann::json::object(), {{"uri", "picture.png"}});
     gltf.json["materials"][0].merge_patch(changes);
     gltf.json["buffers"] = {{{"uri", "a.bin"}, {"byteLength", gltf.buffer.size()}}};
     write_text(folder / "a.bin", gltf.buffer);
     write_text(folder / "a.gltf", gltf.json.dump());
-    const Status written = write_png(folder / "picture.png", picture.view());
+    const Status written = write_png(folder / "picture.png", image.view());
     EXPECT_TRUE(written) << written.error().message;
     Result<Scene> scene = read_mesh_file(folder / "a.gltf");
     EXPECT_TRUE(scene) << scene.error().message;
@@ -121,36 +121,36 @@ const nlohmann::json kTexture0 = {{"index", 0}};
 
 TEST(GltfFile, EmissionIsThatOfItsTexture) {
     const TemporaryFolder folder;
-    Image<Rgba8> picture(2, 1, {0, 0, 0, 255});
-    picture(1, 0) = {255, 188, 0, 255};
+    Image<Rgba8> image(2, 1, {0, 0, 0, 255});
+    image(1, 0) = {255, 188, 0, 255};
     const nlohmann::json glow = {{"emissiveFactor", {1.0, 0.5, 1.0}}, {"emissiveTexture", kTexture0}};
-    const Result<Scene> scene = read_gltf_material(folder.path(), glow, picture);
+    const Result<Scene> scene = read_gltf_material(folder.path(), glow, image);
     const Material& material = scene->materials[static_cast<std::size_t>(scene->meshes[0].material)];
     EXPECT_EQ(material.texture, -1);
     ASSERT_EQ(material.emission_texture, 0);
     EXPECT_EQ(material.emission, glm::vec3(1.0F, 0.5F, 1.0F));
     EXPECT_EQ(scene->textures[0].pixels(0, 0), (RgbaF{0, 0, 0, 1}));
     EXPECT_NEAR(scene->textures[0].pixels(1, 0).g, 0.503F, 1e-3F) << "through the sRGB curve";
-    // The texture's own factor is black unless the file says otherwise.
-    const Result<Scene> dark = read_gltf_material(folder.path(), {{"emissiveTexture", kTexture0}}, picture);
+    // The emissive factor of a texture defaults to black.
+    const Result<Scene> dark = read_gltf_material(folder.path(), {{"emissiveTexture", kTexture0}}, image);
     EXPECT_EQ(dark->materials[static_cast<std::size_t>(dark->meshes[0].material)].emission, glm::vec3(0.0F));
     EXPECT_TRUE(dark->textures.empty());
 }
 
 TEST(GltfFile, RoughnessAndMetalAreTheMeanOfTheirTexture) {
     const TemporaryFolder folder;
-    Image<Rgba8> picture(2, 1, {7, 102, 0, 255});
-    picture(1, 0).g = 51;
+    Image<Rgba8> image(2, 1, {7, 102, 0, 255});
+    image(1, 0).g = 51;
     const nlohmann::json pbr = {{"metallicRoughnessTexture", kTexture0}, {"baseColorTexture", kTexture0}};
-    const Result<Scene> plastic = read_gltf_material(folder.path(), {{"pbrMetallicRoughness", pbr}}, picture);
+    const Result<Scene> plastic = read_gltf_material(folder.path(), {{"pbrMetallicRoughness", pbr}}, image);
     const Material& material = plastic->materials[static_cast<std::size_t>(plastic->meshes[0].material)];
     EXPECT_EQ(material.kind, SurfaceKind::glossy) << "no blue, no metal, though the factor is 1";
     EXPECT_NEAR(material.roughness, 0.3F, 1e-5F) << "numbers, not sRGB colours";
     EXPECT_EQ(plastic->textures.size(), 1U);
-    for (Rgba8& p : picture.pixels()) p.b = 230;
+    for (Rgba8& p : image.pixels()) p.b = 230;
     nlohmann::json half = pbr;
     half["roughnessFactor"] = 0.5;
-    const Result<Scene> metal = read_gltf_material(folder.path(), {{"pbrMetallicRoughness", half}}, picture);
+    const Result<Scene> metal = read_gltf_material(folder.path(), {{"pbrMetallicRoughness", half}}, image);
     const Material& brass = metal->materials[static_cast<std::size_t>(metal->meshes[0].material)];
     EXPECT_EQ(brass.kind, SurfaceKind::metal);
     EXPECT_NEAR(brass.roughness, 0.15F, 1e-5F);
@@ -158,12 +158,12 @@ TEST(GltfFile, RoughnessAndMetalAreTheMeanOfTheirTexture) {
 
 TEST(GltfFile, AlphaModeSaysWhatIsAHole) {
     const TemporaryFolder folder;
-    Image<Rgba8> picture(4, 1, {200, 0, 0, 255});
+    Image<Rgba8> image(4, 1, {200, 0, 0, 255});
     const std::uint8_t alphas[4] = {0, 100, 180, 255};
-    for (int x = 0; x < 4; ++x) picture(x, 0).a = alphas[x];
+    for (int x = 0; x < 4; ++x) image(x, 0).a = alphas[x];
     const auto holes = [&](nlohmann::json changes, double factor) {
         changes["pbrMetallicRoughness"] = {{"baseColorTexture", kTexture0}, {"baseColorFactor", {1, 1, 1, factor}}};
-        const Result<Scene> scene = read_gltf_material(folder.path(), changes, picture);
+        const Result<Scene> scene = read_gltf_material(folder.path(), changes, image);
         std::string text;
         for (int x = 0; x < 4; ++x) {
             EXPECT_GT(scene->textures[0].pixels(x, 0).r, 0.5F) << "colours under alpha 0 are kept";
@@ -187,7 +187,7 @@ TEST(GlbFile, ReadsItsEmbeddedTexture) {
     pbr["roughnessFactor"] = 1.0;
     pbr["metallicRoughnessTexture"] = kTexture0;
     Gltf gltf = make_gltf(pbr, {{"bufferView", 3}, {"mimeType", "image/png"}});
-    // The mean blue is 3/4 and the mean green 2/5, which is what the other file of this material says as a factor.
+    // The mean blue is 3/4 and the mean green 2/5, the same as the factors in the other file of this material.
     Image<Rgba8> paint(2, 2, {0, 136, 255, 255});
     paint(0, 0) = {255, 0, 0, 255};
     ASSERT_TRUE(write_png(folder / "paint.png", paint.view()));

@@ -2,7 +2,7 @@
 
 #include "capture/tracer/scene/mesh_file.hpp"
 #include "capture/tracer/scene/scene_file.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 #include "tests/support/real_data.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -23,9 +23,9 @@ RenderOptions quick(int samples = 8) {
     return options;
 }
 
-double coverage_px(const Image<RgbaF>& picture) {
+double coverage_px(const Image<RgbaF>& image) {
     double sum = 0;
-    for (const RgbaF& p : picture.pixels()) sum += static_cast<double>(p.a);
+    for (const RgbaF& p : image.pixels()) sum += static_cast<double>(p.a);
     return sum;
 }
 
@@ -45,12 +45,12 @@ TEST(RealScene, SpotWithItsTextureIsWhiteWithDarkSpots) {
     const Rendering rendering = render(std::move(file->scene), camera, quick());
     int light = 0;
     int dark = 0;
-    for (const RgbaF& p : rendering.picture.pixels()) {
+    for (const RgbaF& p : rendering.image.pixels()) {
         if (p.a < 1.0F) continue;
         light += p.g > 0.6F ? 1 : 0;
         dark += p.g < 0.25F ? 1 : 0;
     }
-    EXPECT_GT(coverage_px(rendering.picture), 400);
+    EXPECT_GT(coverage_px(rendering.image), 400);
     EXPECT_GT(light, 100);
     EXPECT_GT(dark, 20);
 }
@@ -64,7 +64,7 @@ TEST(RealScene, BunnyAndSuzanneLoseNoEnergyInTheFurnace) {
         for (Material& material : file->scene.materials) material = material_of(SurfaceKind::diffuse);
         const Rendering rendering = render(std::move(file->scene), front_camera(3.5, 39.3, 48), quick(32));
         // Concave: light is caught in folds until the path's last bounce, and behind normals that disagree with facets.
-        EXPECT_NEAR(mean_radiance(rendering.picture).g, 1.0, 0.02) << name;
+        EXPECT_NEAR(mean_radiance(rendering.image).g, 1.0, 0.02) << name;
     }
 }
 
@@ -74,11 +74,11 @@ TEST(RealScene, CornellBoxHasItsColours) {
     ASSERT_TRUE(scene) << scene.error().message;
     const Camera camera = look_at_camera({0, 1, 4}, {0, 1, 0}, radians(34.0), 48, 48);
     const Rendering rendering = render(std::move(*scene), camera, quick(64));
-    const RgbaF left = rendering.picture(5, 24);
-    const RgbaF right = rendering.picture(42, 24);
+    const RgbaF left = rendering.image(5, 24);
+    const RgbaF right = rendering.image(42, 24);
     EXPECT_GT(left.r, 3 * left.g) << "the red wall";
     EXPECT_GT(right.g, 1.5F * right.r) << "the green wall";
-    EXPECT_GT(rendering.picture(24, 20).g, 0.02F) << "the back wall is lit";
+    EXPECT_GT(rendering.image(24, 20).g, 0.02F) << "the back wall is lit";
 }
 
 TEST(RealScene, EveryCornellBoxReads) {
@@ -127,7 +127,7 @@ TEST(RealScene, LightProbesLightAWhiteBallByTheirMean) {
         for (const glm::dvec3& eye : {glm::dvec3(40, 0, 0), glm::dvec3(-40, 0, 0), glm::dvec3(0, 40, 1e-3),
                                       glm::dvec3(0, -40, 1e-3), glm::dvec3(0, 0, 40), glm::dvec3(0, 0, -40)}) {
             const Camera camera = look_at_camera(eye, {0, 0, 0}, radians(3.0), 24, 24);
-            seen += mean_radiance(tracer->render(camera, quick(64)).picture).g / 6;
+            seen += mean_radiance(tracer->render(camera, quick(64)).image).g / 6;
         }
         EXPECT_NEAR(seen, mean, 0.06 * mean) << name;
     }

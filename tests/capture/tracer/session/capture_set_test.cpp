@@ -1,7 +1,7 @@
-// Capture sets as folders.
+// Folders of capture sets.
 
 #include "capture/tracer/session/capture_set.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -41,7 +41,7 @@ Result<Tracer> ball() {
     return Tracer::create(std::move(scene));
 }
 
-CaptureSetOptions options_of(PictureFormat format, bool depth) {
+CaptureSetOptions options_of(ImageFormat format, bool depth) {
     CaptureSetOptions options;
     options.format = format;
     options.render.samples_per_pixel = 16;
@@ -49,13 +49,13 @@ CaptureSetOptions options_of(PictureFormat format, bool depth) {
     return options;
 }
 
-TEST(CaptureSet, WritesPicturesDepthAndRig) {
+TEST(CaptureSet, WritesImagesDepthAndRig) {
     const rs::test::TemporaryFolder folder;
     const Result<Tracer> tracer = ball();
     ASSERT_TRUE(tracer);
     CountingProgress progress;
     const auto summary =
-        write_capture_set(*tracer, small_ring(), options_of(PictureFormat::png, true), folder / "set", &progress);
+        write_capture_set(*tracer, small_ring(), options_of(ImageFormat::png, true), folder / "set", &progress);
     ASSERT_TRUE(summary) << summary.error().message;
     EXPECT_EQ(summary->views, 3);
     EXPECT_EQ(summary->clipped_views, 0);
@@ -68,17 +68,17 @@ TEST(CaptureSet, WritesPicturesDepthAndRig) {
     ASSERT_EQ(rig->views.size(), 3U);
     EXPECT_EQ(rig->object_radius, 1.0);
     for (const RigView& view : rig->views) {
-        const Result<Image<Rgba8>> picture = read_picture(picture_path(folder / "set", view));
-        ASSERT_TRUE(picture) << picture.error().message;
-        EXPECT_EQ(picture->width(), 40);
-        EXPECT_EQ(picture->height(), 36);
+        const Result<Image<Rgba8>> image = read_image(image_path(folder / "set", view));
+        ASSERT_TRUE(image) << image.error().message;
+        EXPECT_EQ(image->width(), 40);
+        EXPECT_EQ(image->height(), 36);
         double sum = 0;
         for (int x = 12; x < 28; ++x) {
-            EXPECT_EQ((*picture)(x, 18).a, 255);
-            sum += (*picture)(x, 18).g;
+            EXPECT_EQ((*image)(x, 18).a, 255);
+            sum += (*image)(x, 18).g;
         }
         EXPECT_NEAR(sum / 16, 188, 2.5);  // half the light of the furnace, in sRGB
-        EXPECT_EQ((*picture)(0, 0), (Rgba8{0, 0, 0, 0}));
+        EXPECT_EQ((*image)(0, 0), (Rgba8{0, 0, 0, 0}));
         const Result<Image<float>> depth = read_channel(folder / "set" / view.depth_file_path);
         ASSERT_TRUE(depth) << depth.error().message;
         EXPECT_NEAR((*depth)(20, 18), 2.5F, 0.01F);
@@ -90,23 +90,22 @@ TEST(CaptureSet, ExrKeepsLinearLight) {
     const rs::test::TemporaryFolder folder;
     const Result<Tracer> tracer = ball();
     ASSERT_TRUE(tracer);
-    const auto summary =
-        write_capture_set(*tracer, small_ring(), options_of(PictureFormat::exr, false), folder / "set");
+    const auto summary = write_capture_set(*tracer, small_ring(), options_of(ImageFormat::exr, false), folder / "set");
     ASSERT_TRUE(summary) << summary.error().message;
     const Result<Rig> rig = read_rig(folder / "set");
     ASSERT_TRUE(rig) << rig.error().message;
     EXPECT_EQ(rig->views[2].file_path, "002.exr");
     EXPECT_EQ(rig->views[2].depth_file_path, "");
-    const Result<Image<RgbaF>> picture = read_picture_linear(folder / "set" / rig->views[2].file_path);
-    ASSERT_TRUE(picture) << picture.error().message;
-    EXPECT_NEAR(mean_radiance(*picture).g, 0.5, 0.005);
+    const Result<Image<RgbaF>> image = read_image_linear(folder / "set" / rig->views[2].file_path);
+    ASSERT_TRUE(image) << image.error().message;
+    EXPECT_NEAR(mean_radiance(*image).g, 0.5, 0.005);
 }
 
 TEST(CaptureSet, ReplacesOnlyCaptureSets) {
     const rs::test::TemporaryFolder folder;
     const Result<Tracer> tracer = ball();
     ASSERT_TRUE(tracer);
-    const CaptureSetOptions options = options_of(PictureFormat::png, false);
+    const CaptureSetOptions options = options_of(ImageFormat::png, false);
     ASSERT_TRUE(write_capture_set(*tracer, small_ring(), options, folder / "set"));
     ASSERT_TRUE(write_capture_set(*tracer, small_ring(), options, folder / "set"));
     std::filesystem::create_directories(folder / "holiday");
@@ -125,14 +124,14 @@ TEST(CaptureSet, IsRefusedWhereNoViewShowsAnything) {
     for (RigView& view : rig.views) {
         for (int axis : {0, 2}) view.camera.world_from_camera[axis] *= -1.0;  // about-turn
     }
-    const auto refused = write_capture_set(*tracer, rig, options_of(PictureFormat::png, false), folder / "set");
+    const auto refused = write_capture_set(*tracer, rig, options_of(ImageFormat::png, false), folder / "set");
     ASSERT_FALSE(refused);
     EXPECT_NE(refused.error().message.find("set: no view shows the object; check the poses or the mesh"),
               std::string::npos);
     EXPECT_FALSE(std::filesystem::exists(folder / "set"));
     // One view is enough.
     rig.views[1] = small_ring().views[1];
-    EXPECT_TRUE(write_capture_set(*tracer, rig, options_of(PictureFormat::png, false), folder / "set"));
+    EXPECT_TRUE(write_capture_set(*tracer, rig, options_of(ImageFormat::png, false), folder / "set"));
 }
 
 TEST(CaptureSet, SaysWhenTheObjectIsCutOff) {
@@ -141,7 +140,7 @@ TEST(CaptureSet, SaysWhenTheObjectIsCutOff) {
     ASSERT_TRUE(tracer);
     Rig rig = small_ring();
     for (RigView& view : rig.views) view.camera.fl_x = view.camera.fl_y = 200;
-    const auto summary = write_capture_set(*tracer, rig, options_of(PictureFormat::png, false), folder / "set");
+    const auto summary = write_capture_set(*tracer, rig, options_of(ImageFormat::png, false), folder / "set");
     ASSERT_TRUE(summary) << summary.error().message;
     EXPECT_EQ(summary->clipped_views, 3);
 }

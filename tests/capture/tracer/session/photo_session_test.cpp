@@ -1,10 +1,10 @@
-// Synthetic photographs against their own truth: marks appear where the truth projects them, lights stand still, alpha
-// is what two backdrops tell, the same seed gives the same bytes.
+// Synthetic photos against their ground truth: marks are at their projected positions, lights are static, alpha matches
+// the matte from two backdrops, the same seed yields the same bytes.
 
 #include "capture/tracer/session/photo_session.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image/linear_light.hpp"
-#include "rayspace/pictures/picture_io.hpp"
+#include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -36,7 +36,7 @@ Material glowing() {
     return material;
 }
 
-// Everything a real camera adds left out.
+// Without noise, drift and other camera errors.
 PhotoOptions clean_options() {
     PhotoOptions options;
     options.session.views = 4;
@@ -54,27 +54,27 @@ double brightness(const Rgba8& p) {
     return static_cast<double>(linear_from_srgb8(p.g));
 }
 
-glm::dvec2 centroid(const Image<Rgba8>& picture) {
+glm::dvec2 centroid(const Image<Rgba8>& image) {
     glm::dvec2 sum(0);
     double weight = 0;
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            sum += brightness(picture(x, y)) * glm::dvec2(x + 0.5, y + 0.5);
-            weight += brightness(picture(x, y));
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            sum += brightness(image(x, y)) * glm::dvec2(x + 0.5, y + 0.5);
+            weight += brightness(image(x, y));
         }
     }
-    EXPECT_GT(weight, 3.0) << "no mark in the picture";
+    EXPECT_GT(weight, 3.0) << "no mark in the image";
     return sum / weight;
 }
 
-// What the truth file says, read as a stranger would.
+// Independent reader of the ground-truth file.
 struct Truth {
     Rig rig;
     TurntableModel model;
     double distance = 0;
     double camera_height = 0;
 
-    // Where a point of the object appears in the photograph of one view.
+    // Position of an object point in the photo of a view.
     [[nodiscard]] glm::dvec2 photo_position(const glm::dvec3& p_in_object, std::size_t view) const {
         const glm::dvec3 in_room = turned(p_in_object, model.angles_rad[view]) - glm::dvec3(0, camera_height, 0);
         return project(model.lens, model.pose, in_room / distance).value_or(glm::dvec2(-1e9));
@@ -100,13 +100,13 @@ Truth read_truth(const fs::path& folder) {
     return truth;
 }
 
-Image<Rgba8> picture_in(const fs::path& path) {
-    const Result<Image<Rgba8>> picture = read_picture(path);
-    if (!picture) {
-        ADD_FAILURE() << picture.error().message;
+Image<Rgba8> image_in(const fs::path& path) {
+    const Result<Image<Rgba8>> image = read_image(path);
+    if (!image) {
+        ADD_FAILURE() << image.error().message;
         return Image<Rgba8>(1, 1);
     }
-    return *picture;
+    return *image;
 }
 
 std::string view_file(std::size_t view) {
@@ -152,11 +152,11 @@ TEST_F(PhotoSession, MarksOfTheObjectAppearWhereTheTruthProjectsThem) {
         ASSERT_EQ(truth.rig.views.size(), 4U);
         EXPECT_EQ(truth.model.angles_rad[1] > 0, counter_clockwise);
         for (std::size_t i = 0; i < 4; ++i) {
-            const glm::dvec2 seen = centroid(picture_in(set / "photos" / view_file(i)));
+            const glm::dvec2 seen = centroid(image_in(set / "photos" / view_file(i)));
             const glm::dvec2 expected = truth.photo_position(mark, i);
             EXPECT_NEAR(seen.x, expected.x, 0.05) << "view " << i;
             EXPECT_NEAR(seen.y, expected.y, 0.05) << "view " << i;
-            // The pinhole camera of transforms.json, with the lens' distortion put on, says the same.
+            // Agrees with the pinhole camera of transforms.json plus lens distortion.
             const Camera& camera = truth.rig.views[i].camera;
             const glm::dvec3 pinhole = camera.project(glm::dvec3(mark));
             const auto straight = undistorted(truth.model.lens, expected);
@@ -189,7 +189,7 @@ TEST_F(PhotoSession, MarksOfTheBoardAppearWhereItsCornersSay) {
     const glm::dvec3 mark = corner(0) + (corner(1) - corner(0)) * (91.5 / 120) + (corner(3) - corner(0)) * (9.5 / 80);
     EXPECT_GT(std::abs(corner(0).x + corner(2).x), 1e-3) << "the board's middle is on the axis";
     for (std::size_t i = 0; i < 4; ++i) {
-        const glm::dvec2 seen = centroid(picture_in(set / "photos" / view_file(i)));
+        const glm::dvec2 seen = centroid(image_in(set / "photos" / view_file(i)));
         const glm::dvec2 expected = truth.photo_position(mark, i);
         EXPECT_NEAR(seen.x, expected.x, 0.05) << "view " << i;
         EXPECT_NEAR(seen.y, expected.y, 0.05) << "view " << i;
@@ -197,7 +197,7 @@ TEST_F(PhotoSession, MarksOfTheBoardAppearWhereItsCornersSay) {
 }
 
 TEST_F(PhotoSession, LightsStandStillInTheRoom) {
-    // A ball on the axis looks the same at every angle, whatever is lit from where, if and only if the lights stay.
+    // A ball on the axis has the same appearance at every angle if and only if the lights are static.
     const auto lit_by = [&](const std::string& name, const std::function<void(Scene&)>& add_light) {
         Scene scene = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.7F)));
         add_light(scene);
@@ -207,8 +207,8 @@ TEST_F(PhotoSession, LightsStandStillInTheRoom) {
         options.session.height = 64;
         options.backdrop = backdrop("black");
         const fs::path set = photograph(name, scene, 1, options);
-        const Image<Rgba8> first = picture_in(set / "photos" / view_file(0));
-        // Of the means of blocks of 8x8 pixels, against the noise of the tracer.
+        const Image<Rgba8> first = image_in(set / "photos" / view_file(0));
+        // Compares means of blocks of 8x8 pixels, to suppress the noise of the tracer.
         const auto difference = [&](const Image<Rgba8>& other) {
             double sum = 0;
             for (int block = 0; block < 10 * 8; ++block) {
@@ -227,7 +227,7 @@ TEST_F(PhotoSession, LightsStandStillInTheRoom) {
         }
         EXPECT_GT(difference(mirrored), 5) << name << " does not come from the side";
         for (std::size_t i = 1; i < 3; ++i) {
-            EXPECT_LT(difference(picture_in(set / "photos" / view_file(i))), 1.0) << name << ", view " << i;
+            EXPECT_LT(difference(image_in(set / "photos" / view_file(i))), 1.0) << name << ", view " << i;
         }
     };
     lit_by("directional", [](Scene& s) { s.lights = {directional_light({-1, -0.5, -0.5}, glm::vec3(2))}; });
@@ -259,9 +259,9 @@ TEST_F(PhotoSession, AlphaIsWhatABlackAndAWhiteBackdropTell) {
     double truth_sum = 0, told_sum = 0;
     int edges = 0;
     for (std::size_t i = 0; i < 2; ++i) {
-        const Image<Rgba8> black = picture_in(on_black / "photos" / view_file(i));
-        const Image<Rgba8> white = picture_in(on_white / "photos" / view_file(i));
-        const Image<Rgba8> alpha = picture_in(on_black / "truth" / "alpha" / view_file(i));
+        const Image<Rgba8> black = image_in(on_black / "photos" / view_file(i));
+        const Image<Rgba8> white = image_in(on_white / "photos" / view_file(i));
+        const Image<Rgba8> alpha = image_in(on_black / "truth" / "alpha" / view_file(i));
         for (std::size_t p = 0; p < alpha.pixels().size(); ++p) {
             const double truth = alpha.pixels()[p].g / 255.0;
             const double told = 1 - (brightness(white.pixels()[p]) - brightness(black.pixels()[p]));
@@ -274,12 +274,11 @@ TEST_F(PhotoSession, AlphaIsWhatABlackAndAWhiteBackdropTell) {
     EXPECT_GT(edges, 100);
     EXPECT_NEAR(told_sum / truth_sum, 1, 0.003);
 
-    // A disc under the object changes the photograph, not the object's alpha.
+    // A disc under the object changes the photo, not the object's alpha.
     options.disc = DiscSurface::speckled;
     const fs::path on_disc = photograph("on-disc", scene, 1, options);
-    EXPECT_EQ(picture_in(on_disc / "truth" / "alpha" / "000.png"),
-              picture_in(on_white / "truth" / "alpha" / "000.png"));
-    EXPECT_NE(picture_in(on_disc / "photos" / "000.png"), picture_in(on_white / "photos" / "000.png"));
+    EXPECT_EQ(image_in(on_disc / "truth" / "alpha" / "000.png"), image_in(on_white / "truth" / "alpha" / "000.png"));
+    EXPECT_NE(image_in(on_disc / "photos" / "000.png"), image_in(on_white / "photos" / "000.png"));
 }
 
 TEST_F(PhotoSession, TheObjectThrowsAShadowOnTheDiscItTouches) {
@@ -292,14 +291,14 @@ TEST_F(PhotoSession, TheObjectThrowsAShadowOnTheDiscItTouches) {
     options.disc = DiscSurface::plain;
     const fs::path set = photograph("set", scene, 1, options);
     const Truth truth = read_truth(set);
-    const Image<Rgba8> photo = picture_in(set / "photos" / "000.png");
+    const Image<Rgba8> photo = image_in(set / "photos" / "000.png");
     const double top = truth.rig.extras.at("turntable").at("plate").at("top");
     EXPECT_NEAR(top, -1, 1e-3) << "the lowest point of the ball";
     const auto disc_at = [&](double distance) {
         const glm::dvec2 p = truth.photo_position({0, top, distance}, 0);
         return brightness(photo(static_cast<int>(p.x), static_cast<int>(p.y)));
     };
-    EXPECT_LT(disc_at(0.55), 0.75 * disc_at(1.1));  // near the contact, as far as it is seen, and at the rim
+    EXPECT_LT(disc_at(0.55), 0.75 * disc_at(1.1));  // near the visible contact, and at the rim
     EXPECT_GT(disc_at(1.1), 0.2);
 }
 

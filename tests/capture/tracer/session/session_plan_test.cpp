@@ -1,4 +1,4 @@
-// What is drawn for a photographed turn has the size that was asked for, and the sensor adds what it is told to.
+// Random errors of session plans have the requested size, and the sensor adds the requested noise.
 
 #include "capture/tracer/session/session_plan.hpp"
 #include "capture/tracer/session/seeded_draws.hpp"
@@ -107,9 +107,9 @@ TEST(Sensor, AddsNoiseOfTheAskedSizeAndTheExposure) {
     const Image<RgbaF> light(200, 200, {linear, linear, linear, 1});
     for (const double noise : {0.0, 1.5, 6.0}) {
         for (const double exposure : {1.0, 0.8}) {
-            const Image<Rgba8> picture = expose(light, {exposure, noise, 3});
+            const Image<Rgba8> image = expose(light, {exposure, noise, 3});
             double sum = 0, sum2 = 0;
-            for (const Rgba8& p : picture.pixels()) {
+            for (const Rgba8& p : image.pixels()) {
                 sum += p.g;
                 sum2 += static_cast<double>(p.g) * p.g;
             }

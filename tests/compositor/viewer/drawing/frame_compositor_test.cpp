@@ -1,4 +1,4 @@
-// The pictures of the frame compositor. Skipped where no OpenGL context can be had.
+// The images of the frame compositor. Skipped where no OpenGL context can be had.
 
 #include "engine/core/definition/view_registers.hpp"
 #include "engine/model/simulated_board.hpp"
@@ -97,16 +97,16 @@ TEST_F(Compositing, WhatIsOffTheScreenIsNotRendered) {
     EXPECT_LT(statistics_.pixels_rendered, kFrameWidth * kFrameHeight * 2 / 3);
 }
 
-// The engine's picture of the whole screen, laid over the background in linear light.
+// The engine's image of the whole screen, laid over the background in linear light.
 Image<Rgba8> expected_over(const Scene& scene, const PlacedObject& placed, const Camera& camera_in_world) {
     const RaySpaceObject& object = placed.object->renderer.object();
     Camera camera = camera_in_node(camera_in_world, placed.world_from_object);
     camera.world_from_camera[3] = glm::dvec4(camera.centre() * object.units_per_radius, 1);
     const auto registers = engine::prepare_view(object, camera);
     RS_CHECK(registers.ok());
-    Image<Rgba8> picture(camera.width, camera.height);
-    placed.object->renderer.render(*registers, picture);
-    for (Rgba8& pixel : picture.pixels()) {
+    Image<Rgba8> image(camera.width, camera.height);
+    placed.object->renderer.render(*registers, image);
+    for (Rgba8& pixel : image.pixels()) {
         const float a = static_cast<float>(pixel.a) / 255.0F;
         const auto over = [&](std::uint8_t code, float background) {
             return srgb8_from_linear(linear_from_srgb8(code) * a + background * (1 - a));
@@ -114,10 +114,10 @@ Image<Rgba8> expected_over(const Scene& scene, const PlacedObject& placed, const
         pixel = {over(pixel.r, scene.background.sky[0].r), over(pixel.g, scene.background.sky[0].g),
                  over(pixel.b, scene.background.sky[0].b), 255};
     }
-    return picture;
+    return image;
 }
 
-TEST_F(Compositing, AnUnoccludedObjectIsTheEnginesPicture) {
+TEST_F(Compositing, AnUnoccludedObjectIsTheEnginesImage) {
     const Scene scene;
     const auto object = test::drum();
     const Camera pitched = look_at_camera({1, 2, 5}, {0, 0, 0}, radians(50), kFrameWidth, kFrameHeight);
@@ -214,7 +214,7 @@ TEST_F(Compositing, ManyNodesTakeSeveralCycles) {
 }
 
 TEST_F(Compositing, APlaceholderStandsWhereTheObjectWillBe) {
-    const auto engine = std::make_shared<engine::DataModule>(limits_of_viewer());
+    const auto engine = std::make_shared<engine::RenderSession>(limits_of_viewer());
     const auto nodes = std::make_shared<ShownNodes>(1);
     Result<FrameCompositor> compositor =
         FrameCompositor::create({}, engine, nodes, {.width = kFrameWidth, .height = kFrameHeight});
@@ -255,7 +255,7 @@ TEST_F(Compositing, ABoardDrawsTheSameBits) {
     const auto config = engine::model::read_board_config("prototype-2000");
     ASSERT_TRUE(config);
     const auto engine =
-        std::make_shared<engine::DataModule>(limits_of_viewer(), engine::model::make_simulated_board(*config, true));
+        std::make_shared<engine::RenderSession>(limits_of_viewer(), engine::model::make_simulated_board(*config, true));
     RaySpaceObject object = test::drum_object();
     const std::shared_ptr<const RaySpaceObject> for_board = engine->as_board_draws(object);
     ASSERT_TRUE(for_board);
@@ -280,7 +280,7 @@ TEST_F(Compositing, ABoardDrawsTheSameBits) {
     EXPECT_EQ(core->statistics().nodes_by_board, 0);
 }
 
-TEST_F(Compositing, APictureTooLargeForTheDriverIsRefused) {
+TEST_F(Compositing, AImageTooLargeForTheDriverIsRefused) {
     const auto framebuffer = gl::Framebuffer::create(1 << 20, 16, 1);
     ASSERT_FALSE(framebuffer);
     EXPECT_THAT(framebuffer.error().message, ::testing::HasSubstr("1048576x16"));

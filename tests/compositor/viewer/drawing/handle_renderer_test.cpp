@@ -1,5 +1,4 @@
-// Edited light in frames, the surface under a pixel, and handles over a frame. Skipped where no OpenGL context can be
-// had.
+// Edited lights in frames, surface picking, and handles over a frame. Skipped without OpenGL.
 
 #include "compositor/viewer/drawing/handle_renderer.hpp"
 
@@ -95,30 +94,30 @@ TEST_F(Handles, AreDrawnOverACopyAndFaintWhereHidden) {
         const Image<Rgba8> frame = compositor.compose(camera_).value();
         auto renderer = HandleRenderer::create();
         ASSERT_TRUE(renderer);
-        auto picture = gl::Framebuffer::create(kWide_px, kHigh_px, 1);
+        auto image = gl::Framebuffer::create(kWide_px, kHigh_px, 1);
         auto depths = gl::Framebuffer::create(kWide_px, kHigh_px, samples);
-        ASSERT_TRUE(picture && depths);
-        picture->begin(glm::vec3(0.1F));
+        ASSERT_TRUE(image && depths);
+        image->begin(glm::vec3(0.1F));
         depths->begin(glm::vec3(0));
         const glm::dvec3 before = camera_.centre() + 2.0 * camera_.ray(40, 60);
         const glm::dvec3 behind_the_camera = camera_.centre() - camera_.forward();
         const std::vector<HandleStroke> strokes = {{before, before, {1, 0, 0}, 14},
                                                    {behind_the_camera, behind_the_camera, {0, 0, 1}, 14}};
-        ASSERT_TRUE(renderer->draw(strokes, camera_, *picture, *depths));
-        const Image<Rgba8> drawn = renderer->shown().read_picture();
+        ASSERT_TRUE(renderer->draw(strokes, camera_, *image, *depths));
+        const Image<Rgba8> drawn = renderer->shown().read_image();
         EXPECT_EQ(drawn(40, 60), (Rgba8{255, 0, 0, 255}));
-        EXPECT_EQ(drawn(120, 60), picture->read_picture()(120, 60));
-        EXPECT_EQ(picture->read_picture()(40, 60), picture->read_picture()(120, 60));  // the picture stays
-        EXPECT_EQ(compositor.picture(), frame);
+        EXPECT_EQ(drawn(120, 60), image->read_image()(120, 60));
+        EXPECT_EQ(image->read_image()(40, 60), image->read_image()(120, 60));  // the frame itself is unchanged
+        EXPECT_EQ(compositor.image(), frame);
     }
-    // Behind the block a handle shines through, faintly.
+    // Handles behind the block are faint.
     FrameCompositor compositor = compositor_of(lit_room());
     ASSERT_TRUE(compositor.draw(camera_));
     const glm::dvec3 hidden(-0.3, 0.5, -0.6);
     const glm::dvec3 px = camera_.project(hidden);
-    const Rgba8 block = compositor.picture()(static_cast<int>(px.x), static_cast<int>(px.y));
+    const Rgba8 block = compositor.image()(static_cast<int>(px.x), static_cast<int>(px.y));
     ASSERT_TRUE(compositor.draw_handles({{hidden, hidden, {0, 1, 0}, 14}}));
-    const Rgba8 faint = compositor.handles()->shown().read_picture()(static_cast<int>(px.x), static_cast<int>(px.y));
+    const Rgba8 faint = compositor.handles()->shown().read_image()(static_cast<int>(px.x), static_cast<int>(px.y));
     EXPECT_GT(faint.g, block.g + 20);
     EXPECT_LT(faint.g, 230);
 }

@@ -1,4 +1,4 @@
-// Normal and bump maps, raster and traced. Skipped where no OpenGL context can be had.
+// Normal and bump maps, raster and traced. Skipped without OpenGL.
 
 #include "compositor/scene/normal_map.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -14,13 +14,13 @@ namespace {
 
 constexpr int kSide_px = 96;
 
-SceneTexture even_picture(Rgba8 colour) {
+SceneTexture even_image(Rgba8 colour) {
     SceneTexture texture;
-    texture.picture = Image<Rgba8>(8, 8, colour);
+    texture.image = Image<Rgba8>(8, 8, colour);
     return texture;
 }
 
-// A square about the origin that faces +Z, textured once, lit from one side.
+// Textured square about the origin that faces +Z, lit from one side.
 Scene square(std::shared_ptr<const NormalMap> normals) {
     Scene scene;
     scene.lights = {directional_light({-1, 0, -1}, glm::vec3(2.5F))};
@@ -45,18 +45,18 @@ Camera before(double from_side = 0.4) {
 Image<RgbaF> traced(const Scene& scene, TracedMethod method) {
     auto tracer = TracedRenderer::create(scene, {}, {.method = method});
     RS_CHECK(tracer.ok());
-    tracer->look(before());
+    tracer->begin_image(before());
     for (int pass = 0; pass < 4; ++pass) RS_CHECK(tracer->add_pass());
     return tracer->radiance();
 }
 
 using Relief = test::GlTest;
 
-TEST_F(Relief, AFlatMapGivesThePictureWithoutBitForBit) {
-    for (const auto& flat : {normal_map(even_picture({128, 128, 255, 255}), 2),
-                             normal_map_of_heights(even_picture({77, 130, 12, 255}), 3)}) {
-        EXPECT_TRUE(std::ranges::equal(test::raster_picture(square(flat), {}, before(), false).pixels(),
-                                       test::raster_picture(square(nullptr), {}, before(), false).pixels()));
+TEST_F(Relief, AFlatMapGivesTheImageWithoutBitForBit) {
+    for (const auto& flat :
+         {normal_map(even_image({128, 128, 255, 255}), 2), normal_map_of_heights(even_image({77, 130, 12, 255}), 3)}) {
+        EXPECT_TRUE(std::ranges::equal(test::raster_image(square(flat), {}, before(), false).pixels(),
+                                       test::raster_image(square(nullptr), {}, before(), false).pixels()));
         for (const TracedMethod method : {TracedMethod::kWhitted, TracedMethod::kPath}) {
             EXPECT_TRUE(
                 std::ranges::equal(traced(square(flat), method).pixels(), traced(square(nullptr), method).pixels()));
@@ -64,16 +64,16 @@ TEST_F(Relief, AFlatMapGivesThePictureWithoutBitForBit) {
     }
 }
 
-// Tilted towards +X by a map, the square is as bright as one that really is.
+// A normal map tilted towards +X gives the same brightness as a tilted square.
 TEST_F(Relief, TiltsTheNormalAlongTheTexturesAxes) {
     const auto red_in_the_middle = [](const Scene& scene) {
-        return test::red_of(test::raster_picture(scene, {}, before(), false))(kSide_px / 2, kSide_px / 2);
+        return test::red_of(test::raster_image(scene, {}, before(), false))(kSide_px / 2, kSide_px / 2);
     };
     const glm::dvec3 to_light = glm::normalize(glm::dvec3(1, 0, 1));
     for (const glm::ivec2 tilt : {glm::ivec2(40, 0), {-60, 0}, {0, 50}, {30, -40}}) {
-        SceneTexture picture =
-            even_picture({static_cast<std::uint8_t>(128 + tilt.x), static_cast<std::uint8_t>(128 + tilt.y), 255, 255});
-        Scene scene = square(normal_map(picture, 1.5F));
+        SceneTexture image =
+            even_image({static_cast<std::uint8_t>(128 + tilt.x), static_cast<std::uint8_t>(128 + tilt.y), 255, 255});
+        Scene scene = square(normal_map(image, 1.5F));
         scene.geometry[0].material.specular = glm::vec3(0);
         const glm::dvec3 n = glm::normalize(glm::dvec3(1.5 * tilt.x / 127.0, 1.5 * tilt.y / 127.0, 1));
         const double expected = 0.7 * 2.5 / kPi * std::max(glm::dot(n, to_light), 0.0);
@@ -84,22 +84,22 @@ TEST_F(Relief, TiltsTheNormalAlongTheTexturesAxes) {
 }
 
 TEST_F(Relief, HeightsRiseTowardsWhite) {
-    SceneTexture picture;
-    picture.picture = Image<Rgba8>(64, 64);
-    picture.repeat_s = picture.repeat_t = false;
+    SceneTexture image;
+    image.image = Image<Rgba8>(64, 64);
+    image.repeat_s = image.repeat_t = false;
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) {
-            const auto height = static_cast<std::uint8_t>(4 * x);  // a slope that looks to -X
-            picture.picture(x, y) = {height, height, height, 255};
+            const auto height = static_cast<std::uint8_t>(4 * x);  // slope towards -X
+            image.image(x, y) = {height, height, height, 255};
         }
     }
-    const auto map = normal_map_of_heights(picture, 2);
+    const auto map = normal_map_of_heights(image, 2);
     const RgbaF& middle = map->directions(32, 32);
     EXPECT_NEAR(middle.r, -2 * 8 * 4 / 255.0, 1e-6);
     EXPECT_EQ(middle.g, 0);
     EXPECT_EQ(middle.b, 1);
-    picture.picture = Image<Rgba8>(1, 1, Rgba8{9, 9, 9, 255});
-    EXPECT_EQ(normal_map_of_heights(picture, 2)->directions(0, 0), (RgbaF{0, 0, 1, 1}));
+    image.image = Image<Rgba8>(1, 1, Rgba8{9, 9, 9, 255});
+    EXPECT_EQ(normal_map_of_heights(image, 2)->directions(0, 0), (RgbaF{0, 0, 1, 1}));
 }
 
 }  // namespace

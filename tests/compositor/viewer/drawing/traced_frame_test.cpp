@@ -1,4 +1,4 @@
-// What a frame compositor makes of a traced picture.
+// Traced images in FrameCompositor.
 
 #include "tests/compositor/viewer/drawing/compositing.hpp"
 
@@ -9,8 +9,8 @@ namespace {
 
 class TracedFrame : public Compositing {};
 
-// A traced picture stands for geometry, which still hides objects: it is as far as without.
-TEST_F(TracedFrame, ATracedPictureHasTheDepthsOfTheGeometry) {
+// A traced image replaces geometry with the same depths, which still occlude objects.
+TEST_F(TracedFrame, ATracedImageHasTheDepthsOfTheGeometry) {
     for (const bool in_fog : {false, true}) {
         Scene scene = with_box({1, 3, 0.2}, {0.6, 0, 1.5});
         if (in_fog) scene.fog = Fog{.colour = {0.5F, 0.5F, 0.5F}, .visibility = 60};
@@ -36,10 +36,10 @@ TEST_F(TracedFrame, ATracedPictureHasTheDepthsOfTheGeometry) {
         EXPECT_EQ(depths(), lit_depths);
         Camera aside = kFront;
         aside.world_from_camera[3].x += 0.5;
-        EXPECT_EQ(*frames->compose(kFront), *traced);  // finds the depths there
+        EXPECT_EQ(*frames->compose(kFront), *traced);  // with the depths of the frame before
         EXPECT_NE(*frames->compose(aside), *traced);
         EXPECT_EQ(*frames->compose(kFront), *traced);
-        int of_picture = 0, of_object = 0;
+        int of_image = 0, of_object = 0;
         for (int y = 0; y < kFrameHeight; ++y) {
             for (int x = 0; x < kFrameWidth; ++x) {
                 const bool object = is_colour((*lit)(x, y), kRed);
@@ -47,14 +47,14 @@ TEST_F(TracedFrame, ATracedPictureHasTheDepthsOfTheGeometry) {
                 if (object) {
                     EXPECT_EQ((*traced)(x, y), (*lit)(x, y));
                 }
-                of_picture += (*traced)(x, y) == kBlue ? 1 : 0;
+                of_image += (*traced)(x, y) == kBlue ? 1 : 0;
             }
         }
-        if (in_fog) {  // it dims the object and lies over the geometry of the picture
-            EXPECT_GT(of_picture, kFrameWidth * kFrameHeight / 2);
+        if (in_fog) {  // dims the object and covers the geometry of the image
+            EXPECT_GT(of_image, kFrameWidth * kFrameHeight / 2);
         } else {
             EXPECT_GT(of_object, 300);
-            EXPECT_GT(of_picture, kFrameWidth * kFrameHeight - 2500);
+            EXPECT_GT(of_image, kFrameWidth * kFrameHeight - 2500);
         }
         frames->set_traced(nullptr);
         const Result<Image<Rgba8>> again = frames->compose(kFront);
@@ -63,8 +63,8 @@ TEST_F(TracedFrame, ATracedPictureHasTheDepthsOfTheGeometry) {
     }
 }
 
-// Where nothing is blended over a traced picture, nobody needs depths until they are asked for.
-TEST_F(TracedFrame, ATracedPictureOfGeometryAloneHasDepthsForWhoAsks) {
+// Without blended parts over a traced image, depths are rendered on request only.
+TEST_F(TracedFrame, ATracedImageOfGeometryAloneHasDepthsForWhoAsks) {
     auto frames = FrameCompositor::create(with_box({1, 3, 0.2}, {0.2, 0, 1.5}), {},
                                           {.width = kFrameWidth, .height = kFrameHeight, .samples = 1});
     ASSERT_TRUE(frames);
@@ -83,8 +83,8 @@ TEST_F(TracedFrame, ATracedPictureOfGeometryAloneHasDepthsForWhoAsks) {
     EXPECT_EQ(surface->place, lit_surface->place);
     EXPECT_EQ(frames->distance_ahead(), lit_ahead);
     EXPECT_TRUE(frames->statistics().has_depths);
-    EXPECT_EQ(frames->picture(), *traced);
-    // They are kept for the view's next picture, and not for another view's.
+    EXPECT_EQ(frames->image(), *traced);
+    // Depths are kept for the next image of the view, but not for another view.
     ASSERT_TRUE(frames->draw(kFront));
     EXPECT_TRUE(frames->statistics().has_depths);
     Camera aside = kFront;

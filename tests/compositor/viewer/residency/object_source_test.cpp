@@ -1,4 +1,4 @@
-// What reading an object takes in memory, measured, against what was foreseen.
+// Measured memory of loading an object against the estimate.
 
 #include "compositor/viewer/residency/object_source.hpp"
 
@@ -26,7 +26,7 @@ std::int64_t allocated_bytes() {
     return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
 }
 
-// Most bytes that were allocated while `work` ran, beyond those before.
+// Peak of the bytes allocated by `work`.
 template <class Work>
 std::int64_t most_allocated(const Work& work) {
     std::atomic<bool> done = false;
@@ -41,7 +41,7 @@ std::int64_t most_allocated(const Work& work) {
     return most;
 }
 
-// With a shape map, which boards do not take, or without.
+// With a shape map, which boards do not support, or without.
 RaySpaceObject ball(bool coded, bool shape) {
     test::RingObjectOptions options = test::sphere_options();
     options.width = 200;
@@ -50,16 +50,16 @@ RaySpaceObject ball(bool coded, bool shape) {
     RaySpaceObject object = test::sphere_object(options, {});
     if (!shape) object.rings[0].shape = {};
     if (!coded) return object;
-    std::vector<Image<Rgba8>> pictures;
-    for (const RigView& view : test::ring_rig(options).views) pictures.push_back(test::sphere_picture({}, view.camera));
-    for (PlanarPicture& picture : object.pictures) picture = {};
-    object.coded = std::make_shared<codec::CodedPictures>(test::code_pictures(object, pictures, {}));
+    std::vector<Image<Rgba8>> images;
+    for (const RigView& view : test::ring_rig(options).views) images.push_back(test::sphere_image({}, view.camera));
+    for (PlanarImage& image : object.images) image = {};
+    object.coded = std::make_shared<codec::CodedImages>(test::code_images(object, images, {}));
     return object;
 }
 
-class ObjectFiles : public ::testing::TestWithParam<std::tuple<bool, bool>> {};
+class FileObjectSource : public ::testing::TestWithParam<std::tuple<bool, bool>> {};
 
-TEST_P(ObjectFiles, TakeNoMoreThanForeseenAndNotMuchLess) {
+TEST_P(FileObjectSource, TakeNoMoreThanForeseenAndNotMuchLess) {
     const auto [coded, with_board] = GetParam();
     const test::TemporaryFolder folder;
     ASSERT_TRUE(write_object(folder / "ball.rso", ball(coded, !with_board)));
@@ -69,7 +69,7 @@ TEST_P(ObjectFiles, TakeNoMoreThanForeseenAndNotMuchLess) {
         ASSERT_TRUE(config);
         board = engine::model::make_simulated_board(*config, true);
     }
-    const auto engine = std::make_shared<engine::DataModule>(engine::DataModuleLimits{}, std::move(board));
+    const auto engine = std::make_shared<engine::RenderSession>(engine::RenderSessionLimits{}, std::move(board));
     const std::unique_ptr<ObjectSource> source = object_files(engine, true);
     const Result<std::int64_t> foreseen = source->most_bytes(folder / "ball.rso");
     ASSERT_TRUE(foreseen) << foreseen.error().message;
@@ -79,32 +79,32 @@ TEST_P(ObjectFiles, TakeNoMoreThanForeseenAndNotMuchLess) {
         [&] { read.emplace(source->read(folder / "ball.rso", *foreseen, [&](float p) { progress.push_back(p); })); });
     ASSERT_TRUE(*read) << read->error().message;
     const std::int64_t kept = (*read)->memory_bytes();
-    RecordProperty("foreseen", std::to_string(*foreseen));
+    RecordProperty("than estimated", std::to_string(*foreseen));
     RecordProperty("most", std::to_string(most));
     RecordProperty("kept", std::to_string(kept));
     std::printf("foreseen %lld, most %lld, kept %lld bytes\n", static_cast<long long>(*foreseen),
                 static_cast<long long>(most), static_cast<long long>(kept));
-    EXPECT_EQ((*read)->for_board != nullptr, with_board && !coded) << "this board takes raw pictures";
+    EXPECT_EQ((*read)->for_board != nullptr, with_board && !coded) << "this board takes raw images";
     EXPECT_LE(most, *foreseen);
     EXPECT_LE(kept, *foreseen);
     EXPECT_LE(*foreseen, (with_board && coded ? 5 * kept : 5 * kept / 2));
     EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
     EXPECT_EQ(progress.back(), 1);
-    // A file that has grown since.
+    // The file has grown since it was measured.
     EXPECT_FALSE(source->read(folder / "ball.rso", *foreseen / 8, [](float) {}));
 }
 
-INSTANTIATE_TEST_SUITE_P(RawAndCoded, ObjectFiles, ::testing::Combine(::testing::Bool(), ::testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(RawAndCoded, FileObjectSource, ::testing::Combine(::testing::Bool(), ::testing::Bool()));
 
 TEST(ObjectMemory, CountsWhatAnObjectHolds) {
     RaySpaceObject object = ball(false, true);
     const std::int64_t before = memory_of(object);
-    const std::int64_t picture = memory_of(object) - [&] {
-        object.pictures[0] = {};
+    const std::int64_t image = memory_of(object) - [&] {
+        object.images[0] = {};
         return memory_of(object);
     }();
-    EXPECT_EQ(picture, 200 * 220 + 2 * 100 * 110 + 200 * 220);
-    EXPECT_GT(before, 36 * picture);
+    EXPECT_EQ(image, 200 * 220 + 2 * 100 * 110 + 200 * 220);
+    EXPECT_GT(before, 36 * image);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes whose shadows are compared: raster's by its maps, traced ones by a ray each.
+// Scenes for comparing shadow maps with traced shadows.
 
 #include "compositor/scene/scene.hpp"
 #include "compositor/traced/traced_renderer.hpp"
@@ -45,30 +45,30 @@ inline compositor::Scene boxes(const Light& light) {
     return scene;
 }
 
-// What geometry shows, linear light of its red.
-inline Image<float> red_of(const Image<Rgba8>& picture) {
-    Image<float> red(picture.width(), picture.height());
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) red(x, y) = linear_from_srgb8(picture(x, y).r);
+// Red channel of the geometry in linear light.
+inline Image<float> red_of(const Image<Rgba8>& image) {
+    Image<float> red(image.width(), image.height());
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) red(x, y) = linear_from_srgb8(image(x, y).r);
     }
     return red;
 }
 
-inline Image<Rgba8> raster_picture(const compositor::Scene& scene, const std::vector<compositor::PlacedObject>& objects,
-                                   const Camera& camera, bool shadows) {
+inline Image<Rgba8> raster_image(const compositor::Scene& scene, const std::vector<compositor::PlacedObject>& objects,
+                                 const Camera& camera, bool shadows) {
     auto frames = compositor::FrameCompositor::create(
         scene, objects, {.width = camera.width, .height = camera.height, .samples = 1, .shadows = shadows});
     RS_CHECK(frames.ok());
-    Result<Image<Rgba8>> picture = frames->compose(camera);
-    RS_CHECK(picture.ok());
-    return std::move(*picture);
+    Result<Image<Rgba8>> image = frames->compose(camera);
+    RS_CHECK(image.ok());
+    return std::move(*image);
 }
 
-// Of the pixels that are lit where nothing is in the way: how many raster and rays call shaded alike.
+// Agreement of raster and traced shadows on pixels that are lit without occluders.
 struct ShadowAgreement {
-    int compared = 0;  // not nearer than 1.5 pixels to an edge of the traced shadow
+    int compared = 0;  // at least 1.5 pixels from an edge of the traced shadow
     int alike = 0;
-    int shaded = 0;  // by rays
+    int shaded = 0;  // in the traced image
     [[nodiscard]] double share() const { return static_cast<double>(alike) / compared; }
 };
 
@@ -76,13 +76,13 @@ inline ShadowAgreement shadow_agreement(const compositor::Scene& scene,
                                         const std::vector<compositor::PlacedObject>& objects, const Camera& camera) {
     auto tracer = compositor::TracedRenderer::create(scene, objects, {.method = compositor::TracedMethod::kWhitted});
     RS_CHECK(tracer.ok());
-    tracer->look(camera);
+    tracer->begin_image(camera);
     RS_CHECK(tracer->add_pass());
     const Image<RgbaF> traced = tracer->radiance();
-    const Image<float> open = red_of(raster_picture(scene, {}, camera, false));
-    const Image<float> shadowed = red_of(raster_picture(scene, objects, camera, true));
-    const Image<Rgba8> objects_seen = raster_picture(scene, objects, camera, false);
-    const Image<Rgba8> geometry_seen = raster_picture(scene, {}, camera, false);
+    const Image<float> open = red_of(raster_image(scene, {}, camera, false));
+    const Image<float> shadowed = red_of(raster_image(scene, objects, camera, true));
+    const Image<Rgba8> objects_seen = raster_image(scene, objects, camera, false);
+    const Image<Rgba8> geometry_seen = raster_image(scene, {}, camera, false);
     Image<std::uint8_t> by_rays(camera.width, camera.height, 0);  // 1 lit, 2 shaded, 0 neither
     constexpr float kLit = 0.03F;
     for (int y = 0; y < camera.height; ++y) {

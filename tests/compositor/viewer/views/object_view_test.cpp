@@ -11,15 +11,15 @@
 namespace rs::compositor {
 namespace {
 
-Image<Rgba8> engine_picture(const PlacedObject& placed, const Camera& camera_in_world) {
+Image<Rgba8> engine_image(const PlacedObject& placed, const Camera& camera_in_world) {
     Camera camera = camera_in_node(camera_in_world, placed.world_from_object);
     const RaySpaceObject& object = placed.object->renderer.object();
     camera.world_from_camera[3] = glm::dvec4(camera.centre() * object.units_per_radius, 1);
     const auto registers = engine::prepare_view(object, camera);
     RS_CHECK(registers.ok());
-    Image<Rgba8> picture(camera.width, camera.height);
-    placed.object->renderer.render(*registers, picture);
-    return picture;
+    Image<Rgba8> image(camera.width, camera.height);
+    placed.object->renderer.render(*registers, image);
+    return image;
 }
 
 TEST(ObjectView, ItsRectangleHoldsEverythingThatTheEngineShows) {
@@ -36,7 +36,7 @@ TEST(ObjectView, ItsRectangleHoldsEverythingThatTheEngineShows) {
         const glm::dvec3 at(number(random) * 4, number(random), number(random) * 4);
         const Camera camera = look_at_camera(eye, at, radians(70), 120, 90);
         const auto view = view_of_object(placed, camera);
-        const Image<Rgba8> whole = engine_picture(placed, camera);
+        const Image<Rgba8> whole = engine_image(placed, camera);
         bool shows = false;
         for (int y = 0; y < whole.height(); ++y) {
             for (int x = 0; x < whole.width(); ++x) {
@@ -58,7 +58,7 @@ TEST(ObjectView, ItsRectangleIsNotMuchLargerThanTheObject) {
     const Camera camera = look_at_camera({0, 0, 5}, {0, 0, 0}, radians(50), 400, 400);
     const auto view = view_of_object(placed, camera);
     ASSERT_TRUE(view);
-    // The drum's near side is at 4 radii: its silhouette is 2 / 4 * focal length wide at the most.
+    // The drum's near side is at 4 radii: its silhouette is at most 2 / 4 * focal length wide.
     EXPECT_LT(view->rectangle.width, 1.3 * 0.5 * camera.fl_x);
     EXPECT_LT(view->rectangle.height, 1.6 * 0.5 * camera.fl_x);
 }
@@ -88,7 +88,7 @@ TEST(ObjectView, BelowItsFootItsDepthIsThatOfTheGroundAndOnTheObjectsSideOfIt) {
     const glm::dvec3 pixel(100, 230, 1);
     const double ground = placed.world_from_object.point({0, object->extent.bottom, 0}).y;
     const double depth = (ground - above.centre().y) / above.ray(pixel.x, pixel.y).y;
-    // A little nearer than the ground itself, by about a hundredth of the object's radius.
+    // Slightly nearer than the ground, by about a hundredth of the object's radius.
     EXPECT_GT(glm::dot(view->inverse_depth_foot, pixel), 1 / depth);
     EXPECT_LT(glm::dot(view->inverse_depth_foot, pixel), 1.02 / depth);
 
@@ -132,7 +132,7 @@ TEST(ObjectView, WhatIsDrawnCanBeDrawnHoweverWideTheWindow) {
 
 TEST(PlacedObject, StandsOnItsFoot) {
     const auto object = test::drum(Rgba8{10, 20, 30, 255});
-    // Pictured rows 2 .. 37 of 40, focal length 60, from 3.5 radii; the rim of the foot is 1 radius nearer.
+    // Imaged rows 2 .. 37 of 40, focal length 60, from 3.5 radii; the rim of the foot is 1 radius nearer.
     EXPECT_NEAR(object->extent.bottom, -17 * 2.5 / 60, 0.1);
     EXPECT_NEAR(object->extent.top, 18 * 2.5 / 60, 0.1);
     EXPECT_LT(object->bounds.bottom, object->extent.bottom);

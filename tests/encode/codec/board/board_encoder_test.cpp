@@ -1,5 +1,5 @@
-// The board profile: what the encoder writes is what its decoder shows, on any number of threads; codebooks are
-// trained; records keep to their classes.
+// Board profile: the decoder returns the encoder's reconstruction for any number of threads; codebooks are trained;
+// records use only their class's fields.
 
 #include "encode/codec/board/board_encoder.hpp"
 #include "encode/codec/board/board_block.hpp"
@@ -7,7 +7,7 @@
 #include "rayspace/codec/board/board_tile.hpp"
 #include "rayspace/codec/stream/byte_account.hpp"
 #include "rayspace/codec/stream/coded_chunks.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "tests/support/coded_object.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -25,38 +25,38 @@ const test::SmallObjectOptions kSmallBoard{.views_per_ring = 18, .width = 72, .h
 
 RaySpaceObject board_object(const BoardSettings& settings, double* psnr_db = nullptr) {
     RaySpaceObject object = test::small_object(kSmallBoard);
-    for (PlanarPicture& picture : object.pictures) picture = {};
-    std::vector<SourcePicture> sources;
-    for (const Image<Rgba8>& picture : test::drawn_pictures(object)) {
-        sources.push_back(source_picture(picture, settings.alpha_bits));
+    for (PlanarImage& image : object.images) image = {};
+    std::vector<SourceImage> sources;
+    for (const Image<Rgba8>& image : test::drawn_images(object)) {
+        sources.push_back(source_image(image, settings.alpha_bits));
     }
-    EncodedPictures encoded = encode_board(object, sources, settings);
+    EncodedImages encoded = encode_board(object, sources, settings);
     if (psnr_db != nullptr) *psnr_db = encoded.psnr_db;
-    object.coded = std::make_shared<codec::CodedPictures>(std::move(encoded.coded));
+    object.coded = std::make_shared<codec::CodedImages>(std::move(encoded.coded));
     return object;
 }
 
-std::vector<std::vector<std::byte>> payloads_of(const codec::CodedPictures& coded) {
+std::vector<std::vector<std::byte>> payloads_of(const codec::CodedImages& coded) {
     std::vector<std::vector<std::byte>> payloads = {codec::code_payload(coded)};
-    for (std::size_t v = 0; v < coded.pictures.size(); ++v) payloads.push_back(codec::coded_picture_payload(coded, v));
+    for (std::size_t v = 0; v < coded.images.size(); ++v) payloads.push_back(codec::coded_image_payload(coded, v));
     return payloads;
 }
 
-std::size_t record_bytes(const codec::CodedPictures& coded) {
+std::size_t record_bytes(const codec::CodedImages& coded) {
     std::size_t bytes = 0;
-    for (const codec::CodedPicture& picture : coded.pictures) bytes += picture.bytes.size();
+    for (const codec::CodedImage& image : coded.images) bytes += image.bytes.size();
     return bytes;
 }
 
-// The error against the drawn pictures, measured on what the file gives back.
+// PSNR of the decoded file against the drawn images.
 double file_psnr(const std::filesystem::path& file) {
     const auto object = read_object(file);
     EXPECT_TRUE(object.ok()) << object.error().message;
-    const std::vector<Image<Rgba8>> drawn = test::drawn_pictures(*object);
+    const std::vector<Image<Rgba8>> drawn = test::drawn_images(*object);
     double error = 0;
     double samples = 0;
     for (std::size_t v = 0; v < drawn.size(); ++v) {
-        const PlanarPicture& shown = object->pictures[v];
+        const PlanarImage& shown = object->images[v];
         for (int y = 0; y < object->height; ++y) {
             for (int x = 0; x < object->width; ++x) {
                 const Rgba8 expected = drawn[v](x, y);
@@ -76,7 +76,7 @@ TEST(BoardEncoder, WhatTheFileShowsIsNearTheSource) {
     ASSERT_TRUE(write_object(work / "fine.rso", fine).ok());
     const double found_db = file_psnr(work / "fine.rso");
     EXPECT_GT(found_db, 30);
-    EXPECT_GT(found_db, fine_db - 0.5);  // Y is truer than R, G and B together
+    EXPECT_GT(found_db, fine_db - 0.5);  // Y is more accurate than R, G and B together
     double coarse_db = 0;
     const RaySpaceObject coarse = board_object({.step = 80}, &coarse_db);
     EXPECT_LT(coarse_db, fine_db - 1);
@@ -95,17 +95,17 @@ TEST(BoardEncoder, IsTheSameOnAnyNumberOfThreads) {
     }
 }
 
-TEST(BoardEncoder, OnePictureInNineIsAReferenceAndTheOthersNeedNoMore) {
+TEST(BoardEncoder, OneImageInNineIsAReferenceAndTheOthersNeedNoMore) {
     const RaySpaceObject object = board_object({.step = 10});
     int references = 0;
     for (std::size_t v = 0; v < object.views.size(); ++v) {
-        const codec::PictureHead& head = object.coded->pictures[v].head;
+        const codec::ImageHead& head = object.coded->images[v].head;
         if (head.references() == 0) {
             ++references;
             EXPECT_EQ(object.coded->levels[v], 0);
         }
         for (int r = 0; r < head.references(); ++r) {
-            EXPECT_EQ(object.coded->pictures[head.reference[static_cast<std::size_t>(r)]].head.references(), 0);
+            EXPECT_EQ(object.coded->images[head.reference[static_cast<std::size_t>(r)]].head.references(), 0);
         }
     }
     EXPECT_EQ(references, 2);
@@ -119,7 +119,7 @@ TEST(BoardEncoder, AccountsForEveryByte) {
     }
     double expected = 0;
     for (std::size_t v = 0; v < object.views.size(); ++v) {
-        expected += static_cast<double>(codec::coded_picture_payload(*object.coded, v).size());
+        expected += static_cast<double>(codec::coded_image_payload(*object.coded, v).size());
     }
     EXPECT_DOUBLE_EQ(bytes, expected);
 }
@@ -162,20 +162,20 @@ TEST(VectorQuantiser, FindsCentresAndIgnoresWhatDoesNotMatter) {
                                                               : static_cast<int>(random() % 400) - 200);
         }
     }
-    const TrainedBook book = train_book(vectors, 32);
+    const Codebook book = train_codebook(vectors, 32);
     ASSERT_EQ(book.count(), 32U);
     for (std::size_t d = 0; d < 16; ++d) EXPECT_EQ(book.entries[d], 0);
     for (const auto& centre : centres) {
         std::int16_t values[16];
         const std::int16_t weights[16] = {6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6};
         for (std::size_t d = 0; d < 16; ++d) values[d] = static_cast<std::int16_t>(centre[d]);
-        EXPECT_LE(nearest_entry(book, values, weights).distance, 6 * 16 * 2);
+        EXPECT_LE(find_nearest_entry(book, values, weights).distance, 6 * 16 * 2);
     }
 }
 
 TEST(VectorQuantiser, NearestIsTheFirstOfTheNearest) {
     std::mt19937 random(6);
-    TrainedBook book;
+    Codebook book;
     book.dimensions = 96;
     for (int i = 0; i < 96 * 64; ++i)
         book.entries.push_back(static_cast<std::int16_t>(static_cast<int>(random() % 7) - 3));
@@ -200,7 +200,7 @@ TEST(VectorQuantiser, NearestIsTheFirstOfTheNearest) {
                 best_distance = distance;
             }
         }
-        const Nearest found = nearest_entry(book, values, weights);
+        const Nearest found = find_nearest_entry(book, values, weights);
         EXPECT_EQ(found.index, best);
         EXPECT_EQ(found.distance, best_distance);
     }

@@ -1,4 +1,4 @@
-// Large parts that cut-outs lack: which they are, and how they are painted.
+// Selects and paints large parts that masks lack.
 
 #include "encode/raymap/silhouettes/lost_parts.hpp"
 
@@ -14,12 +14,12 @@
 namespace rs::encode {
 namespace {
 
-// A square object with a bite at its right side, and what is missing of it.
+// A square object with a notch at its right side, and the missing part.
 class LostPart : public testing::Test {
 protected:
     static constexpr int kSide = 64;
     static constexpr int kFrom = 12, kTo = 52;                 // the object
-    static constexpr int kLeft = 30, kTop = 20, kBottom = 44;  // the bite, to the object's right end
+    static constexpr int kLeft = 30, kTop = 20, kBottom = 44;  // the notch, up to the object's right end
 
     LostPart() : missing_(kSide, kSide, kNoDepth) {
         Camera camera = drawn_ring(8).views[0].camera;
@@ -52,12 +52,12 @@ protected:
 };
 
 TEST_F(LostPart, IsFoundWithItsGapsAndThoseBesideTheObject) {
-    // Nothing next to the object, a slit, and a hole.
+    // No pixels next to the object, a slit, and a hole.
     miss([](int c, int r) {
         return c >= kLeft + 2 && c < kTo && r >= kTop + 2 && r < kBottom - 2 && c != 40 &&
                !(c > 43 && c < 46 && r == 30);
     });
-    const Image<float> part = lost_part(view_, missing_);
+    const Image<float> part = select_lost_part(view_, missing_);
     for_each([&](int c, int r) {
         const bool inside = c >= kLeft && c < kTo - 2 && r >= kTop && r < kBottom;
         if (inside) {
@@ -72,19 +72,19 @@ TEST_F(LostPart, HasSmoothDepths) {
     miss(bitten);
     missing_(30, 40) = 0.9F;
     missing_(33, 45) = -0.9F;
-    const Image<float> part = lost_part(view_, missing_);
+    const Image<float> part = select_lost_part(view_, missing_);
     EXPECT_EQ(part(30, 40), 0.25F);
     EXPECT_EQ(part(33, 45), 0.25F);
 }
 
 TEST_F(LostPart, IsNothingWhereFewPointsAreMissing) {
     miss([](int c, int r) { return bitten(c, r) && c % 2 == 0 && r % 2 == 0; });
-    EXPECT_EQ(count_of(lost_part(view_, missing_)), 0);
+    EXPECT_EQ(count_of(select_lost_part(view_, missing_)), 0);
 }
 
 TEST_F(LostPart, IsNoStripAlongARim) {
     miss([](int c, int r) { return c >= kFrom && c < kTo && r >= kFrom - 5 && r < kFrom; });
-    EXPECT_EQ(count_of(lost_part(view_, missing_)), 0);
+    EXPECT_EQ(count_of(select_lost_part(view_, missing_)), 0);
 }
 
 TEST_F(LostPart, DoesNotFloat) {
@@ -92,13 +92,13 @@ TEST_F(LostPart, DoesNotFloat) {
         return [left](int c, int r) { return c >= left && c < left + 14 && r >= kTop + 4 && r < kTop + 18; };
     };
     miss(square(kTo - 14));
-    EXPECT_EQ(count_of(lost_part(view_, missing_)), 0);  // it has the object at none of its sides
+    EXPECT_EQ(count_of(select_lost_part(view_, missing_)), 0);  // the object is at none of its sides
     missing_ = Image<float>(kSide, kSide, kNoDepth);
     miss([](int c, int r) { return c < kFrom && r >= 20 && r < 40; });
-    EXPECT_EQ(count_of(lost_part(view_, missing_)), 0);  // at one
+    EXPECT_EQ(count_of(select_lost_part(view_, missing_)), 0);  // the object is at one of its sides
 }
 
-// A ring about a ball, in pictures twice as large as the views; one lacks its middle.
+// A ring about a ball, with images twice as large as the views; one lacks its middle.
 class LostPartPainting : public testing::Test {
 protected:
     static constexpr int kBitten = 3;
@@ -106,8 +106,8 @@ protected:
 
     LostPartPainting() {
         for (const RigView& each : drawn_ring(24).views) {
-            pictures_.push_back(striped_ball(each.camera));
-            DepthView view{make_work_view(each.camera, pictures_.back(), 2), {}};
+            images_.push_back(striped_ball(each.camera));
+            DepthView view{make_work_view(each.camera, images_.back(), 2), {}};
             view.depth = Image<float>(view.view.height, view.view.width, kNoDepth);
             for (int column = 0; column < view.view.width; ++column) {
                 for (int row = 0; row < view.view.height; ++row) {
@@ -117,11 +117,11 @@ protected:
             }
             ring_.push_back(std::move(view));
         }
-        whole_ = pictures_[kBitten];
+        whole_ = images_[kBitten];
         part_ = Image<float>(whole_.height() / 2, whole_.width() / 2, kNoDepth);
         for (int x = kLeft; x < kRight; ++x) {
             for (int y = kTop; y < kBottom; ++y) {
-                pictures_[kBitten](x, y) = {};
+                images_[kBitten](x, y) = {};
                 ring_[kBitten].view.columns(y / 2, x / 2) = {};
                 part_(y / 2, x / 2) = ring_[kBitten].depth(y / 2, x / 2);
             }
@@ -129,25 +129,25 @@ protected:
     }
 
     [[nodiscard]] LostPartPainter painter() const {
-        return LostPartPainter(ring_[kBitten].view, part_, 2, pictures_[kBitten]);
+        return LostPartPainter(ring_[kBitten].view, part_, 2, images_[kBitten]);
     }
     [[nodiscard]] LostPartPainter::Painter from(int n) const {
-        return {&ring_[static_cast<std::size_t>(n)], &pictures_[static_cast<std::size_t>(n)]};
+        return {&ring_[static_cast<std::size_t>(n)], &images_[static_cast<std::size_t>(n)]};
     }
 
-    std::vector<Image<Rgba8>> pictures_;
+    std::vector<Image<Rgba8>> images_;
     std::vector<DepthView> ring_;
     Image<Rgba8> whole_;
     Image<float> part_;
 };
 
-TEST_F(LostPartPainting, ShowsWhatAPictureBesideShows) {
+TEST_F(LostPartPainting, ShowsWhatAImageBesideShows) {
     LostPartPainter brush = painter();
     EXPECT_FALSE(brush.done());
     EXPECT_EQ(brush.shown_by(from(kBitten + 1)), 32U * 32U);
     brush.paint_from(from(kBitten + 1));
     EXPECT_TRUE(brush.done());
-    const Image<Rgba8> painted = std::move(brush).picture();
+    const Image<Rgba8> painted = std::move(brush).image();
     double squares = 0;
     for (int y = 0; y < whole_.height(); ++y) {
         for (int x = 0; x < whole_.width(); ++x) {
@@ -161,10 +161,10 @@ TEST_F(LostPartPainting, ShowsWhatAPictureBesideShows) {
     EXPECT_LT(std::sqrt(squares / (32 * 32)), 6);  // stripes of 200 codes, 15 degrees away
 }
 
-TEST_F(LostPartPainting, LeavesWhatAPictureDoesNotShow) {
+TEST_F(LostPartPainting, LeavesWhatAImageDoesNotShow) {
     LostPartPainter brush = painter();
     brush.paint_from(from(kBitten + 12));  // from behind
-    EXPECT_EQ(std::move(brush).picture(), pictures_[kBitten]);
+    EXPECT_EQ(std::move(brush).image(), images_[kBitten]);
 }
 
 TEST_F(LostPartPainting, DoesNotTakeWhatStandsBeforeIt) {
@@ -176,7 +176,7 @@ TEST_F(LostPartPainting, DoesNotTakeWhatStandsBeforeIt) {
     EXPECT_EQ(brush.shown_by(from(kBitten - 1)), 32U * 32U);
 }
 
-TEST_F(LostPartPainting, TakesAllOfAPictureThatShowsMost) {
+TEST_F(LostPartPainting, TakesAllOfAImageThatShowsMost) {
     DepthView& other = ring_[kBitten + 1];
     for (int row = 0; row < other.view.height; row += 5) {
         for (int column = 0; column < other.view.width; ++column) other.depth(row, column) -= 0.2F;
@@ -187,12 +187,12 @@ TEST_F(LostPartPainting, TakesAllOfAPictureThatShowsMost) {
     EXPECT_TRUE(brush.done());
 }
 
-TEST_F(LostPartPainting, KeepsAPicturesOwnSoftEdge) {
-    Rgba8& soft = pictures_[kBitten](kLeft + 4, kTop + 4);
-    soft = {10, 20, 30, 51};  // a fifth
+TEST_F(LostPartPainting, KeepsAImagesOwnSoftEdge) {
+    Rgba8& soft = images_[kBitten](kLeft + 4, kTop + 4);
+    soft = {10, 20, 30, 51};  // alpha of one fifth
     LostPartPainter brush = painter();
     brush.paint_from(from(kBitten + 1));
-    const Rgba8 found = std::move(brush).picture()(kLeft + 4, kTop + 4);
+    const Rgba8 found = std::move(brush).image()(kLeft + 4, kTop + 4);
     EXPECT_EQ(found.a, 255);
     EXPECT_NEAR(found.b, 0.2 * 30 + 0.8 * 128, 1);
 }

@@ -5,7 +5,7 @@
 #include "engine/conformance/vectors.hpp"
 #include "engine/core/definition/reconstruct.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "tests/support/coded_object.hpp"
 #include "tests/support/random_shape.hpp"
@@ -130,48 +130,47 @@ Result<ConformanceCase> make_case(const fs::path& folder, const std::string& nam
     for (const Pose& pose : poses) {
         const Result<ViewRegisters> registers = prepare_view(*read, camera_of(*read, pose), filter);
         if (!registers) return registers.error();
-        Image<Rgba8> picture(registers->width, registers->height);
+        Image<Rgba8> image(registers->width, registers->height);
         Image<std::int32_t> depth(registers->width, registers->height);
-        reconstruct_scalar(*read, *registers, picture, depth);
-        const auto shown =
-            std::count_if(picture.pixels().begin(), picture.pixels().end(), [](Rgba8 p) { return p.a > 0; });
-        made.views.push_back({*registers, hash_of(picture.view()), hash_of(depth.view()), static_cast<int>(shown)});
+        reconstruct_scalar(*read, *registers, image, depth);
+        const auto shown = std::count_if(image.pixels().begin(), image.pixels().end(), [](Rgba8 p) { return p.a > 0; });
+        made.views.push_back({*registers, hash_of(image.view()), hash_of(depth.view()), static_cast<int>(shown)});
     }
     return made;
 }
 
-RaySpaceObject without_pictures(RaySpaceObject object) {
-    for (PlanarPicture& picture : object.pictures) picture = {};
+RaySpaceObject without_images(RaySpaceObject object) {
+    for (PlanarImage& image : object.images) image = {};
     return object;
 }
 
 // Alpha in steps of 2 bits, which the board holds.
 RaySpaceObject ring(const test::RingObjectOptions& options) {
     RaySpaceObject object = test::ring_object(options);
-    for (PlanarPicture& picture : object.pictures) {
-        for (std::uint8_t& a : picture.a.pixels()) a = static_cast<std::uint8_t>((a * 3 + 127) / 255 * 85);
+    for (PlanarImage& image : object.images) {
+        for (std::uint8_t& a : image.a.pixels()) a = static_cast<std::uint8_t>((a * 3 + 127) / 255 * 85);
     }
     return object;
 }
 
-std::vector<encode::SourcePicture> sources_of(const RaySpaceObject& object, int alpha_bits) {
-    std::vector<encode::SourcePicture> sources;
-    for (const Image<Rgba8>& picture : test::drawn_pictures(object)) {
-        sources.push_back(encode::source_picture(picture, alpha_bits));
+std::vector<encode::SourceImage> sources_of(const RaySpaceObject& object, int alpha_bits) {
+    std::vector<encode::SourceImage> sources;
+    for (const Image<Rgba8>& image : test::drawn_images(object)) {
+        sources.push_back(encode::source_image(image, alpha_bits));
     }
     return sources;
 }
 
 RaySpaceObject dense(const test::RingObjectOptions& options, const encode::DenseSettings& settings) {
-    RaySpaceObject object = without_pictures(ring(options));
-    object.coded = std::make_shared<codec::CodedPictures>(
+    RaySpaceObject object = without_images(ring(options));
+    object.coded = std::make_shared<codec::CodedImages>(
         encode::encode_dense(object, sources_of(object, settings.alpha_bits), settings).coded);
     return object;
 }
 
 RaySpaceObject board(const test::RingObjectOptions& options, const encode::BoardSettings& settings) {
-    RaySpaceObject object = without_pictures(ring(options));
-    object.coded = std::make_shared<codec::CodedPictures>(
+    RaySpaceObject object = without_images(ring(options));
+    object.coded = std::make_shared<codec::CodedImages>(
         encode::encode_board(object, sources_of(object, settings.alpha_bits), settings).coded);
     return object;
 }
@@ -179,19 +178,19 @@ RaySpaceObject board(const test::RingObjectOptions& options, const encode::Board
 // Tiles of random bytes: every branch of the decoder, sense or none.
 RaySpaceObject with_random_tiles(RaySpaceObject object, std::uint64_t seed, std::size_t most_bytes) {
     Random random(seed);
-    codec::CodedPictures coded = *object.coded;
+    codec::CodedImages coded = *object.coded;
     coded.dense.probabilities.fill(2048);
-    for (codec::CodedPicture& picture : coded.pictures) {
-        picture.bytes.clear();
-        for (codec::TileSpan& tile : picture.tiles) {
+    for (codec::CodedImage& image : coded.images) {
+        image.bytes.clear();
+        for (codec::TileSpan& tile : image.tiles) {
             const auto size = static_cast<std::uint32_t>(random.whole(0, static_cast<int>(most_bytes)));
-            tile = {static_cast<std::uint32_t>(picture.bytes.size()), size, random.whole(0, 7) != 0};
+            tile = {static_cast<std::uint32_t>(image.bytes.size()), size, random.whole(0, 7) != 0};
             if (!tile.present) tile.size = 0;
             for (std::uint32_t i = 0; i < tile.size; ++i)
-                picture.bytes.push_back(static_cast<std::byte>(random.engine()));
+                image.bytes.push_back(static_cast<std::byte>(random.engine()));
         }
     }
-    object.coded = std::make_shared<codec::CodedPictures>(std::move(coded));
+    object.coded = std::make_shared<codec::CodedImages>(std::move(coded));
     return object;
 }
 
@@ -216,15 +215,15 @@ std::vector<Planned> planned_cases() {
         .views = 18, .width = 48, .height = 40, .planes = 12, .x_cells = 64, .u_cells = 48};
     const test::RingObjectOptions odd{
         .views = 5, .width = 37, .height = 29, .fl_px = 46, .planes = 3, .x_cells = 20, .u_cells = 70};
-    test::RingObjectOptions close = small;  // the object is larger than its pictures: first and last column and row
+    test::RingObjectOptions close = small;  // the object is larger than its images: first and last column and row
     close.fl_px = 160;
     RaySpaceObject holes = ring(small);
     for (std::size_t i = 0; i < holes.rings[0].cells.size(); ++i) {
-        if (i % 7 < 3) holes.rings[0].cells[i] = kNoPicture;
+        if (i % 7 < 3) holes.rings[0].cells[i] = kNoImage;
     }
     RaySpaceObject clear = ring(small);
-    for (std::size_t v = 0; v < clear.pictures.size(); ++v) {
-        for (std::uint8_t& a : clear.pictures[v].a.pixels()) a = v % 3 == 0 ? 0 : (a < 128 ? a % 2 : 254 + a % 2);
+    for (std::size_t v = 0; v < clear.images.size(); ++v) {
+        for (std::uint8_t& a : clear.images[v].a.pixels()) a = v % 3 == 0 ? 0 : (a < 128 ? a % 2 : 254 + a % 2);
     }
     test::RingObjectOptions shaped = many;
     shaped.views = 12;
@@ -235,21 +234,21 @@ std::vector<Planned> planned_cases() {
         {"plane-twelve", "twelve planes, captured poses and those halfway", ring(many), ring_poses(18, 3.5, 10)});
     cases.push_back({"plane-tilted", "tilted views, set up pixel by pixel", ring(odd), random_poses(2, 8, false)});
     cases.push_back(
-        {"plane-odd", "pictures of odd sizes: chroma at half size, rounded up", ring(odd), random_poses(3, 8, true)});
+        {"plane-odd", "images of odd sizes: chroma at half size, rounded up", ring(odd), random_poses(3, 8, true)});
     cases.push_back(
         {"plane-seams", "rays between two planes, where n is equal or nearly so", ring(small), seam_poses(5)});
-    cases.push_back({"plane-edges", "first and last columns and rows, rays beside the pictures", ring(close),
+    cases.push_back({"plane-edges", "first and last columns and rows, rays beside the images", ring(close),
                      random_poses(4, 10, true)});
     cases.push_back(
         {"plane-extreme", "very near and very far viewpoints, steep compensation", ring(small), extreme_poses()});
     cases.push_back(
-        {"plane-alpha", "alpha of 0, 1, 254 and 255; pictures that show nothing", clear, random_poses(5, 8, true)});
-    cases.push_back({"plane-holes", "cells that no picture answers", holes, random_poses(6, 8, true)});
+        {"plane-alpha", "alpha of 0, 1, 254 and 255; images that show nothing", clear, random_poses(5, 8, true)});
+    cases.push_back({"plane-holes", "cells that no image answers", holes, random_poses(6, 8, true)});
     RaySpaceObject rings = test::small_object({.rings = 2, .views_per_ring = 6, .width = 20, .height = 18});
     cases.push_back({"two-rings", "two rings of views: the nearer one by elevation", rings, random_poses(7, 8, false)});
     cases.push_back(
-        {"dense", "dense pictures, 2 bits of alpha, tiles of 64x64", dense(many, {}), random_poses(8, 8, true)});
-    cases.push_back({"dense-small-tiles", "dense pictures, 4 bits of alpha, tiles of 16x32, coarse steps",
+        {"dense", "dense images, 2 bits of alpha, tiles of 64x64", dense(many, {}), random_poses(8, 8, true)});
+    cases.push_back({"dense-small-tiles", "dense images, 4 bits of alpha, tiles of 16x32, coarse steps",
                      dense(many, {.step = 50, .alpha_bits = 4, .tile_width_log2 = 4, .tile_height_log2 = 5}),
                      random_poses(9, 8, true)});
     cases.push_back(
@@ -257,9 +256,9 @@ std::vector<Planned> planned_cases() {
          with_random_tiles(dense(odd, {.alpha_bits = 3, .tile_width_log2 = 4, .tile_height_log2 = 4}), 10, 300),
          random_poses(10, 8, true)});
     cases.push_back(
-        {"board", "board pictures: two references, codebooks, motion", board(many, {}), random_poses(11, 8, true)});
+        {"board", "board images: two references, codebooks, motion", board(many, {}), random_poses(11, 8, true)});
     cases.push_back({"board-any-bytes",
-                     "board tiles of random bytes: every class, motion out of the picture, tiles cut short",
+                     "board tiles of random bytes: every class, motion out of the image, tiles cut short",
                      with_random_tiles(board(many, {.step = 30}), 12, 260), random_poses(12, 8, true)});
     for (int n = 0; n < 3; ++n) {
         static constexpr const char* kNames[] = {"shape", "shape-sparse", "shape-full"};
@@ -272,7 +271,7 @@ std::vector<Planned> planned_cases() {
         {"shape-tilted", "a shape map in tilted views", with_shape(ring(odd), 31, 0.3), random_poses(17, 6, false)});
     cases.push_back({"shape-captured", "a shape map at captured poses: weights 0 and 256",
                      with_shape(ring(shaped), 32, 0.2), ring_poses(12, 3.5, 8)});
-    cases.push_back({"shape-board", "a shape map with board pictures", with_shape(board(shaped, {}), 33, 0.2),
+    cases.push_back({"shape-board", "a shape map with board images", with_shape(board(shaped, {}), 33, 0.2),
                      random_poses(18, 6, true)});
     RaySpaceObject middle = with_shape(ring(shaped), 34, 0.2);
     test::make_middle_opaque(middle);

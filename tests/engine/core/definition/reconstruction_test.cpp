@@ -1,4 +1,4 @@
-// The normative arithmetic against floating-point geometry, and against the pictures it must give back.
+// The normative arithmetic against floating-point geometry, and against the images it must give back.
 
 #include "engine/core/definition/ray_setup.hpp"
 #include "engine/core/definition/reconstruct.hpp"
@@ -18,15 +18,15 @@ namespace {
 Image<Rgba8> reconstructed(const RaySpaceObject& object, const Camera& camera) {
     const Result<ViewRegisters> registers = prepare_view(object, camera);
     EXPECT_TRUE(registers.ok());
-    Image<Rgba8> picture(camera.width, camera.height);
-    reconstruct_scalar(object, *registers, picture);
-    return picture;
+    Image<Rgba8> image(camera.width, camera.height);
+    reconstruct_scalar(object, *registers, image);
+    return image;
 }
 
 class CapturedPose : public testing::TestWithParam<int> {};
 
 // Geometry and column look-up are exact at a captured pose, whatever the number of planes: every pixel comes back.
-TEST_P(CapturedPose, GivesBackTheStoredPicture) {
+TEST_P(CapturedPose, GivesBackTheStoredImage) {
     for (const double camera_height : {0.0, 0.3}) {
         const test::RingObjectOptions options{
             .views = 90, .width = 64, .height = 64, .fl_px = 90, .planes = GetParam(), .camera_height = camera_height};
@@ -34,7 +34,7 @@ TEST_P(CapturedPose, GivesBackTheStoredPicture) {
         const Rig rig = test::ring_rig(options);
         for (std::size_t i = 0; i < rig.views.size(); ++i) {
             SCOPED_TRACE(i);
-            ASSERT_EQ(reconstructed(object, rig.views[i].camera), rgba_from_planar(object.pictures[i]));
+            ASSERT_EQ(reconstructed(object, rig.views[i].camera), rgba_from_planar(object.images[i]));
         }
     }
 }
@@ -58,7 +58,7 @@ TEST(ReconstructionProperty, AgreesWithFloatingPointGeometry) {
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
         object.views[i] = *encode::captured_view(rig.views[i].camera, options.planes);
     }
-    object.pictures.clear();
+    object.images.clear();
     int compared = 0;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
         SCOPED_TRACE(seed);
@@ -75,14 +75,14 @@ TEST(ReconstructionProperty, AgreesWithFloatingPointGeometry) {
         for (int n = 0; n < 50; ++n) {
             const int i = static_cast<int>(in(0, 255)), j = static_cast<int>(in(0, 255));
             const RaySetup setup = set_up_ray(object, *registers, i, j);
-            if (setup.picture < 0) continue;
+            if (setup.image < 0) continue;
             const test::Ray ray{camera.centre(), camera.ray(i + 0.5, j + 0.5)};
             const ReferencePlane plane =
                 reference_plane(test::most_square_plane(ray.direction, options.planes), options.planes);
             const auto place = test::to_ray_space(ray, plane);
             ASSERT_TRUE(place);
             const glm::dvec3 p = place->x * plane.tangent + glm::dvec3(0, place->y, 0);
-            const glm::dvec3 pixel = rig.views[static_cast<std::size_t>(setup.picture)].camera.project(p);
+            const glm::dvec3 pixel = rig.views[static_cast<std::size_t>(setup.image)].camera.project(p);
             EXPECT_NEAR(setup.column + 0.5, pixel.x, 0.51);
             const double row = static_cast<double>(setup.row_0_q16 + j * setup.row_step_q16) / 65536;
             EXPECT_NEAR(row, pixel.y, 0.02);
@@ -97,8 +97,8 @@ TEST(Reconstruction, AViewFromInsideOrFromBeyondShowsNothingOrLittleButStaysDefi
     for (const glm::dvec3 eye : {glm::dvec3(0, 0, 0.001), glm::dvec3(0.1, 5, 0), glm::dvec3(0, -40, 0.5),
                                  glm::dvec3(1e3, 0, 0), glm::dvec3(0, 1e-7, 2.01)}) {
         const Camera camera = look_at_camera(eye, {0, 0, -0.5}, radians(50), 33, 17);
-        const Image<Rgba8> picture = reconstructed(object, camera);
-        for (const Rgba8& p : picture.pixels()) {
+        const Image<Rgba8> image = reconstructed(object, camera);
+        for (const Rgba8& p : image.pixels()) {
             if (p.a == 0) {
                 EXPECT_EQ(p, Rgba8{});
             }
@@ -106,7 +106,7 @@ TEST(Reconstruction, AViewFromInsideOrFromBeyondShowsNothingOrLittleButStaysDefi
     }
 }
 
-TEST(Reconstruction, ADistantViewpointKeepsTheObjectsPicture) {
+TEST(Reconstruction, ADistantViewpointKeepsTheObjectsImage) {
     const RaySpaceObject object = test::ring_object({.views = 36, .width = 96, .height = 96, .fl_px = 130});
     // 190 radii are reconstructed as they are; at 1900, ten times the focal length shows the same, by way of 200 radii.
     const auto at = [&](double distance) {
@@ -121,7 +121,7 @@ TEST(Reconstruction, ADistantViewpointKeepsTheObjectsPicture) {
         different += !(near.pixels()[i] == far.pixels()[i]);
     }
     EXPECT_GT(shown, 500);
-    EXPECT_LT(different, shown / 4);  // noise pictures: a hair's breadth changes a pixel
+    EXPECT_LT(different, shown / 4);  // noise images: a hair's breadth changes a pixel
 }
 
 TEST(PrepareView, RefusesWhatTheArithmeticCannotHold) {

@@ -1,4 +1,4 @@
-// What a pixel between two captured views shows (engine/RECONSTRUCTION.md, section 8): both pictures blended, and the
+// What a pixel between two captured views shows (engine/RECONSTRUCTION.md, section 8): both images blended, and the
 // nearer of two surfaces over the farther one, or over the farthest cell's.
 #include "rayspace/object/ray_space_object.hpp"
 #include "tests/engine/core/definition/shape_pixels.hpp"
@@ -38,7 +38,7 @@ protected:
     Texel plain_ = [](int view, int, int) { return by_view(view); };
 };
 
-TEST_F(Midway, BlendsBothPicturesWithHalfWeightEach) {
+TEST_F(Midway, BlendsBothImagesWithHalfWeightEach) {
     EXPECT_EQ(shown({128, ShapeCell::kByBoth}, plain_).colour, (Rgba8{150, 150, 150, 255}));
     for (const int eighth : {1, 2, 6, 7}) {
         camera_ = test::between_views(options_, 0, eighth / 8.0);
@@ -47,7 +47,7 @@ TEST_F(Midway, BlendsBothPicturesWithHalfWeightEach) {
     EXPECT_EQ(shown({}, plain_).colour, Rgba8{});
 }
 
-TEST_F(Midway, APictureThatDoesNotShowTheSurfaceHasNoWeight) {
+TEST_F(Midway, AImageThatDoesNotShowTheSurfaceHasNoWeight) {
     EXPECT_EQ(shown({128, ShapeCell::kByFirst}, plain_).colour, by_view(0));
     EXPECT_EQ(shown({128, ShapeCell::kBySecond}, plain_).colour, by_view(1));
     EXPECT_EQ(leaning_weight(100, 8), 100);
@@ -68,14 +68,14 @@ TEST_F(Midway, BlendsPremultipliedColour) {
     EXPECT_EQ(shown({128, ShapeCell::kByBoth}, half_seen).colour, (Rgba8{125, 125, 125, 170}));
 }
 
-TEST_F(Midway, ATransparentSampleInEitherPictureHidesTheSurface) {
+TEST_F(Midway, ATransparentSampleInEitherImageHidesTheSurface) {
     for (const int clear_view : {0, 1}) {
         const Texel texel = [=](int view, int, int) { return view == clear_view ? Rgba8{} : by_view(view); };
         EXPECT_EQ(shown({128, ShapeCell::kByBoth}, texel).colour, Rgba8{});
     }
 }
 
-// Outside of a picture's frame is neither transparent nor visible: the other answers alone.
+// Outside of an image's frame is neither transparent nor visible: the other answers alone.
 TEST_F(Midway, ASurfaceOutsideOfOneFrameIsShownByTheOther) {
     for (const int lost : {0, 1}) {
         object_.views[static_cast<std::size_t>(lost)].cx_q16 = 1 << 29;
@@ -183,7 +183,7 @@ TEST_F(Midway, WhereAMeanDoesNotCoverThePixelTheFarthestCellMay) {
     EXPECT_EQ(pixel(0, 255).colour, Rgba8{});
 }
 
-TEST_F(Midway, AGapWithoutLinesShowsTheNearestPicture) {
+TEST_F(Midway, AGapWithoutLinesShowsTheNearestImage) {
     ShapeMap& shape = object_.rings[0].shape;
     for (ShapeGap& gap : shape.gaps) gap = {};
     shape.cells.clear();

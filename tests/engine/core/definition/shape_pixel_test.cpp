@@ -1,4 +1,4 @@
-// The scalar definition of rendering with a shape map (engine/RECONSTRUCTION.md, sections 5 to 8): against the pictures
+// The scalar definition of rendering with a shape map (engine/RECONSTRUCTION.md, sections 5 to 8): against the images
 // it must give back, and against floating-point geometry on a ball whose shape is known.
 #include "engine/core/definition/shape_pixel.hpp"
 #include "engine/core/definition/reconstruct.hpp"
@@ -19,14 +19,14 @@ using test::registers_of;
 using test::RingObjectOptions;
 using test::Texel;
 Image<Rgba8> rendered(const RaySpaceObject& object, const Camera& camera) {
-    Image<Rgba8> picture(camera.width, camera.height);
-    reconstruct_scalar(object, registers_of(object, camera), picture);
-    return picture;
+    Image<Rgba8> image(camera.width, camera.height);
+    reconstruct_scalar(object, registers_of(object, camera), image);
+    return image;
 }
 
 Texel stored(const RaySpaceObject& object) {
     return [&](int view, int column, int row) {
-        return rgba_at(object.pictures[static_cast<std::size_t>(view)], column, row);
+        return rgba_at(object.images[static_cast<std::size_t>(view)], column, row);
     };
 }
 
@@ -34,7 +34,7 @@ Texel stored(const RaySpaceObject& object) {
 
 class CapturedPoseWithShape : public testing::TestWithParam<int> {};
 
-TEST_P(CapturedPoseWithShape, GivesBackTheStoredPictureWhateverTheCells) {
+TEST_P(CapturedPoseWithShape, GivesBackTheStoredImageWhateverTheCells) {
     const RingObjectOptions options{
         .views = 24, .width = 40, .height = 40, .fl_px = 56, .planes = GetParam(), .camera_height = 0.3};
     const Rig rig = test::ring_rig(options);
@@ -47,7 +47,7 @@ TEST_P(CapturedPoseWithShape, GivesBackTheStoredPictureWhateverTheCells) {
         const Status status = validate_object(object, "noise");
         ASSERT_TRUE(status.ok()) << status.error().message;
         for (std::size_t i = 0; i < rig.views.size(); ++i) {
-            ASSERT_EQ(rendered(object, rig.views[i].camera), rgba_from_planar(object.pictures[i])) << i;
+            ASSERT_EQ(rendered(object, rig.views[i].camera), rgba_from_planar(object.images[i])) << i;
         }
         for (ShapeCell& cell : shape.cells) {
             const std::uint64_t bits = random();
@@ -92,10 +92,10 @@ TEST(ShapeSample, FallsWhereFloatingPointProjectionSays) {
                                  d_q3 * std::ldexp(object.rings[0].shape.depth_step_q24, -27);
             const glm::dvec3 point = eye + (to_foot + depth) * ray;
             const auto y_q16 = static_cast<std::int32_t>(std::lround(std::ldexp(point.y, 16)));
-            for (const ShapePicture& picture : {setup.first, setup.second}) {
-                const glm::dvec3 pixel = rig.views[static_cast<std::size_t>(picture.view)].camera.project(point);
+            for (const ShapeImage& image : {setup.first, setup.second}) {
+                const glm::dvec3 pixel = rig.views[static_cast<std::size_t>(image.view)].camera.project(point);
                 const SampleSum sum =
-                    sample_picture(object, picture, d_q3, y_q16, TexelFilter::kBilinear, test::PlainTexels{place});
+                    sample_image(object, image, d_q3, y_q16, TexelFilter::kBilinear, test::PlainTexels{place});
                 const bool inside = pixel.x > 1 && pixel.x < 119 && pixel.y > 1 && pixel.y < 119;
                 if (!inside) continue;
                 ASSERT_TRUE(sum.exists);
@@ -246,9 +246,9 @@ TEST(ShapePixelProperty, ExtremeNumbersStayDefined) {
         if (random() % 2 == 0) camera.cx = 0.5;
         const Result<ViewRegisters> registers = prepare_view(object, camera);
         if (!registers) continue;
-        Image<Rgba8> picture(16, 16);
-        reconstruct_scalar(object, *registers, picture);
-        for (const Rgba8& p : picture.pixels()) shown += p.a != 0;
+        Image<Rgba8> image(16, 16);
+        reconstruct_scalar(object, *registers, image);
+        for (const Rgba8& p : image.pixels()) shown += p.a != 0;
         for (int i = 0; i < 16; ++i) rays += set_up_shape(object, *registers, i, 8).has_shape();
     }
     EXPECT_GT(rays, 1000);

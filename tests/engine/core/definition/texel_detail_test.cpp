@@ -8,11 +8,11 @@
 namespace rs::engine {
 namespace {
 
-PlanarPicture opaque_picture(int width, int height) {
-    PlanarPicture picture;
-    picture.y = Image<std::uint8_t>(width, height, 100);
-    picture.a = Image<std::uint8_t>(width, height, 255);
-    return picture;
+PlanarImage opaque_image(int width, int height) {
+    PlanarImage image;
+    image.y = Image<std::uint8_t>(width, height, 100);
+    image.a = Image<std::uint8_t>(width, height, 255);
+    return image;
 }
 
 TEST(TexelDetail, IsFiveSixteenthsOfTheNegatedLaplacianRoundedAndClamped) {
@@ -25,19 +25,19 @@ TEST(TexelDetail, IsFiveSixteenthsOfTheNegatedLaplacianRoundedAndClamped) {
 }
 
 TEST(TexelDetail, IsZeroOnTheBorderAndBesideTransparency) {
-    PlanarPicture picture = opaque_picture(5, 4);
-    picture.y(2, 2) = 140;
-    EXPECT_EQ(texel_detail_at(picture, 2, 2), 50);
-    EXPECT_EQ(texel_detail_at(picture, 1, 2), -12);
-    EXPECT_EQ(texel_detail_at(picture, 2, 3), 0);
-    EXPECT_EQ(texel_detail_at(picture, 0, 2), 0);
+    PlanarImage image = opaque_image(5, 4);
+    image.y(2, 2) = 140;
+    EXPECT_EQ(texel_detail_at(image, 2, 2), 50);
+    EXPECT_EQ(texel_detail_at(image, 1, 2), -12);
+    EXPECT_EQ(texel_detail_at(image, 2, 3), 0);
+    EXPECT_EQ(texel_detail_at(image, 0, 2), 0);
     for (const auto& [column, row] : {std::pair{2, 2}, {1, 2}, {3, 2}, {2, 1}, {2, 3}}) {
-        PlanarPicture soft = picture;
+        PlanarImage soft = image;
         soft.a(column, row) = 254;
         EXPECT_EQ(texel_detail_at(soft, 2, 2), 0) << column << " " << row;
     }
-    picture.a(1, 1) = 0;  // a diagonal neighbor
-    EXPECT_EQ(texel_detail_at(picture, 2, 2), 50);
+    image.a(1, 1) = 0;  // a diagonal neighbor
+    EXPECT_EQ(texel_detail_at(image, 2, 2), 50);
 }
 
 // Cubic interpolation is exact for luma that is quadratic in x. Along one axis the sharp filter brings bilinear

@@ -1,4 +1,4 @@
-// Rendering from coded pictures, decoded as views need them, gives the bits of rendering the unpacked object.
+// Rendering from coded images, decoded as views need them, gives the bits of rendering the unpacked object.
 
 #include "encode/codec/dense_encoder.hpp"
 #include "engine/core/definition/shape_pixel.hpp"
@@ -7,7 +7,7 @@
 #include "engine/core/fast/shape_columns.hpp"
 #include "engine/core/views/conformance.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/codec/stream/decode_picture.hpp"
+#include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/geometry/ray_space.hpp"
 #include "tests/support/random.hpp"
 #include "tests/support/random_shape.hpp"
@@ -30,10 +30,10 @@ using test::Random;
 constexpr std::int64_t kTinyBudget = 1;
 constexpr std::int64_t kPlenty = std::int64_t{1} << 30;
 
-// Waves of all colours that move a little from view to view, so that pictures are predicted from one another; an uneven
+// Waves of all colours that move a little from view to view, so that images are predicted from one another; an uneven
 // silhouette with a soft rim. It leaves tiles without a texel, and where `fills` is set touches the frame.
 Image<Rgba8> waves(int width, int height, int view, bool fills) {
-    Image<Rgba8> picture(width, height);
+    Image<Rgba8> image(width, height);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const double across = (x + 1.3 * view) * 0.21;
@@ -41,14 +41,14 @@ Image<Rgba8> waves(int width, int height, int view, bool fills) {
             const auto byte = [](double value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0)); };
             const double from_middle = std::hypot((x + 0.5) / width - 0.45, (y + 0.5) / height - 0.55);
             const double rim = fills ? 3.0 + std::sin(view + down) : 0.3 + 0.04 * std::sin(across + down);
-            picture(x, y) = {byte(128 + 90 * std::sin(across)), byte(128 + 90 * std::cos(down + 0.1 * view)),
-                             byte(128 + 90 * std::sin(across - down)), byte(255 * (rim - from_middle) * 12)};
+            image(x, y) = {byte(128 + 90 * std::sin(across)), byte(128 + 90 * std::cos(down + 0.1 * view)),
+                           byte(128 + 90 * std::sin(across - down)), byte(255 * (rim - from_middle) * 12)};
         }
     }
-    return picture;
+    return image;
 }
 
-// An object whose pictures are only coded, and the same unpacked.
+// An object whose images are only coded, and the same unpacked.
 struct CodedObject {
     RaySpaceObject coded;
     RaySpaceObject unpacked;
@@ -56,7 +56,7 @@ struct CodedObject {
 
 void unpack(CodedObject& object) {
     object.unpacked = object.coded;
-    codec::decode_pictures(object.unpacked);
+    codec::decode_images(object.unpacked);
 }
 
 CodedObject coded_object(Random& random, bool with_shape) {
@@ -76,9 +76,9 @@ CodedObject coded_object(Random& random, bool with_shape) {
                                          .tile_width_log2 = random.whole(4, 6),
                                          .tile_height_log2 = random.whole(4, 6),
                                          .effort = encode::kLeastEffort};
-    object.coded.coded = std::make_shared<const codec::CodedPictures>(encode::encode_dense(
+    object.coded.coded = std::make_shared<const codec::CodedImages>(encode::encode_dense(
         object.coded, [&](int view) { return waves(options.width, options.height, view, fills); }, settings));
-    for (PlanarPicture& picture : object.coded.pictures) picture = {};
+    for (PlanarImage& image : object.coded.images) image = {};
     if (with_shape) object.coded.rings[0].shape = test::random_shape(object.coded, 0, random.engine, 0.3);
     unpack(object);
     return object;
@@ -187,7 +187,7 @@ TEST(CodedRenderer, RendersFromSeveralThreadsAtOnce) {
     }
 }
 
-TEST(CodedTexels, AreThoseOfTheUnpackedPicturesWithTheirRims) {
+TEST(CodedTexels, AreThoseOfTheUnpackedImagesWithTheirRims) {
     bool has_details = false;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         SCOPED_TRACE(seed);
@@ -198,7 +198,7 @@ TEST(CodedTexels, AreThoseOfTheUnpackedPicturesWithTheirRims) {
         ASSERT_TRUE(coded.ok() && whole.ok());
         ASSERT_TRUE(coded->is_coded() && !whole->is_coded());
         const TexelStore::Reading reading = coded->read();
-        std::vector<std::pair<int, int>> places;  // picture, column
+        std::vector<std::pair<int, int>> places;  // image, column
         for (int p = 0; p < static_cast<int>(object.coded.views.size()); ++p) {
             for (int column = 0; column < object.coded.width; ++column) places.emplace_back(p, column);
         }
@@ -231,11 +231,11 @@ TEST(CodedTexels, DecodeWhatIsAskedForAndKeepToTheBudget) {
     while (object.coded.views.size() < 8 || object.coded.coded->tile_columns() < 3) {
         object = coded_object(random, false);
     }
-    const std::shared_ptr<const codec::CodedPictures> coded = object.coded.coded;
+    const std::shared_ptr<const codec::CodedImages> coded = object.coded.coded;
     const auto all_bytes = [&] {
         std::unique_ptr<CodedTexels> texels = std::move(*CodedTexels::create(coded, "all", kPlenty));
         texels->begin_view();
-        for (int p = 0; p < static_cast<int>(coded->pictures.size()); ++p) texels->ensure(p, 0, coded->width - 1);
+        for (int p = 0; p < static_cast<int>(coded->images.size()); ++p) texels->ensure(p, 0, coded->width - 1);
         texels->end_view();
         texels->begin_view();
         texels->end_view();
@@ -247,9 +247,9 @@ TEST(CodedTexels, DecodeWhatIsAskedForAndKeepToTheBudget) {
     EXPECT_EQ(texels->decoded_bytes(), 0);
     texels->ensure(0, 0, 0);
     EXPECT_GT(texels->decoded_bytes(), 0);
-    EXPECT_LT(texels->decoded_bytes(), all_bytes / static_cast<std::int64_t>(coded->pictures.size()));
+    EXPECT_LT(texels->decoded_bytes(), all_bytes / static_cast<std::int64_t>(coded->images.size()));
     texels->end_view();
-    for (int p = 0; p < static_cast<int>(coded->pictures.size()); ++p) {
+    for (int p = 0; p < static_cast<int>(coded->images.size()); ++p) {
         texels->begin_view();
         EXPECT_LE(texels->decoded_bytes(), budget);
         texels->ensure(p, 0, coded->width - 1);
@@ -271,9 +271,9 @@ void expect_columns_cover(const RaySpaceObject& object, const ViewRegisters& reg
                           ColumnCounts& counts) {
     const ShapeSetup setup = set_up_shape(object, registers, i, j);
     if (!setup.has_ray) return;
-    const auto covers = [&](const ShapePicture& picture, int view, int column) {
-        if (picture.view != view) return false;
-        const ColumnRange range = columns_read(object, picture);
+    const auto covers = [&](const ShapeImage& image, int view, int column) {
+        if (image.view != view) return false;
+        const ColumnRange range = columns_read(object, image);
         return range.first <= column && column <= range.last;
     };
     const auto read = [&](int view, int column, int) {
@@ -317,15 +317,15 @@ TEST(ShapeColumns, CoverEveryTexelThatIsRead) {
     EXPECT_GT(counts.narrow_ranges, counts.ranges / 3);  // it would be no use otherwise
 }
 
-TEST(CodedRenderer, NeighboursStandInForPicturesThatAreNotLoaded) {
+TEST(CodedRenderer, NeighboursStandInForImagesThatAreNotLoaded) {
     Random random(11);
     CodedObject object = coded_object(random, true);
     while (object.coded.views.size() < 8) object = coded_object(random, true);
-    codec::CodedPictures some = *object.coded.coded;
-    for (std::size_t v = 0; v < some.pictures.size(); ++v) {
-        if (some.levels[v] > 1) some.pictures[v] = {};
+    codec::CodedImages some = *object.coded.coded;
+    for (std::size_t v = 0; v < some.images.size(); ++v) {
+        if (some.levels[v] > 1) some.images[v] = {};
     }
-    object.coded.coded = std::make_shared<const codec::CodedPictures>(some);
+    object.coded.coded = std::make_shared<const codec::CodedImages>(some);
     unpack(object);
     const Result<Renderer> renderer = Renderer::create(object.coded);
     const Result<Renderer> whole = Renderer::create(object.unpacked);
@@ -338,10 +338,10 @@ TEST(CodedRenderer, NeighboursStandInForPicturesThatAreNotLoaded) {
     }
 
     // Level 1 is predicted from level 0, which is gone now.
-    for (std::size_t v = 0; v < some.pictures.size(); ++v) {
-        if (some.levels[v] == 0) some.pictures[v] = {};
+    for (std::size_t v = 0; v < some.images.size(); ++v) {
+        if (some.levels[v] == 0) some.images[v] = {};
     }
-    object.coded.coded = std::make_shared<const codec::CodedPictures>(some);
+    object.coded.coded = std::make_shared<const codec::CodedImages>(some);
     EXPECT_FALSE(Renderer::create(object.coded).ok());
 }
 

@@ -58,7 +58,7 @@ void expect_equal_on_random_views(bool upright, std::uint64_t first_seed, int ob
             const Result<ViewRegisters> registers = prepare_view(object, camera);
             if (!registers) continue;
             ASSERT_EQ(registers->upright(), upright);
-            // A view with an odd stride inside a larger picture; what is outside must stay as it is.
+            // A view with an odd stride inside a larger image; what is outside must stay as it is.
             const Rgba8 kMark{1, 2, 3, 4};
             const int border = random.whole(0, 5);
             Image<Rgba8> canvas(camera.width + 2 * border, camera.height + 2 * border, kMark);
@@ -108,19 +108,19 @@ TEST(Renderer, GivesTheSameBytesOnAnyNumberOfThreads) {
     Image<Rgba8> first(331, 277);
     for (const std::size_t threads : {1U, 2U, 4U}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        Image<Rgba8> picture(331, 277);
-        renderer->render(*registers, picture);
-        if (threads == 1) first = picture;
-        EXPECT_EQ(picture, first);
+        Image<Rgba8> image(331, 277);
+        renderer->render(*registers, image);
+        if (threads == 1) first = image;
+        EXPECT_EQ(image, first);
     }
 }
 
-TEST(Renderer, NeighboursStandInForPicturesThatAreNotLoaded) {
+TEST(Renderer, NeighboursStandInForImagesThatAreNotLoaded) {
     const test::RingObjectOptions options{.views = 16, .width = 64, .height = 64, .fl_px = 90};
     RaySpaceObject whole = test::ring_object(options);
     RaySpaceObject partial = whole;
-    for (std::size_t i = 0; i < partial.pictures.size(); ++i) {
-        if (progressive_level(static_cast<int>(i)) > 0) partial.pictures[i] = {};
+    for (std::size_t i = 0; i < partial.images.size(); ++i) {
+        if (progressive_level(static_cast<int>(i)) > 0) partial.images[i] = {};
     }
     const Rig rig = test::ring_rig(options);
     const Result<Renderer> renderer = Renderer::create(partial);
@@ -128,16 +128,16 @@ TEST(Renderer, NeighboursStandInForPicturesThatAreNotLoaded) {
     for (const std::size_t i : {0U, 8U, 3U}) {
         const Result<ViewRegisters> registers = prepare_view(renderer->object(), rig.views[i].camera);
         ASSERT_TRUE(registers.ok());
-        Image<Rgba8> picture(64, 64);
-        renderer->render(*registers, picture);
+        Image<Rgba8> image(64, 64);
+        renderer->render(*registers, image);
         int shown = 0;
-        for (const Rgba8& p : picture.pixels()) shown += p.a != 0;
+        for (const Rgba8& p : image.pixels()) shown += p.a != 0;
         EXPECT_GT(shown, 500);
         if (i != 3) {
-            EXPECT_EQ(picture, rgba_from_planar(whole.pictures[i]));
+            EXPECT_EQ(image, rgba_from_planar(whole.images[i]));
         }
     }
-    for (PlanarPicture& picture : partial.pictures) picture = {};
+    for (PlanarImage& image : partial.images) image = {};
     EXPECT_FALSE(Renderer::create(partial).ok());
 }
 

@@ -4,7 +4,7 @@
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/core/fast/renderer.hpp"
 #include "engine/core/views/conformance.hpp"
-#include "engine/core/views/depth_picture.hpp"
+#include "engine/core/views/depth_image.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/chunks/shape_chunk.hpp"
 #include "rayspace/geometry/ray_space.hpp"
@@ -192,29 +192,29 @@ TEST(ShapeRenderer, GivesTheSameBytesOnAnyNumberOfThreadsAndWithoutDepth) {
     reconstruct_scalar(object, *registers, defined);
     for (const std::size_t threads : {1U, 2U, 4U}) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-        Image<Rgba8> picture(131, 77);
-        renderer->render(*registers, picture);
-        EXPECT_EQ(picture, defined);
+        Image<Rgba8> image(131, 77);
+        renderer->render(*registers, image);
+        EXPECT_EQ(image, defined);
     }
 }
 
-TEST(ShapeRenderer, ShowsReferencePlanesWherePicturesAreMissing) {
+TEST(ShapeRenderer, ShowsReferencePlanesWhereImagesAreMissing) {
     const test::RingObjectOptions options{.views = 16, .width = 64, .height = 64, .fl_px = 90};
     Random random(2);
     RaySpaceObject with_shape = random_object(random, options);
-    for (std::size_t i = 0; i < with_shape.pictures.size(); ++i) {
-        if (progressive_level(static_cast<int>(i)) > 0) with_shape.pictures[i] = {};
+    for (std::size_t i = 0; i < with_shape.images.size(); ++i) {
+        if (progressive_level(static_cast<int>(i)) > 0) with_shape.images[i] = {};
     }
     RaySpaceObject without = with_shape;
     without.rings[0].shape = {};
     const Camera camera = test::ring_rig(options).views[3].camera;
-    Image<Rgba8> pictures[2] = {Image<Rgba8>(64, 64), Image<Rgba8>(64, 64)};
+    Image<Rgba8> images[2] = {Image<Rgba8>(64, 64), Image<Rgba8>(64, 64)};
     for (const int n : {0, 1}) {
         const Result<Renderer> renderer = Renderer::create(n == 0 ? with_shape : without);
         ASSERT_TRUE(renderer.ok());
-        renderer->render(*prepare_view(renderer->object(), camera), pictures[n]);
+        renderer->render(*prepare_view(renderer->object(), camera), images[n]);
     }
-    EXPECT_EQ(pictures[0], pictures[1]);
+    EXPECT_EQ(images[0], images[1]);
 }
 
 TEST(Renderer, SaysHowFarTheReferencePlaneIs) {
@@ -247,7 +247,7 @@ TEST(Renderer, SaysHowFarTheReferencePlaneIs) {
     }
 }
 
-TEST(DepthPicture, IsInTheRigsUnitsFromTheCamerasOwnCentre) {
+TEST(DepthImage, IsInTheRigsUnitsFromTheCamerasOwnCentre) {
     RaySpaceObject object = test::ring_object({.views = 12, .width = 64, .height = 64, .fl_px = 90});
     object.units_per_radius = 2.5;
     const Result<Renderer> renderer = Renderer::create(object);
@@ -258,7 +258,7 @@ TEST(DepthPicture, IsInTheRigsUnitsFromTheCamerasOwnCentre) {
         ASSERT_TRUE(registers.ok());
         CanvasPair rendered{Image<Rgba8>(41, 33), Image<std::int32_t>(41, 33)};
         renderer->render(*registers, rendered.colour, rendered.lambda);
-        const Image<float> depth = depth_picture(object, camera, rendered.lambda);
+        const Image<float> depth = depth_image(object, camera, rendered.lambda);
         int shown = 0;
         for (int j = 0; j < 33; ++j) {
             for (int i = 0; i < 41; ++i) {

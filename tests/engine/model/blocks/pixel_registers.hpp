@@ -32,11 +32,11 @@ inline ColumnSetup column_of(RayKind kind, int column) {
     setup.column = column;
     setup.weight = 100;
     setup.lambda0_q20 = 3 << 20;
-    for (PictureSetup& picture : setup.pictures) {
-        picture.l0_q20 = 3 << 20;
-        picture.cx_q16 = 20 << 16;
-        picture.cy_q16 = 20 << 16;
-        picture.fl_y_q16 = 60 << 16;
+    for (ImageSetup& image : setup.images) {
+        image.l0_q20 = 3 << 20;
+        image.cx_q16 = 20 << 16;
+        image.cy_q16 = 20 << 16;
+        image.fl_y_q16 = 60 << 16;
     }
     return setup;
 }

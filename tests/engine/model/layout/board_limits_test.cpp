@@ -9,7 +9,7 @@ namespace rs::engine::model {
 namespace {
 
 const ObjectLayout& published() {
-    return layout_of(BoardKind::raw_pictures);
+    return layout_of(BoardKind::raw_images);
 }
 
 // An object of the given shape; the board looks at sizes, not at pixels.
@@ -37,7 +37,7 @@ TEST(BoardLimits, OneMoreOfAnythingDoesNot) {
         const Status status = published().fits(object, {});
         return !status.ok() && status.error().message.find(what) != std::string::npos;
     };
-    EXPECT_TRUE(refused(shaped(121, 512, 12, 256), "pictures: 121"));
+    EXPECT_TRUE(refused(shaped(121, 512, 12, 256), "images: 121"));
     EXPECT_TRUE(refused(shaped(120, 513, 12, 256), "side: 513"));
     EXPECT_TRUE(refused(shaped(120, 512, 13, 256), "planes: 13"));
     EXPECT_TRUE(refused(shaped(1, 8, 3, 1025), "side: 1025"));

@@ -70,7 +70,7 @@ TEST(BoardConfig, CompressedHasItsOwnSlotsAndRegions) {
     const Result<BoardConfig> config =
         parse_board_config(R"({"base": "compressed-2000", "memory": {"flat_tiles": {"count": 1}}})", "f");
     ASSERT_TRUE(config.ok()) << config.error().message;
-    EXPECT_EQ(config->limits.kind, BoardKind::coded_pictures);
+    EXPECT_EQ(config->limits.kind, BoardKind::coded_images);
     EXPECT_EQ(config->limits.objects, 160);
     EXPECT_EQ(config->memory.regions.objects.front().count, 1);
     const Result<BoardConfig> again = parse_board_config(board_config_json(*config), "f");

@@ -15,7 +15,7 @@ struct CodedRegisters {
     CodedRegisters()
         : object(rs::test::ring_object({.views = 12, .width = 80, .height = 70})), board(test::compressed()) {
         std::mt19937_64 random(5);
-        object = test::with_coded(object, test::random_pictures(object, random));
+        object = test::with_coded(object, test::random_images(object, random));
         slot = *board.place(object);
         file = board.top().registers;
         file.banks[0].views = {*board.view(slot, *prepare_view(object, test::upright_at(0.4, 3.5, 0, 0.9, 9, 41)))};
@@ -176,7 +176,7 @@ TEST(CodedBlockTiming, BlockMotionTakesACyclePerWordOneToHandOverAndOneForASecon
     }
     EXPECT_EQ(bench.until(block, out), 3);
     ASSERT_EQ(asks.count(), 1);
-    EXPECT_EQ(asks.front().picture, 9);
+    EXPECT_EQ(asks.front().image, 9);
     EXPECT_EQ(asks.front().column, 37);
     EXPECT_EQ(asks.front().block_row, 2);
     EXPECT_EQ(asks.front().rows, 0xF0U);

@@ -23,10 +23,10 @@ struct BusBench {
         commands.commit_writer();
         transferred.commit_writer();
     }
-    void send(int picture_words) {
-        size = picture_words;
-        left = picture_words + 1;
-        head = {static_cast<std::uint64_t>(picture_words), true, true};
+    void send(int image_words) {
+        size = image_words;
+        left = image_words + 1;
+        head = {static_cast<std::uint64_t>(image_words), true, true};
     }
     PciSettings settings;
     HostPrograms programs;
@@ -51,8 +51,8 @@ TEST(HostBus, ABurstTakesItsClocks) {
         std::size_t seen = 0;
         for (int n = 0; n < 3000; ++n) {
             bench.step();
-            if (bench.bus.pictures().empty()) continue;
-            const std::size_t count = bench.bus.pictures().back().words.size();
+            if (bench.bus.images().empty()) continue;
+            const std::size_t count = bench.bus.images().back().words.size();
             if (count > seen && count % static_cast<std::size_t>(burst) == 0) ends.push_back(bench.now);
             seen = count;
         }
@@ -60,7 +60,7 @@ TEST(HostBus, ABurstTakesItsClocks) {
         for (std::size_t n = 2; n < ends.size(); ++n) {
             EXPECT_EQ(ends[n] - ends[n - 1], static_cast<std::uint64_t>(HostBus::burst_clocks(settings, burst)));
         }
-        for (std::size_t n = 0; n < 48; ++n) EXPECT_EQ(bench.bus.pictures().back().words[n], 101 + n);
+        for (std::size_t n = 0; n < 48; ++n) EXPECT_EQ(bench.bus.images().back().words[n], 101 + n);
         EXPECT_TRUE(bench.transferred.can_pop());
     }
 }

@@ -5,7 +5,7 @@
 #include "engine/model/blocks/parallel/band_reader.hpp"
 #include "engine/model/blocks/parallel/bracket_finder.hpp"
 #include "engine/model/blocks/parallel/column_setup.hpp"
-#include "engine/model/blocks/parallel/picture_reader.hpp"
+#include "engine/model/blocks/parallel/image_reader.hpp"
 #include "engine/model/limits/parallel_layout.hpp"
 #include "engine/model/signals/arithmetic.hpp"
 #include "tests/engine/model/blocks/block_bench.hpp"
@@ -71,7 +71,7 @@ TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
     EXPECT_EQ(bench.until(block, out), 1);
     EXPECT_EQ(out.pop().kind, RayKind::none);
     out.commit();
-    // The crossing of picture n is n * 1000 (u = 0), every gap has 3 lines from 3 n on.
+    // The crossing of image n is n * 1000 (u = 0), every gap has 3 lines from 3 n on.
     const WordAddress lines = r.file.objects[0].lines;
     const auto word = [&](WordAddress address) {
         const auto n = static_cast<std::uint64_t>(address - lines) / static_cast<std::uint64_t>(record_words(4));
@@ -121,13 +121,13 @@ TEST(ParallelColumnTiming, RaysOfPlaneObjectsPassTheBracketFinder) {
     EXPECT_EQ(out.front().first, 3);
 }
 
-TEST(ParallelColumnTiming, PictureReaderAsksAWordPerCycle) {
+TEST(ParallelColumnTiming, ImageReaderAsksAWordPerCycle) {
     const ColumnRegisters r(true);
     Fifo<BracketedRay> in("in", 4, 1);
     Fifo<MemoryRead> reads("reads", 2, 1);
     Fifo<MemoryWord> words("words", 2, 1);
     Fifo<LinedRay> out("out", 4, 1);
-    PictureReader block(r.file, in, reads, words, out);
+    ImageReader block(r.file, in, reads, words, out);
     Bench bench({&in, &reads, &words, &out});
     const WordAddress lines = r.file.objects[0].lines;
     const auto word = [&](WordAddress address) { return std::uint64_t{address - lines} * 0x100000001U; };
@@ -142,8 +142,8 @@ TEST(ParallelColumnTiming, PictureReaderAsksAWordPerCycle) {
         put(in, ray);
         EXPECT_EQ(until_answered(bench, block, reads, words, out, word), cycles);
         if (kind == RayKind::shape) {
-            EXPECT_EQ(out.front().picture[0].fl_y_q16, record_words(4) + 1);
-            EXPECT_EQ(out.front().picture[1].l2_q30, 5 * record_words(4) + plane_words(2) + 2);
+            EXPECT_EQ(out.front().image[0].fl_y_q16, record_words(4) + 1);
+            EXPECT_EQ(out.front().image[1].l2_q30, 5 * record_words(4) + plane_words(2) + 2);
         }
         out.pop();
         out.commit();
@@ -187,9 +187,9 @@ TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
     put(far_in, ray);
     EXPECT_EQ(far_bench.until(far_block, out), ColumnSetupStage::kTooFarLatency);
     ray.ray.kind = RayKind::plane;
-    ray.picture[0].l0_q20 = 3 << 20;
-    ray.picture[0].fl_y_q16 = 60 << 16;
-    ray.picture[0].cx_q16 = 20 << 16;
+    ray.image[0].l0_q20 = 3 << 20;
+    ray.image[0].fl_y_q16 = 60 << 16;
+    ray.image[0].cx_q16 = 20 << 16;
     put(in, ray);
     EXPECT_EQ(bench.until(block, out), VerticalCompensation::kLatency);
 }

@@ -159,9 +159,9 @@ TEST(ParallelPixelTiming, FilterAndBlendArePipelines) {
     resolved.commit();
 }
 
-// One picture alone answers where the point is beside the other one's frame; one that is transparent there rules out
+// One image alone answers where the point is beside the other one's frame; one that is transparent there rules out
 // the surface.
-TEST(ParallelPixelTiming, SurfaceBlendTakesThePictureWhoseFrameHasThePoint) {
+TEST(ParallelPixelTiming, SurfaceBlendTakesTheImageWhoseFrameHasThePoint) {
     const auto outcome = [](bool second_inside, std::int32_t second_a) {
         Fifo<FilteredSample> in("in", 4, 1);
         Fifo<FinishedPixel> out("out", 4, 1);

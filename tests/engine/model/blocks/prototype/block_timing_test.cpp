@@ -182,7 +182,7 @@ TEST(BlockTiming, MapReaderAsksOnceAndHandsOnTheByte) {
     EXPECT_EQ(bench.until(block, out, 10), -1);
     put(words, {0xFFFFFFFF'2AFFFFFF});
     EXPECT_EQ(bench.until(block, out), 1);
-    EXPECT_EQ(out.front().picture, 42);
+    EXPECT_EQ(out.front().image, 42);
     EXPECT_TRUE(out.front().has_ray);
     EXPECT_EQ(reads.count(), 1);
 }

@@ -15,11 +15,11 @@ using test::Bench;
 using test::put;
 using test::ViewsOfThreeObjects;
 
-PlacedSample sample_at(int picture, int left, int top, int fx, int fy, int view = 0) {
+PlacedSample sample_at(int image, int left, int top, int fx, int fy, int view = 0) {
     PlacedSample sample;
     sample.view = view;
     sample.inside = true;
-    sample.picture = picture;
+    sample.image = image;
     sample.left = left;
     sample.top = top;
     sample.fx = fx;

@@ -1,0 +1,37 @@
+#pragma once
+// Images of scene files: each is read once; unreadable ones become warnings.
+
+#include "compositor/scene/material.hpp"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rs::compositor {
+
+/// Local file of a URL, relative to `folder`; nullopt if it is not local. Removes "file:" and decodes %XX.
+std::optional<std::filesystem::path> local_path(const std::string& url, const std::filesystem::path& folder);
+
+// Not thread-safe.
+class SceneImages {
+public:
+    /// First readable image of the URLs; null, with the reason in `fault`, if there is none.
+    std::shared_ptr<const SceneTexture> read(const std::vector<std::string>& urls, const std::filesystem::path& folder,
+                                             bool repeat_s, bool repeat_t, std::string& fault);
+
+private:
+    struct Key {
+        std::filesystem::path path;
+        bool repeat_s;
+        bool repeat_t;
+        auto operator<=>(const Key&) const = default;
+    };
+    std::map<Key, std::shared_ptr<const SceneTexture>> read_;
+    std::int64_t pixels_ = 0;
+};
+
+}  // namespace rs::compositor

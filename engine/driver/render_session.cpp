@@ -1,0 +1,224 @@
+#include "engine/driver/render_session.hpp"
+
+#include "engine/core/fast/renderer.hpp"
+#include "rayspace/format/object_file.hpp"
+
+#include <condition_variable>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace rs::engine {
+namespace {
+
+struct LoadedObject {
+    std::shared_ptr<const Renderer> renderer;
+    bool on_board = false;  // known to the board
+};
+
+struct Cycle {
+    std::vector<PreparedView> views;
+    std::optional<Result<std::vector<DrawnView>>> drawn;  // once it is done
+    bool claimed = false;                                 // somebody waits in retrieve() for it
+};
+
+Error not_loaded(ObjectHandle object) {
+    return Error{"object " + std::to_string(object.number) + " is not loaded; load it before asking for its views"};
+}
+
+}  // namespace
+
+struct RenderSession::State {
+    State(const RenderSessionLimits& its_limits, std::unique_ptr<Executor> device)
+        : limits(its_limits), executor(std::move(device)) {}
+
+    RenderSessionLimits limits;
+    CycleExecutor executor;
+    mutable std::mutex mutex;
+    std::condition_variable changed;
+    std::map<std::uint32_t, LoadedObject> objects;
+    std::map<std::uint64_t, std::shared_ptr<Cycle>> cycles;  // in the order of submission
+    std::uint32_t last_object = 0;
+    std::uint64_t last_cycle = 0;
+    RenderSessionStatistics statistics;
+    bool stopping = false;
+    std::thread worker;
+
+    std::shared_ptr<Cycle> next_cycle() const {
+        for (const auto& [number, cycle] : cycles) {
+            if (!cycle->drawn) return cycle;
+        }
+        return nullptr;
+    }
+
+    void work() {
+        std::unique_lock lock(mutex);
+        for (;;) {
+            changed.wait(lock, [&] { return stopping || next_cycle() != nullptr; });
+            if (stopping) return;
+            const std::shared_ptr<Cycle> cycle = next_cycle();
+            lock.unlock();
+            Result<std::vector<DrawnView>> drawn = executor.draw(cycle->views);
+            cycle->views.clear();  // lets go of evicted objects
+            lock.lock();
+            ++statistics.cycles;
+            if (drawn) {
+                for (const DrawnView& view : *drawn)
+                    ++(view.by_board ? statistics.views_by_board : statistics.views_by_core);
+            }
+            cycle->drawn.emplace(std::move(drawn));
+            changed.notify_all();
+        }
+    }
+};
+
+RenderSession::RenderSession(const RenderSessionLimits& limits, std::unique_ptr<Executor> board)
+    : state_(std::make_unique<State>(limits, std::move(board))) {
+    state_->worker = std::thread([state = state_.get()] { state->work(); });
+}
+
+RenderSession::~RenderSession() {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->stopping = true;
+    }
+    state_->changed.notify_all();
+    state_->worker.join();
+}
+
+const RenderSessionLimits& RenderSession::limits() const {
+    return state_->limits;
+}
+
+bool RenderSession::has_board() const {
+    return state_->executor.board() != nullptr;
+}
+
+Result<ObjectHandle> RenderSession::load(const std::filesystem::path& path) {
+    RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path));
+    return load_checked(std::move(object));
+}
+
+Result<ObjectHandle> RenderSession::load(RaySpaceObject object) {
+    RS_TRY(validate_object(object, object.name));
+    return load_checked(std::move(object));
+}
+
+Result<ObjectHandle> RenderSession::load_checked(RaySpaceObject object) {
+    const std::shared_ptr<const RaySpaceObject> for_board = as_board_draws(object);
+    RS_ASSIGN_OR_RETURN(Renderer renderer, Renderer::create(std::move(object)));
+    return load({std::make_shared<const Renderer>(std::move(renderer)), for_board});
+}
+
+std::shared_ptr<const RaySpaceObject> RenderSession::as_board_draws(RaySpaceObject& object) const {
+    const BoardThread* const board = state_->executor.board();
+    if (board == nullptr || !board->device().takes(object)) return nullptr;
+    object = board->device().as_drawn(std::move(object));
+    return std::make_shared<const RaySpaceObject>(object);
+}
+
+Result<ObjectHandle> RenderSession::load(PreparedObject object) {
+    RS_CHECK(object.renderer != nullptr);
+    const std::lock_guard lock(state_->mutex);
+    if (state_->objects.size() >= static_cast<std::size_t>(state_->limits.objects)) {
+        return Error{object.renderer->object().name + ": " + std::to_string(state_->limits.objects) +
+                     " objects are loaded already; evict one first"};
+    }
+    const ObjectHandle handle{++state_->last_object};
+    BoardThread* const board = state_->executor.board();
+    const bool on_board = board != nullptr && object.for_board != nullptr;
+    state_->objects.emplace(handle.number, LoadedObject{std::move(object.renderer), on_board});
+    if (on_board) board->add(handle.number, std::move(object.for_board));
+    return handle;
+}
+
+void RenderSession::load_on_board(const std::vector<ObjectHandle>& objects) {
+    BoardThread* const board = state_->executor.board();
+    if (board == nullptr) return;
+    std::vector<std::uint32_t> numbers;
+    for (const ObjectHandle object : objects) numbers.push_back(object.number);
+    board->request(numbers);
+    board->wait_for_loads();
+}
+
+Status RenderSession::evict(ObjectHandle object) {
+    const std::lock_guard lock(state_->mutex);
+    if (state_->objects.erase(object.number) == 0) return not_loaded(object);
+    if (BoardThread* const board = state_->executor.board()) board->remove(object.number);
+    return {};
+}
+
+Result<std::shared_ptr<const RaySpaceObject>> RenderSession::describe(ObjectHandle object) const {
+    const std::lock_guard lock(state_->mutex);
+    const auto found = state_->objects.find(object.number);
+    if (found == state_->objects.end()) return not_loaded(object);
+    return std::shared_ptr<const RaySpaceObject>(found->second.renderer, &found->second.renderer->object());
+}
+
+Result<CycleHandle> RenderSession::submit(const std::vector<ViewRequest>& views) {
+    if (views.size() > static_cast<std::size_t>(state_->limits.views_per_cycle)) {
+        return Error{std::to_string(views.size()) + " views in one cycle, more than " +
+                     std::to_string(state_->limits.views_per_cycle) + "; split them into cycles"};
+    }
+    const auto cycle = std::make_shared<Cycle>();
+    const BoardThread* const board = state_->executor.board();
+    const std::lock_guard lock(state_->mutex);
+    for (const ViewRequest& view : views) {
+        const auto found = state_->objects.find(view.object.number);
+        if (found == state_->objects.end()) return not_loaded(view.object);
+        const RaySpaceObject& object = found->second.renderer->object();
+        const bool is_filtered = !found->second.on_board || board->device().traits().filters;
+        Result<ViewRegisters> registers =
+            prepare_view(object, view.camera, is_filtered ? std::nullopt : std::optional(TexelFilter::kBilinear));
+        if (!registers) return Error{object.name + ": " + registers.error().message};
+        const bool board_draws = found->second.on_board && (!view.depth || board->device().traits().depth) &&
+                                 board->device().draws(*registers).ok();
+        cycle->views.push_back(
+            {view.object.number, found->second.renderer, std::move(*registers), view.depth, board_draws});
+    }
+    if (state_->cycles.size() >= static_cast<std::size_t>(state_->limits.cycles_in_flight)) {
+        return Error{std::to_string(state_->cycles.size()) + " cycles are under way; retrieve one first"};
+    }
+    const CycleHandle handle{++state_->last_cycle};
+    state_->cycles.emplace(handle.number, cycle);
+    state_->changed.notify_all();
+    return handle;
+}
+
+bool RenderSession::ready(CycleHandle cycle) const {
+    const std::lock_guard lock(state_->mutex);
+    const auto found = state_->cycles.find(cycle.number);
+    return found != state_->cycles.end() && found->second->drawn.has_value();
+}
+
+Result<std::vector<DrawnView>> RenderSession::retrieve_views(CycleHandle handle) {
+    std::unique_lock lock(state_->mutex);
+    const auto found = state_->cycles.find(handle.number);
+    if (found == state_->cycles.end() || found->second->claimed) {
+        return Error{"cycle " + std::to_string(handle.number) + " was never submitted or is retrieved already"};
+    }
+    const std::shared_ptr<Cycle> cycle = found->second;
+    cycle->claimed = true;
+    state_->changed.wait(lock, [&] { return cycle->drawn.has_value(); });
+    state_->cycles.erase(handle.number);
+    return std::move(*cycle->drawn);
+}
+
+Result<std::vector<Image<Rgba8>>> RenderSession::retrieve(CycleHandle handle) {
+    RS_ASSIGN_OR_RETURN(std::vector<DrawnView> views, retrieve_views(handle));
+    std::vector<Image<Rgba8>> images;
+    for (DrawnView& view : views) images.push_back(std::move(view.image));
+    return images;
+}
+
+RenderSessionStatistics RenderSession::statistics() const {
+    const std::lock_guard lock(state_->mutex);
+    RenderSessionStatistics statistics = state_->statistics;
+    if (const BoardThread* const board = state_->executor.board()) statistics.board = board->counts();
+    return statistics;
+}
+
+}  // namespace rs::engine
