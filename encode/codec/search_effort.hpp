@@ -1,5 +1,5 @@
 #pragma once
-// Effort levels of the dense encoder's search. tests/bench/ENCODER.md lists the time and gain of each level.
+// Effort levels of the dense encoder's search. docs/notes/codec.md lists the time and gain of each level.
 
 #include <algorithm>
 #include <array>
