@@ -40,7 +40,7 @@ std::optional<std::int32_t> foot_of(const Rig& rig) {
     constexpr double kMaxHeight_radii = 128;
     if (!rig.foot_height) return std::nullopt;
     const double foot = *rig.foot_height / rig.object_radius;
-    if (!(std::abs(foot) <= kMost_radii)) return std::nullopt;
+    if (!(std::abs(foot) <= kMaxHeight_radii)) return std::nullopt;
     return static_cast<std::int32_t>(std::lround(std::ldexp(foot, 20)));
 }
 
