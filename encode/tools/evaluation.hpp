@@ -24,7 +24,7 @@ enum class Method {
 
 std::string to_string(Method method);
 
-/// Parses "photo,plane,shape" or a subset, in the rendering order. Unknown, missing and repeated names are errors.
+/// Parses "photo,plane,shape" or a subset, in the given order. Unknown, missing and repeated names are errors.
 Result<std::vector<Method>> parse_methods(const std::string& text);
 
 struct EvaluationOptions {
