@@ -17,7 +17,7 @@ namespace {
 constexpr Method kMethods[] = {Method::kPhoto, Method::kPlane, Method::kShape};
 
 // Renders a view of the rig by one method.
-using Answer = std::function<Result<Image<Rgba8>>(int view)>;
+using RenderFunction = std::function<Result<Image<Rgba8>>(int view)>;
 
 Result<engine::Renderer> renderer_of_kept(const CaptureSet& set, const HoldOut& hold_out, MapKind kind, int planes,
                                           Progress* progress) {
@@ -41,8 +41,8 @@ Result<Image<Rgba8>> render_view(const engine::Renderer& renderer, const Capture
     return image;
 }
 
-Result<MethodScores> score(const CaptureSet& set, const HoldOut& hold_out, Method method, const Answer& answer,
-                           const EvaluationSink& look, Progress* progress) {
+Result<MethodScores> score(const CaptureSet& set, const HoldOut& hold_out, Method method, const RenderFunction& render,
+                           const EvaluationSink& sink, Progress* progress) {
     MethodScores scores;
     scores.method = to_string(method);
     scores.views.resize(hold_out.held.size());
@@ -52,11 +52,11 @@ Result<MethodScores> score(const CaptureSet& set, const HoldOut& hold_out, Metho
         const auto n = static_cast<std::size_t>(i);
         const int view = hold_out.held[n];
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> truth, read_upright_image(set, view));
-        RS_ASSIGN_OR_RETURN(const Image<Rgba8> given, answer(view));
-        differences[n] = compare_images(truth, given);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> rendering, render(view));
+        differences[n] = compare_images(truth, rendering);
         scores.views[n] = {view, set.upright.views[static_cast<std::size_t>(view)].file_path, differences[n].psnr_db(),
                            differences[n].ssim};
-        return look ? look({method, n, view, truth, given, scores.views[n].psnr_db}) : Status{};
+        return sink ? sink({method, n, view, truth, rendering, scores.views[n].psnr_db}) : Status{};
     }));
     const DifferenceSummary summary = summarise(differences);
     scores.mean_psnr_db = summary.mean_psnr_db;
@@ -65,22 +65,22 @@ Result<MethodScores> score(const CaptureSet& set, const HoldOut& hold_out, Metho
     return scores;
 }
 
-Result<MethodScores> score_photo(const CaptureSet& set, const HoldOut& hold_out, const EvaluationSink& look,
+Result<MethodScores> score_photo(const CaptureSet& set, const HoldOut& hold_out, const EvaluationSink& sink,
                                  Progress* progress) {
-    const Answer nearest = [&](int view) {
+    const RenderFunction nearest = [&](int view) {
         return read_upright_image(set, nearest_kept_view(set.upright, hold_out, view));
     };
-    return score(set, hold_out, Method::kPhoto, nearest, look, progress);
+    return score(set, hold_out, Method::kPhoto, nearest, sink, progress);
 }
 
 Result<MethodScores> score_object(const CaptureSet& set, const HoldOut& hold_out, Method method, int planes,
-                                  const EvaluationSink& look, Progress* progress) {
+                                  const EvaluationSink& sink, Progress* progress) {
     const auto begun = std::chrono::steady_clock::now();
     const MapKind kind = method == Method::kPlane ? MapKind::kPlane : MapKind::kShape;
     RS_ASSIGN_OR_RETURN(const engine::Renderer renderer, renderer_of_kept(set, hold_out, kind, planes, progress));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-    const Answer render = [&](int view) { return render_view(renderer, set, view); };
-    Result<MethodScores> scores = score(set, hold_out, method, render, look, progress);
+    const RenderFunction render = [&](int view) { return render_view(renderer, set, view); };
+    Result<MethodScores> scores = score(set, hold_out, method, render, sink, progress);
     if (scores) scores->build_seconds = seconds;
     return scores;
 }
@@ -120,14 +120,14 @@ Result<std::vector<Method>> parse_methods(const std::string& text) {
 }
 
 Result<std::vector<MethodScores>> evaluate(const CaptureSet& set, const HoldOut& hold_out,
-                                           const EvaluationOptions& options, const EvaluationSink& look,
+                                           const EvaluationOptions& options, const EvaluationSink& sink,
                                            Progress* progress) {
     std::vector<MethodScores> all;
     for (const Method method : options.methods) {
         RS_ASSIGN_OR_RETURN(MethodScores scores,
                             method == Method::kPhoto
-                                ? score_photo(set, hold_out, look, progress)
-                                : score_object(set, hold_out, method, options.planes, look, progress));
+                                ? score_photo(set, hold_out, sink, progress)
+                                : score_object(set, hold_out, method, options.planes, sink, progress));
         all.push_back(std::move(scores));
     }
     return all;

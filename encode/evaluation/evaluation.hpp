@@ -37,18 +37,18 @@ struct EvaluatedView {
     std::size_t number = 0;  // in HoldOut::held
     int view = 0;            // HoldOut::held[number]
     const Image<Rgba8>& truth;
-    const Image<Rgba8>& answer;  // same size
+    const Image<Rgba8>& rendering;  // same size
     double psnr_db = 0;
 };
 /// Called from several threads at once.
 using EvaluationSink = std::function<Status(const EvaluatedView&)>;
 
 /// Evaluates each method on the views hold_out.held, in their order. Fails as build_object, read_upright_image and
-/// `look` do.
+/// `sink` do.
 /// \param hold_out  split of the set's rig.
-/// \param look      receives each rendering, from several threads; may be empty.
+/// \param sink      receives each rendering, from several threads; may be empty.
 Result<std::vector<MethodScores>> evaluate(const CaptureSet& set, const HoldOut& hold_out,
-                                           const EvaluationOptions& options, const EvaluationSink& look = {},
+                                           const EvaluationOptions& options, const EvaluationSink& sink = {},
                                            Progress* progress = nullptr);
 
 }  // namespace rs::encode

@@ -54,16 +54,16 @@ public:
         return made;
     }
 
-    [[nodiscard]] Status write(const EvaluatedView& answered) const {
-        const std::string name = numbered_image_name(static_cast<std::size_t>(answered.view));
-        const std::string method = to_string(answered.method);
+    [[nodiscard]] Status write(const EvaluatedView& evaluated) const {
+        const std::string name = numbered_image_name(static_cast<std::size_t>(evaluated.view));
+        const std::string method = to_string(evaluated.method);
         const std::filesystem::path& root = folder_.temporary_path();
-        if (answered.method == first_) {
-            RS_TRY(write_png(root / "truth" / name, answered.truth));
+        if (evaluated.method == first_) {
+            RS_TRY(write_png(root / "truth" / name, evaluated.truth));
         }
-        RS_TRY(write_png(root / method / name, answered.answer));
+        RS_TRY(write_png(root / method / name, evaluated.rendering));
         return write_png(root / (method + "-error") / name,
-                         error_image(answered.truth, answered.answer, kErrorFullScale));
+                         error_image(evaluated.truth, evaluated.rendering, kErrorFullScale));
     }
 
     Status commit() { return folder_.commit(); }
@@ -117,7 +117,7 @@ void print_table(const EvaluateArguments& arguments, const HoldOut& hold_out, co
 }
 
 Status write_page(const EvaluateArguments& arguments, const CaptureSet& set, const HoldOut& hold_out,
-                  const std::vector<MethodScores>& scores, EvaluationThumbnails answers, StagedFile& file) {
+                  const std::vector<MethodScores>& scores, EvaluationThumbnails thumbnails, StagedFile& file) {
     BuildReport report;
     report.name = name_of(set);
     report.facts = {{"capture set", arguments.set},
@@ -127,7 +127,7 @@ Status write_page(const EvaluateArguments& arguments, const CaptureSet& set, con
     RS_TRY(add_captured_images(set, report));
     std::string which = arguments.hold_out;  // every-3rd
     std::ranges::replace(which, '-', ' ');
-    add_scores(set, hold_out, which, scores, std::move(answers), report);
+    add_scores(set, hold_out, which, scores, std::move(thumbnails), report);
     return write_report(file, report);
 }
 
@@ -151,19 +151,19 @@ Status run_evaluate(const EvaluateArguments& arguments) {
         RS_ASSIGN_OR_RETURN(StagedFile created, StagedFile::create(arguments.report));
         page = std::move(created);
     }
-    EvaluationThumbnails answers(hold_out, options.methods);
-    const EvaluationSink look = [&](const EvaluatedView& answered) -> Status {
+    EvaluationThumbnails thumbnails(hold_out, options.methods);
+    const EvaluationSink sink = [&](const EvaluatedView& evaluated) -> Status {
         if (page) {
-            RS_TRY(answers.keep(answered));
+            RS_TRY(thumbnails.keep(evaluated));
         }
-        return folder ? folder->write(answered) : Status{};
+        return folder ? folder->write(evaluated) : Status{};
     };
-    RS_ASSIGN_OR_RETURN(const std::vector<MethodScores> scores, evaluate(set, hold_out, options, look, &progress));
+    RS_ASSIGN_OR_RETURN(const std::vector<MethodScores> scores, evaluate(set, hold_out, options, sink, &progress));
     if (folder) {
         RS_TRY(folder->commit());
     }
     if (page) {
-        RS_TRY(write_page(arguments, set, hold_out, scores, std::move(answers), *page));
+        RS_TRY(write_page(arguments, set, hold_out, scores, std::move(thumbnails), *page));
     }
     if (arguments.json) {
         print_json(arguments, hold_out, scores);

@@ -76,7 +76,7 @@ TEST_F(ImportFilm, MakesASetOfAFilm) {
 
 TEST_F(ImportFilm, RefusesADamagedFile) {
     std::ofstream(folder_ / "turn.mp4") << "no film";
-    expect_refused(import({"-q"}), "turn.mp4: cannot be read as a film");
+    expect_refused(import({"-q"}), "turn.mp4: cannot be read as a video");
 }
 
 TEST_F(ImportFilm, RefusesAFilmInWhichNothingTurns) {
