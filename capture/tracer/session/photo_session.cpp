@@ -232,7 +232,7 @@ Status make_folder(const fs::path& folder) {
 
 }  // namespace
 
-bool is_procedural_backdrop(const std::string& name) {
+bool is_made_backdrop(const std::string& name) {
     return name == "wall" || name == "blue" || name == "white";
 }
 

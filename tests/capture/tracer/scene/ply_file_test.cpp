@@ -68,7 +68,7 @@ TEST(PlyFile, ErrorsNameTheElement) {
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
         "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
     write_text(folder / "a.ply", header + "0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n");
-    EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("vertex 2: y is missing or no number"));
+    EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("vertex 2: y is missing or not a number"));
     write_text(folder / "a.ply", header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
     EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("face 0: a face refers to a vertex that does not exist"));
     write_text(folder / "a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty quaternion x\nend_header\n");
