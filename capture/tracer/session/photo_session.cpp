@@ -258,7 +258,7 @@ Result<CaptureSetSummary> write_photo_session(const Scene& object, double object
 
     const auto views = session.plan.model.angles_rad.size();
     if (progress != nullptr) {
-        progress->start("photographing " + std::to_string(views) + " views",
+        progress->start("rendering " + std::to_string(views) + " photos",
                         static_cast<std::int64_t>(views) * Tracer::step_count(lens_rays(session.plan, 0)));
     }
     const fs::path photos = staged.temporary_path() / "photos";
