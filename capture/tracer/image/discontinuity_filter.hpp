@@ -15,7 +15,7 @@
 namespace rs::capture {
 
 // Radius of the filter's support along x and y.
-inline constexpr int kFilterReach_px = 40;
+inline constexpr int kFilterRadius_px = 40;
 
 /// Filters Accumulation::mean() where the accumulation has guides. The result does not depend on the thread count.
 Image<RgbaF> filtered_mean(const Accumulation& accumulation);

@@ -105,7 +105,7 @@ bool is_mesh_file(const std::filesystem::path& path) {
 }
 
 Error missing_texture(const std::filesystem::path& path, const std::filesystem::path& referrer) {
-    return Error{referrer.string() + ": asks for the texture " + path.string() + ", which is not there; put it there"};
+    return Error{referrer.string() + ": texture " + path.string() + " does not exist; add the file"};
 }
 
 Result<Texture> read_texture(const std::filesystem::path& path, const std::filesystem::path& referrer) {

@@ -14,7 +14,7 @@ namespace rs::capture {
 
 namespace {
 
-constexpr std::size_t kMostEntries = 100'000;  // of lights and softboxes
+constexpr std::size_t kMaxEntries = 100'000;  // of lights and softboxes
 // In the order of SurfaceKind.
 const std::vector<std::string> kSurfaceKinds{"diffuse", "glossy", "metal", "mirror", "glass"};
 
@@ -22,7 +22,7 @@ void read_environment_file(const JsonValue& file, const std::filesystem::path& f
     const std::filesystem::path path = folder / file.text();
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) {
-        throw file.wrong(path.string() + " is not there; put it there");
+        throw file.wrong(path.string() + " does not exist; check the path");
     }
     Result<Image<RgbaF>> pixels = read_radiance(path);
     if (!pixels) throw file.wrong(pixels.error().message);
@@ -47,7 +47,7 @@ void read_studio(JsonObject object, Environment& environment) {
     object.read("horizon", studio.horizon, 0, 1e6);
     object.read("floor", studio.floor, 0, 1e6);
     if (const auto boxes = object.find("softboxes")) {
-        const std::size_t count = boxes->list_size(0, kMostEntries);
+        const std::size_t count = boxes->list_size(0, kMaxEntries);
         studio.softboxes.clear();
         for (std::size_t i = 0; i < count; ++i) studio.softboxes.push_back(read_softbox(JsonObject(boxes->item(i))));
     }
@@ -86,7 +86,7 @@ void read_light(JsonObject object, Scene& scene) {
 void read_shares(JsonObject& object, const char* key, std::vector<float>& values) {
     const auto list = object.find(key);
     if (!list) return;
-    values.resize(list->list_size(0, ToonStyle::kMostTones));
+    values.resize(list->list_size(0, ToonStyle::kMaxTones));
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(list->item(i).number(0, 1));
 }
 
@@ -137,7 +137,7 @@ void read_camera(JsonObject object, CameraRecipe& camera) {
 }
 
 void read_lights(const JsonValue& list, Scene& scene) {
-    const std::size_t count = list.list_size(0, kMostEntries);
+    const std::size_t count = list.list_size(0, kMaxEntries);
     for (std::size_t i = 0; i < count; ++i) read_light(JsonObject(list.item(i)), scene);
 }
 

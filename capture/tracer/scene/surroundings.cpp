@@ -10,14 +10,14 @@ namespace rs::capture {
 
 namespace {
 
-template <class Thing>
-void append(std::vector<Thing>& to, std::vector<Thing> from) {
+template <class Element>
+void append(std::vector<Element>& to, std::vector<Element> from) {
     to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
 }  // namespace
 
-void surround(Scene& object, Scene room, const glm::dmat4& object_from_room) {
+void add_surroundings(Scene& object, Scene room, const glm::dmat4& object_from_room) {
     RS_CHECK(!object.has_surroundings());
     room = flattened(std::move(room));
     const auto materials = static_cast<int>(object.materials.size());

@@ -21,11 +21,11 @@ double coverage(ConstImageView<RgbaF> image) {
 }
 
 bool touches_edge(ConstImageView<RgbaF> image) {
-    const auto seen = [](const RgbaF& p) { return p.a > 0.0F; };
-    if (std::ranges::any_of(image.row_span(0), seen)) return true;
-    if (std::ranges::any_of(image.row_span(image.height() - 1), seen)) return true;
+    const auto is_covered = [](const RgbaF& p) { return p.a > 0.0F; };
+    if (std::ranges::any_of(image.row_span(0), is_covered)) return true;
+    if (std::ranges::any_of(image.row_span(image.height() - 1), is_covered)) return true;
     for (int y = 0; y < image.height(); ++y) {
-        if (seen(image(0, y)) || seen(image(image.width() - 1, y))) return true;
+        if (is_covered(image(0, y)) || is_covered(image(image.width() - 1, y))) return true;
     }
     return false;
 }

@@ -45,7 +45,7 @@ Scene scene_of_all_kinds() {
     return scene;
 }
 
-void expect_the_bits_of_single_rays(const Scene& scene) {
+void expect_equal_to_single_rays(const Scene& scene) {
     const auto rays = RayScene::create(scene);
     ASSERT_TRUE(rays);
     rs::test::Random random(3);
@@ -90,9 +90,9 @@ void expect_the_bits_of_single_rays(const Scene& scene) {
 
 TEST(Packets, GiveTheBitsOfSingleRays) {
     Scene scene = scene_of_all_kinds();
-    expect_the_bits_of_single_rays(scene);
+    expect_equal_to_single_rays(scene);
     for (Instance& instance : scene.instances) instance.at_close.reset();
-    expect_the_bits_of_single_rays(scene);
+    expect_equal_to_single_rays(scene);
 }
 
 // Coherent shadow rays to one lamp, for which Embree did not return with instances as the only occluders.
@@ -205,8 +205,8 @@ Scene scene_of_all_details() {
     return scene;
 }
 
-void expect_whitted_gives_the_bits_of_single_rays(const Scene& scene, float environment, CameraVisibility visibility,
-                                                  bool soft_shadows) {
+void expect_whitted_packets_equal_single_rays(const Scene& scene, float environment, CameraVisibility visibility,
+                                              bool soft_shadows) {
     const auto rays = RayScene::create(scene);
     ASSERT_TRUE(rays);
     const LightSet lights(scene, environment > 0 ? constant_environment(environment) : Environment{},
@@ -258,8 +258,8 @@ void expect_whitted_gives_the_bits_of_single_rays(const Scene& scene, float envi
 TEST(Packets, OfWhittedGiveTheBitsOfSingleRays) {
     for (const Scene& scene : {scene_of_all_kinds(), scene_of_all_details()}) {
         for (const bool soft_shadows : {false, true}) {
-            expect_whitted_gives_the_bits_of_single_rays(scene, 0.3F, {true, true}, soft_shadows);
-            expect_whitted_gives_the_bits_of_single_rays(scene, 0, {}, soft_shadows);
+            expect_whitted_packets_equal_single_rays(scene, 0.3F, {true, true}, soft_shadows);
+            expect_whitted_packets_equal_single_rays(scene, 0, {}, soft_shadows);
         }
     }
 }
@@ -372,7 +372,7 @@ TEST(Packets, GiveTheSameBitsOnEveryTarget) {
         SCOPED_TRACE(hwy::TargetName(target));
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        expect_whitted_gives_the_bits_of_single_rays(scene, 0.3F, {true, true}, false);
+        expect_whitted_packets_equal_single_rays(scene, 0.3F, {true, true}, false);
         expect_virtual_lights_give_the_bits_of_their_twin(scene);
     }
     hwy::SetSupportedTargetsForTest(0);
