@@ -116,7 +116,8 @@ std::vector<std::string> calibration_problems(const FoundRig& rig) {
 }
 
 // Reports problems as an error, or as notes with --force.
-Status settle(const ImportOptions& options, const std::vector<std::string>& problems, std::vector<std::string>& notes) {
+Status report_problems(const ImportOptions& options, const std::vector<std::string>& problems,
+                       std::vector<std::string>& notes) {
     if (problems.empty()) return {};
     if (options.force) {
         notes.insert(notes.end(), problems.begin(), problems.end());
@@ -165,10 +166,10 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
     SegmentationFindings findings =
         check_segmentation(intake.folder, turn, chosen.kind, options.segmentation.parameters.checks);
     chosen.notes.insert(chosen.notes.end(), findings.notes.begin(), findings.notes.end());
-    RS_TRY(settle(options, findings.problems, chosen.notes));
+    RS_TRY(report_problems(options, findings.problems, chosen.notes));
 
     RS_ASSIGN_OR_RETURN(FoundRig rig, find_rig(options, intake.folder, turn, foregrounds, progress));
-    RS_TRY(settle(options, calibration_problems(rig), rig.notes));
+    RS_TRY(report_problems(options, calibration_problems(rig), rig.notes));
 
     RS_ASSIGN_OR_RETURN(ImportReport report,
                         write_import_set(set, intake.folder, turn, foregrounds,

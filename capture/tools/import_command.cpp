@@ -195,7 +195,7 @@ Status check_frames_usage(const ImportCommandLine& given) {
 
 Status run_import(const ImportCommandLine& given) {
     ImportOptions options = given.import;
-    if (Status status = check_frames_usage(given); !status) return status;
+    RS_TRY(check_frames_usage(given));
     RS_ASSIGN_OR_RETURN(const BackgroundRequest backdrop, parse_background(given.backdrop));
     options.segmentation.background = backdrop;
     options.segmentation.kind = kSegmenters.at(given.segmenter);
@@ -240,8 +240,8 @@ Status run_import(const ImportCommandLine& given) {
     RS_ASSIGN_OR_RETURN(const ImportReport report, import_photos(options, &bar));
     if (page) {
         RS_ASSIGN_OR_RETURN(const std::string text, import_page(options.photos, report));
-        if (Status status = page->write(std::as_bytes(std::span(text))); !status) return status;
-        if (Status status = page->commit(); !status) return status;
+        RS_TRY(page->write(std::as_bytes(std::span(text))));
+        RS_TRY(page->commit());
     }
     for (const std::string& note : report.notes) {
         if (!given.quiet) std::fprintf(stderr, "rs-capture: %s\n", printable(note).c_str());

@@ -113,7 +113,7 @@ Result<std::uint64_t> parse_seed(const std::string& text) {
 
 // The value; an error becomes a usage error of `option`.
 template <class T>
-T parsed(const std::string& option, const Result<T>& value) {
+T parsed_or_throw(const std::string& option, const Result<T>& value) {
     if (!value) throw CLI::ValidationError(option, value.error().message);
     return *value;
 }
@@ -257,7 +257,7 @@ Status synthesise(const Options& options) {
     std::vector<std::filesystem::path> inputs = input_files(options.as_photos);
     inputs.insert(inputs.end(), {options.scene, options.poses});
     for (const std::filesystem::path& input : inputs) {
-        if (Status kept = check_output_excludes(options.output, input); !kept) return kept;
+        RS_TRY(check_output_excludes(options.output, input));
     }
     RS_ASSIGN_OR_RETURN(SceneFile file, load_scene_file(options.scene, synthetic::generate));
     if (options.as_photos.is_enabled && file.scene.has_surroundings()) {
@@ -294,7 +294,8 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
         ->type_name("N");
     synth
         ->add_option_function<std::string>(
-            "--size", [options](const std::string& text) { options->size = parsed("--size", parse_size(text)); },
+            "--size",
+            [options](const std::string& text) { options->size = parsed_or_throw("--size", parse_size(text)); },
             "Image size in pixels (recipe, or 512x512; photos: 640x512)")
         ->type_name("WxH");
     synth->add_option("--spp", options->samples_per_pixel, "Samples per pixel; best a power of two (recipe, or 64)")
@@ -305,23 +306,24 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     synth
         ->add_option("--elevation", options->elevation_deg,
                      "Cameras' height above the horizon (recipe, or 0; photos: 20)")
-        ->check(within(-89.0, 89.0))
+        ->check(range(-89.0, 89.0))
         ->type_name("DEG");
     synth->add_option("--first-angle", options->first_angle_deg, "Rotates the whole ring")
-        ->check(within(-360.0, 360.0))
+        ->check(range(-360.0, 360.0))
         ->type_name("DEG");
     synth
         ->add_option_function<std::string>(
-            "--seed", [options](const std::string& text) { options->seed = parsed("--seed", parse_seed(text)); },
+            "--seed",
+            [options](const std::string& text) { options->seed = parsed_or_throw("--seed", parse_seed(text)); },
             "Seed of the image noise; the object's seed is the recipe's")
         ->type_name("N");
     synth
         ->add_option("--distance", options->distance_radii,
                      "Distance to the axis in bounding radii (recipe, or 3.5; photos: to fit)")
-        ->check(within(1.001, 1000.0))
+        ->check(range(1.001, 1000.0))
         ->type_name("R");
     synth->add_option("--focal-widths", options->focal_widths, "Focal length in image widths (recipe, or 1.4)")
-        ->check(within(0.1, 100.0))
+        ->check(range(0.1, 100.0))
         ->type_name("F");
     synth->add_option("--format", options->format, "png: 8-bit sRGB; exr: linear float")
         ->check(CLI::IsMember({"png", "exr"}))

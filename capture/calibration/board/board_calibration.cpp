@@ -49,7 +49,7 @@ std::vector<std::size_t> views_without_board(const Task& task) {
 }
 
 Status check(const Task& task) {
-    if (Status valid = check_board_design(task.design); !valid) return valid;
+    RS_TRY(check_board_design(task.design));
     if (task.known.angles_rad && task.known.angles_rad->size() != task.views.size()) {
         return Error{"board: " + std::to_string(task.known.angles_rad->size()) + " angles for " +
                      std::to_string(task.views.size()) + " views; give one for each"};
@@ -78,7 +78,7 @@ Status check(const Task& task) {
     return {};
 }
 
-void collect(Task& task) {
+void split_observations(Task& task) {
     int count = 0;
     for (std::size_t i = 0; i < task.views.size(); ++i) {
         if (!has_board(task.views[i], task.design)) continue;
@@ -186,7 +186,8 @@ double robust_noise_px(const BoardTurn& turn, std::span<const BoardObservation> 
     return std::max(kLeastNoise_px, median(std::move(lengths)) / 1.1774);
 }
 
-std::vector<BoardObservation> within(const BoardTurn& turn, std::span<const BoardObservation> seen, double limit_px) {
+std::vector<BoardObservation> inliers_within(const BoardTurn& turn, std::span<const BoardObservation> seen,
+                                             double limit_px) {
     std::vector<BoardObservation> kept;
     for (const BoardObservation& one : seen) {
         const auto r = residual(turn, one);
@@ -242,14 +243,14 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
     free = free_parameters_beside(known);
     free.k1 = free.k2 = !known.distortion;
     RS_TRY(check(task));
-    collect(task);
+    split_observations(task);
     RS_ASSIGN_OR_RETURN(BoardTurn turn, best_start(task));
 
     std::vector<BoardObservation> used = task.used;
     for (int round = 0; round < 4; ++round) {
         task.options.noise_px = robust_noise_px(turn, used);
         // Observations rejected because of a poor start are reconsidered.
-        used = within(turn, task.used, kCornerOutlierDeviations * task.options.noise_px);
+        used = inliers_within(turn, task.used, kCornerOutlierDeviations * task.options.noise_px);
         if (!adjust(turn, used, task.options)) {
             return Error{"board: the adjustment fails; check that the images are of one turn and in order"};
         }
@@ -285,7 +286,7 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
     c.points = static_cast<int>(corners.size());
     c.observations = static_cast<int>(used.size());
     c.rms_px = fitted;
-    const auto held_out = within(turn, task.held_out, kCornerOutlierDeviations * task.options.noise_px);
+    const auto held_out = inliers_within(turn, task.held_out, kCornerOutlierDeviations * task.options.noise_px);
     c.held_out_rms_px = rms_px(turn, held_out);
     c.step_rad = median_step(c.model.angles_rad);
     for (std::size_t i = 0; i < views.size(); ++i) {

@@ -154,11 +154,9 @@ Result<glm::dvec2> distortion_of(const nlohmann::json& extras, const std::string
                          " is not supported, only k1 and k2; calibrate with those alone or undistort the images"};
         }
     }
-    const auto k1 = coefficient("k1");
-    const auto k2 = coefficient("k2");
-    if (!k1) return k1.error();
-    if (!k2) return k2.error();
-    return glm::dvec2(*k1, *k2);
+    RS_ASSIGN_OR_RETURN(const double k1, coefficient("k1"));
+    RS_ASSIGN_OR_RETURN(const double k2, coefficient("k2"));
+    return glm::dvec2(k1, k2);
 }
 
 }  // namespace

@@ -62,8 +62,8 @@ struct PlacePrior {
 
 using PlaceNumbers = std::array<double, 4>;
 
-std::vector<Track> undone(std::span<const Track> tracks, const std::vector<ImagePlace>& places,
-                          const glm::dvec2& middle) {
+std::vector<Track> undo_placements_of(std::span<const Track> tracks, const std::vector<ImagePlace>& places,
+                                      const glm::dvec2& middle) {
     std::vector<Track> result(tracks.begin(), tracks.end());
     for (Track& track : result) {
         for (Observation& seen : track.seen) {
@@ -160,17 +160,17 @@ bool improve(Attempt& attempt, std::span<const Track> tracks, double first_px, d
              const KnownInputs& known) {
     const glm::dvec2 middle(attempt.model.lens.width / 2.0, attempt.model.lens.height / 2.0);
     for (double limit = first_px; limit > 0.7 * last_px; limit *= 0.5) {
-        Bundle bundle = make_robust_bundle(attempt.model, undone(tracks, attempt.places, middle), limit);
+        Bundle bundle = make_robust_bundle(attempt.model, undo_placements_of(tracks, attempt.places, middle), limit);
         if (!adjust_places(bundle, attempt.places, 0.5 * limit, known)) return false;
         attempt.model = bundle.model;
     }
-    attempt.agreeing =
-        observation_count(make_robust_bundle(attempt.model, undone(tracks, attempt.places, middle), last_px));
+    attempt.agreeing = observation_count(
+        make_robust_bundle(attempt.model, undo_placements_of(tracks, attempt.places, middle), last_px));
     return true;
 }
 
 // Equal steps in both directions, which differ little without perspective; several focal lengths and tilts.
-std::vector<Attempt> attempts(const Lens& lens, std::size_t views, const KnownInputs& known) {
+std::vector<Attempt> initial_attempts(const Lens& lens, std::size_t views, const KnownInputs& known) {
     std::vector<Attempt> all;
     for (const bool counter_clockwise : {false, true}) {
         if (known.counter_clockwise && *known.counter_clockwise != counter_clockwise) continue;
@@ -204,7 +204,7 @@ std::optional<PlacementEstimate> estimate_placements(std::span<const Track> trac
     for (std::size_t i = 0; i < most; ++i) few.push_back(tracks[i * tracks.size() / most]);
     const double coarsest = kCoarsest * lens.width;
     const double finest = kFinestPlaces_px * reduction;
-    std::vector<Attempt> tried = attempts(lens, views, known);
+    std::vector<Attempt> tried = initial_attempts(lens, views, known);
     for_each_index(tried.size(), [&](std::size_t i) { improve(tried[i], few, coarsest, finest, known); });
     Attempt& best = *std::max_element(tried.begin(), tried.end(),
                                       [](const Attempt& a, const Attempt& b) { return a.agreeing < b.agreeing; });

@@ -95,8 +95,8 @@ std::vector<int> repeated_views(std::span<const double> angles_rad) {
     return repeated;
 }
 
-Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span<const int> candidates,
-              std::span<const std::string> names) {
+Status check_plausibility(const Bundle& bundle, const ModelDeviations& deviations, std::span<const int> candidates,
+                          std::span<const std::string> names) {
     const TurntableModel& model = bundle.model;
     double offered = 0;
     for (const int count : candidates) offered += count;

@@ -34,7 +34,7 @@ std::size_t extension_of(const std::filesystem::path& name) {
 
 // Keeps one of the files that differ only in their extension, the one in the most frequent format: a phone's HEIC and
 // the JPEG converted from it are the same photo.
-void take_one_format(PhotoFolder& found) {
+void keep_one_format(PhotoFolder& found) {
     std::array<int, kExtensions.size()> having{};  // [extension]: number of image files
     std::map<std::string, std::filesystem::path> by_stem;
     for (const std::filesystem::path& photo : found.photos) ++having[extension_of(photo)];
@@ -204,7 +204,7 @@ Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int m
     }
     std::sort(found.photos.begin(), found.photos.end(),
               [](const auto& a, const auto& b) { return natural_less(a.filename().string(), b.filename().string()); });
-    take_one_format(found);
+    keep_one_format(found);
     if (found.photos.size() > static_cast<std::size_t>(kMaxViews)) {
         return Error{folder.string() + ": holds " + std::to_string(found.photos.size()) + " images; at most " +
                      std::to_string(kMaxViews) + " can be imported"};

@@ -68,7 +68,7 @@ double angles_error_rad(const TurntableModel& found, const TurntableModel& truth
 }
 
 SilhouetteTurn turn_of(const std::vector<Image<std::uint8_t>>& masks) {
-    auto turn = SilhouetteTurn::of(masks, {600, 100});
+    auto turn = SilhouetteTurn::create(masks, {600, 100});
     EXPECT_TRUE(turn.ok());
     return std::move(*turn);
 }

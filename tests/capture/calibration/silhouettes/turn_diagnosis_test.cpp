@@ -41,7 +41,7 @@ Judged judge(const std::vector<Track>& tracks, const TurntableModel& start, std:
     const std::vector<std::string> names = test::photograph_names(views);
     std::vector<std::string> warnings = step_warnings(bundle.model.angles_rad, deviations, names);
     for (std::string& line : image_warnings(bundle, candidates, features, names)) warnings.push_back(std::move(line));
-    return {accept(bundle, deviations, candidates, names), std::move(warnings)};
+    return {check_plausibility(bundle, deviations, candidates, names), std::move(warnings)};
 }
 
 Judged judge(const TurntableModel& truth, const TurntableModel& start) {
