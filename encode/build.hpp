@@ -46,7 +46,8 @@ struct BuiltObject {
 /// image per thread.
 Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& options, Progress* progress = nullptr);
 
-/// Writes the stored images and their rig as a capture set to `folder`, without loss.
-Status extract_images(const RaySpaceObject& object, const std::filesystem::path& folder, Progress* progress = nullptr);
+/// Writes the stored images and their rig as a capture set to `folder`, without loss. `force` is that of StagedFolder.
+Status extract_images(const RaySpaceObject& object, const std::filesystem::path& folder, Progress* progress = nullptr,
+                      bool force = false);
 
 }  // namespace rs::encode

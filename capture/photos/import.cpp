@@ -51,22 +51,7 @@ PhotoRequest photo_request(const ImportOptions& options) {
     const KnownInputs& known = options.known.known;
     const bool are_described = !options.segmentation.masks.empty() || !options.known.images.empty() ||
                                known.angles_rad || known.step_rad || known.equal_steps || options.degrees_per_view;
-    return {options.photos, options.output, options.max_side_px, options.frames, are_described};
-}
-
-// Rejects an output folder that is or contains the photos: an existing set at `output` is replaced completely, so
-// photos inside it would be lost.
-Status check_paths(const ImportOptions& options) {
-    std::error_code failure;
-    const fs::path photos = fs::weakly_canonical(options.photos, failure);
-    if (failure) return Error{options.photos.string() + ": cannot be resolved (" + failure.message() + ")"};
-    const fs::path output = fs::weakly_canonical(options.output, failure);
-    if (failure) return Error{options.output.string() + ": cannot be resolved (" + failure.message() + ")"};
-    const auto [rest, inner] = std::mismatch(output.begin(), output.end(), photos.begin(), photos.end());
-    if (rest != output.end()) return {};
-    return Error{options.output.string() + ": " + (photos == output ? "is" : "contains") +
-                 (is_video(options.photos) ? " the video " : " the folder of photos ") + options.photos.string() +
-                 ", which would be replaced; give another place with -o"};
+    return {options.photos, options.output, options.force, options.max_side_px, options.frames, are_described};
 }
 
 Status make_folder(const fs::path& folder, const fs::path& output) {
@@ -140,13 +125,13 @@ Status check_count(const PhotoFolder& folder, const ImportOptions& options) {
 }
 
 Result<ImportReport> import_checked(const ImportOptions& options, Progress* progress) {
-    RS_TRY(check_paths(options));
+    RS_TRY(refuse_overwriting_inputs(options.output, {options.photos}));
     RS_ASSIGN_OR_RETURN(PhotoFolder folder, open_photos(photo_request(options), progress));
     if (!options.segmentation.masks.empty() && folder.has_ambiguous_orientation()) {
         return ambiguous_orientation_error(folder, "--masks " + options.segmentation.masks.string());
     }
     RS_TRY(check_count(folder, options));
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(options.output, "imported photos"));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(options.output, "imported photos", options.force));
     const fs::path set = staged.temporary_path();
     const fs::path cut = set / "cut";
     for (const fs::path& inner : {cut, set / "images"}) {

@@ -217,6 +217,11 @@ Status run_import(const ImportCommandLine& given) {
     options.calibration = kCalibrations.at(given.calibration);
     if (given.clockwise) options.turning = Turning::kClockwise;
     if (given.counter_clockwise) options.turning = Turning::kCounterClockwise;
+    const std::vector<std::filesystem::path> inputs{options.photos, options.segmentation.masks,
+                                                    options.segmentation.network, given.known, given.parameters};
+    for (const std::filesystem::path& output : {options.output, std::filesystem::path(given.report)}) {
+        if (Status kept = refuse_overwriting_inputs(output, inputs); !kept) return kept;
+    }
     std::optional<StagedFile> page;  // created before the import, so that an unusable path is reported at once
     if (!given.report.empty()) {
         RS_ASSIGN_OR_RETURN(StagedFile created, StagedFile::create(given.report));
@@ -317,7 +322,8 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
                      "JSON file with thresholds of segmentation that differ from the defaults, for experiments "
                      "(docs/segmentation.md)")
         ->check(CLI::ExistingFile);
-    command->add_flag("--force", given->import.force, "Write the set even if checks fail");
+    command->add_flag("--force", given->import.force,
+                      "Write the set even if checks fail, and replace an output folder that contains other files");
     command
         ->add_option("--calibration", given->calibration,
                      "auto (the most accurate that succeeds), board, tracks, silhouettes or nominal (equal steps, a "

@@ -90,6 +90,7 @@ PolarPlot plot_of(const Luminaire& lamp, const Spreads& spreads, const std::stri
 }
 
 Status run_luminaire(const LuminaireCommandLine& given) {
+    if (Status kept = refuse_overwriting_inputs(given.plot, {given.file}); !kept) return kept;
     RS_ASSIGN_OR_RETURN(const Luminaire lamp, read_luminaire(given.file));
     const Spreads spreads{beam_spread(lamp.web, 0), beam_spread(lamp.web, 90)};
     const std::string title = title_of(lamp, given.file);

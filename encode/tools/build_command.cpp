@@ -133,6 +133,7 @@ Status run_build(const BuildArguments& arguments) {
     StageClock progress(bar);
     RS_ASSIGN_OR_RETURN(BuildOptions options, options_of(arguments));
 
+    if (Status kept = refuse_overwriting_inputs(arguments.output, {arguments.set}); !kept) return kept;
     RS_ASSIGN_OR_RETURN(CaptureSet set, open_capture_set(arguments.set, &progress));
     // Check that the output files can be written before the long build.
     RS_TRY(StagedFile::create(arguments.output));

@@ -31,14 +31,15 @@ struct EvaluateArguments {
     bool views = false;
     bool quiet = false;
     bool json = false;
+    bool force = false;
 };
 
 // Writes FOLDER/truth/0001.png, FOLDER/plane/0001.png and FOLDER/plane-error/0001.png, named by the view's index in the
 // set.
 class EvaluationFolder {
 public:
-    static Result<EvaluationFolder> create(const std::string& path, const std::vector<Method>& methods) {
-        RS_ASSIGN_OR_RETURN(StagedFolder folder, StagedFolder::create(path, "answers of methods"));
+    static Result<EvaluationFolder> create(const std::string& path, bool force, const std::vector<Method>& methods) {
+        RS_ASSIGN_OR_RETURN(StagedFolder folder, StagedFolder::create(path, "answers of methods", force));
         EvaluationFolder made(std::move(folder), methods.front());
         std::vector<std::string> names{"truth"};
         for (const Method method : methods) {
@@ -141,9 +142,13 @@ Status run_evaluate(const EvaluateArguments& arguments) {
     ProgressBar progress(arguments.quiet);
     RS_ASSIGN_OR_RETURN(const CaptureSet set, open_capture_set(arguments.set, &progress));
     RS_ASSIGN_OR_RETURN(const HoldOut hold_out, choose_hold_out(set.upright, every, arguments.set));
+    std::vector<std::filesystem::path> inputs{arguments.set, arguments.report};
+    for (const RigView& view : set.captured.views) inputs.push_back(image_path(set.folder, view));
+    RS_TRY(refuse_overwriting_inputs(arguments.output, inputs));
     std::optional<EvaluationFolder> folder;
     if (!arguments.output.empty()) {
-        RS_ASSIGN_OR_RETURN(EvaluationFolder created, EvaluationFolder::create(arguments.output, options.methods));
+        RS_ASSIGN_OR_RETURN(EvaluationFolder created,
+                            EvaluationFolder::create(arguments.output, arguments.force, options.methods));
         folder = std::move(created);
     }
     std::optional<StagedFile> page;
@@ -199,6 +204,7 @@ void add_evaluate_command(CLI::App& app, std::function<Status()>& run) {
                      "also write a report, PAGE.html: scores, some renderings beside ground truth, the cameras")
         ->check(ends_in({".html", ".htm"}));
     command->add_flag("--views", arguments->views, "also print the PSNR of every view");
+    command->add_flag("--force", arguments->force, kForceHelp);
     command->add_flag("-q,--quiet", arguments->quiet, "suppress the progress bar");
     command->add_flag("--json", arguments->json, "print all results as JSON");
     command->footer(

@@ -55,6 +55,7 @@ struct RenderArguments {
     int level = kProgressiveLevels - 1;
     bool depth = false;
     std::optional<TexelFilter> filter;  // else by the size of the views
+    bool force = false;
     bool quiet = false;
 };
 
@@ -114,7 +115,7 @@ Status write_view_with_depth(const Renderer& renderer, const Camera& camera, std
 
 Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
                     EmptyViews& empty, Progress& progress) {
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(arguments.output, "rendered views"));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(arguments.output, "rendered views", arguments.force));
     Rig rig = rig_of_views(cameras);
     rig.object_radius = renderer.object().units_per_radius;
     for (RigView& view : rig.views) {
@@ -213,6 +214,9 @@ Status run_render(const RenderArguments& arguments) {
                      ": a video or a sheet has no depth; give a folder or one view's FILE.png to -o, "
                      "or leave out --depth"};
     }
+    if (Status kept = refuse_overwriting_inputs(arguments.output, {arguments.object, arguments.views.poses}); !kept) {
+        return kept;
+    }
     RS_ASSIGN_OR_RETURN(const Renderer renderer, open_renderer(arguments.object, arguments.level));
     RS_ASSIGN_OR_RETURN(std::vector<Camera> cameras, requested_cameras(renderer.object(), arguments.views));
     if (arguments.sheet_columns > 0 && arguments.views.size.empty()) {
@@ -262,6 +266,7 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
             "bilinear (as boards do), or auto: by the size of the views")
         ->check(CLI::IsMember(kFilters))
         ->default_str("auto");
+    command->add_flag("--force", arguments->force, kForceHelp);
     command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
     command->footer(
         "Examples:\n  rs-engine render vase.rso --orbit 120 -o vase.mp4\n"

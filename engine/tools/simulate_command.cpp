@@ -16,6 +16,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 namespace rs::engine {
@@ -35,6 +36,7 @@ struct SimulateArguments {
     bool load = false;
     bool diagram = false;
     bool print_config = false;
+    bool force = false;
 };
 
 // A view of one of the objects, as the definition and as the board take it.
@@ -171,14 +173,14 @@ void print_report(const model::BoardReport& report) {
 
 // All images against the definition, and into a folder where one is given.
 Status use_images(const model::BoardRun& run, const std::vector<Drawing>& drawings,
-                  const std::vector<RaySpaceObject>& stored, const std::string& output) {
+                  const std::vector<RaySpaceObject>& stored, const std::string& output, bool force) {
     std::vector<Camera> cameras;
     cameras.reserve(drawings.size());
     for (const Drawing& drawing : drawings) cameras.push_back(drawing.camera);
     Rig rig = rig_of_views(cameras);
     std::optional<StagedFolder> folder;
     if (!output.empty()) {
-        RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "rendered views"));
+        RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "rendered views", force));
         folder.emplace(std::move(staged));
     }
     std::size_t n = 0;
@@ -213,6 +215,13 @@ Status run_simulate(const SimulateArguments& arguments) {
         std::printf("%s", model::diagram_tables(board.top()).c_str());
         return {};
     }
+    std::vector<std::filesystem::path> used(arguments.objects.begin(), arguments.objects.end());
+    used.emplace_back(arguments.views.poses);
+    if (std::filesystem::is_regular_file(arguments.config)) used.emplace_back(arguments.config);
+    for (const std::string& output : {arguments.output, arguments.stats, arguments.chart, arguments.trace}) {
+        if (Status kept = refuse_overwriting_inputs(output, used); !kept) return kept;
+        used.emplace_back(output);
+    }
     std::vector<RaySpaceObject> objects;
     for (const std::string& path : arguments.objects) {
         RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path));
@@ -245,7 +254,7 @@ Status run_simulate(const SimulateArguments& arguments) {
         const std::string title = report.config + ", " + std::to_string(report.images) + " images";
         if (Status status = write_file(arguments.chart, model::report_chart_svg(report, title)); !status) return status;
     }
-    return use_images(run, drawings, objects, arguments.output);
+    return use_images(run, drawings, objects, arguments.output, arguments.force);
 }
 
 }  // namespace
@@ -268,6 +277,7 @@ void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
         ->check(CLI::Range(1, 15));
     command->add_flag("--load", arguments->load, "have the board load the objects from its disk first");
     command->add_option("-o,--output", arguments->output, "a folder for the images");
+    command->add_flag("--force", arguments->force, kForceHelp);
     command->add_option("--stats", arguments->stats, "a JSON file for the cycles of every block")
         ->check(ends_in({".json"}));
     command->add_option("--chart", arguments->chart, "an SVG file: where the cycles went")->check(ends_in({".svg"}));

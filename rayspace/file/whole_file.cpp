@@ -1,6 +1,5 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
-#include "rayspace/file/staging.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -11,10 +10,8 @@
 
 namespace rs {
 
-namespace {
-
-Result<std::vector<std::byte>> read_whole(const std::filesystem::path& path, std::uint64_t cap_bytes, bool is_input) {
-    const Result<int> opened = open_input(path, is_input);
+Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t cap_bytes) {
+    const Result<int> opened = open_input(path);
     if (!opened) return opened.error();
     const int descriptor = *opened;
     struct Closer {
@@ -53,16 +50,6 @@ Result<std::vector<std::byte>> read_whole(const std::filesystem::path& path, std
         }
         filled += static_cast<std::size_t>(count);
     }
-}
-
-}  // namespace
-
-Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t cap_bytes) {
-    return read_whole(path, cap_bytes, true);
-}
-
-Result<std::vector<std::byte>> staging::read_old_file(const std::filesystem::path& path, std::uint64_t cap_bytes) {
-    return read_whole(path, cap_bytes, false);
 }
 
 Status write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {

@@ -35,7 +35,7 @@ bool touches_edge(ConstImageView<RgbaF> image) {
 Result<CaptureSetSummary> write_capture_set(const Tracer& tracer, Rig rig, const CaptureSetOptions& options,
                                             const std::filesystem::path& folder, Progress* progress) {
     using Clock = std::chrono::steady_clock;
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, "traced images"));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, "traced images", options.force));
     if (progress != nullptr) {
         std::int64_t steps = 0;
         for (const RigView& view : rig.views) steps += Tracer::step_count(view.camera);

@@ -239,7 +239,7 @@ bool is_made_backdrop(const std::string& name) {
 Result<CaptureSetSummary> write_photo_session(const Scene& object, double object_radius, const PhotoOptions& options,
                                               const fs::path& folder, Progress* progress) {
     using Clock = std::chrono::steady_clock;
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, "traced photographs"));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, "traced photographs", options.force));
 
     Turntable turntable = fit_turntable(object, object_radius, options.disc, options.session.seed);
     if (!options.board.empty()) {

@@ -126,8 +126,8 @@ OrderedJson gltf_of(const Model& model, const std::string& name, Buffer& buffer)
 
 }  // namespace
 
-Status write_model(const Model& model, const std::filesystem::path& output, const std::string& name) {
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "parts of a model"));
+Status write_model(const Model& model, const std::filesystem::path& output, const std::string& name, bool force) {
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "parts of a model", force));
     const std::filesystem::path& folder = staged.temporary_path();
     Buffer buffer;
     const std::string text = gltf_of(model, name, buffer).dump(1) + "\n";

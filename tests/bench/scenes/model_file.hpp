@@ -9,7 +9,8 @@
 namespace rs::synthetic {
 
 // The folder OUTPUT with NAME.gltf, NAME.bin, lights.json, luminaires and images. What stands several times is stored
-// once. What stands there is replaced only where it is such a folder (StagedFolder).
-Status write_model(const Model& model, const std::filesystem::path& output, const std::string& name);
+// once. An existing folder is replaced as StagedFolder states.
+Status write_model(const Model& model, const std::filesystem::path& output, const std::string& name,
+                   bool force = false);
 
 }  // namespace rs::synthetic
