@@ -76,8 +76,7 @@ Result<std::vector<PlacedObject>> LoadedScene::all_objects() const {
 Result<LoadedScene> load_objects(Scene scene, ObjectDepth depth, const ExecutorOptions& options, bool waits) {
     std::unique_ptr<engine::Executor> executor;
     if (options.executor != "core") {
-        Result<std::unique_ptr<engine::Executor>> made =
-            engine::ExecutorTable().create(options.executor);
+        Result<std::unique_ptr<engine::Executor>> made = engine::ExecutorTable().create(options.executor);
         if (!made) return made.error();
         executor = std::move(*made);
     }

@@ -7,9 +7,9 @@
 namespace rs::compositor {
 namespace {
 
-Status write_folder(const std::string& output, const std::vector<Camera>& cameras, const RenderView& render,
+Status write_folder(const std::string& output, bool force, const std::vector<Camera>& cameras, const RenderView& render,
                     Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(output, "composited views");
+    Result<StagedFolder> staged = StagedFolder::create(output, "composited views", force);
     if (!staged) return staged.error();
     const Rig rig = rig_of_views(cameras);
     for (const RigView& view : rig.views) {
@@ -30,10 +30,10 @@ Status check_frame_count(const std::string& output, OutputKind kind, std::size_t
                  " frames do not fit one image; give a folder or an .mp4 to -o"};
 }
 
-Status write_frames(const std::string& output, OutputKind kind, double frames_per_second,
+Status write_frames(const std::string& output, bool force, OutputKind kind, double frames_per_second,
                     const std::vector<Camera>& cameras, const RenderView& render, Progress& progress) {
     if (kind == OutputKind::video) return write_view_video(output, frames_per_second, cameras, render, progress);
-    if (kind == OutputKind::folder) return write_folder(output, cameras, render, progress);
+    if (kind == OutputKind::folder) return write_folder(output, force, cameras, render, progress);
     const Result<Image<Rgba8>> frame = render(cameras.front());
     if (!frame) return frame.error();
     return write_png(output, *frame);

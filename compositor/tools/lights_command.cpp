@@ -18,6 +18,7 @@ Status run_lights(const LightsOptions& options) {
     const Result<Scene> scene = load_scene(options.scene);
     if (!scene) return scene.error();
     print_warnings(light_warnings(*scene));
+    RS_TRY(check_outputs(options.scene, *scene, {options.output}));
     return write_light_list(lights_in_force(*scene), options.output);
 }
 

@@ -23,6 +23,7 @@ Status run_probe(const ProbeOptions& options) {
     if (!position) return position.error();
     const Result<Scene> scene = load_scene(options.scene);
     if (!scene) return scene.error();
+    RS_TRY(check_outputs(options.scene, *scene, {options.output}));
     const Result<TracedRenderer> tracer = TracedRenderer::create(*scene, {}, {});
     if (!tracer) return Error{scene_name(options.scene) + ": " + tracer.error().message};
     print_warnings(tracer->warnings());

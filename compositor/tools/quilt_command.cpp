@@ -31,6 +31,7 @@ struct QuiltOptions {
     ExecutorOptions executor;
     bool upright = false;
     std::string output;
+    bool force = false;
     bool quiet = false;
 };
 
@@ -86,14 +87,14 @@ Result<Image<Rgba8>> render_quilt(const QuiltLayout& layout, const std::vector<C
 }
 
 // Writes one quilt, or a folder of quilts for several frames, with the layout in each file name.
-Status write_quilts(const std::string& output, const QuiltLayout& layout, const QuiltFrames& frames,
+Status write_quilts(const std::string& output, bool force, const QuiltLayout& layout, const QuiltFrames& frames,
                     HeadlessRenderer& renderer, Progress& progress) {
     if (frames.size() == 1) {
         const Result<Image<Rgba8>> quilt = render_quilt(layout, frames.front(), renderer, progress);
         if (!quilt) return quilt.error();
         return write_png(quilt_path(output, layout), *quilt);
     }
-    Result<StagedFolder> staged = StagedFolder::create(output, "quilts");
+    Result<StagedFolder> staged = StagedFolder::create(output, "quilts", force);
     if (!staged) return staged.error();
     for (std::size_t frame = 0; frame < frames.size(); ++frame) {
         const Result<Image<Rgba8>> quilt = render_quilt(layout, frames[frame], renderer, progress);
@@ -115,6 +116,7 @@ Status run_quilt(const QuiltOptions& options) {
     const Result<OutputKind> kind = output_kind(options.output);
     if (!kind) return kind.error();
     if (*kind == OutputKind::video) return Error{options.output + ": quilts go into a .png or a folder"};
+    RS_TRY(check_outputs(options.scene, *scene, {options.output}, {options.motion.path.value_or("")}));
     const Result<LoadedScene> loaded =
         load_objects(std::move(*scene), options.drawing.object_depth, options.executor, true);
     if (!loaded) return loaded.error();
@@ -135,7 +137,8 @@ Status run_quilt(const QuiltOptions& options) {
     Result<HeadlessRenderer> renderer = HeadlessRenderer::create(*loaded, headless, std::move(*traced));
     if (!renderer) return renderer.error();
     progress.start();
-    if (Status status = write_quilts(options.output, *layout, *frames, *renderer, progress.of_frames()); !status) {
+    if (Status status = write_quilts(options.output, options.force, *layout, *frames, *renderer, progress.of_frames());
+        !status) {
         return status;
     }
     progress.finish();
@@ -173,6 +176,7 @@ void add_quilt_command(CLI::App& app, std::function<Status()>& run) {
     add_drawing_options(*command, options->drawing);
     add_upright_option(*command, options->upright);
     add_executor_options(*command, options->executor);
+    command->add_flag("--force", options->force, kForceHelp);
     command->add_flag("-q,--quiet", options->quiet, "no progress bar");
     command->footer("Example: rs-view quilt hall.wrl --viewpoint shop --layout 5x9 -o shop.png");
     command->callback([command, options, &run] {

@@ -28,6 +28,7 @@ struct RenderOptions {
     double frames_per_second = 30;
     std::string output;
     std::optional<std::string> stats;
+    bool force = false;
     bool quiet = false;
 };
 
@@ -39,6 +40,8 @@ Status run_render(const RenderOptions& options) {
     print_warnings(light_warnings(*scene));
     const Result<OutputKind> kind = output_kind(options.output);
     if (!kind) return kind.error();
+    RS_TRY(check_outputs(options.scene, *scene, {options.output, options.stats.value_or("")},
+                         {options.motion.path.value_or("")}));
     const Result<LoadedScene> loaded =
         load_objects(std::move(*scene), options.drawing.object_depth, options.executor, !options.streaming);
     if (!loaded) return loaded.error();
@@ -60,8 +63,8 @@ Status run_render(const RenderOptions& options) {
     if (!renderer) return renderer.error();
     progress.start();
     const RenderView render = [&](const Camera& camera) { return renderer->render(camera); };
-    if (Status status =
-            write_frames(options.output, *kind, options.frames_per_second, *cameras, render, progress.of_frames());
+    if (Status status = write_frames(options.output, options.force, *kind, options.frames_per_second, *cameras, render,
+                                     progress.of_frames());
         !status) {
         return status;
     }
@@ -96,6 +99,7 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
     command->add_option("--stats", options->stats, "write the frames' times, by part, as JSON")
         ->check(ends_in({".json"}))
         ->type_name("FILE.json");
+    command->add_flag("--force", options->force, kForceHelp);
     command->add_flag("-q,--quiet", options->quiet, "no progress bar");
     command->footer("Example: rs-view render hall.wrl --renderer path --lights evening.json --passes 256 -o hall.png");
     command->callback([command, options, &run] {

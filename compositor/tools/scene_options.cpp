@@ -1,10 +1,13 @@
 #include "compositor/tools/scene_options.hpp"
 
 #include "compositor/scene/light/scene_lights.hpp"
+#include "compositor/scene/normal_map.hpp"
 #include "compositor/scene/object_argument.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/file/file_output.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -68,6 +71,29 @@ Result<Scene> load_scene(const SceneOptions& options) {
     }
     print_warnings(scene.warnings);
     return scene;
+}
+
+Status check_outputs(const SceneOptions& options, const Scene& scene, const std::vector<std::filesystem::path>& outputs,
+                     std::vector<std::filesystem::path> others) {
+    std::vector<std::filesystem::path> used = std::move(others);
+    for (const auto& file : {options.scene, options.lights}) {
+        if (file) used.emplace_back(*file);
+    }
+    for (const RaySpaceNode& object : scene.objects) used.push_back(object.file);
+    for (const GeometryNode& node : scene.geometry) {
+        if (node.material.texture) used.push_back(node.material.texture->file);
+        if (node.material.normals) used.push_back(node.material.normals->file);
+    }
+    for (const auto& image : scene.background.images) {
+        if (image) used.push_back(image->file);
+    }
+    std::ranges::sort(used);  // nodes share textures
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (const std::filesystem::path& output : outputs) {
+        RS_TRY(refuse_overwriting_inputs(output, used));
+        used.push_back(output);
+    }
+    return {};
 }
 
 std::string scene_name(const SceneOptions& options) {

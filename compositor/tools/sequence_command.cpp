@@ -48,6 +48,7 @@ struct SequenceOptions {
     DrawingOptions drawing;
     bool upright = false;
     std::int64_t memory_mib = ExecutorOptions{}.memory_mib;
+    bool force = false;
     bool quiet = false;
 };
 
@@ -147,8 +148,8 @@ Status write_video(const SequenceOptions& options, OpenSequence& opened, const s
     return status;
 }
 
-Status write_images(OpenSequence& opened, const std::string& output, Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(output, "frames of a sequence");
+Status write_images(OpenSequence& opened, const std::string& output, bool force, Progress& progress) {
+    Result<StagedFolder> staged = StagedFolder::create(output, "frames of a sequence", force);
     if (!staged) return staged.error();
     const Rig rig = rig_of_views(cameras_of(opened));
     progress.start("compositing", static_cast<std::int64_t>(rig.views.size()));
@@ -185,12 +186,13 @@ Status render_sequence(const SequenceOptions& options) {
     if (*kind == SequenceOutput::kVideo) {
         if (Status status = check_video(*opened, folder); !status) return status;
     }
+    RS_TRY(check_outputs({}, opened->sequence->scene, {output}, {folder}));
     Result<gl::Context> context = gl::Context::create_surfaceless();
     if (!context) return context.error();
     if (Status status = start_player(options, *opened); !status) return status;
     ProgressBar progress(options.quiet);
     Status status = *kind == SequenceOutput::kVideo    ? write_video(options, *opened, output, progress)
-                    : *kind == SequenceOutput::kFolder ? write_images(*opened, output, progress)
+                    : *kind == SequenceOutput::kFolder ? write_images(*opened, output, options.force, progress)
                                                        : write_image(*opened, options.frame, output);
     print_warnings(opened->player->take_warnings());
     opened->player.reset();
@@ -207,7 +209,9 @@ Result<std::string> render_into_folder(const SequenceOptions& options, const std
     for (int i = 2; names.contains(name); ++i) name = opened->sequence->name + "-" + std::to_string(i);
     names.insert(name);
     const fs::path target = fs::path(*options.output) / name;
-    Result<StagedFolder> staged = StagedFolder::create(target, "videos of a sequence");
+    const std::vector<fs::path> sequences(options.folders.begin(), options.folders.end());
+    RS_TRY(refuse_overwriting_inputs(target, sequences));
+    Result<StagedFolder> staged = StagedFolder::create(target, "videos of a sequence", options.force);
     if (!staged) return staged.error();
     if (Status status = start_player(options, *opened); !status) return status.error();
     ProgressBar progress(options.quiet);
@@ -367,6 +371,7 @@ void add_sequence_command(CLI::App& app, std::function<Status()>& run) {
     add_drawing_options(*command, options->drawing);
     add_upright_option(*command, options->upright);
     add_memory_option(*command, options->memory_mib);
+    command->add_flag("--force", options->force, kForceHelp);
     command->add_flag("-q,--quiet", options->quiet, "no progress bar");
     command->footer("Example: rs-view sequence maps/street --weather rain -o street.mp4");
     command->callback([command, options, &run] {

@@ -63,6 +63,7 @@ struct AssembleOptions {
     std::string tiles;  // folder
     double frames_per_second = 30;
     std::string output;
+    bool force = false;
 };
 
 // Rectangle of a frame, px.
@@ -109,12 +110,14 @@ struct OpenFrames {
     std::vector<Camera> cameras;
 };
 
-Result<OpenFrames> open_frames(const TiledFrames& options) {
+// Opens the scene of the frames; refuses to write `output` over an input.
+Result<OpenFrames> open_frames(const TiledFrames& options, const std::string& output, const std::string& tiles = "") {
     const Result<PixelSize> size = parse_size(options.size);
     if (!size) return size.error();
     Result<Scene> scene = load_scene(options.scene);
     if (!scene) return scene.error();
     print_warnings(light_warnings(*scene));
+    RS_TRY(check_outputs(options.scene, *scene, {output}, {options.motion.path.value_or(""), tiles}));
     Result<LoadedScene> loaded = load_objects(std::move(*scene), options.drawing.object_depth, options.executor, true);
     if (!loaded) return loaded.error();
     Result<std::vector<Camera>> cameras = requested_cameras(
@@ -124,7 +127,7 @@ Result<OpenFrames> open_frames(const TiledFrames& options) {
 }
 
 Status run_plan(const PlanOptions& options) {
-    const Result<OpenFrames> frames = open_frames(options.frames);
+    const Result<OpenFrames> frames = open_frames(options.frames, options.output);
     if (!frames) return frames.error();
     const nlohmann::json plan{{"frames", frames->cameras.size()},
                               {"width", frames->cameras.front().width},
@@ -133,7 +136,7 @@ Status run_plan(const PlanOptions& options) {
 }
 
 Status run_trace(const TraceOptions& options) {
-    const Result<OpenFrames> frames = open_frames(options.frames);
+    const Result<OpenFrames> frames = open_frames(options.frames, options.output);
     if (!frames) return frames.error();
     const Result<Tile> tile = parse_tile(options.tile, frames->cameras);
     if (!tile) return tile.error();
@@ -198,7 +201,7 @@ Status run_assemble(const AssembleOptions& options) {
     const TiledFrames& tiled = options.frames;
     const Result<OutputKind> kind = output_kind(options.output);
     if (!kind) return kind.error();
-    const Result<OpenFrames> frames = open_frames(tiled);
+    const Result<OpenFrames> frames = open_frames(tiled, options.output, options.tiles);
     if (!frames) return frames.error();
     const std::vector<Camera>& cameras = frames->cameras;
     if (Status status = check_frame_count(options.output, *kind, cameras.size()); !status) return status;
@@ -217,8 +220,8 @@ Status run_assemble(const AssembleOptions& options) {
     FrameProgress progress(tiled.quiet, cameras.size(), false);
     progress.start();
     const RenderView render = [&](const Camera& camera) { return renderer->render(camera); };
-    if (Status status =
-            write_frames(options.output, *kind, options.frames_per_second, cameras, render, progress.of_frames());
+    if (Status status = write_frames(options.output, options.force, *kind, options.frames_per_second, cameras, render,
+                                     progress.of_frames());
         !status) {
         return status;
     }
@@ -290,6 +293,7 @@ void add_assemble_command(CLI::App& tile, std::function<Status()>& run) {
         ->type_name("RATE")
         ->capture_default_str();
     add_frames_options(*command, options->frames);
+    command->add_flag("--force", options->force, kForceHelp);
     command->footer("Example: rs-view tile assemble hall.wrl --passes 1024 --tiles tiles -o hall.png");
     command->callback([options, &run] {
         check_scene_options(options->frames.scene);

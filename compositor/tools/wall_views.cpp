@@ -142,8 +142,9 @@ Result<WallViews> requested_walls(const WallOptions& options, const Scene& scene
     return views;
 }
 
-Status write_walls(const WallViews& views, const std::string& output, const RenderView& render, Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(output, "images of walls");
+Status write_walls(const WallViews& views, const std::string& output, bool force, const RenderView& render,
+                   Progress& progress) {
+    Result<StagedFolder> staged = StagedFolder::create(output, "images of walls", force);
     if (!staged) return staged.error();
     const auto cameras = wall_cameras(views);
     if (!cameras) return cameras.error();

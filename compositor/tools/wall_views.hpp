@@ -55,6 +55,7 @@ Result<std::vector<Camera>> wall_cameras(const WallViews& views);
 /// left/ and right/. If each image is that of one eye, transforms.json holds the cameras.
 /// \param render called for the cameras of wall_cameras() in order
 /// \param progress advanced for each camera
-Status write_walls(const WallViews& views, const std::string& output, const RenderView& render, Progress& progress);
+Status write_walls(const WallViews& views, const std::string& output, bool force, const RenderView& render,
+                   Progress& progress);
 
 }  // namespace rs::compositor

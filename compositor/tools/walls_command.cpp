@@ -9,6 +9,7 @@
 #include "compositor/tools/tracing_options.hpp"
 #include "compositor/tools/wall_views.hpp"
 #include "compositor/window/wall_visit.hpp"
+#include "rayspace/file/file_output.hpp"
 #include "rayspace/output/view_output.hpp"
 
 #include <memory>
@@ -27,6 +28,7 @@ struct WallsOptions {
     DrawingOptions drawing;
     ExecutorOptions executor;
     bool upright = false;
+    bool force = false;
     bool quiet = false;
 };
 
@@ -74,7 +76,8 @@ Status render_walls(const WallsOptions& options, const WallViews& views, const L
     if (!renderer) return renderer.error();
     progress.start();
     const RenderView render = [&](const Camera& camera) { return renderer->render(camera); };
-    if (Status status = write_walls(views, *options.walls.output, render, progress.of_frames()); !status) {
+    if (Status status = write_walls(views, *options.walls.output, options.force, render, progress.of_frames());
+        !status) {
         return status;
     }
     progress.finish();
@@ -93,6 +96,12 @@ Status run_walls(const WallsOptions& options) {
         if (*kind != OutputKind::folder) {
             return Error{*options.walls.output + ": walls go into a folder; give a folder to -o"};
         }
+        std::vector<std::filesystem::path> others{options.motion.path.value_or("")};
+        for (const std::string& name : {options.walls.display, options.walls.heads.value_or("")}) {
+            std::error_code ignored;  // or the name of a preset, or a port
+            if (std::filesystem::is_regular_file(name, ignored)) others.emplace_back(name);
+        }
+        RS_TRY(check_outputs(options.scene, *scene, {*options.walls.output}, std::move(others)));
     }
     Result<PixelSize> size = options.walls.size ? parse_size(*options.walls.size) : kSizeOfVisitor;
     if (!size) return size.error();
@@ -110,8 +119,8 @@ Status run_walls(const WallsOptions& options) {
 
 // Windows move by keys and are rasterized.
 void check_window_options(const CLI::App& command) {
-    for (const char* const name :
-         {"--path", "--orbit", "--passes", "--seconds", "--upright", "--quiet", "--soft-shadows", "--toon-lines"}) {
+    for (const char* const name : {"--path", "--orbit", "--passes", "--seconds", "--upright", "--quiet",
+                                   "--soft-shadows", "--toon-lines", "--force"}) {
         if (command.count(name) == 0) continue;
         throw CLI::ValidationError(std::string(name) + " needs -o: the folder to write images of the walls to");
     }
@@ -159,6 +168,7 @@ void add_walls_command(CLI::App& app, std::function<Status()>& run) {
     add_drawing_options(*command, options->drawing);
     add_upright_option(*command, options->upright);
     add_executor_options(*command, options->executor);
+    command->add_flag("--force", options->force, kForceHelp);
     command->add_flag("-q,--quiet", options->quiet, "no progress bar");
     command->footer("Example: rs-view walls hall.wrl --display cave --stereo side-by-side -o walls");
     command->callback([command, options, &run] {
