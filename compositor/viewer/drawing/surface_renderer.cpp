@@ -295,13 +295,13 @@ SurfaceRenderer::VisibleItems SurfaceRenderer::collect_visible(const FrameView& 
 }
 
 std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const FrameView& view, bool wire_frame,
-                                                                       OpaquePass pass) {
+                                                                       OpaqueMode mode) {
     set_frame(view);
     VisibleItems seen = collect_visible(view);
-    if (pass == OpaquePass::kNone) seen.opaque.clear();
+    if (mode == OpaqueMode::kNone) seen.opaque.clear();
     for (const std::size_t i : seen.opaque) {
         const Item& item = items_[i];
-        draw(item, pass == OpaquePass::kDepthOnly ? *item.fog_program : *item.program, view,
+        draw(item, mode == OpaqueMode::kDepthOnly ? *item.fog_program : *item.program, view,
              {.culling = item.two_sided || wire_frame ? gl::Culling::kNone : gl::Culling::kBack,
               .wire_frame = wire_frame});
     }
