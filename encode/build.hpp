@@ -25,7 +25,7 @@ std::optional<MapKind> parse_map_kind(const std::string& name);
 
 /// The default plane map of each kind. Beside a shape map it is coarser, since it only fills the rays without a
 /// surface.
-PlaneMapOptions usual_plane_map(MapKind kind);
+PlaneMapOptions default_plane_map(MapKind kind);
 
 struct BuildOptions {
     PlaneMapOptions map;

@@ -78,7 +78,7 @@ ImportReport report_of(const ImportOptions& options, const Intake& intake, const
     const auto [least, most] = std::ranges::minmax(turn.coverage);
     report.min_coverage = least;
     report.max_coverage = most;
-    report.small_cut_outs = std::move(turn.small);
+    report.small_foregrounds = std::move(turn.small);
     return report;
 }
 
@@ -92,7 +92,7 @@ std::vector<std::string> calibration_problems(const FoundRig& rig) {
     const std::string remedy =
         "; give --calibration nominal, --known, or photos with a printed board (rs-capture board)";
     if (found.rms_px > kMaxResidual_px) {
-        problems.push_back("the calibration fits the photos to " + with_digits(found.rms_px, 1) + " px only" + remedy);
+        problems.push_back("the calibration fits the photos to " + format_fixed(found.rms_px, 1) + " px only" + remedy);
     }
     if (found.deviations.f_px > kMaxFocalDeviation * found.model.lens.f_px) {
         problems.push_back("the focal length is uncertain by more than half of it" + remedy);

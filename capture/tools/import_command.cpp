@@ -149,8 +149,8 @@ std::string observations_text(const Calibration& found) {
     if (found.observations == 0) return {};
     std::string text = ", ";
     if (found.points > 0) text += std::to_string(found.points) + " points in ";
-    text += std::to_string(found.observations) + " observations, " + with_digits(found.rms_px, 2) + " px RMS";
-    if (found.held_out_rms_px) text += " (" + with_digits(*found.held_out_rms_px, 2) + " px held out)";
+    text += std::to_string(found.observations) + " observations, " + format_fixed(found.rms_px, 2) + " px RMS";
+    if (found.held_out_rms_px) text += " (" + format_fixed(*found.held_out_rms_px, 2) + " px held out)";
     return text;
 }
 

@@ -95,7 +95,7 @@ Status run_luminaire(const LuminaireCommandLine& given) {
     const Spreads spreads{beam_spread(lamp.web, 0), beam_spread(lamp.web, 90)};
     const std::string title = title_of(lamp, given.file);
     if (!given.plot.empty()) {
-        if (Status written = write_file(given.plot, standalone_svg_of(plot_of(lamp, spreads, title))); !written) {
+        if (Status written = write_file(given.plot, draw_standalone_svg(plot_of(lamp, spreads, title))); !written) {
             return written;
         }
     }

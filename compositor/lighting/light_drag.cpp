@@ -60,7 +60,7 @@ LightEntry LightDrag::to(const glm::dvec2& at_px, const Camera& camera, const Su
     LightEntry dragged = entry_;
     if (const auto along = axis_position(at_px, camera))
         dragged.location += (*along - grab_position_) * direction_of(part_);
-    dragged.location = glm::clamp(dragged.location, -kMostDistant, kMostDistant);
+    dragged.location = glm::clamp(dragged.location, -kMaxLightDistance, kMaxLightDistance);
     return dragged;
 }
 
@@ -72,7 +72,7 @@ LightEntry LightDrag::drag_on_surface(const glm::dvec2& at_px, const Camera& cam
     } else {
         dragged.location = unproject_at_depth(entry_.location, at_px, camera);
     }
-    dragged.location = glm::clamp(dragged.location, -kMostDistant, kMostDistant);
+    dragged.location = glm::clamp(dragged.location, -kMaxLightDistance, kMaxLightDistance);
     return dragged;
 }
 

@@ -31,8 +31,8 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
         ->default_str("plane");
     command
         .add_option("--object-samples", options.object_samples,
-                    "most samples across a pixel for distant objects, 1.." + std::to_string(kMostSamplesAcross))
-        ->check(CLI::Range(1, kMostSamplesAcross).description(""))
+                    "most samples across a pixel for distant objects, 1.." + std::to_string(kMaxSamplesAcross))
+        ->check(CLI::Range(1, kMaxSamplesAcross).description(""))
         ->type_name("N")
         ->capture_default_str();
 }

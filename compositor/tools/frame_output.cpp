@@ -11,7 +11,7 @@ Status write_folder(const std::string& output, bool force, const std::vector<Cam
                     Progress& progress) {
     Result<StagedFolder> staged = StagedFolder::create(output, "composited views", force);
     if (!staged) return staged.error();
-    const Rig rig = rig_of_views(cameras);
+    const Rig rig = make_rig_of_views(cameras);
     for (const RigView& view : rig.views) {
         const Result<Image<Rgba8>> frame = render(view.camera);
         if (!frame) return frame.error();

@@ -19,7 +19,7 @@ Status run_lights(const LightsOptions& options) {
     if (!scene) return scene.error();
     print_warnings(light_warnings(*scene));
     RS_TRY(check_outputs(options.scene, *scene, {options.output}));
-    return write_light_list(lights_in_force(*scene), options.output);
+    return write_light_list(lights_as_list(*scene), options.output);
 }
 
 }  // namespace

@@ -91,7 +91,7 @@ Result<PlayerOptions> player_options(const SequenceOptions& options) {
 
 // A sequence and its player.
 struct OpenSequence {
-    std::optional<Converted> converted;  // owns the files that --convert made
+    std::optional<ConvertedScene> converted;  // owns the files that --convert made
     std::shared_ptr<const Sequence> sequence;
     std::optional<SequencePlayer> player;
 };
@@ -100,7 +100,7 @@ Result<OpenSequence> open_sequence(const SequenceOptions& options, const std::st
     OpenSequence opened;
     fs::path files = folder;
     if (options.convert) {
-        Result<Converted> converted = convert_scene(*options.convert, folder);
+        Result<ConvertedScene> converted = convert_scene(*options.convert, folder);
         if (!converted) return converted.error();
         files = converted->path;
         opened.converted.emplace(std::move(*converted));
@@ -151,7 +151,7 @@ Status write_video(const SequenceOptions& options, OpenSequence& opened, const s
 Status write_images(OpenSequence& opened, const std::string& output, bool force, Progress& progress) {
     Result<StagedFolder> staged = StagedFolder::create(output, "frames of a sequence", force);
     if (!staged) return staged.error();
-    const Rig rig = rig_of_views(cameras_of(opened));
+    const Rig rig = make_rig_of_views(cameras_of(opened));
     progress.start("compositing", static_cast<std::int64_t>(rig.views.size()));
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
         const Result<Image<Rgba8>> frame = opened.player->frame(i);
@@ -284,7 +284,8 @@ Status show_sequence(const SequenceOptions& options, PixelSize size, const std::
     begin.world_from_camera = first.world_from_camera;
     begin.field_of_view_rad = 2 * std::atan(0.5 * std::min(first.width, first.height) / first.fl_y);
     visit_options.viewpoints = {begin};
-    const Scene scene = visit_options.weather ? in_weather(sequence->scene, *visit_options.weather) : sequence->scene;
+    const Scene scene =
+        visit_options.weather ? apply_weather(sequence->scene, *visit_options.weather) : sequence->scene;
     auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.memory_bytes = options.memory_mib << 20});
     return visit(std::move(*window), scene, std::move(showroom), visit_options);
 }

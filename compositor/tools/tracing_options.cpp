@@ -112,7 +112,7 @@ Result<TracedOptions> traced_options(const RendererOptions& options) {
 std::shared_ptr<const Image<Rgba8>> trace_frame(TracedRenderer& tracer, const PassOptions& limit, const Camera& camera,
                                                 Progress& progress) {
     constexpr int kDefaultPasses = 64;
-    tracer.look(camera);
+    tracer.begin_image(camera);
     if (limit.seconds) {
         const auto begin = std::chrono::steady_clock::now();
         const auto is_over = [&] {

@@ -34,7 +34,7 @@ Result<WallDisplay> requested_display(const WallOptions& options) {
     }();
     if (!display) return display;
     if (options.walls) {
-        if (const Status status = keep_walls(*display, *options.walls); !status) {
+        if (const Status status = select_walls(*display, *options.walls); !status) {
             return Error{options.display + ": " + status.error().message};
         }
     }
@@ -51,12 +51,12 @@ Result<WallDisplay> requested_display(const WallOptions& options) {
 }
 
 Head in_room(const WallViews& views, const Head& tracked) {
-    return tracked_in_room(tracked, views.display.tracker.value_or(views.display.head));
+    return head_in_room(tracked, views.display.tracker.value_or(views.display.head));
 }
 
 // Starts to receive heads. Images of all frames use the first head; windows read the newest one for each frame.
 Status add_tracked_head(const WallOptions& options, WallViews& views) {
-    const Result<UdpPlace> place = udp_place_from(*options.heads);
+    const Result<UdpEndpoint> place = parse_udp_endpoint(*options.heads);
     if (!place) return place.error();
     Result<HeadReceiver> tracker = HeadReceiver::listen(*place);
     if (!tracker) return tracker.error();
@@ -67,7 +67,7 @@ Status add_tracked_head(const WallOptions& options, WallViews& views) {
         views.heads = {in_room(views, *head)};
         return {};
     }
-    const std::string& fault = views.tracker->first_fault();
+    const std::string& fault = views.tracker->first_error();
     return Error{place->text() + ": no head has come in " + std::to_string(static_cast<int>(kFirstHead_s)) +
                  (fault.empty() ? " s; start the tracker, and let it send to this address and port"
                                 : " s, but a datagram that " + fault)};
@@ -111,7 +111,7 @@ Result<WallViews> requested_walls(const WallOptions& options, const Scene& scene
         if (options.stereo == named.name) views.stereo = named.form;
     }
     views.heads = {views.display.head};
-    if (options.heads && names_udp_port(*options.heads)) {
+    if (options.heads && is_udp_endpoint(*options.heads)) {
         if (const Status tracked = add_tracked_head(options, views); !tracked) return tracked.error();
     } else if (options.heads) {
         Result<std::vector<Head>> heads = read_heads(*options.heads);
@@ -122,7 +122,7 @@ Result<WallViews> requested_walls(const WallOptions& options, const Scene& scene
         const BoundingBox box = bounds_from(scene, 0, 0);
         if (box.empty())
             return Error{options.display + ": the scene is empty, so that it cannot be fitted to the table"};
-        views.places = {fitted_place(views.display.walls.front(), box)};
+        views.places = {fit_scene_to_wall(views.display.walls.front(), box)};
     } else if (views.display.place) {
         views.places = {*views.display.place};
     } else {

@@ -29,14 +29,14 @@ struct WallOptions {
 
 struct WallViews {
     WallDisplay display;
-    std::vector<Head> heads;        // one for all frames, or one per frame
-    std::vector<RoomPlace> places;  // likewise
+    std::vector<Head> heads;       // one for all frames, or one per frame
+    std::vector<RoomPose> places;  // likewise
     std::optional<StereoForm> stereo;
     std::shared_ptr<HeadReceiver> tracker;  // null without a tracker
 
     [[nodiscard]] std::size_t frames() const { return std::max(heads.size(), places.size()); }
     [[nodiscard]] const Head& head(std::size_t frame) const { return heads[heads.size() == 1 ? 0 : frame]; }
-    [[nodiscard]] const RoomPlace& place(std::size_t frame) const { return places[places.size() == 1 ? 0 : frame]; }
+    [[nodiscard]] const RoomPose& place(std::size_t frame) const { return places[places.size() == 1 ? 0 : frame]; }
 };
 
 /// Reads the display and the heads. Fails if an eye of any frame is behind a wall. With an output, waits up to 10 s for

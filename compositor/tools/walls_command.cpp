@@ -36,7 +36,7 @@ Status show_walls(const WallsOptions& options, const WallViews& views, LoadedSce
     const auto tracked = [&views, warned = false]() mutable {
         const std::optional<Head> head = newest_head(views);
         if (views.tracker->dropped() > 0 && !std::exchange(warned, true)) {
-            print_warnings({views.tracker->place().text() + ": a datagram " + views.tracker->first_fault() +
+            print_warnings({views.tracker->place().text() + ": a datagram " + views.tracker->first_error() +
                             "; it is dropped, as others like it will be"});
         }
         return head;

@@ -67,7 +67,7 @@ double FrameTimes::longest_ms() const {
 
 std::string FrameTimes::to_json(const Showroom& showroom) const {
     const auto frames = static_cast<double>(std::max<std::size_t>(frames_ms_.size(), 1));
-    const StoreStatistics store = showroom.statistics();
+    const CacheStatistics store = showroom.statistics();
     const std::vector<Missing> gaps = missing();
     double longest_gap_s = 0;
     for (const Missing& gap : gaps) longest_gap_s = std::max(longest_gap_s, gap.seconds);

@@ -24,10 +24,11 @@ Showroom::Showroom(const Scene& scene, const ShowroomOptions& options, std::uniq
                    std::unique_ptr<ObjectSource> source)
     : plan_(scene),
       waits_(options.waits),
-      engine_(std::make_shared<engine::RenderSession>(limits_of_viewer(), std::move(board))),
-      nodes_(std::make_shared<ShownNodes>(scene.objects.size())),
+      engine_(std::make_shared<engine::RenderSession>(viewer_session_limits(), std::move(board))),
+      nodes_(std::make_shared<DisplayedNodes>(scene.objects.size())),
       handles_(plan_.files().size()),
-      cache_(plan_.files(), source ? std::move(source) : object_files(engine_, !options.waits), options.memory_bytes) {
+      cache_(plan_.files(), source ? std::move(source) : make_file_source(engine_, !options.waits),
+             options.memory_bytes) {
     for (const RaySpaceNode& node : scene.objects) scene_nodes_.push_back({node, std::nullopt, false});
 }
 
@@ -52,7 +53,7 @@ Status Showroom::arrive(const CacheEvent& event) {
     handles_[event.file] = handle;
     for (std::size_t i = 0; i < scene_nodes_.size(); ++i) {
         if (plan_.file_of_node(i) != event.file) continue;
-        ShownNode& node = (*nodes_)[i];
+        DisplayedNode& node = (*nodes_)[i];
         scene_nodes_[i].extent = event.object->extent;
         node.object = place(event.object, scene_nodes_[i].description);
         node.handle = handle;
@@ -84,9 +85,9 @@ Status Showroom::fail(const CacheEvent& event) {
 Status Showroom::take_events() {
     for (CacheEvent& event : cache_.events()) {
         Status status;
-        if (event.kind == CacheEvent::Kind::kArrived)
+        if (event.kind == CacheEvent::Kind::kLoaded)
             status = arrive(event);
-        else if (event.kind == CacheEvent::Kind::kLeaves)
+        else if (event.kind == CacheEvent::Kind::kEvicting)
             leave(std::move(event));
         else
             status = fail(event);
@@ -125,7 +126,7 @@ void Showroom::load_on_board(const glm::dvec3& eye) {
 
 void Showroom::fade(double seconds) {
     for (std::size_t i = 0; i < nodes_->size(); ++i) {
-        ShownNode& node = (*nodes_)[i];
+        DisplayedNode& node = (*nodes_)[i];
         if (node.object) node.opacity = std::min(node.opacity + static_cast<float>(seconds / kFade_s), 1.0F);
         const bool hidden = scene_nodes_[i].failed || (node.object && node.opacity >= 1);
         if (hidden) {
@@ -156,7 +157,7 @@ Status Showroom::update(const glm::dvec3& eye, double seconds, const std::option
 }
 
 void Showroom::move_object(std::size_t node, const std::optional<TransformChain>& chain) {
-    ShownNode& shown = (*nodes_)[node];
+    DisplayedNode& shown = (*nodes_)[node];
     shown.hidden = !chain;
     if (!chain) return;
     scene_nodes_[node].description.chain = *chain;
@@ -171,7 +172,7 @@ std::string Showroom::absence(std::size_t node) const {
 
 std::vector<PlacedObject> Showroom::placed() const {
     std::vector<PlacedObject> all;
-    for (const ShownNode& node : *nodes_) {
+    for (const DisplayedNode& node : *nodes_) {
         if (node.object) all.push_back(*node.object);
     }
     return all;

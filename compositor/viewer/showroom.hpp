@@ -40,7 +40,7 @@ public:
 
     // For FrameCompositor::create().
     [[nodiscard]] std::shared_ptr<engine::RenderSession> engine() const { return engine_; }
-    [[nodiscard]] std::shared_ptr<const ShownNodes> nodes() const { return nodes_; }
+    [[nodiscard]] std::shared_ptr<const DisplayedNodes> nodes() const { return nodes_; }
 
     // Before each frame: where the visitor is, `seconds` after the frame before, and is about to be brought to, if not
     // on foot. Fails where a required object cannot be read.
@@ -60,7 +60,7 @@ public:
     std::vector<std::string> take_warnings();
     // True where nothing will come or go while the visitor stays.
     [[nodiscard]] bool settled() const { return priorities_taken_ && cache_.settled(); }
-    [[nodiscard]] StoreStatistics statistics() const { return cache_.statistics(); }
+    [[nodiscard]] CacheStatistics statistics() const { return cache_.statistics(); }
     // Seconds that reading the object of a node took; 0 before it was.
     [[nodiscard]] double load_seconds(std::size_t node) const { return cache_.load_seconds(plan_.file_of_node(node)); }
 
@@ -83,7 +83,7 @@ private:
     RoomPlan plan_;
     bool waits_;
     std::shared_ptr<engine::RenderSession> engine_;
-    std::shared_ptr<ShownNodes> nodes_;
+    std::shared_ptr<DisplayedNodes> nodes_;
     std::vector<engine::ObjectHandle> handles_;  // [file]; 0 where it is not there
     std::vector<std::string> warnings_;
     std::optional<glm::dvec3> eye_;  // in the last frame

@@ -113,7 +113,7 @@ void Visit::pick(const glm::dvec2& at_px) {
 
 Status Visit::obey(Key command) {
     const std::size_t count = options_.viewpoints.size();
-    if (desk_.obey(command)) return {};
+    if (desk_.on_key(command)) return {};
     switch (command) {
         case Key::kWalk:
             panel_.mode = NavigationMode::kWalk;
@@ -250,7 +250,7 @@ void Visit::refresh_panel(double seconds) {
     }
     panel_.views_by_board = statistics.nodes_by_board;
     panel_.views_by_core = statistics.nodes_rendered - statistics.nodes_by_board;
-    const StoreStatistics store = showroom_->statistics();
+    const CacheStatistics store = showroom_->statistics();
     panel_.memory_mib = static_cast<double>(store.used_bytes) / (1 << 20);
     panel_.budget_mib = static_cast<double>(store.budget_bytes) / (1 << 20);
     if ((news_seconds_ -= seconds) <= 0) panel_.news.clear();
@@ -291,9 +291,9 @@ Result<bool> Visit::step(std::optional<double> seconds) {
     for (const Event& event : window_.poll()) {
         const bool of_mouse = std::holds_alternative<WheelEvent>(event) ||
                               (std::holds_alternative<ButtonEvent>(event) && std::get<ButtonEvent>(event).down);
-        if (of_mouse && overlay_->takes_mouse()) continue;
-        if (std::holds_alternative<KeyEvent>(event) && overlay_->takes_keys()) continue;
-        if (!desk_.take(event, desk_view())) input_.take(event);
+        if (of_mouse && overlay_->captures_mouse()) continue;
+        if (std::holds_alternative<KeyEvent>(event) && overlay_->captures_keys()) continue;
+        if (!desk_.on_event(event, desk_view())) input_.take(event);
     }
     for (const Key command : input_.commands()) {
         RS_TRY(obey(command));

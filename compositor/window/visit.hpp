@@ -63,7 +63,7 @@ public:
     [[nodiscard]] bool has_tracer() const { return refinement_.has_value(); }
     // Traced light follows whoever moves, by coarse images; else the view stands still.
     void walk_on(bool on) { panel_.walk_on = on; }
-    [[nodiscard]] LightDesk& lights() { return desk_; }
+    [[nodiscard]] LightEditor& lights() { return desk_; }
     // Of the last frame, without the overlay.
     [[nodiscard]] Image<Rgba8> image() const { return compositor_.image(); }
 
@@ -76,7 +76,7 @@ private:
     void begin_travel(const Visitor& to);
     bool move(double seconds);
     void pick(const glm::dvec2& at_px);
-    [[nodiscard]] DeskView desk_view();
+    [[nodiscard]] EditorView desk_view();
     // Gives light that was edited to both renderers.
     Status relight();
     Status show(const glm::ivec2& size);
@@ -123,7 +123,7 @@ private:
     Camera shown_from_;              // of the traced image, which is behind where one walks on
     TracedMethod refined_by_ = TracedMethod::kPath;
     bool relit_ = false;  // since the tracer began
-    LightDesk desk_;
+    LightEditor desk_;
     LightPanel light_panel_;
     std::size_t traced_objects_ = 0;
     std::optional<Playback> playback_;

@@ -6,15 +6,15 @@
 
 namespace rs::compositor {
 
-DeskView Visit::desk_view() {
+EditorView Visit::desk_view() {
     return {camera(), [this](const glm::dvec2& at) {
                 return compositor_.surface_at(static_cast<int>(at.x), static_cast<int>(at.y));
             }};
 }
 
 Status Visit::relight() {
-    desk_.settle(desk_view());
-    if (std::string news = desk_.take_news(); !news.empty()) report(news);
+    desk_.update(desk_view());
+    if (std::string news = desk_.take_message(); !news.empty()) report(news);
     if (!desk_.take_change()) return {};
     const double exposure_ev = desk_.edits().state().exposure_ev;
     if (refinement_) refinement_->set_lights({desk_.scene(), exposure_ev});
@@ -35,7 +35,7 @@ Status Visit::show(const glm::ivec2& size) {
 std::shared_ptr<const Scene> Visit::scene_to_trace() const {
     if (!playback_) return desk_.scene();
     auto scene = std::make_shared<Scene>(playback_->scene());
-    take_lights(*desk_.scene(), *scene);
+    copy_lights(*desk_.scene(), *scene);
     return scene;
 }
 

@@ -20,7 +20,7 @@ using codec::UnitChoice;
 
 class TileEncoder {
 public:
-    TileEncoder(const ImageTask& task, const CostTable& costs, const codec::TilePlace& place,
+    TileEncoder(const ImageTask& task, const CostTable& costs, const codec::TileRect& place,
                 std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>& motions)
         : task_(task),
           costs_(costs),
@@ -131,7 +131,7 @@ private:
 
     const ImageTask& task_;
     const CostTable& costs_;
-    codec::TilePlace place_;
+    codec::TileRect place_;
     int left_;
     int top_;
     SymbolBuffer recorder_;
@@ -146,7 +146,7 @@ private:
 
 }  // namespace
 
-void encode_tile(const ImageTask& task, const CostTable& costs, const codec::TilePlace& place,
+void encode_tile(const ImageTask& task, const CostTable& costs, const codec::TileRect& place,
                  std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>& motions) {
     TileEncoder(task, costs, place, decisions, motions).encode();
 }

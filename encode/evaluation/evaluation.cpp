@@ -22,7 +22,7 @@ using RenderFunction = std::function<Result<Image<Rgba8>>(int view)>;
 Result<engine::Renderer> renderer_of_kept(const CaptureSet& set, const HoldOut& hold_out, MapKind kind, int planes,
                                           Progress* progress) {
     BuildOptions options;
-    options.map = usual_plane_map(kind);
+    options.map = default_plane_map(kind);
     options.map.planes = planes;
     options.raymap = kind;
     options.name = "kept views";

@@ -29,7 +29,7 @@ Result<std::vector<Method>> parse_methods(const std::string& text);
 
 struct EvaluationOptions {
     std::vector<Method> methods{Method::kPhoto, Method::kPlane, Method::kShape};
-    int planes = 12;  // reference planes of the objects; cells as in usual_plane_map()
+    int planes = 12;  // reference planes of the objects; cells as in default_plane_map()
 };
 
 struct EvaluatedView {

@@ -68,7 +68,7 @@ void add_score_tables(HtmlPage& page, const std::vector<MethodScores>& scores) {
                            two_decimals(method.mean_ssim * 100), two_decimals(method.build_seconds)});
     }
     page.table({"method", "mean PSNR, dB", "PSNR of all pixels, dB", "mean SSIM, %", "build, s"}, summary);
-    page.drawing(svg_of(plot_of_scores(scores)));
+    page.drawing(draw_svg(plot_of_scores(scores)));
 
     std::vector<std::string> header{"view", "image"};
     for (const MethodScores& method : scores) header.push_back(method.method + ", dB");

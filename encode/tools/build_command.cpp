@@ -62,7 +62,7 @@ Result<BuildOptions> options_of(const BuildArguments& arguments) {
                      ": is not a kind of RS map; use shape or plane (--cells sets its size)"};
     }
     options.raymap = *kind;
-    options.map = usual_plane_map(*kind);
+    options.map = default_plane_map(*kind);
     options.map.planes = arguments.planes;
     if (!arguments.cells.empty()) {
         const Result<PixelSize> cells = parse_size(arguments.cells);

@@ -36,7 +36,7 @@ Image<float> transpose(const Image<float>& columns) {
 }  // namespace
 
 EvaluationThumbnails::EvaluationThumbnails(const HoldOut& hold_out, const std::vector<Method>& methods) {
-    for (const int n : evenly_spread(static_cast<int>(hold_out.held.size()), kHeldOutShown)) {
+    for (const int n : select_evenly(static_cast<int>(hold_out.held.size()), kHeldOutShown)) {
         for (const Method method : methods) thumbnails_[{static_cast<std::size_t>(n), method}] = {};
     }
 }
@@ -46,10 +46,10 @@ Status EvaluationThumbnails::keep(const EvaluatedView& evaluated) {
     if (entry == thumbnails_.end()) return {};
     const std::string name = to_string(evaluated.method);
     entry->second.view = evaluated.view;
-    entry->second.truth = scaled_down(evaluated.truth, kThumbnailSide_px);
-    entry->second.rendering = {scaled_down(evaluated.rendering, kThumbnailSide_px), with_db(name, evaluated.psnr_db)};
+    entry->second.truth = downscale(evaluated.truth, kThumbnailSide_px);
+    entry->second.rendering = {downscale(evaluated.rendering, kThumbnailSide_px), with_db(name, evaluated.psnr_db)};
     entry->second.error = {
-        scaled_down(error_image(evaluated.truth, evaluated.rendering, kErrorFullScale), kThumbnailSide_px),
+        downscale(error_image(evaluated.truth, evaluated.rendering, kErrorFullScale), kThumbnailSide_px),
         "error of " + name};
     return {};
 }
@@ -78,9 +78,9 @@ void add_scores(const CaptureSet& set, const HoldOut& hold_out, const std::strin
 }
 
 Status add_captured_images(const CaptureSet& set, BuildReport& report) {
-    for (const int view : evenly_spread(static_cast<int>(set.upright.views.size()), kCapturedShown)) {
+    for (const int view : select_evenly(static_cast<int>(set.upright.views.size()), kCapturedShown)) {
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, read_upright_image(set, view));
-        report.captured.push_back({scaled_down(image, kThumbnailSide_px), caption_of(set, view)});
+        report.captured.push_back({downscale(image, kThumbnailSide_px), caption_of(set, view)});
     }
     return {};
 }
@@ -107,9 +107,9 @@ void add_depth_images(const CaptureSet& set, const std::vector<DepthPreview>& de
     for (const DepthPreview& found : depths) {
         const std::string caption = caption_of(set, found.view);
         report.hull_images.push_back(
-            {scaled_down(depth_image(transpose(found.hull), -kShown, kShown), kThumbnailSide_px), caption});
+            {downscale(depth_image(transpose(found.hull), -kShown, kShown), kThumbnailSide_px), caption});
         report.depth_images.push_back(
-            {scaled_down(depth_image(transpose(found.depth), -kShown, kShown), kThumbnailSide_px), caption});
+            {downscale(depth_image(transpose(found.depth), -kShown, kShown), kThumbnailSide_px), caption});
     }
 }
 

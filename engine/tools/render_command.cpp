@@ -116,7 +116,7 @@ Status write_view_with_depth(const Renderer& renderer, const Camera& camera, std
 Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
                     EmptyViews& empty, Progress& progress) {
     RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(arguments.output, "rendered views", arguments.force));
-    Rig rig = rig_of_views(cameras);
+    Rig rig = make_rig_of_views(cameras);
     rig.object_radius = renderer.object().units_per_radius;
     for (RigView& view : rig.views) {
         if (arguments.depth) view.depth_file_path = depth_name(view.file_path).string();

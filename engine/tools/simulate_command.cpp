@@ -177,7 +177,7 @@ Status use_images(const model::BoardRun& run, const std::vector<Drawing>& drawin
     std::vector<Camera> cameras;
     cameras.reserve(drawings.size());
     for (const Drawing& drawing : drawings) cameras.push_back(drawing.camera);
-    Rig rig = rig_of_views(cameras);
+    Rig rig = make_rig_of_views(cameras);
     std::optional<StagedFolder> folder;
     if (!output.empty()) {
         RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "rendered views", force));

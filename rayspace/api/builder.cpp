@@ -18,7 +18,7 @@ Status check(const BuildOptions& options) {
     if (options.psnr_db && !(*options.psnr_db >= 10 && *options.psnr_db <= 60)) {
         return Error{"psnr_db: must be 10..60 dB"};
     }
-    if (options.effort < encode::kLeastEffort || options.effort > encode::kMostEffort) {
+    if (options.effort < encode::kMinEffort || options.effort > encode::kMostEffort) {
         return Error{"effort " + std::to_string(options.effort) + ": must be 1..9"};
     }
     if (options.alpha_bits && (*options.alpha_bits < 1 || *options.alpha_bits > codec::kMaxAlphaBits)) {
@@ -46,7 +46,7 @@ Result<BuiltObject> build_object(const std::filesystem::path& set, const BuildOp
     RS_ASSIGN_OR_RETURN(encode::CaptureSet opened, encode::open_capture_set(set, &progress));
     encode::BuildOptions building;
     building.raymap = options.map == MapKind::kPlane ? encode::MapKind::kPlane : encode::MapKind::kShape;
-    building.map = encode::usual_plane_map(building.raymap);
+    building.map = encode::default_plane_map(building.raymap);
     building.map.planes = options.planes;
     building.name = options.name.empty() ? encode::name_of(opened) : options.name;
     building.raw_images = options.coding == PhotoCoding::kRaw;

@@ -54,7 +54,7 @@ template <class Coder>
 class AlphaFinisher {
 public:
     AlphaFinisher(Coder& coder, const DenseCode& code, const TileGrid& grid, const AlphaLevels& mask,
-                  AlphaLevels& depths, const std::array<ConstPlaneViews, 2>& references, const TilePlace& place,
+                  AlphaLevels& depths, const std::array<ConstPlaneViews, 2>& references, const TileRect& place,
                   const ImageView<std::uint8_t>& out)
         : coder_(coder),
           bits_(code.alpha_bits),
@@ -148,7 +148,7 @@ private:
     const AlphaLevels& mask_;
     AlphaLevels& depths_;
     const std::array<ConstPlaneViews, 2>& references_;
-    const TilePlace& place_;
+    const TileRect& place_;
     const ImageView<std::uint8_t>& out_;
 };
 

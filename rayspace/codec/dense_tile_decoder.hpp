@@ -17,7 +17,7 @@ namespace rs::codec {
 template <class Coder>
 class DenseTileDecoder {
 public:
-    DenseTileDecoder(Coder& reader, const DenseCode& code, const ImageHead& head, const TilePlace& place,
+    DenseTileDecoder(Coder& reader, const DenseCode& code, const ImageHead& head, const TileRect& place,
                      const std::array<ConstPlaneViews, 2>& references, ReferenceListener* listener,
                      const PlaneViews& out)
         : code_(code),
@@ -151,7 +151,7 @@ private:
     const DenseCode& code_;
     const ImageHead& head_;
     Coder& reader_;
-    TilePlace place_;
+    TileRect place_;
     int left_;
     int top_;
     const std::array<ConstPlaneViews, 2>& references_;

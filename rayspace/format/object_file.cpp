@@ -33,7 +33,7 @@ public:
 
     // Measures without reading large chunks. The memory of small ones is bounded by their size; the worst case is the
     // parsed text of a rig.
-    Result<ReadingMemory> measure() {
+    Result<ReadMemory> measure() {
         constexpr std::uint64_t kParsedOverText = 24;
         constexpr std::uint64_t kSmallThings_bytes = 1U << 20;
         RS_TRY(read_stage(ReadStage::geometry));
@@ -57,7 +57,7 @@ public:
             largest_chunk + largest_passing + kParsedOverText * partial_.object.rig_json.size();
         const std::uint64_t images = wanted_images();
         const std::uint64_t passing_planes = partial_.coded && options_.decode ? images * coded_planes_bytes() : 0;
-        ReadingMemory memory;
+        ReadMemory memory;
         memory.most_bytes = static_cast<std::int64_t>(kept + needed_bytes_ + kept_by_maps + passing);
         memory.object_bytes = static_cast<std::int64_t>(kept + needed_bytes_ + kept_by_maps - passing_planes);
         memory.width = partial_.object.width;
@@ -68,7 +68,7 @@ public:
 
 private:
     [[nodiscard]] std::uint64_t memory_of_geometry() const {
-        std::uint64_t bytes = static_cast<std::uint64_t>(memory_of(partial_.object));
+        std::uint64_t bytes = static_cast<std::uint64_t>(object_memory_bytes(partial_.object));
         for (const Ring& ring : partial_.object.rings)
             bytes += sizeof(NormalLine) * ring.views.size() * static_cast<std::uint64_t>(ring.planes);
         return bytes;
@@ -246,7 +246,7 @@ Result<RaySpaceObject> read_object(const std::filesystem::path& path, const Read
     return read_object(container, options);
 }
 
-Result<ReadingMemory> memory_to_read(const ContainerReader& container, const ReadObjectOptions& options) {
+Result<ReadMemory> estimate_read_memory(const ContainerReader& container, const ReadObjectOptions& options) {
     return ObjectReader(container, options).measure();
 }
 

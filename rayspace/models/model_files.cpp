@@ -151,7 +151,7 @@ void ModelFiles::Close(Assimp::IOStream* stream) {
     delete stream;
 }
 
-ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes) {
+ModelFiles& restrict_to_models(Assimp::Importer& importer, std::uint64_t cap_bytes) {
     constexpr std::array<const char*, 3> kWanted = {" obj ", " gltf ", " glb "};
     std::vector<Assimp::BaseImporter*> others;
     for (std::size_t i = 0; i < importer.GetImporterCount(); ++i) {
@@ -170,14 +170,14 @@ ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes
     return *files;
 }
 
-std::string shown_error(const char* words) {
+std::string single_line_error(const char* words) {
     std::string text = words;
     std::ranges::replace_if(
         text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
     return printable(text);
 }
 
-Result<const aiScene*> post_processed(Assimp::Importer& importer, unsigned steps, const std::string& file) {
+Result<const aiScene*> post_process(Assimp::Importer& importer, unsigned steps, const std::string& file) {
     const aiScene* const model = importer.GetScene();
     if (model == nullptr) return model;
     RS_TRY(check_finite(*model, file));

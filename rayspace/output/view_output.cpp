@@ -28,7 +28,7 @@ std::string numbered_image_name(std::size_t number) {
     return name;
 }
 
-Rig rig_of_views(const std::vector<Camera>& cameras) {
+Rig make_rig_of_views(const std::vector<Camera>& cameras) {
     Rig rig;
     for (const Camera& camera : cameras) {
         RigView view;

@@ -60,7 +60,7 @@ std::string rings_and_spokes(const PolarFrame& frame, const AxisTicks& ticks) {
 
 }  // namespace
 
-std::string standalone_svg_of(const PolarPlot& plot) {
+std::string draw_standalone_svg(const PolarPlot& plot) {
     double most = 0;
     for (const PolarCurve& curve : plot.curves) {
         RS_CHECK(curve.angle_rad.size() == curve.radius.size());

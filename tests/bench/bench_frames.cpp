@@ -153,7 +153,7 @@ struct Options {
     std::string size = "1280x720";
     int width = 0;
     int height = 0;
-    int object_samples = compositor::kUsualSamplesAcross;
+    int object_samples = compositor::kDefaultSamplesAcross;
     bool direct = false;
 };
 
@@ -258,7 +258,7 @@ int main(int argc, char** argv) {
     app.add_option("--size", options.size, "of the frames, WxH")->capture_default_str();
     app.add_option("--object-samples", options.object_samples, "across a pixel, at most, where objects are far")
         ->capture_default_str()
-        ->check(CLI::Range(1, rs::compositor::kMostSamplesAcross));
+        ->check(CLI::Range(1, rs::compositor::kMaxSamplesAcross));
     app.add_flag("--direct", options.direct, "objects by tilted cameras");
     app.footer("Example:\n  bench_frames vase.rso lamp.rso doll.rso");
     std::function<rs::Status()> run = [&] { return rs::bench::run(options); };

@@ -81,7 +81,7 @@ Status run(const Arguments& arguments) {
     aside.world_from_camera[3].x += 1e-7;
     ProgressBar progress(false);
     progress.start("reference", arguments.reference);
-    renderer->look(aside);
+    renderer->begin_image(aside);
     while (renderer->passes() < arguments.reference) {
         renderer->add_pass();
         progress.advance();
@@ -91,7 +91,7 @@ Status run(const Arguments& arguments) {
 
     const auto trace = [&](const NamedMethod& named, double seconds, int passes) {
         renderer->set_method(named.method);
-        renderer->look(camera);
+        renderer->begin_image(camera);
         const bench::Stopwatch watch;
         Taken taken;
         do {

@@ -106,14 +106,14 @@ Status run(const fs::path& drawn_folder, const fs::path& truth_folder) {
     Share found, real;
     const std::size_t count = truth_rig->views.size();
     for (std::size_t i = 0; i < count; ++i) {
-        const auto drawn_image = read_image(drawn_folder / drawn_rig->views[i].file_path);
-        if (!drawn_image) return drawn_image.error();
+        const auto draw_image = read_image(drawn_folder / drawn_rig->views[i].file_path);
+        if (!draw_image) return draw_image.error();
         const auto truth_image = read_image(truth_folder / truth_rig->views[i].file_path);
         if (!truth_image) return truth_image.error();
-        if (drawn_image->width() != truth_image->width() || drawn_image->height() != truth_image->height()) {
+        if (draw_image->width() != truth_image->width() || draw_image->height() != truth_image->height()) {
             return Error{drawn_folder.string() + ": its images are of another size than truth's"};
         }
-        const View drawn = view_of(*drawn_image), truth = view_of(*truth_image);
+        const View drawn = view_of(*draw_image), truth = view_of(*truth_image);
         drawn_steps += steps_per_1000(drawn);
         truth_steps += steps_per_1000(truth);
         found.add(edges_of(truth, kStrong), edges_of(drawn, kWeak));

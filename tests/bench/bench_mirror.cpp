@@ -59,7 +59,7 @@ Result<Image<Rgba8>> in_mirror(const compositor::PlacedObject& placed, const Loo
     }
     glass.triangles = {{0, 2, 1}, {0, 3, 2}};
     scene.meshes = {glass};
-    scene.primitives = {std::make_shared<compositor::ObjectRays>(placed, 1.0F)};
+    scene.primitives = {std::make_shared<compositor::ObjectPrimitive>(placed, 1.0F)};
     const Result<capture::Tracer> tracer = capture::Tracer::create(std::move(scene));
     if (!tracer) return tracer.error();
 

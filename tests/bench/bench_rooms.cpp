@@ -77,7 +77,7 @@ struct ObjectBytes {
 };
 Result<ObjectBytes> measure_object(const std::filesystem::path& file) {
     const auto engine = std::make_shared<engine::RenderSession>();
-    const std::unique_ptr<ObjectSource> source = object_files(engine, false);
+    const std::unique_ptr<ObjectSource> source = make_file_source(engine, false);
     const Result<std::int64_t> most = source->most_bytes(file);
     if (!most) return most.error();
     const Result<ViewableObject> object = source->read(file, *most, [](float) {});
@@ -136,7 +136,7 @@ Status walk(const char* name, const Scene& scene, const ShowroomOptions& options
         if (Status status = before.draw(showroom, *compositor, cameras.front(), 1 / kFrames_per_s); !status)
             return status;
     }
-    const StoreStatistics at_start = showroom.statistics();
+    const CacheStatistics at_start = showroom.statistics();
     const auto begin = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const std::chrono::duration<double> due(static_cast<double>(i) / kFrames_per_s);
@@ -145,7 +145,7 @@ Status walk(const char* name, const Scene& scene, const ShowroomOptions& options
         resident_most = std::max(resident_most, resident_bytes());
         own_room.look(cameras[i], compositor->statistics());
     }
-    const StoreStatistics store = showroom.statistics();
+    const CacheStatistics store = showroom.statistics();
     const auto [missing, missing_s] = own_room.result();
     std::printf("%-12s %6zu %7.1f %7.1f %6.2f %9zu %9.0f %6d %6d %8.0f %9.1f %9.1f %9.1f\n", name, times.frames(),
                 times.median_ms(), times.longest_ms(), times.longest_ms() / times.median_ms(), missing, 1e3 * missing_s,

@@ -185,7 +185,7 @@ Status run_thousand(const Options& options) {
     std::vector<double> ms;
     for (std::size_t i = 0; i < 40; ++i) {
         const Stopwatch watch;
-        const auto moved = moved_slots(*sequence, i % 12);
+        const auto moved = slot_transforms(*sequence, i % 12);
         ms.push_back(watch.wall_ms());
     }
     std::printf("matrices of 1000 instances: median %.3f ms\n", median(ms));

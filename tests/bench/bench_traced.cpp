@@ -151,7 +151,7 @@ std::vector<Asked> rays_of_frame(const RayScene& rays, const Scene& scene, const
 
 // The same rays as Embree's packets.
 struct Packets {
-    std::vector<std::pair<MaskLanes, MetLanes>> camera;
+    std::vector<std::pair<MaskLanes, RayHitLanes>> camera;
     std::vector<std::pair<MaskLanes, RayLanes>> to_lights;
 };
 void fill(std::span<const RayScene::Ray> rays, MaskLanes& asked, RayLanes& lanes) {
@@ -243,7 +243,7 @@ Status run(const Arguments& arguments) {
         for_each_index(static_cast<std::int64_t>(made.size()), arguments.threads, [&](std::int64_t i) {
             const Packets& tile = made[static_cast<std::size_t>(i)];
             for (const auto& [mask, met] : tile.camera) {
-                MetLanes found = met;
+                RayHitLanes found = met;
                 rays->intersect(mask, found);
             }
             for (const auto& [mask, ray] : tile.to_lights) {

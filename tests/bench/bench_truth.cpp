@@ -60,8 +60,8 @@ Status print_costs(const compositor::Scene& scene, const std::vector<compositor:
     };
     std::printf("\n%-28s %9s %9s %9s %12s\n", "ms a frame", "whole", "engine", "upload", "pixels");
     for (const Way& way : {Way{"plane, one sample", compositor::ObjectDepth::kPlane, 1},
-                           {"plane", compositor::ObjectDepth::kPlane, compositor::kUsualSamplesAcross},
-                           {"pixel", compositor::ObjectDepth::kPixel, compositor::kUsualSamplesAcross}}) {
+                           {"plane", compositor::ObjectDepth::kPlane, compositor::kDefaultSamplesAcross},
+                           {"pixel", compositor::ObjectDepth::kPixel, compositor::kDefaultSamplesAcross}}) {
         auto frames = compositor::FrameCompositor::create(scene, placed,
                                                           {.width = size.width,
                                                            .height = size.height,

@@ -45,9 +45,9 @@ Result<FrameCompositor> compositor_of(const Scene& scene, Showroom& showroom, in
 
 Status bench_walls(const Scene& scene, Showroom& showroom, const Camera& visitor, const Options& options) {
     WallDisplay cave = *preset_display("cave");
-    if (Status status = keep_walls(cave, "left,front,right"); !status) return status;
+    if (Status status = select_walls(cave, "left,front,right"); !status) return status;
     for (Wall& wall : cave.walls) wall.width = wall.height = options.side;
-    const RoomPlace place = place_of(visitor, cave.head, 1);
+    const RoomPose place = place_of(visitor, cave.head, 1);
     auto frames = compositor_of(scene, showroom, options.side, options.side, options.samples);
     if (!frames) return frames.error();
     std::vector<double> wall_ms, cpu_ms;

@@ -53,7 +53,7 @@ void add(Sum& sum, const Image<Rgba8>& image, const capture::BoardTurn& turn, st
     const bench::Stopwatch watch;
     const capture::BoardCorners seen = find(image);
     sum.seconds += watch.wall_s();
-    for (const capture::SeenCorner& one : seen.corners) {
+    for (const capture::DetectedCorner& one : seen.corners) {
         const auto p =
             capture::project(turn.model.lens, turn.model.pose, test::corner_in_table(turn, {}, one.corner, view));
         const double off_px = p ? glm::length(*p - one.p) : kFar_px;

@@ -32,7 +32,7 @@ struct Measured {
 
 Result<Measured> measure(const CaptureSet& set, const std::string& held_out, double cell_px) {
     BuildOptions options;
-    options.map = usual_plane_map(MapKind::kShape);
+    options.map = default_plane_map(MapKind::kShape);
     options.shape.lines.cell_px = cell_px;
     Result<BuiltObject> built = build_object(set, options);
     if (!built) return built.error();
@@ -65,7 +65,7 @@ Status write_plot(const std::string& path, const std::vector<Measured>& measured
         plot.series[0].x.push_back(100 * point.share);
         plot.series[0].y.push_back(point.psnr_db);
     }
-    const std::string svg = standalone_svg_of(plot);
+    const std::string svg = draw_standalone_svg(plot);
     return write_file(path, svg);
 }
 

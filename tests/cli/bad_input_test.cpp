@@ -56,7 +56,7 @@ protected:
         const Rig rig = make_ring({.count = 6, .fl_px = 60, .width = 48, .height = 40});
         for (std::size_t i = 0; i < 6; ++i) {
             const auto path = work_ / name / ("p" + std::to_string(i) + ".png");
-            ASSERT_TRUE(write_png(path, test::drawn_image(rig.views[i].camera)).ok());
+            ASSERT_TRUE(write_png(path, test::draw_image(rig.views[i].camera)).ok());
         }
     }
 

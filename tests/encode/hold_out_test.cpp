@@ -141,7 +141,7 @@ TEST(Evaluation, ScoresOnlyWhatWasHeldOutAgainstItsOwnImage) {
         looked.insert(evaluated.view);
         EXPECT_EQ(evaluated.view, hold_out.held[evaluated.number]);
         EXPECT_EQ(evaluated.truth,
-                  test::drawn_image(set->upright.views[static_cast<std::size_t>(evaluated.view)].camera));
+                  test::draw_image(set->upright.views[static_cast<std::size_t>(evaluated.view)].camera));
         EXPECT_EQ(evaluated.psnr_db, compare_images_psnr(evaluated.truth, evaluated.rendering).psnr_db());
         if (evaluated.method == Method::kPhoto) {
             const auto photo = read_upright_image(*set, nearest_kept_view(set->upright, hold_out, evaluated.view));

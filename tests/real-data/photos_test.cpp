@@ -110,7 +110,7 @@ void expect_one_object_in_every_view(const Imported& imported) {
 
 // As a nominal rig asks for it.
 std::optional<Turning> turning_by_images(const ImportReport& report) {
-    const std::vector<Image<Rgba8>>& turn = report.small_cut_outs;
+    const std::vector<Image<Rgba8>>& turn = report.small_foregrounds;
     const double axis_px = report.nominal.axis_x_px * turn.front().width() / report.folder.width;
     double half_width_px = 0;
     for (const Image<Rgba8>& cut : turn) {

@@ -55,7 +55,7 @@ Status check(const Task& task) {
                      std::to_string(task.views.size()) + " views; give one for each"};
     }
     for (const BoardCorners& view : task.views) {
-        for (const SeenCorner& seen : view.corners) {
+        for (const DetectedCorner& seen : view.corners) {
             if (seen.corner < 0 || seen.corner >= corner_count(task.design) || !std::isfinite(seen.p.x + seen.p.y)) {
                 return Error{"board: corner " + std::to_string(seen.corner) + " is not on it; detect again with " +
                              to_string(task.design)};
@@ -82,7 +82,7 @@ void split_observations(Task& task) {
     int count = 0;
     for (std::size_t i = 0; i < task.views.size(); ++i) {
         if (!has_board(task.views[i], task.design)) continue;
-        for (const SeenCorner& seen : task.views[i].corners) {
+        for (const DetectedCorner& seen : task.views[i].corners) {
             const bool out = ++count % kCornerHeldOutEvery == 0;
             (out ? task.held_out : task.used)
                 .push_back({static_cast<int>(i), corner_mm(task.design, seen.corner), seen.p});
@@ -281,7 +281,7 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
     c.model = turn.model;
     c.deviations = board_standard_deviations(turn, used, task.options);
     for (const BoardCorners& view : views) {
-        for (const SeenCorner& seen : view.corners) corners.insert(seen.corner);
+        for (const DetectedCorner& seen : view.corners) corners.insert(seen.corner);
     }
     c.points = static_cast<int>(corners.size());
     c.observations = static_cast<int>(used.size());

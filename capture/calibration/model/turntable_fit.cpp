@@ -150,15 +150,15 @@ Result<TurntableFit> fit_turn_to_cameras(std::span<const glm::dmat4> world_from_
     // Negated comparisons refuse NaN, too.
     if (!(turn.orientation_misfit_deg <= kMaxOrientationMisfit_deg)) {
         return Error{where + ": is not of a turntable: its cameras' directions are off a turn about a single axis by " +
-                     with_digits(turn.orientation_misfit_deg, 2) + " degrees, most in view " +
-                     std::to_string(worst + 1) + "; at most " + with_digits(kMaxOrientationMisfit_deg, 0) +
+                     format_fixed(turn.orientation_misfit_deg, 2) + " degrees, most in view " +
+                     std::to_string(worst + 1) + "; at most " + format_fixed(kMaxOrientationMisfit_deg, 0) +
                      " is allowed"};
     }
     if (!(turn.place_misfit <= kMaxPlaceMisfit)) {
         return Error{where +
                      ": is not of a turntable: its cameras' positions are off a circle about a single axis by " +
-                     with_digits(100 * turn.place_misfit, 1) + " % of their distance; at most " +
-                     with_digits(100 * kMaxPlaceMisfit, 0) + " % is allowed"};
+                     format_fixed(100 * turn.place_misfit, 1) + " % of their distance; at most " +
+                     format_fixed(100 * kMaxPlaceMisfit, 0) + " % is allowed"};
     }
 
     Matrix3d world_from_table;

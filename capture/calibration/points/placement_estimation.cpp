@@ -62,7 +62,7 @@ struct PlacePrior {
 
 using PlaceNumbers = std::array<double, 4>;
 
-std::vector<Track> undo_placements_of(std::span<const Track> tracks, const std::vector<ImagePlace>& places,
+std::vector<Track> undo_placements_of(std::span<const Track> tracks, const std::vector<ImagePlacement>& places,
                                       const glm::dvec2& middle) {
     std::vector<Track> result(tracks.begin(), tracks.end());
     for (Track& track : result) {
@@ -74,7 +74,7 @@ std::vector<Track> undo_placements_of(std::span<const Track> tracks, const std::
 }
 
 // Refines model, points and placements; `bundle` holds observations with their placements undone.
-bool adjust_places(Bundle& bundle, std::vector<ImagePlace>& places, double loss_px, const KnownInputs& known) {
+bool adjust_places(Bundle& bundle, std::vector<ImagePlacement>& places, double loss_px, const KnownInputs& known) {
     TurntableModel& model = bundle.model;
     const glm::dvec2 middle(model.lens.width / 2.0, model.lens.height / 2.0);
     std::array<double, 5> lens{model.lens.f_px, model.lens.cx, model.lens.cy, model.lens.k1, model.lens.k2};
@@ -151,7 +151,7 @@ bool adjust_places(Bundle& bundle, std::vector<ImagePlace>& places, double loss_
 
 struct Attempt {
     TurntableModel model;
-    std::vector<ImagePlace> places;
+    std::vector<ImagePlacement> places;
     int agreeing = 0;
 };
 
@@ -214,20 +214,20 @@ std::optional<PlacementEstimate> estimate_placements(std::span<const Track> trac
     return PlacementEstimate{std::move(best.places), std::move(best.model), best.agreeing / std::max(1.0, offered)};
 }
 
-std::optional<std::vector<ImagePlace>> estimate_remaining_placements(const Bundle& bundle, double limit_px,
-                                                                     const KnownInputs& known) {
+std::optional<std::vector<ImagePlacement>> estimate_remaining_placements(const Bundle& bundle, double limit_px,
+                                                                         const KnownInputs& known) {
     Bundle own = bundle;
-    std::vector<ImagePlace> places(bundle.model.angles_rad.size());
+    std::vector<ImagePlacement> places(bundle.model.angles_rad.size());
     if (!adjust_places(own, places, 0.5 * limit_px, known)) return std::nullopt;
     return places;
 }
 
-TurnImages undo_placements(const TurnImages& turn, std::span<const ImagePlace> places) {
+TurnImages undo_placements(const TurnImages& turn, std::span<const ImagePlacement> places) {
     TurnImages back = turn;
     const double reduction = turn.reduction;
     const glm::dvec2 middle = glm::dvec2(turn.width, turn.height) / (2 * reduction);
     for_each_index(places.size(), [&](std::size_t i) {
-        const ImagePlace place{places[i].shift_px / reduction, places[i].scale};
+        const ImagePlacement place{places[i].shift_px / reduction, places[i].scale};
         const glm::dvec2 origin = place.seen({0.5, 0.5}, middle) - 0.5;  // position of the first pixel's centre
         const cv::Matx23d seen(place.scale, 0, origin.x, 0, place.scale, origin.y);
         const auto warp = [&](Image<std::uint8_t>& plane) {

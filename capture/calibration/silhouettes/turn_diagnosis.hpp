@@ -36,7 +36,7 @@ std::vector<std::string> image_warnings(const Bundle& bundle, std::span<const in
                                         std::span<const int> features, std::span<const std::string> names);
 
 /// Reports that images were shifted and scaled individually, and by how much.
-std::string place_warning(std::span<const ImagePlace> places);
+std::string place_warning(std::span<const ImagePlacement> places);
 
 /// Warning if the axis of the texture and that of the silhouettes differ by more than their errors. Nothing if they
 /// agree to half a px of the reduced images.

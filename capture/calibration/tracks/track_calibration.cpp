@@ -304,7 +304,7 @@ Result<TrackCalibration> calibrate_placed(const TurnImages& turn, const KnownInp
     std::optional<PlacementEstimate> placed;
     Result<TrackCalibration> still = calibrate_fixed_images(turn, known, progress, &placed);
     if (!placed || placed->agreeing < kFewestAgreeingPlaced) return still;
-    std::vector<ImagePlace> places = std::move(placed->places);
+    std::vector<ImagePlacement> places = std::move(placed->places);
     for (int round = 0;; ++round) {
         Result<TrackCalibration> found =
             calibrate_fixed_images(undo_placements(turn, places), known, progress, nullptr);

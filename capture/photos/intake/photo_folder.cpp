@@ -110,7 +110,7 @@ Status choose_orientations(PhotoFolder& found, const std::vector<ImageInfo>& inf
 Status read_headers(PhotoFolder& found) {
     std::vector<ImageInfo> infos;
     for (const std::filesystem::path& photo : found.photos) {
-        RS_ASSIGN_OR_RETURN(const ImageInfo info, read_image_info(photo, kMaxPhotographSide_px));
+        RS_ASSIGN_OR_RETURN(const ImageInfo info, read_image_info(photo, kMaxPhotoSide_px));
         infos.push_back(info);
     }
     const auto all = [&](const auto& holds) { return std::ranges::all_of(infos, holds); };
@@ -123,7 +123,7 @@ Status read_headers(PhotoFolder& found) {
 void set_reduction(PhotoFolder& found, int max_side_px) {
     found.width = found.shown_width;
     found.height = found.shown_height;
-    found.reduction = photograph_reduction(found.width, found.height, max_side_px);
+    found.reduction = photo_reduction(found.width, found.height, max_side_px);
     if (found.reduction == 1) return;
     // The reduction of a thin photo is limited so that each side keeps at least one pixel.
     found.reduction = std::min(found.reduction, static_cast<double>(std::min(found.width, found.height)));

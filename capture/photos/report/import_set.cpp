@@ -40,7 +40,7 @@ Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFold
         if (is_left_out(report, i)) return {};
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, foregrounds.get(i));
         const Image<Rgba8> upright = rectified(calibration.model, report.frame, image,
-                                               calibration.places.empty() ? ImagePlace{} : calibration.places[i]);
+                                               calibration.places.empty() ? ImagePlacement{} : calibration.places[i]);
         RS_TRY(write_png(set / set_image_name(number[i]), upright));
         TurnSilhouette own(upright.width(), upright.height());
         own.add(upright);

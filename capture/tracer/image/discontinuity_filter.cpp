@@ -254,7 +254,7 @@ Image<RgbaF> filter_image(const Accumulation& accumulation) {
 
 }  // namespace
 
-PixelRectangle within_reach(const PixelRectangle& part) {
+PixelRectangle with_filter_margin(const PixelRectangle& part) {
     return {part.x0 - kFilterRadius_px, part.y0 - kFilterRadius_px, part.x1 + kFilterRadius_px,
             part.y1 + kFilterRadius_px};
 }
@@ -271,7 +271,7 @@ Image<RgbaF> filtered_mean(const Accumulation& accumulation, const PixelRectangl
     const int rows = std::max(kFilterRadius_px, kStrip_px / (shown.x1 - shown.x0));
     for (int top = shown.y0; top < shown.y1; top += rows) {
         const PixelRectangle strip{shown.x0, top, shown.x1, std::min(top + rows, shown.y1)};
-        const PixelRectangle around = overlap(whole, within_reach(strip));
+        const PixelRectangle around = overlap(whole, with_filter_margin(strip));
         const Image<RgbaF> filtered = filter_image(accumulation.crop(around));
         for (int y = strip.y0; y < strip.y1; ++y) {
             for (int x = strip.x0; x < strip.x1; ++x) image(x, y) = filtered(x - around.x0, y - around.y0);

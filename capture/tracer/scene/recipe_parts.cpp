@@ -37,7 +37,7 @@ Softbox read_softbox(JsonObject object) {
     object.read("height_deg", box.height_deg, 0, 180);
     object.read("edge_deg", box.edge_deg, 0, 90);
     object.read("radiance", box.radiance, 0, 1e6);
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     return box;
 }
 
@@ -51,7 +51,7 @@ void read_studio(JsonObject object, Environment& environment) {
         studio.softboxes.clear();
         for (std::size_t i = 0; i < count; ++i) studio.softboxes.push_back(read_softbox(JsonObject(boxes->item(i))));
     }
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     environment = make_studio_environment(studio);
 }
 
@@ -79,7 +79,7 @@ void read_light(JsonObject object, Scene& scene) {
         }
         scene.lights.push_back(rectangle_light(corner, edge_u, edge_v, radiance));
     }
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
 }
 
 // Replaces `values` by a list of numbers in 0..1.
@@ -101,7 +101,7 @@ void read_toon(JsonObject object, ToonStyle& style) {
     object.read("edge_angle_deg", angle_deg, 1, 180);
     object.read("edge_colour", style.edge_colour, 0, 1);
     object.read("shadow_rays", style.shadow_rays, 0, 1024);
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     style.edge_angle_rad = static_cast<float>(radians(angle_deg));
     if (style.values.size() != style.thresholds.size() + 1) {
         throw object.wrong("values must be one more than \"thresholds\": a tone for what is less than all of them");
@@ -119,7 +119,7 @@ void read_material(JsonObject object, Material& material) {
     object.read("emission", material.emission, 0, 1e6);
     object.read("two_sided", material.two_sided);
     object.read("translucency", material.translucency, 0, 1);
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
 }
 
 void read_camera(JsonObject object, CameraRecipe& camera) {
@@ -133,7 +133,7 @@ void read_camera(JsonObject object, CameraRecipe& camera) {
     object.read("spp", camera.samples_per_pixel, 1, 65536);
     object.read("aperture_radii", camera.aperture_radii, 0, 10);
     object.read("focus_radii", camera.focus_radii, 0.001, 1000);
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
 }
 
 void read_lights(const JsonValue& list, Scene& scene) {
@@ -157,7 +157,7 @@ void read_environment(JsonObject object, const std::filesystem::path& folder, En
     object.read("scale", environment.scale, 0, 1e6);
     object.read("turn_deg", turn_deg, -3600, 3600);
     environment.turn_rad = static_cast<float>(radians(turn_deg));
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
 }
 
 }  // namespace rs::capture

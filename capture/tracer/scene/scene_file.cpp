@@ -51,7 +51,7 @@ void load_mesh_object(JsonObject& object, const std::filesystem::path& recipe, S
     const JsonValue mesh = object.take("mesh");
     const auto texture = object.find("texture");
     const auto material = object.find("material");
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     Result<Scene> loaded = read_mesh_file(recipe.parent_path() / mesh.text());
     if (!loaded) throw mesh.wrong(loaded.error().message);
     scene = std::move(loaded).value();
@@ -63,7 +63,7 @@ void load_mesh_object(JsonObject& object, const std::filesystem::path& recipe, S
 void generate_object(JsonObject& object, const Generator& generator, std::uint64_t seed, Scene& scene) {
     const JsonValue name = object.take("generator");
     const auto parameters = object.find("parameters");
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     if (!generator) throw name.wrong("generators are not available; use a \"mesh\"");
     Result<Scene> made = generator(name.text(), parameters ? parameters->json() : nlohmann::json::object(), seed);
     if (!made) throw name.wrong(made.error().message);
@@ -125,7 +125,7 @@ Room read_room(JsonObject object, const std::filesystem::path& folder) {
     object.read("at", room.at);
     object.read("turn_deg", room.turn_deg, -360, 360);
     object.read("radius", room.radius, 1e-6);
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     Result<Scene> loaded = read_mesh_file(folder / file.text());
     if (!loaded) throw file.wrong(loaded.error().message);
     room.scene = std::move(*loaded);
@@ -170,7 +170,7 @@ Recipe read_recipe(JsonObject& top, const std::filesystem::path& path, const Gen
     read_look(top, file);
     if (room && file.toon) throw room->wrong("cannot be combined with \"look\": \"toon\"; remove one of them");
     const auto object = top.find("object");
-    top.expect_all_taken();
+    top.expect_no_unknown_keys();
     if (!object) throw top.wrong("object is missing; give {\"mesh\": ...} or {\"generator\": ...}");
     if (camera) read_camera(JsonObject(*camera), file.camera);
     load_object(JsonObject(*object), path, generator, file.seed, file.scene, recipe.centre);

@@ -29,7 +29,7 @@ void add_surroundings(Scene& object, Scene room, const glm::dmat4& object_from_r
         if (material.relief >= 0) material.relief += reliefs;
     }
     for (const Mesh& mesh : room.meshes) {
-        object.meshes.push_back(placed_mesh(mesh, object_from_room));
+        object.meshes.push_back(transform_mesh(mesh, object_from_room));
         object.meshes.back().material += materials;
     }
     object.first_surrounding_material = materials;

@@ -75,7 +75,7 @@ nlohmann::json turntable_json(const SessionPlan& plan, const Turntable& turntabl
 // Ground-truth rig. `dimming` is the factor on the scene's lights; `photo_of_view` are the photos' paths relative to
 // transforms.json. `places` is empty without recentring.
 Rig truth_rig(const SessionPlan& plan, const Turntable& turntable, double object_radius, const PhotoOptions& options,
-              double dimming, const std::vector<std::string>& photo_of_view, std::span<const ImagePlace> places) {
+              double dimming, const std::vector<std::string>& photo_of_view, std::span<const ImagePlacement> places) {
     Rig rig;
     rig.object_radius = object_radius;
     rig.foot_height = turntable.top;
@@ -88,7 +88,7 @@ Rig truth_rig(const SessionPlan& plan, const Turntable& turntable, double object
     rig.extras["turntable"] = turntable_json(plan, turntable, options, dimming);
     if (!places.empty()) {
         nlohmann::json& listed = rig.extras["turntable"]["places"] = nlohmann::json::array();
-        for (const ImagePlace& place : places) {
+        for (const ImagePlacement& place : places) {
             listed.push_back({{"scale", place.scale}, {"shift_px", {place.shift_px.x, place.shift_px.y}}});
         }
     }
@@ -199,12 +199,12 @@ struct Session {
 struct View {
     Image<Rgba8> photo;
     Image<float> alpha;
-    ImagePlace place;
+    ImagePlacement place;
 };
 
 View take_photo(Session& session, std::size_t view, const PhotoOptions& options, Progress* progress) {
     RayImage rays = lens_rays(session.plan, view);
-    ImagePlace place;
+    ImagePlacement place;
     if (options.recentred) {
         place = recentring_placement(trace_coverage(session.silhouettes, rays, options.threads));
         rays = apply_placement(std::move(rays), place);
@@ -232,7 +232,7 @@ Status make_folder(const fs::path& folder) {
 
 }  // namespace
 
-bool is_made_backdrop(const std::string& name) {
+bool is_procedural_backdrop(const std::string& name) {
     return name == "wall" || name == "blue" || name == "white";
 }
 
@@ -269,7 +269,7 @@ Result<CaptureSetSummary> write_photo_session(const Scene& object, double object
 
     CaptureSetSummary summary;
     std::vector<std::string> names;
-    std::vector<ImagePlace> places;
+    std::vector<ImagePlacement> places;
     for (std::size_t i = 0; i < views; ++i) {
         const Clock::time_point begun = Clock::now();
         const View view = take_photo(session, i, options, progress);

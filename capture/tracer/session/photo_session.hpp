@@ -47,7 +47,7 @@ struct PhotoOptions {
 };
 
 /// Returns true for the names of procedural backdrops.
-bool is_made_backdrop(const std::string& name);
+bool is_procedural_backdrop(const std::string& name);
 
 /// Renders and writes a session. The disc lies under the object's lowest vertex. The folder is created atomically; an
 /// existing one is replaced as StagedFolder states (file_output.hpp). The same options give the same bytes with any

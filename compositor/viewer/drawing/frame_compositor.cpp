@@ -36,7 +36,8 @@ Result<FrameCompositor::Passes> FrameCompositor::make_passes(const Scene& scene,
 }
 
 Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::shared_ptr<engine::RenderSession> engine,
-                                                std::shared_ptr<const ShownNodes> nodes, const FrameOptions& options) {
+                                                std::shared_ptr<const DisplayedNodes> nodes,
+                                                const FrameOptions& options) {
     Scene scene = lit_scene;
     scene.lights = raster_lights(lit_scene, options.exposure_ev);
     RS_ASSIGN_OR_RETURN(auto background, BackgroundRenderer::create(scene.background));
@@ -50,8 +51,8 @@ Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::sha
 
 Result<FrameCompositor> FrameCompositor::create(const Scene& scene, const std::vector<PlacedObject>& objects,
                                                 const FrameOptions& options) {
-    const auto engine = std::make_shared<engine::RenderSession>(limits_of_viewer());
-    RS_ASSIGN_OR_RETURN(std::shared_ptr<const ShownNodes> nodes, show_all(objects, *engine));
+    const auto engine = std::make_shared<engine::RenderSession>(viewer_session_limits());
+    RS_ASSIGN_OR_RETURN(std::shared_ptr<const DisplayedNodes> nodes, load_all_nodes(objects, *engine));
     return create(scene, engine, std::move(nodes), options);
 }
 

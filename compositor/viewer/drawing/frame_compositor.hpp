@@ -50,7 +50,7 @@ struct FrameOptions {
     double exposure_ev = 0;   // the scene's lights are 2^_ times as bright; objects, background, unlit surfaces stay
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples =
-        kUsualSamplesAcross;  // across a pixel, at most, where objects are far (object_view.hpp); from 1
+        kDefaultSamplesAcross;  // across a pixel, at most, where objects are far (object_view.hpp); from 1
     // Objects are drawn for a level camera in the same place and looked up (upright_image.hpp): faster, and a board
     // can do it; a touch softer.
     bool upright_images = false;
@@ -64,7 +64,8 @@ public:
     // `nodes` may change from frame to frame, but not in number; their objects are loaded in `engine`, to which nobody
     // else submits while a frame is drawn.
     static Result<FrameCompositor> create(const Scene& scene, std::shared_ptr<engine::RenderSession> engine,
-                                          std::shared_ptr<const ShownNodes> nodes, const FrameOptions& options = {});
+                                          std::shared_ptr<const DisplayedNodes> nodes,
+                                          const FrameOptions& options = {});
     // Of objects that are there from the beginning on, drawn by the software core.
     static Result<FrameCompositor> create(const Scene& scene, const std::vector<PlacedObject>& objects,
                                           const FrameOptions& options = {});
@@ -95,7 +96,7 @@ public:
     // Meshes and images of geometry given to the driver since create() began: none after it.
     [[nodiscard]] int uploads() const { return geometry_.surfaces().uploads(); }
     // What falls in the next frame, `seconds` after the sequence's beginning; nothing: it is dry. The weather's fog and
-    // what it leaves on surfaces are the scene's (in_weather).
+    // what it leaves on surfaces are the scene's (apply_weather).
     void set_weather(const std::optional<Weather>& weather, double seconds) {
         weather_ = weather;
         weather_seconds_ = seconds;

@@ -12,21 +12,21 @@ PlacedObject ObjectNodes::turned(std::size_t index) const {
 }
 
 std::optional<ObjectView> ObjectNodes::view_of(std::size_t index, const Camera& camera) const {
-    const ShownNode& node = (*nodes_)[index];
+    const DisplayedNode& node = (*nodes_)[index];
     if (!node.object || node.hidden) return std::nullopt;
     return view_of_object(turned(index), camera, {object_samples_, upright_});
 }
 
 bool ObjectNodes::placeholder_in_view(std::size_t index, const FrameView& view) const {
-    const ShownNode& node = (*nodes_)[index];
-    return node.placeholder && !node.hidden && may_be_seen(bounds_of(*node.placeholder), view.clip_from_world);
+    const DisplayedNode& node = (*nodes_)[index];
+    return node.placeholder && !node.hidden && can_be_visible(bounds_of(*node.placeholder), view.clip_from_world);
 }
 
 std::vector<std::optional<PlacedObject>> ObjectNodes::shadow_casters() const {
     constexpr float kLeastOpacity = 0.5F;  // of an object that fades in
     std::vector<std::optional<PlacedObject>> objects(nodes_->size());
     for (std::size_t i = 0; i < nodes_->size(); ++i) {
-        const ShownNode& node = (*nodes_)[i];
+        const DisplayedNode& node = (*nodes_)[i];
         if (node.object && !node.hidden && node.opacity >= kLeastOpacity) objects[i] = turned(i);
     }
     return objects;

@@ -1,7 +1,7 @@
 #pragma once
 // The ray-space nodes of a frame, with the angles by which the user has turned them. No OpenGL; one thread.
 
-#include "compositor/viewer/drawing/shown_parts.hpp"
+#include "compositor/viewer/drawing/displayed_nodes.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
 #include "compositor/viewer/views/object_view.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
@@ -18,12 +18,12 @@ class ObjectNodes {
 public:
     /// \param object_samples most samples across a pixel, for distant objects (object_view.hpp)
     /// \param upright render objects for a level camera in the same place and resample (upright_image.hpp)
-    ObjectNodes(std::shared_ptr<const ShownNodes> nodes, int object_samples, bool upright)
+    ObjectNodes(std::shared_ptr<const DisplayedNodes> nodes, int object_samples, bool upright)
         : nodes_(std::move(nodes)), turns_rad_(nodes_->size()), object_samples_(object_samples), upright_(upright) {}
 
     [[nodiscard]] std::size_t size() const { return nodes_->size(); }
-    [[nodiscard]] const ShownNodes& shown() const { return *nodes_; }
-    [[nodiscard]] const ShownNode& operator[](std::size_t index) const { return (*nodes_)[index]; }
+    [[nodiscard]] const DisplayedNodes& shown() const { return *nodes_; }
+    [[nodiscard]] const DisplayedNode& operator[](std::size_t index) const { return (*nodes_)[index]; }
 
     /// Turns a node about its object's axis, counter-clockwise seen from above, relative to the scene.
     void turn(std::size_t index, double angle_rad) { turns_rad_[index] = angle_rad; }
@@ -38,7 +38,7 @@ public:
     [[nodiscard]] std::vector<std::optional<PlacedObject>> shadow_casters() const;
 
 private:
-    std::shared_ptr<const ShownNodes> nodes_;
+    std::shared_ptr<const DisplayedNodes> nodes_;
     std::vector<double> turns_rad_;  // [node]
     int object_samples_;
     bool upright_;

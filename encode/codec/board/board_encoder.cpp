@@ -299,7 +299,7 @@ private:
         const auto tiles = static_cast<std::size_t>(coded_.tile_columns() * coded_.tile_rows());
         image.tiles.resize(tiles);
         for (std::size_t t = 0; t < tiles; ++t) {
-            const codec::TilePlace place = codec::place_of_tile(coded_, t);
+            const codec::TileRect place = codec::tile_rect(coded_, t);
             std::uint64_t classes = 0;
             std::vector<std::byte> bytes(codec::kBoardTileHeadBytes);
             for (int b = 0; b < codec::kBoardTileBlocks; ++b) {

@@ -80,7 +80,7 @@ void CodedTexels::fill_tile_column(int image, int tile_column) {
     for (int row = 0; row < coded.tile_rows(); ++row) {
         const int tile = row * coded.tile_columns() + tile_column;
         if (!from.tiles[static_cast<std::size_t>(tile)].present) continue;
-        codec::TilePlace place = codec::place_of_tile(coded, static_cast<std::size_t>(tile));
+        codec::TileRect place = codec::tile_rect(coded, static_cast<std::size_t>(tile));
         place.width = std::min(place.width, layout_.width - place.left);
         place.height = std::min(place.height, layout_.height - place.top);
         convert_tile(image, place);
@@ -100,7 +100,7 @@ void CodedTexels::fill_tile_column(int image, int tile_column) {
         std::memory_order_relaxed);
 }
 
-void CodedTexels::convert_tile(int image, const codec::TilePlace& place) {
+void CodedTexels::convert_tile(int image, const codec::TileRect& place) {
     const codec::ConstPlaneViews planes = samples_->planes(image);
     // Row by row into a buffer, so that samples are read as they lie, and from there column by column.
     constexpr int kMostSide = 1 << codec::kMaxTileLog2;

@@ -90,7 +90,7 @@ private:
     [[nodiscard]] std::int64_t decoded_bytes_of(int image) const;
     void fill_tile_column(int image, int tile_column);
     void need_tile_column(int image, int tile_column);
-    void convert_tile(int image, const codec::TilePlace& place);
+    void convert_tile(int image, const codec::TileRect& place);
     void find_details(int image, int column, int top, int bottom);
     void forget_over_budget();
     void forget(int image);

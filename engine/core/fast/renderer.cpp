@@ -141,7 +141,7 @@ Result<Renderer> Renderer::create(RaySpaceObject object, const RendererOptions& 
 }
 
 std::int64_t Renderer::memory_bytes() const {
-    return memory_of(object_) + texels_.memory_bytes();
+    return object_memory_bytes(object_) + texels_.memory_bytes();
 }
 
 void Renderer::render(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda_q20) const {

@@ -105,7 +105,7 @@ void SampleStore::decode(int view, int tile) {
     References listener(*this, head);
     codec::decode_tile(*coded_, static_cast<std::size_t>(view), static_cast<std::size_t>(tile), references, &listener,
                        writable_planes(view));
-    const codec::TilePlace place = codec::place_of_tile(*coded_, static_cast<std::size_t>(tile));
+    const codec::TileRect place = codec::tile_rect(*coded_, static_cast<std::size_t>(tile));
     images_[static_cast<std::size_t>(view)].bytes.fetch_add(std::int64_t{4} * place.width * place.height,
                                                             std::memory_order_relaxed);
 }

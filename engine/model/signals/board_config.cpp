@@ -187,9 +187,9 @@ public:
         }
         return known->second ? &*known->second : nullptr;
     }
-    void expect_all_taken() const {
+    void expect_no_unknown_keys() const {
         for (const auto& [path, object] : by_path_) {
-            if (object) object->expect_all_taken();
+            if (object) object->expect_no_unknown_keys();
         }
     }
 
@@ -246,7 +246,7 @@ Result<BoardConfig> parse_board_config(const std::string& text, const std::strin
             const auto given = object == nullptr ? std::nullopt : object->find(path.substr(slash + 1));
             if (given) value = static_cast<std::remove_reference_t<decltype(value)>>(given->whole_number(least, most));
         });
-        objects.expect_all_taken();
+        objects.expect_no_unknown_keys();
         if (const std::string bad = contradiction(config); !bad.empty()) throw top.wrong(bad);
         return with_memory(std::move(config));
     });

@@ -166,9 +166,9 @@ TEST(SearchEffort, MoreOfItGivesABetterBargain) {
         return bytes * std::pow(10.0, -encoded.psnr_db / 16);
     };
     const double most = price(kMaxEffort);
-    EXPECT_LT(most, price(kLeastEffort));
+    EXPECT_LT(most, price(kMinEffort));
     EXPECT_LT(price(kDefaultEffort), 1.1 * most);
-    EXPECT_LT(price(kLeastEffort), 1.3 * most);
+    EXPECT_LT(price(kMinEffort), 1.3 * most);
 }
 
 }  // namespace

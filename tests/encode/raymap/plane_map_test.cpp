@@ -117,7 +117,7 @@ TEST(PlaneMap, HalfWayViewpointsSeeOneImage) {
         for (int column = -40; column <= 40; ++column) {
             const glm::dvec3 at = glm::dvec3(std::cos(azimuth), 0, -std::sin(azimuth)) * (column / 45.0);
             const test::Ray ray{viewpoint, at - viewpoint};
-            const int k = test::most_square_plane(ray.direction, 12);
+            const int k = test::most_perpendicular_plane(ray.direction, 12);
             const auto place = test::to_ray_space(ray, reference_plane(k, 12));
             ASSERT_TRUE(place);
             const int xi = static_cast<int>((place->x + x_half) * 512 / (2 * x_half));

@@ -30,7 +30,7 @@ BuiltObject build(const std::filesystem::path& folder, MapKind kind = MapKind::k
     EXPECT_TRUE(set.ok()) << set.error().message;
     BuildOptions options;
     options.raymap = kind;
-    options.map = usual_plane_map(kind);
+    options.map = default_plane_map(kind);
     Result<BuiltObject> built = build_object(*set, options, progress);
     EXPECT_TRUE(built.ok()) << built.error().message;
     const Status valid = validate_object(built->object, "built");

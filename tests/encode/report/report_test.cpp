@@ -79,7 +79,7 @@ TEST(HtmlPage, IsWellFormedAndHoldsWhatWasAdded) {
     page.list({"<li>", "two"});
     page.table({"name", "dB"}, {{"<td>", "12.5"}, {"b", "-3"}});
     page.begin_details("more & more");
-    page.drawing(svg_of(LinePlot{"<t>", "x&", "y\"", {{"</svg>", {0, 1}, {2, 3}}}}));
+    page.drawing(draw_svg(LinePlot{"<t>", "x&", "y\"", {{"</svg>", {0, 1}, {2, 3}}}}));
     page.end_details();
     const std::string text = page.text();
     EXPECT_EQ(find_unbalanced_tag(text), "") << text;
@@ -101,7 +101,7 @@ TEST(HtmlPage, AImageInsideIsTheImageScaledDown) {
     EXPECT_EQ(find_unbalanced_tag(text), "");
     EXPECT_THAT(text, HasSubstr("alt=\"wide &quot;one&quot;\" width=\"150\" height=\"75\""));
     EXPECT_THAT(text, HasSubstr("width=\"20\" height=\"40\""));
-    const auto bytes = encode_png(scaled_down(image, 150), "wide");
+    const auto bytes = encode_png(downscale(image, 150), "wide");
     ASSERT_TRUE(bytes.ok());
     EXPECT_THAT(text, HasSubstr("src=\"data:image/png;base64," + base64(*bytes) + "\""));
     // The bytes are a readable file.
@@ -121,15 +121,15 @@ TEST(ScaledDown, AveragesInLinearLightAndByAlpha) {
         image(2, y) = {90, 60, 30, 255};
         image(3, y) = {255, 0, 255, 0};
     }
-    const Image<Rgba8> small = scaled_down(image, 2);
+    const Image<Rgba8> small = downscale(image, 2);
     ASSERT_EQ(small.width(), 2);
     ASSERT_EQ(small.height(), 1);
     EXPECT_EQ(small(0, 0), (Rgba8{188, 188, 188, 255}));  // half of the light of white
     EXPECT_EQ(small(1, 0), (Rgba8{90, 60, 30, 128}));     // the transparent half does not contribute
-    EXPECT_EQ(scaled_down(image, 4), image);
+    EXPECT_EQ(downscale(image, 4), image);
     // Sizes without a common factor: a constant image stays constant up to the last pixel.
     const Image<Rgba8> odd(101, 67, {77, 88, 99, 255});
-    EXPECT_EQ(scaled_down(odd, 40), Image<Rgba8>(40, 27, {77, 88, 99, 255}));
+    EXPECT_EQ(downscale(odd, 40), Image<Rgba8>(40, 27, {77, 88, 99, 255}));
 }
 
 TEST(Colours, DepthAndErrorRunFromEndToEnd) {
@@ -188,7 +188,7 @@ TEST(LinePlot, PointsStandWhereTheirNumbersSay) {
     EXPECT_EQ(frame.y_px(frame.y.high), frame.top);
     EXPECT_NEAR(frame.x_px(50), (frame.left + frame.right) / 2, 1e-9);
 
-    const std::string svg = svg_of(plot);
+    const std::string svg = draw_svg(plot);
     EXPECT_EQ(find_unbalanced_tag(svg), "") << svg;
     const auto circle = [&](double x, double y) {
         return "<circle cx=\"" + two_decimals(frame.x_px(x)) + "\" cy=\"" + two_decimals(frame.y_px(y)) + "\"";
@@ -203,7 +203,7 @@ TEST(LinePlot, PointsStandWhereTheirNumbersSay) {
     const std::string first = svg.substr(path, svg.find('>', path) - path);
     EXPECT_EQ(occurrences(first, "M"), 2U) << first;
     EXPECT_EQ(occurrences(first, "L"), 0U) << first;
-    EXPECT_EQ(find_unbalanced_tag(svg_of({})), "") << "a plot of nothing is still a plot";
+    EXPECT_EQ(find_unbalanced_tag(draw_svg({})), "") << "a plot of nothing is still a plot";
 }
 
 TEST(LinePlot, LongNamesGetRoom) {

@@ -10,7 +10,7 @@ TEST(Recentring, TheObjectFillsTheFrameAndStandsInItsMiddle) {
     for (int y = 20; y < 60; ++y) {
         for (int x = 30; x < 80; ++x) coverage(x, y) = 0.5F;
     }
-    const ImagePlace place = recentring_placement(coverage);
+    const ImagePlacement place = recentring_placement(coverage);
     const glm::dvec2 middle(100, 50);
     EXPECT_DOUBLE_EQ(place.scale, kRecentredFill * 100 / 40);  // its height reaches the frame first
     EXPECT_LT(glm::distance(place.seen({55, 40}, middle), middle), 1e-9);
@@ -18,7 +18,7 @@ TEST(Recentring, TheObjectFillsTheFrameAndStandsInItsMiddle) {
 }
 
 TEST(Recentring, RaysAndBackdropMoveAlike) {
-    const ImagePlace place{{12, -3}, 1.5};
+    const ImagePlacement place{{12, -3}, 1.5};
     RayImage rays;
     rays.width = 64;
     rays.height = 48;

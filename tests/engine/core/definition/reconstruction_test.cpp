@@ -78,7 +78,7 @@ TEST(ReconstructionProperty, AgreesWithFloatingPointGeometry) {
             if (setup.image < 0) continue;
             const test::Ray ray{camera.centre(), camera.ray(i + 0.5, j + 0.5)};
             const ReferencePlane plane =
-                reference_plane(test::most_square_plane(ray.direction, options.planes), options.planes);
+                reference_plane(test::most_perpendicular_plane(ray.direction, options.planes), options.planes);
             const auto place = test::to_ray_space(ray, plane);
             ASSERT_TRUE(place);
             const glm::dvec3 p = place->x * plane.tangent + glm::dvec3(0, place->y, 0);

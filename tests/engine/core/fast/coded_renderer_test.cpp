@@ -75,7 +75,7 @@ CodedObject coded_object(Random& random, bool with_shape) {
                                          .alpha_bits = random.whole(1, 4),
                                          .tile_width_log2 = random.whole(4, 6),
                                          .tile_height_log2 = random.whole(4, 6),
-                                         .effort = encode::kLeastEffort};
+                                         .effort = encode::kMinEffort};
     object.coded.coded = std::make_shared<const codec::CodedImages>(encode::encode_dense(
         object.coded, [&](int view) { return waves(options.width, options.height, view, fills); }, settings));
     for (PlanarImage& image : object.coded.images) image = {};
