@@ -91,7 +91,7 @@ show_toon() {
   step "toon: trace 48 pictures" "$OUT/blocks-toon-set" "$BIN/rs-capture" synth datasets-synthetic/recipes/blocks-toon.json \
     -o "$OUT/blocks-toon-set" --views 48 --size 224x224 --spp 4 -q
   step "toon: encode" "$OUT/blocks-toon.rso" "$BIN/rs-encode" build "$OUT/blocks-toon-set" -o "$OUT/blocks-toon.rso" -q
-  step "toon: in the shop" "$OUT/showroom-toon.png" "$BIN/rs-view" "$world/showroom.wrl" --viewpoint table \
+  step "toon: in the shop" "$OUT/showroom-toon.png" "$BIN/rs-view" render "$world/showroom.wrl" --viewpoint table \
     --object "$OUT/blocks-toon.rso@-1.3,0.8,4.05,-10,0.15" --size 800x450 -o "$OUT/showroom-toon.png"
 }
 
@@ -105,13 +105,13 @@ show_room() {
   step "showroom: build the rooms" "$world" "$BIN/rs-showroom" -o "$world"
   for view in shop museum; do
     step "showroom: $view" "$OUT/showroom-$view.png" \
-      "$BIN/rs-view" "$world/showroom.wrl" --viewpoint "$view" -o "$OUT/showroom-$view.png"
+      "$BIN/rs-view" render "$world/showroom.wrl" --viewpoint "$view" -o "$OUT/showroom-$view.png"
   done
-  step "showroom: evening, traced" "$OUT/showroom-evening.png" "$BIN/rs-view" "$world/showroom.wrl" --viewpoint table \
+  step "showroom: evening, traced" "$OUT/showroom-evening.png" "$BIN/rs-view" render "$world/showroom.wrl" --viewpoint table \
     --lights "$world/evening.json" --exposure 3 --renderer radiosity --passes 4 --size 800x450 -o "$OUT/showroom-evening.png"
-  step "showroom: quilt" "$OUT/showroom_qs5x9a0.75.png" "$BIN/rs-view" "$world/showroom.wrl" --viewpoint table --quilt 5x9 \
+  step "showroom: quilt" "$OUT/showroom_qs5x9a0.75.png" "$BIN/rs-view" quilt "$world/showroom.wrl" --viewpoint table --layout 5x9 \
     -o "$OUT/showroom.png"
-  step "showroom: walk" "$OUT/showroom-walk.mp4" "$BIN/rs-view" "$world/showroom.wrl" \
+  step "showroom: walk" "$OUT/showroom-walk.mp4" "$BIN/rs-view" render "$world/showroom.wrl" \
     --path "$world/showroom-walk.json" --size "$WALK_SIZE" --upright -o "$OUT/showroom-walk.mp4"
 }
 
@@ -120,13 +120,13 @@ show_street() {
   local look pictures=() picture folder
   step "street: by day" "$OUT/town" "$BIN/rs-street" -o "$OUT/town" --objects ..
   step "street: by night" "$OUT/town-night" "$BIN/rs-street" -o "$OUT/town-night" --time night --objects ..
-  step "street: ten seconds" "$OUT/street.mp4" "$BIN/rs-view" --sequence "$OUT/town" --size "$STREET_SIZE" --upright -o "$OUT/street.mp4"
+  step "street: ten seconds" "$OUT/street.mp4" "$BIN/rs-view" sequence "$OUT/town" --size "$STREET_SIZE" --upright -o "$OUT/street.mp4"
   for look in town:fair town:rain town:snow town:fog town-night:fair town-night:rain; do
     folder=${look%%:*}
     picture=$OUT/street-${look/:/-}.png
     local weather=()
     [ "${look##*:}" = fair ] || weather=(--weather "${look##*:}")
-    "$BIN/rs-view" --sequence "$OUT/$folder" "${weather[@]}" --frame 130 --size "$STREET_SIZE" -o "$picture"
+    "$BIN/rs-view" sequence "$OUT/$folder" "${weather[@]}" --frame 130 --size "$STREET_SIZE" -o "$picture"
     pictures+=("$picture")
   done
   step "street: contact sheet" "$OUT/street-sheet.jpg" oiiotool "${pictures[@]}" --mosaic:pad=8 3x2 -o "$OUT/street-sheet.jpg"
@@ -140,7 +140,7 @@ if [ -n "$PHOTOS" ]; then
   [ -d "$PHOTOS" ] || NAME=${NAME%.*}
   step "$NAME: import photographs" "$OUT/$NAME-set" "$BIN/rs-capture" import "$PHOTOS" -o "$OUT/$NAME-set" "$@"
   from_set "$NAME"
-  step "on a floor" "$OUT/$NAME-floor.png" "$BIN/rs-view" --object "$OUT/$NAME.rso" -o "$OUT/$NAME-floor.png"
+  step "on a floor" "$OUT/$NAME-floor.png" "$BIN/rs-view" render --object "$OUT/$NAME.rso" -o "$OUT/$NAME-floor.png"
   LOOK="the contact sheet, the orbit video and $NAME-floor.png"
 else
   for name in $OBJECTS; do

@@ -6,11 +6,10 @@ BUILD_PACKAGES=(
   libopencv-dev libopenimageio-dev openimageio-tools libglm-dev libceres-dev libembree-dev libassimp-dev libcli11-dev
   nlohmann-json3-dev libtbb-dev libhwy-dev libepoxy-dev libegl-dev libgl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
   libavcodec-dev libavformat-dev libswscale-dev libxxhash-dev libzstd-dev liblcms2-dev libcoin-dev zlib1g-dev libexpat1-dev libglfw3-dev libimgui-dev libasio-dev
-  libopenmpi-dev openmpi-bin
 )
 # shellcheck disable=SC2034  # used by the scripts that source this file
 TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-14 shellcheck xvfb
-  dpkg-dev pybind11-dev python3-dev python3-numpy)
+  dpkg-dev pybind11-dev python3-dev python3-numpy python3-opencv snakemake doxygen help2man)
 # shellcheck disable=SC2034
 CLANG_PACKAGES=(clang-14 libclang-rt-14-dev llvm)  # for sanitizers, whose traces llvm names, and fuzzing
 # shellcheck disable=SC2034

@@ -1,9 +1,8 @@
 #pragma once
-// The procedural objects: made by code alone, from a name, parameters and a seed, the same bits on every machine.
+// Procedural objects, generated from a name, parameters and a seed, bit-identical on every machine.
 //
-// An object's bounding box is centred on the origin and its farthest vertex is at distance 1; Y is up. It comes without
-// lights and environment: a recipe (recipes/NAME.json) adds those. The parameters of each stand at the head of its
-// header (vase.hpp ...).
+// An object's bounding box is centred on the origin and its farthest vertex is at distance 1; Y is up. Recipes
+// (recipes/NAME.json) add lights and environment. The parameters are documented in each object's header (vase.hpp ...).
 
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
@@ -16,12 +15,13 @@
 
 namespace rs::synthetic {
 
-// In the order in which they should be listed.
+/// Names of all objects, in display order.
 std::vector<std::string> object_names();
 
-// `parameters` is a JSON object (or null: all defaults). Fails for a name that object_names() does not list, and for a
-// parameter that the object does not have or whose value is out of range; the message lists what there is. Thread-safe.
-// Takes 0.1 to 2 s.
+/// Generates an object. Thread-safe. Takes 0.1 to 2 s.
+/// \param name one of object_names()
+/// \param parameters a JSON object, or null for all defaults
+/// \return an error for an unknown name or parameter, or a value out of range; the message lists the valid ones
 Result<capture::Scene> generate(const std::string& name, const nlohmann::json& parameters, std::uint64_t seed);
 
 }  // namespace rs::synthetic

@@ -35,18 +35,18 @@ Rig in_object_radii(Rig rig) {
     return rig;
 }
 
-// In q20 of object radii; nothing where it is so far away that it can only be a mistake.
+// The ground height in object radii, q20; nullopt if it is implausibly far away.
 std::optional<std::int32_t> foot_of(const Rig& rig) {
-    constexpr double kMost_radii = 128;
+    constexpr double kMaxHeight_radii = 128;
     if (!rig.foot_height) return std::nullopt;
     const double foot = *rig.foot_height / rig.object_radius;
-    if (!(std::abs(foot) <= kMost_radii)) return std::nullopt;
+    if (!(std::abs(foot) <= kMaxHeight_radii)) return std::nullopt;
     return static_cast<std::int32_t>(std::lround(std::ldexp(foot, 20)));
 }
 
 Status read_all_images(const CaptureSet& set, RaySpaceObject& object, Progress* progress) {
     const int count = static_cast<int>(set.upright.views.size());
-    return for_each_in_parallel(count, "pictures", progress, [&](int i) -> Status {
+    return for_each_in_parallel(count, "images", progress, [&](int i) -> Status {
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, read_upright_image(set, i));
         object.images[static_cast<std::size_t>(i)] = planar_from_rgba(image);
         return {};
@@ -59,7 +59,7 @@ std::string to_string(MapKind kind) {
     return kind == MapKind::kPlane ? "plane" : "shape";
 }
 
-std::optional<MapKind> map_kind_from(const std::string& name) {
+std::optional<MapKind> parse_map_kind(const std::string& name) {
     for (const MapKind kind : {MapKind::kPlane, MapKind::kShape}) {
         if (name == to_string(kind)) return kind;
     }
@@ -101,14 +101,14 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
         if (cells > 0 && cells < 2) {
             built.warnings.push_back(
                 "the RS map has fewer than 2 cells of u between neighbouring views, so a captured "
-                "pose may be answered by a neighbour; give --cells more cells of u");
+                "pose may show a neighbouring view; increase the cells of u (--cells)");
         }
         if (progress != nullptr) progress->advance();
     }
     if (progress != nullptr) progress->finish();
     if (rings.size() > 1) {
         built.warnings.push_back("the cameras form " + std::to_string(rings.size()) +
-                                 " rings of different elevation; the nearest ring answers a view");
+                                 " rings of different elevation; each view is rendered from the nearest ring");
     }
     object.images.resize(object.views.size());
     const bool has_shape = options.raymap == MapKind::kShape;
@@ -116,7 +116,7 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
         RS_TRY(read_all_images(set, object, progress));
     }
     if (has_shape) {
-        RS_ASSIGN_OR_RETURN(FoundShapes shapes,
+        RS_ASSIGN_OR_RETURN(ShapeMapOutput shapes,
                             add_shape_maps(set, rig, rings, options.shape, options.raw_images, object, progress));
         built.warnings.insert(built.warnings.end(), shapes.warnings.begin(), shapes.warnings.end());
         built.depths = std::move(shapes.samples);

@@ -1,5 +1,5 @@
 #pragma once
-// From a capture set to a ray-space object.
+// Builds a ray-space object from a capture set.
 
 #include "encode/raymap/plane_map.hpp"
 #include "encode/raymap/shape_map.hpp"
@@ -15,37 +15,38 @@
 namespace rs::encode {
 
 enum class MapKind {
-    kPlane,  // the paper's: the object is taken to lie on the reference planes, the nearest ray answers
-    kShape,  // with a depth for every ray, found from the images; two neighbouring images are blended
+    kPlane,  // as in the paper: the object is assumed to lie on the reference planes; the nearest ray is shown
+    kShape,  // with a depth for every ray, estimated from the photos; two neighbouring photos are blended
 };
 
-// What `--raymap` calls them: "plane" and "shape".
+/// The names used by `--raymap`: "plane" and "shape".
 std::string to_string(MapKind kind);
-std::optional<MapKind> map_kind_from(const std::string& name);
+std::optional<MapKind> parse_map_kind(const std::string& name);
 
-// The plane map that goes with each kind: beside a shape map it answers only what the shape does not know, so it is
-// coarser.
+/// The default plane map of each kind. Beside a shape map it is coarser, since it only fills the rays without a
+/// surface.
 PlaneMapOptions usual_plane_map(MapKind kind);
 
 struct BuildOptions {
     PlaneMapOptions map;
-    std::string name;  // of the object; the set's folder name where empty
+    std::string name;  // object name; if empty, the name of the set's folder
     MapKind raymap = MapKind::kShape;
     ShapeOptions shape = {};
-    bool raw_images = true;  // else the object's images stay empty: encode/codec makes coded ones
+    bool raw_images = true;  // false: the object's images stay empty, for encode/codec to add coded ones
 };
 
 struct BuiltObject {
     RaySpaceObject object;
-    std::vector<std::string> warnings;  // one line each: what a user may change
-    std::vector<FoundDepth> depths;     // of a few views, where there is a shape map
-    CompletedImages completed;          // for CaptureSet::completed before encode_images()
+    std::vector<std::string> warnings;  // one line each, with a remedy
+    std::vector<DepthPreview> depths;   // of a few views, if there is a shape map
+    CompletedImages completed;          // to be assigned to CaptureSet::completed before encode_images()
 };
 
-// Memory: the stored images (2.5 bytes a pixel), the map (2 bytes a cell), and one decoded image per thread.
+/// Builds the object. Memory: the stored images (2.5 bytes per pixel), the map (2 bytes per cell), and one decoded
+/// image per thread.
 Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& options, Progress* progress = nullptr);
 
-// The stored images and their rig, as a capture set under `folder`: what the object knows, bit for bit.
+/// Writes the stored images and their rig as a capture set to `folder`, without loss.
 Status extract_images(const RaySpaceObject& object, const std::filesystem::path& folder, Progress* progress = nullptr);
 
 }  // namespace rs::encode

@@ -1,13 +1,13 @@
 #pragma once
-// The text of a rig as an object holds it: what it states to nine digits, in few bytes. A millionth of a pixel is far
-// below what a calibration knows, and the text weighs as much as an image.
+// Compacts the JSON text of a rig for storage: numbers keep nine significant digits. A millionth of a pixel is far
+// below the accuracy of a calibration, and the full text is as large as an image.
 
 #include <string>
 
 namespace rs::encode {
 
-// `text` must be JSON. The same object without white space, its fractions rounded to nine significant digits; keys keep
-// their order.
+/// Removes white space and rounds fractions to nine significant digits. Keys keep their order. `text` must be valid
+/// JSON.
 std::string compact_json(const std::string& text);
 
 }  // namespace rs::encode

@@ -15,7 +15,7 @@
 namespace rs::encode {
 namespace {
 
-// Steps are searched on the quantiser's own scale, eight to a doubling.
+// Steps are searched on the quantiser's scale, eight per doubling.
 constexpr int kFinest = 0;
 constexpr int kCoarsest = 60;
 
@@ -23,9 +23,9 @@ double step_of_index(int index) {
     return std::exp2(index / 8.0);
 }
 
-// At full size; wider than the rims of cut-outs are soft.
+// At full size; wider than the soft edges of alpha mattes.
 constexpr int kSoftRadius_px = 6;
-// Of what images show, from which on steps of alpha are seen as contour lines.
+// Share of the visible pixels in soft regions from which on few alpha levels would show as contour lines.
 constexpr double kSoftShare = .01;
 constexpr int kSoftAlphaBits = 6;
 
@@ -33,9 +33,10 @@ double soft_share(const std::vector<SourceImage>& sources) {
     std::atomic<std::int64_t> soft = 0;
     std::atomic<std::int64_t> shown = 0;
     for_each_index(sources.size(), [&](std::size_t v) {
-        const Image<std::uint8_t> patches = soft_patches(sources[v].coverage, kSoftRadius_px);
+        const Image<std::uint8_t> patches = find_soft_patches(sources[v].coverage, kSoftRadius_px);
         soft += std::ranges::count(patches.pixels(), 255);
-        shown += std::ranges::count_if(sources[v].coverage.pixels(), [](int alpha) { return alpha >= kFaintest; });
+        shown +=
+            std::ranges::count_if(sources[v].coverage.pixels(), [](int alpha) { return alpha >= kMinVisibleAlpha; });
     });
     return static_cast<double>(soft) / static_cast<double>(std::max<std::int64_t>(shown, 1));
 }
@@ -46,7 +47,7 @@ std::string text_of(double value) {
     return text;
 }
 
-// Finds the coarsest step that reaches a fidelity, or the finest one that keeps to a size.
+// Finds the coarsest step that reaches a fidelity, or the finest one within a size.
 class GoalSearch {
 public:
     GoalSearch(const RaySpaceObject& object, std::vector<SourceImage>& sources, const ImageGoal& goal,
@@ -76,31 +77,30 @@ public:
 
     Result<EncodedImages> for_psnr(double psnr_db) {
         wanted_db_ = psnr_db;
-        // A decibel is some 1.6 steps of the scale.
+        // One decibel is about 1.6 steps of the scale.
         const auto reached = [&](const EncodedImages& e) { return e.psnr_db >= psnr_db; };
         const auto off = [&](const EncodedImages& e) { return 1.6 * (e.psnr_db - psnr_db); };
         Result<EncodedImages> best = search(reached, off);
         if (best) return best;
         return Error{"--psnr " + text_of(psnr_db) + ": the finest quantiser reaches " + text_of(reached_db_) +
-                     " dB; ask for that or less, or give --profile " +
+                     " dB; request at most that, or use --profile " +
                      (profile_ == codec::Profile::kBoard ? "dense" : "raw")};
     }
 
     Result<EncodedImages> for_size(std::uint64_t bytes) {
-        // A doubling of the step takes some two thirds of the bytes away: reaching means here to need more than
-        // allowed.
-        const auto too_large = [&](const EncodedImages& e) { return coded_bytes(e.coded) > bytes; };
+        // Doubling the step removes about two thirds of the bytes. `too_large` is the monotonic condition here.
+        const auto too_large = [&](const EncodedImages& e) { return count_coded_bytes(e.coded) > bytes; };
         const auto off = [&](const EncodedImages& e) {
-            return 6 * std::log2(static_cast<double>(coded_bytes(e.coded)) /
+            return 6 * std::log2(static_cast<double>(count_coded_bytes(e.coded)) /
                                  static_cast<double>(std::max<std::uint64_t>(bytes, 1)));
         };
-        // The coarsest that is too large; the next one is not.
+        // The coarsest step that is too large; the next one is within the limit.
         const Result<EncodedImages> last = search(too_large, off);
         const int next = last ? found_ + 1 : kFinest;
         if (next > kCoarsest) {
-            return Error{"--size: the images take " + std::to_string(coded_bytes(last->coded)) +
-                         " bytes with the coarsest quantiser, which leaves more than the " + std::to_string(bytes) +
-                         " allowed; take fewer or smaller images"};
+            return Error{"--size: the images take " + std::to_string(count_coded_bytes(last->coded)) +
+                         " bytes with the coarsest quantiser, more than the " + std::to_string(bytes) +
+                         " allowed; use fewer or smaller images"};
         }
         return take(next);
     }
@@ -111,12 +111,12 @@ private:
         for_each_index(sources_.size(), [&](std::size_t v) { set_alpha_bits(sources_[v], alpha_bits); });
     }
 
-    // The coarsest step for which `holds`, which holds below some step and not above it; `off`: by how many steps of
-    // the scale one seems to be too fine (above 0) or too coarse.
+    // Searches for the coarsest step for which `holds`, which is monotonic: true for fine steps, false for coarse ones.
+    // `off`: the estimated distance in steps, above 0 if a step is too fine.
     template <class Holds, class Off>
     Result<EncodedImages> search(const Holds& holds, const Off& off) {
-        int low = kFinest - 1;     // holds, as far as is known
-        int high = kCoarsest + 1;  // does not
+        int low = kFinest - 1;     // coarsest step known to hold
+        int high = kCoarsest + 1;  // finest step known not to hold
         int index = 28;
         while (high - low > 1) {
             index = std::clamp(index, low + 1, high - 1);
@@ -150,7 +150,7 @@ private:
     int effort_;
     std::optional<int> alpha_bits_;
     double wanted_db_ = 0;  // 0: no fidelity is requested
-    int source_bits_ = 0;   // those that the sources have now
+    int source_bits_ = 0;   // current alpha bits of the sources
     Progress* progress_;
     std::map<int, EncodedImages> tried_;
     double reached_db_ = 0;
@@ -159,11 +159,11 @@ private:
 
 }  // namespace
 
-double step_of_quality(double quality) {
+double quantiser_step_of_quality(double quality) {
     return 2 * std::exp2((kMaxQuality - quality) / 14);
 }
 
-std::uint64_t coded_bytes(const codec::CodedImages& coded) {
+std::uint64_t count_coded_bytes(const codec::CodedImages& coded) {
     std::uint64_t bytes = codec::code_payload(coded).size();
     for (std::size_t v = 0; v < coded.images.size(); ++v) bytes += codec::coded_image_payload(coded, v).size();
     return bytes;
@@ -172,7 +172,7 @@ std::uint64_t coded_bytes(const codec::CodedImages& coded) {
 Result<EncodedImages> encode_images(const CaptureSet& set, const RaySpaceObject& object, const ImageGoal& goal,
                                     std::optional<int> alpha_bits, Progress* progress) {
     std::vector<SourceImage> sources(object.views.size());
-    RS_TRY(for_each_in_parallel(static_cast<int>(sources.size()), "pictures", progress, [&](int view) -> Status {
+    RS_TRY(for_each_in_parallel(static_cast<int>(sources.size()), "images", progress, [&](int view) -> Status {
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, read_upright_image(set, view));
         sources[static_cast<std::size_t>(view)] = source_image(image, alpha_bits.value_or(2));
         return {};
@@ -183,7 +183,7 @@ Result<EncodedImages> encode_images(const CaptureSet& set, const RaySpaceObject&
     GoalSearch search(object, sources, goal, alpha_bits, progress);
     if (goal.images_bytes) return search.for_size(*goal.images_bytes);
     if (goal.psnr_db) return search.for_psnr(*goal.psnr_db);
-    return search.at_step(step_of_quality(goal.quality));
+    return search.at_step(quantiser_step_of_quality(goal.quality));
 }
 
 }  // namespace rs::encode

@@ -9,7 +9,7 @@ namespace rs::encode {
 
 Status extract_images(const RaySpaceObject& object, const std::filesystem::path& folder, Progress* progress) {
     if (object.rig_json.empty()) {
-        return Error{object.name + ": holds no rig, so its images make no capture set; encode it again"};
+        return Error{object.name + ": contains no rig, which a capture set needs; encode the object again"};
     }
     RS_ASSIGN_OR_RETURN(Rig rig, rig_from_json(object.rig_json, object.name + " (its rig)"));
     if (rig.views.size() != object.images.size()) {
@@ -23,12 +23,12 @@ Status extract_images(const RaySpaceObject& object, const std::filesystem::path&
         rig.views[static_cast<std::size_t>(i)].file_path = numbered_image_name(static_cast<std::size_t>(i));
         rig.views[static_cast<std::size_t>(i)].depth_file_path.clear();
     }
-    Status written = for_each_in_parallel(count, "pictures", progress, [&](int i) {
+    Status written = for_each_in_parallel(count, "images", progress, [&](int i) {
         const auto n = static_cast<std::size_t>(i);
         return write_png(staged.temporary_path() / rig.views[n].file_path, rgba_from_planar(object.images[n]));
     });
     if (!written) return written;
-    if (Status status = write_rig(staged.temporary_path() / kRigFileName, rig); !status) return status;
+    RS_TRY(write_rig(staged.temporary_path() / kRigFileName, rig));
     return staged.commit();
 }
 

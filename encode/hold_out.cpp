@@ -34,7 +34,7 @@ Result<int> parse_hold_out(const std::string& text) {
         const bool ordinal = ending == "st" || ending == "nd" || ending == "rd" || ending == "th";
         if (error == std::errc{} && ordinal && every >= 2) return every;
     }
-    return Error{"--hold-out " + text + ": give every-2nd, every-3rd, every-4th or so on"};
+    return Error{"--hold-out " + text + ": is not every-Nth; use every-2nd, every-3rd and so on"};
 }
 
 Result<HoldOut> choose_hold_out(const Rig& rig, int every, const std::string& where) {
@@ -67,7 +67,7 @@ int nearest_kept_view(const Rig& rig, const HoldOut& hold_out, int view) {
         return std::abs(a.elevation_rad - elevation) < std::abs(b.elevation_rad - elevation);
     });
 
-    // Halfway views are the rule here: rounding must not choose between their two neighbours.
+    // Held-out views are usually halfway between two kept ones; rounding errors must not choose between these.
     constexpr double kSame_rad = 1e-9;
     const double azimuth = azimuth_rad(rig, view);
     int nearest = -1;

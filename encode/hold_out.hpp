@@ -1,5 +1,5 @@
 #pragma once
-// Which views of a capture set are kept for building an object, and which are held out to score it with.
+// Splits the views of a capture set into kept views, used to build an object, and held-out views, used to score it.
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/rig.hpp"
@@ -9,7 +9,7 @@
 
 namespace rs::encode {
 
-// How near the answers to held-out views came to the true images, for one way of answering.
+// Quality of one method's rendering of a held-out view.
 
 struct HeldOutScore {
     int view = 0;        // index in the rig of the whole set
@@ -24,7 +24,7 @@ struct MethodScores {
     double mean_psnr_db = 0;    // mean over views of the views' dB
     double pooled_psnr_db = 0;  // dB of all views' object pixels taken together
     double mean_ssim = 0;
-    double build_seconds = 0;  // making the object from the kept views, reading their images included
+    double build_seconds = 0;  // building the object from the kept views, including reading their images
 };
 
 struct HoldOut {
@@ -32,16 +32,17 @@ struct HoldOut {
     std::vector<int> held;  // ascending; no view is in both
 };
 
-// N of "every-Nth" ("every-2nd", "every-3rd", "every-10th"; the ending of the ordinal is not looked at), N >= 2.
+/// Parses "every-Nth" ("every-2nd", "every-3rd", "every-10th"; the ordinal's ending is not checked), N >= 2.
 Result<int> parse_hold_out(const std::string& text);
 
-// Each ring is cut, in turning order, into runs of `every` (>= 2) consecutive views; of each run the view at index
-// every / 2 is held out, so that its neighbours are kept. An incomplete last run may keep all of its views. Fails where
-// less than two views of the rig would be kept or none held out; `where` names the set in the error.
+/// Divides each ring, in turning order, into runs of `every` (>= 2) consecutive views. The view at index every / 2 of
+/// each run is held out, so that its neighbours are kept. All views of an incomplete last run may be kept. Fails if
+/// fewer than two views of the rig would be kept, or none held out.
+/// \param where  name of the set for errors.
 Result<HoldOut> choose_hold_out(const Rig& rig, int every, const std::string& where);
 
-// The kept view that a spin viewer would show for `view`: of the kept ring nearest in elevation the view nearest in
-// azimuth; of two that are equally near the first in turning order.
+/// The kept view that a spin viewer would show for `view`: the view nearest in azimuth of the kept ring nearest in
+/// elevation; of two equally near views, the first in turning order.
 int nearest_kept_view(const Rig& rig, const HoldOut& hold_out, int view);
 
 }  // namespace rs::encode

@@ -160,7 +160,7 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
     intake.survey = Survey{};  // frees memory; the survey is not needed any more
 
     const ForegroundCache foregrounds(cut, intake.folder.width, intake.folder.height);
-    RS_ASSIGN_OR_RETURN(SegmentedTurn turn, segment_turn(intake.folder, chosen->segmenter, foregrounds, progress,
+    RS_ASSIGN_OR_RETURN(SegmentedTurn turn, segment_turn(intake.folder, *chosen.segmenter, foregrounds, progress,
                                                          options.segmentation.parameters.foreground));
     chosen.segmenter.reset();
     SegmentationFindings findings =

@@ -15,7 +15,7 @@
 #include "capture/photos/segmentation/segmenter_choice.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
-#include "rayspace/image_io/photograph_size.hpp"
+#include "rayspace/image_io/photo_size.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -26,7 +26,7 @@ const char* const kAsPhotosExamples = R"(
 std::vector<std::filesystem::path> input_files(const AsPhotosOptions& options) {
     std::vector<std::filesystem::path> files;
     if (!options.photos.board.empty()) files.push_back(options.photos.board);
-    if (!is_made_backdrop(options.photos.backdrop)) files.emplace_back(options.photos.backdrop);
+    if (!is_procedural_backdrop(options.photos.backdrop)) files.emplace_back(options.photos.backdrop);
     return files;
 }
 

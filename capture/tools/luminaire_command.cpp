@@ -104,7 +104,7 @@ Status run_luminaire(const LuminaireCommandLine& given) {
     }
     std::printf("%s: %s, type %s: %s\n", given.file.string().c_str(), lamp.format.c_str(), name_of(lamp.type),
                 title.c_str());
-    std::printf("  %s; by zones %.2f lm\n", lumens_linelamp.c_str(), lamp.web.zonal_lumens());
+    std::printf("  %s; by zones %.2f lm\n", lumens_line(lamp).c_str(), lamp.web.zonal_lumens());
     std::printf("  beam %.1f x %.1f degrees, field %.1f x %.1f (planes 0-180, 90-270)\n",
                 degrees(spreads.across.beam_rad), degrees(spreads.along.beam_rad), degrees(spreads.across.field_rad),
                 degrees(spreads.along.field_rad));

@@ -10,7 +10,7 @@ namespace rs::compositor {
 namespace {
 
 constexpr double kCentimetre_m = 0.01;
-constexpr double kMostTrackedTurn_deg = 36000;
+constexpr double kMaxTrackedTurn_deg = 36000;
 
 }  // namespace
 
@@ -25,9 +25,9 @@ Result<Head> head_from_datagram(std::span<const std::byte> bytes) {
     for (double& number : numbers) number = reader.get_double();
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         static constexpr std::array<const char*, 6> kNames{"x", "y", "z", "yaw", "pitch", "roll"};
-        if (!std::isfinite(numbers[i])) return Error{std::string("has a ") + kNames[i] + " that is no finite number"};
+        if (!std::isfinite(numbers[i])) return Error{std::string("has a ") + kNames[i] + " that is not finite"};
         const bool is_length = i < 3;
-        if (std::abs(numbers[i]) <= (is_length ? kFarthestTrackedHead_m / kCentimetre_m : kMostTrackedTurn_deg))
+        if (std::abs(numbers[i]) <= (is_length ? kFarthestTrackedHead_m / kCentimetre_m : kMaxTrackedTurn_deg))
             continue;
         return Error{std::string("has a ") + kNames[i] +
                      (is_length ? " beyond 100 m; it must be in centimetres" : " beyond a hundred turns")};

@@ -16,11 +16,11 @@ namespace rs::compositor {
 namespace {
 
 constexpr std::string_view kScheme = "udp:";
-// Of one call, so that a flood of datagrams stops no frame; the system keeps fewer by itself.
-constexpr int kMostAtOnce = 4096;
-// More than a head has, so that what is longer is seen to be.
-constexpr std::size_t kLongest_bytes = 512;
-static_assert(kLongest_bytes > kHeadDatagram_bytes);
+// Datagrams read per call, so that a flood cannot stop the frames.
+constexpr int kMaxDatagramsPerCall = 4096;
+// Longer than a head, so that longer datagrams are detected.
+constexpr std::size_t kMaxDatagram_bytes = 512;
+static_assert(kMaxDatagram_bytes > kHeadDatagram_bytes);
 
 Error cannot_listen(const UdpPlace& place, const asio::error_code& why) {
     std::string remedy = "give another port or address";
@@ -79,15 +79,15 @@ Result<HeadReceiver> HeadReceiver::listen(const UdpPlace& place) {
     asio::error_code failed;
     const asio::ip::address address = asio::ip::make_address(place.address, failed);
     if (failed) return Error{printable(place.text()) + ": has no IPv4 or IPv6 address"};
-    const asio::ip::udp::endpoint here(address, place.port);
+    const asio::ip::udp::endpoint local(address, place.port);
     std::unique_ptr<Socket> socket;
     try {
         socket = std::make_unique<Socket>();
-    } catch (const std::system_error& no_context) {
-        return cannot_listen(place, no_context.code());
+    } catch (const std::system_error& error) {
+        return cannot_listen(place, error.code());
     }
-    socket->udp.open(here.protocol(), failed);
-    if (!failed) socket->udp.bind(here, failed);
+    socket->udp.open(local.protocol(), failed);
+    if (!failed) socket->udp.bind(local, failed);
     if (!failed) socket->udp.non_blocking(true, failed);
     UdpPlace got = place;
     if (!failed) got.port = socket->udp.local_endpoint(failed).port();
@@ -97,8 +97,8 @@ Result<HeadReceiver> HeadReceiver::listen(const UdpPlace& place) {
 
 std::optional<Head> HeadReceiver::newest() {
     std::optional<Head> newest;
-    std::array<std::byte, kLongest_bytes> bytes{};
-    for (int i = 0; i < kMostAtOnce; ++i) {
+    std::array<std::byte, kMaxDatagram_bytes> bytes{};
+    for (int i = 0; i < kMaxDatagramsPerCall; ++i) {
         asio::error_code failed;
         asio::ip::udp::endpoint sender;
         const std::size_t size = socket_->udp.receive_from(asio::buffer(bytes.data(), bytes.size()), sender, 0, failed);

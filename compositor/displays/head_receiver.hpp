@@ -1,9 +1,9 @@
 #pragma once
-// Heads that come over UDP (head_datagram.hpp): the newest one counts, for an image shows where the head is now.
+// Receives head poses over UDP (head_datagram.hpp). Only the newest is used, since a frame shows the current pose.
 //
-//     tracker ──► socket ──► datagrams that wait ──► the newest that is a head
+//     tracker ──► socket ──► pending datagrams ──► newest valid head pose
 //
-// Standalone Asio (libasio-dev, headers only) is the socket. For one thread at a time.
+// Uses standalone Asio (libasio-dev, header-only). Single-threaded.
 
 #include "compositor/displays/wall.hpp"
 #include "rayspace/base/result.hpp"
@@ -15,35 +15,36 @@
 
 namespace rs::compositor {
 
-// Where datagrams are awaited.
+/// Local address to receive datagrams at.
 struct UdpPlace {
-    std::string address = "127.0.0.1";  // of this machine: IPv4 or IPv6; 0.0.0.0 and ::, all that it has
-    std::uint16_t port = 0;             // 0: one that is free
+    std::string address = "127.0.0.1";  // local IPv4 or IPv6 address; 0.0.0.0 and :: stand for all
+    std::uint16_t port = 0;             // 0: any free port
 
     [[nodiscard]] std::string text() const;  // udp:ADDRESS:PORT
 };
 
-// "udp:PORT", "udp:ADDRESS:PORT", "udp:[ADDRESS]:PORT", ports 1..65535. names_udp_port(): whether that is meant at all.
+/// Accepts "udp:PORT", "udp:ADDRESS:PORT", "udp:[ADDRESS]:PORT", ports 1..65535. is_udp_endpoint() only checks the
+/// scheme.
 bool names_udp_port(const std::string& text);
 Result<UdpPlace> udp_place_from(const std::string& text);
 
 class HeadReceiver {
 public:
-    // Fails where the address is not this machine's, and where the port is taken or not allowed.
+    /// Fails if the address is not local, or the port is in use or not permitted.
     static Result<HeadReceiver> listen(const UdpPlace& place);
     HeadReceiver(HeadReceiver&&) noexcept;
     HeadReceiver& operator=(HeadReceiver&&) noexcept;
     ~HeadReceiver();
 
-    // The head of the newest datagram since the last call that is one, in the axes of the tracker; does not wait.
+    /// Newest valid head pose since the last call, in the tracker's axes; does not block.
     std::optional<Head> newest();
-    // The same, but waits for one; nothing after that many seconds.
+    /// Same, but waits for a datagram for at most `seconds`.
     std::optional<Head> wait_for_newest(double seconds);
 
-    [[nodiscard]] const UdpPlace& place() const { return place_; }     // with the port that it has got
-    [[nodiscard]] std::int64_t received() const { return received_; }  // datagrams, with those that are no heads
+    [[nodiscard]] const UdpPlace& place() const { return place_; }     // with the actual port
+    [[nodiscard]] std::int64_t received() const { return received_; }  // number of datagrams, invalid ones included
     [[nodiscard]] std::int64_t dropped() const { return dropped_; }
-    // What was wrong with the first of those that were dropped; empty while there are none.
+    /// Fault of the first invalid datagram; empty if none.
     [[nodiscard]] const std::string& first_fault() const { return first_fault_; }
 
 private:

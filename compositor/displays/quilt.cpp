@@ -20,8 +20,8 @@ Result<QuiltLayout> parse_quilt(const std::string& text, int tile_width, int til
     if (!has_x || rows.ec != std::errc{} || rows.ptr != end || layout.columns < 1 || layout.rows < 1) {
         return Error{option + " '" + printable(text) + "': must be COLUMNSxROWS, such as 5x9"};
     }
-    constexpr int kMostTiles = kMaxImageSide_px;
-    if (layout.columns > kMostTiles / tile_width || layout.rows > kMostTiles / tile_height) {
+    constexpr int kMaxTileCount = kMaxImageSide_px;
+    if (layout.columns > kMaxTileCount / tile_width || layout.rows > kMaxTileCount / tile_height) {
         return Error{option + " " + text + ": tiles of " + std::to_string(tile_width) + "x" +
                      std::to_string(tile_height) + " make an image of more than " + std::to_string(kMaxImageSide_px) +
                      " pixels across; take fewer or smaller ones"};
@@ -38,7 +38,7 @@ std::vector<Camera> quilt_cameras(const Camera& middle, const QuiltLayout& layou
         const double aside = focus * std::tan(share * cone_rad);
         Camera camera = middle;
         camera.world_from_camera[3] += aside * middle.world_from_camera[0];
-        // A point at depth `focus` moves to the left by aside * fl_x / focus: bring it back.
+        // A point at depth `focus` moves to the left by aside * fl_x / focus; the principal point compensates.
         camera.cx += aside * middle.fl_x / focus;
         cameras.push_back(camera);
     }

@@ -1,11 +1,10 @@
 #pragma once
-// Quilts: rows and columns of views of one scene in one image, the input of displays with horizontal parallax. The
-// eyes stand on a line to the right of each other, their frusta are sheared and share the plane of focus, which the
-// display shows at its own depth. Pure; thread-safe.
+// Quilts: a grid of views of one scene in one image, the input of displays with horizontal parallax. The eyes are on a
+// horizontal line; their frusta are sheared and share the focal plane, which the display shows at its own depth. Pure;
+// thread-safe.
 //
-// Order and name are those of Looking Glass displays: view 0, the leftmost eye, is the lower left tile, the next one is
-// to its right, the last is the upper right tile; "NAME_qs5x9a0.75.png" has 5 columns, 9 rows and tiles whose width
-// over height is 0.75.
+// Tile order and file names follow Looking Glass displays: view 0, the leftmost eye, is the lower left tile, then rows
+// to the right and upwards; "NAME_qs5x9a0.75.png" has 5 columns, 9 rows and tiles of aspect ratio 0.75.
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -28,18 +27,20 @@ struct QuiltLayout {
     [[nodiscard]] int height() const { return rows * tile_height; }
 };
 
-// "5x9". Refuses quilts of less than two views, and of sides beyond kMaxImageSide_px; `option` names it in errors.
+/// Parses "5x9". Fails for less than two views and for sides beyond kMaxImageSide_px.
+/// \param option option name for errors.
 Result<QuiltLayout> parse_quilt(const std::string& text, int tile_width, int tile_height, const std::string& option);
 
-// One camera for each view. The middle one's image has the size of a tile. The eyes spread over `cone_rad` (0..pi
-// without its ends) as seen from the point at the axial depth `focus` > 0 straight ahead of the middle one, and at that
-// depth every point has the same pixel in all views.
+/// One camera per view. At depth `focus` every point has the same pixel in all views.
+/// \param middle camera of the middle view, with the tile's image size.
+/// \param cone_rad angle between the outer eyes as seen from the focal point, 0 .. pi exclusive.
+/// \param focus axial depth of the focal plane, > 0.
 std::vector<Camera> quilt_cameras(const Camera& middle, const QuiltLayout& layout, double cone_rad, double focus);
 
-// Puts view number `view` where it belongs; the quilt is of the layout's size.
+/// Copies the tile of a view to its place; the quilt has the layout's size.
 void place_tile(const QuiltLayout& layout, int view, const Image<Rgba8>& tile, Image<Rgba8>& quilt);
 
-// With the layout in the name, where it is not there already: "shop.png" -> "shop_qs5x9a0.75.png".
+/// Appends the layout to the file name unless present: "shop.png" -> "shop_qs5x9a0.75.png".
 std::filesystem::path quilt_path(const std::filesystem::path& path, const QuiltLayout& layout);
 
 }  // namespace rs::compositor

@@ -8,8 +8,8 @@
 namespace rs::compositor {
 namespace {
 
-constexpr double kShortestSide_m = 1e-3;
-constexpr double kMostSkew = 1e-6;  // cosine of the angle between the sides
+constexpr double kMinSide_m = 1e-3;
+constexpr double kMaxSkew = 1e-6;  // cosine of the angle between the sides
 
 std::string metres(double length) {
     char text[32];
@@ -23,11 +23,11 @@ Status check_wall(const Wall& wall) {
     const glm::dvec3 across = wall.lower_right - wall.lower_left;
     const glm::dvec3 along = wall.upper_left - wall.lower_left;
     const std::string name = "wall '" + wall.name + "'";
-    if (!(glm::length(across) >= kShortestSide_m) || !(glm::length(along) >= kShortestSide_m)) {
+    if (!(glm::length(across) >= kMinSide_m) || !(glm::length(along) >= kMinSide_m)) {
         return Error{name + " has a side of less than 1 mm; give its corners in metres"};
     }
     const double skew = std::abs(glm::dot(glm::normalize(across), glm::normalize(along)));
-    if (!(skew <= kMostSkew)) {
+    if (!(skew <= kMaxSkew)) {
         return Error{name + " has no right angle at lower_left; its corners must make a rectangle"};
     }
     return {};
@@ -37,7 +37,7 @@ glm::dvec3 Head::right() const {
     const double sin_h = std::sin(heading_rad), cos_h = std::cos(heading_rad);
     const double sin_p = std::sin(pitch_rad);
     const glm::dvec3 level(cos_h, 0, -sin_h);
-    // Up of a head that is pitched but not rolled.
+    // Up vector of a head that is pitched but not rolled.
     const glm::dvec3 up(sin_h * sin_p, std::cos(pitch_rad), cos_h * sin_p);
     return std::cos(roll_rad) * level - std::sin(roll_rad) * up;
 }
@@ -52,7 +52,7 @@ glm::dvec3 RoomPlace::in_scene(const glm::dvec3& p_in_room) const {
 }
 
 RoomPlace place_of(const Camera& camera, const Head& head, double units_per_metre) {
-    // Where the camera looks straight up or down, up is what is ahead.
+    // A camera looking straight up or down has its heading from its up vector.
     glm::dvec3 ahead = camera.forward();
     if (std::hypot(ahead.x, ahead.z) < 1e-6) ahead = ahead.y < 0 ? camera.up() : -camera.up();
     RoomPlace place;
@@ -69,13 +69,13 @@ Result<Camera> wall_camera(const Wall& wall, const glm::dvec3& eye_in_room, cons
     const double width_m = glm::length(across);
     const double height_m = glm::length(along);
     const glm::dvec3 right = across / width_m;
-    // check_wall() lets a little skew pass; a camera's axes have none.
+    // check_wall() tolerates a slight skew; camera axes must be orthogonal.
     const glm::dvec3 up = glm::normalize(along - right * glm::dot(along, right));
     const glm::dvec3 back = glm::cross(right, up);
     const glm::dvec3 from_corner = eye_in_room - wall.lower_left;
     const double distance = glm::dot(from_corner, back);
-    if (!(distance >= kNearestEye_m)) {
-        const bool behind = distance <= -kNearestEye_m;
+    if (!(distance >= kMinEyeDistance_m)) {
+        const bool behind = distance <= -kMinEyeDistance_m;
         return Error{"an eye is " + (behind ? metres(-distance) + " behind" : std::string("in the plane of")) +
                      " wall '" + wall.name + "'; move the head to its front, or exchange its left and right corners"};
     }

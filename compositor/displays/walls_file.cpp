@@ -12,24 +12,24 @@
 namespace rs::compositor {
 namespace {
 
-constexpr std::uint64_t kMostWalls_bytes = std::uint64_t{4} << 20;
-constexpr std::uint64_t kMostHeads_bytes = std::uint64_t{64} << 20;
-constexpr std::size_t kMostWalls = 64;
-constexpr std::size_t kMostHeads = 100000;
-constexpr double kFarthest_m = 1e4;
-constexpr double kFarthestPlace = 1e6;  // scene units
-constexpr double kMostTurn_deg = 36000;
-constexpr double kFittedShare = 0.8;  // of the table's shorter side
+constexpr std::uint64_t kMaxWallsFile_bytes = std::uint64_t{4} << 20;
+constexpr std::uint64_t kMaxHeadsFile_bytes = std::uint64_t{64} << 20;
+constexpr std::size_t kMaxWalls = 64;
+constexpr std::size_t kMaxHeads = 100000;
+constexpr double kMaxWallCoordinate_m = 1e4;
+constexpr double kMaxRoomPosition = 1e6;  // scene units
+constexpr double kMaxTurn_deg = 36000;
+constexpr double kFitRatio = 0.8;  // fraction of the table's shorter side
 
 double angle(JsonObject& object, const char* key) {
-    return object.has(key) ? radians(object.take(key).number(-kMostTurn_deg, kMostTurn_deg)) : 0;
+    return object.has(key) ? radians(object.take(key).number(-kMaxTurn_deg, kMaxTurn_deg)) : 0;
 }
 
 glm::dvec3 corner(JsonObject& object, const char* key) {
-    return object.take(key).triple(-kFarthest_m, kFarthest_m);
+    return object.take(key).triple(-kMaxWallCoordinate_m, kMaxWallCoordinate_m);
 }
 
-// Fit for a file: letters, digits, '-', '_', '.', not at the beginning.
+// Valid in a file name: letters, digits, '-', '_', '.'; no leading '-' or '.'.
 bool is_file_name(const std::string& name) {
     return name.size() <= 64 && name.front() != '.' && name.front() != '-' &&
            std::all_of(name.begin(), name.end(), [](char c) {
@@ -79,7 +79,7 @@ Head take_tracker(JsonObject object) {
 
 RoomPlace take_place(JsonObject object) {
     RoomPlace place;
-    place.position = object.take("position").triple(-kFarthestPlace, kFarthestPlace);
+    place.position = object.take("position").triple(-kMaxRoomPosition, kMaxRoomPosition);
     place.heading_rad = angle(object, "heading_deg");
     object.expect_all_taken();
     return place;
@@ -131,7 +131,7 @@ Result<WallDisplay> walls_from_json(const std::string& text, const std::filesyst
     return read_json(text, path.string(), [](JsonObject& top) {
         WallDisplay display;
         const JsonValue walls = top.take("walls");
-        const std::size_t count = walls.list_size(1, kMostWalls);
+        const std::size_t count = walls.list_size(1, kMaxWalls);
         std::set<std::string> names;
         for (std::size_t i = 0; i < count; ++i) {
             display.walls.push_back(take_wall(JsonObject(walls.item(i))));
@@ -146,7 +146,7 @@ Result<WallDisplay> walls_from_json(const std::string& text, const std::filesyst
         top.read("fit_scene", display.fits_scene);
         if (top.has("place")) {
             const JsonValue place = top.take("place");
-            if (display.fits_scene) throw place.wrong("cannot stand beside \"fit_scene\": true; leave one out");
+            if (display.fits_scene) throw place.wrong("cannot be combined with \"fit_scene\": true; leave one out");
             display.place = take_place(JsonObject(place));
             display.place->units_per_metre = display.units_per_metre;
         }
@@ -155,14 +155,14 @@ Result<WallDisplay> walls_from_json(const std::string& text, const std::filesyst
 }
 
 Result<WallDisplay> read_walls(const std::filesystem::path& path) {
-    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMostWalls_bytes));
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMaxWallsFile_bytes));
     return walls_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 
 Result<std::vector<Head>> heads_from_json(const std::string& text, const std::filesystem::path& path) {
     return read_json(text, path.string(), [](JsonObject& top) {
         const JsonValue list = top.take("heads");
-        const std::size_t count = list.list_size(1, kMostHeads);
+        const std::size_t count = list.list_size(1, kMaxHeads);
         std::vector<Head> heads;
         for (std::size_t i = 0; i < count; ++i) heads.push_back(take_head(JsonObject(list.item(i))));
         return heads;
@@ -170,7 +170,7 @@ Result<std::vector<Head>> heads_from_json(const std::string& text, const std::fi
 }
 
 Result<std::vector<Head>> read_heads(const std::filesystem::path& path) {
-    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMostHeads_bytes));
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMaxHeadsFile_bytes));
     return heads_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 
@@ -196,7 +196,7 @@ RoomPlace fitted_place(const Wall& table, const BoundingBox& scene_box) {
     const glm::dvec3 across = table.lower_right - table.lower_left;
     const glm::dvec3 along = table.upper_left - table.lower_left;
     const glm::dvec3 size = scene_box.highest - scene_box.lowest;
-    const double shorter_m = kFittedShare * std::min(glm::length(across), glm::length(along));
+    const double shorter_m = kFitRatio * std::min(glm::length(across), glm::length(along));
     RoomPlace place;
     place.units_per_metre = std::max(std::max(size.x, size.z), 1e-6) / shorter_m;
     const glm::dvec3 foot((scene_box.lowest.x + scene_box.highest.x) / 2, scene_box.lowest.y,

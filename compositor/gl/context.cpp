@@ -16,14 +16,14 @@ Error no_context(const std::string& reason) {
                  "; install Mesa's EGL (Debian: libegl1 libegl-mesa0 libgl1-mesa-dri), which needs no GPU or display"};
 }
 
-void GLAPIENTRY note_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum severity, GLsizei length,
-                             const GLchar* message, const void* user) {
+void GLAPIENTRY record_message(GLenum /*source*/, GLenum type, GLuint /*id*/, GLenum severity, GLsizei length,
+                               const GLchar* message, const void* user) {
     if (type != GL_DEBUG_TYPE_ERROR && severity != GL_DEBUG_SEVERITY_HIGH) return;
     auto& errors = *static_cast<std::vector<std::string>*>(const_cast<void*>(user));
     errors.emplace_back(message, static_cast<std::size_t>(length));
 }
 
-// The program that drew last is there until another one draws: it counts only if nobody has released it.
+// The current program exists until another one is used: it counts only if not released.
 bool is_unreleased_program(GLuint name) {
     GLint released = GL_TRUE;
     if (glIsProgram(name) == GL_TRUE) glGetProgramiv(name, GL_DELETE_STATUS, &released);
@@ -31,10 +31,10 @@ bool is_unreleased_program(GLuint name) {
 }
 
 std::vector<std::string> all_names_alive() {
-    constexpr GLuint kLastName = 8192;  // drivers take the lowest ones that are free
+    constexpr GLuint kLastName = 8192;  // drivers assign the lowest free names
     struct Kind {
         const char* what;
-        PFNGLISTEXTUREPROC is_one;
+        PFNGLISTEXTUREPROC is_object;
     };
     const std::array<Kind, 8> kinds{{{"textures", glIsTexture},
                                      {"buffers", glIsBuffer},
@@ -47,7 +47,7 @@ std::vector<std::string> all_names_alive() {
     std::vector<std::string> alive;
     for (const Kind& kind : kinds) {
         int count = 0;
-        for (GLuint name = 1; name <= kLastName; ++name) count += kind.is_one(name) == GL_TRUE ? 1 : 0;
+        for (GLuint name = 1; name <= kLastName; ++name) count += kind.is_object(name) == GL_TRUE ? 1 : 0;
         if (count > 0) alive.push_back(std::to_string(count) + " " + kind.what);
     }
     int programs = 0;
@@ -56,7 +56,7 @@ std::vector<std::string> all_names_alive() {
     return alive;
 }
 
-// Of the machine's GPUs, in EGL's order; none where Mesa is set to draw on the CPU.
+// Displays of the machine's GPUs in EGL's order; empty if software rendering is requested.
 std::vector<EGLDisplay> gpu_displays() {
     std::vector<EGLDisplay> displays;
     const char* const software = std::getenv("LIBGL_ALWAYS_SOFTWARE");
@@ -65,10 +65,10 @@ std::vector<EGLDisplay> gpu_displays() {
     const bool lists_devices =
         has("EGL_EXT_device_base") || (has("EGL_EXT_device_enumeration") && has("EGL_EXT_device_query"));
     if (!lists_devices || !has("EGL_EXT_platform_device")) return displays;
-    constexpr EGLint kMostDevices = 64;
-    std::array<EGLDeviceEXT, kMostDevices> devices{};
+    constexpr EGLint kMaxDevices = 64;
+    std::array<EGLDeviceEXT, kMaxDevices> devices{};
     EGLint count = 0;
-    if (!eglQueryDevicesEXT(kMostDevices, devices.data(), &count)) return displays;
+    if (!eglQueryDevicesEXT(kMaxDevices, devices.data(), &count)) return displays;
     for (EGLint n = 0; n < count; ++n) {
         const EGLDeviceEXT device = devices[static_cast<std::size_t>(n)];
         const char* const extensions = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
@@ -88,21 +88,21 @@ struct Context::State {
     std::vector<std::string> errors;
     std::function<void(const std::vector<std::string>&)> at_end;
 
-    // The conventions of the header, of the context that is current.
-    void settle(const ContextOptions& options) {
+    // Applies the conventions of the header to the current context.
+    void apply_conventions(const ContextOptions& options) {
         at_end = options.at_end;
         device_name = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
         if (options.debug) {
             glEnable(GL_DEBUG_OUTPUT);
             glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-            glDebugMessageCallback(note_message, &errors);
+            glDebugMessageCallback(record_message, &errors);
         }
         glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
         glEnable(GL_FRAMEBUFFER_SRGB);
         glPixelStorei(GL_PACK_ALIGNMENT, 1);
     }
 
-    // Its context is current.
+    // Leaves its context current.
     static Result<std::unique_ptr<State>> open(EGLDisplay display, const ContextOptions& options) {
         auto state = std::make_unique<State>();
         state->display = display;
@@ -132,7 +132,7 @@ struct Context::State {
         if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, state->context)) {
             return no_context("the context cannot be made current");
         }
-        state->settle(options);
+        state->apply_conventions(options);
         return state;
     }
 
@@ -155,7 +155,7 @@ struct Context::State {
         if (context == EGL_NO_CONTEXT) return;
         eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         eglDestroyContext(display, context);
-        // The display is one for the whole process and may serve other contexts: it is not terminated.
+        // The display is shared by the process and may serve other contexts, so it is not terminated.
     }
 };
 
@@ -165,7 +165,7 @@ Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;
 
 Result<Context> Context::create_surfaceless(const ContextOptions& options) {
-    // epoxy ends the process when a function of a library that is not there is called: look before the first.
+    // epoxy aborts when a function of a missing library is called: check before the first call.
     if (!epoxy_has_egl()) return no_context("libEGL cannot be loaded");
     Result<std::unique_ptr<State>> state = no_context("EGL has no surfaceless platform");
     for (const EGLDisplay display : gpu_displays()) {
@@ -186,7 +186,7 @@ Result<Context> Context::adopt_current(const ContextOptions& options) {
                      std::to_string(epoxy_gl_version() % 10) + "; 4.5 is needed: update the graphics driver"};
     }
     auto state = std::make_unique<State>();
-    state->settle(options);
+    state->apply_conventions(options);
     return Context(std::move(state));
 }
 

@@ -1,11 +1,10 @@
 #pragma once
-// An OpenGL 4.5 core context: without a window or a display, drawing only into framebuffers, or a window's. The former
-// is EGL's on the first GPU that has one; else Mesa's surfaceless platform, which draws on the CPU where there is no
-// GPU, and always where the environment has LIBGL_ALWAYS_SOFTWARE=1.
+// OpenGL 4.5 core context: surfaceless for offscreen rendering, or that of a window. Surfaceless contexts come from EGL
+// on the first capable GPU, otherwise from Mesa's surfaceless platform, which renders in software without a GPU, and
+// always if LIBGL_ALWAYS_SOFTWARE=1 is set.
 //
-// Everything below compositor/ draws with the same conventions, set at creation: the image's first row is its top
-// (glClipControl GL_UPPER_LEFT), and depth runs from 1 at the near plane to 0 at infinity (reversed; nearer is
-// greater).
+// Conventions of all drawing below compositor/, set at creation: the first image row is the top (glClipControl
+// GL_UPPER_LEFT); depth is reversed, from 1 at the near plane to 0 at infinity.
 
 #include "rayspace/base/result.hpp"
 
@@ -17,29 +16,28 @@
 namespace rs::gl {
 
 struct ContextOptions {
-    bool debug = false;  // a debug context: take_errors() then reports every error with the driver's words
-    // Called when the context ends, with the errors that nobody has taken and the names that nobody has released; for
-    // tests. May be empty.
+    bool debug = false;  // debug context: take_errors() reports the driver's messages
+    /// Called at destruction with the errors not yet taken and the GL objects not released; for tests. May be empty.
     std::function<void(const std::vector<std::string>& left)> at_end = nullptr;
 };
 
-// Current on the thread that created it, where all work with it must be done. Move-only.
+/// Current on the thread that created it, which must do all GL calls. Move-only.
 class Context {
 public:
-    // Fails, saying what is missing, where EGL, the platform or OpenGL 4.5 cannot be had.
+    /// Fails if EGL, the platform or OpenGL 4.5 is unavailable; the error names what is missing.
     static Result<Context> create_surfaceless(const ContextOptions& options = {});
-    // The context that something else, such as a window, has made current on this thread and will destroy after this.
-    // Fails where it is older than OpenGL 4.5.
+    /// Adopts the context that a window made current on this thread; the window destroys it later. Fails below OpenGL
+    /// 4.5.
     static Result<Context> adopt_current(const ContextOptions& options = {});
     Context(Context&&) noexcept;
     Context& operator=(Context&&) noexcept;
     ~Context();
 
     [[nodiscard]] const std::string& device_name() const;
-    // The OpenGL errors since the last call, one line each.
+    /// OpenGL errors since the last call, one line each.
     [[nodiscard]] std::vector<std::string> take_errors();
-    // What has been made and not yet released, such as "2 textures"; whoever made it. Asks the driver about every
-    // name up to some thousands: milliseconds, for tests.
+    /// GL objects that exist, such as "2 textures", including those created elsewhere. Queries some thousand names:
+    /// takes milliseconds; for tests.
     [[nodiscard]] std::vector<std::string> names_alive() const;
 
 private:

@@ -68,7 +68,7 @@ void DepthArray::copy(const DepthArray& from, int layer, const TexelArea& area) 
 
 void DepthArray::begin(int layer) const {
     resume(layer);
-    glDepthMask(GL_TRUE);  // it holds for clears too
+    glDepthMask(GL_TRUE);  // the mask also applies to clears
     const float infinity = 0;
     glClearNamedFramebufferfv(handle_.name(), GL_DEPTH, 0, &infinity);
 }

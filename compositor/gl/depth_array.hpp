@@ -1,5 +1,5 @@
 #pragma once
-// Depth images of one size that are drawn into one by one and read by comparison: shadow maps.
+// Array of depth images for shadow maps: rendered layer by layer, sampled with comparison.
 
 #include "compositor/gl/handle.hpp"
 #include "rayspace/base/result.hpp"
@@ -7,7 +7,7 @@
 
 namespace rs::gl {
 
-// Texels [x, x + width) x [y, y + height) of an image, rows as it is read.
+/// Texels [x, x + width) x [y, y + height), rows as read back.
 struct TexelArea {
     int x = 0;
     int y = 0;
@@ -16,7 +16,7 @@ struct TexelArea {
     bool operator==(const TexelArea&) const = default;
 };
 
-// While it lives, nothing is drawn or cleared outside of the area. One at a time.
+/// Restricts drawing and clearing to the area during its lifetime; not nestable.
 class Scissor {
 public:
     explicit Scissor(const TexelArea& area);
@@ -27,21 +27,21 @@ public:
 
 class DepthArray {
 public:
-    // Float depths, `side` x `side` texels each. Fails where the driver cannot.
+    /// Float depths, `side` x `side` texels per layer. Fails if the driver does not support the size.
     static Result<DepthArray> create(int side, int layers);
     [[nodiscard]] int side() const { return side_; }
     [[nodiscard]] int layers() const { return layers_; }
 
-    // Draws go into this layer from now on, depths only. Clears it (to infinity).
+    /// Renders to this layer from now on, depth only, and clears it (to infinity).
     void begin(int layer) const;
-    // The same, but what is there stays.
+    /// Same without clearing.
     void resume(int layer) const;
-    // Puts this area of the same layer of `from`, which has the same size, in the place of what is there.
+    /// Copies the area from the same layer of `from`, which has the same size.
     void copy(const DepthArray& from, int layer, const TexelArea& area) const;
-    // To `uniform sampler2DArrayShadow` with layout(binding = unit): how much of the nearest four texels is not nearer
-    // than the reference, by their weights; all of it beyond the border. Depth is reversed (context.hpp).
+    /// Binds to `uniform sampler2DArrayShadow` with layout(binding = unit): bilinearly weighted fraction of the nearest
+    /// four texels that are not nearer than the reference; 1 outside of the map. Depth is reversed (context.hpp).
     void bind(unsigned unit) const;
-    // Waits for all drawing.
+    /// Waits for all drawing.
     [[nodiscard]] Image<float> read(int layer) const;
 
 private:

@@ -42,7 +42,7 @@ void draw(const Program& program, const VertexArray& vertices, const DrawState& 
     glPointSize(kPointSize_px);
     glUseProgram(program.name());
     glBindVertexArray(vertices.name());
-    if (vertices.indexed()) {
+    if (vertices.is_indexed()) {
         glDrawElements(mode_of(vertices.primitive()), vertices.count(), GL_UNSIGNED_INT, nullptr);
     } else {
         glDrawArrays(GL_TRIANGLE_STRIP, 0, vertices.count());

@@ -1,5 +1,5 @@
 #pragma once
-// One draw call with all of the state that it depends on, so that no draw inherits anything from the one before it.
+// Draw calls with their complete state, so that draws do not depend on earlier ones.
 
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/vertex_array.hpp"
@@ -8,27 +8,27 @@ namespace rs::gl {
 
 enum class Blending {
     kReplace,
-    kOverPremultiplied,  // the shader's colour is multiplied by its alpha
+    kOverPremultiplied,  // premultiplied by alpha in the shader
 };
 
-// Sides of triangles that are not drawn.
+/// Culled triangle sides.
 enum class Culling { kNone, kBack, kFront };
 
 struct DrawState {
-    bool depth_test = true;   // draws only what is not farther than what is there
-    bool depth_write = true;  // where the depth test passes; needs the depth test
+    bool depth_test = true;   // draws fragments not farther than the stored depth
+    bool depth_write = true;  // where the depth test passes; requires depth_test
     Blending blending = Blending::kReplace;
     Culling culling = Culling::kNone;
-    bool clockwise = false;   // triangles whose corners turn clockwise show their front, else the others
-    bool wire_frame = false;  // only the edges of triangles
+    bool clockwise = false;   // front faces are clockwise
+    bool wire_frame = false;  // triangle edges only
 };
 
-// Into the framebuffer that began last.
+/// Draws into the framebuffer that began last.
 void draw(const Program& program, const VertexArray& vertices, const DrawState& state);
 
-// Sends what was drawn to the GPU, without waiting.
+/// Submits pending commands to the GPU without waiting.
 void flush();
-// Waits until everything is drawn.
+/// Waits until all drawing is complete.
 void finish();
 
 }  // namespace rs::gl

@@ -17,7 +17,7 @@ Handle<Kind::kRenderbuffer> new_renderbuffer(GLenum format, int width, int heigh
     return Handle<Kind::kRenderbuffer>(name);
 }
 
-// Bytes as they are: the window is not one of sRGB, and its first row is the lowest.
+// Copies bytes unconverted: the window is not an sRGB one, and its first row is the bottom.
 void copy_to_window(unsigned framebuffer, const glm::ivec2& from, const glm::ivec2& to) {
     glDisable(GL_FRAMEBUFFER_SRGB);
     const GLenum filter = from == to ? GL_NEAREST : GL_LINEAR;
@@ -38,7 +38,7 @@ Result<Framebuffer> Framebuffer::create(int width, int height, int samples) {
     const std::string size = std::to_string(width) + "x" + std::to_string(height);
     if (width > largest || height > largest) {
         return Error{"OpenGL: an image of " + size + " is larger than the driver's " + std::to_string(largest) +
-                     " pixels a side; ask for a smaller one"};
+                     " pixels a side; use a smaller one"};
     }
     Framebuffer made;
     made.width_ = width;
@@ -52,7 +52,7 @@ Result<Framebuffer> Framebuffer::create(int width, int height, int samples) {
     glNamedFramebufferRenderbuffer(name, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, made.colour_.name());
     glNamedFramebufferRenderbuffer(name, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, made.depth_.name());
     if (glCheckNamedFramebufferStatus(name, GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-        return Error{"OpenGL: the driver cannot draw into an image of " + size + "; ask for a smaller one"};
+        return Error{"OpenGL: the driver cannot draw into an image of " + size + "; use a smaller one"};
     }
     return made;
 }
@@ -60,7 +60,7 @@ Result<Framebuffer> Framebuffer::create(int width, int height, int samples) {
 void Framebuffer::begin(const glm::vec3& background, bool keep_depth) const {
     glBindFramebuffer(GL_FRAMEBUFFER, handle_.name());
     glViewport(0, 0, width_, height_);
-    glDepthMask(GL_TRUE);  // it holds for clears too
+    glDepthMask(GL_TRUE);  // the mask also applies to clears
     const float colour[] = {background.r, background.g, background.b, 1.0F};
     glClearNamedFramebufferfv(handle_.name(), GL_COLOR, 0, colour);
     if (keep_depth) return;

@@ -1,5 +1,5 @@
 #pragma once
-// What is drawn into: sRGB colour (blended as linear light), float depth.
+// Render target: sRGB colour (blended in linear light), float depth.
 
 #include "compositor/gl/handle.hpp"
 #include "rayspace/base/result.hpp"
@@ -13,29 +13,30 @@ namespace rs::gl {
 
 class Framebuffer {
 public:
-    // Sides 1..kMaxImageSide_px. `samples` per pixel (1 = no multisampling) is lowered to what the driver has. Fails
-    // where the driver cannot make one of this size.
+    /// \param width, height 1..kMaxImageSide_px.
+    /// \param samples per pixel (1: no multisampling); clamped to the driver's limit.
+    /// Fails if the driver does not support the size.
     static Result<Framebuffer> create(int width, int height, int samples);
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
     [[nodiscard]] int samples() const { return samples_; }
 
-    // Draws go here from now on. Clears colour (linear light) and, unless it is kept, depth (to infinity).
+    /// Renders here from now on. Clears colour (linear light) and, unless kept, depth (to infinity).
     void begin(const glm::vec3& background, bool keep_depth = false) const;
-    // Averages the samples into `target`, which has the same size and one sample.
+    /// Averages the samples into `target`, which has the same size and one sample.
     void resolve_to(const Framebuffer& target) const;
-    // The depth at a pixel (column, row): near plane over distance, 0 where nothing was drawn. `scratch` has the same
-    // size and one sample; its depths are lost, unless it is this framebuffer. Waits for all drawing.
+    /// Depth at a pixel: near plane / distance, 0 where nothing was drawn. Waits for all drawing.
+    /// \param scratch same size, one sample; its depths are overwritten unless it is this framebuffer.
     [[nodiscard]] float depth_at(int column, int row, const Framebuffer& scratch) const;
-    // The same of width x height pixels from there on, which lie inside, row by row.
+    /// Same for width x height pixels from (column, row), which must be inside; row-major.
     [[nodiscard]] std::vector<float> depths_at(int column, int row, int width, int height,
                                                const Framebuffer& scratch) const;
-    // In place of the depths of `target`, which has the same size and one sample and is another.
+    /// Overwrites the depths of `target`, another framebuffer of the same size with one sample.
     void copy_depths_to(const Framebuffer& target) const;
-    // Puts the image into the current window, stretched to width x height pixels, which then is what is drawn into
-    // (for an overlay). One sample only.
+    /// Copies the image to the current window, scaled to width x height pixels, and leaves the window bound for an
+    /// overlay. One sample only.
     void show_in_window(int width, int height) const;
-    // Waits for all drawing. One sample only.
+    /// Waits for all drawing. One sample only.
     [[nodiscard]] Image<Rgba8> read_image() const;
 
 private:
@@ -48,7 +49,7 @@ private:
     int samples_ = 1;
 };
 
-// Puts an image into the current window, stretched to width x height pixels.
+/// Copies an image to the current window, scaled to width x height pixels.
 void show_in_window(ConstImageView<Rgba8> image, int width, int height);
 
 }  // namespace rs::gl

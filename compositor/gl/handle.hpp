@@ -1,6 +1,6 @@
 #pragma once
-// The ownership of one OpenGL name. Names belong to the context that was current when they were made; it must be
-// current again when they are released, and outlive them.
+// Owner of one OpenGL object name. Names belong to the context in which they were created; it must be current when they
+// are released, and outlive them.
 
 #include <utility>
 
@@ -10,7 +10,7 @@ enum class Kind { kProgram, kBuffer, kVertexArray, kTexture, kRenderbuffer, kFra
 
 void release(Kind kind, unsigned name);
 
-// Move-only; 0 is no name.
+/// Move-only; 0 means none.
 template <Kind kind>
 class Handle {
 public:

@@ -9,7 +9,7 @@
 namespace rs::gl {
 namespace {
 
-// glCreateShaderProgramv would do, but keeps the stages apart; shaders live only as long as the linking.
+// Shader stage that exists only until the program is linked; glCreateShaderProgramv would keep stages separate.
 class Shader {
 public:
     Shader(GLenum stage, const std::string& source) : name_(glCreateShader(stage)) {
@@ -22,7 +22,7 @@ public:
     ~Shader() { glDeleteShader(name_); }
     [[nodiscard]] GLuint name() const { return name_; }
 
-    // Empty where it compiled.
+    // Compiler log; empty on success.
     [[nodiscard]] std::string log() const {
         GLint compiled = GL_FALSE;
         glGetShaderiv(name_, GL_COMPILE_STATUS, &compiled);
@@ -40,7 +40,7 @@ private:
 
 Error shader_error(const std::string& what, std::string log) {
     std::replace(log.begin(), log.end(), '\n', ' ');
-    return Error{"OpenGL: the driver refuses the shader '" + what + "': " + log + "; try a newer Mesa"};
+    return Error{"OpenGL: the driver rejects the shader '" + what + "': " + log + "; try a newer Mesa"};
 }
 
 }  // namespace
@@ -111,7 +111,7 @@ void Program::set(const char* uniform, std::span<const glm::vec4> values) const 
     glProgramUniform4fv(name(), location(uniform), static_cast<GLsizei>(values.size()), glm::value_ptr(values[0]));
 }
 
-bool Program::uses(const char* uniform) const {
+bool Program::has_uniform(const char* uniform) const {
     return glGetUniformLocation(name(), uniform) >= 0;
 }
 

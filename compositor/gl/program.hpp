@@ -1,5 +1,5 @@
 #pragma once
-// A linked pair of a vertex and a fragment shader with its uniforms.
+// Linked program of a vertex and a fragment shader, with its uniforms.
 
 #include "compositor/gl/handle.hpp"
 #include "rayspace/base/result.hpp"
@@ -13,10 +13,11 @@ namespace rs::gl {
 
 class Program {
 public:
-    // GLSL sources. `what` names the program in the error, which quotes the compiler's log.
+    /// \param what program name for errors, which quote the compiler log.
+    /// \param vertex, fragment GLSL sources.
     static Result<Program> create(const std::string& what, const std::string& vertex, const std::string& fragment);
 
-    // The name must be a uniform that the program uses, of the argument's type.
+    /// \param uniform must be an active uniform of the argument's type.
     void set(const char* uniform, int value) const;
     void set(const char* uniform, float value) const;
     void set(const char* uniform, const glm::vec2& value) const;
@@ -26,10 +27,10 @@ public:
     void set(const char* uniform, const glm::vec4& value) const;
     void set(const char* uniform, const glm::mat3& value) const;
     void set(const char* uniform, const glm::mat4& value) const;
-    // An array of vec4, from its first element on; `uniform` is the array's name.
+    /// Sets an array of vec4 from its first element on; `uniform` is the array's name.
     void set(const char* uniform, std::span<const glm::vec4> values) const;
-    // Whether the program uses a uniform of this name: compilers drop what changes nothing.
-    [[nodiscard]] bool uses(const char* uniform) const;
+    /// True if the uniform is active: compilers remove unused ones.
+    [[nodiscard]] bool has_uniform(const char* uniform) const;
 
     [[nodiscard]] unsigned name() const { return handle_.name(); }
 

@@ -63,17 +63,17 @@ Texture::Texture(ConstImageView<Rgba8> image, const TextureWrap& wrap)
               std::bit_width(static_cast<unsigned>(std::max(image.width(), image.height())))) {
     const Image<glm::u16vec4> linear = linear_texels(image);
     upload(linear.data(), linear.width(), linear.height(), linear.width(), GL_RGBA, GL_UNSIGNED_SHORT);
-    read_smoothly(wrap);
+    set_trilinear(wrap);
 }
 
 Texture::Texture(ConstImageView<RgbaF> directions, const TextureWrap& wrap)
     : Texture(directions.width(), directions.height(), TexelKind::kDirection,
               std::bit_width(static_cast<unsigned>(std::max(directions.width(), directions.height())))) {
     upload(directions.data(), directions.width(), directions.height(), directions.stride(), GL_RGBA, GL_FLOAT);
-    read_smoothly(wrap);
+    set_trilinear(wrap);
 }
 
-void Texture::read_smoothly(const TextureWrap& wrap) const {
+void Texture::set_trilinear(const TextureWrap& wrap) const {
     const unsigned name = handle_.name();
     glGenerateTextureMipmap(name);
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);

@@ -14,7 +14,7 @@ Buffer::Buffer(std::span<const std::byte> bytes) {
     glNamedBufferStorage(name, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), 0);
 }
 
-void Buffer::bind_table(unsigned binding) const {
+void Buffer::bind_storage(unsigned binding) const {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name());
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Indexed triangles, lines or points ready to be drawn, or no vertices at all for shaders that make theirs from
+// Vertex array of indexed triangles, lines or points; or of no vertices, for shaders that compute them from
 // gl_VertexID.
 
 #include "compositor/gl/handle.hpp"
@@ -12,21 +12,21 @@
 
 namespace rs::gl {
 
-// Bytes that shaders read: vertices, indices, tables. Their content is fixed at creation.
+/// Immutable GPU buffer: vertices, indices or tables.
 
 class Buffer {
 public:
-    // Not empty.
+    /// \param bytes must not be empty.
     explicit Buffer(std::span<const std::byte> bytes);
-    // To `layout(std430, binding = binding) buffer`.
-    void bind_table(unsigned binding) const;
+    /// Binds to `layout(std430, binding = binding) buffer`.
+    void bind_storage(unsigned binding) const;
     [[nodiscard]] unsigned name() const { return handle_.name(); }
 
 private:
     Handle<Kind::kBuffer> handle_;
 };
 
-// Attribute n of the vertex shader (location n) takes `floats` (1..4) floats at `offset_bytes` of each vertex.
+/// Attribute n (location n) takes `floats` (1..4) floats at `offset_bytes` of each vertex.
 struct VertexAttribute {
     int floats = 3;
     unsigned offset_bytes = 0;
@@ -36,16 +36,16 @@ enum class Primitive { kTriangles, kLines, kPoints };
 
 class VertexArray {
 public:
-    // Without vertices: draws `vertex_count` vertices as a triangle strip.
+    /// No vertex data: draws `vertex_count` vertices as a triangle strip.
     explicit VertexArray(int vertex_count);
-    // Neither span is empty.
+    /// Neither span may be empty.
     VertexArray(std::span<const std::byte> vertices, int stride_bytes, const std::vector<VertexAttribute>& attributes,
                 std::span<const std::uint32_t> indices, Primitive primitive = Primitive::kTriangles);
 
     [[nodiscard]] unsigned name() const { return handle_.name(); }
-    [[nodiscard]] bool indexed() const { return indices_.has_value(); }
-    [[nodiscard]] Primitive primitive() const { return primitive_; }  // where indexed
-    [[nodiscard]] int count() const { return count_; }                // of indices where indexed, else of vertices
+    [[nodiscard]] bool is_indexed() const { return indices_.has_value(); }
+    [[nodiscard]] Primitive primitive() const { return primitive_; }  // if indexed
+    [[nodiscard]] int count() const { return count_; }                // indices if indexed, else vertices
 
 private:
     std::optional<Buffer> vertices_;

@@ -8,13 +8,14 @@
 namespace rs::compositor {
 namespace {
 
-// In the plane through `place` that faces the camera.
+// Point under the pointer in the plane through `place` parallel to the image.
 glm::dvec3 at_depth_of(const glm::dvec3& place, const glm::dvec2& at_px, const Camera& camera) {
     const double depth = glm::dot(place - camera.centre(), camera.forward());
     return camera.centre() + depth * camera.ray(at_px.x, at_px.y);
 }
 
-// Without what depths in single precision add to normals along an axis: 2e-3 of floors that reach below the camera.
+// Snaps nearly axis-aligned normals. Single-precision depths cause errors of 2e-3 for floors that extend below the
+// camera.
 glm::dvec3 tidy(const glm::dvec3& normal) {
     constexpr double kNoise = 4e-3;
     glm::dvec3 kept = normal;
@@ -22,7 +23,7 @@ glm::dvec3 tidy(const glm::dvec3& normal) {
         if (std::abs(normal[i]) < kNoise) kept[i] = 0;
         if (1 - std::abs(normal[i]) < kNoise * kNoise) kept[i] = std::copysign(1.0, normal[i]);
     }
-    return unit_of(kept);
+    return unit_vector(kept);
 }
 
 }  // namespace
@@ -30,34 +31,35 @@ glm::dvec3 tidy(const glm::dvec3& normal) {
 LightDrag::LightDrag(const LightEntry& entry, HandlePart part, const Camera& camera, const glm::dvec2& at_px,
                      double lift)
     : entry_(entry), part_(part), lift_(lift) {
-    const glm::dvec3 place =
-        part == HandlePart::kAim ? aim_place(entry, camera).value_or(entry.location) : handle_place(entry, camera);
-    grasped_beside_px_ = glm::dvec2(camera.project(place)) - at_px;
-    grasped_at_ = along_axis(at_px, camera).value_or(0);
+    const glm::dvec3 place = part == HandlePart::kAim ? aim_position(entry, camera).value_or(entry.location)
+                                                      : handle_position(entry, camera);
+    grab_offset_px_ = glm::dvec2(camera.project(place)) - at_px;
+    grab_position_ = along_axis(at_px, camera).value_or(0);
     const Dome dome = dome_of(camera);
-    before_dome_ = glm::dot(place - dome.middle, dome.middle - camera.centre()) < 0;
+    before_dome_ = glm::dot(place - dome.centre, dome.centre - camera.centre()) < 0;
 }
 
 std::optional<double> LightDrag::along_axis(const glm::dvec2& at_px, const Camera& camera) const {
-    constexpr double kLeastSine = 0.02;  // nearly along the ray, a pixel is miles
+    constexpr double kMinSine = 0.02;  // for axes nearly parallel to the ray the position is ill-conditioned
     const glm::dvec3 axis = direction_of(part_);
     const glm::dvec3 ray = glm::normalize(camera.ray(at_px.x, at_px.y));
     const double cosine = glm::dot(axis, ray);
     const double sine2 = 1 - cosine * cosine;
-    if (sine2 < kLeastSine * kLeastSine) return std::nullopt;
+    if (sine2 < kMinSine * kMinSine) return std::nullopt;
     const glm::dvec3 way = camera.centre() - entry_.location;
     return (glm::dot(way, axis) - cosine * glm::dot(way, ray)) / sine2;
 }
 
 LightEntry LightDrag::to(const glm::dvec2& at_px, const Camera& camera, const SurfaceAt& surface) const {
-    if (part_ == HandlePart::kAim) return aimed(at_px + grasped_beside_px_, camera, surface);
+    if (part_ == HandlePart::kAim) return aimed(at_px + grab_offset_px_, camera, surface);
     if (part_ == HandlePart::kBody) {
-        const glm::dvec2 place_px = at_px + grasped_beside_px_;
+        const glm::dvec2 place_px = at_px + grab_offset_px_;
         return model_of(entry_).words.has_place ? over_surfaces(place_px, camera, surface)
                                                 : about_dome(place_px, camera);
     }
     LightEntry dragged = entry_;
-    if (const auto along = along_axis(at_px, camera)) dragged.location += (*along - grasped_at_) * direction_of(part_);
+    if (const auto along = along_axis(at_px, camera))
+        dragged.location += (*along - grab_position_) * direction_of(part_);
     dragged.location = glm::clamp(dragged.location, -kMostDistant, kMostDistant);
     return dragged;
 }
@@ -77,10 +79,10 @@ LightEntry LightDrag::over_surfaces(const glm::dvec2& at_px, const Camera& camer
 LightEntry LightDrag::about_dome(const glm::dvec2& at_px, const Camera& camera) const {
     const Dome dome = dome_of(camera);
     const glm::dvec3 ray = glm::normalize(camera.ray(at_px.x, at_px.y));
-    const glm::dvec3 way = camera.centre() - dome.middle;
+    const glm::dvec3 way = camera.centre() - dome.centre;
     const double nearest = -glm::dot(way, ray);
     const double within = dome.radius * dome.radius - (glm::dot(way, way) - nearest * nearest);
-    // Beside the dome: on its rim.
+    // Pointer outside the dome: on its rim.
     const double half = std::sqrt(std::max(within, 0.0));
     const glm::dvec3 on_dome = way + (nearest + (before_dome_ ? -half : half)) * ray;
     LightEntry dragged = entry_;

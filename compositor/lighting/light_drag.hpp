@@ -1,10 +1,11 @@
 #pragma once
-// What a pointer that drags a handle makes of a light. Pure; thread-safe.
+// Editing of lights by dragging handles with the pointer. Pure; thread-safe.
 //
-//     an axis   the light goes along it: to the place nearest to the pointer's ray, less where it was grasped
-//     the body  the light goes over what the image shows, onto the surface, and turns to its normal; where there is
-//               no surface it goes at its distance from the camera. Directional lights turn about the dome's middle
-//     the aim   the light is turned to what is under the pointer
+//     axis   moves the light along the axis to the point closest to the pointer's ray, with the initial offset
+//     body   moves the light onto the visible surface under the pointer and aligns it with the surface normal; without
+//     a
+//            surface it keeps its depth. Directional lights rotate about the dome's centre
+//     aim    aims the light at the point under the pointer
 
 #include "compositor/lighting/light_handles.hpp"
 #include "compositor/lighting/surface_point.hpp"
@@ -13,15 +14,15 @@
 
 namespace rs::compositor {
 
-// What is seen at a position in pixels; nothing where that is nothing.
+// Surface visible at a position in pixels; empty for the background.
 using SurfaceAt = std::function<std::optional<SurfacePoint>(const glm::dvec2& at_px)>;
 
 class LightDrag {
 public:
-    // `lift`: how far before surfaces lights come to stand, scene units, > 0.
+    // `lift`: distance of lights in front of surfaces, scene units, > 0.
     LightDrag(const LightEntry& entry, HandlePart part, const Camera& camera, const glm::dvec2& at_px, double lift);
 
-    // The light that was grasped, dragged to there; the camera may have another place by now.
+    // The initial light dragged to a pointer position; the camera may have moved since the start of the drag.
     [[nodiscard]] LightEntry to(const glm::dvec2& at_px, const Camera& camera, const SurfaceAt& surface) const;
 
 private:
@@ -34,9 +35,9 @@ private:
     LightEntry entry_;
     HandlePart part_;
     double lift_;
-    glm::dvec2 grasped_beside_px_{0};  // the handle's place less the pointer's
-    double grasped_at_ = 0;            // along the axis, from the light
-    bool before_dome_ = false;         // its handle is on the side of the dome that faces the camera
+    glm::dvec2 grab_offset_px_{0};  // handle position minus initial pointer position
+    double grab_position_ = 0;      // along the axis, relative to the light
+    bool before_dome_ = false;      // its handle is on the dome's side facing the camera
 };
 
 }  // namespace rs::compositor

@@ -9,7 +9,7 @@ namespace rs::compositor {
 namespace {
 
 constexpr std::size_t kMostSteps = 256;
-constexpr std::size_t kMostKept = 1U << 18U;  // lights in all steps together: some 100 MiB
+constexpr std::size_t kMaxHistoryLights = 1U << 18U;  // lights in all undo steps: about 100 MiB
 
 }  // namespace
 
@@ -28,11 +28,11 @@ LightList list_of(const LightingState& state) {
     return list;
 }
 
-void LightEdits::remember(Step step) {
+void LightEdits::push_undo(Step step) {
     after_.clear();
     before_.push_back(std::move(step));
     const std::size_t each = now_.state.entries.size() + 1;
-    while (before_.size() > std::clamp<std::size_t>(kMostKept / each, 1, kMostSteps)) before_.pop_front();
+    while (before_.size() > std::clamp<std::size_t>(kMaxHistoryLights / each, 1, kMostSteps)) before_.pop_front();
 }
 
 void LightEdits::select(std::optional<std::size_t> light) {
@@ -41,7 +41,7 @@ void LightEdits::select(std::optional<std::size_t> light) {
 
 void LightEdits::set(LightingState state) {
     if (state == now_.state) return;
-    if (!gesture_) remember(now_);
+    if (!gesture_) push_undo(now_);
     now_.state = std::move(state);
     select(now_.selected);
     ++revision_;
@@ -49,7 +49,7 @@ void LightEdits::set(LightingState state) {
 
 void LightEdits::set_light(std::size_t index, LightEntry entry) {
     if (index >= now_.state.entries.size() || entry == now_.state.entries[index]) return;
-    if (!gesture_) remember(now_);
+    if (!gesture_) push_undo(now_);
     now_.state.entries[index] = std::move(entry);
     ++revision_;
 }
@@ -61,10 +61,10 @@ void LightEdits::add(LightEntry entry) {
     select(now_.state.entries.size() - 1);
 }
 
-void LightEdits::duplicate(const glm::dvec3& beside) {
+void LightEdits::duplicate(const glm::dvec3& offset) {
     if (!now_.selected) return;
     LightEntry copy = now_.state.entries[*now_.selected];
-    if (model_of(copy).words.has_place) copy.location += beside;
+    if (model_of(copy).words.has_place) copy.location += offset;
     if (!copy.name.empty()) copy.name = free_light_name(now_.state, copy.name);
     add(std::move(copy));
 }
@@ -73,7 +73,7 @@ void LightEdits::remove_selected() {
     if (!now_.selected) return;
     LightingState changed = now_.state;
     changed.entries.erase(changed.entries.begin() + static_cast<std::ptrdiff_t>(*now_.selected));
-    if (!gesture_) remember(now_);
+    if (!gesture_) push_undo(now_);
     now_ = {std::move(changed), std::nullopt};
     ++revision_;
 }
@@ -86,7 +86,7 @@ void LightEdits::end_gesture() {
     if (!gesture_) return;
     Step began = std::move(*gesture_);
     gesture_.reset();
-    if (!(began.state == now_.state)) remember(std::move(began));
+    if (!(began.state == now_.state)) push_undo(std::move(began));
 }
 
 void LightEdits::cancel_gesture() {
@@ -96,7 +96,7 @@ void LightEdits::cancel_gesture() {
     gesture_.reset();
 }
 
-bool LightEdits::travel(std::deque<Step>& from, std::deque<Step>& to) {
+bool LightEdits::apply_step(std::deque<Step>& from, std::deque<Step>& to) {
     if (gesture_ || from.empty()) return false;
     to.push_back(std::move(now_));
     now_ = std::move(from.back());
@@ -106,11 +106,11 @@ bool LightEdits::travel(std::deque<Step>& from, std::deque<Step>& to) {
 }
 
 bool LightEdits::undo() {
-    return travel(before_, after_);
+    return apply_step(before_, after_);
 }
 
 bool LightEdits::redo() {
-    return travel(after_, before_);
+    return apply_step(after_, before_);
 }
 
 LightEntry new_light(LightKind kind, const glm::dvec3& location) {
@@ -120,10 +120,10 @@ LightEntry new_light(LightKind kind, const glm::dvec3& location) {
     return entry;
 }
 
-std::string free_light_name(const LightingState& state, const std::string& like) {
-    const std::size_t digits = like.find_last_not_of("0123456789");
-    const bool numbered = digits != std::string::npos && digits + 1 < like.size() && like[digits] == ' ';
-    const std::string stem = numbered ? like.substr(0, digits) : like;
+std::string free_light_name(const LightingState& state, const std::string& base) {
+    const std::size_t digits = base.find_last_not_of("0123456789");
+    const bool numbered = digits != std::string::npos && digits + 1 < base.size() && base[digits] == ' ';
+    const std::string stem = numbered ? base.substr(0, digits) : base;
     for (std::size_t number = 2;; ++number) {
         std::string name = stem + " " + std::to_string(number);
         if (std::ranges::none_of(state.entries, [&](const LightEntry& entry) { return entry.name == name; }))

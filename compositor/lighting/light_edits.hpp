@@ -1,9 +1,9 @@
 #pragma once
-// What is edited of a scene's light, and the way back: lights, environment, headlight and exposure, which of the lights
-// is selected, and every state before and after. No window, no OpenGL; one thread.
+// Editing of a scene's lighting with undo: lights, environment, headlight and exposure, the selected light, and the
+// undo history. Independent of window and OpenGL; not thread-safe.
 //
 //     LightEdits edits(state);
-//     edits.begin_gesture();            // a drag: all changes until its end are one step of undo()
+//     edits.begin_gesture();            // e.g. a drag: all changes until its end are one undo step
 //     edits.set_light(3, moved);
 //     edits.end_gesture();
 
@@ -27,7 +27,7 @@ struct LightingState {
     bool operator==(const LightingState&) const = default;
 };
 
-// The list in force, and back: lists hold no exposure.
+// Conversion from and to the active light list; lists have no exposure.
 LightingState state_of(const LightList& list, double exposure_ev);
 LightList list_of(const LightingState& state);
 
@@ -36,29 +36,29 @@ public:
     explicit LightEdits(LightingState state) : now_{std::move(state), std::nullopt} {}
 
     [[nodiscard]] const LightingState& state() const { return now_.state; }
-    // Grows with each change of state().
+    // Increases with each change of state().
     [[nodiscard]] std::uint64_t revision() const { return revision_; }
 
     [[nodiscard]] std::optional<std::size_t> selected() const { return now_.selected; }
-    // Nothing is selected where there is no such light. No step of its own.
+    // Clears the selection if there is no such light. Not an undo step.
     void select(std::optional<std::size_t> light);
 
-    // Each is a step, outside of gestures, where it changes anything.
+    // Each effective change outside of gestures is an undo step.
     void set(LightingState state);
     void set_light(std::size_t index, LightEntry entry);
-    // At the end of the list, and selected.
+    // Appends a light and selects it.
     void add(LightEntry entry);
-    // The selected light; its copy is selected and is `beside` away.
-    void duplicate(const glm::dvec3& beside);
+    // Copies the selected light, moves the copy by `offset` and selects it.
+    void duplicate(const glm::dvec3& offset);
     void remove_selected();
 
     void begin_gesture();
     void end_gesture();
-    // Back to how it was when the gesture began, which ends.
+    // Ends the gesture and restores the state at its beginning.
     void cancel_gesture();
     [[nodiscard]] bool in_gesture() const { return gesture_.has_value(); }
 
-    // False, with nothing changed, where there is no step to take, or within a gesture.
+    // Return false, with nothing changed, if there is no step or within a gesture.
     bool undo();
     bool redo();
     [[nodiscard]] bool can_undo() const { return !before_.empty(); }
@@ -69,20 +69,20 @@ private:
         LightingState state;
         std::optional<std::size_t> selected;
     };
-    void remember(Step step);
-    bool travel(std::deque<Step>& from, std::deque<Step>& to);
+    void push_undo(Step step);
+    bool apply_step(std::deque<Step>& from, std::deque<Step>& to);
 
     Step now_;
     std::deque<Step> before_;
     std::deque<Step> after_;
-    std::optional<Step> gesture_;  // as it began
+    std::optional<Step> gesture_;  // state at its beginning
     std::uint64_t revision_ = 0;
 };
 
-// A light of the kind that is easily found at a place; what needs a file has none yet.
+// A new light of a kind with default values at a location. Kinds that need a file have none yet.
 LightEntry new_light(LightKind kind, const glm::dvec3& location);
 
-// "kitchen" -> "kitchen 2" -> "kitchen 3": the first that no light has.
-std::string free_light_name(const LightingState& state, const std::string& like);
+// First unused name: "kitchen" -> "kitchen 2" -> "kitchen 3".
+std::string free_light_name(const LightingState& state, const std::string& base);
 
 }  // namespace rs::compositor

@@ -15,7 +15,7 @@ constexpr double kAim_px = 120;
 constexpr double kArrow_px = 34;
 constexpr double kShape_px = 46;
 constexpr double kSun_px = 12;
-constexpr double kNearest = 1e-3;  // axial depth: what is nearer is not shown
+constexpr double kNearest = 1e-3;  // minimum axial depth of visible strokes
 
 constexpr double kDotReach_px = 11;
 constexpr double kLineReach_px = 6;
@@ -31,7 +31,7 @@ double units_per_px(const glm::dvec3& place, const Camera& camera) {
     return std::max(glm::dot(place - camera.centre(), camera.forward()), kNearest) / camera.fl_x;
 }
 
-// Its own colour, bright enough to be seen.
+// The light's colour, scaled to a visible brightness.
 glm::vec3 colour_of(const LightEntry& entry) {
     const glm::dvec3 colour = entry.radiance ? *entry.radiance * entry.colour : entry.colour;
     const double most = std::max({colour.x, colour.y, colour.z});
@@ -39,18 +39,18 @@ glm::vec3 colour_of(const LightEntry& entry) {
     return glm::vec3(glm::mix(glm::dvec3(0.5), colour / most, 0.7));
 }
 
-// Strokes of one light.
+// Builds the strokes of one light.
 class Icon {
 public:
     Icon(const LightEntry& entry, const Camera& camera, const glm::vec3& colour, float width_px)
         : entry_(entry),
           camera_(camera),
-          place_(handle_place(entry, camera)),
+          place_(handle_position(entry, camera)),
           px_(units_per_px(place_, camera)),
           colour_(colour),
           width_px_(width_px) {
         dot(place_, 7);
-        if (!model_of(entry).words.has_place) arrow(dome_of(camera).middle);
+        if (!model_of(entry).words.has_place) arrow(dome_of(camera).centre);
         const LightOutline outline = model_of(entry).outline(entry);
         if (outline.lines.empty()) {
             sun();
@@ -83,8 +83,8 @@ private:
     }
 
     void shape(const LightOutline& outline) {
-        const glm::dvec3 aim = unit_of(entry_.aim);
-        const AimedAxes axes = axes_of(aim, radians(entry_.turn_deg));
+        const glm::dvec3 aim = unit_vector(entry_.aim);
+        const AimedAxes axes = aimed_axes(aim, radians(entry_.turn_deg));
         const glm::dmat3 world_from_outline =
             (outline.to_scale ? 1 : kShape_px * px_) * glm::dmat3(axes.across, axes.along, aim);
         for (const std::vector<glm::dvec3>& points : outline.lines) {
@@ -105,7 +105,7 @@ private:
     std::vector<HandleStroke> strokes_;
 };
 
-// From a position to a line on the screen, pixels; infinite where it is behind the camera.
+// Distance from a position to a stroke on the screen, pixels; infinite for strokes behind the camera.
 double distance_px(const HandleStroke& stroke, const Camera& camera, const glm::dvec2& at) {
     const glm::dvec3 a = camera.project(stroke.from);
     const glm::dvec3 b = camera.project(stroke.to);
@@ -122,15 +122,15 @@ HandleStroke dot_at(const glm::dvec3& place) {
 }
 
 std::optional<HandlePart> part_at(const LightEntry& entry, const Camera& camera, const glm::dvec2& at_px) {
-    if (const auto aim = aim_place(entry, camera)) {
+    if (const auto aim = aim_position(entry, camera)) {
         if (distance_px(dot_at(*aim), camera, at_px) <= kDotReach_px) return HandlePart::kAim;
     }
     if (!model_of(entry).words.has_place) return std::nullopt;
-    const glm::dvec3 place = handle_place(entry, camera);
+    const glm::dvec3 place = handle_position(entry, camera);
     std::optional<HandlePart> nearest;
     double least = kLineReach_px;
     for (const HandlePart axis : kAxisParts) {
-        // Not from the middle, which is the light's own.
+        // Starts outside the body handle.
         const glm::dvec3 end = axis_end(entry, axis, camera);
         const double distance = std::min(distance_px({glm::mix(place, end, 0.2), end, kWhite, 1}, camera, at_px),
                                          distance_px(dot_at(end), camera, at_px) - kLineReach_px / 2);
@@ -144,17 +144,17 @@ std::optional<HandlePart> part_at(const LightEntry& entry, const Camera& camera,
 }  // namespace
 
 Dome dome_of(const Camera& camera) {
-    constexpr double kDistance = 0.05;  // before all that is seen
-    constexpr double kPlace = 0.16;     // of the image's height, from its top
+    constexpr double kDistance = 0.05;  // in front of the scene
+    constexpr double kPlace = 0.16;     // distance from the image's top over its height
     constexpr double kSize = 0.09;
     return {camera.centre() + kDistance * camera.ray(0.5 * camera.width, kPlace * camera.height),
             kDistance * kSize * camera.height / camera.fl_y};
 }
 
-glm::dvec3 handle_place(const LightEntry& entry, const Camera& camera) {
+glm::dvec3 handle_position(const LightEntry& entry, const Camera& camera) {
     if (model_of(entry).words.has_place) return entry.location;
     const Dome dome = dome_of(camera);
-    return dome.middle - dome.radius * unit_of(entry.aim);
+    return dome.centre - dome.radius * unit_vector(entry.aim);
 }
 
 glm::dvec3 direction_of(HandlePart axis) {
@@ -165,9 +165,9 @@ glm::dvec3 axis_end(const LightEntry& entry, HandlePart axis, const Camera& came
     return entry.location + kAxis_px * units_per_px(entry.location, camera) * direction_of(axis);
 }
 
-std::optional<glm::dvec3> aim_place(const LightEntry& entry, const Camera& camera) {
+std::optional<glm::dvec3> aim_position(const LightEntry& entry, const Camera& camera) {
     if (const LightWords& words = model_of(entry).words; !words.has_place || !words.has_aim) return std::nullopt;
-    return entry.location + kAim_px * units_per_px(entry.location, camera) * unit_of(entry.aim);
+    return entry.location + kAim_px * units_per_px(entry.location, camera) * unit_vector(entry.aim);
 }
 
 std::vector<HandleStroke> light_strokes(const LightingState& state, std::optional<std::size_t> selected,
@@ -189,7 +189,7 @@ std::vector<HandleStroke> light_strokes(const LightingState& state, std::optiona
     const auto colour_of_part = [&](HandlePart part, const glm::vec3& usual) {
         return under_pointer == HandleHit{*selected, part} ? kUnderPointer : usual;
     };
-    if (const auto aim = aim_place(entry, camera)) {
+    if (const auto aim = aim_position(entry, camera)) {
         const glm::vec3 colour = colour_of_part(HandlePart::kAim, kWhite);
         strokes.push_back({entry.location, *aim, colour, kThin_px});
         strokes.push_back({*aim, *aim, colour, 12});
@@ -219,10 +219,10 @@ std::optional<HandleHit> handle_at(const LightingState& state, std::optional<std
         nearest = HandleHit{i, HandlePart::kBody};
     };
     for (std::size_t i = 0; i < state.entries.size(); ++i) {
-        offer(i, distance_px(dot_at(handle_place(state.entries[i], camera)), camera, at_px));
+        offer(i, distance_px(dot_at(handle_position(state.entries[i], camera)), camera, at_px));
     }
     if (nearest) return nearest;
-    least = kLineReach_px;  // the outlines of areas are large
+    least = kLineReach_px;  // outlines of area lights are large
     for (std::size_t i = 0; i < state.entries.size(); ++i) {
         if (model_of(state.entries[i]).form != LightForm::kArea) continue;
         const Icon icon(state.entries[i], camera, kWhite, 1);

@@ -1,11 +1,10 @@
 #pragma once
-// Lights as they are seen and grasped in an image: an icon for each, by kind, and on the selected one three axes to
-// drag it along and a point to aim it by. Icons have the same size on the screen however far the light is; the outlines
-// of areas are their own.
+// Handles of lights in an image: an icon per light, and for the selected one three axes for dragging and a point for
+// aiming. Icons have a constant size on the screen; outlines of area lights have their true size.
 //
-//     points       a dot with its outline (LightModel::outline), or with rays
-//     areas        their outlines, and an arrow to where they shine
-//     directional  an arrow to the middle of a dome that stands in the image's upper part, wherever one looks
+//     point        a dot with its outline (LightModel::outline), or with rays
+//     area         its outline, and an arrow in the emission direction
+//     directional  an arrow to the centre of a dome in the upper part of the image, fixed to the camera
 // Pure; thread-safe.
 
 #include "compositor/lighting/light_edits.hpp"
@@ -19,7 +18,7 @@
 
 namespace rs::compositor {
 
-// A line, or a dot where both ends are the same, in scene coordinates.
+// A line, or a dot if both ends are equal, in scene coordinates.
 struct HandleStroke {
     glm::dvec3 from{0};
     glm::dvec3 to{0};
@@ -36,25 +35,25 @@ struct HandleHit {
     bool operator==(const HandleHit&) const = default;
 };
 
-// Those of the selected light come last.
+// Strokes of all handles; those of the selected light are last.
 std::vector<HandleStroke> light_strokes(const LightingState& state, std::optional<std::size_t> selected,
                                         const std::optional<HandleHit>& under_pointer, const Camera& camera);
 
-// What is grasped at a position in pixels: of the selected light its aim and its axes first.
+// Handle at a position in pixels; aim and axes of the selected light have priority.
 std::optional<HandleHit> handle_at(const LightingState& state, std::optional<std::size_t> selected,
                                    const Camera& camera, const glm::dvec2& at_px);
 
-// Where a light's handle is; of directional ones on the dome.
-glm::dvec3 handle_place(const LightEntry& entry, const Camera& camera);
-// The end of its axis; the selected light has them but where it is directional.
+// Position of a light's body handle; for directional lights on the dome.
+glm::dvec3 handle_position(const LightEntry& entry, const Camera& camera);
+// End of an axis of the selected light; directional lights have no axes.
 glm::dvec3 axis_end(const LightEntry& entry, HandlePart axis, const Camera& camera);
-// Where its aim is grasped; nothing of points and directional lights.
-std::optional<glm::dvec3> aim_place(const LightEntry& entry, const Camera& camera);
+// Position of the aim handle; none for point and directional lights.
+std::optional<glm::dvec3> aim_position(const LightEntry& entry, const Camera& camera);
 glm::dvec3 direction_of(HandlePart axis);
 
-// A sphere whose middle directional lights are aimed at.
+// Sphere at whose centre directional lights are aimed.
 struct Dome {
-    glm::dvec3 middle{0};
+    glm::dvec3 centre{0};
     double radius = 1;
 };
 Dome dome_of(const Camera& camera);

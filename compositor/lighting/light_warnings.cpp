@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t kMostTriangles = 500'000;
 
-// The solid angle of a triangle over 4 pi, positive where it is seen from its back: A. van Oosterom and J. Strackee,
-// "The Solid Angle of a Plane Triangle", 1983.
+// Solid angle of a triangle over 4 pi, positive as seen from its back: A. van Oosterom and J. Strackee, "The Solid
+// Angle of a Plane Triangle", 1983.
 double share_of_sphere(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const double la = glm::length(a);
     const double lb = glm::length(b);
@@ -58,12 +58,12 @@ public:
 
     [[nodiscard]] std::string warning(std::size_t i) const {
         const Light& light = scene_.lights[i];
-        const std::string who = "light " + std::to_string(i + 1) + (light.name.empty() ? "" : " '" + light.name + "'");
-        if (!has_power(light)) return who + " has no power; give it some, or leave it out";
+        const std::string name = "light " + std::to_string(i + 1) + (light.name.empty() ? "" : " '" + light.name + "'");
+        if (!has_power(light)) return name + " has no power; increase it or remove the light";
         if (model_of(light).form == LightForm::kDistant) return "";
         for (const auto& [n, box] : boxes_) {
             if (contains(box, light.location) && winding_number(scene_.geometry[n], light.location) > 0.5) {
-                return who + " stands inside of a solid, which keeps its light; move it";
+                return name + " is inside a solid, which blocks its light; move it";
             }
         }
         return "";

@@ -1,5 +1,5 @@
 #pragma once
-// Lights of which nothing will be seen. Pure; thread-safe.
+// Detects lights without a visible effect. Pure; thread-safe.
 
 #include "compositor/scene/scene.hpp"
 
@@ -8,13 +8,13 @@
 
 namespace rs::compositor {
 
-// "light 3 'desk lamp' ...", a line for each light that has no power, or that stands inside of a solid: where the
-// winding number (A. Jacobson and others, "Robust Inside-Outside Segmentation Using Generalized Winding Numbers", 2013)
-// of a part of the geometry that is seen from outside only is above one half, so that rooms, which are seen from
-// inside, are none. Parts of more than half a million triangles are not tested.
+// One line, "light 3 'desk lamp' ...", per light that has no power or is inside a solid, i.e. where the winding number
+// (A. Jacobson et al., "Robust Inside-Outside Segmentation Using Generalized Winding Numbers", 2013) of a one-sided
+// part of the geometry exceeds one half. Rooms, whose front sides face inwards, are not solids. Parts of more than half
+// a million triangles are not tested.
 std::vector<std::string> light_warnings(const Scene& scene);
 
-// Of one light of the scene, or nothing.
+// Warning for one light of the scene, or an empty string.
 std::string light_warning(const Scene& scene, std::size_t light);
 
 }  // namespace rs::compositor

@@ -8,7 +8,7 @@ namespace rs::compositor {
 double rounded_to_digits(double value, int digits) {
     if (value == 0 || !std::isfinite(value)) return value;
     const int order = static_cast<int>(std::floor(std::log10(std::abs(value)))) + 1 - digits;
-    // Powers of ten are exact upwards only.
+    // Only non-negative powers of ten are exact.
     const double power = std::pow(10.0, std::abs(order));
     return order < 0 ? std::round(value * power) / power : std::round(value / power) * power;
 }
@@ -20,7 +20,7 @@ double scaled(double value, double factor, double first, double lowest, double h
 }
 
 double shifted(double value, int order, int count, double lowest, double highest) {
-    constexpr int kDigitsBelow = 6;  // that stay of the value, behind the step's
+    constexpr int kDigitsBelow = 6;  // decimals kept below the step's digit
     const double power = std::pow(10.0, std::abs(order));
     const double step = order < 0 ? count / power : count * power;
     const double fine = std::pow(10.0, kDigitsBelow + std::max(-order, 0));

@@ -1,17 +1,16 @@
 #pragma once
-// Numbers of lights as they are changed by hand: brightness by factors, so that a candle and the sun are as easily set;
-// lengths and angles by steps of one order of magnitude, as the rings of a number wheel. What comes out has few digits.
-// Pure; thread-safe.
+// Stepwise changes of numbers in user interfaces: brightness by factors, which suits candles and the sun alike; lengths
+// and angles by steps of a power of ten. Results have few digits. Pure; thread-safe.
 
 namespace rs::compositor {
 
-// `value` times `factor`, to four digits, within lowest..highest; a value of 0 begins at `first`.
+// `value` times `factor`, rounded to four digits, clamped to lowest..highest; a value of 0 becomes `first`.
 double scaled(double value, double factor, double first, double lowest, double highest);
 
-// `value` plus `count` steps of 10^order, without what rounding adds, within lowest..highest.
+// `value` plus `count` steps of 10^order, without rounding errors, clamped to lowest..highest.
 double shifted(double value, int order, int count, double lowest, double highest);
 
-// To that many significant digits.
+// Rounds to significant digits.
 double rounded_to_digits(double value, int digits);
 
 }  // namespace rs::compositor

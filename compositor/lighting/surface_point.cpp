@@ -6,7 +6,7 @@
 namespace rs::compositor {
 namespace {
 
-// The difference from a pixel to the next along one axis, from the side whose second difference is the least.
+// First difference along one axis, from the side with the smaller second difference.
 double slope(double middle, double before, double far_before, double behind, double far_behind) {
     const double infinity = std::numeric_limits<double>::infinity();
     const auto bend = [&](double near, double far) {

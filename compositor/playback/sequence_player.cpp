@@ -9,8 +9,8 @@ namespace rs::compositor {
 
 namespace {
 
-// Takes what a frame does not show out of sight: small, below everything.
-glm::dmat4 nowhere_in(const Scene& scene) {
+// Transform that hides instances: scaled down, below the scene.
+glm::dmat4 hidden_transform(const Scene& scene) {
     constexpr double kSmall = 1e-6;
     const BoundingBox box = bounds_of(scene);
     glm::dmat4 matrix(kSmall);
@@ -53,7 +53,7 @@ Result<SequencePlayer> SequencePlayer::create(std::shared_ptr<const Sequence> se
     RS_ASSIGN_OR_RETURN(auto compositor,
                         FrameCompositor::create(scene, showroom->engine(), showroom->nodes(), options.frame));
     SequencePlayer player(std::move(sequence), std::move(showroom), std::move(compositor), options);
-    player.nowhere_ = nowhere_in(scene);
+    player.hidden_transform_ = hidden_transform(scene);
     player.scene_ = scene;
     return player;
 }
@@ -65,7 +65,7 @@ Status show_frame(const Sequence& sequence, std::size_t frame, const std::option
         for (const std::size_t node : sequence.slots[slot].geometry) {
             std::optional<glm::dmat4> matrix = moved.geometry[slot];
             if (matrix) *matrix = *matrix * sequence.scene.geometry[node].world_from_node;
-            if (Status status = compositor.move_geometry(node, matrix); !status) return status;
+            RS_TRY(compositor.move_geometry(node, matrix));
         }
     }
     for (const auto& [node, chain] : moved.objects) showroom.move_object(node, chain);
@@ -75,11 +75,11 @@ Status show_frame(const Sequence& sequence, std::size_t frame, const std::option
 
 Status SequencePlayer::draw(std::size_t number, const Camera& camera) {
     const auto weather = weather_of(*sequence_, options_);
-    if (Status status = show_frame(*sequence_, number, weather, compositor_, *showroom_); !status) return status;
+    RS_TRY(show_frame(*sequence_, number, weather, compositor_, *showroom_));
     if (options_.tracing) {
-        if (Status status = trace(number, camera); !status) return status;
+        RS_TRY(trace(number, camera));
     }
-    if (Status status = showroom_->update(camera.centre(), 1 / sequence_->frames_per_second); !status) return status;
+    RS_TRY(showroom_->update(camera.centre(), 1 / sequence_->frames_per_second));
     for (std::string& warning : showroom_->take_warnings()) warnings_.push_back(std::move(warning));
     return compositor_.draw(camera);
 }
@@ -98,18 +98,18 @@ Status SequencePlayer::make_tracer() {
 }
 
 Status SequencePlayer::trace(std::size_t number, const Camera& camera) {
-    // Ray-space objects stand where they are in a tracer.
+    // Ray-space objects cannot move in a tracer, so it is rebuilt.
     const MovedSlots moved = moved_slots(*sequence_, number);
     if (!tracer_ || !moved.objects.empty()) {
-        if (Status status = make_tracer(); !status) return status;
+        RS_TRY(make_tracer());
     }
     const auto begin = std::chrono::steady_clock::now();
     for (std::size_t slot = 0; slot < sequence_->slots.size(); ++slot) {
         const auto id = static_cast<std::uint32_t>(slot);
-        // What is drawn by raster alone has no part in it.
-        static_cast<void>(tracer_->move(id, moved.geometry[slot].value_or(nowhere_)));
+        // Nodes drawn by raster alone are not in the tracer.
+        static_cast<void>(tracer_->move(id, moved.geometry[slot].value_or(hidden_transform_)));
     }
-    tracer_->look(camera);
+    tracer_->begin_image(camera);
     commit_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     for (int pass = 0; pass < options_.passes; ++pass) tracer_->add_pass();
     compositor_.set_traced(std::make_shared<const Image<Rgba8>>(tracer_->image()));

@@ -1,5 +1,5 @@
 #pragma once
-// Draws the frames of a sequence. Everything is given to the driver and the tracer once; a frame moves nodes.
+// Renders the frames of a sequence. Geometry is uploaded to the driver and the tracer once; a frame moves nodes.
 
 #include "compositor/scene/weather.hpp"
 #include "compositor/sequence/sequence.hpp"
@@ -19,41 +19,40 @@ namespace rs::compositor {
 
 struct PlayerOptions {
     FrameOptions frame;
-    std::optional<TracedOptions> tracing = {};  // raster where there is none
-    int passes = 16;                            // of a traced frame
-    std::optional<Weather> weather = {};        // in place of the sequence's
+    std::optional<TracedOptions> tracing = {};  // nullopt: raster
+    int passes = 16;                            // per traced frame
+    std::optional<Weather> weather = {};        // overrides the sequence's weather
     std::int64_t memory_bytes = usual_memory_budget();
 };
 
-// The weather that is drawn; nothing where it is fair.
+/// Weather to draw; nullopt if fair.
 std::optional<Weather> weather_of(const Sequence& sequence, const PlayerOptions& options);
 
-// The camera of a frame: its own, the base's, or one from where all is seen.
+/// Camera of a frame: its own, else the base scene's, else one that frames the whole scene.
 Camera camera_of(const Sequence& sequence, std::size_t frame, int width, int height);
 
-// Brings everything that moves to where a frame has it, and the weather to its time; for the next draw().
+/// Applies the transforms of a frame and the weather's time; takes effect in the next draw().
 Status show_frame(const Sequence& sequence, std::size_t frame, const std::optional<Weather>& weather,
                   FrameCompositor& compositor, Showroom& showroom);
 
-// Needs a gl::Context that is current, and outlives it; one thread. Move-only.
+/// Requires a current gl::Context that outlives it; single-threaded, move-only.
 class SequencePlayer {
 public:
-    // `sequence` is not null.
+    /// \param sequence must not be null.
     static Result<SequencePlayer> create(std::shared_ptr<const Sequence> sequence, const PlayerOptions& options);
 
-    // Frames may be requested in any order; each is the same bytes however it is come by.
+    /// Frames may be requested in any order; the result does not depend on it.
     Result<Image<Rgba8>> frame(std::size_t number);
-    // The same, left with the driver (FrameCompositor::draw).
+    /// Same, without reading the image back (FrameCompositor::draw).
     Status draw(std::size_t number, const Camera& camera);
 
     [[nodiscard]] std::size_t frames() const { return sequence_->frames.size(); }
     [[nodiscard]] const FrameCompositor& compositor() const { return compositor_; }
-    // Trees over triangles built for traced frames since create() began: none after the first, unless ray-space objects
-    // move.
+    /// Number of acceleration structures built for traced frames since create(): one, unless ray-space objects move.
     [[nodiscard]] int tracers_made() const { return tracers_made_; }
-    // Seconds that moving everything and building the tree over it took, in the last traced frame.
+    /// Seconds spent on moving instances and rebuilding the top-level tree in the last traced frame.
     [[nodiscard]] double commit_s() const { return commit_s_; }
-    // Of objects that cannot be shown, each reported once.
+    /// Objects that cannot be displayed; each is reported once.
     std::vector<std::string> take_warnings();
 
 private:
@@ -63,9 +62,9 @@ private:
     Status trace(std::size_t number, const Camera& camera);
 
     std::shared_ptr<const Sequence> sequence_;
-    Scene scene_;  // in its weather
+    Scene scene_;  // with weather applied
     std::optional<TracedRenderer> tracer_;
-    glm::dmat4 nowhere_{1.0};  // for what a frame does not show
+    glm::dmat4 hidden_transform_{1.0};  // transform of nodes that a frame does not show
     PlayerOptions options_;
     std::unique_ptr<Showroom> showroom_;
     FrameCompositor compositor_;

@@ -8,7 +8,7 @@
 namespace rs::compositor {
 namespace {
 
-// The uniform Catmull-Rom segment from b (t = 0) to c (t = 1).
+// Uniform Catmull-Rom segment from b (t = 0) to c (t = 1).
 glm::dvec3 catmull_rom(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d, double t) {
     return 0.5 * (2.0 * b + t * ((c - a) + t * ((2.0 * a - 5.0 * b + 4.0 * c - d) + t * (3.0 * (b - c) + d - a))));
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Where the scene's camera stands and looks, frame by frame. Pure; thread-safe.
+// Camera poses along a path, frame by frame. Pure; thread-safe.
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -15,8 +15,8 @@ struct CameraPose {
     glm::dvec3 at{0, 0, 0};
 };
 
-// `frames` poses on a smooth curve (Catmull-Rom) through the keys, at equal steps of the curve's parameter. An open
-// path begins at its first key and ends at its last; a closed one returns to its first key after the last frame.
+/// Smooth curve (Catmull-Rom) through the keys, sampled at `frames` equal steps of its parameter. An open path begins
+/// at the first key and ends at the last; a closed one returns to the first key after the last frame.
 struct CameraPath {
     std::vector<CameraPose> keys;  // at least one
     int frames = 1;                // >= 1
@@ -25,7 +25,7 @@ struct CameraPath {
 };
 std::vector<CameraPose> poses_along(const CameraPath& path);
 
-// `count` poses at even steps about the vertical through `pose.at`, the given one first.
+/// `count` poses at equal angles about the vertical axis through `pose.at`, starting with `pose`.
 std::vector<CameraPose> poses_around(const CameraPose& pose, int count);
 
 }  // namespace rs::compositor

@@ -33,7 +33,7 @@ std::shared_ptr<const NormalMap> normal_map_of_heights(const SceneTexture& image
     map->repeat_s = image.repeat_s;
     map->repeat_t = image.repeat_t;
     map->directions = Image<RgbaF>(heights.width(), heights.height());
-    // Integers, so that even heights are even exactly; white is 255000.
+    // Integers, so that constant heights give exactly flat normals; white is 255000.
     const auto height = [&](int x, int y) {
         const Rgba8& p =
             heights(neighbour(x, heights.width(), image.repeat_s), neighbour(y, heights.height(), image.repeat_t));
@@ -41,8 +41,8 @@ std::shared_ptr<const NormalMap> normal_map_of_heights(const SceneTexture& image
     };
     for (int y = 0; y < heights.height(); ++y) {
         for (int x = 0; x < heights.width(); ++x) {
-            int rise_s = 0;  // to the right
-            int rise_t = 0;  // up
+            int rise_s = 0;  // towards the right
+            int rise_t = 0;  // upwards
             for (const auto& [aside, weight] : {std::pair(-1, 1), std::pair(0, 2), std::pair(1, 1)}) {
                 rise_s += weight * (height(x + 1, y + aside) - height(x - 1, y + aside));
                 rise_t += weight * (height(x + aside, y - 1) - height(x + aside, y + 1));

@@ -1,5 +1,5 @@
 #pragma once
-// Small relief on a surface: normals, in the frame of its texture coordinates, in place of its own. Pure; thread-safe.
+// Normal maps in the tangent frame of the texture coordinates. Pure; thread-safe.
 
 #include "compositor/scene/material.hpp"
 #include "rayspace/image/image.hpp"
@@ -8,19 +8,20 @@
 
 namespace rs::compositor {
 
-// Per texel a direction, of any length: r along s, g along t, b away from the surface; a is 1. (0, 0, 1) leaves the
-// surface's normal as it is, bit for bit. Interpolated between texels, then normalised.
+/// One direction of any length per texel: r along s, g along t, b away from the surface; a is 1. (0, 0, 1) keeps the
+/// surface's normal bit for bit. Interpolated between texels, then normalised.
 struct NormalMap {
-    Image<RgbaF> directions;  // the first row is the top, where t is largest
+    Image<RgbaF> directions;  // the first row is the top, at the largest t
     bool repeat_s = true;
     bool repeat_t = true;
 };
 
-// Of an image of directions as glTF 2.0 has them (3.9.3): bytes 1, 128, 255 are -1, 0, 1. `scale` is that of r and g.
+/// Converts a glTF 2.0 normal texture (3.9.3): bytes 1, 128, 255 are -1, 0, 1.
+/// \param scale factor on r and g.
 std::shared_ptr<const NormalMap> normal_map(const SceneTexture& image, float scale);
 
-// Of an image of heights (its luminance; MTL's bump map): slopes by I. Sobel's operator, as image tools have them,
-// times `multiplier` (-bm): a step from black to white between columns is a slope of 4 on both of them.
+/// Converts a height image (its luminance; MTL's bump map) with the Sobel operator.
+/// \param multiplier MTL's -bm: a step from black to white between two columns gives a slope of 4 at both.
 std::shared_ptr<const NormalMap> normal_map_of_heights(const SceneTexture& image, float multiplier);
 
 }  // namespace rs::compositor

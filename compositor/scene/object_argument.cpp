@@ -8,15 +8,15 @@
 namespace rs::compositor {
 namespace {
 
-constexpr double kFarthestObject = 1e6;
-constexpr double kSmallestScale = 1e-6;
+constexpr double kMaxObjectPosition = 1e6;
+constexpr double kMinObjectScale = 1e-6;
 
-// False where the text is anything but finite numbers with commas between them.
+// False unless the text consists of finite numbers separated by commas.
 bool parse_numbers(std::string_view text, std::vector<double>& numbers) {
     while (true) {
         double number = 0;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (error != std::errc{} || !(std::abs(number) <= kFarthestObject)) return false;
+        if (error != std::errc{} || !(std::abs(number) <= kMaxObjectPosition)) return false;
         numbers.push_back(number);
         text.remove_prefix(static_cast<std::size_t>(end - text.data()));
         if (text.empty()) return true;
@@ -41,13 +41,13 @@ Result<RaySpaceNode> parse_object_argument(const std::string& text, const glm::d
         std::vector<double> numbers;
         if (!parse_numbers(std::string_view(text).substr(sign + 1), numbers) || numbers.size() < 3 ||
             numbers.size() > 5) {
-            return Error{text +
-                         ": is no object with a place; write FILE.rso@X,Y,Z or FILE.rso@X,Y,Z,TURN_DEGREES,SCALE"};
+            return Error{
+                text + ": is not an object with a position; write FILE.rso@X,Y,Z or FILE.rso@X,Y,Z,TURN_DEGREES,SCALE"};
         }
         transform.translation = {numbers[0], numbers[1], numbers[2]};
         if (numbers.size() > 3) transform.angle_rad = radians(numbers[3]);
         if (numbers.size() > 4) transform.scale = numbers[4];
-        if (!(transform.scale >= kSmallestScale)) return Error{text + ": the scale must be above 0"};
+        if (!(transform.scale >= kMinObjectScale)) return Error{text + ": the scale must be above 0"};
     }
     node.chain = {transform};
     return node;

@@ -1,5 +1,5 @@
 #pragma once
-// An object and its place, as the command line gives them: FILE.rso[@X,Y,Z[,TURN_DEGREES[,SCALE]]].
+// Object argument of the command line: FILE.rso[@X,Y,Z[,TURN_DEGREES[,SCALE]]].
 
 #include "compositor/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
@@ -10,8 +10,8 @@
 
 namespace rs::compositor {
 
-// The object stands at X,Y,Z, or at `otherwise` where the text has no place, turned about Y and scaled. A text that
-// names a file as it is has no place, whatever signs it holds.
+/// Places the object at X,Y,Z, or at `otherwise` without a position, rotated about Y and scaled. A text that names an
+/// existing file is a path without a position, whatever characters it contains.
 Result<RaySpaceNode> parse_object_argument(const std::string& text, const glm::dvec3& otherwise);
 
 }  // namespace rs::compositor

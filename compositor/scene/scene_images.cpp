@@ -5,7 +5,7 @@
 namespace rs::compositor {
 namespace {
 
-constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;  // of all images of a scene
+constexpr std::int64_t kMaxPixels = std::int64_t{1} << 28;  // total of all images of a scene
 constexpr int kMaxSide_px = 8192;
 
 int hex_digit(char c) {
@@ -24,7 +24,7 @@ std::optional<std::filesystem::path> local_path(const std::string& url, const st
     } else if (name.starts_with("file:")) {
         name = name.substr(5);
     } else if (const std::size_t colon = name.find(':'); colon != std::string::npos && colon > 1) {
-        // http:, urn:, javascript:; one letter may be a drive.
+        // http:, urn:, javascript:; a single letter may be a drive.
         if (name.find_first_of("/\\") > colon) return std::nullopt;
     }
     std::string decoded;
@@ -45,7 +45,7 @@ std::shared_ptr<const SceneTexture> SceneImages::read(const std::vector<std::str
     for (const std::string& url : urls) {
         const auto path = local_path(url, folder);
         if (!path) {
-            fault = "'" + url.substr(0, 80) + "' is no file on this machine";
+            fault = "'" + url.substr(0, 80) + "' is not a local file";
             continue;
         }
         const Key key{*path, repeat_s, repeat_t};

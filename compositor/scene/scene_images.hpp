@@ -1,5 +1,5 @@
 #pragma once
-// The images that scene files name: each is read once, and what cannot be read becomes a warning.
+// Images of scene files: each is read once; unreadable ones become warnings.
 
 #include "compositor/scene/material.hpp"
 
@@ -13,14 +13,13 @@
 
 namespace rs::compositor {
 
-// The file that a URL of a scene file names, or nothing where it is not one on this machine. Relative ones are looked
-// for in `folder`. "file:" is taken off, %XX stands for a byte.
+/// Local file of a URL, relative to `folder`; nullopt if it is not local. Removes "file:" and decodes %XX.
 std::optional<std::filesystem::path> local_path(const std::string& url, const std::filesystem::path& folder);
 
 // Not thread-safe.
 class SceneImages {
 public:
-    // The first of the URLs that can be read; null, with a reason in `fault`, where none can.
+    /// First readable image of the URLs; null, with the reason in `fault`, if there is none.
     std::shared_ptr<const SceneTexture> read(const std::vector<std::string>& urls, const std::filesystem::path& folder,
                                              bool repeat_s, bool repeat_t, std::string& fault);
 

@@ -32,7 +32,7 @@ NodeTransform NodeTransform::of(const glm::dmat3& orthogonal, double scale) {
     if (node.mirrored) rotation[0] = -rotation[0];
     const glm::dquat turn = glm::normalize(glm::quat_cast(rotation));
     const glm::dvec3 along(turn.x, turn.y, turn.z);
-    // The angle itself, not its cosine: a small turn keeps its digits.
+    // The angle from atan2 instead of acos keeps the precision of small rotations.
     if (glm::length(along) > 0) node.axis = along;
     node.angle_rad = 2 * std::atan2(glm::length(along), turn.w);
     return node;
@@ -40,7 +40,7 @@ NodeTransform NodeTransform::of(const glm::dmat3& orthogonal, double scale) {
 
 Similarity NodeTransform::parent_from_node() const {
     RS_CHECK(scale > 0 && glm::length(axis) > 0);
-    // Rodrigues' formula, column by column. A turn about Y leaves exact zeros, so that upright cameras stay upright.
+    // Rodrigues' formula by columns. Rotations about Y give exact zeros, so that upright cameras stay upright.
     const glm::dvec3 n = glm::normalize(axis);
     const double c = std::cos(angle_rad);
     const double s = std::sin(angle_rad);

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kVisibilityInRain_m = 900;
 constexpr double kVisibilityInSnow_m = 320;
-constexpr float kSunThroughClouds = 0.35F;
-constexpr float kGreyFromAbove = 0.3F;  // of what the sun loses, as ambient light
+constexpr float kCloudTransmittance = 0.35F;
+constexpr float kScatteredFraction = 0.3F;  // fraction of the removed sunlight that returns as ambient light
 
 }  // namespace
 
@@ -26,9 +26,9 @@ Result<Weather> parse_weather(const std::string& words) {
                             : word == "fog"  ? &weather.fog
                                              : nullptr;
         if (which == nullptr) {
-            return Error{"--weather: '" + printable(word) + "' is no weather; give rain, snow or fog, or rain,fog"};
+            return Error{"--weather: '" + printable(word) + "' is not a weather; give rain, snow or fog, or rain,fog"};
         }
-        if (*which) return Error{"--weather: " + word + " is there twice; give it once"};
+        if (*which) return Error{"--weather: " + word + " is given twice; give it once"};
         *which = true;
         begin = end + 1;
     }
@@ -39,11 +39,11 @@ Result<Weather> parse_weather(const std::string& words) {
 Scene in_weather(Scene scene, const Weather& weather) {
     for (Light& light : scene.lights) {
         if (light.kind != LightKind::kDirectional) continue;
-        const glm::vec3 lost = light.colour * (1 - kSunThroughClouds);
+        const glm::vec3 lost = light.colour * (1 - kCloudTransmittance);
         light.colour -= lost;
-        light.ambient += glm::vec3(luminance(lost) * kGreyFromAbove);
+        light.ambient += glm::vec3(luminance(lost) * kScatteredFraction);
     }
-    // What is far has the horizon's colour without its hue.
+    // Distant air has the horizon's colour, desaturated.
     const glm::vec3 horizon = background_colour(scene.background, {1, 0.02, 0});
     const glm::vec3 air = glm::mix(glm::vec3(luminance(horizon)), horizon, 0.25F);
     const float veil = weather.fog ? 1.0F : weather.snow ? 0.95F : 0.75F;

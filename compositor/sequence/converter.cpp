@@ -14,7 +14,7 @@
 namespace rs::compositor {
 namespace {
 
-// True where there was something to replace.
+// Returns true if `what` was found.
 bool replace_all(std::string& word, const std::string& what, const std::string& by) {
     bool found = false;
     for (std::size_t at = word.find(what); at != std::string::npos; at = word.find(what, at + by.size())) {
@@ -24,8 +24,8 @@ bool replace_all(std::string& word, const std::string& what, const std::string& 
     return found;
 }
 
-// The exit status, or -1 with errno.
-int run_words(const std::vector<std::string>& words) {
+// Returns the exit status, or -1 with errno.
+int run_command(const std::vector<std::string>& words) {
     std::vector<char*> arguments;
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
@@ -49,8 +49,8 @@ int run_words(const std::vector<std::string>& words) {
 
 }  // namespace
 
-Result<std::vector<std::string>> converter_words(const std::string& command, const std::filesystem::path& in,
-                                                 const std::filesystem::path& out) {
+Result<std::vector<std::string>> parse_converter_command(const std::string& command, const std::filesystem::path& in,
+                                                         const std::filesystem::path& out) {
     std::vector<std::string> words;
     bool in_word = false;
     char quote = 0;
@@ -87,15 +87,15 @@ Result<Converted> convert_scene(const std::string& command, const std::filesyste
         std::filesystem::temp_directory_path() / ("rayspace-converted-" + std::to_string(getpid()));
     RS_ASSIGN_OR_RETURN(StagedFolder folder, StagedFolder::create(place, "converted files"));
     std::filesystem::path out = folder.temporary_path() / "scene";
-    RS_ASSIGN_OR_RETURN(const auto words, converter_words(command, in, out));
-    const int status = run_words(words);
+    RS_ASSIGN_OR_RETURN(const auto words, parse_converter_command(command, in, out));
+    const int status = run_command(words);
     const std::string name = printable(words.front());
     if (status < 0) {
-        return Error{"--convert: " + name + " cannot be run (" + std::strerror(errno) + "); mend the command's name"};
+        return Error{"--convert: " + name + " cannot be run (" + std::strerror(errno) + "); correct the command"};
     }
     if (status != 0) {
         return Error{printable(in.string()) + ": the converter " + name + " ended with " + std::to_string(status) +
-                     "; see what it says above"};
+                     "; see its output above"};
     }
     std::error_code error;
     if (!std::filesystem::exists(out, error)) {

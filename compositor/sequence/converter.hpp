@@ -1,5 +1,5 @@
 #pragma once
-// Scenes of other formats: a program of the user's turns them into a sequence's files.
+// Import of other scene formats by a user-supplied converter program.
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -10,19 +10,19 @@
 
 namespace rs::compositor {
 
-// The words of a command, parted by blanks; '...' and "..." hold words together, nothing else has a meaning. {in} and
-// {out} are replaced wherever they stand; both must be there. Pure.
-Result<std::vector<std::string>> converter_words(const std::string& command, const std::filesystem::path& in,
-                                                 const std::filesystem::path& out);
+/// Splits a command at blanks; '...' and "..." group words, other characters are literal. Replaces {in} and {out}, both
+/// of which must occur. Pure.
+Result<std::vector<std::string>> parse_converter_command(const std::string& command, const std::filesystem::path& in,
+                                                         const std::filesystem::path& out);
 
-// What a converter has written, until this is dropped.
+/// Output of a converter; deleted on destruction.
 struct Converted {
     StagedFolder folder;         // never committed
-    std::filesystem::path path;  // {out}, which the converter has made: a folder or a file
+    std::filesystem::path path;  // {out}: the folder or file that the converter created
 };
 
-// Runs the command without a shell, with no input and its output on this program's stderr, and waits for it. An error
-// where it cannot be run, does not end with 0 or has left nothing at {out}.
+/// Runs the command without a shell, stdin closed, stdout redirected to this program's stderr, and waits for it. Fails
+/// if it cannot be run, its exit status is not 0, or {out} does not exist afterwards.
 Result<Converted> convert_scene(const std::string& command, const std::filesystem::path& in);
 
 }  // namespace rs::compositor

@@ -13,10 +13,10 @@
 namespace rs::compositor {
 namespace {
 
-constexpr double kFarthest = 1e6;  // coordinates, scales
-constexpr double kLeastScale = 1e-6;
-constexpr double kMostTurns_deg = 36000;
-constexpr std::size_t kLongestShown = 40;
+constexpr double kMaxObjCoordinate = 1e6;  // coordinates, scales
+constexpr double kMinScale = 1e-6;
+constexpr double kMaxTurns_deg = 36000;
+constexpr std::size_t kMaxQuoted_chars = 40;
 
 struct MalformedLine {
     std::string what;  // "...; what to do"
@@ -40,7 +40,7 @@ Words words_of(std::string_view line) {
     return words;
 }
 
-// What stands behind the first word, with its blanks.
+// Text after the first word, including its blanks.
 std::string rest_of(std::string_view line, std::string_view first_word) {
     std::string_view rest = line.substr(line.find(first_word) + first_word.size());
     while (!rest.empty() && is_space(rest.front())) rest.remove_prefix(1);
@@ -49,10 +49,10 @@ std::string rest_of(std::string_view line, std::string_view first_word) {
 }
 
 std::string in_quotes(std::string_view word) {
-    return "'" + printable(word.substr(0, kLongestShown)) + (word.size() > kLongestShown ? "...'" : "'");
+    return "'" + printable(word.substr(0, kMaxQuoted_chars)) + (word.size() > kMaxQuoted_chars ? "...'" : "'");
 }
 
-// `f` at the end as of a C number is taken where the line may have it.
+// Parses a number; a trailing `f` as in C is accepted if `may_end_in_f`.
 double number(std::string_view word, double lowest, double highest, bool may_end_in_f) {
     std::string_view digits = word;
     if (may_end_in_f && digits.size() > 1 && (digits.back() == 'f' || digits.back() == 'F')) digits.remove_suffix(1);
@@ -60,7 +60,7 @@ double number(std::string_view word, double lowest, double highest, bool may_end
     double value = 0;
     const auto end = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (end.ec != std::errc() || end.ptr != digits.data() + digits.size() || !std::isfinite(value)) {
-        throw MalformedLine{in_quotes(word) + " is no number; write it as 1.5"};
+        throw MalformedLine{in_quotes(word) + " is not a number; write it as 1.5"};
     }
     if (value < lowest || value > highest) {
         std::array<char, 96> text{};
@@ -80,7 +80,7 @@ bool whole(std::string_view word, long long& value) {
     return end.ec == std::errc() && end.ptr == word.data() + word.size();
 }
 
-// Reads a file line by line.
+// Line-by-line parser.
 class Reader {
 public:
     void take(std::string_view line, int number_of_line) {
@@ -106,19 +106,19 @@ private:
                                 "; write: instance ID dx dy dz rx ry rz sx sy sz MATERIAL"};
         }
         if (result_.instances.size() >= kMaxInstances) {
-            throw MalformedLine{"is one instance too many; a file may have " + std::to_string(kMaxInstances)};
+            throw MalformedLine{"too many instances; a file may have " + std::to_string(kMaxInstances)};
         }
         const std::span<const std::string_view> values(words);
         InstanceLine instance;
         instance.line = line_;
         instance.id = std::string(words[1]);
-        instance.pose.move = triple(values.subspan(2, 3), kFarthest);
-        instance.pose.turn_deg = triple(values.subspan(5, 3), kMostTurns_deg);
-        instance.pose.scale = triple(values.subspan(8, 3), kFarthest);
+        instance.pose.move = triple(values.subspan(2, 3), kMaxObjCoordinate);
+        instance.pose.turn_deg = triple(values.subspan(5, 3), kMaxTurns_deg);
+        instance.pose.scale = triple(values.subspan(8, 3), kMaxObjCoordinate);
         for (int axis = 0; axis < 3; ++axis) {
-            if (std::abs(instance.pose.scale[axis]) < kLeastScale) {
+            if (std::abs(instance.pose.scale[axis]) < kMinScale) {
                 throw MalformedLine{"the scale " + in_quotes(words[static_cast<std::size_t>(8 + axis)]) +
-                                    " leaves nothing; give one that is not 0"};
+                                    " is 0; give a non-zero scale"};
             }
         }
         instance.material = std::string(words[11]);
@@ -130,11 +130,11 @@ private:
             throw MalformedLine{"a camera has 7 values, not " + std::to_string(words.size() - 1) +
                                 "; write: camera ex ey ez tx ty tz ANGLE"};
         }
-        if (result_.camera) throw MalformedLine{"is a second camera; keep one"};
+        if (result_.camera) throw MalformedLine{"there are two cameras; keep one"};
         const std::span<const std::string_view> values(words);
         SequenceCamera camera;
-        camera.pose.eye = triple(values.subspan(1, 3), kFarthest);
-        camera.pose.at = triple(values.subspan(4, 3), kFarthest);
+        camera.pose.eye = triple(values.subspan(1, 3), kMaxObjCoordinate);
+        camera.pose.at = triple(values.subspan(4, 3), kMaxObjCoordinate);
         camera.fov_x_rad = radians(number(words[7], 1, 150, true));
         if (glm::distance(camera.pose.eye, camera.pose.at) < 1e-6) {
             throw MalformedLine{"the eye and the point looked at are the same; move one"};
@@ -153,7 +153,7 @@ private:
         };
         const auto name = [&] {
             if (words.size() < 2) throw MalformedLine{in_quotes(kind) + " has no name; give one"};
-            // As the reader of meshes has it: up to the next blank.
+            // Names end at the next blank, as in the mesh reader.
             return std::string(words[1]);
         };
         if (kind == "v") {
@@ -181,7 +181,7 @@ private:
             name();
         } else if (kind != "s" && kind != "mg" && kind != "vp" && kind != "lod" && kind != "bevel" &&
                    kind != "c_interp" && kind != "d_interp") {
-            throw MalformedLine{in_quotes(kind) + " begins no line of extended OBJ; mend or take out the line"};
+            throw MalformedLine{in_quotes(kind) + " is not a statement of extended OBJ; correct or remove the line"};
         }
     }
 
@@ -203,25 +203,26 @@ private:
                     throw MalformedLine{"the corner " + in_quotes(words[i]) + " has too many parts; write 1/2/3"};
             }
         }
-        note_object();
+        register_object();
     }
 
     static void check_index(std::string_view text, long long count, std::size_t part, std::string_view corner) {
         if (text.empty() && part != 0) return;
         long long index = 0;
         if (!whole(text, index) || index == 0) {
-            throw MalformedLine{"the corner " + in_quotes(corner) + " is no index; write it as 1, 1/2, 1//3 or 1/2/3"};
+            throw MalformedLine{"the corner " + in_quotes(corner) +
+                                " is not an index; write it as 1, 1/2, 1//3 or 1/2/3"};
         }
-        // Some writers number texture coordinates that they do not write.
+        // Some exporters write texture coordinate indices without coordinates.
         if (part == 1 && count == 0) return;
         if (index > count || index < -count) {
             constexpr std::array kWhat{"vertices", "texture coordinates", "normals"};
-            throw MalformedLine{"the corner " + in_quotes(corner) + " asks for one of " + std::to_string(count) + " " +
-                                kWhat.at(part) + " before it; mend the number"};
+            throw MalformedLine{"the corner " + in_quotes(corner) + " exceeds the " + std::to_string(count) + " " +
+                                kWhat.at(part) + " before it; correct the index"};
         }
     }
 
-    void note_object() {
+    void register_object() {
         const auto owner = owner_of_node_.find(node_);
         if (owner == owner_of_node_.end()) {
             owner_of_node_.emplace(node_, object_);
@@ -246,7 +247,7 @@ private:
     long long places_ = 0;
     long long normals_ = 0;
     bool has_o_ = false;
-    std::string object_ = "defaultobject";  // as the reader of meshes calls what stands before all names
+    std::string object_ = "defaultobject";  // the mesh reader's name of faces before all names
     std::string node_ = "defaultobject";
     std::map<std::string, std::string> owner_of_node_;
 };
@@ -260,7 +261,7 @@ glm::dmat3 turn_matrix(const glm::dvec3& turn_deg) {
         const double s = std::sin(radians(turn_deg[axis]));
         const int u = (axis + 1) % 3;
         const int v = (axis + 2) % 3;
-        glm::dmat3 about(1.0);  // takes u to v
+        glm::dmat3 about(1.0);  // rotates u to v
         about[u][u] = c;
         about[u][v] = s;
         about[v][u] = -s;
@@ -285,7 +286,7 @@ Result<ExtendedObj> parse_extended_obj(std::string_view text, const std::string&
     Reader reader;
     int line = 0;
     try {
-        std::string joined;  // of lines that end in a backslash
+        std::string joined;  // lines continued by backslashes
         int first = 0;
         for (std::size_t begin = 0; begin < text.size();) {
             const std::size_t end = std::min(text.find('\n', begin), text.size());

@@ -21,7 +21,7 @@ glm::vec3 take_colour(JsonObject& object, const char* key) {
     return {linear_from_srgb(srgb.r), linear_from_srgb(srgb.g), linear_from_srgb(srgb.b)};
 }
 
-// From the zenith down to the horizon, whose colour the ground has.
+// Gradient from the zenith to the horizon; the ground has the horizon's colour.
 Background take_background(JsonObject object) {
     Background background;
     const glm::vec3 zenith = take_colour(object, "zenith");
@@ -41,8 +41,8 @@ std::vector<fs::path> take_files(JsonObject& object, const char* key, std::size_
     return files;
 }
 
-// The only map of a project's folder.
-Result<std::optional<fs::path>> only_map(const fs::path& folder) {
+// Map of a project folder with a single map.
+Result<std::optional<fs::path>> find_single_map(const fs::path& folder) {
     std::error_code error;
     std::vector<fs::path> maps;
     for (fs::directory_iterator i(folder / "maps", error), end; !error && i != end; i.increment(error)) {
@@ -76,7 +76,7 @@ Result<SequenceFiles> frames_from_json(const std::string& text, const fs::path& 
         if (top.has("weather")) {
             const JsonValue value = top.take("weather");
             Result<Weather> weather = parse_weather(value.text());
-            if (!weather) throw value.wrong("is no weather; give rain, snow or fog, or rain,fog");
+            if (!weather) throw value.wrong("is not a weather; give rain, snow or fog, or rain,fog");
             files.weather = *weather;
         }
         if (top.has("seed")) {
@@ -90,7 +90,7 @@ Result<SequenceFiles> frames_from_json(const std::string& text, const fs::path& 
 Result<SequenceFiles> find_sequence(const fs::path& folder) {
     std::error_code error;
     if (!fs::exists(folder, error))
-        return Error{printable(folder.string()) + ": there is no such folder; mend the name"};
+        return Error{printable(folder.string()) + ": the folder does not exist; correct the name"};
     if (!fs::is_directory(folder, error) && lower_case_extension(folder) == ".obj") {
         SequenceFiles files;
         files.file = folder;
@@ -103,12 +103,12 @@ Result<SequenceFiles> find_sequence(const fs::path& folder) {
         if (!file && fs::exists(folder / place, error)) file = folder / place;
     }
     if (!file) {
-        RS_ASSIGN_OR_RETURN(std::optional<fs::path> map, only_map(folder));
+        RS_ASSIGN_OR_RETURN(std::optional<fs::path> map, find_single_map(folder));
         file = std::move(map);
     }
     if (!file) {
         return Error{printable(folder.string()) +
-                     ": holds no frames.json, neither here nor in anim/out/; give a map's folder "
+                     ": has no frames.json, in it or in anim/out/; give a map's folder "
                      "(compositor/sequence/README.md)"};
     }
     RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(*file, kMaxFramesFile_bytes));

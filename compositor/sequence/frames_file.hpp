@@ -1,8 +1,8 @@
 #pragma once
-// frames.json: which files a sequence is made of. It stands in a map's folder, as simulators of traffic write it:
+// frames.json: the files of a sequence, in the folder structure of traffic simulators:
 //
 //     maps/NAME/anim/out/frames.json
-//     { "base": "../../../../models/scene.obj",          what stands still, any scene file (a floor)
+//     { "base": "../../../../models/scene.obj",          static scene of any format (a floor)
 //       "models": ["../../../../models/cars.obj"],       objects that instances name, besides the base's
 //       "frames": ["frame-0001.obj", "frame-0002.obj"],  extended OBJ, one a frame
 //       "frames_per_second": 25,
@@ -10,7 +10,7 @@
 //       "background": {"zenith": [0.3, 0.5, 0.8], "horizon": [0.8, 0.85, 0.9]},     sRGB
 //       "weather": "rain,fog", "seed": 1 }
 //
-// All but "frames" may be left out. Names are seen from the file's folder.
+// Only "frames" is required. Paths are relative to the file's folder.
 
 #include "compositor/scene/surroundings.hpp"
 #include "compositor/scene/weather.hpp"
@@ -36,8 +36,8 @@ struct SequenceFiles {
     std::optional<Weather> weather;
 };
 
-// `folder` is a map's, or one with a frames.json in it, in out/ or in anim/out/, or one with a single map in maps/; or
-// the file itself; or one extended OBJ, which is a sequence of one frame.
+/// \param folder folder of a map; folder with frames.json in it, in out/ or in anim/out/; folder with a single map in
+/// maps/; frames.json itself; or one extended OBJ, a sequence of one frame.
 Result<SequenceFiles> find_sequence(const std::filesystem::path& folder);
 
 // At most 16 MiB. Pure.

@@ -13,17 +13,17 @@
 namespace rs::compositor {
 namespace {
 
-// By number where the word is one, else by name.
+// Lookup by index if `id` is a number, else by name.
 template <class Named>
 const Named* find_named(const std::vector<Named>& all, const std::string& id) {
-    if (const auto number = number_of(id)) return *number < all.size() ? &all[*number] : nullptr;
+    if (const auto number = parse_index(id)) return *number < all.size() ? &all[*number] : nullptr;
     const auto found = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == id; });
     return found == all.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
-std::optional<std::size_t> number_of(const std::string& word) {
+std::optional<std::size_t> parse_index(const std::string& word) {
     std::size_t value = 0;
     const auto end = std::from_chars(word.data(), word.data() + word.size(), value);
     if (end.ec != std::errc() || end.ptr != word.data() + word.size()) return std::nullopt;
@@ -49,12 +49,12 @@ Result<Model> read_model_objects(const std::filesystem::path& path, const Extend
         std::error_code error;
         if (std::filesystem::is_regular_file(path.parent_path() / library.name, error)) continue;
         return Error{printable(path.string() + ":" + std::to_string(library.line) + ": the material library '" +
-                               library.name + "' is not beside the file; put it there or take out the line")};
+                               library.name + "' is not next to the file; put it there or remove the line")};
     }
     RS_ASSIGN_OR_RETURN(ModelParts parts, read_model_parts(path));
     Model model;
     model.warnings = std::move(parts.scene.warnings);
-    // The first is the reader's own.
+    // The first material is Assimp's default.
     for (std::size_t i = 1; i < parts.materials.size(); ++i) {
         model.materials.push_back({parts.materials[i].name, parts.materials[i].material});
     }
@@ -67,7 +67,7 @@ Result<Model> read_model_objects(const std::filesystem::path& path, const Extend
         const auto owner = object_of_node.find(parts.nodes[i]);
         if (owner == object_of_node.end()) {
             return Error{printable(path.string() + ": the object '" + parts.nodes[i] +
-                                   "' is not named by a line of its own; export the file again")};
+                                   "' has no `o` or `g` line; export the file again")};
         }
         ModelObject& object = model.objects[owner->second];
         GeometryNode& part = parts.scene.geometry[i];

@@ -5,7 +5,7 @@
 namespace rs::compositor {
 namespace {
 
-// A ray-space object is shown by turning and scaling alone: its scales are equal, as the reader has checked.
+// Ray-space objects are rotated and scaled uniformly: the reader has checked that the scales are equal.
 TransformChain chain_of(const InstancePose& pose) {
     NodeTransform transform = NodeTransform::of(turn_matrix(pose.turn_deg), pose.scale.x);
     transform.translation = pose.move;
@@ -22,7 +22,7 @@ MovedSlots moved_slots(const Sequence& sequence, std::size_t frame) {
         const SequenceSlot& slot = sequence.slots[pose.slot];
         shown[pose.slot] = true;
         if (slot.object) moved.objects.emplace_back(*slot.object, chain_of(pose.pose));
-        moved.geometry[pose.slot] = pose.in_place ? glm::dmat4(1.0) : instance_matrix(pose.pose, slot.middle);
+        moved.geometry[pose.slot] = pose.keeps_position ? glm::dmat4(1.0) : instance_matrix(pose.pose, slot.middle);
     }
     for (std::size_t i = 0; i < sequence.slots.size(); ++i) {
         if (!shown[i] && sequence.slots[i].object) moved.objects.emplace_back(*sequence.slots[i].object, std::nullopt);
@@ -37,9 +37,9 @@ std::optional<SequenceCamera> camera_of(const Sequence& sequence, std::size_t fr
 Scene scene_at(const Sequence& sequence, std::size_t frame) {
     Scene scene = sequence.scene;
     const MovedSlots moved = moved_slots(sequence, frame);
-    std::vector<bool> gone_objects(scene.objects.size());
+    std::vector<bool> hidden_objects(scene.objects.size());
     for (const auto& [node, chain] : moved.objects) {
-        gone_objects[node] = !chain;
+        hidden_objects[node] = !chain;
         if (chain) scene.objects[node].chain = *chain;
     }
     std::erase_if(scene.geometry,
@@ -48,7 +48,7 @@ Scene scene_at(const Sequence& sequence, std::size_t frame) {
         if (node.moving) node.world_from_node = *moved.geometry[*node.moving] * node.world_from_node;
     }
     std::size_t i = 0;
-    std::erase_if(scene.objects, [&](const RaySpaceNode&) { return gone_objects[i++]; });
+    std::erase_if(scene.objects, [&](const RaySpaceNode&) { return hidden_objects[i++]; });
     return scene;
 }
 

@@ -17,15 +17,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxMeshesOfFrames = 1000;  // that differ
+constexpr std::size_t kMaxMeshesOfFrames = 1000;  // distinct meshes
 constexpr std::size_t kMaxMovingNodes = 100'000;
 
-// What a line names.
-struct Named {
+// Resolved reference of an instance line.
+struct ResolvedReference {
     const Model* model = nullptr;
     const ModelObject* object = nullptr;
     const Material* material = nullptr;  // null: the object's own
-    fs::path file;                       // of a ray-space object, in place of all that
+    fs::path file;                       // of a ray-space object, instead of the other members
 };
 
 bool is_object_file(const std::string& id) {
@@ -42,7 +42,7 @@ public:
         sequence_.weather = files_.weather;
         for (const fs::path& path : files_.models) {
             RS_ASSIGN_OR_RETURN(const ExtendedObj parsed, read_extended_obj(path));
-            RS_ASSIGN_OR_RETURN(const const Model* model, model_of(path, parsed));
+            RS_ASSIGN_OR_RETURN(const Model* model, model_of(path, parsed));
             models_.push_back(model);
         }
         RS_TRY(read_base());
@@ -55,7 +55,7 @@ public:
     }
 
 private:
-    // maps/NAME/anim/out/frames.json, or the folder's or the file's own.
+    // NAME of maps/NAME/anim/out/frames.json, else the name of the folder or file.
     [[nodiscard]] std::string name_of_map() const {
         const fs::path file = fs::absolute(files_.file).lexically_normal();
         if (file.extension() == ".obj") return file.stem().string();
@@ -65,16 +65,17 @@ private:
         return folder.filename().string();
     }
 
-    // Files of the same mesh are read once.
+    // Reads files with the same mesh once.
     Result<const Model*> model_of(const fs::path& path, const ExtendedObj& parsed) {
-        std::string libraries;  // seen from another folder they may be others
+        std::string libraries;  // relative to the file's folder
         for (const NamedLine& library : parsed.libraries)
             libraries += (path.parent_path() / library.name).string() + '\n';
         auto& known = read_[{parsed.mesh_digest, libraries}];
         if (known) return known.get();
         if (read_.size() > kMaxMeshesOfFrames) {
-            return Error{printable(path.string()) + ": is one more mesh than " + std::to_string(kMaxMeshesOfFrames) +
-                         "; put meshes that stand still into the base, those that move into models"};
+            return Error{printable(path.string()) + ": exceeds the limit of meshes, " +
+                         std::to_string(kMaxMeshesOfFrames) +
+                         "; put static meshes into the base, moving ones into models"};
         }
         Result<Model> model = read_model_objects(path, parsed);
         if (!model) {
@@ -98,13 +99,13 @@ private:
         } else {
             RS_ASSIGN_OR_RETURN(const ExtendedObj parsed, read_extended_obj(*files_.base));
             if (!parsed.objects.empty()) {
-                RS_ASSIGN_OR_RETURN(const const Model* model, model_of(*files_.base, parsed));
+                RS_ASSIGN_OR_RETURN(const Model* model, model_of(*files_.base, parsed));
                 base_ = model;
             }
             sequence_.camera = parsed.camera;
             for (const InstanceLine& line : parsed.instances) {
-                RS_ASSIGN_OR_RETURN(const Named named, find(*files_.base, line, base_));
-                add_still(named, line.pose);
+                RS_ASSIGN_OR_RETURN(const ResolvedReference named, find(*files_.base, line, base_));
+                add_static(named, line.pose);
             }
         }
         sequence_.scene.shading = Shading::kPhong;
@@ -116,7 +117,7 @@ private:
         if (!files_.lights) return {};
         RS_ASSIGN_OR_RETURN(LightList list, read_light_list(*files_.lights));
         Scene& scene = sequence_.scene;
-        // A list stands in the place of the light that there is where nobody gives one.
+        // Replaces the default light of formats without lights.
         if (list.replace || !files_.base || lower_case_extension(*files_.base) == ".obj") scene.lights.clear();
         scene.lights.insert(scene.lights.end(), list.lights.begin(), list.lights.end());
         if (list.environment) scene.environment = std::move(list.environment);
@@ -127,12 +128,12 @@ private:
         RS_ASSIGN_OR_RETURN(const ExtendedObj parsed, read_extended_obj(path));
         const Model* own = nullptr;
         if (!parsed.objects.empty()) {
-            RS_ASSIGN_OR_RETURN(const const Model* model, model_of(path, parsed));
+            RS_ASSIGN_OR_RETURN(const Model* model, model_of(path, parsed));
             own = model;
         }
         poses_ += parsed.instances.size();
         if (poses_ > kMaxPoses) {
-            return Error{printable(path.string()) + ": is one frame too many; a sequence may have " +
+            return Error{printable(path.string()) + ": has too many instances; a sequence may have " +
                          std::to_string(kMaxPoses) + " instances in all"};
         }
         SequenceFrame frame;
@@ -140,33 +141,33 @@ private:
         taken_.clear();
         std::set<const ModelObject*> instanced;
         for (const InstanceLine& line : parsed.instances) {
-            RS_ASSIGN_OR_RETURN(const Named named, find(path, line, own));
+            RS_ASSIGN_OR_RETURN(const ResolvedReference named, find(path, line, own));
             instanced.insert(named.object);
             const std::optional<std::uint32_t> slot = slot_of(named, line.material, line.pose);
-            if (!slot) return too_many(path);
+            if (!slot) return limit_error(path);
             frame.poses.push_back({*slot, false, line.pose});
         }
-        // What a frame brings along and does not place stands where it is.
+        // Objects of the frame's file without an instance line keep their position.
         for (std::size_t i = 0; own != nullptr && i < own->objects.size(); ++i) {
             const ModelObject& object = own->objects[i];
             if (instanced.contains(&object) || object.parts.empty()) continue;
             const std::optional<std::uint32_t> slot = slot_of({own, &object, nullptr, {}}, "-", {});
-            if (!slot) return too_many(path);
+            if (!slot) return limit_error(path);
             frame.poses.push_back({*slot, true, {}});
         }
         sequence_.frames.push_back(std::move(frame));
         return {};
     }
 
-    static Error too_many(const fs::path& path) {
+    static Error limit_error(const fs::path& path) {
         return Error{printable(path.string()) + ": shows more than " + std::to_string(kMaxMovingNodes) +
                      " parts at once; make objects of fewer materials"};
     }
 
-    // What a line names: in its own file, else among the models, else in the base; numbers in the first of these that
-    // has objects.
-    Result<Named> find(const fs::path& path, const InstanceLine& line, const Model* own) {
-        const auto wrong = [&](const std::string& what) {
+    // Resolves the object of a line: in its own file, then in the models, then in the base; indices refer to the first
+    // of these that has objects.
+    Result<ResolvedReference> find(const fs::path& path, const InstanceLine& line, const Model* own) {
+        const auto line_error = [&](const std::string& what) {
             return Error{printable(path.lexically_normal().string()) + ":" + std::to_string(line.line) + ": " + what};
         };
         if (is_object_file(line.id)) return find_object_file(path, line);
@@ -174,9 +175,9 @@ private:
         if (own != nullptr) places.push_back(own);
         places.insert(places.end(), models_.begin(), models_.end());
         if (base_ != nullptr && base_ != own) places.push_back(base_);
-        Named named;
-        const std::optional<std::size_t> number = number_of(line.id);
-        std::size_t before = 0;  // objects of the models before
+        ResolvedReference named;
+        const std::optional<std::size_t> number = parse_index(line.id);
+        std::size_t before = 0;  // number of objects in the previous models
         for (const Model* const model : places) {
             if (number && model != own && own != nullptr) break;
             if (number) {
@@ -191,42 +192,42 @@ private:
             if (named.object != nullptr) break;
         }
         if (named.object == nullptr) {
-            return wrong("there is no object '" + printable(line.id) + "'" +
-                         (number ? " (there are " + std::to_string(before) + ", counted from 0)" : "") +
-                         "; mend the name, or add its file to \"models\"");
+            return line_error("there is no object '" + printable(line.id) + "'" +
+                              (number ? " (there are " + std::to_string(before) + ", counted from 0)" : "") +
+                              "; correct the name, or add its file to \"models\"");
         }
         if (line.material != "-" && line.material != "-1") {
             named.material = named.model->material(line.material);
             if (named.material == nullptr) {
-                return wrong("there is no material '" + printable(line.material) + "' (there are " +
-                             std::to_string(named.model->materials.size()) +
-                             ", counted from 0); mend it, or give - for the object's own");
+                return line_error("there is no material '" + printable(line.material) + "' (there are " +
+                                  std::to_string(named.model->materials.size()) +
+                                  ", counted from 0); correct it, or give - for the object's own");
             }
         }
         if (base_ != nullptr && named.model == base_) instanced_in_base_.insert(named.object);
         return named;
     }
 
-    static Result<Named> find_object_file(const fs::path& path, const InstanceLine& line) {
-        const auto wrong = [&](const std::string& what) {
+    static Result<ResolvedReference> find_object_file(const fs::path& path, const InstanceLine& line) {
+        const auto line_error = [&](const std::string& what) {
             return Error{printable(path.lexically_normal().string()) + ":" + std::to_string(line.line) + ": " + what};
         };
         const glm::dvec3& scale = line.pose.scale;
         if (scale.x != scale.y || scale.y != scale.z || scale.x < 0) {
-            return wrong("a ray-space object keeps its shape; give it three equal scales above 0");
+            return line_error("a ray-space object keeps its shape; give it three equal scales above 0");
         }
-        Named named;
+        ResolvedReference named;
         named.file = path.parent_path() / line.id;
         std::error_code error;
         if (!fs::is_regular_file(named.file, error)) {
-            return wrong("there is no object " + printable(named.file.lexically_normal().string()) +
-                         "; make it with rs-encode build, or mend the name");
+            return line_error("there is no object " + printable(named.file.lexically_normal().string()) +
+                              "; make it with rs-encode build, or correct the name");
         }
         return named;
     }
 
-    // The nodes of an object as they stand in it, with the material in place of its own.
-    void add_nodes(const Named& named, std::optional<std::uint32_t> moving) {
+    // Adds the object's nodes, with the material of the line if given.
+    void add_nodes(const ResolvedReference& named, std::optional<std::uint32_t> moving) {
         for (GeometryNode node : named.object->parts) {
             if (named.material != nullptr) node.material = *named.material;
             node.moving = moving;
@@ -244,7 +245,7 @@ private:
         return node;
     }
 
-    void add_still(const Named& named, const InstancePose& pose) {
+    void add_static(const ResolvedReference& named, const InstancePose& pose) {
         Scene& scene = sequence_.scene;
         if (named.object == nullptr) {
             scene.objects.push_back(object_node(named.file, pose));
@@ -258,8 +259,9 @@ private:
         }
     }
 
-    // The next free slot of what is named, made where there is none yet.
-    std::optional<std::uint32_t> slot_of(const Named& named, const std::string& material, const InstancePose& pose) {
+    // Next free slot of the object, created if necessary.
+    std::optional<std::uint32_t> slot_of(const ResolvedReference& named, const std::string& material,
+                                         const InstancePose& pose) {
         const std::pair key(static_cast<const void*>(named.object),
                             named.object == nullptr ? named.file.string() : material);
         std::vector<std::uint32_t>& slots = slots_[key];
@@ -283,7 +285,7 @@ private:
         return slots.back();
     }
 
-    // Those of the base that no line places stand where they are.
+    // Adds the objects of the base without instance lines.
     void add_static_objects() {
         if (base_ == nullptr) return;
         for (const ModelObject& object : base_->objects) {
@@ -299,7 +301,7 @@ private:
     const Model* base_ = nullptr;
     std::set<const ModelObject*> instanced_in_base_;
     std::map<std::pair<const void*, std::string>, std::vector<std::uint32_t>> slots_;
-    std::map<std::pair<const void*, std::string>, std::size_t> taken_;  // in the frame at hand
+    std::map<std::pair<const void*, std::string>, std::size_t> taken_;  // used slots of the current frame
     std::size_t poses_ = 0;
     std::size_t moving_ = 0;
 };

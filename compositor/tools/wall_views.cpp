@@ -16,31 +16,31 @@ namespace fs = std::filesystem;
 
 constexpr double kFirstHead_s = 10;
 
-// To the right of the middle; one or two.
+// Offsets to the right of the middle of the head, one or two.
 std::vector<double> eye_offsets_m(const WallViews& views) {
     if (!views.stereo) return {0};
     const double half = views.display.eye_distance_m / 2;
     return {-half, half};
 }
 
-Result<WallDisplay> requested_display(const ViewArguments& arguments) {
+Result<WallDisplay> requested_display(const WallOptions& options) {
     Result<WallDisplay> display = [&]() -> Result<WallDisplay> {
-        if (auto preset = preset_display(arguments.walls)) return std::move(*preset);
-        if (!arguments.walls.ends_with(".json")) {
-            return Error{"--walls " + arguments.walls +
+        if (auto preset = preset_display(options.display)) return std::move(*preset);
+        if (!options.display.ends_with(".json")) {
+            return Error{"--display " + options.display +
                          ": is neither a preset (cave, power-wall, tabletop) nor a .json file of walls"};
         }
-        return read_walls(arguments.walls);
+        return read_walls(options.display);
     }();
     if (!display) return display;
-    if (!arguments.wall_names.empty()) {
-        if (const Status status = keep_walls(*display, arguments.wall_names); !status) {
-            return Error{arguments.walls + ": " + status.error().message};
+    if (options.walls) {
+        if (const Status status = keep_walls(*display, *options.walls); !status) {
+            return Error{options.display + ": " + status.error().message};
         }
     }
-    if (arguments.eye_distance_m >= 0) display->eye_distance_m = arguments.eye_distance_m;
-    if (arguments.size_given) {
-        const Result<PixelSize> size = parse_size(arguments.size);
+    if (options.eye_distance_m) display->eye_distance_m = *options.eye_distance_m;
+    if (options.size) {
+        const Result<PixelSize> size = parse_size(*options.size);
         if (!size) return size.error();
         for (Wall& wall : display->walls) {
             wall.width = size->width;
@@ -54,14 +54,14 @@ Head in_room(const WallViews& views, const Head& tracked) {
     return tracked_in_room(tracked, views.display.tracker.value_or(views.display.head));
 }
 
-// A tracker's head for all frames of images; windows read it anew for each.
-Status add_tracked_head(const ViewArguments& arguments, WallViews& views) {
-    const Result<UdpPlace> place = udp_place_from(arguments.heads);
+// Starts to receive heads. Images of all frames use the first head; windows read the newest one for each frame.
+Status add_tracked_head(const WallOptions& options, WallViews& views) {
+    const Result<UdpPlace> place = udp_place_from(*options.heads);
     if (!place) return place.error();
     Result<HeadReceiver> tracker = HeadReceiver::listen(*place);
     if (!tracker) return tracker.error();
     views.tracker = std::make_shared<HeadReceiver>(std::move(*tracker));
-    if (arguments.output.empty()) return {};
+    if (!options.output) return {};
     const std::optional<Head> head = views.tracker->wait_for_newest(kFirstHead_s);
     if (head) {
         views.heads = {in_room(views, *head)};
@@ -102,49 +102,48 @@ Result<std::vector<Camera>> wall_cameras(const WallViews& views) {
     return cameras;
 }
 
-Result<WallViews> requested_walls(const ViewArguments& arguments, const Scene& scene,
-                                  const std::vector<Camera>& visitor) {
-    Result<WallDisplay> display = requested_display(arguments);
+Result<WallViews> requested_walls(const WallOptions& options, const Scene& scene, const std::vector<Camera>& visitor) {
+    Result<WallDisplay> display = requested_display(options);
     if (!display) return display.error();
     WallViews views;
     views.display = std::move(*display);
     for (const NamedStereoForm& named : kStereoForms) {
-        if (arguments.stereo == named.name) views.stereo = named.form;
+        if (options.stereo == named.name) views.stereo = named.form;
     }
     views.heads = {views.display.head};
-    if (names_udp_port(arguments.heads)) {
-        if (const Status tracked = add_tracked_head(arguments, views); !tracked) return tracked.error();
-    } else if (!arguments.heads.empty()) {
-        Result<std::vector<Head>> heads = read_heads(arguments.heads);
+    if (options.heads && names_udp_port(*options.heads)) {
+        if (const Status tracked = add_tracked_head(options, views); !tracked) return tracked.error();
+    } else if (options.heads) {
+        Result<std::vector<Head>> heads = read_heads(*options.heads);
         if (!heads) return heads.error();
         views.heads = std::move(*heads);
     }
     if (views.display.fits_scene) {
         const BoundingBox box = bounds_from(scene, 0, 0);
-        if (box.empty()) return Error{arguments.walls + ": nothing stands in the scene that could be put on the table"};
+        if (box.empty())
+            return Error{options.display + ": the scene is empty, so that it cannot be fitted to the table"};
         views.places = {fitted_place(views.display.walls.front(), box)};
     } else if (views.display.place) {
         views.places = {*views.display.place};
     } else {
-        // The room is brought to the visitor as the display has the head; what the head does then, it does in there.
+        // The room is placed so that the display's head is at the visitor's eye; heads then move within the room.
         for (const Camera& camera : visitor) {
             views.places.push_back(place_of(camera, views.display.head, views.display.units_per_metre));
         }
     }
     if (views.heads.size() > 1 && views.places.size() > 1 && views.heads.size() != views.places.size()) {
-        return Error{arguments.heads + ": has " + std::to_string(views.heads.size()) +
+        return Error{*options.heads + ": has " + std::to_string(views.heads.size()) +
                      " heads, and the way through the scene " + std::to_string(views.places.size()) +
                      " frames; give as many, or one of them"};
     }
     if (const auto cameras = wall_cameras(views); !cameras) {
-        return Error{(arguments.heads.empty() ? arguments.walls : arguments.heads) + ": " + cameras.error().message};
+        return Error{options.heads.value_or(options.display) + ": " + cameras.error().message};
     }
     return views;
 }
 
-Status write_walls(const WallViews& views, const ViewArguments& arguments, const RenderView& render,
-                   Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(arguments.output, "images of walls");
+Status write_walls(const WallViews& views, const std::string& output, const RenderView& render, Progress& progress) {
+    Result<StagedFolder> staged = StagedFolder::create(output, "images of walls");
     if (!staged) return staged.error();
     const auto cameras = wall_cameras(views);
     if (!cameras) return cameras.error();

@@ -7,8 +7,8 @@
 namespace rs::compositor {
 namespace {
 
-constexpr int kMostPasses = 65536;
-constexpr double kLeastCost_s = 1e-12;  // of a cell: clocks are coarse
+constexpr int kMaxPasses = 65536;
+constexpr double kMinCost_s = 1e-12;  // per cell, since clocks are coarse
 
 std::size_t level_of(int side) {
     return static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(side)));
@@ -16,18 +16,18 @@ std::size_t level_of(int side) {
 
 }  // namespace
 
-double FirstGrid::cells(int width, int height, int side) {
+double FirstGridSelector::cells(int width, int height, int side) {
     const int across = (width + side - 1) / side, down = (height + side - 1) / side;
     return static_cast<double>(across) * down;
 }
 
-int FirstGrid::coarsest_side(int width, int height) {
+int FirstGridSelector::coarsest_side(int width, int height) {
     int side = 1;
-    while (side < 1 << (kSides - 1) && 2 * side * kLeastCells <= std::max(width, height)) side *= 2;
+    while (side < 1 << (kSides - 1) && 2 * side * kMinCells <= std::max(width, height)) side *= 2;
     return side;
 }
 
-int FirstGrid::side(TracedMethod method, int width, int height) const {
+int FirstGridSelector::side(TracedMethod method, int width, int height) const {
     const int coarsest = coarsest_side(width, height);
     const auto known = costs_.find(method);
     if (known == costs_.end()) return coarsest;
@@ -35,43 +35,43 @@ int FirstGrid::side(TracedMethod method, int width, int height) const {
     double of_cell = 0;
     for (std::size_t level = kSides; level-- > 0;) {
         const int side = 1 << level;
-        // What was not measured costs no more for each cell than what is coarser.
+        // Costs per cell that were not measured are at most those of coarser grids.
         if (known->second[level] > 0) of_cell = known->second[level];
         if (side > coarsest || of_cell <= 0) continue;
-        if (of_cell * cells(width, height, side) <= in_time_s_) chosen = side;
+        if (of_cell * cells(width, height, side) <= time_limit_s_) chosen = side;
     }
     return chosen;
 }
 
-void FirstGrid::took(TracedMethod method, int width, int height, int side, double seconds) {
+void FirstGridSelector::record_time(TracedMethod method, int width, int height, int side, double seconds) {
     Costs& costs = costs_[method];
     const double before = costs[level_of(side)];
-    const double now = std::max(seconds / cells(width, height, side), kLeastCost_s);
+    const double now = std::max(seconds / cells(width, height, side), kMinCost_s);
     if (before > 0) {
         for (double& cost : costs) cost *= now / before;
     }
     costs[level_of(side)] = now;
 }
 
-void refine(TracedRenderer& renderer, const Camera& camera, FirstGrid& grid, const Clock& clock,
+void refine(TracedRenderer& renderer, const Camera& camera, FirstGridSelector& grid, const Clock& clock,
             const std::atomic<bool>& stop, const std::function<void(Image<Rgba8> image, int passes)>& publish) {
     const TracedMethod method = renderer.method();
     double begin = 0;
-    const auto measured = [&](int side) { grid.took(method, camera.width, camera.height, side, clock() - begin); };
+    const auto record = [&](int side) { grid.record_time(method, camera.width, camera.height, side, clock() - begin); };
     for (int side = grid.side(method, camera.width, camera.height); side > 1; side /= 2) {
         begin = clock();
         std::optional<Image<Rgba8>> coarse = renderer.coarse_image(camera, side, &stop);
         if (!coarse) return;
-        measured(side);
+        record(side);
         publish(std::move(*coarse), 0);
         if (stop) return;
     }
-    renderer.look(camera);
-    while (renderer.passes() < kMostPasses) {
+    renderer.begin_image(camera);
+    while (renderer.passes() < kMaxPasses) {
         begin = clock();
         if (!renderer.add_pass(nullptr, &stop)) return;
         Image<Rgba8> image = renderer.image();
-        measured(1);
+        record(1);
         publish(std::move(image), renderer.passes());
     }
 }

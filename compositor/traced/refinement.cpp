@@ -12,7 +12,7 @@ Refinement::Refinement(std::function<Result<TracedRenderer>()> make, Clock clock
 Refinement::~Refinement() {
     {
         const std::lock_guard lock(mutex_);
-        leaving_ = true;
+        stopping_ = true;
         stop_ = true;
     }
     changed_.notify_all();
@@ -23,10 +23,10 @@ double Refinement::steady_clock_s() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// What is under way ends, after its first image.
+// Cancels the current view once its first image is complete.
 void Refinement::drop_view() {
     if (newest_) newest_->passes = 0;
-    if (first_ != First::kNotThere) stop_ = true;
+    if (first_ != FirstImage::kPending) stop_ = true;
 }
 
 void Refinement::begin(const Camera& camera, TracedMethod method) {
@@ -62,11 +62,11 @@ std::optional<Refinement::Step> Refinement::take() {
     {
         const std::lock_guard lock(mutex_);
         if (newest_) {
-            if (first_ == First::kThere) first_ = First::kTaken;
+            if (first_ == FirstImage::kReady) first_ = FirstImage::kTaken;
             return std::exchange(newest_, std::nullopt);
         }
-        if (first_ != First::kTaken) return std::nullopt;
-        first_ = First::kDrawn;
+        if (first_ != FirstImage::kTaken) return std::nullopt;
+        first_ = FirstImage::kDrawn;
     }
     changed_.notify_all();
     return std::nullopt;
@@ -83,9 +83,10 @@ void Refinement::publish(Image<Rgba8> image, const Camera& camera, int passes) {
     const bool outdated = requested_ || lighting_;
     if (!stop_) newest_ = Step{std::move(shared), camera, outdated ? 0 : passes};
     if (outdated) stop_ = true;
-    if (first_ != First::kNotThere) return;
-    first_ = First::kThere;
-    changed_.wait(lock, [this] { return stop_ || leaving_ || requested_ || lighting_ || first_ == First::kDrawn; });
+    if (first_ != FirstImage::kPending) return;
+    first_ = FirstImage::kReady;
+    changed_.wait(lock,
+                  [this] { return stop_ || stopping_ || requested_ || lighting_ || first_ == FirstImage::kDrawn; });
 }
 
 void Refinement::work(const std::function<Result<TracedRenderer>()>& make) {
@@ -101,12 +102,12 @@ void Refinement::work(const std::function<Result<TracedRenderer>()>& make) {
             std::optional<Lighting> lighting;
             {
                 std::unique_lock lock(mutex_);
-                changed_.wait(lock, [this] { return leaving_ || requested_; });
-                if (leaving_) return;
+                changed_.wait(lock, [this] { return stopping_ || requested_; });
+                if (stopping_) return;
                 view = *std::exchange(requested_, std::nullopt);
                 lighting = std::exchange(lighting_, std::nullopt);
                 stop_ = false;
-                first_ = First::kNotThere;
+                first_ = FirstImage::kPending;
             }
             if (lighting) made->set_lights(*lighting->scene, lighting->exposure_ev);
             made->set_method(view.method);

@@ -1,9 +1,9 @@
 #pragma once
-// A traced image that is there at once and gets better while nobody moves (progression.hpp), in a thread of its own.
+// Progressive tracing on a background thread (progression.hpp).
 //
 //     begin(camera) -> first grid -> finer grids -> pass 1 -> pass 2 -> ... until end()
 //
-// The first image of a view is always finished, so that somebody who moves all the time sees where he goes.
+// The first image of a view is always completed, so that continuous movement still shows images.
 
 #include "compositor/traced/progression.hpp"
 #include "compositor/traced/traced_renderer.hpp"
@@ -19,18 +19,18 @@
 
 namespace rs::compositor {
 
-// All functions may be called from one other thread than its own, and return at once.
+/// All functions may be called from one thread other than the internal one; they return at once.
 class Refinement {
 public:
-    // `make` is called in the thread, at once: it may take its time.
+    /// `make` is called on the internal thread and may take long.
     explicit Refinement(std::function<Result<TracedRenderer>()> make, Clock clock = steady_clock_s);
     Refinement(const Refinement&) = delete;
     Refinement& operator=(const Refinement&) = delete;
-    ~Refinement();  // waits for what is under way: the making, a tile or two, a pass's virtual lights
+    ~Refinement();  // waits for `make`, a few tiles, or the virtual lights of a pass
 
-    // Drops what was begun before, but for its first image.
+    /// Cancels the previous view after its first image.
     void begin(const Camera& camera, TracedMethod method = TracedMethod::kPath);
-    // Other light from now on (TracedRenderer::set_lights); begin() must follow.
+    /// Changes the lights (TracedRenderer::set_lights); begin() must follow.
     struct Lighting {
         std::shared_ptr<const Scene> scene;
         double exposure_ev = 0;
@@ -41,12 +41,12 @@ public:
     struct Step {
         std::shared_ptr<const Image<Rgba8>> image;  // of the camera's size
         Camera camera;
-        int passes = 0;  // 0: of a coarse grid, or the first image of a view that was begun before the last
+        int passes = 0;  // 0: coarse grid, or first image of a cancelled view
     };
-    // The newest image; nothing where there is none since the last call. After the first image of a view tracing
-    // goes on with the call after that which has taken it, so that the processors are free to draw it.
+    /// Newest image, or nullopt if there is none since the last call. After the first image of a view tracing pauses
+    /// until the call after the one that returned it, so that the CPU is free to draw it.
     std::optional<Step> take();
-    // Why there will be no images; nothing where there will.
+    /// Error that prevents all images, if any.
     [[nodiscard]] std::optional<Error> failure();
 
 private:
@@ -61,18 +61,18 @@ private:
         Camera camera;
         TracedMethod method;
     };
-    std::optional<View> requested_;     // not yet begun
-    std::optional<Lighting> lighting_;  // not yet taken over
+    std::optional<View> requested_;     // not started yet
+    std::optional<Lighting> lighting_;  // not applied yet
     std::optional<Step> newest_;
     std::optional<Error> failure_;
-    bool leaving_ = false;
-    // How far the first image of what is under way has come.
-    enum class First { kNotThere, kThere, kTaken, kDrawn };
-    First first_ = First::kDrawn;
+    bool stopping_ = false;
+    // State of the first image of the current view.
+    enum class FirstImage { kPending, kReady, kTaken, kDrawn };
+    FirstImage first_ = FirstImage::kDrawn;
     Clock clock_;
-    FirstGrid grid_;  // of the thread
+    FirstGridSelector grid_;  // used by the thread
     std::atomic<bool> stop_{false};
-    std::thread thread_;  // the last member: it uses all others
+    std::thread thread_;  // last member: the thread uses all others
 };
 
 }  // namespace rs::compositor

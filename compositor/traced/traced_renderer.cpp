@@ -4,8 +4,8 @@
 #include "capture/tracer/integrator/light_probe.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
 #include "compositor/scene/light/raster_lights.hpp"
-#include "compositor/traced/object_rays.hpp"
-#include "compositor/traced/traced_room.hpp"
+#include "compositor/traced/object_primitive.hpp"
+#include "compositor/traced/tracer_scene.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,9 +25,9 @@ glm::vec3 ambient_of(const Scene& scene) {
     return ambient;
 }
 
-// Lines are twice as wide within a surface, and as wide as this at its outline: a pixel or two where the whole scene is
-// in view.
-double usual_line_radius(const Scene& scene) {
+// Default line radius. Lines at silhouettes are as wide as this, lines within a surface twice: a pixel or two when the
+// whole scene is in view.
+double default_line_radius(const Scene& scene) {
     constexpr double kOfDiagonal = 1.0 / 3000;
     const BoundingBox bounds = bounds_of(scene);
     return bounds.empty() ? capture::ToonStyle{}.edge_radius
@@ -44,7 +44,7 @@ capture::ThinLens CameraLens::of(const Camera& camera) const {
 
 Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vector<PlacedObject>& objects,
                                               const TracedOptions& options) {
-    TracedRoom room = traced_room(scene);
+    TracerScene room = make_tracer_scene(scene);
     const auto darker = static_cast<float>(std::exp2(-options.exposure_ev));
     std::vector<std::shared_ptr<ObjectRays>> rays;
     for (const PlacedObject& object : objects) {
@@ -52,24 +52,24 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
         room.scene.primitives.push_back(rays.back());
     }
     std::vector<Light> lights = room.scene.lights;
-    const bool glows = std::ranges::any_of(room.scene.materials,
-                                           [](const auto& material) { return material.emission != glm::vec3(0); });
+    const bool has_emission = std::ranges::any_of(
+        room.scene.materials, [](const auto& material) { return material.emission != glm::vec3(0); });
     RS_ASSIGN_OR_RETURN(auto tracer, capture::Tracer::create(std::move(room.scene)));
     TracedRenderer renderer(std::move(tracer), options);
     renderer.background_ = scene.background;
     renderer.render_.method = options.method;
     renderer.render_.max_bounces = options.max_bounces;
     renderer.render_.soft_shadows = options.soft_shadows;
-    renderer.render_.toon.edge_radius = static_cast<float>(options.line_radius.value_or(usual_line_radius(scene)));
+    renderer.render_.toon.edge_radius = static_cast<float>(options.line_radius.value_or(default_line_radius(scene)));
     renderer.render_.toon.shadow_rays = options.soft_shadows ? kToonShadowRays : 0;
-    renderer.render_.toon.brightness = darker;  // tones are tones, however bright the lights are
+    renderer.render_.toon.brightness = darker;  // tones do not depend on the exposure
     renderer.render_.see_areas = true;
     renderer.moving_ = std::move(room.moving);
-    renderer.glows_ = glows;
+    renderer.has_emission_ = has_emission;
     renderer.objects_ = std::move(rays);
     renderer.describe_lights(scene, std::move(lights));
-    if (room.without_own_lights > 0) {
-        renderer.warnings_.push_back(std::to_string(room.without_own_lights) +
+    if (room.unsupported_lights > 0) {
+        renderer.warnings_.push_back(std::to_string(room.unsupported_lights) +
                                      " lights that shine on parts of the scene only are not traced");
     }
     return renderer;
@@ -94,7 +94,7 @@ bool TracedRenderer::move(std::uint32_t id, const glm::dmat4& moved, const std::
 void TracedRenderer::describe_lights(const Scene& scene, std::vector<Light> lights) {
     render_.ambient = ambient_of(scene);
     render_.see_environment = scene.environment && scene.environment->seen;
-    headlight_ = scene.navigation.headlight && lights.empty() && !scene.environment && !glows_;
+    headlight_ = scene.navigation.headlight && lights.empty() && !scene.environment && !has_emission_;
     lights_ = std::move(lights);
     environment_ = scene.environment ? scene.environment->pixels : nullptr;
 }
@@ -130,7 +130,7 @@ capture::RenderOptions TracedRenderer::render_options(const Camera& camera) cons
     return render;
 }
 
-void TracedRenderer::look(const Camera& camera) {
+void TracedRenderer::begin_image(const Camera& camera) {
     camera_ = camera;
     sum_ = {};
     begin(camera);
@@ -152,7 +152,7 @@ std::optional<Image<Rgba8>> TracedRenderer::coarse_image(const Camera& camera, i
     coarse.cy /= side;
     capture::Accumulation sum;
     if (!tracer_.accumulate(coarse, render_options(coarse), 1, sum, nullptr, stop)) return std::nullopt;
-    const Image<Rgba8> small = shown(sum.mean());
+    const Image<Rgba8> small = tone_map(sum.mean());
     Image<Rgba8> image(camera.width, camera.height);
     for (int y = 0; y < small.height(); ++y) {
         const int top = y * side, bottom = std::min(top + side, camera.height);
@@ -182,10 +182,10 @@ Image<RgbaF> TracedRenderer::probe(const glm::dvec3& place, int samples, Progres
 }
 
 Image<Rgba8> TracedRenderer::image() const {
-    return shown(render_.part ? capture::filtered_mean(sum_, *render_.part) : capture::filtered_mean(sum_));
+    return tone_map(render_.part ? capture::filtered_mean(sum_, *render_.part) : capture::filtered_mean(sum_));
 }
 
-Image<Rgba8> TracedRenderer::shown(Image<RgbaF> radiance) const {
+Image<Rgba8> TracedRenderer::tone_map(Image<RgbaF> radiance) const {
     const auto brighter = static_cast<float>(std::exp2(options_.exposure_ev));
     for (RgbaF& pixel : radiance.pixels()) {
         pixel.r *= brighter;

@@ -1,14 +1,15 @@
 #pragma once
-// Draws a scene's geometry by light that is traced, a sample of each pixel at a time. What it leaves out (objects,
-// blended surfaces, background) the frame's compositor draws over and under it.
+// Renders scene geometry by ray tracing, one sample per pixel and pass. Objects, blended surfaces and background are
+// composited by the frame's compositor.
 //
-//     Scene -> traced_room -> Tracer -> passes -> mean -> exposure -> 8-bit sRGB, alpha where nothing was met
+//     Scene -> TracerScene -> Tracer -> passes -> mean -> exposure -> 8-bit sRGB, alpha 0 where no surface was hit
 //
-// The same camera and number of passes give the same bytes, however the passes are grouped and on however many threads.
+// Deterministic: camera and number of passes determine the bytes, independent of the number of threads and of how
+// passes are grouped.
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "compositor/scene/scene.hpp"
-#include "compositor/traced/traced_room.hpp"
+#include "compositor/traced/tracer_scene.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -28,16 +29,16 @@ struct NamedMethod {
     const char* name;
     TracedMethod method;
 };
-// In the order from quick to true.
+/// In order of increasing cost and accuracy.
 inline constexpr std::array kTracedMethods{
     NamedMethod{"toon", TracedMethod::kToon}, NamedMethod{"whitted", TracedMethod::kWhitted},
     NamedMethod{"radiosity", TracedMethod::kRadiosity}, NamedMethod{"path", TracedMethod::kPath}};
 
-// A camera's lens: either its opening, or how many times that goes into a focal length on 36 mm wide film.
+/// Camera lens, by aperture or by f-number with respect to a 36 mm wide film.
 struct CameraLens {
-    double aperture_mm = 0;  // diameter, where f_number is 0
+    double aperture_mm = 0;  // diameter, used if f_number is 0
     double f_number = 0;
-    double focus = 1;            // axial distance of what is sharp, scene units
+    double focus = 1;            // axial distance of the focal plane, scene units
     double units_per_mm = 1e-3;  // of the scene
     [[nodiscard]] capture::ThinLens of(const Camera& camera) const;
 };
@@ -46,55 +47,55 @@ class ObjectRays;
 
 struct TracedOptions {
     TracedMethod method = TracedMethod::kPath;
-    double exposure_ev = 0;  // images are 2^_ times as bright
+    double exposure_ev = 0;  // images are scaled by 2^exposure_ev
     int max_bounces = 16;
-    bool soft_shadows = false;            // whitted, toon; the others have no others
-    std::optional<double> line_radius{};  // toon: how far from an edge its line reaches; a share of the scene if empty
+    bool soft_shadows = false;            // whitted and toon; other methods always have them
+    std::optional<double> line_radius{};  // toon: reach of a line from its edge; empty: from the scene's size
     std::optional<CameraLens> lens{};
 };
 
-// Move-only; one thread, but for `stop`.
+/// Move-only; single-threaded, except `stop`.
 class TracedRenderer {
 public:
-    // Refuses scenes that the tracer cannot take (vertices that are not finite). Objects throw shadows and stand in
-    // what walls reflect; the camera does not see them.
+    /// Fails for scenes that the tracer rejects (vertices that are not finite). Objects cast shadows and appear in
+    /// reflections, but are invisible to the camera.
     static Result<TracedRenderer> create(const Scene& scene, const std::vector<PlacedObject>& objects,
                                          const TracedOptions& options);
 
-    // Takes the nodes of this number (GeometryNode::moving) from where the scene has them to `moved` times there; with
-    // `at_close`, they move on to that while the shutter is open, and images show it. Seen in images that begin
-    // after this. False, with nothing changed, where no node has the number, or a matrix has no inverse or is not
-    // finite.
+    /// Moves the nodes with this GeometryNode::moving id to `moved` times their transform in the scene, for images that
+    /// begin afterwards. With `at_close` they move to that transform while the shutter is open (motion blur).
+    /// \return false, with nothing changed, if no node has the id, or a matrix is singular or not finite.
     bool move(std::uint32_t id, const glm::dmat4& moved, const std::optional<glm::dmat4>& at_close = {});
 
-    // For images that begin after this.
+    /// Applies to images that begin afterwards.
     void set_method(TracedMethod method) { render_.method = method; }
     [[nodiscard]] TracedMethod method() const { return render_.method; }
-    // Only these pixels of images that begin after this are traced; they have the bytes that they have in whole ones.
+    /// Restricts images that begin afterwards to these pixels, which get the same bytes as in whole images.
     void set_part(const capture::PixelRectangle& part) { render_.part = part; }
-    // The lights, environment and headlight of `scene`, whose geometry is that of the scene that this was made of, and
-    // another exposure. What is traced then is what a renderer made of `scene` would trace, bit for bit.
+    /// Copies lights, environment and headlight from `scene`, which must have the same geometry as the scene passed to
+    /// create(), and sets the exposure. Results equal those of a renderer created from `scene`, bit for bit.
     void set_lights(const Scene& scene, double exposure_ev);
-    // Begins an image anew.
-    void look(const Camera& camera);
-    // One more sample of each pixel. False, with nothing changed, where `stop` became true before it was there.
+    /// Starts a new image.
+    void begin_image(const Camera& camera);
+    /// Adds one sample per pixel.
+    /// \return false, with nothing changed, if `stop` became true before.
     bool add_pass(Progress* progress = nullptr, const std::atomic<bool>* stop = nullptr);
     [[nodiscard]] std::int64_t steps_of_pass() const { return capture::Tracer::step_count(camera_); }
     [[nodiscard]] int passes() const { return sum_.samples; }
 
-    // The camera's image with one sample for each side x side pixels, without which look() goes on. Nothing where
-    // `stop` became true.
+    /// Image with one sample per side x side pixels, which does not count as a pass.
+    /// \return nullopt if `stop` became true.
     std::optional<Image<Rgba8>> coarse_image(const Camera& camera, int side, const std::atomic<bool>* stop = nullptr);
 
-    // What reaches a place, as capture::light_probe() has it, with the scene's background behind all.
+    /// Light probe at a point as by capture::light_probe(), with the scene's background.
     [[nodiscard]] Image<RgbaF> probe(const glm::dvec3& place, int samples, Progress& progress) const;
 
-    // The mean of all passes: linear light without exposure, straight alpha. There must have been a pass.
+    /// Mean of all passes: linear light without exposure, straight alpha. Requires at least one pass.
     [[nodiscard]] Image<RgbaF> radiance() const { return sum_.mean(); }
-    // What a screen shows of it; of radiosity, filtered (discontinuity_filter.hpp).
+    /// Image for display; filtered for radiosity (discontinuity_filter.hpp).
     [[nodiscard]] Image<Rgba8> image() const;
 
-    // What could not be taken along, for people.
+    /// Messages about unsupported parts of the scene.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
 private:
@@ -104,17 +105,17 @@ private:
     void begin(const Camera& camera);
     void describe_lights(const Scene& scene, std::vector<Light> lights);
     [[nodiscard]] capture::RenderOptions render_options(const Camera& camera) const;
-    [[nodiscard]] Image<Rgba8> shown(Image<RgbaF> radiance) const;
+    [[nodiscard]] Image<Rgba8> tone_map(Image<RgbaF> radiance) const;
 
     capture::Tracer tracer_;
     TracedOptions options_;
     capture::RenderOptions render_;
     Background background_;
-    std::vector<TracedRoom::Moving> moving_;  // of each of the tracer's instances
-    bool glows_ = false;                      // something of the scene's surfaces shines
+    std::vector<TracerScene::MovableNode> moving_;  // [tracer instance]
+    bool has_emission_ = false;                     // some surface is emissive
     bool headlight_ = false;
     std::vector<Light> lights_;                         // without the headlight
-    std::shared_ptr<const Image<RgbaF>> environment_;   // whose light it is
+    std::shared_ptr<const Image<RgbaF>> environment_;   // source of the tracer's environment light
     std::vector<std::shared_ptr<ObjectRays>> objects_;  // of the tracer's scene
     std::vector<std::string> warnings_;
     Camera camera_;

@@ -6,7 +6,7 @@
 // No OpenGL here. One thread; it never waits for a file unless the options require it.
 
 #include "compositor/scene/scene.hpp"
-#include "compositor/viewer/drawing/shown_parts.hpp"
+#include "compositor/viewer/drawing/displayed_nodes.hpp"
 #include "compositor/viewer/residency/load_priority.hpp"
 #include "compositor/viewer/residency/object_cache.hpp"
 #include "engine/driver/render_session.hpp"

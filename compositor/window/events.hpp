@@ -1,5 +1,5 @@
 #pragma once
-// What happens to a window, in words of our own, so that what follows from it can be tested without one.
+// Window events, independent of the window library, so that event handling can be tested without a window.
 
 #include <glm/glm.hpp>
 
@@ -59,7 +59,7 @@ struct MoveEvent {
 struct WheelEvent {
     double notches = 0;  // forward
 };
-// The window is no longer in front: keys that are held will not be seen to be let go.
+/// The window lost the focus; releases of held keys will not be reported.
 struct LostFocusEvent {};
 
 using Event = std::variant<KeyEvent, ButtonEvent, MoveEvent, WheelEvent, LostFocusEvent>;

@@ -50,7 +50,7 @@ bool drag(double& value, double speed, const Range& range, const char* format) {
     return true;
 }
 
-// By factors of ten and of 1.1.
+// Buttons multiply by 10 and 1.1.
 bool factor_field(const char* label, double& value, double first, const Range& range) {
     ImGui::PushID(label);
     double changed = value;
@@ -68,7 +68,7 @@ bool factor_field(const char* label, double& value, double first, const Range& r
     return std::exchange(value, changed) != changed;
 }
 
-// By steps of 10^order and ten times that.
+// Buttons add 10^order and ten times that.
 bool step_field(const char* label, double& value, int order, const Range& range) {
     ImGui::PushID(label);
     double changed = value;
@@ -128,7 +128,7 @@ void draw_list_buttons(LightDesk& desk, const DeskView& view) {
     for (const auto& [text, key] : {std::pair("duplicate", Key::kDuplicate), std::pair("delete", Key::kDelete),
                                     std::pair("undo", Key::kUndo), std::pair("redo", Key::kRedo)}) {
         ImGui::SameLine();
-        if (ImGui::Button(text)) desk.obey(key);
+        if (ImGui::Button(text)) desk.on_key(key);
     }
 }
 
@@ -169,7 +169,7 @@ void edit_shape(LightEntry& entry) {
     if (words.sizes.size() == 1) entry.size.y = entry.size.x;
     for (const LightNumber& number : words.numbers) {
         if (!step_field(number.label, entry.*number.value, 0, {number.lowest, number.highest})) continue;
-        // What was just set stays, and the other gives way.
+        // The edited value is kept; dependent limits are adjusted.
         for (const LightNumber& other : words.numbers) {
             if (other.at_most == number.value) entry.*other.value = std::min(entry.*other.value, entry.*number.value);
         }
@@ -177,7 +177,7 @@ void edit_shape(LightEntry& entry) {
     }
 }
 
-// Changes what is under edit, but for the file, which the desk reads.
+// Edits all parameters except the file, which the editor reads.
 void edit_light(LightEntry& entry) {
     char name[128];
     std::snprintf(name, sizeof name, "%s", entry.name.c_str());
@@ -214,8 +214,8 @@ void edit_surroundings(LightingState& state) {
     if (state.headlight) ImGui::Checkbox("headlight", &state.headlight);
     if (!state.environment) return;
     factor_field("environment", state.environment->scale, 1, kPowers);
-    step_field("its turn, degrees", state.environment->turn_deg, 0, {-36000, 36000});
-    ImGui::Checkbox("environment is seen", &state.environment->seen);
+    step_field("environment rotation, degrees", state.environment->turn_deg, 0, {-36000, 36000});
+    ImGui::Checkbox("environment visible", &state.environment->seen);
 }
 
 void draw_profile(LightDesk& desk) {

@@ -1,18 +1,18 @@
 #pragma once
-// The panel of a light desk (light_desk.hpp): the list of lights, the numbers of the selected one in the units of its
-// list, environment and exposure, profiles. Dear ImGui; between its NewFrame() and Render().
+// Panel of the light editor: list of lights, parameters of the selected one in its own units, environment, exposure and
+// light lists. Dear ImGui; call it between NewFrame() and Render().
 
-#include "compositor/window/light_desk.hpp"
+#include "compositor/window/light_editor.hpp"
 
 namespace rs::compositor {
 
-// A field that is dragged or typed into is one step of undo, a button pressed and held too.
+/// Dragging, typing into a field, or holding a button is one undo step.
 class LightPanel {
 public:
     void draw(LightDesk& desk, const DeskView& view);
 
 private:
-    bool changing_ = false;  // a gesture of the panel's
+    bool changing_ = false;  // a gesture of the panel is in progress
 };
 
 }  // namespace rs::compositor

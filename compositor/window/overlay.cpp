@@ -29,7 +29,7 @@ constexpr std::array kHelp = {
     HelpLine{"wheel", "forward; examine: nearer"},
     HelpLine{"1 2 3", "walk, fly, examine"},
     HelpLine{"page up, page down", "viewpoints"},
-    HelpLine{"home", "where the visit began"},
+    HelpLine{"home", "initial viewpoint"},
     HelpLine{"click", "pick an object"},
     HelpLine{"F", "wire frame"},
     HelpLine{"O", "shadows, on and off"},
@@ -164,7 +164,7 @@ void draw_news(const std::string& news) {
 Overlay::Overlay(Window& window) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
+    ImGui::GetIO().IniFilename = nullptr;  // no settings file
     ImGui::StyleColorsDark();
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
     ImGui_ImplOpenGL3_Init("#version 450 core");

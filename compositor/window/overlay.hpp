@@ -1,5 +1,5 @@
 #pragma once
-// What lies over the image in a window: a panel of figures and switches, help, and a line of news. Dear ImGui.
+// ImGui overlay of a window: panel with statistics and switches, help, and a message line.
 
 #include "compositor/traced/traced_renderer.hpp"
 #include "compositor/viewer/views/navigation.hpp"
@@ -15,28 +15,28 @@ namespace rs::compositor {
 struct ObjectLine {
     std::string name;
     bool in_view = false;
-    int width = 0;  // of the image that the engine drew, px
+    int width = 0;  // of the rendered image, px
     int height = 0;
-    double milliseconds = 0;  // of the engine
-    std::string absence;      // why it is not there; empty where it is
+    double milliseconds = 0;  // engine time
+    std::string absence;      // reason why the object is not displayed; empty if it is
 };
 
-// What the panel shows, and what the visitor changes in it.
+/// State displayed by the panel, and changed by its controls.
 struct PanelState {
     bool show_panel = true;
     bool show_help = false;
     bool wire_frame = false;
     bool shadows = true;
-    bool traced = false;   // the view stands still and refines,
-    bool walk_on = false;  // but for walking by coarse images
+    bool traced = false;   // the view is fixed and refines progressively
+    bool walk_on = false;  // keeps moving with coarse traced images
     TracedMethod method = TracedMethod::kPath;
-    int passes = 0;  // of it
+    int passes = 0;  // of the traced image
     bool recording = false;
     NavigationMode mode = NavigationMode::kWalk;
-    double speed = 1;  // scene units a second
+    double speed = 1;  // scene units per second
     bool take_screenshot = false;
 
-    double frame_ms = 0;  // of the last frames' middle one
+    double frame_ms = 0;  // median of the last frames
     double geometry_ms = 0;
     double engine_ms = 0;
     double upload_ms = 0;
@@ -44,17 +44,17 @@ struct PanelState {
     std::string executor;
     int views_by_core = 0;  // in the last frame
     int views_by_board = 0;
-    double memory_mib = 0;  // that objects take
-    double budget_mib = 0;  // that they may take
+    double memory_mib = 0;  // used by objects
+    double budget_mib = 0;  // budget of objects
     std::string device;
     std::vector<ObjectLine> objects;
-    int picked = -1;               // of `objects`
-    double turn_rad = 0;           // by which the visitor has turned it
-    std::string news;              // empty: none
-    Playback* playback = nullptr;  // of a sequence
+    int picked = -1;               // index into `objects`
+    double turn_rad = 0;           // rotation applied by the visitor
+    std::string news;              // may be empty
+    Playback* playback = nullptr;  // null without a sequence
 };
 
-// Stands between a window and its owner's drawing; one a process. Destroyed before the window.
+/// Filters input and draws over a window; one per process. Must be destroyed before the window.
 class Overlay {
 public:
     explicit Overlay(Window& window);
@@ -62,11 +62,11 @@ public:
     Overlay& operator=(const Overlay&) = delete;
     ~Overlay();
 
-    // True while the mouse is over the panel, or something is typed into it: events are the panel's.
+    /// True while the pointer is over the panel, or text is typed into it: events then belong to the panel.
     [[nodiscard]] bool takes_mouse() const;
     [[nodiscard]] bool takes_keys() const;
 
-    // Draws into the window; after the image, before swap(). `more` draws other panels.
+    /// Draws into the window; call it after the image, before swap(). `more` draws other panels.
     void draw(PanelState& state, const std::function<void()>& more = nullptr);
 };
 

@@ -8,7 +8,7 @@
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/viewer/views/navigation.hpp"
-#include "compositor/window/light_desk.hpp"
+#include "compositor/window/light_editor.hpp"
 #include "compositor/window/light_panel.hpp"
 #include "compositor/window/overlay.hpp"
 #include "compositor/window/playback.hpp"

@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kHeadSpeed_m_per_s = 0.3;
 
-// The head where it is in the scene.
+// Head pose in the scene.
 Visitor as_visitor(const Head& head, const RoomPlace& place) {
     return {.eye = place.in_scene(head.position), .heading_rad = place.heading_rad + head.heading_rad};
 }
 
-// The room around a head that is there.
+// Room pose around a head with this pose in the scene.
 RoomPlace place_around(const Visitor& visitor, const Head& head, double units_per_metre) {
     RoomPlace place;
     place.units_per_metre = units_per_metre;
@@ -42,7 +42,7 @@ WallVisit::WallVisit(std::vector<Window> windows, std::unique_ptr<Showroom> show
 WallVisit::~WallVisit() {
     windows_.front().make_current();
     compositor_.reset();
-    // The last one that was opened is the first to go: GLFW ends with none that is current.
+    // In reverse order of creation: GLFW then ends without a current context.
     while (!windows_.empty()) windows_.pop_back();
 }
 
@@ -58,7 +58,7 @@ Result<std::unique_ptr<WallVisit>> WallVisit::create(const Scene& scene, std::un
         window.title = wall.name;
         window.width = wall.width * (options.stereo == StereoForm::kSideBySide ? 2 : 1);
         window.height = wall.height * (options.stereo == StereoForm::kTopBottom ? 2 : 1);
-        // Only one of them waits for the screen.
+        // Only one window waits for vertical synchronisation.
         window.wait_for_screen = options.window.wait_for_screen && windows.size() + 1 == options.display.walls.size();
         RS_ASSIGN_OR_RETURN(Window opened, Window::create(window));
         windows.push_back(std::move(opened));
@@ -70,6 +70,8 @@ Result<std::unique_ptr<WallVisit>> WallVisit::create(const Scene& scene, std::un
                                                 {.width = first.width,
                                                  .height = first.height,
                                                  .samples = options.samples,
+                                                 .wire_frame = options.wire_frame,
+                                                 .shadows = options.shadows,
                                                  .exposure_ev = options.exposure_ev,
                                                  .object_depth = options.object_depth,
                                                  .object_samples = options.object_samples,
@@ -79,7 +81,7 @@ Result<std::unique_ptr<WallVisit>> WallVisit::create(const Scene& scene, std::un
     return visit;
 }
 
-void WallVisit::obey(Key command) {
+void WallVisit::on_key(Key command) {
     const auto go_to = [&](std::size_t number) {
         viewpoint_ = number;
         const Viewpoint& there = viewpoints_[number];
@@ -106,17 +108,17 @@ void WallVisit::obey(Key command) {
             place_ = options_.place;
             break;
         case Key::kScreenshot:
-            takes_images_ = true;
+            save_requested_ = true;
             break;
         case Key::kQuit:
-            leaves_ = true;
+            quits_ = true;
             break;
         default:
             break;
     }
 }
 
-bool WallVisit::sees_all_walls(const Head& head) const {
+bool WallVisit::is_before_all_walls(const Head& head) const {
     const double half = options_.stereo ? options_.display.eye_distance_m / 2 : 0;
     return std::all_of(options_.display.walls.begin(), options_.display.walls.end(), [&](const Wall& wall) {
         return wall_camera(wall, head.eye(-half), place_).ok() && wall_camera(wall, head.eye(half), place_).ok();
@@ -130,7 +132,7 @@ void WallVisit::move(double seconds) {
         next_head_ = (next_head_ + 1) % options_.heads.size();
     }
     if (const std::optional<Head> tracked = options_.tracked ? options_.tracked() : std::nullopt) {
-        if (sees_all_walls(*tracked)) head_ = *tracked;
+        if (is_before_all_walls(*tracked)) head_ = *tracked;
     }
     if (!moves_head_) {
         const double speed = navigation_.speed;
@@ -144,10 +146,10 @@ void WallVisit::move(double seconds) {
     head.position = there.eye;
     head.heading_rad = there.heading_rad;
     head.pitch_rad = there.pitch_rad;
-    if (sees_all_walls(head)) head_ = head;  // walls are not walked through
+    if (is_before_all_walls(head)) head_ = head;  // walls block the head
 }
 
-Result<Image<Rgba8>> WallVisit::drawn(const Wall& wall, double offset_m) {
+Result<Image<Rgba8>> WallVisit::draw_eye(const Wall& wall, double offset_m) {
     RS_ASSIGN_OR_RETURN(const Camera camera, wall_camera(wall, head_.eye(offset_m), place_));
     return compositor_->compose(camera);
 }
@@ -156,10 +158,10 @@ Result<Image<Rgba8>> WallVisit::image_of(const Wall& wall) {
     if (wall.width != compositor_->width() || wall.height != compositor_->height()) {
         RS_TRY(compositor_->resize(wall.width, wall.height));
     }
-    if (!options_.stereo) return drawn(wall, 0);
+    if (!options_.stereo) return draw_eye(wall, 0);
     const double half = options_.display.eye_distance_m / 2;
-    RS_ASSIGN_OR_RETURN(const Image<Rgba8> left, drawn(wall, -half));
-    RS_ASSIGN_OR_RETURN(const Image<Rgba8> right, drawn(wall, half));
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> left, draw_eye(wall, -half));
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> right, draw_eye(wall, half));
     return stereo_image(*options_.stereo, left, right);
 }
 
@@ -169,10 +171,10 @@ Result<bool> WallVisit::step(std::optional<double> seconds) {
     last_ = now;
     for (Window& window : windows_) {
         for (const Event& event : window.poll()) input_.take(event);
-        leaves_ = leaves_ || window.should_close();
+        quits_ = quits_ || window.should_close();
     }
-    for (const Key command : input_.commands()) obey(command);
-    if (leaves_) return false;
+    for (const Key command : input_.commands()) on_key(command);
+    if (quits_) return false;
     move(passed);
     RS_TRY(showroom_->update(place_.in_scene(head_.position), passed));
     if (const std::vector<std::string> warnings = showroom_->take_warnings(); !warnings.empty() && options_.warn) {
@@ -186,13 +188,13 @@ Result<bool> WallVisit::step(std::optional<double> seconds) {
     }
     for (std::size_t i = 0; i < windows_.size(); ++i) {
         const glm::ivec2 size = windows_[i].framebuffer_px();
-        if (size.x < 1 || size.y < 1) continue;  // an icon
+        if (size.x < 1 || size.y < 1) continue;  // minimised
         windows_[i].make_current();
         gl::show_in_window(images_[i].view(), size.x, size.y);
         windows_[i].swap();
     }
     windows_.front().make_current();
-    if (std::exchange(takes_images_, false)) {
+    if (std::exchange(save_requested_, false)) {
         for (std::size_t i = 0; i < images_.size(); ++i) {
             int number = shots_;
             const std::string prefix = "wall-" + options_.display.walls[i].name;

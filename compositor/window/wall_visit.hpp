@@ -1,11 +1,11 @@
 #pragma once
-// A visit with a window for each wall of a display: the room is driven through the scene, and the head moves in the
-// room, by keys, by a list or by a tracker.
+// Visit with a window per wall of a display: the room moves through the scene, and the head moves in the room by keys,
+// from a list, or by a tracker.
 //
-//     scene -> one compositor, wall by wall and eye by eye -> images -> the windows, each with a context of its own
+//     scene -> one compositor, per wall and eye -> images -> windows, each with its own context
 //
-// Keys: 1 drives the room along the ground, 2 also up and down, 3 moves the head in the room; page up and down, home:
-// the scene's viewpoints; P writes what the windows show; escape leaves. For the main thread only.
+// Keys: 1 moves the room along the ground, 2 also vertically, 3 moves the head in the room; page up/down, home:
+// viewpoints of the scene; P saves the windows' images; escape quits. Main thread only.
 
 #include "compositor/displays/stereo_image.hpp"
 #include "compositor/displays/walls_file.hpp"
@@ -29,49 +29,52 @@ namespace rs::compositor {
 
 struct WallVisitOptions {
     WallDisplay display;      // windows have the walls' sizes
-    std::vector<Head> heads;  // one, or one for each frame, again and again
-    RoomPlace place;          // where the visit begins
-    // Where a tracker has the head, in the room; nothing where it says nothing new. Asked once a frame; a head whose
-    // eyes are not before all walls is passed over.
+    std::vector<Head> heads;  // one pose, or one per frame, repeated
+    RoomPlace place;          // initial room pose
+    /// Tracked head pose in the room; nullopt if unchanged. Called once per frame; poses with an eye behind a wall are
+    /// ignored.
     std::function<std::optional<Head>()> tracked = nullptr;
     std::optional<StereoForm> stereo = std::nullopt;
     int samples = 4;
+    bool wire_frame = false;
+    bool shadows = false;
     double exposure_ev = 0;
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples = FrameOptions{}.object_samples;
-    std::filesystem::path images = ".";                                   // where P writes to
-    std::function<void(const std::vector<std::string>&)> warn = nullptr;  // of objects that cannot be shown
-    WindowOptions window = {};                                            // but for title and size
+    std::filesystem::path images = ".";                                   // folder for P
+    std::function<void(const std::vector<std::string>&)> warn = nullptr;  // objects that cannot be displayed
+    WindowOptions window = {};                                            // except title and size
 };
 
 class WallVisit {
 public:
-    // Fails without a display, for StereoForm::kFolders, and where an eye is behind a wall.
+    /// Fails without a display, for StereoForm::kFolders, and if an eye is behind a wall.
     static Result<std::unique_ptr<WallVisit>> create(const Scene& scene, std::unique_ptr<Showroom> showroom,
                                                      const WallVisitOptions& options);
     ~WallVisit();
 
-    // A frame of all walls. False when the visitor wants to leave. `seconds`: since the last frame, as a clock on the
-    // wall says if not given.
+    /// Draws a frame of all walls.
+    /// \param seconds since the last frame; measured if not given.
+    /// \return false if the visitor quits.
     Result<bool> step(std::optional<double> seconds = std::nullopt);
 
     [[nodiscard]] std::vector<Window>& windows() { return windows_; }
     [[nodiscard]] const Head& head() const { return head_; }
     [[nodiscard]] const RoomPlace& place() const { return place_; }
-    // Of the last frame, by wall, as the windows show them.
+    /// Last frame by wall, as displayed.
     [[nodiscard]] const std::vector<Image<Rgba8>>& images() const { return images_; }
 
 private:
     WallVisit(std::vector<Window> windows, std::unique_ptr<Showroom> showroom, const Scene& scene,
               const WallVisitOptions& options);
 
-    void obey(Key command);
+    void on_key(Key command);
     void move(double seconds);
-    [[nodiscard]] bool sees_all_walls(const Head& head) const;
-    Result<Image<Rgba8>> drawn(const Wall& wall, double offset_m);
+    [[nodiscard]] bool is_before_all_walls(const Head& head) const;
+    Result<Image<Rgba8>> draw_eye(const Wall& wall, double offset_m);
     Result<Image<Rgba8>> image_of(const Wall& wall);
 
-    std::vector<Window> windows_;  // the first one's context draws
+    std::vector<Window> windows_;  // the first one's context renders
     std::unique_ptr<Showroom> showroom_;
     std::optional<FrameCompositor> compositor_;
     WallVisitOptions options_;
@@ -85,13 +88,13 @@ private:
     std::size_t next_head_ = 0;
     RoomPlace place_;
     std::vector<Image<Rgba8>> images_;
-    bool takes_images_ = false;
-    bool leaves_ = false;
+    bool save_requested_ = false;
+    bool quits_ = false;
     int shots_ = 0;
     std::chrono::steady_clock::time_point last_;
 };
 
-// Until the visitor leaves.
+/// Runs until the visitor quits.
 Status visit_walls(const Scene& scene, std::unique_ptr<Showroom> showroom, const WallVisitOptions& options);
 
 }  // namespace rs::compositor

@@ -1,6 +1,6 @@
 #include "compositor/window/window.hpp"
 
-// epoxy before GLFW, which would bring another loader's declarations.
+// epoxy must come before GLFW, which would include another loader.
 #include <epoxy/gl.h>
 
 #define GLFW_INCLUDE_NONE
@@ -61,7 +61,7 @@ std::optional<Key> key_of(int glfw_key) {
     return std::nullopt;
 }
 
-// With control held.
+// Key combinations with control.
 std::optional<Key> chord_of(int glfw_key, int modifiers) {
     const bool shift = (modifiers & GLFW_MOD_SHIFT) != 0;
     if (glfw_key == GLFW_KEY_Z) return shift ? Key::kRedo : Key::kUndo;
@@ -76,7 +76,7 @@ std::optional<Button> button_of(int glfw_button) {
     return std::nullopt;
 }
 
-// Of the framebuffer, which has more pixels than the window has units on dense screens.
+// Framebuffer position; dense screens have more pixels than window units.
 glm::dvec2 in_pixels(GLFWwindow* window, double x, double y) {
     glm::ivec2 units(1);
     glm::ivec2 pixels(1);
@@ -99,7 +99,7 @@ struct Window::State {
     std::optional<gl::Context> context;
     std::vector<Event> events;
 
-    static inline int open = 0;  // all windows; with the last one GLFW ends
+    static inline int open = 0;  // number of windows; GLFW terminates with the last
 
     State() { ++open; }
     State(const State&) = delete;
@@ -116,7 +116,7 @@ struct Window::State {
     void listen() {
         glfwSetWindowUserPointer(window, this);
         glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
-            // A key that goes up goes up, whatever it meant.
+            // Key releases are reported whatever the modifiers.
             if ((modifiers & GLFW_MOD_CONTROL) != 0 && action == GLFW_PRESS) {
                 if (const auto chord = chord_of(key, modifiers)) of(w).events.emplace_back(KeyEvent{*chord, true});
             } else if (const auto known = key_of(key); known && action != GLFW_REPEAT) {
@@ -153,11 +153,11 @@ Result<Window> Window::create(const WindowOptions& options) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.context.debug ? GLFW_TRUE : GLFW_FALSE);
-    // Frames are drawn elsewhere and come with their final bytes.
+    // Frames are rendered offscreen with their final bytes.
     glfwWindowHint(GLFW_SRGB_CAPABLE, GLFW_FALSE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     state->window = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
-    if (state->window == nullptr) return no_window("no window with OpenGL 4.5 core can be had");
+    if (state->window == nullptr) return no_window("no window with OpenGL 4.5 core can be created");
     glfwMakeContextCurrent(state->window);
     glfwSwapInterval(options.wait_for_screen ? 1 : 0);
     RS_ASSIGN_OR_RETURN(gl::Context context, gl::Context::adopt_current(options.context));

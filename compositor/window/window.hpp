@@ -1,6 +1,6 @@
 #pragma once
-// A window with an OpenGL 4.5 core context of the compositor's conventions (gl/context.hpp), through GLFW. For the main
-// thread only: GLFW requires it.
+// GLFW window with an OpenGL 4.5 core context and the compositor's conventions (gl/context.hpp). Main thread only, as
+// GLFW requires.
 
 #include "compositor/gl/context.hpp"
 #include "compositor/window/events.hpp"
@@ -18,31 +18,31 @@ struct WindowOptions {
     std::string title = "Rayspace";
     int width = 1280;  // screen units
     int height = 720;
-    bool wait_for_screen = true;  // a frame for each of the screen's
+    bool wait_for_screen = true;  // vertical synchronisation
     gl::ContextOptions context = {};
 };
 
-// Move-only. Several may be open; what is drawn goes to the one that was created or made current last.
+/// Move-only. Several may be open; drawing goes to the one created or made current last.
 class Window {
 public:
-    // Fails, saying why, without a display, or where the driver has no OpenGL 4.5 core.
+    /// Fails without a display, or if the driver lacks OpenGL 4.5 core; the error states the reason.
     static Result<Window> create(const WindowOptions& options);
     Window(Window&&) noexcept;
     Window& operator=(Window&&) noexcept;
     ~Window();
 
     [[nodiscard]] gl::Context& context();
-    // What is drawn from now on goes here, by this window's context.
+    /// Makes this window's context the target of drawing.
     void make_current();
     [[nodiscard]] bool should_close() const;
     void close();
 
-    // Of what is drawn into; may change from poll() to poll(), and be 0 where the window is an icon.
+    /// Framebuffer size; may change in poll(), and be 0 while the window is minimised.
     [[nodiscard]] glm::ivec2 framebuffer_px() const;
 
-    // What happened since the last call. Those that the panel has taken (Overlay) are not among them.
+    /// Events since the last call, except those consumed by the panel (Overlay).
     std::vector<Event> poll();
-    // As if it had happened; for tests and scripts.
+    /// Adds a synthetic event; for tests and scripts.
     void inject(const Event& event);
 
     void swap();

@@ -9,7 +9,7 @@ Ellipsoid upright(vec3 centre, vec3 radii) {
     return {{centre, glm::mat3{1.0F}}, radii};
 }
 
-// `along` becomes the ellipsoid's Y axis.
+// Ellipsoid with Y axis `along`.
 Ellipsoid pointing(vec3 centre, vec3 along, vec3 radii) {
     return {frame_facing(centre, along, {0, 0, 1}), radii};
 }
@@ -51,7 +51,7 @@ std::vector<Ellipsoid> bear_foot_pads() {
     return pads;
 }
 
-std::vector<Ellipsoid> bear_bare_places() {
+std::vector<Ellipsoid> bear_bare_regions() {
     std::vector<Ellipsoid> places = bear_foot_pads();
     for (Ellipsoid& pad : places) pad.radii *= 1.12F;
     for (const float side : {-1.0F, 1.0F}) places.push_back(upright({side * 0.165F, 1.425F, 0.42F}, vec3{0.095F}));

@@ -1,5 +1,5 @@
 #pragma once
-// The teddy bear's body plan: which ellipsoids it is made of, and what grows where.
+// The teddy bear's body: its ellipsoids and fur regions.
 //
 // The bear sits on y = 0, looks along +Z and is about 2 high.
 
@@ -15,18 +15,18 @@ struct BearPart {
     Ellipsoid shape;
     BearRegion region = BearRegion::coat;
     float hair_length = 1.0F;  // relative to the whole bear's
-    glm::vec3 comb{0, -1, 0};  // hairs lie towards there
+    glm::vec3 comb{0, -1, 0};  // direction of the hairs
 };
 
 std::vector<BearPart> bear_parts();
 
-// The felt pads under the feet, which carry no hair.
+// Felt pads under the feet, without hair.
 std::vector<Ellipsoid> bear_foot_pads();
 
-// Where no hair starts: the pads, and around the eyes, the nose and the mouth.
-std::vector<Ellipsoid> bear_bare_places();
+// Regions without hair roots: the pads, and around the eyes, the nose and the mouth.
+std::vector<Ellipsoid> bear_bare_regions();
 
-// Pale fur covers a part, or the middle of the belly and the inside of the ears.
+// Region of a point on a part: pale fur covers pale parts, the middle of the belly and the inside of the ears.
 BearRegion region_at(const BearPart& part, glm::vec3 normal, glm::vec3 position);
 
 }  // namespace rs::synthetic

@@ -36,7 +36,7 @@ public:
     BlockPainter(Canvas& canvas, std::uint64_t seed)
         : canvas_(canvas), seed_(static_cast<std::uint32_t>(seed)), random_(seed, 81) {}
 
-    // Sawn maple: a cut through slightly wavy year rings.
+    // Sawn maple: a cut through slightly wavy growth rings.
     void wood(vec2 corner_px, std::uint32_t board) {
         const auto row = board / 64U;
         const vec3 offset{static_cast<float>(board % 64U) * 3.1F, static_cast<float>(row) * 5.7F, 0.0F};
@@ -170,7 +170,7 @@ capture::Texture paint_blocks(int blocks, const std::string& text, std::uint64_t
             painter.wood(corner_px, static_cast<std::uint32_t>(block * kBlockFaces + face));
             painter.frame(corner_px, toy_colour(block + face));
             const vec3 colour = toy_colour(block + face + 1 + face / 2);
-            // Letters on three sides, an image on the fourth and at the ends: no two neighbours alike.
+            // Letters on three sides, an image on the fourth and at the ends; neighbours differ.
             if (face < 3)
                 painter.letter(corner_px, text[static_cast<std::size_t>(block + face * 3) % text.size()], colour);
             else
@@ -238,8 +238,8 @@ std::array<Frame, kBlocks> tower(float untidiness, std::uint64_t seed) {
     std::array<Frame, kBlocks> frames;
     for (std::size_t k = 0; k < kPlaces.size(); ++k) {
         const int layer = k < 4 ? 0 : (k < 6 ? 1 : 2);
-        const float loose = layer == 0 ? 0.35F : 1.0F;  // the lower ones stand shoulder to shoulder
-        // Each layer as a whole is turned against the one below.
+        const float loose = layer == 0 ? 0.35F : 1.0F;  // the lower blocks are close together
+        // Rotates each layer as a whole against the one below.
         const float layer_turn_rad = layer == 1 ? 0.45F : (layer == 2 ? -0.35F : 0.0F);
         const glm::mat3 layer_turn = rotation({0, 1, 0}, layer_turn_rad);
         const float turn_rad = untidiness * loose * 0.16F * random.bell();

@@ -5,7 +5,7 @@
 
 namespace rs::synthetic {
 
-// In the bear's coordinates (bear_body.hpp).
+// Appends the bow in the bear's coordinates (bear_body.hpp).
 void append_bow(capture::Mesh& mesh);
 
 }  // namespace rs::synthetic

@@ -52,16 +52,16 @@ public:
           seed_(static_cast<std::uint32_t>(seed)),
           random_(seed, 43),
           parts_(bear_parts()),
-          bare_(bear_bare_places()) {
+          bare_(bear_bare_regions()) {
         float sum = 0.0F;
-        for (const BearPart& part : parts_) cumulative_.push_back(sum += draw_weight(part.shape));
+        for (const BearPart& part : parts_) cumulative_.push_back(sum += sampling_weight(part.shape));
     }
 
     void grow(Mesh& coat, Mesh& pale) {
         constexpr int kSegments = 4;
         for (int grown = 0; grown < style_.strands;) {
             const BearPart& part = pick();
-            const SurfaceDraw draw = draw_point(part.shape, random_);
+            const RejectionSample draw = sample_surface(part.shape, random_);
             if (!draw.keep || is_covered(part, draw.point.position)) continue;
             const BearRegion region = region_at(part, draw.point.normal, draw.point.position);
             append_strand(region == BearRegion::coat ? coat : pale, strand_at(part, draw.point), kSegments);
@@ -84,7 +84,7 @@ private:
     }
 
     Strand strand_at(const BearPart& part, const SurfacePoint& point) {
-        // Locks: neighbouring hairs lean together, each with a will of its own.
+        // Locks: neighbouring hairs lean in similar directions, with individual variation.
         const vec3 lock = vector_noise(point.position * 9.0F, seed_);
         const vec3 wave = vector_noise(point.position * 3.0F, seed_ + 7U);
         const vec3 lie = part.comb - point.normal * glm::dot(part.comb, point.normal);
@@ -93,7 +93,7 @@ private:
         strand.direction = glm::normalize(point.normal + 0.35F * lie + 0.55F * lock + 0.22F * random_.direction());
         strand.bend = style_.curl * (0.75F * lie + 0.9F * wave + 0.5F * lock + 0.35F * random_.direction());
         strand.side = random_.direction();
-        // A side along the hair would leave the ribbon without a face.
+        // A side vector along the hair would make the ribbon degenerate.
         strand.side = glm::normalize(strand.side - 0.9F * strand.direction * glm::dot(strand.side, strand.direction));
         strand.length = style_.hair_length * part.hair_length * random_.uniform(0.65F, 1.15F);
         strand.width = 0.0105F * random_.uniform(0.7F, 1.2F);

@@ -159,7 +159,7 @@ private:
         for (int i = 0; i <= kColumns; ++i) soil.positions[soil.index(i, kRows)] = soil.positions[soil.index(0, kRows)];
         append_grid(soil_, std::move(soil));
         for (int k = 0; k < 70; ++k) {
-            // One draw to a statement, here and everywhere: the order of arguments is the compiler's own.
+            // One draw per statement: the evaluation order of arguments is unspecified.
             const float angle_rad = random.uniform(0.0F, 2.0F * portable::kPiF);
             const float reach = 0.36F * std::sqrt(random.uniform());
             const vec3 centre = portable::around(angle_rad, reach, kSoilHeight + 0.018F);
@@ -173,7 +173,7 @@ private:
     void stems_and_blooms() {
         for (int k = 0; k < parameters_.blooms; ++k) {
             Random random(seed_, 100U + static_cast<std::uint64_t>(k));
-            // A sunflower arrangement of the tips: none stands in front of another for long.
+            // Sunflower arrangement of the tips, which minimises occlusion between blooms.
             const float share =
                 parameters_.blooms == 1
                     ? 0.0F
@@ -200,7 +200,7 @@ private:
         }
     }
 
-    // The frame's Y axis is where the flower looks.
+    // A flower that faces along the frame's Y axis.
     void bloom(const Frame& frame, int number, Random& random) {
         const float size = random.uniform(0.27F, 0.33F);
         Mesh& petals = petals_[static_cast<std::size_t>(number % kPetalColours)];
@@ -223,7 +223,7 @@ private:
                 shape.ripple = 0.14F;
                 shape.ripple_waves = random.uniform(1.5F, 2.6F);
                 shape.ripple_phase_rad = random.uniform(0.0F, 2.0F * portable::kPiF);
-                // Every other petal lies a little higher, so that neighbours overlap instead of cutting each other.
+                // Every other petal is a little higher, so that neighbours overlap without intersecting.
                 const float level = height + (k % 2 == 0 ? 0.0F : 0.012F);
                 append_petal(mesh, frame_facing(frame.origin + axis * level + outwards * 0.05F, along, axis), shape);
             }

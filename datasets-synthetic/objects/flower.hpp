@@ -1,12 +1,12 @@
 #pragma once
-// A potted flower: thin curved petals and leaves that let light through, on bent stems, in a terracotta pot.
-// Hard for image-based rendering because there are holes between all its parts: neighbouring rays see different petals.
+// A potted flower: thin, curved, translucent petals and leaves on bent stems in a terracotta pot. Hard for image-based
+// rendering because of the gaps between all parts: neighbouring rays hit different petals.
 //
 // Parameter   default  range       meaning
 // blooms      7        1..12       open flowers
 // petals      13       6..24       in the outer ring of a flower
-// leaves      40       0..60       on stems and around their feet
-// spread      0.62     0.2..0.9    how far the stems lean outwards, share of their height
+// leaves      40       0..60       on stems and at their base
+// spread      0.62     0.2..0.9    outward lean of the stems, share of their height
 // hue         0.93     0..1        of the first flower, in turns (0 red, 1/3 green, 2/3 blue); the others are near it
 
 #include "capture/tracer/scene/scene.hpp"

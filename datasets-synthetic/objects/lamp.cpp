@@ -24,8 +24,8 @@ using glm::vec3;
 
 constexpr int kSidesAround = 192;
 
-// Moves every inner point of a profile to its left by `distance`: the other side of a wall. The end on the axis stays
-// on it.
+// Offsets every interior point of a profile to its left by `distance`: the other side of a wall. The end on the axis
+// stays on the axis.
 std::vector<vec2> inset(const std::vector<vec2>& profile, float distance) {
     std::vector<vec2> moved;
     for (std::size_t i = 0; i < profile.size(); ++i) {
@@ -106,7 +106,7 @@ void append_stand(Mesh& brushed, Mesh& polished) {
     append_lathe(polished, smooth_curve<vec2>(knop, 8), {.segments = kSidesAround});
     const std::vector<vec2> neck{{0.075F, 0.51F}, {0.07F, 0.56F}, {0.085F, 0.62F}, {0.14F, 0.665F}, {0.24F, 0.70F}};
     append_lathe(brushed, smooth_curve<vec2>(neck, 8), {.segments = kSidesAround});
-    // The cup hugs the font's belly from below, a little off the glass.
+    // The cup encloses the font's belly from below, with a small gap to the glass.
     const std::vector<vec2> cup{{0.24F, 0.70F},   {0.355F, 0.755F}, {0.375F, 0.775F}, {0.368F, 0.782F},
                                 {0.345F, 0.763F}, {0.20F, 0.699F},  {0.0F, 0.694F}};
     append_lathe(polished, cup, {.segments = kSidesAround, .crease_rad = 0.9F});
@@ -173,7 +173,7 @@ struct LampMaterials {
 
 }  // namespace
 
-// Nothing about a turned lamp is left to chance but where its feet stand.
+// The seed determines the rotation of the feet only.
 Result<capture::Scene> generate_lamp(const nlohmann::json& parameters, std::uint64_t seed) {
     Parameters in("lamp", parameters);
     const float hue = in.number("hue", 0.985F, 0.0F, 1.0F);
@@ -201,7 +201,7 @@ Result<capture::Scene> generate_lamp(const nlohmann::json& parameters, std::uint
     }
 
     LampMaterials materials;
-    // What a unit length lets through; at the font's diameter that leaves a deep colour.
+    // Transmittance per unit length, a saturated colour over the font's diameter.
     materials.oil.colour = glm::max(hue_colour(hue, 0.93F, 0.86F), vec3{0.006F});
     materials.brushed.roughness = 0.48F - 0.12F * polish;
     materials.polished.roughness = 0.32F * (1.0F - polish) + 0.02F;

@@ -68,7 +68,7 @@ capture::Texture paint_enamel(vec3 colour, vec3 second, std::uint32_t seed) {
     return std::move(canvas).texture("enamel");
 }
 
-// A rainbow that goes round once along the knot, with rows of dots and rings.
+// One hue cycle along the knot, with rows of dots and rings.
 capture::Texture paint_core(float hue_turns) {
     constexpr int kAround_px = 256;
     constexpr int kAlong_px = 2048;
@@ -109,7 +109,7 @@ class LatticeBuilder {
 public:
     LatticeBuilder(float strut, float hue, std::uint64_t seed)
         : strut_(strut), hue_(hue), seed_(static_cast<std::uint32_t>(seed)) {
-        // A seeded attitude, so that the axes of symmetry do not line up with the turntable's.
+        // A random orientation, so that the axes of symmetry are not aligned with the turntable's axis.
         Random random(seed, 71);
         const vec3 axis = random.direction();
         attitude_ = rotation(axis, random.uniform(0.3F, 2.8F));

@@ -1,5 +1,5 @@
 #pragma once
-// Collects the meshes, materials and textures of one object and brings it to the size that recipes count on.
+// Collects the meshes, materials and textures of one object and normalises its size for recipes.
 
 #include "capture/tracer/scene/scene.hpp"
 
@@ -11,15 +11,15 @@ class ObjectAssembly {
 public:
     explicit ObjectAssembly(std::string name) { scene_.name = std::move(name); }
 
-    // Return the index that materials and meshes refer to.
+    // Return the index for references by materials and meshes.
     int add_texture(capture::Texture texture);
     int add_material(capture::Material material);
 
-    // An empty mesh of that material to append to. The reference is good until the next add_mesh.
+    // Adds an empty mesh. The reference is valid until the next add_mesh().
     capture::Mesh& add_mesh(const std::string& name, int material);
 
-    // The object with the middle of its bounding box at the origin and its farthest vertex at distance 1 from there.
-    // Meshes that stayed empty are dropped. Glass is tinted per unit of length *after* this.
+    // Returns the object with the centre of its bounding box at the origin and its farthest vertex at distance 1. Empty
+    // meshes are removed. The tint of glass refers to the unit of length after this normalisation.
     [[nodiscard]] capture::Scene finish() &&;
 
 private:

@@ -28,8 +28,8 @@ float half_width(const PetalShape& shape, float t) {
 
 }  // namespace
 
-// The middle line is a circular arc in the frame's YZ plane that turns by curl_rad over its length.
-Frame petal_middle(const Frame& base, const PetalShape& shape, float t) {
+// The centre line is a circular arc in the frame's YZ plane with a total angle of curl_rad.
+Frame petal_frame(const Frame& base, const PetalShape& shape, float t) {
     const float angle_rad = shape.curl_rad * t;
     vec3 p{0.0F, shape.length * t, 0.0F};
     if (std::abs(shape.curl_rad) > 1e-3F) {
@@ -42,10 +42,10 @@ Frame petal_middle(const Frame& base, const PetalShape& shape, float t) {
 void append_petal(capture::Mesh& mesh, const Frame& base, const PetalShape& shape) {
     Grid grid(shape.columns, shape.rows);
     for (int j = 0; j <= shape.rows; ++j) {
-        // Rows crowd towards the tip, where the outline turns.
+        // Rows are denser towards the tip, where the contour is most curved.
         const double s = static_cast<double>(j) / shape.rows;
         const auto t = j == shape.rows ? 1.0F : static_cast<float>(portable::sin(s * kPi / 2));
-        const Frame middle = petal_middle(base, shape, t);
+        const Frame middle = petal_frame(base, shape, t);
         const float half = half_width(shape, t);
         const float wave =
             portable::sin(2.0F * static_cast<float>(kPi) * shape.ripple_waves * t + shape.ripple_phase_rad);

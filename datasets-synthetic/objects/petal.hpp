@@ -12,7 +12,7 @@ struct PetalShape {
     float base_width = 0.2F;   // at the base, as a share of `width`, 0..1
     float widest_at = 0.6F;    // share of the length, 0.1..0.9
     float pointedness = 0.0F;  // 0: round tip, 1: pointed
-    float curl_rad = 0.5F;     // how far the tip has turned towards the back (-Z) as against the base
+    float curl_rad = 0.5F;     // rotation of the tip towards the back (-Z) relative to the base
     float cup = 0.1F;          // the edges rise towards +Z by this share of the half-width
     float ripple = 0.0F;       // amplitude of the waves along the edges, share of the half-width
     float ripple_waves = 3.0F;
@@ -25,7 +25,7 @@ struct PetalShape {
 // tip.
 void append_petal(capture::Mesh& mesh, const Frame& base, const PetalShape& shape);
 
-// The point and face direction on the middle line at share `t` of the length, in the coordinates of `base`'s parent.
-Frame petal_middle(const Frame& base, const PetalShape& shape, float t);
+// Frame on the centre line at share `t` of the length, in the coordinates of `base`'s parent.
+Frame petal_frame(const Frame& base, const PetalShape& shape, float t);
 
 }  // namespace rs::synthetic

@@ -33,13 +33,13 @@ struct Slab {
 
 // A point of a cross-section through a slab's edge.
 struct EdgePoint {
-    float inset;  // from the outline inwards; 1 or more: the middle of a face
+    float inset;  // distance inwards from the contour; 1 or more: the middle of a face
     float z;
-    float sideways, along_z;  // the normal, relative to the outline's
+    float sideways, along_z;  // normal relative to the contour's
 };
 
-// The outline's points, counter-clockwise seen from +z, with their normals.
-std::vector<std::pair<vec2, vec2>> outline(const Slab& slab) {
+// Contour points, counter-clockwise seen from +z, with their normals.
+std::vector<std::pair<vec2, vec2>> contour(const Slab& slab) {
     constexpr int kStepsPerCorner = 10;
     const vec2 core = vec2{slab.half_size} - slab.corner_radius;
     std::vector<std::pair<vec2, vec2>> points;
@@ -56,10 +56,10 @@ std::vector<std::pair<vec2, vec2>> outline(const Slab& slab) {
     return points;
 }
 
-// Sweeps a cross-section, from the back (-z) to the front, around the slab's outline. Texture coordinates are x and y
+// Sweeps a cross-section, from the back (-z) to the front, around the slab's contour. Texture coordinates are x and y
 // of the slab's rectangle, mirrored in x so that they are upright on the back.
 void append_section(capture::Mesh& mesh, const Slab& slab, std::span<const EdgePoint> section) {
-    const std::vector<std::pair<vec2, vec2>> around = outline(slab);
+    const std::vector<std::pair<vec2, vec2>> around = contour(slab);
     Grid grid(static_cast<int>(around.size()) - 1, static_cast<int>(section.size()) - 1, true);
     grid.normals.resize(grid.positions.size());
     for (int j = 0; j <= grid.rows; ++j) {

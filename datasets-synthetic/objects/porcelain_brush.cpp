@@ -40,7 +40,7 @@ Ink PorcelainBrush::wash(float density) {
 void PorcelainBrush::stroke(const Spot& at, std::span<const vec2> controls, float width_px) {
     std::vector<vec2> path = smooth_curve<vec2>(controls, 10);
     std::vector<float> radii;
-    const float lean = random_.uniform(0.3F, 0.6F);  // where along the stroke the brush is pressed most
+    const float lean = random_.uniform(0.3F, 0.6F);  // position of the highest pressure along the stroke
     for (std::size_t i = 0; i < path.size(); ++i) {
         const float t = static_cast<float>(i) / static_cast<float>(path.size() - 1);
         const float press = t < lean ? t / lean : (1.0F - t) / (1.0F - lean);

@@ -9,12 +9,12 @@
 
 namespace rs::synthetic {
 
-// Where a motif stands on the canvas. Motifs are drawn upright in a local frame of unit size.
+// Placement of a motif on the canvas. Motifs are drawn upright in a local frame of unit size.
 struct Spot {
     glm::vec2 centre_px{0.0F};
     float size_px = 1.0F;   // canvas pixels per local unit, upright
     float turn_rad = 0.0F;  // counter-clockwise
-    float stretch = 1.0F;   // widening along the canvas' x that undoes the narrowing of the vase
+    float stretch = 1.0F;   // widening along the canvas' x that compensates for the narrowing of the vase
 
     [[nodiscard]] glm::vec2 operator()(glm::vec2 p) const;
 };
@@ -24,7 +24,7 @@ glm::vec3 glaze_white();
 struct Blade {
     float length = 1.0F;  // local units
     float width = 0.5F;
-    float sway = 0.0F;     // the tip stands that far to the right
+    float sway = 0.0F;     // x of the tip
     float density = 0.5F;  // of the wash
     int veins = 3;
     float line_px = 3.0F;
@@ -35,7 +35,7 @@ public:
     // Both must outlive the brush.
     PorcelainBrush(Canvas& canvas, Random& random) : canvas_(canvas), random_(random) {}
 
-    // Every stroke's ink is a little different.
+    // Inks with random variation per stroke.
     Ink outline();
     Ink wash(float density);
 
@@ -43,7 +43,7 @@ public:
     void stroke(const Spot& at, std::span<const glm::vec2> controls, float width_px);
     // A leaf or petal from (0, 0) to (sway, length).
     void blade(const Spot& at, const Blade& blade);
-    // The white under a petal: later petals lie over earlier ones.
+    // White ground under a petal, which covers earlier petals.
     void blade_ground(const Spot& at, float length, float width);
     // A tendril; `handedness` is +1 or -1.
     void curl(const Spot& at, float handedness, float width_px);

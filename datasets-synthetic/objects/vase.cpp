@@ -86,7 +86,7 @@ private:
         canvas_->band(y + 12.0F, y + 15.0F, {srgb(0x0F1A66), 0.9F, 0.3F, 0.0F, random_.next()});
     }
 
-    // Upright lotus panels, one behind the other.
+    // Overlapping upright lotus panels.
     void lappets(float low, float high) {
         constexpr int kPanels = 14;
         const float length_px = y_px(high) - y_px(low) - 8.0F;
@@ -135,7 +135,7 @@ private:
         radii.back() = radii.front();
         canvas_->stroke(path, radii, brush_->outline());
 
-        constexpr int kLeaves = 14;  // to a swing
+        constexpr int kLeaves = 14;  // per swing
         const float leaf_px = std::min(0.42F * half, 0.36F * spacing_px);
         for (int k = 0; k < kLeaves * swings; ++k) {
             const float turns = (static_cast<float>(k) + 0.25F * random_.bell()) / static_cast<float>(kLeaves * swings);
@@ -159,7 +159,7 @@ private:
         }
     }
 
-    // The Greek-key band that Chinese potters call "thunder pattern".
+    // Greek-key band ("thunder pattern" in Chinese pottery).
     void meander(float low, float high) {
         const float size_px = y_px(high) - y_px(low);
         const float stretch = stretch_at(y_px(0.5F * (low + high)));
@@ -210,7 +210,7 @@ private:
     float px_per_unit_ = 0.0F;
     Random random_;
     VasePainting painting_;
-    Canvas* canvas_ = nullptr;  // while painting
+    Canvas* canvas_ = nullptr;  // set while painting
     PorcelainBrush* brush_ = nullptr;
 };
 
@@ -265,7 +265,7 @@ struct VaseShape {
         return smooth;
     }
 
-    // The unglazed ring it stands on and the hollow under it, from the axis outwards.
+    // The unglazed foot ring and the hollow underneath, from the axis outwards.
     [[nodiscard]] static std::vector<vec2> underside(vec2 foot) {
         return {{0.0F, foot.y + 0.04F}, {foot.x - 0.06F, foot.y + 0.035F}, {foot.x - 0.045F, foot.y}, foot};
     }

@@ -12,16 +12,16 @@
 
 namespace rs::synthetic {
 
-// The centripetal Catmull-Rom curve through `controls` (at least 2; neighbours must differ): no loops and no overshoot
-// at uneven spacing (Yuksel, Schaefer, Keyser 2011). Each span gets `steps` (>= 1) points; the last control point
-// closes the list, or, where `closed`, the first one is not repeated. Point is glm::vec2 or glm::vec3.
+// Centripetal Catmull-Rom curve through `controls` (at least 2; neighbours must differ): no loops and no overshoot
+// at uneven spacing (Yuksel, Schaefer, Keyser 2011). Each span gets `steps` (>= 1) points. An open curve ends with the
+// last control point; a closed one does not repeat the first. Point is glm::vec2 or glm::vec3.
 template <class Point>
 std::vector<Point> smooth_curve(std::span<const Point> controls, int steps, bool closed = false) {
     const int count = static_cast<int>(controls.size());
     RS_CHECK(count >= 2 && steps >= 1);
     const auto control = [&](int i) -> Point {
         if (closed) return controls[static_cast<std::size_t>((i + count) % count)];
-        // Mirror images of the second points stand beyond the ends.
+        // Control points beyond the ends are mirror images of the second points.
         if (i < 0) return 2.0F * controls[0] - controls[1];
         if (i >= count)
             return 2.0F * controls[static_cast<std::size_t>(count - 1)] - controls[static_cast<std::size_t>(count - 2)];
@@ -56,7 +56,7 @@ std::vector<Point> smooth_curve(std::span<const Point> controls, int steps, bool
     return curve;
 }
 
-// 0 below `low`, 1 above `high`, with level tangents at both.
+// Cubic step: 0 below `low`, 1 above `high`, with zero slope at both.
 inline float smooth_step(float low, float high, float x) {
     const float t = std::clamp((x - low) / (high - low), 0.0F, 1.0F);
     return t * t * (3.0F - 2.0F * t);

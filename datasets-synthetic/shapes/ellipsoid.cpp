@@ -10,7 +10,7 @@ namespace {
 
 using glm::vec3;
 
-// Area of the ellipsoid per area of the unit sphere that is stretched into it is |area_stretch * sphere point|.
+// The area ratio of the ellipsoid to the unit sphere at a point is |area_stretch * sphere point|.
 vec3 area_stretch(vec3 r) {
     return {r.y * r.z, r.x * r.z, r.x * r.y};
 }
@@ -43,7 +43,7 @@ void append_ellipsoid(capture::Mesh& mesh, const Ellipsoid& ellipsoid, int colum
     append_grid(mesh, std::move(grid));
 }
 
-SurfaceDraw draw_point(const Ellipsoid& ellipsoid, Random& random) {
+RejectionSample sample_surface(const Ellipsoid& ellipsoid, Random& random) {
     const vec3 on_sphere = random.direction();
     const vec3 stretch = area_stretch(ellipsoid.radii);
     const bool keep = random.uniform() * largest(stretch) < glm::length(stretch * on_sphere);
@@ -52,7 +52,7 @@ SurfaceDraw draw_point(const Ellipsoid& ellipsoid, Random& random) {
             keep};
 }
 
-float draw_weight(const Ellipsoid& ellipsoid) {
+float sampling_weight(const Ellipsoid& ellipsoid) {
     return largest(area_stretch(ellipsoid.radii));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// Ellipsoids: beads, eyes, limbs, fruit; and random points on them.
+// Ellipsoids and random points on them.
 
 #include "capture/tracer/scene/scene.hpp"
 #include "datasets-synthetic/shapes/frame.hpp"
@@ -11,12 +11,12 @@ struct Ellipsoid {
     Frame frame;            // centre and axes
     glm::vec3 radii{1.0F};  // along the frame's x, y, z, > 0
 
-    // 1 on the surface, less inside: the distance from the centre in units of the surface's in that direction.
+    // Distance from the centre relative to the surface's distance in the same direction: 1 on the surface, less inside.
     [[nodiscard]] float level(glm::vec3 p) const { return glm::length(frame.point_in_part(p) / radii); }
 };
 
-// Poles on the frame's Y axis. Texture u runs once around from the frame's +Z, v from the lower pole to the upper one.
-// `columns` >= 3, `rows` >= 2.
+// Appends an ellipsoid with poles on the frame's Y axis. Texture u runs once around from the frame's +Z, v from the
+// lower to the upper pole. `columns` >= 3, `rows` >= 2.
 void append_ellipsoid(capture::Mesh& mesh, const Ellipsoid& ellipsoid, int columns, int rows);
 
 struct SurfacePoint {
@@ -24,14 +24,14 @@ struct SurfacePoint {
     glm::vec3 normal;  // outward, unit length
 };
 
-// A rejection sampler's draw: a random point, and whether to keep it. Kept points are uniform by area.
-struct SurfaceDraw {
+// Result of one step of rejection sampling. Kept points are uniform by area.
+struct RejectionSample {
     SurfacePoint point;
     bool keep = false;
 };
-SurfaceDraw draw_point(const Ellipsoid& ellipsoid, Random& random);
+RejectionSample sample_surface(const Ellipsoid& ellipsoid, Random& random);
 
-// The expected number of draws per unit of area is the same for all ellipsoids if they are chosen with this weight.
-float draw_weight(const Ellipsoid& ellipsoid);
+// Selection weight of an ellipsoid that makes the density of kept points the same for all ellipsoids.
+float sampling_weight(const Ellipsoid& ellipsoid);
 
 }  // namespace rs::synthetic

@@ -1,6 +1,6 @@
 #pragma once
-// An orthonormal right-handed frame that places a part in its object, and rotations built without the C library's
-// trigonometry. Pure functions.
+// Orthonormal right-handed frame of a part in its object, and rotations without the C library's trigonometry. Pure
+// functions.
 
 #include "datasets-synthetic/shapes/portable_math.hpp"
 
@@ -31,13 +31,13 @@ inline glm::mat3 rotation(glm::vec3 axis, float angle_rad) {
             glm::vec3{axis.x * axis.z * k + axis.y * s, axis.y * axis.z * k - axis.x * s, c + axis.z * axis.z * k}};
 }
 
-// Some unit vector at right angles to the unit vector `d`.
+// A unit vector perpendicular to the unit vector `d`.
 inline glm::vec3 any_perpendicular(glm::vec3 d) {
     const glm::vec3 other = std::abs(d.y) < 0.9F ? glm::vec3{0, 1, 0} : glm::vec3{1, 0, 0};
     return glm::normalize(glm::cross(other, d));
 }
 
-// The frame at `origin` whose Y axis is `up` (any length) and whose Z axis is as close to `facing` as that allows.
+// Frame at `origin` with Y axis `up` (any length) and the Z axis as close to `facing` as possible.
 inline Frame frame_facing(glm::vec3 origin, glm::vec3 up, glm::vec3 facing) {
     const glm::vec3 y = glm::normalize(up);
     glm::vec3 z = facing - y * glm::dot(facing, y);

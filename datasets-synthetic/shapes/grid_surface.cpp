@@ -9,7 +9,7 @@ namespace {
 
 using glm::vec3;
 
-// The copies of a wrapped column or row must be the same bits, or a closed surface would have hairline cracks.
+// Makes the copies of a wrapped column or row bit-identical, which avoids hairline cracks in closed surfaces.
 void copy_wrapped_positions(Grid& grid) {
     if (grid.wrap_columns) {
         for (int j = 0; j <= grid.rows; ++j)
@@ -38,7 +38,7 @@ void share_normals_at_pole(const Grid& grid, std::vector<vec3>& normals, int row
 
 std::vector<vec3> smooth_normals(const Grid& grid) {
     std::vector<vec3> normals(grid.positions.size(), vec3{0.0F});
-    // The faces' cross products are as long as their areas, which is the weight wanted.
+    // Weights normals by area: the length of a cross product is proportional to the face's area.
     const auto add_face = [&](std::size_t a, std::size_t b, std::size_t c) {
         const vec3 n = glm::cross(grid.positions[b] - grid.positions[a], grid.positions[c] - grid.positions[a]);
         normals[a] += n;
@@ -47,7 +47,7 @@ std::vector<vec3> smooth_normals(const Grid& grid) {
     };
     for (int j = 0; j < grid.rows; ++j) {
         for (int i = 0; i < grid.columns; ++i) {
-            // Both diagonals, so that the result does not lean towards one.
+            // Averages both diagonals, which avoids a bias.
             const std::size_t a = grid.index(i, j);
             const std::size_t b = grid.index(i + 1, j);
             const std::size_t c = grid.index(i + 1, j + 1);

@@ -1,6 +1,5 @@
 #pragma once
-// A rectangular grid of points becomes part of a mesh: the one way in which lathe, sweep, ellipsoid and petal make
-// triangles.
+// Triangulation of a rectangular grid of points, used by lathe, sweep, ellipsoid and petal.
 
 #include "capture/tracer/scene/scene.hpp"
 
@@ -8,14 +7,14 @@
 
 namespace rs::synthetic {
 
-// Vertex (column i, row j), 0 <= i <= columns, 0 <= j <= rows, stands at index j * (columns + 1) + i. Seen from the
-// front (the side that normals point to) columns run to the right and rows upwards.
+// Vertex (column i, row j), 0 <= i <= columns, 0 <= j <= rows, has index j * (columns + 1) + i. Seen from the front
+// (the side of the normals) columns run to the right and rows upwards.
 struct Grid {
     Grid(int columns_, int rows_, bool wrap_columns_ = false, bool wrap_rows_ = false);
 
     int columns;        // >= 1, faces across
     int rows;           // >= 1, faces up
-    bool wrap_columns;  // the last column of points is the first again, with its own texture coordinates
+    bool wrap_columns;  // the last column of points repeats the first, with its own texture coordinates
     bool wrap_rows;
     std::vector<glm::vec3> positions;
     std::vector<glm::vec2> uvs;
@@ -26,8 +25,8 @@ struct Grid {
     }
 };
 
-// Triangles of which two corners coincide exactly (at poles) are left out; nothing else is, so a closed grid stays
-// closed. Cost: linear in the points.
+// Appends the triangles except those with two identical corners (at poles), so that a closed grid stays closed. Linear
+// time.
 void append_grid(capture::Mesh& mesh, Grid grid);
 
 }  // namespace rs::synthetic

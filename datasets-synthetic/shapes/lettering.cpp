@@ -20,12 +20,12 @@ public:
         strokes_.emplace_back();
         return on(points);
     }
-    // Goes on from where the pen is.
+    // Continues from the pen's position.
     LetterPen& on(std::initializer_list<vec2> points) {
         strokes_.back().insert(strokes_.back().end(), points);
         return *this;
     }
-    // Goes on along an elliptic arc; 0 degrees is +x, counter-clockwise is positive.
+    // Continues along an elliptic arc; 0 degrees is +x, counter-clockwise is positive.
     LetterPen& arc(vec2 centre, vec2 radii, double from_deg, double to_deg) {
         constexpr int kSteps = 20;
         for (int k = 0; k <= kSteps; ++k) {

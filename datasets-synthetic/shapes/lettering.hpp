@@ -1,5 +1,5 @@
 #pragma once
-// A stroke alphabet for painting signs: capital letters as pen paths.
+// Stroke font: capital letters as pen paths.
 
 #include <glm/glm.hpp>
 

@@ -9,12 +9,12 @@ namespace {
 float edge_gradient(std::uint32_t hash, glm::vec3 d) {
     static constexpr float kEdges[12][3] = {{1, 1, 0},  {-1, 1, 0},  {1, -1, 0}, {-1, -1, 0}, {1, 0, 1},  {-1, 0, 1},
                                             {1, 0, -1}, {-1, 0, -1}, {0, 1, 1},  {0, -1, 1},  {0, 1, -1}, {0, -1, -1}};
-    // The high bits pick: a multiplication instead of a division by 12.
+    // Selects by the high bits: a multiplication instead of a division by 12.
     const float* edge = kEdges[(static_cast<std::uint64_t>(hash) * 12U) >> 32U];
     return edge[0] * d.x + edge[1] * d.y + edge[2] * d.z;
 }
 
-// The C library's floor is a call where the processor's rounding instruction is not assumed.
+// Avoids std::floor, which is a function call without the processor's rounding instruction.
 int floor_to_int(float x) {
     const int truncated = static_cast<int>(x);
     return truncated - (static_cast<float>(truncated) > x ? 1 : 0);

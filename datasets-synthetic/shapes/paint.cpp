@@ -30,7 +30,7 @@ vec2 centre_of(int x, int y) {
     return {static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F};
 }
 
-// Where a pixel lies in a stroke.
+// Position of a pixel within a stroke.
 struct BrushContact {
     float coverage = 0.0F;
     float across = 0.0F;  // -1..1 from the brush's left to its right edge
@@ -45,7 +45,7 @@ BrushContact touch(vec2 p, vec2 a, vec2 b, float radius_a, float radius_b, float
     const float radius = radius_a + (radius_b - radius_a) * t;
     const float distance = glm::length(off);
     const float side = ab.x * off.y - ab.y * off.x < 0.0F ? -1.0F : 1.0F;
-    // A brush thinner than a pixel paints thinly instead of vanishing.
+    // A brush thinner than a pixel is painted with reduced coverage.
     const float coverage = std::clamp(radius + 0.5F - distance, 0.0F, std::min(1.0F, 2.0F * radius));
     return {coverage, side * distance / std::max(radius, 0.5F), length_before_px + t * std::sqrt(length2)};
 }
@@ -60,13 +60,13 @@ float density_at(const Ink& ink, const BrushContact& contact) {
     return std::clamp(density, 0.0F, 1.0F);
 }
 
-// Distance to the outline, negative inside (even-odd rule).
-float outline_distance(std::span<const vec2> outline, vec2 p) {
+// Distance to the polygon's boundary, negative inside (even-odd rule).
+float polygon_distance(std::span<const vec2> polygon, vec2 p) {
     float nearest2 = 1e30F;
     bool inside = false;
-    for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-        const vec2 a = outline[j];
-        const vec2 b = outline[i];
+    for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+        const vec2 a = polygon[j];
+        const vec2 b = polygon[i];
         const vec2 ab = b - a;
         const float length2 = std::max(glm::dot(ab, ab), 1e-12F);
         const vec2 off = p - a - ab * std::clamp(glm::dot(p - a, ab) / length2, 0.0F, 1.0F);
@@ -79,7 +79,7 @@ float outline_distance(std::span<const vec2> outline, vec2 p) {
 }  // namespace
 
 vec3 srgb(std::uint32_t hex) {
-    // Shaders call this for every pixel.
+    // Called for every pixel.
     static const std::array<float, 256> kLinear = [] {
         std::array<float, 256> linear{};
         for (std::size_t k = 0; k < linear.size(); ++k)
@@ -126,7 +126,7 @@ void Canvas::stroke(std::span<const vec2> path_px, std::span<const float> radii_
     }
     const PixelBox box = pixels_of(low, high, pixels_.height());
     if (box.y1 <= box.y0) return;
-    // All segments first, then one blend per pixel: where segments overlap the ink must not count twice.
+    // Collects all segments, then blends once per pixel, so that overlapping segments are not counted twice.
     Image<BrushContact> contacts(box.x1 - box.x0, box.y1 - box.y0);
     float length_px = 0.0F;
     for (std::size_t i = 0; i < path_px.size(); ++i) {
@@ -154,11 +154,11 @@ void Canvas::stroke(std::span<const vec2> path_px, std::span<const float> radii_
     }
 }
 
-void Canvas::fill(std::span<const vec2> outline_px, const Ink& ink) {
-    RS_CHECK(outline_px.size() >= 3);
+void Canvas::fill(std::span<const vec2> polygon_px, const Ink& ink) {
+    RS_CHECK(polygon_px.size() >= 3);
     vec2 low{1e30F};
     vec2 high{-1e30F};
-    for (const vec2& p : outline_px) {
+    for (const vec2& p : polygon_px) {
         low = glm::min(low, p);
         high = glm::max(high, p);
     }
@@ -167,7 +167,7 @@ void Canvas::fill(std::span<const vec2> outline_px, const Ink& ink) {
     for (int y = box.y0; y < box.y1; ++y) {
         for (int x = box.x0; x < box.x1; ++x) {
             const vec2 p = centre_of(x, y);
-            const float distance = outline_distance(outline_px, p);
+            const float distance = polygon_distance(polygon_px, p);
             const float coverage = std::clamp(0.5F - distance, 0.0F, 1.0F);
             if (coverage <= 0.0F) continue;
             const float across = std::clamp(1.0F + distance / size_px, 0.0F, 1.0F);
@@ -182,7 +182,7 @@ void Canvas::band(float low_px, float high_px, const Ink& ink) {
         const float bottom = static_cast<float>(y);
         const float coverage = std::clamp(std::min(high_px, bottom + 1.0F) - std::max(low_px, bottom), 0.0F, 1.0F);
         for (int x = box.x0; x < box.x1; ++x) {
-            // Streaks of a banding wheel: the brush stands still while the piece turns, so they must close.
+            // Streaks of a banding wheel, periodic around the object.
             const float turn = static_cast<float>(x) / width_px();
             const float streak =
                 ink.streaks *

@@ -1,6 +1,6 @@
 #pragma once
-// Painting textures with code: brush strokes, filled outlines and per-pixel shading on a canvas that wraps around along
-// x.
+// Procedural painting of textures: brush strokes, filled polygons and per-pixel shading on a canvas that wraps around
+// along x.
 //
 // Canvas coordinates are pixels with the origin at the *lower* left corner and y upwards, so that (x / width, y /
 // height) is the texture coordinate; pixel centres at +0.5. Colours are linear light. Not thread-safe.
@@ -14,17 +14,18 @@
 
 namespace rs::synthetic {
 
-// A colour as designers write it, 0xRRGGBB in sRGB, in linear light.
+// Converts an sRGB colour 0xRRGGBB to linear light.
 glm::vec3 srgb(std::uint32_t hex);
 
-// The rainbow: hue in turns (0 red, 1/3 green, 2/3 blue), saturation and value 0..1, taken as sRGB; returned linear.
+// Converts HSV, interpreted as sRGB, to linear light: hue in turns (0 red, 1/3 green, 2/3 blue), saturation and value
+// 0..1.
 glm::vec3 hue_colour(float hue_turns, float saturation, float value);
 
 struct Ink {
     glm::vec3 colour{0.0F};
-    float density = 1.0F;  // how opaque, 0..1
-    float streaks = 0.0F;  // share of the density that varies like the hairs of a brush, 0..1
-    float pooling = 0.0F;  // the ink is that much denser near the stroke's edge, 0..1
+    float density = 1.0F;  // opacity, 0..1
+    float streaks = 0.0F;  // share of the density with brush streaks, 0..1
+    float pooling = 0.0F;  // increase of the density near the stroke's edge, 0..1
     std::uint32_t seed = 0;
 };
 
@@ -40,8 +41,8 @@ public:
     // one for all. x may leave the canvas: the stroke continues on the other side.
     void stroke(std::span<const glm::vec2> path_px, std::span<const float> radii_px, const Ink& ink);
 
-    // The inside of a closed outline without self-crossings.
-    void fill(std::span<const glm::vec2> outline_px, const Ink& ink);
+    // Fills a simple polygon.
+    void fill(std::span<const glm::vec2> polygon_px, const Ink& ink);
 
     // A full-width band between two heights.
     void band(float low_px, float high_px, const Ink& ink);
@@ -49,7 +50,7 @@ public:
     // Replaces every pixel by shade(centre, colour so far) in the box [low, high); it may leave the canvas along x.
     void shade(glm::vec2 low_px, glm::vec2 high_px, const std::function<glm::vec3(glm::vec2, glm::vec3)>& shade);
 
-    // The finished texture; colours are clamped to [0, 0.9], for no paint is whiter.
+    // The finished texture; colours are clamped to [0, 0.9], the reflectance of white paint.
     [[nodiscard]] capture::Texture texture(std::string name) &&;
 
 private:

@@ -7,7 +7,7 @@
 namespace rs::synthetic::portable {
 namespace {
 
-// Taylor series on [-pi/4, pi/4]; the first term left out is below 1e-17.
+// Taylor series on [-pi/4, pi/4]; the first omitted term is below 1e-17.
 double sine_series(double x) {
     const double x2 = x * x;
     double sum = 0;

@@ -1,10 +1,9 @@
 #pragma once
-// Elementary functions with the same bits on every machine.
+// Elementary functions with bit-identical results on every machine.
 //
-// The C library's sin, cos and atan2 may differ in the last place between versions, and a synthetic object must not:
-// tests compare the hash of every generated mesh and image. These use only + - * / sqrt and floor, which IEEE 754
-// rounds exactly (the project is compiled with -ffp-contract=off). Absolute error below 1e-13 for |x| < 300 (tested).
-// Thread-safe; no errors.
+// The C library's sin, cos and atan2 may differ in the last place between versions, but tests compare hashes of every
+// generated mesh and image. These functions use only + - * / sqrt and floor, which IEEE 754 rounds exactly (the project
+// is compiled with -ffp-contract=off). Absolute error below 1e-13 for |x| < 300 (tested). Thread-safe; no errors.
 
 #include "rayspace/base/conventions.hpp"
 
@@ -30,7 +29,7 @@ inline float atan2(float y, float x) {
 inline constexpr float kPiF = static_cast<float>(kPi);
 inline constexpr float kTwoPiF = 2.0F * kPiF;
 
-// The point at an angle about the upright axis, from the z axis towards x.
+// Point at an angle about the vertical axis, from the z axis towards x.
 inline glm::vec3 around(float angle_rad, float radius, float height) {
     return {radius * sin(angle_rad), height, radius * cos(angle_rad)};
 }

@@ -1,8 +1,7 @@
 #pragma once
-// Random numbers that are the same on every machine: PCG32 (M. E. O'Neill, "PCG: A Family of Simple Fast
-// Space-Efficient Statistically Good Algorithms", 2014; the XSH-RR variant) and an integer hash for lattices. The
-// standard library's distributions are not used, for their results are left to the implementation. A Random is a value:
-// copy it to replay it; one per thread.
+// Portable random numbers: PCG32 (M. E. O'Neill, "PCG: A Family of Simple Fast Space-Efficient Statistically Good
+// Algorithms", 2014; the XSH-RR variant) and an integer hash for lattices. The results of the standard library's
+// distributions are implementation-defined. Not thread-safe; copies repeat the sequence.
 
 #include "datasets-synthetic/shapes/portable_math.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -16,8 +15,8 @@ namespace rs::synthetic {
 
 class Random {
 public:
-    // Different streams of one seed are independent: give every part of an object its own, so that changing the number
-    // of petals does not change the leaves.
+    // Streams of one seed are independent: every part of an object uses its own, so that changing the number of petals
+    // does not change the leaves.
     explicit Random(std::uint64_t seed, std::uint64_t stream = 0) : increment_((stream << 1U) | 1U) {
         next();
         state_ += seed;
@@ -32,7 +31,7 @@ public:
         return (shifted >> turn) | (shifted << ((32U - turn) & 31U));
     }
 
-    // In [0, 1): 24 bits, so that every value is a float.
+    // In [0, 1) with 24 bits, so that every value is an exact float.
     float uniform() { return static_cast<float>(next() >> 8U) * (1.0F / 16777216.0F); }
     float uniform(float low, float high) { return low + (high - low) * uniform(); }
 

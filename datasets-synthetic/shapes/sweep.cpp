@@ -16,7 +16,7 @@ namespace {
 
 using glm::vec3;
 
-// One ring of the tube. x: the ellipse's long axis, z: its short one, y: along the path.
+// One ring of the tube. x: the ellipse's long axis, z: its short axis, y: along the path.
 struct Ring {
     Frame frame;
     float radius = 0.0F;
@@ -30,7 +30,7 @@ vec3 tangent_at(std::span<const vec3> path, int i, bool closed) {
     return glm::normalize(path[static_cast<std::size_t>(after)] - path[static_cast<std::size_t>(before)]);
 }
 
-// The angle about `axis` that turns `from` into `to`, both at right angles to the axis.
+// Rotation angle about `axis` from `from` to `to`, both perpendicular to the axis.
 float angle_between(vec3 from, vec3 to, vec3 axis) {
     return portable::atan2(glm::dot(glm::cross(from, to), axis), glm::dot(from, to));
 }
@@ -114,7 +114,7 @@ void append_tube(capture::Mesh& mesh, std::span<const vec3> path, std::span<cons
 using glm::vec3;
 
 void append_strand(capture::Mesh& mesh, const Strand& strand, int segments) {
-    // How far the normals lean sideways at the ribbon's edges: 27 degrees.
+    // Tangent of the normals' sideways tilt at the ribbon's edges: 27 degrees.
     constexpr float kFan = 0.5F;
     const auto base = static_cast<unsigned>(mesh.positions.size());
     for (int j = 0; j <= segments; ++j) {

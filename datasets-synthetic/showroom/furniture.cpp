@@ -20,7 +20,7 @@ void pendant(RoomBuilder& room, vec3 ceiling, float height_m) {
         6);
     const vec3 foot{ceiling.x, height_m, ceiling.z};
     room.lathe("brass", foot, {{0.0F, 0.26F}, {0.035F, 0.26F}, {0.035F, 0.3F}, {0.0F, 0.33F}}, 10);
-    // The shade is one solid, inside down and outside up again.
+    // The shade is one solid: its profile runs down the inside and up the outside.
     room.lathe("shade_green", foot,
                {{0.0F, 0.25F},
                 {0.064F, 0.212F},
@@ -43,8 +43,8 @@ void plinth(RoomBuilder& room, const std::string& name, const std::string& objec
     room.box("white_paint", {-foot, 0, -foot}, {foot, 0.09F, foot});
     const float shaft_top = height_m - 0.035F;
     room.painted_look(name + "_side", {width_m, shaft_top - 0.09F}, 60, [&](vec2 p) {
-        const float floor = light_in_corner(p.y, 0.12F, 0.35F);
-        const float top = light_in_corner(shaft_top - 0.09F - p.y, 0.03F, 0.3F);
+        const float floor = corner_shadow(p.y, 0.12F, 0.35F);
+        const float top = corner_shadow(shaft_top - 0.09F - p.y, 0.03F, 0.3F);
         return srgb(0xDFDDD6) * floor * top;
     });
     const float low = 0.09F;
@@ -56,7 +56,7 @@ void plinth(RoomBuilder& room, const std::string& name, const std::string& objec
     const float print = foot_radius(object, object_height_m);
     const Footprint shadow{vec2{cap - print}, vec2{cap + print}, 0.07F, 0.5F, true};
     room.box_with_top("white_paint", name, {-cap, shaft_top, -cap}, {cap, height_m, cap}, 160,
-                      [&](vec2 p) { return srgb(0xE4E2DC) * light_beside(p, std::span(&shadow, 1)); });
+                      [&](vec2 p) { return srgb(0xE4E2DC) * contact_shadow(p, std::span(&shadow, 1)); });
     room.object(object, {0, height_m, 0}, 0, object_height_m);
     name_card(room, name + "_label", object, {0, height_m - 0.28F, half + 0.004F}, {0.24F, 0.08F});
 }
@@ -116,7 +116,7 @@ namespace {
 using glm::vec2;
 using glm::vec3;
 
-// A metre of wood that goes on where it ends.
+// One metre of seamlessly tiling wood.
 Painter endless_wood(const WoodTone& tone, std::uint32_t seed) {
     return [=](vec2 p) {
         constexpr float kFade = 0.7F;
@@ -129,7 +129,7 @@ Painter endless_wood(const WoodTone& tone, std::uint32_t seed) {
 
 }  // namespace
 
-void furniture_looks(RoomBuilder& room) {
+void add_furniture_looks(RoomBuilder& room) {
     const WoodTone walnut{srgb(0x8A5A38), srgb(0x4E2F1D)};
     const WoodTone oak{srgb(0xC89A66), srgb(0x8E6238)};
     room.painted_look("walnut", {1, 1}, 320, endless_wood(walnut, 21), {.specular = 0x302820, .shininess = 0.25F});
@@ -147,7 +147,7 @@ void furniture_looks(RoomBuilder& room) {
     room.look("white_paint", {.diffuse = 0xDDDBD4, .specular = 0x141414});
     room.look("shade_green", {.diffuse = 0x2C4A40, .specular = 0x5A6A62, .shininess = 0.5F});
     room.look("green_paint", {.diffuse = 0x3B5A4C, .specular = 0x1A1E1C, .shininess = 0.3F});
-    // Glazes, cloths, bindings: chosen by their number.
+    // Glazes, cloths, bindings, selected by index.
     constexpr std::uint32_t kGlazes[] = {0xE9E2D0, 0x9DB8A6, 0x2F5573, 0xB5653A, 0x3E3A36, 0xD9B25F};
     constexpr std::uint32_t kCloths[] = {0xE6DCC8, 0xA94F3B, 0x53707E, 0xC9A15A, 0x6F7F5D, 0x8B5A6B};
     constexpr std::uint32_t kBindings[] = {0x6B2C2A, 0x2E4A42, 0x27384F, 0xB08B57, 0x4A3A4F, 0xC9BFA9};

@@ -61,7 +61,7 @@ void plates(RoomBuilder& room, vec3 foot, float r, int count, const std::string&
 
 }  // namespace
 
-void books(RoomBuilder& room, const GoodsPlace& place, Random& random) {
+void books(RoomBuilder& room, const GoodsArea& place, Random& random) {
     float x = place.x_low;
     while (true) {
         const float width = random.uniform(0.02F, 0.045F);
@@ -75,7 +75,7 @@ void books(RoomBuilder& room, const GoodsPlace& place, Random& random) {
     }
 }
 
-void folded_cloth(RoomBuilder& room, const GoodsPlace& place, Random& random) {
+void folded_cloth(RoomBuilder& room, const GoodsArea& place, Random& random) {
     const float half = 0.5F * place.depth_m - 0.02F;
     for (float x = place.x_low; x + 0.3F <= place.x_high; x += 0.34F) {
         float y = place.y;
@@ -91,7 +91,7 @@ void folded_cloth(RoomBuilder& room, const GoodsPlace& place, Random& random) {
     }
 }
 
-void pottery(RoomBuilder& room, const GoodsPlace& place, Random& random) {
+void pottery(RoomBuilder& room, const GoodsArea& place, Random& random) {
     float x = place.x_low;
     while (true) {
         const int kind = random.below(4);

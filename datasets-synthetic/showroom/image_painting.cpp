@@ -22,7 +22,7 @@ vec3 mix(vec3 a, vec3 b, float share) {
     return a + (b - a) * std::clamp(share, 0.0F, 1.0F);
 }
 
-// Ridges one before the other, paler the farther.
+// Overlapping ridges, paler with distance.
 vec3 hills(vec2 p, std::uint32_t seed) {
     vec3 colour = mix(srgb(0xF4D9A8), srgb(0x7FA3BC), smooth_step(0.45F, 1.0F, p.y));
     const float sun = glm::length(p - vec2{0.66F, 0.66F});
@@ -62,7 +62,7 @@ vec3 sea(vec2 p, std::uint32_t seed) {
     return colour;
 }
 
-// Squares of colour like land from above.
+// Coloured squares resembling fields seen from above.
 vec3 fields(vec2 p, std::uint32_t seed) {
     const std::array<vec3, 7> kColours{srgb(0xD8A441), srgb(0xB5532F), srgb(0x345B63), srgb(0xE7D7B1),
                                        srgb(0x7C9070), srgb(0x8C2F39), srgb(0x23303D)};
@@ -128,8 +128,8 @@ vec3 birches(vec2 p, std::uint32_t seed) {
 
 }  // namespace
 
-vec3 painted(Painting painting, vec2 share, float aspect, std::uint32_t seed) {
-    // The canvas' weave and the brush's drag move and shade whatever is painted.
+vec3 painting_colour(Painting painting, vec2 share, float aspect, std::uint32_t seed) {
+    // Displacement and shading by the canvas' weave and brush strokes.
     const vec3 place{share.x * aspect * 30.0F, share.y * 30.0F, 0.0F};
     const vec2 dragged = share + 0.004F * vec2{gradient_noise(place, seed + 40), gradient_noise(place, seed + 41)};
     const vec3 colour = [&] {
@@ -151,8 +151,8 @@ vec3 painted(Painting painting, vec2 share, float aspect, std::uint32_t seed) {
 }
 
 std::function<float(vec2)> lettering(const std::string& text, vec2 size_m, float letter_height_m, float pen_m) {
-    constexpr float kGap = 0.28F;    // between letters, of their height
-    constexpr float kSpace = 0.55F;  // a space
+    constexpr float kGap = 0.28F;    // between letters, over their height
+    constexpr float kSpace = 0.55F;  // width of a space over the letters' height
     std::vector<std::vector<vec2>> strokes;
     float x = 0.0F;
     for (const char c : text) {

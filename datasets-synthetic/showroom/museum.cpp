@@ -33,7 +33,7 @@ struct Plinth {
     float width_m;
     float height_m;
     float object_height_m;
-    float facing_deg;  // of the plinth's front
+    float facing_deg;  // orientation of the plinth's front
 };
 constexpr Plinth kStands[] = {
     {"lattice", {0.0F, -4.8F}, 0.72F, 0.98F, 0.74F, 0}, {"vase", {-3.4F, -2.4F}, 0.5F, 1.05F, 0.78F, 90},
@@ -61,19 +61,19 @@ void museum_floor_and_ceiling(RoomBuilder& room) {
         [&](vec2 p) {
             const vec2 place{kLow.x + p.x, kHigh.z - p.y};
             const float edge_m = std::min({p.x, size.x - p.x, p.y, size.y - p.y});
-            const float wall = light_in_corner(edge_m, 0.4F, 0.3F);
+            const float wall = corner_shadow(edge_m, 0.4F, 0.3F);
             const float sky =
-                0.74F + 0.2F * light_beside(place, std::vector<Footprint>{{kSkyLow, kSkyHigh, 1.6F, -0.8F, false}});
+                0.74F + 0.2F * contact_shadow(place, std::vector<Footprint>{{kSkyLow, kSkyHigh, 1.6F, -0.8F, false}});
             const bool border = edge_m > 0.36F && edge_m < 0.44F;
             const vec3 field =
                 edge_m < 0.4F ? planks({p.y, p.x}, 0.12F, 1.2F, oak, 82) : chevron(p, 0.6F, 0.11F, oak, 81);
             const vec3 colour = border ? srgb(0x4A3A2E) * (0.9F + 0.2F * field.x) : field;
-            return colour * wall * sky * light_beside(place, prints);
+            return colour * wall * sky * contact_shadow(place, prints);
         },
         {.specular = 0x2C2C2C, .shininess = 0.4F});
     const float h = kHigh.y;
     wall(room, "museum_ceiling", {{kLow.x, h, kLow.z}, {size.x, 0, 0}, {0, 0, size.y}}, 40,
-         plastered(size, srgb(0xF0EFEA), 83),
+         plaster_painter(size, srgb(0xF0EFEA), 83),
          Opening{{kSkyLow.x - kLow.x, kSkyLow.y - kLow.z}, {kSkyHigh.x - kLow.x, kSkyHigh.y - kLow.z}});
 }
 
@@ -110,9 +110,9 @@ void skylight(RoomBuilder& room) {
                      profile);
 }
 
-// Light that a skylight and image lamps leave on a wall: brighter at the height of the images.
+// Baked light of a skylight and picture lamps on a wall: brighter at the height of the paintings.
 Painter museum_wall(vec2 size_m, std::uint32_t seed) {
-    const Painter plain = plastered(size_m, srgb(0x93A79F), seed);
+    const Painter plain = plaster_painter(size_m, srgb(0x93A79F), seed);
     return [=](vec2 p) {
         const float glow = 1.0F - smooth_step(0.3F, 2.1F, std::abs(p.y - 2.1F));
         return plain(p) * (0.84F + 0.24F * glow);
@@ -147,7 +147,7 @@ void museum_walls(RoomBuilder& room) {
                           {"museum_wall_door", {kHigh.x, 0, kHigh.z}, 180, width, true}};
     for (std::size_t k = 0; k < 4; ++k) {
         const Side& side = sides[k];
-        room.stand_at(side.origin, side.turn_deg);
+        room.set_frame(side.origin, side.turn_deg);
         const float length = side.length_m;
         const auto seed = static_cast<std::uint32_t>(90 + k);
         const float door_low = 0.5F * length - kDoorHalf_m;
@@ -156,11 +156,11 @@ void museum_walls(RoomBuilder& room) {
         const Painter paint = museum_wall({length, kHigh.y}, seed);
         const Painter lower = [&](vec2 p) {
             const float edges =
-                light_in_corner(std::min(p.x, length - p.x), 0.3F, 0.25F) * light_in_corner(p.y, 0.25F, 0.35F);
-            return plaster(p, srgb(0x55675F), seed + 10) * edges * light_in_corner(kDado_m - p.y, 0.08F, 0.3F);
+                corner_shadow(std::min(p.x, length - p.x), 0.3F, 0.25F) * corner_shadow(p.y, 0.25F, 0.35F);
+            return plaster(p, srgb(0x55675F), seed + 10) * edges * corner_shadow(kDado_m - p.y, 0.08F, 0.3F);
         };
-        const SheetPlace above{{0, kDado_m, 0}, {length, 0, 0}, {0, upper, 0}};
-        const SheetPlace below{{0, 0, 0}, {length, 0, 0}, {0, kDado_m, 0}};
+        const SheetFrame above{{0, kDado_m, 0}, {length, 0, 0}, {0, upper, 0}};
+        const SheetFrame below{{0, 0, 0}, {length, 0, 0}, {0, kDado_m, 0}};
         const Painter raised = [&](vec2 p) { return paint(p + vec2{0, kDado_m}); };
         if (side.door) {
             wall(room, side.name, above, 50, raised, Opening{{door_low, 0}, {door_high, kDoorHeight_m - kDado_m}});
@@ -179,7 +179,7 @@ void museum_walls(RoomBuilder& room) {
             panels(room, 0.1F, length - 0.1F);
         }
     }
-    room.stand_at({0, 0, 0});
+    room.set_frame({0, 0, 0});
     const MouldingGap door{-kDoorHalf_m - 0.14F, kDoorHalf_m + 0.14F, true};
     moulding(room, "dado", kLow, {kHigh.x, 0.16F, kHigh.z}, 0.03F, door);
     moulding(room, "dado", {kLow.x, kDado_m - 0.03F, kLow.z}, {kHigh.x, kDado_m + 0.03F, kHigh.z}, 0.045F, door);
@@ -206,17 +206,17 @@ void images(RoomBuilder& room) {
     };
     std::uint32_t seed = 301;
     for (const Hung& one : hung) {
-        room.stand_at(one.origin, one.turn_deg);
+        room.set_frame(one.origin, one.turn_deg);
         const vec2 size = one.size_m;
         framed_painting(room, one.name, {one.x_m, 2.05F, 0}, size,
-                        [&](vec2 p) { return painted(one.painting, p / size, size.x / size.y, seed); });
+                        [&](vec2 p) { return painting_colour(one.painting, p / size, size.x / size.y, seed); });
         // The lamp above it.
         const float top = 2.05F + 0.5F * size.y + 0.09F;
         room.box("brass", {one.x_m - 0.008F, top + 0.08F, 0.0F}, {one.x_m + 0.008F, top + 0.1F, 0.18F});
         room.box("brass", {one.x_m - 0.22F, top + 0.07F, 0.18F}, {one.x_m + 0.22F, top + 0.11F, 0.22F});
         ++seed;
     }
-    room.stand_at({0, 0, 0});
+    room.set_frame({0, 0, 0});
 }
 
 }  // namespace
@@ -237,18 +237,18 @@ void build_museum(World& world, float texture_scale) {
     images(room);
     int number = 0;
     for (const Plinth& stand : kStands) {
-        room.stand_at({stand.place.x, 0, stand.place.y}, stand.facing_deg);
+        room.set_frame({stand.place.x, 0, stand.place.y}, stand.facing_deg);
         plinth(room, "plinth" + std::to_string(number++), stand.name, stand.width_m, stand.height_m,
                stand.object_height_m);
     }
-    room.stand_at({0, 0, 0});
+    room.set_frame({0, 0, 0});
     const vec3 around[] = {{-1.1F, 0, -3.7F}, {1.1F, 0, -3.7F}, {1.1F, 0, -5.9F}, {-1.1F, 0, -5.9F}};
     rope_barrier(room, around, true);
     const vec3 before[] = {{-1.2F, 0, -8.4F}, {1.2F, 0, -8.4F}};
     rope_barrier(room, before, false);
-    room.stand_at({0, 0, -2.5F});
+    room.set_frame({0, 0, -2.5F});
     bench(room, 1.7F);
-    room.stand_at({0, 0, 0});
+    room.set_frame({0, 0, 0});
 }
 
 }  // namespace rs::synthetic

@@ -1,12 +1,12 @@
 #pragma once
 // The museum beyond the shop's doorway: a panelled room under a skylight with plinths, rope posts, paintings and a
-// bench. It reaches from x = -5 to 5 and from z = -9.3 to -0.3.
+// bench, from x = -5 to 5 and from z = -9.3 to -0.3.
 
 #include "datasets-synthetic/showroom/world.hpp"
 
 namespace rs::synthetic {
 
-// Needs furniture_looks(). `texture_scale` as for RoomBuilder.
+// Requires add_furniture_looks(). `texture_scale`: see RoomBuilder.
 void build_museum(World& world, float texture_scale);
 
 }  // namespace rs::synthetic

@@ -56,7 +56,7 @@ void append_quad(capture::Mesh& mesh, const std::array<vec3, 4>& corners) {
 }
 
 // The sides of a box as sheets: front (+Z), right, back, left, bottom, top.
-std::array<SheetPlace, 6> sides_of(vec3 low, vec3 high) {
+std::array<SheetFrame, 6> sides_of(vec3 low, vec3 high) {
     const vec3 x{high.x - low.x, 0, 0};
     const vec3 y{0, high.y - low.y, 0};
     const vec3 z{0, 0, high.z - low.z};
@@ -70,7 +70,7 @@ float foot_radius(const std::string& object, float height_m) {
     return height_m * shape.foot_radii / shape.height_radii;
 }
 
-void RoomBuilder::stand_at(vec3 origin, float turn_deg) {
+void RoomBuilder::set_frame(vec3 origin, float turn_deg) {
     frame_ = {origin, rotation({0, 1, 0}, static_cast<float>(radians(static_cast<double>(turn_deg))))};
 }
 
@@ -84,25 +84,25 @@ int RoomBuilder::next_solid() const {
     return static_cast<int>(world_.parts.size());
 }
 
-void RoomBuilder::into_room(capture::Mesh& mesh, std::size_t first_vertex) const {
+void RoomBuilder::transform_to_room(capture::Mesh& mesh, std::size_t first_vertex) const {
     for (std::size_t i = first_vertex; i < mesh.positions.size(); ++i) {
         mesh.positions[i] = frame_.point(mesh.positions[i]);
         mesh.normals[i] = frame_.direction(mesh.normals[i]);
     }
 }
 
-void RoomBuilder::face(capture::Mesh& mesh, const SheetPlace& place, vec2 uv_low, vec2 uv_high) const {
+void RoomBuilder::face(capture::Mesh& mesh, const SheetFrame& place, vec2 uv_low, vec2 uv_high) const {
     const std::size_t first = mesh.positions.size();
     append_quad(mesh, {place.corner, place.corner + place.right, place.corner + place.right + place.up,
                        place.corner + place.up});
     mesh.uvs.insert(mesh.uvs.end(), {uv_low, {uv_high.x, uv_low.y}, uv_high, {uv_low.x, uv_high.y}});
-    into_room(mesh, first);
+    transform_to_room(mesh, first);
 }
 
-void RoomBuilder::append_grained(capture::Mesh& mesh, std::span<const SheetPlace> sides) const {
-    // Every piece is sawn from another place of the plank.
+void RoomBuilder::append_grained(capture::Mesh& mesh, std::span<const SheetFrame> sides) const {
+    // Every part uses another section of the wood texture.
     const float offset = static_cast<float>(world_.parts.size() % 64) * 0.37F;
-    for (const SheetPlace& side : sides) {
+    for (const SheetFrame& side : sides) {
         const vec2 size{glm::length(side.right), glm::length(side.up)};
         if (size.x >= size.y) {
             face(mesh, side, {offset, 0}, {offset + size.x, size.y});
@@ -155,7 +155,7 @@ void RoomBuilder::soft_box(const std::string& look, vec3 low, vec3 high, float b
     RS_CHECK(bevel > 0 && bevel < half.x && bevel < half.y && bevel < half.z);
     const vec3 middle = 0.5F * (low + high);
     capture::Mesh& mesh = add(look, next_solid());
-    // The corner of octant `signs` that lies on the side across `axis`.
+    // The corner of octant `signs` on the side perpendicular to `axis`.
     const auto corner = [&](vec3 signs, int axis) {
         vec3 p = half - bevel;
         p[axis] = half[axis];
@@ -199,14 +199,14 @@ void RoomBuilder::soft_box(const std::string& look, vec3 low, vec3 high, float b
         append_triangle(mesh, corners);
     }
     mesh.uvs.assign(mesh.positions.size(), vec2{0, 0});
-    into_room(mesh, 0);
+    transform_to_room(mesh, 0);
 }
 
-void RoomBuilder::sheet(const std::string& look, const SheetPlace& place, vec2 uv_low, vec2 uv_high) {
+void RoomBuilder::sheet(const std::string& look, const SheetFrame& place, vec2 uv_low, vec2 uv_high) {
     face(add(look, -1), place, uv_low, uv_high);
 }
 
-void RoomBuilder::painted_sheet(const std::string& name, const SheetPlace& place, float px_per_m,
+void RoomBuilder::painted_sheet(const std::string& name, const SheetFrame& place, float px_per_m,
                                 const Painter& painter, Look look) {
     painted_look(name, {glm::length(place.right), glm::length(place.up)}, px_per_m, painter, std::move(look));
     sheet(name, place);
@@ -220,7 +220,7 @@ void RoomBuilder::lathe(const std::string& look, vec3 foot, std::initializer_lis
     style.crease_rad = crease_rad;
     append_lathe(mesh, std::span<const vec2>(profile.begin(), profile.size()), style);
     for (vec3& p : mesh.positions) p += foot;
-    into_room(mesh, 0);
+    transform_to_room(mesh, 0);
 }
 
 void RoomBuilder::tube(const std::string& look, std::span<const vec3> path, float radius, int sides) {
@@ -228,10 +228,10 @@ void RoomBuilder::tube(const std::string& look, std::span<const vec3> path, floa
     SweepStyle style;
     style.sides = sides;
     append_tube(mesh, path, std::span<const float>(&radius, 1), style);
-    into_room(mesh, 0);
+    transform_to_room(mesh, 0);
 }
 
-void RoomBuilder::image_frame(const std::string& look, const SheetPlace& outer, std::span<const vec2> profile) {
+void RoomBuilder::image_frame(const std::string& look, const SheetFrame& outer, std::span<const vec2> profile) {
     RS_CHECK(profile.size() >= 2);
     capture::Mesh& mesh = add(look, -1);
     const vec3 right = glm::normalize(outer.right);
@@ -251,7 +251,7 @@ void RoomBuilder::image_frame(const std::string& look, const SheetPlace& outer, 
         }
     }
     mesh.uvs.assign(mesh.positions.size(), vec2{0, 0});
-    into_room(mesh, 0);
+    transform_to_room(mesh, 0);
 }
 
 void RoomBuilder::object(const std::string& name, vec3 foot, float turn_deg, float height_m) {

@@ -9,7 +9,7 @@ namespace rs::synthetic {
 using glm::vec2;
 using glm::vec3;
 
-void wall(RoomBuilder& room, const std::string& name, const SheetPlace& place, float px_per_m, const Painter& painter,
+void wall(RoomBuilder& room, const std::string& name, const SheetFrame& place, float px_per_m, const Painter& painter,
           const std::optional<Opening>& opening) {
     const vec3 right = glm::normalize(place.right);
     const vec3 up = glm::normalize(place.up);
@@ -27,11 +27,11 @@ void wall(RoomBuilder& room, const std::string& name, const SheetPlace& place, f
     piece("_below", {opening->low.x, 0.0F}, {opening->high.x, opening->low.y});
 }
 
-Painter plastered(vec2 size_m, vec3 colour, std::uint32_t seed) {
+Painter plaster_painter(vec2 size_m, vec3 colour, std::uint32_t seed) {
     return [=](vec2 p) {
-        const float sides = light_in_corner(std::min(p.x, size_m.x - p.x), 0.35F, 0.22F);
-        const float floor = light_in_corner(p.y, 0.3F, 0.22F);
-        const float ceiling = light_in_corner(size_m.y - p.y, 0.35F, 0.22F);
+        const float sides = corner_shadow(std::min(p.x, size_m.x - p.x), 0.35F, 0.22F);
+        const float floor = corner_shadow(p.y, 0.3F, 0.22F);
+        const float ceiling = corner_shadow(size_m.y - p.y, 0.35F, 0.22F);
         return plaster(p, colour, seed) * sides * floor * ceiling;
     };
 }

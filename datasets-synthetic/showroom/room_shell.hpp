@@ -1,5 +1,5 @@
 #pragma once
-// Walls with openings, skirtings and frames around doorways: what every room begins with.
+// Shell of a room: walls with openings, skirtings and frames around doorways.
 
 #include "datasets-synthetic/showroom/room_builder.hpp"
 
@@ -8,22 +8,21 @@
 
 namespace rs::synthetic {
 
-// A rectangle left out of a wall, in metres from its lower left corner.
+// A rectangular opening in a wall, in metres from its lower left corner.
 struct Opening {
     glm::vec2 low{0.0F};
     glm::vec2 high{1.0F};
 };
 
-// A painted wall; where it has an opening it is made of the up to four pieces around it. `painter` takes places on the
-// whole wall.
-void wall(RoomBuilder& room, const std::string& name, const SheetPlace& place, float px_per_m, const Painter& painter,
+// A painted wall; with an opening, up to four pieces around it. `painter` uses positions on the whole wall.
+void wall(RoomBuilder& room, const std::string& name, const SheetFrame& place, float px_per_m, const Painter& painter,
           const std::optional<Opening>& opening = {});
 
-// Plaster that is darker where it meets other surfaces.
-Painter plastered(glm::vec2 size_m, glm::vec3 colour, std::uint32_t seed);
+// Plaster with darker edges.
+Painter plaster_painter(glm::vec2 size_m, glm::vec3 colour, std::uint32_t seed);
 
-// A moulding of four boxes along the walls of a room, standing out by `depth_m`; `gap` is left free in the wall at
-// z = `gap_z` (no gap where gap_low == gap_high).
+// A moulding of four boxes along the walls of a room with depth `depth_m`, interrupted by `gap` (none if
+// low_x == high_x).
 struct MouldingGap {
     float low_x = 0.0F;
     float high_x = 0.0F;

@@ -15,7 +15,7 @@ using glm::vec3;
 
 constexpr float kBoard_m = 0.03F;
 constexpr float kUpright_m = 0.035F;
-constexpr float kFace_m = 0.012F;  // boards end that much behind the uprights' faces
+constexpr float kFace_m = 0.012F;  // setback of the boards from the uprights' faces
 
 std::string capitals(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -30,14 +30,13 @@ void carcass(RoomBuilder& room, const ShelfUnit& unit) {
     const float pitch = (unit.length_m - kUpright_m) / static_cast<float>(unit.bays);
     room.painted_sheet(
         unit.name + "_back", {{0, 0.08F, 0.015F}, {unit.length_m, 0, 0}, {0, height, 0}}, 90, [&](vec2 p) {
-            float light = light_in_corner(height - p.y, 0.14F, 0.5F);
+            float light = corner_shadow(height - p.y, 0.14F, 0.5F);
             for (const float board : unit.heights_m) {
                 const float above = p.y + 0.08F - board;
-                light *=
-                    above > 0 ? light_in_corner(above, 0.09F, 0.35F) : light_in_corner(-above - kBoard_m, 0.14F, 0.5F);
+                light *= above > 0 ? corner_shadow(above, 0.09F, 0.35F) : corner_shadow(-above - kBoard_m, 0.14F, 0.5F);
             }
             const float in_bay = p.x - kUpright_m - pitch * std::floor((p.x - kUpright_m) / pitch);
-            const float sides = light_in_corner(std::min(in_bay, pitch - kUpright_m - in_bay), 0.1F, 0.35F);
+            const float sides = corner_shadow(std::min(in_bay, pitch - kUpright_m - in_bay), 0.1F, 0.35F);
             return plaster(p, srgb(0x7F9385), unit.seed) * light * sides;
         });
     for (int k = 0; k <= unit.bays; ++k) {
@@ -76,7 +75,7 @@ void boards(RoomBuilder& room, const ShelfUnit& unit) {
     const float pitch = (unit.length_m - kUpright_m) / static_cast<float>(unit.bays);
     for (std::size_t board = 0; board < unit.heights_m.size(); ++board) {
         std::vector<Footprint> prints;
-        for (const ShelfPlace& place : unit.objects) {
+        for (const ShelfObject& place : unit.objects) {
             if (place.board != static_cast<int>(board)) continue;
             const float half = foot_radius(place.name, place.height_m);
             const float z = 0.5F * unit.depth_m;
@@ -89,11 +88,11 @@ void boards(RoomBuilder& room, const ShelfUnit& unit) {
             const float front = unit.depth_m - kFace_m;
             const Painter top = [&](vec2 p) {
                 const vec2 place{left + p.x, front - p.y};
-                const float back = light_in_corner(place.y, 0.16F, 0.5F);
-                const float sides = light_in_corner(std::min(p.x, width - p.x), 0.07F, 0.4F);
+                const float back = corner_shadow(place.y, 0.16F, 0.5F);
+                const float sides = corner_shadow(std::min(p.x, width - p.x), 0.07F, 0.4F);
                 const WoodTone tone = oak;
                 return wood(place, tone, unit.seed + static_cast<std::uint32_t>(board)) * back * sides *
-                       light_beside(place, prints);
+                       contact_shadow(place, prints);
             };
             const std::string name = unit.name + "_board" + std::to_string(board) + static_cast<char>('a' + bay);
             room.box_with_top("oak", name, {left, y - kBoard_m, 0.015F}, {left + width, y, front}, 220, top);
@@ -116,7 +115,7 @@ void shelf_unit(RoomBuilder& room, const ShelfUnit& unit) {
     cupboards(room, unit);
     boards(room, unit);
     int card = 0;
-    for (const ShelfPlace& place : unit.objects) {
+    for (const ShelfObject& place : unit.objects) {
         const float y = unit.heights_m[static_cast<std::size_t>(place.board)];
         room.object(place.name, {place.x_m, y, 0.5F * unit.depth_m}, place.turn_deg, place.height_m);
         name_card(room, unit.name + "_card" + std::to_string(card++), place.name,

@@ -43,12 +43,12 @@ void shop_floor_and_ceiling(RoomBuilder& room) {
     room.painted_sheet("shop_floor", {{kShopLow.x, 0, kShopHigh.z}, {size.x, 0, 0}, {0, 0, -size.y}}, 120,
                        [&](vec2 p) {
                            const vec2 place{kShopLow.x + p.x, kShopHigh.z - p.y};
-                           const float wall = light_in_corner(std::min(p.x, size.x - p.x), 0.4F, 0.3F);
-                           return planks(p, 0.16F, 1.9F, oak, 31) * wall * light_beside(place, prints);
+                           const float wall = corner_shadow(std::min(p.x, size.x - p.x), 0.4F, 0.3F);
+                           return planks(p, 0.16F, 1.9F, oak, 31) * wall * contact_shadow(place, prints);
                        },
                        {.specular = 0x2A2622, .shininess = 0.3F});
     room.painted_sheet("shop_ceiling", {{kShopLow.x, kShopHigh.y, kShopLow.z}, {size.x, 0, 0}, {0, 0, size.y}}, 40,
-                       plastered(size, srgb(0xF3E9D6), 32));
+                       plaster_painter(size, srgb(0xF3E9D6), 32));
     for (int k = 0; k < 5; ++k) {
         const float z = 0.9F + 1.3F * static_cast<float>(k);
         room.box("oak", {kShopLow.x, kShopHigh.y - 0.17F, z - 0.07F}, {kShopHigh.x, kShopHigh.y, z + 0.07F});
@@ -58,8 +58,8 @@ void shop_floor_and_ceiling(RoomBuilder& room) {
 // Boarding in sage below a rail, plaster above it.
 constexpr float kRail_m = 0.95F;
 Painter shop_wall(vec2 size_m, vec3 colour, std::uint32_t seed) {
-    const Painter above = plastered(size_m, colour, seed);
-    const Painter below = plastered(size_m, srgb(0x93A184), seed);
+    const Painter above = plaster_painter(size_m, colour, seed);
+    const Painter below = plaster_painter(size_m, srgb(0x93A184), seed);
     return [=](vec2 p) {
         if (p.y > kRail_m) return above(p) * (0.9F + 0.14F * smooth_step(kRail_m, 2.2F, p.y));
         const float in_board = p.x / 0.12F - std::floor(p.x / 0.12F);
@@ -109,7 +109,7 @@ void doorway(RoomBuilder& room) {
     room.sheet("walnut", {{x, 0, back}, {0, 0, -back}, {0, top, 0}}, {0, 0}, {-back, top});
     room.sheet("walnut", {{-x, top, back}, {2 * x, 0, 0}, {0, 0, -back}}, {0, 0}, {2 * x, -back});
     room.painted_sheet("threshold", {{-x, 0, 0}, {2 * x, 0, 0}, {0, 0, back}}, 120, [&](vec2 p) {
-        return plaster(p * 3.0F, srgb(0x8C8880), 37) * light_in_corner(std::min(p.x, 2 * x - p.x), 0.12F, 0.4F);
+        return plaster(p * 3.0F, srgb(0x8C8880), 37) * corner_shadow(std::min(p.x, 2 * x - p.x), 0.12F, 0.4F);
     });
     const vec2 sign{1.3F, 0.26F};
     const auto ink = lettering("MUSEUM", sign, 0.13F, 0.02F);
@@ -129,7 +129,7 @@ void shelves(RoomBuilder& room) {
                     {1, 1.86F, "lamp", 0.49F, 40},
                     {1, 3.12F, "doll", 0.38F, 0},
                     {1, 4.36F, "flower", 0.46F, 120}};
-    room.stand_at({kShopLow.x, 0, 6.0F}, 90);
+    room.set_frame({kShopLow.x, 0, 6.0F}, 90);
     shelf_unit(room, left);
     Random random(411);
     const float z = 0.2F;
@@ -152,7 +152,7 @@ void shelves(RoomBuilder& room) {
     right.bays = 3;
     right.seed = 42;
     right.objects = {{1, 0.6F, "lattice", 0.36F, 20}, {1, 1.8F, "blocks", 0.38F, 30}, {1, 3.0F, "vase", 0.44F, 90}};
-    room.stand_at({kShopHigh.x, 0, 0.8F}, -90);
+    room.set_frame({kShopHigh.x, 0, 0.8F}, -90);
     shelf_unit(room, right);
     books(room, {0.08F, 0.33F, 1.22F, z, 0.3F, 0.55F}, random);
     pottery(room, {2.1F, 2.42F, 1.22F, z, 0.3F, 0.55F}, random);
@@ -162,7 +162,7 @@ void shelves(RoomBuilder& room) {
     pottery(room, {0.25F, 0.95F, 1.82F, z, 0.3F, 0.5F}, random);
     books(room, {1.3F, 2.1F, 1.82F, z, 0.3F, 0.55F}, random);
     folded_cloth(room, {2.65F, 3.35F, 1.82F, z, 0.32F, 0.4F}, random);
-    room.stand_at({0, 0, 0});
+    room.set_frame({0, 0, 0});
 }
 
 void table(RoomBuilder& room) {
@@ -170,7 +170,7 @@ void table(RoomBuilder& room) {
     const Footprint under{kTableLow, kTableHigh, 0.45F, 0.42F};
     room.box_with_top(
         "cloth0", "shop_rug", {kRugLow.x, 0, kRugLow.y}, {kRugHigh.x, 0.012F, kRugHigh.y}, 160, [&](vec2 p) {
-            return rug(p, rug_size, 51) * light_beside({kRugLow.x + p.x, kRugHigh.y - p.y}, std::span(&under, 1));
+            return rug(p, rug_size, 51) * contact_shadow({kRugLow.x + p.x, kRugHigh.y - p.y}, std::span(&under, 1));
         });
     const vec2 size = kTableHigh - kTableLow;
     struct Stand {
@@ -188,7 +188,7 @@ void table(RoomBuilder& room) {
     const WoodTone tone{srgb(0x9A6A44), srgb(0x5A3822)};
     room.box_with_top("walnut", "shop_table", {kTableLow.x, kTable_m - 0.04F, kTableLow.y},
                       {kTableHigh.x, kTable_m, kTableHigh.y}, 260,
-                      [&](vec2 p) { return wood(p, tone, 52) * light_beside(p, prints); });
+                      [&](vec2 p) { return wood(p, tone, 52) * contact_shadow(p, prints); });
     const float inset = 0.06F;
     room.box("walnut", {kTableLow.x + inset, kTable_m - 0.13F, kTableLow.y + inset},
              {kTableHigh.x - inset, kTable_m - 0.04F, kTableHigh.y - inset});
@@ -213,7 +213,7 @@ void table(RoomBuilder& room) {
 void counter(RoomBuilder& room) {
     const float length = kCounterHigh.y - kCounterLow.y;
     const float depth = kCounterHigh.x - kCounterLow.x;
-    room.stand_at({kCounterHigh.x, 0, kCounterLow.y}, -90);
+    room.set_frame({kCounterHigh.x, 0, kCounterLow.y}, -90);
     room.box("iron", {0.03F, 0, 0.03F}, {length - 0.03F, 0.1F, depth - 0.05F});
     room.box("green_paint", {0, 0.1F, 0}, {length, kCounter_m - 0.04F, depth - 0.02F});
     const int panels = 5;
@@ -235,7 +235,7 @@ void counter(RoomBuilder& room) {
     room.box_with_top("walnut", "shop_counter", {-over, kCounter_m - 0.04F, -over},
                       {length + over, kCounter_m, depth + over}, 220, [&](vec2 p) {
                           const vec2 place{p.x - over, depth + over - p.y};
-                          return wood(p, tone, 61) * light_beside(place, prints);
+                          return wood(p, tone, 61) * contact_shadow(place, prints);
                       });
     room.object("lamp", {lamp.x, kCounter_m, lamp.y}, 0, 0.5F);
     room.object("doll", {doll.x, kCounter_m, doll.y}, 10, 0.34F);
@@ -257,7 +257,7 @@ void counter(RoomBuilder& room) {
                 {0.006F, 0.062F},
                 {0.0F, 0.066F}},
                14, 0.7F);
-    room.stand_at({0, 0, 0});
+    room.set_frame({0, 0, 0});
     for (const float z : {2.65F, 3.85F}) pendant(room, {2.08F, kShopHigh.y, z}, 2.0F);
 }
 
@@ -266,9 +266,9 @@ void corners(RoomBuilder& room) {
     basket(room, {-2.6F, 0, 0.45F}, 0.24F, 0.42F, 3, random);
     basket(room, {-2.0F, 0, 0.32F}, 0.18F, 0.3F, 2, random);
     framed_painting(room, "shop_picture", {-2.35F, 1.62F, 0}, {0.9F, 0.62F}, [](vec2 p) {
-        return painted(Painting::birches, p / vec2{0.9F, 0.62F}, 0.9F / 0.62F, 72);
+        return painting_colour(Painting::birches, p / vec2{0.9F, 0.62F}, 0.9F / 0.62F, 72);
     });
-    room.stand_at({1.75F, 0, 0.45F});
+    room.set_frame({1.75F, 0, 0.45F});
     room.soft_box("walnut", {-0.22F, 0.7F, -0.22F}, {0.22F, 0.74F, 0.22F}, 0.015F);
     room.lathe("walnut", {0, 0, 0},
                {{0.0F, 0.0F},
@@ -282,7 +282,7 @@ void corners(RoomBuilder& room) {
                 {0.0F, 0.7F}},
                14, 0.7F);
     room.object("flower", {0, 0.74F, 0}, 200, 0.55F);
-    room.stand_at({0, 0, 0});
+    room.set_frame({0, 0, 0});
 }
 
 }  // namespace

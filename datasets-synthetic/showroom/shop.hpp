@@ -1,6 +1,6 @@
 #pragma once
 // The shop: shelves on either side, a table on a rug, a counter under lamps, a window to the street, a doorway to the
-// museum in the wall at z = 0. It reaches from x = -4 to 4 and z = 0 to 7.
+// museum in the wall at z = 0. It extends from x = -4 to 4 and z = 0 to 7.
 
 #include "datasets-synthetic/showroom/world.hpp"
 
@@ -11,7 +11,7 @@ inline constexpr float kDoorHalf_m = 0.9F;
 inline constexpr float kDoorHeight_m = 2.45F;
 inline constexpr float kWallBetween_m = 0.3F;
 
-// Needs furniture_looks(). `texture_scale` as for RoomBuilder.
+// Requires add_furniture_looks(). `texture_scale`: see RoomBuilder.
 void build_shop(World& world, float texture_scale);
 
 }  // namespace rs::synthetic

@@ -9,7 +9,7 @@ namespace rs::synthetic {
 World make_showroom(const ShowroomOptions& options) {
     World world;
     RoomBuilder everywhere(world, "", options.texture_scale);
-    furniture_looks(everywhere);
+    add_furniture_looks(everywhere);
     build_shop(world, options.texture_scale);
     build_museum(world, options.texture_scale);
     world.viewpoints = {

@@ -22,12 +22,12 @@ int whole(float x) {
     return static_cast<int>(std::floor(x));
 }
 
-// 0..1, one for each cell.
+// Random number 0..1 per cell.
 float chance(int x, int y, std::uint32_t seed) {
     return static_cast<float>(lattice_hash(x, y, 0, seed) >> 8U) * (1.0F / 16777216.0F);
 }
 
-// 1 inside of a board, darker in the joint at its edge.
+// Brightness: 1 inside a board, darker in the joint at its edge.
 float joint(float distance_m, float width_m) {
     return 0.55F + 0.45F * smooth_step(0.0F, width_m, distance_m);
 }
@@ -35,7 +35,7 @@ float joint(float distance_m, float width_m) {
 }  // namespace
 
 vec3 wood(vec2 place_m, const WoodTone& tone, std::uint32_t seed) {
-    // Rings of a log, sawn nearly along it: long stretched waves, and pores along the grain.
+    // Growth rings cut nearly lengthwise: long stretched waves, and pores along the grain.
     const float bend = layered_noise({place_m.x * 1.3F, place_m.y * 5.0F, 0.0F}, 3, seed);
     const float rings = part(place_m.y * 30.0F + bend * 2.2F);
     const float late = smooth_step(0.2F, 0.95F, rings) * (1.0F - smooth_step(0.95F, 1.0F, rings));
@@ -102,7 +102,7 @@ vec3 rug(vec2 place_m, vec2 size_m, std::uint32_t seed) {
     } else if (edge_m < 0.13F) {
         colour = kSand;
     } else if (edge_m < 0.24F) {
-        // Teeth along the border, whichever side is nearer.
+        // Teeth along the nearer border.
         const float run_m = inside.x < inside.y ? place_m.y : place_m.x;
         const float tooth = std::abs(part(run_m / 0.11F) - 0.5F) * 2.0F;
         colour = (edge_m - 0.13F) / 0.11F < tooth ? kDeep : kSand;
@@ -123,7 +123,7 @@ vec3 rug(vec2 place_m, vec2 size_m, std::uint32_t seed) {
     return colour * (1.0F + 0.14F * knots + 0.1F * worn);
 }
 
-float light_beside(vec2 place_m, std::span<const Footprint> footprints) {
+float contact_shadow(vec2 place_m, std::span<const Footprint> footprints) {
     float light = 1.0F;
     for (const Footprint& print : footprints) {
         float distance_m = 0.0F;
@@ -134,12 +134,12 @@ float light_beside(vec2 place_m, std::span<const Footprint> footprints) {
         } else {
             distance_m = glm::length(glm::max(glm::max(print.low - place_m, place_m - print.high), vec2{0.0F}));
         }
-        light *= light_in_corner(distance_m, print.reach_m, print.strength);
+        light *= corner_shadow(distance_m, print.reach_m, print.strength);
     }
     return light;
 }
 
-float light_in_corner(float distance_m, float reach_m, float strength) {
+float corner_shadow(float distance_m, float reach_m, float strength) {
     const float t = std::max(distance_m, 0.0F) / reach_m;
     return 1.0F - strength / (1.0F + 3.0F * t + 6.0F * t * t);
 }

@@ -1,8 +1,8 @@
 #pragma once
-// A furnished world as data, before it is written as a file: parts with their looks, textures, places for objects made
-// of images, lights and viewpoints.
+// In-memory representation of a furnished world: parts with their looks (appearances), textures, placements of
+// ray-space objects, lights and viewpoints.
 //
-// Metres, Y up, the visitor's floor at y = 0. Colours of looks and lights are sRGB, 0xRRGGBB, as VRML97 has them.
+// Metres, Y up, the floor at y = 0. Colours of looks and lights are sRGB, 0xRRGGBB, as in VRML97.
 
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/image/image.hpp"
@@ -16,27 +16,27 @@
 
 namespace rs::synthetic {
 
-// Where it has a texture, that replaces `diffuse`.
+// Appearance of a part. A texture replaces `diffuse`.
 struct Look {
     std::uint32_t diffuse = 0xCCCCCC;
     std::uint32_t specular = 0x000000;
     std::uint32_t emissive = 0x000000;
-    float shininess = 0.2F;  // times 128: the exponent of the highlight
+    float shininess = 0.2F;  // exponent of the highlight / 128
     std::string texture{};   // key of World::textures; empty = none
 };
 
 struct WorldPart {
     std::string room;
     std::string look;    // key of World::looks
-    int solid = -1;      // parts of one number >= 0 close a solid together; -1: a sheet, seen from its front only
-    capture::Mesh mesh;  // with normals; with texture coordinates where the look has a texture
+    int solid = -1;      // parts with the same number >= 0 form a closed solid; -1: one-sided sheet
+    capture::Mesh mesh;  // with normals, and texture coordinates if the look has a texture
 };
 
-// An object of recipes/NAME.json, once it is encoded.
+// Placement of the encoded ray-space object of recipes/NAME.json.
 struct WorldObject {
     std::string room;
     std::string name;      // of the recipe
-    glm::vec3 foot{0.0F};  // stands here
+    glm::vec3 foot{0.0F};  // centre of its base
     float turn_deg = 0;    // about Y
     float size = 0.2F;     // its radius
 };
@@ -45,16 +45,17 @@ enum class WorldLightKind { directional, point };
 struct WorldLight {
     WorldLightKind kind = WorldLightKind::directional;
     std::uint32_t colour = 0xFFFFFF;
-    float intensity = 1.0F;     // 0..1
-    float ambient = 0.0F;       // 0..1
-    glm::vec3 place{0, -1, 0};  // of a point; the direction of travel of a directional light, which shines in its room
-    float falloff_per_m2 = 1.0F;  // of a point: strength 1 / max(1, that times the squared distance)
-    float reach_m = 4.0F;         // of a point: no light beyond
+    float intensity = 1.0F;  // 0..1
+    float ambient = 0.0F;    // 0..1
+    glm::vec3 place{0, -1,
+                    0};  // location of a point; direction of travel of a directional light, which lights its room only
+    float falloff_per_m2 = 1.0F;  // point: factor 1 / max(1, falloff_per_m2 * squared distance)
+    float reach_m = 4.0F;         // point: no light beyond
 };
 
 struct Room {
     std::string name;
-    glm::vec3 low{0.0F};  // the space between floor, walls and ceiling
+    glm::vec3 low{0.0F};  // interior between floor, walls and ceiling
     glm::vec3 high{0.0F};
     std::vector<WorldLight> lights{};
 };
@@ -71,9 +72,9 @@ struct World {
     std::vector<WorldObject> objects;
     std::map<std::string, Look> looks;
     std::map<std::string, Image<Rgba8>> textures;  // file name -> image
-    std::vector<WorldView> viewpoints;             // the first is where a visit begins
-    std::vector<WorldView> walk;                   // the keys of a smooth way through all rooms
-    int walk_frames = 1;                           // of the whole way, at 30 a second
+    std::vector<WorldView> viewpoints;             // the first is the initial one
+    std::vector<WorldView> walk;                   // keys of a smooth camera path through all rooms
+    int walk_frames = 1;                           // of the whole path, at 30 frames per second
 };
 
 }  // namespace rs::synthetic

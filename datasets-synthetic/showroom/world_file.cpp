@@ -21,7 +21,7 @@ namespace {
 using glm::vec2;
 using glm::vec3;
 
-// Lines of VRML with numbers that do not depend on the locale.
+// VRML text with locale-independent numbers.
 class Text {
 public:
     Text& operator<<(const std::string& text) {
@@ -29,7 +29,7 @@ public:
         return *this;
     }
     Text& operator<<(int number) { return *this << std::to_string(number); }
-    // With up to four digits after the point, none of them a closing zero.
+    // Up to four decimals, without trailing zeros.
     Text& operator<<(float number) {
         std::array<char, 32> digits{};
         const double rounded = std::round(static_cast<double>(number) * 1e4) / 1e4;
@@ -70,7 +70,7 @@ void write_look(Text& text, const Look& look) {
     text << "        }\n";
 }
 
-// All parts of a room that have the same look, as one shape.
+// Writes all parts of a room with the same look as one shape.
 void write_shape(Text& text, const World& world, const std::string& room, const std::string& name) {
     std::vector<vec3> points;
     std::vector<vec3> normals;
@@ -120,7 +120,7 @@ void write_light(Text& text, const WorldLight& light) {
 }
 
 void write_viewpoint(Text& text, const WorldView& view) {
-    // VRML's viewpoint is turned from looking along -Z.
+    // VRML's orientation rotates the default viewing direction -Z.
     const vec3 sight = glm::normalize(view.at - view.eye);
     const float heading = std::atan2(-sight.x, -sight.z);
     const float pitch = std::asin(sight.y);

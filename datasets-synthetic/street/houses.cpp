@@ -18,7 +18,7 @@ using glm::vec3;
 
 constexpr float kFloor_m = 3.1F;
 constexpr float kGround_m = 3.7F;
-constexpr float kTile_m = 2;  // of the walls' images
+constexpr float kTile_m = 2;  // size of the wall textures
 constexpr float kShopDepth_m = 1.6F;
 constexpr float kLedge_m = 0.75F;
 
@@ -43,7 +43,7 @@ vec3 plaster_wall(vec2 p, vec3 colour, std::uint32_t seed) {
     return colour * (0.94F + 0.08F * layered_noise({p * 3.0F, 0.5F}, 3, seed));
 }
 
-// A frame with a cross, and behind it a room or the sky's reflection.
+// A window frame with a cross, and behind it a lit room or the sky's reflection.
 vec3 window_image(vec2 share, bool lit, int kind) {
     const float frame = 0.05F;
     const bool in_frame = share.x < frame || share.x > 1 - frame || share.y < 0.6F * frame ||
@@ -60,7 +60,7 @@ vec3 window_image(vec2 share, bool lit, int kind) {
     return curtain ? vec3(0.42F, 0.4F, 0.36F) * (0.6F + 0.3F * fold) : sky;
 }
 
-// Letters on a board, as high as most of it.
+// Letters on a board, almost as high as the board.
 vec3 sign_image(vec2 p, vec2 size, const std::string& text, vec3 board, vec3 ink) {
     const float height = 0.56F * size.y;
     float width = 0;
@@ -157,7 +157,7 @@ void ground_floor(Pen& pen, const HouseStyle& style, Random& random) {
     }
 }
 
-// A room behind glass between pillars, with a ledge on which objects stand.
+// A shop window between pillars with a ledge for objects.
 void shop(World& world, Pen& pen, RoomBuilder& builder, const HouseStyle& style) {
     const float w = style.width_m;
     const float low = 0.45F;
@@ -171,11 +171,11 @@ void shop(World& world, Pen& pen, RoomBuilder& builder, const HouseStyle& style)
     pen.wall("shop_front", {left, 0}, {right, low}, 0, kTile_m);
     pen.wall("shop_front", {right, 0}, {right + 0.3F, head}, 0, kTile_m);
     pen.wall(wall, {w - 0.35F, 0}, {w, head}, 0, kTile_m);
-    // The door of glass.
+    // Glass door.
     const float door = right + 0.3F;
     pen.wall(style.night ? "window_lit_0" : "window_0", {door, 0.1F}, {w - 0.35F, head}, -0.05F, w - 0.35F - door);
     pen.box("step", {door, 0, -0.05F}, {w - 0.35F, 0.1F, 0.3F});
-    // Inside.
+    // Interior.
     pen.quad("shop_inside", {vec3{left, low, back}, {right, low, back}, {right, head, back}, {left, head, back}});
     pen.quad("shop_inside", {vec3{left, low, 0}, {left, low, back}, {left, head, back}, {left, head, 0}});
     pen.quad("shop_inside", {vec3{right, low, back}, {right, low, 0}, {right, head, 0}, {right, head, back}});
@@ -191,7 +191,7 @@ void shop(World& world, Pen& pen, RoomBuilder& builder, const HouseStyle& style)
     }
     pen.quad("shop_glass", {vec3{left, low, 0}, {right, low, 0}, {right, head, 0}, {left, head, 0}});
     pen.box("shop_front", {left - 0.1F, low - 0.08F, 0}, {right + 0.1F, low, 0.12F});
-    // The sign.
+    // Sign.
     const vec2 size{w - 0.6F, 0.62F};
     const std::string look = "sign_" + style.shop;
     builder.painted_look(look, size, 90,
@@ -201,7 +201,7 @@ void shop(World& world, Pen& pen, RoomBuilder& builder, const HouseStyle& style)
                     {w - 0.3F, head + 0.06F, 0.09F},
                     {w - 0.3F, head + 0.68F, 0.09F},
                     {0.3F, head + 0.68F, 0.09F}});
-    // An awning.
+    // Awning.
     pen.quad("awning",
              {vec3{left, head - 0.12F, 0.95F},
               {right, head - 0.12F, 0.95F},
@@ -218,7 +218,7 @@ void shop(World& world, Pen& pen, RoomBuilder& builder, const HouseStyle& style)
 
 }  // namespace
 
-void house_looks(RoomBuilder& builder, bool night, std::set<std::string>& unlit) {
+void add_house_looks(RoomBuilder& builder, bool night, std::set<std::string>& unlit) {
     const std::array<std::uint32_t, kWallLooks> colours{0x9A5240, 0xD8C9A6, 0xB9745A, 0xC7CBC4, 0xE2D9C6, 0x7F4A3E};
     for (int i = 0; i < kWallLooks; ++i) {
         const vec3 colour = srgb(colours.at(static_cast<std::size_t>(i)));
@@ -269,13 +269,13 @@ void house_looks(RoomBuilder& builder, bool night, std::set<std::string>& unlit)
 vec3 shop_light(vec3 origin, float turn_deg, const HouseStyle& style) {
     World nowhere;
     Pen pen(nowhere, "");
-    pen.stand_at(origin, turn_deg);
+    pen.set_frame(origin, turn_deg);
     return pen.point({0.5F * style.width_m - 0.7F, 2.55F, -0.55F});
 }
 
 void build_house(World& world, Pen& pen, RoomBuilder& builder, vec3 origin, float turn_deg, const HouseStyle& style) {
     Random random(style.seed, 3);
-    pen.stand_at(origin, turn_deg);
+    pen.set_frame(origin, turn_deg);
     const float w = style.width_m;
     const float d = style.depth_m;
     const float top = kGround_m + kFloor_m * static_cast<float>(style.floors - 1) + 0.25F;

@@ -17,23 +17,23 @@ struct HouseStyle {
     int floors = 3;  // 2 .. 4
     int wall = 0;    // 0 .. kWallLooks - 1
     bool gable = true;
-    std::string shop;                  // its sign, letters A to Z; empty: a house to live in
-    std::vector<std::string> objects;  // recipes, in the shop's window
+    std::string shop;                  // text of its sign, letters A to Z; empty: no shop
+    std::vector<std::string> objects;  // recipes of the objects in the shop's window
     bool night = false;
     std::uint32_t seed = 1;
 };
 
 inline constexpr int kWallLooks = 6;
 
-// Looks of all houses; those that shine by themselves are added to `unlit`. `builder` paints.
-void house_looks(RoomBuilder& builder, bool night, std::set<std::string>& unlit);
+// Adds the looks of all houses, and the names of emissive ones to `unlit`.
+void add_house_looks(RoomBuilder& builder, bool night, std::set<std::string>& unlit);
 
-// A house whose front stands along +X from the pen's origin and faces +Z. Objects go to World::objects. `sign` names
-// the look of the sign, which is painted.
+// Builds a house with its front along +X from `origin`, facing +Z before the rotation. Shop objects are added to
+// World::objects.
 void build_house(World& world, Pen& pen, RoomBuilder& builder, glm::vec3 origin, float turn_deg,
                  const HouseStyle& style);
 
-// Where the light of a shop hangs, in the world.
+// World position of a shop's light.
 glm::vec3 shop_light(glm::vec3 origin, float turn_deg, const HouseStyle& style);
 
 }  // namespace rs::synthetic

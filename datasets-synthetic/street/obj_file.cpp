@@ -83,7 +83,7 @@ std::string obj_number(double value) {
 }
 
 ObjTexts obj_texts(const World& world, const std::string& library, const std::set<std::string>& unlit) {
-    // By object, then by look: so few lines change the material.
+    // Grouped by object, then by look, which minimises material changes.
     std::map<std::string, std::map<std::string, std::vector<const capture::Mesh*>>> objects;
     for (const WorldPart& part : world.parts) objects[part.room][part.look].push_back(&part.mesh);
     ObjWriter writer;

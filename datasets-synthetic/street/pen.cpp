@@ -31,7 +31,7 @@ void append_face(capture::Mesh& mesh, std::span<const vec3> corners, std::span<c
 
 }  // namespace
 
-void Pen::stand_at(vec3 origin, float turn_deg) {
+void Pen::set_frame(vec3 origin, float turn_deg) {
     frame_ = {origin, rotation({0, 1, 0}, static_cast<float>(radians(static_cast<double>(turn_deg))))};
 }
 
@@ -132,7 +132,7 @@ void Pen::crown(const std::string& look, vec3 middle, vec3 radii, int columns, i
         const vec3 out = mesh.positions[i] - middle;
         const float dent = layered_noise(mesh.positions[i] * 1.3F, 3, seed);
         mesh.positions[i] = middle + out * (1 + 0.28F * dent);
-        // Leaves shine unevenly.
+        // Perturbed normals for foliage.
         mesh.normals[i] = glm::normalize(mesh.normals[i] + 0.5F * vector_noise(mesh.positions[i] * 2.1F, seed + 1));
     }
     for (vec2& uv : mesh.uvs) uv *= vec2{4, 2};

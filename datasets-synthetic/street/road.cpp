@@ -15,7 +15,7 @@ using glm::vec2;
 using glm::vec3;
 
 constexpr float kPiece_m = 12;
-constexpr float kFarther_m = 168;  // as far as the main street reaches
+constexpr float kFarther_m = 168;  // extent of the main street
 constexpr float kCrossFarther_m = 108;
 
 vec3 asphalt(vec2 p, std::uint32_t seed) {
@@ -28,7 +28,7 @@ vec3 with_paint(vec3 ground, vec2 p) {
     return glm::mix(ground, vec3(0.62F), 0.8F + 0.15F * gradient_noise({p * 9.0F, 0.1F}, 5));
 }
 
-// A piece across the road: a dashed line in the middle, whole ones at the edges.
+// Road texture: dashed centre line, continuous edge lines.
 vec3 road_image(vec2 p) {
     const vec3 ground = asphalt(p, 21);
     const float from_middle = std::abs(p.y - kHalfRoad_m);
@@ -37,7 +37,7 @@ vec3 road_image(vec2 p) {
     return dash || edge ? with_paint(ground, p) : ground;
 }
 
-// From the edge of the crossing on: the stop line for the lane that comes here, and a zebra crossing.
+// From the edge of the crossing outwards: zebra crossing, and the stop line of the incoming lane.
 vec3 approach_image(vec2 p, bool right_lane) {
     const vec3 ground = asphalt(p, 21);
     const bool zebra = p.x > 0.8F && p.x < 3.8F && std::fmod(p.y + 0.25F, 1.0F) < 0.5F;
@@ -60,7 +60,7 @@ vec3 paving(vec2 p) {
 void road_piece(World& world, const std::string& object, const std::string& look, vec3 origin, float turn_deg,
                 float length) {
     Pen pen(world, object);
-    pen.stand_at(origin, turn_deg);
+    pen.set_frame(origin, turn_deg);
     const float half = kHalfRoad_m;
     pen.quad(look, {vec3{0, 0, half}, {length, 0, half}, {length, 0, -half}, {0, 0, -half}},
              {vec2{0, 0}, {length / kPiece_m, 0}, {length / kPiece_m, 1}, {0, 1}});
@@ -81,7 +81,7 @@ void road_piece(World& world, const std::string& object, const std::string& look
 // Both directions of a street, from the crossing outwards.
 void arm(World& world, const std::string& name, float turn_deg, float reach) {
     Pen turned(world, name);
-    turned.stand_at({0, 0, 0}, turn_deg);
+    turned.set_frame({0, 0, 0}, turn_deg);
     int piece = 0;
     for (float at = kHalfStreet_m; at < reach; at += kPiece_m, ++piece) {
         const float length = std::min(kPiece_m, reach - at);
@@ -92,10 +92,10 @@ void arm(World& world, const std::string& name, float turn_deg, float reach) {
 
 }  // namespace
 
-void road_looks(RoomBuilder& builder, bool night, std::set<std::string>& unlit) {
+void add_road_looks(RoomBuilder& builder, bool night, std::set<std::string>& unlit) {
     const vec2 piece{kPiece_m, 2 * kHalfRoad_m};
     builder.painted_look("road", piece, 40, road_image, {.specular = 0x181818, .shininess = 0.08F});
-    // Seen along the pen's X, vehicles come towards the crossing in the lane on the left.
+    // As seen along the pen's X, vehicles approach the crossing in the left lane.
     builder.painted_look("road_approach", piece, 40, [](vec2 p) { return approach_image(p, false); },
                          {.specular = 0x181818, .shininess = 0.08F});
     builder.painted_look("crossing", {14, 14}, 24, [](vec2 p) { return asphalt(p, 22); },

@@ -1,5 +1,5 @@
 #pragma once
-// What lies and stands outside of houses: carriageways, pavements, lamps, trees. Everything is appended to a World.
+// Street surface and furniture: carriageways, pavements, lamps, trees. Everything is appended to a World.
 
 #include "datasets-synthetic/showroom/room_builder.hpp"
 #include "datasets-synthetic/street/pen.hpp"
@@ -11,13 +11,13 @@
 namespace rs::synthetic {
 
 inline constexpr float kHalfRoad_m = 4;
-inline constexpr float kHalfStreet_m = 7;  // to the houses
+inline constexpr float kHalfStreet_m = 7;  // from the centre line to the houses
 inline constexpr float kKerb_m = 0.14F;
 inline constexpr float kLampHeight_m = 5.4F;
 
-void road_looks(RoomBuilder& builder, bool night, std::set<std::string>& unlit);
+void add_road_looks(RoomBuilder& builder, bool night, std::set<std::string>& unlit);
 
-// Both streets, in pieces a dozen metres long (lights near by are looked for piece by piece), and the ground around.
+// Both streets and the ground around them, in pieces about 12 m long, because renderers select nearby lights per piece.
 void build_roads(World& world);
 
 // The objects "tree_0", "tree_1", "bush" and "lamp", each at the origin.

@@ -55,7 +55,7 @@ void read_camera(JsonObject object, Scenario& scenario) {
 
 }  // namespace
 
-Scenario usual_scenario() {
+Scenario default_scenario() {
     Scenario scenario;
     scenario.sources = {
         {Lane::kEast, Vehicle::kAny, -24, 3.1, 11, 10},  {Lane::kWest, Vehicle::kAny, -25, 3.4, 10, 11},
@@ -103,7 +103,7 @@ std::string scenario_json(const Scenario& scenario) {
 
 Result<Scenario> scenario_from_json(const std::string& text, const std::string& file) {
     return read_json(text, file, [](JsonObject& top) {
-        Scenario scenario = usual_scenario();
+        Scenario scenario = default_scenario();
         top.read("seconds", scenario.seconds, 0.1, 3600);
         top.read("frames_per_second", scenario.frames_per_second, 1, 120);
         scenario.night = top.has("time") && top.take("time").one_of({"day", "night"}) == 1;

@@ -1,5 +1,5 @@
 #pragma once
-// Who drives through the street, when, and who looks: a scenario, from JSON.
+// Street scenario from JSON: traffic, traffic lights, time of day and camera.
 //
 //     { "seconds": 10, "frames_per_second": 25, "time": "day", "seed": 1,
 //       "lights": {"main_green_s": 9, "cross_green_s": 6},
@@ -10,8 +10,8 @@
 //                  "fov_degrees": 65} }
 //
 // Lanes: east and west on the main street, which runs along X; north and south on the one that crosses it. Vehicles:
-// hatchback, van, bus or any. A camera has a "path", or "ride": the number of a source whose first vehicle carries it.
-// Keys that are not known are errors. Everything but "sources" may be left out.
+// hatchback, van, bus or any. A camera has a "path", or "ride": the index of a source whose first vehicle carries it.
+// Unknown keys are errors. Everything but "sources" is optional.
 
 #include "rayspace/base/result.hpp"
 
@@ -28,11 +28,11 @@ namespace rs::synthetic {
 enum class Lane { kEast, kWest, kNorth, kSouth };
 enum class Vehicle { kHatchback, kVan, kBus, kAny };
 
-// Vehicles that enter a lane at its beginning.
+// Source of vehicles at the beginning of a lane.
 struct TrafficSource {
     Lane lane = Lane::kEast;
     Vehicle vehicle = Vehicle::kAny;
-    double first_s = 0;  // before 0 some are on the road when the sequence begins
+    double first_s = 0;  // negative: vehicles are already on the road at the start of the sequence
     double every_s = 4;
     int count = 1;
     double speed_mps = 10;
@@ -51,18 +51,18 @@ struct Scenario {
     double main_green_s = 9;
     double cross_green_s = 6;
     std::vector<TrafficSource> sources;
-    std::vector<StreetView> path;     // at even steps of time, smooth
-    std::optional<std::size_t> ride;  // in place of the path
+    std::vector<StreetView> path;     // keys at equal time steps, smoothly interpolated
+    std::optional<std::size_t> ride;  // replaces the path
     double fov_degrees = 65;
 };
 
-// Ten seconds of an ordinary day; some twenty vehicles.
-Scenario usual_scenario();
+// Ten seconds by day with about twenty vehicles.
+Scenario default_scenario();
 
-// That is read back as the same.
+// JSON text that scenario_from_json() reads back unchanged.
 std::string scenario_json(const Scenario& scenario);
 
-// Errors name file, key and remedy.
+// Errors name file, key and solution.
 Result<Scenario> scenario_from_json(const std::string& text, const std::string& file);
 Result<Scenario> read_scenario(const std::filesystem::path& path);
 

@@ -27,8 +27,8 @@ namespace fs = std::filesystem;
 using glm::vec3;
 using nlohmann::ordered_json;
 
-// An instance of an object of the static world.
-struct Standing {
+// An instance of an object in the static world.
+struct StaticInstance {
     std::string object;
     vec3 foot{0};
     float turn_deg = 0;
@@ -38,12 +38,12 @@ struct Standing {
 struct Street {
     World world;
     std::set<std::string> unlit;
-    std::vector<Standing> standing;
+    std::vector<StaticInstance> instances;
     std::vector<vec3> street_lights;
     std::vector<vec3> shop_lights;
 };
 
-// A row of houses from `begin` on to +X of the row's frame, the fronts on its line.
+// Builds a row of houses from `begin` towards +X of the row's frame, with aligned fronts.
 void build_row(Street& street, RoomBuilder& builder, const std::string& name, vec3 begin, float turn_deg, float length,
                bool night, Random& random) {
     static constexpr std::array kShops{"ORIENTALIA", "FLORA", "TOYS", "LUMEN", "GEOMETRY", "CAFE"};
@@ -63,10 +63,10 @@ void build_row(Street& street, RoomBuilder& builder, const std::string& name, ve
         style.gable = random.uniform() < 0.6F;
         style.night = night;
         style.seed = random.next();
-        // Shops stand near the crossing: at the row's beginning or end.
+        // Shops are near the crossing: at the row's beginning or end.
         static_cast<void>(number);
         Pen pen(street.world, name + "_" + std::to_string(number));
-        pen.stand_at(begin, turn_deg);
+        pen.set_frame(begin, turn_deg);
         const vec3 corner = pen.point({at, 0, 0});
         const float from_crossing = std::max(std::abs(corner.x), std::abs(pen.point({at + style.width_m, 0, 0}).x));
         const bool on_main = std::abs(corner.z) < kHalfStreet_m + 1;
@@ -86,7 +86,7 @@ void plant_trees(Street& street, Random& random) {
         const int kind = random.below(2);
         const float turn = random.uniform(0, 360);
         const float size = random.uniform(0.85F, 1.2F);
-        street.standing.push_back({"tree_" + std::to_string(kind), {x, kKerb_m, z}, turn, size});
+        street.instances.push_back({"tree_" + std::to_string(kind), {x, kKerb_m, z}, turn, size});
     };
     for (int i = 0; i < 5; ++i) {
         for (const float sx : {-1.0F, 1.0F}) {
@@ -94,7 +94,7 @@ void plant_trees(Street& street, Random& random) {
                 const float x = sx * (16 + 12 * static_cast<float>(i));
                 tree(x + 3 * sz, sz * 4.9F);
                 const float lamp_x = x + 3 * sz + 6 * sx;
-                street.standing.push_back({"lamp", {lamp_x, kKerb_m, sz * 4.6F}, sz > 0 ? 180.0F : 0.0F, 1});
+                street.instances.push_back({"lamp", {lamp_x, kKerb_m, sz * 4.6F}, sz > 0 ? 180.0F : 0.0F, 1});
                 street.street_lights.emplace_back(lamp_x, kLampHeight_m + 0.1F, sz * 3.4F);
             }
         }
@@ -107,7 +107,7 @@ void plant_trees(Street& street, Random& random) {
                 const float z = sz * random.uniform(11, 55);
                 const float turn = random.uniform(0, 360);
                 const float size = random.uniform(0.9F, 2.3F);
-                street.standing.push_back({"bush", {x, 0, z}, turn, size});
+                street.instances.push_back({"bush", {x, 0, z}, turn, size});
             }
         }
     }
@@ -118,7 +118,7 @@ void plant_trees(Street& street, Random& random) {
                 const float z = sz * random.uniform(52, 105);
                 const float turn = random.uniform(0, 360);
                 const float size = random.uniform(0.9F, 2.0F);
-                street.standing.push_back({"bush", {x, 0, z}, turn, size});
+                street.instances.push_back({"bush", {x, 0, z}, turn, size});
             }
         }
     }
@@ -128,8 +128,8 @@ Street make_street(const StreetOptions& options) {
     Street street;
     const bool night = options.scenario.night;
     RoomBuilder builder(street.world, "street", options.texture_scale);
-    house_looks(builder, night, street.unlit);
-    road_looks(builder, night, street.unlit);
+    add_house_looks(builder, night, street.unlit);
+    add_road_looks(builder, night, street.unlit);
     build_roads(street.world);
     build_street_furniture(street.world);
     Random random(2024, 1);
@@ -140,7 +140,7 @@ Street make_street(const StreetOptions& options) {
     build_row(street, builder, "house_sw", {-h, 0, h}, 180, row, night, random);
     build_row(street, builder, "house_nw", {-h - row, 0, -h}, 0, row, night, random);
     build_row(street, builder, "house_se", {h + row, 0, h}, 180, row, night, random);
-    // Along the other one, behind them.
+    // Along the crossing street, behind them.
     const float behind = h + 10.5F;
     const float side = 30;
     build_row(street, builder, "house_en", {h, 0, -behind - side}, -90, side, night, random);
@@ -161,7 +161,7 @@ std::map<std::string, Box> boxes_of(const World& world) {
     for (const WorldPart& part : world.parts) {
         Box& box = boxes[part.room];
         for (const vec3& p : part.mesh.positions) {
-            // As they are written.
+            // Rounded as in the file.
             const vec3 rounded = glm::round(p * 1e4F) / 1e4F;
             box.low = glm::min(box.low, rounded);
             box.high = glm::max(box.high, rounded);
@@ -179,20 +179,20 @@ std::string line_of(const std::string& kind, const std::string& id, const glm::d
     return text + " " + material + "\n";
 }
 
-// An instance is put by its middle; these stand with their origin at `foot`.
-std::string standing_line(const Standing& standing, const Box& box) {
+// Instance line of the file format. Instances are positioned by their centre, `instance` by its origin at `foot`.
+std::string instance_line(const StaticInstance& instance, const Box& box) {
     const vec3 middle = 0.5F * (box.low + box.high);
-    const Frame turned{standing.foot,
-                       rotation({0, 1, 0}, static_cast<float>(radians(static_cast<double>(standing.turn_deg))))};
-    return line_of("instance", standing.object, turned.point(standing.size * middle), standing.turn_deg, standing.size,
+    const Frame turned{instance.foot,
+                       rotation({0, 1, 0}, static_cast<float>(radians(static_cast<double>(instance.turn_deg))))};
+    return line_of("instance", instance.object, turned.point(instance.size * middle), instance.turn_deg, instance.size,
                    "-");
 }
 
 std::string frame_text(const TrafficFrame& frame, const std::map<std::string, Box>& boxes, double fov_degrees) {
     std::string text;
-    for (const VehiclePlace& vehicle : frame.vehicles) {
-        const Standing standing{vehicle.model, vec3(vehicle.place), static_cast<float>(vehicle.turn_deg), 1};
-        text += standing_line(standing, boxes.at(vehicle.model));
+    for (const VehiclePose& vehicle : frame.vehicles) {
+        const StaticInstance instance{vehicle.model, vec3(vehicle.place), static_cast<float>(vehicle.turn_deg), 1};
+        text += instance_line(instance, boxes.at(vehicle.model));
     }
     text += "camera";
     for (const glm::dvec3& p : {frame.view.eye, frame.view.at}) {
@@ -250,7 +250,7 @@ Sky sky_of(bool night) {
     return {{0.32F, 0.53F, 0.82F}, {0.83F, 0.89F, 0.94F}};
 }
 
-// Latitude and longitude; sRGB. At night of its own brightness by the list's scale.
+// Latitude-longitude map, sRGB. At night the light list's scale sets its brightness.
 Image<Rgba8> sky_image(bool night) {
     const Sky sky = night ? Sky{{0.45F, 0.55F, 1.0F}, {0.8F, 0.85F, 1.0F}} : sky_of(false);
     Image<Rgba8> image(64, 32);
@@ -300,24 +300,24 @@ std::size_t triangles_of(const World& world, const std::string& object) {
 
 }  // namespace
 
-Result<StreetFigures> write_street(const StreetOptions& options, const fs::path& output) {
+Result<StreetStatistics> write_street(const StreetOptions& options, const fs::path& output) {
     RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "files of a street"));
     const fs::path map = staged.temporary_path() / "maps" / options.name / "anim";
     const fs::path models = staged.temporary_path() / "models";
     std::error_code error;
     for (const fs::path& folder : {map / "configs", map / "out", models / "source" / "cars"}) {
         fs::create_directories(folder, error);
-        if (error) return Error{folder.string() + ": cannot be made; choose another folder"};
+        if (error) return Error{folder.string() + ": cannot be created; choose another folder"};
     }
     const Street street = make_street(options);
     const std::map<std::string, Box> boxes = boxes_of(street.world);
     std::string still;
-    StreetFigures figures;
+    StreetStatistics figures;
     std::set<std::string> instanced;
-    for (const Standing& standing : street.standing) {
-        still += standing_line(standing, boxes.at(standing.object));
-        figures.static_triangles += triangles_of(street.world, standing.object);
-        instanced.insert(standing.object);
+    for (const StaticInstance& instance : street.instances) {
+        still += instance_line(instance, boxes.at(instance.object));
+        figures.static_triangles += triangles_of(street.world, instance.object);
+        instanced.insert(instance.object);
     }
     for (const auto& [object, box] : boxes) {
         if (!instanced.contains(object)) figures.static_triangles += triangles_of(street.world, object);
@@ -327,7 +327,7 @@ Result<StreetFigures> write_street(const StreetOptions& options, const fs::path&
         const fs::path file = fs::path(options.objects) / (object.name + ".rso");
         still += line_of("instance", (fs::path("..") / file).generic_string(), object.foot, object.turn_deg,
                          object.size, "-");
-        std::error_code ignored;  // the folder itself may not be there yet
+        std::error_code ignored;  // the folder may not exist yet
         if (!fs::exists((fs::absolute(output) / file).lexically_normal(), ignored)) {
             figures.missing.insert(file.filename().string());
         }

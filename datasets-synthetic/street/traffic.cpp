@@ -16,17 +16,17 @@ constexpr double kStep_s = 0.02;
 constexpr double kAcceleration = 1.8;  // m/s^2
 constexpr double kBraking = 3.0;       // comfortable
 constexpr double kHardBraking = 7.0;
-constexpr double kGap_m = 2.2;        // between vehicles that stand
-constexpr double kStopLine_m = 12.3;  // before the middle of the crossing
+constexpr double kGap_m = 2.2;        // between stopped vehicles
+constexpr double kStopLine_m = 12.3;  // before the centre of the crossing
 constexpr double kAllRed_s = 3;
 
 struct Driver {
     const VehicleModel* model = nullptr;
-    double along_m = 0;  // of its middle, from the middle of the crossing
+    double along_m = 0;  // position of its centre relative to the centre of the crossing
     double speed_mps = 0;
     double wish_mps = 10;
     std::size_t source = 0;
-    int number = 0;  // of the source
+    int number = 0;  // index within its source
 };
 
 bool is_main(Lane lane) {
@@ -45,7 +45,7 @@ bool is_green(const Scenario& scenario, bool main, double seconds) {
     return phase >= begin && phase < begin + scenario.cross_green_s;
 }
 
-VehiclePlace place_of(const Driver& driver, Lane lane) {
+VehiclePose place_of(const Driver& driver, Lane lane) {
     const double a = driver.along_m;
     constexpr double o = kLaneOffset_m;
     switch (lane) {
@@ -90,7 +90,7 @@ public:
         frame.view = view;
         for (std::size_t lane = 0; lane < 4; ++lane) {
             for (const Driver& driver : lanes_.at(lane)) {
-                const VehiclePlace place = place_of(driver, static_cast<Lane>(lane));
+                const VehiclePose place = place_of(driver, static_cast<Lane>(lane));
                 if (scenario_.ride && driver.source == *scenario_.ride && driver.number == 0) {
                     const glm::dvec3 ahead = direction_of(static_cast<Lane>(lane));
                     frame.view.eye = place.place + 0.35 * ahead + glm::dvec3(0, 1.45, 0);
@@ -112,7 +112,7 @@ private:
             std::vector<Driver>& lane = lanes_.at(static_cast<std::size_t>(source.lane));
             Driver driver;
             driver.along_m = -reach(source.lane);
-            // The road must be free; else it waits.
+            // Waits until the road is free.
             if (!lane.empty() && lane.back().along_m - driver.along_m < 14) continue;
             std::vector<const VehicleModel*> fitting;
             for (const VehicleModel& model : vehicle_models()) {
@@ -140,7 +140,7 @@ private:
                 double gap = 1e9;
                 if (ahead) gap = ahead->along_m - ahead->model->length_m / 2 - driver.along_m - half - kGap_m;
                 const double to_line = -kStopLine_m - driver.along_m - half;
-                // Who cannot stop any more drives on.
+                // Vehicles that can no longer stop continue.
                 const bool can_stop = to_line > driver.speed_mps * driver.speed_mps / (2 * kHardBraking) - 0.1;
                 if (!green && to_line > -0.5 && can_stop) gap = std::min(gap, to_line);
                 drive(driver, gap);
@@ -159,14 +159,14 @@ private:
     }
 
     const Scenario& scenario_;
-    std::array<std::vector<Driver>, 4> lanes_;  // the foremost first
+    std::array<std::vector<Driver>, 4> lanes_;  // sorted from front to back
     std::vector<int> entered_;
     std::vector<Random> chances_;
     double now_ = kBegin_s;
     int steps_ = 0;
 };
 
-// Catmull-Rom through the views.
+// Catmull-Rom interpolation of the views.
 StreetView view_along(const std::vector<StreetView>& path, double share) {
     if (path.empty()) return {{-44, 1.9, 5.6}, {0, 2, 0}};
     const double at = share * static_cast<double>(path.size() - 1);

@@ -1,6 +1,6 @@
 #pragma once
-// Traffic, simulated: vehicles follow one another and stop at red lights. The same scenario gives the same positions on
-// every machine (only + - * / sqrt decide).
+// Traffic simulation: vehicles follow each other and stop at red lights. The same scenario yields the same positions on
+// every machine (only + - * / sqrt are used).
 
 #include "datasets-synthetic/street/scenario.hpp"
 
@@ -11,19 +11,19 @@
 
 namespace rs::synthetic {
 
-// Where lanes lie: metres from the middle of the crossing.
+// Positions of the lanes in metres from the centre of the crossing.
 inline constexpr double kLaneOffset_m = 2;
-inline constexpr double kMainReach_m = 150;  // vehicles of the main street come and go there
+inline constexpr double kMainReach_m = 150;  // where vehicles of the main street appear and disappear
 inline constexpr double kCrossReach_m = 90;
 
-struct VehiclePlace {
+struct VehiclePose {
     std::string model;    // of vehicle_models()
-    glm::dvec3 place{0};  // of its middle, on the ground
-    double turn_deg = 0;  // about Y; at 0 it drives towards +X
+    glm::dvec3 place{0};  // of its centre, on the ground
+    double turn_deg = 0;  // about Y; 0: towards +X
 };
 
 struct TrafficFrame {
-    std::vector<VehiclePlace> vehicles;  // but for the one that is ridden
+    std::vector<VehiclePose> vehicles;  // without the vehicle that carries the camera
     StreetView view;
 };
 
@@ -32,10 +32,10 @@ struct VehicleModel {
     Vehicle kind = Vehicle::kHatchback;
     double length_m = 4.2;
 };
-// In the order in which chance draws them.
+// In the order of the random selection.
 const std::vector<VehicleModel>& vehicle_models();
 
-// One for each frame; of the whole scenario.
+// Simulates the whole scenario; one entry per frame.
 std::vector<TrafficFrame> simulate_traffic(const Scenario& scenario);
 
 }  // namespace rs::synthetic

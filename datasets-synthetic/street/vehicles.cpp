@@ -23,7 +23,7 @@ void wheels(Pen& pen, std::initializer_list<float> axles, float half_width, floa
     }
 }
 
-// A window of the outline on both sides, and what is seen of it through the front and the back.
+// Lamps at the front and the back, on both sides.
 void lamps(Pen& pen, float front, float back, float half_width, float height, float size) {
     for (const float side : {-1.0F, 1.0F}) {
         const float z = side * (half_width - 0.26F);
@@ -109,7 +109,7 @@ void bus(Pen& pen, const std::string& paint) {
                            {-5.262F, 1.5F, w - 0.2F},
                            {-5.25F, 2.4F, w - 0.2F},
                            {-5.25F, 2.4F, -w + 0.2F}});
-    pen.box("headlamp", {5.0F, 2.62F, -0.7F}, {5.17F, 2.84F, 0.7F});  // where it goes to
+    pen.box("headlamp", {5.0F, 2.62F, -0.7F}, {5.17F, 2.84F, 0.7F});  // destination display
     pen.box("trim", {5.0F, 0.3F, -w + 0.03F}, {5.29F, 0.52F, w - 0.03F});
     lamps(pen, 5.22F, -5.25F, w, 0.72F, 0.2F);
     wheels(pen, {3.1F, -2.9F}, w + 0.05F, 0.46F);

@@ -1,5 +1,5 @@
 #pragma once
-// Cars, vans and buses (traffic.hpp, vehicle_models()), as objects of one model file. Pure.
+// Models of cars, vans and buses (traffic.hpp, vehicle_models()) as objects of one model file. Pure.
 
 #include "datasets-synthetic/showroom/world.hpp"
 
@@ -8,7 +8,7 @@
 
 namespace rs::synthetic {
 
-// Each drives towards +X, its wheels on y = 0. Lamps shine by themselves at night: their looks are added to `unlit`.
+// Vehicles face +X with their wheels on y = 0. At night lamps are emissive: their looks are added to `unlit`.
 World make_vehicles(bool night, std::set<std::string>& unlit);
 
 }  // namespace rs::synthetic

@@ -1,9 +1,5 @@
-// rs-showroom: writes our shop and museum as a VRML97 world that shows the procedural objects, or rooms that renderers
-// are measured with.
+// rs-showroom: writes a shop and a museum as a VRML97 world that shows the procedural objects.
 
-#include "datasets-synthetic/measuring/cabin.hpp"
-#include "datasets-synthetic/measuring/hall.hpp"
-#include "datasets-synthetic/measuring/model_file.hpp"
 #include "datasets-synthetic/showroom/showroom.hpp"
 #include "datasets-synthetic/showroom/world_file.hpp"
 #include "rayspace/tool/tool_main.hpp"
@@ -18,7 +14,6 @@ namespace {
 
 struct Options {
     std::filesystem::path output;
-    std::string scene = "showroom";
     std::string objects = "..";
     bool small = false;
 };
@@ -38,45 +33,26 @@ rs::Status run_showroom(const Options& options) {
     return {};
 }
 
-rs::Status run_measuring(const Options& options) {
-    const rs::synthetic::Model model = options.scene == "cabin"  ? rs::synthetic::make_cabin()
-                                       : options.scene == "hall" ? rs::synthetic::make_hall()
-                                                                 : rs::synthetic::make_great_hall();
-    if (rs::Status written = rs::synthetic::write_model(model, options.output, options.scene); !written) return written;
-    std::printf("%s: %lld triangles, %zu nodes, %zu viewpoints\n",
-                (options.output / (options.scene + ".gltf")).string().c_str(),
-                static_cast<long long>(rs::synthetic::triangle_count(model)), model.nodes.size(), model.views.size());
-    return {};
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app(
-        "Writes a shop and a museum room (VRML97, textures, a way through them) that show the procedural objects, or a "
-        "room that renderers are measured with (glTF, a list of lights)",
-        "rs-showroom");
+    CLI::App app("Writes a shop and a museum (VRML97, textures, a camera path) that show the procedural objects",
+                 "rs-showroom");
     Options options;
     app.add_option("-o,--output", options.output,
-                   "Folder to write: showroom.wrl, showroom-walk.json, evening.json, textures; or SCENE.gltf, "
-                   "SCENE.bin, lights.json, textures")
+                   "Folder to write: showroom.wrl, showroom-walk.json, evening.json, textures")
         ->required();
-    app.add_option("--scene", options.scene,
-                   "showroom; hall (66,450 triangles), great-hall (150,220) or cabin (2,800,000, 49 lights)")
-        ->capture_default_str()
-        ->check(CLI::IsMember({"showroom", "hall", "great-hall", "cabin"}));
     app.add_option("--objects", options.objects,
-                   "Folder of vase.rso, flower.rso, doll.rso, lamp.rso, lattice.rso and blocks.rso, as seen from the "
-                   "folder that is written")
+                   "Folder of vase.rso, flower.rso, doll.rso, lamp.rso, lattice.rso and blocks.rso, relative to the "
+                   "output folder")
         ->capture_default_str();
-    app.add_flag("--small", options.small, "Textures of a quarter of the resolution");
+    app.add_flag("--small", options.small, "Write the textures at a quarter of the resolution");
     app.footer(
-        "Examples:\n  rs-showroom -o showroom && rs-view showroom/showroom.wrl --viewpoint museum -o museum.png\n"
-        "  rs-view showroom/showroom.wrl --lights showroom/evening.json --exposure 3 --renderer path -o evening.png\n"
-        "  rs-showroom --scene hall -o hall && rs-view hall/hall.gltf --lights hall/lights.json --renderer whitted -o "
-        "hall.png");
+        "Examples:\n  rs-showroom -o showroom && rs-view render showroom/showroom.wrl --viewpoint museum -o "
+        "museum.png\n  rs-view render showroom/showroom.wrl --lights showroom/evening.json --exposure 3 --renderer "
+        "path "
+        "-o evening.png");
     std::function<rs::Status()> run;
-    app.callback(
-        [&] { run = [&] { return options.scene == "showroom" ? run_showroom(options) : run_measuring(options); }; });
+    app.callback([&] { run = [&] { return run_showroom(options); }; });
     return rs::tool_main(app, argc, argv, run);
 }

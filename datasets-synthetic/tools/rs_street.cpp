@@ -27,7 +27,7 @@ rs::Status run_street(const Options& options) {
     rs::synthetic::StreetOptions street;
     street.name = options.name;
     street.objects = options.objects;
-    street.scenario = rs::synthetic::usual_scenario();
+    street.scenario = rs::synthetic::default_scenario();
     if (options.small) street.texture_scale = 0.25F;
     if (!options.scenario.empty()) {
         RS_ASSIGN_OR_RETURN(const auto scenario, rs::synthetic::read_scenario(options.scenario));
@@ -41,8 +41,8 @@ rs::Status run_street(const Options& options) {
                 figures.static_triangles);
     if (!figures.missing.empty()) {
         std::fprintf(stderr,
-                     "rs-street: its shops show %s, which are not in %s as seen from there; make them with rs-encode "
-                     "build, or leave --objects out\n",
+                     "rs-street: shop windows refer to %s, missing in %s (relative to the output folder); create them "
+                     "with rs-encode build, or omit --objects\n",
                      rs::listed(std::vector(figures.missing.begin(), figures.missing.end()), 3).c_str(),
                      options.objects.c_str());
     }
@@ -58,19 +58,19 @@ int main(int argc, char** argv) {
     app.add_option("-o,--output", options.output, "Folder to write: maps/NAME/anim/out/frames.json, models/")
         ->required();
     app.add_option("--scenario", options.scenario,
-                   "JSON: who drives, when, and who looks (datasets-synthetic/README.md); ten seconds of an ordinary "
-                   "day without it")
+                   "JSON: traffic, time and camera (datasets-synthetic/README.md); default: ten seconds by day")
         ->type_name("FILE.json");
-    app.add_option("--time", options.time, "In place of the scenario's")->check(CLI::IsMember({"day", "night"}));
-    app.add_option("--seconds", options.seconds, "In place of the scenario's")->check(CLI::Range(0.1, 3600.0));
+    app.add_option("--time", options.time, "Overrides the scenario's time of day")
+        ->check(CLI::IsMember({"day", "night"}));
+    app.add_option("--seconds", options.seconds, "Overrides the scenario's duration")->check(CLI::Range(0.1, 3600.0));
     app.add_option("--objects", options.objects,
                    "Folder of vase.rso, flower.rso, doll.rso, lamp.rso, lattice.rso and blocks.rso for shop windows, "
-                   "as seen from the folder that is written; without it, the windows stand empty");
-    app.add_option("--name", options.name, "Of the map")->capture_default_str();
-    app.add_flag("--small", options.small, "Textures of a quarter of the resolution");
+                   "relative to the output folder; without it, the windows are empty");
+    app.add_option("--name", options.name, "Name of the map")->capture_default_str();
+    app.add_flag("--small", options.small, "Textures at a quarter of the resolution");
     app.footer(
-        "Examples:\n  rs-street -o town --objects .. && rs-view --sequence town/maps/street -o street.mp4\n"
-        "  rs-street -o evening --time night --seconds 4 && rs-view --sequence evening --weather rain -o rain.mp4");
+        "Examples:\n  rs-street -o town --objects .. && rs-view sequence town/maps/street -o street.mp4\n"
+        "  rs-street -o evening --time night --seconds 4 && rs-view sequence evening --weather rain -o rain.mp4");
     std::function<rs::Status()> run;
     app.callback([&] { run = [&] { return run_street(options); }; });
     return rs::tool_main(app, argc, argv, run);

@@ -26,7 +26,7 @@ CostTable::CostTable(const Probabilities& probabilities) {
         }
         const int size = (kind & 2) != 0 ? codec::kMacroblock : codec::kBlock;
         for (int place = 0; place < size * size; ++place) {
-            Estimator estimator(*this);
+            CostEstimator estimator(*this);
             codec::syntax::last_place(estimator, kind, size, place);
             last_[static_cast<std::size_t>(kPlaces * kind + place)] = estimator.bits();
         }
@@ -34,7 +34,7 @@ CostTable::CostTable(const Probabilities& probabilities) {
 }
 
 float CostTable::large_level(int kind, int band, int near, bool must_be, int magnitude) const {
-    Estimator estimator(*this);
+    CostEstimator estimator(*this);
     if (codec::syntax::magnitude(estimator, kind, band, near, must_be, magnitude) != 0) estimator.raw(0);
     return estimator.bits();
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The encoder's two coders for rayspace/codec/syntax.hpp: one that adds up what decisions would cost, and one that
-// keeps them until the probabilities are known.
+// Two coders for rayspace/codec/syntax.hpp: CostEstimator adds up the cost of decisions, SymbolBuffer stores decisions
+// until the probabilities are known.
 
 #include "rayspace/codec/code/contexts.hpp"
 #include "rayspace/codec/kernels/transform.hpp"
@@ -13,25 +13,25 @@ namespace rs::encode {
 
 using Probabilities = std::array<std::uint16_t, codec::context::kCount>;
 
-// What each decision costs, in bits, and what levels cost as a whole. 48 kB; to be read by several threads at once.
+/// Costs in bits of single decisions and of whole levels, tabulated. 48 kB. Concurrent reads are safe.
 class CostTable {
 public:
-    static constexpr int kTabled = 16;  // levels 0 .. kTabled - 1 have a table
+    static constexpr int kTabled = 16;  // levels 0 .. kTabled - 1 are tabulated
     using LevelCosts = std::array<float, kTabled>;
 
     explicit CostTable(const Probabilities& probabilities);
     [[nodiscard]] float of(int context, int bit) const { return bits_[static_cast<std::size_t>(2 * context + bit)]; }
 
-    // Of the magnitudes 0 .. kTabled - 1 with their signs; `must_be`: known not to be 0.
+    /// Costs of the magnitudes 0 .. kTabled - 1 with their signs; `must_be`: the level is known not to be 0.
     [[nodiscard]] const LevelCosts& levels(int kind, int band, int near, bool must_be) const {
         return levels_[level_row(kind, band, near, must_be)];
     }
-    // The same of any magnitude.
+    /// Cost of any magnitude.
     [[nodiscard]] float level(int kind, int band, int near, bool must_be, int magnitude) const {
         return magnitude < kTabled ? levels(kind, band, near, must_be)[static_cast<std::size_t>(magnitude)]
                                    : large_level(kind, band, near, must_be, magnitude);
     }
-    // Of the scan place of a block's last level; the kind states how large the block is.
+    /// Cost of the scan position of a block's last level. `kind` determines the block's size.
     [[nodiscard]] float last_place(int kind, int place) const {
         return last_[static_cast<std::size_t>(kPlaces * kind + place)];
     }
@@ -51,9 +51,9 @@ private:
     std::array<float, static_cast<std::size_t>(codec::context::kBlockKinds* kPlaces)> last_{};
 };
 
-class Estimator {
+class CostEstimator {
 public:
-    explicit Estimator(const CostTable& costs) : costs_(costs) {}
+    explicit CostEstimator(const CostTable& costs) : costs_(costs) {}
     int bit(int context, int value) {
         bits_ += costs_.of(context, value);
         return value;
@@ -69,7 +69,7 @@ private:
     float bits_ = 0;
 };
 
-// One decision: context * 2 + bit; the context kCount stands for one of even chances.
+/// A decision: context * 2 + bit. The context kCount denotes a bit of probability 1/2.
 using Decision = std::uint16_t;
 
 class SymbolBuffer {

@@ -1,7 +1,6 @@
 #include "encode/codec/dense_encoder.hpp"
 
 #include "encode/codec/coders.hpp"
-#include "encode/codec/fidelity.hpp"
 #include "encode/codec/ring_references.hpp"
 #include "encode/codec/source_image.hpp"
 #include "encode/codec/tile_encoder.hpp"
@@ -42,7 +41,7 @@ public:
         coded_.tile_height_log2 = settings.tile_height_log2;
         coded_.dense.chroma_step_offset = settings.chroma_offset;
         coded_.dense.probabilities.fill(2048);
-        if (coded_.dense.has_edge_alpha()) coded_.dense.edge_alpha = usual_edge_alpha(sources);
+        if (coded_.dense.has_edge_alpha()) coded_.dense.edge_alpha = estimate_edge_alpha(sources);
         start_probabilities();
         coded_.levels.assign(object.views.size(), 0);
         coded_.images.resize(object.views.size());
@@ -63,21 +62,21 @@ public:
             for (const auto& jobs : jobs_) count += static_cast<std::int64_t>(jobs.size());
             progress_->start("encoding", count + count / effort.sampled);
         }
-        // The first pass finds the probabilities, and so the prices of the second, and the global motion.
+        // The first pass measures the probabilities, which are the prices of the second pass, and the global motion.
         if (effort.sampled > 1) start_with_sources();
         run_pass(effort.first_pass, effort.sampled);
         for (std::size_t v = 0; v < work_.size(); ++v) set_global_motion(v);
         run_pass(effort.unit, 1);
         write_tiles();
         if (progress_ != nullptr) progress_->finish();
-        const double psnr_db =
-            coded_psnr(sources_, object_.width, object_.height, settings_.alpha_bits,
-                       [&](std::size_t v) { return codec::views_of(std::as_const(work_[v].reconstruction)); });
+        const double psnr_db = measure_coded_psnr(
+            sources_, object_.width, object_.height, settings_.alpha_bits,
+            [&](std::size_t v) { return codec::plane_views(std::as_const(work_[v].reconstruction)); });
         return {std::move(coded_), psnr_db};
     }
 
 private:
-    // Rough prices for the first pass: zeros are likelier the higher the coefficient.
+    // Initial probabilities for the first pass: zeros are likelier the higher the coefficient.
     void start_probabilities() {
         namespace context = codec::context;
         auto& p = coded_.dense.probabilities;
@@ -97,7 +96,7 @@ private:
         }
     }
 
-    // Levels, references and steps.
+    // Assigns progressive levels, references and steps.
     void plan() {
         const double base = std::log2(std::max(settings_.step, 1.0)) * 8;
         for (const Ring& ring : object_.rings) {
@@ -154,7 +153,7 @@ private:
         return jobs;
     }
 
-    // What images are predicted from where not all their tiles are coded.
+    // Initialises the reference samples with the sources, for a pass that does not code all tiles.
     void start_with_sources() {
         for_each_index(work_.size(), [&](std::size_t v) {
             for (std::size_t p = 0; p < 3; ++p) work_[v].reconstruction[p] = sources_[v].planes[p];
@@ -167,7 +166,7 @@ private:
         });
     }
 
-    // Codes every `sampled`-th tile, and takes the probabilities from what was coded.
+    // Codes every `sampled`-th tile and updates the probabilities from the decisions.
     void run_pass(const UnitEffort& effort, int sampled) {
         const CostTable costs(coded_.dense.probabilities);
         for (int level = 0; level < kProgressiveLevels; ++level) {
@@ -188,7 +187,7 @@ private:
         train();
     }
 
-    // One per view; those of other levels stay empty.
+    // One task per view; tasks of other levels stay empty.
     std::vector<ImageTask> tasks_of_level(int level, const UnitEffort& effort) {
         std::vector<ImageTask> tasks(work_.size());
         for (std::size_t v = 0; v < work_.size(); ++v) {
@@ -201,9 +200,9 @@ private:
             task.reach = work_[v].reach;
             const float step = static_cast<float>(codec::step_q4(task.head.step)) / 16.0F;
             task.lambda = settings_.lambda_factor * kPlaneWeights[0] * step * step;
-            task.out = codec::views_of(work_[v].reconstruction);
+            task.out = codec::plane_views(work_[v].reconstruction);
             for (std::size_t r = 0; r < static_cast<std::size_t>(task.head.references()); ++r) {
-                task.references[r] = codec::views_of(std::as_const(work_[task.head.reference[r]].reconstruction));
+                task.references[r] = codec::plane_views(std::as_const(work_[task.head.reference[r]].reconstruction));
             }
         }
         return tasks;

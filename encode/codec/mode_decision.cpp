@@ -20,17 +20,17 @@ using codec::MotionVector;
 using codec::PredictionUnit;
 using codec::Source;
 using codec::UnitChoice;
-using codec::UnitPlace;
+using codec::UnitPosition;
 
 constexpr int kMacroblockSamples = kMacroblock * kMacroblock;
-constexpr float kNever = std::numeric_limits<float>::max();
+constexpr float kInfiniteCost = std::numeric_limits<float>::max();
 
-// Up to this squared error, in squared steps, no coefficient of an orthonormal transform reaches half a step.
+// Residuals up to this squared error, in squared steps, have no coefficient that reaches half a step.
 constexpr float kNothingToCode = 0.25F;
 
-// One transform of a plane: what is wanted, predicted, and which samples are valid.
+// Target of one transform of a plane: source samples, prediction, and the mask of valid samples.
 struct TransformTarget {
-    MaskedSamples samples;
+    SampleBlock samples;
     const std::uint8_t* predicted = nullptr;
     std::ptrdiff_t stride = 0;
     bool all_valid = true;
@@ -40,7 +40,8 @@ struct TransformTarget {
     }
 };
 
-// Levels for the target; returns whether there are any. `reconstruction` receives the decoder's samples (size * size).
+// Quantises the target. Returns true if any level is not zero. `reconstruction` receives the decoder's samples (size *
+// size).
 bool code_transform(const TransformTarget& target, const QuantiserSettings& settings, const CostTable& costs,
                     int refits, codec::Levels& levels, int& last, std::uint8_t* reconstruction) {
     const int size = target.samples.size;
@@ -93,15 +94,15 @@ void ModeDecision::Candidate::put(UnitChoice& choice) const {
     choice.motion = motion;
 }
 
-std::span<const ModeDecision::Candidate*> ModeDecision::Candidates::likeliest(int count) {
+std::span<const ModeDecision::Candidate*> ModeDecision::Candidates::select_best(int count) {
     for (std::size_t i = 0; i < count_; ++i) order_[i] = &all_[i];
     std::stable_sort(order_.begin(), order_.begin() + static_cast<std::ptrdiff_t>(count_),
                      [](const Candidate* a, const Candidate* b) { return a->estimate < b->estimate; });
     return std::span(order_).first(std::min(count_, static_cast<std::size_t>(count)));
 }
 
-UnitPlace ModeDecision::place_of(const PredictionUnit& unit) const {
-    return codec::place_of_unit(state_.grid, unit, left_, top_);
+UnitPosition ModeDecision::position_of(const PredictionUnit& unit) const {
+    return codec::unit_position(state_.grid, unit, left_, top_);
 }
 
 template <class Coder>
@@ -111,8 +112,8 @@ void ModeDecision::code_alpha(Coder& coder, const PredictionUnit& unit, const Un
         const int by = unit.by + i / unit.blocks();
         if (state_.grid.at(bx, by).alpha != codec::AlphaClass::kMixed) continue;
         codec::code_block_mask(coder, state_.alpha, bx, by, [&](int x, int y) {
-            return codec::predicted_mask(
-                codec::interpolated_alpha(choice.source, choice.motion, task_.references, left_ + x, top_ + y));
+            return codec::mask_context(
+                codec::interpolate_alpha(choice.source, choice.motion, task_.references, left_ + x, top_ + y));
         });
     }
 }
@@ -125,38 +126,37 @@ void ModeDecision::write(const PredictionUnit& unit, UnitChoice& choice, SymbolB
 }
 
 void ModeDecision::commit(const PredictionUnit& unit, const UnitChoice& choice) const {
-    codec::reconstruct_unit(choice, place_of(unit), task_.head.step, *task_.code, task_.references, task_.out);
-    codec::enter_unit(state_.grid, unit, choice);
+    codec::reconstruct_unit(choice, position_of(unit), task_.head.step, *task_.code, task_.references, task_.out);
+    codec::record_unit(state_.grid, unit, choice);
 }
 
-MaskedSamples ModeDecision::samples_of(const UnitPlace& place, int plane) const {
+SampleBlock ModeDecision::target_samples(const UnitPosition& place, int plane) const {
     const Image<std::uint8_t>& wanted = task_.source->planes[static_cast<std::size_t>(plane)];
     return {wanted.row(place.y) + place.x, task_.source->valid.row(place.y) + place.x, wanted.width(), place.size};
 }
 
-// Enters what the candidate costs before anything is coded, and what all together looks like.
-void ModeDecision::weigh(const PredictionUnit& unit, UnitChoice& trial, Candidate& candidate) const {
-    const UnitPlace place = place_of(unit);
+// Estimates the candidate's cost before coding: its head cost and its total.
+void ModeDecision::estimate_cost(const PredictionUnit& unit, UnitChoice& trial, Candidate& candidate) const {
+    const UnitPosition place = position_of(unit);
     candidate.take(trial);
     const codec::UnitSurroundings around{task_.head.references(), task_.head.global_motion};
-    Estimator bits(costs_);
+    CostEstimator bits(costs_);
     codec::code_prediction(bits, state_.grid, unit, around, trial);
     code_alpha(bits, unit, trial);
     candidate.head_cost = task_.lambda * bits.bits();
     float left = 0;
     for (int plane = 0; plane < codec::kPlanes; ++plane) {
-        left +=
-            static_cast<float>(hadamard_differences(samples_of(place, plane), candidate.predicted[plane], unit.size));
+        left += static_cast<float>(
+            hadamard_differences(target_samples(place, plane), candidate.predicted[plane], unit.size));
     }
     candidate.estimate = left + bit_cost() * bits.bits();
 }
 
-// Finds coefficients of the wanted sizes of transforms for the candidate; replaces `choice` and `best` by it where it
-// costs less.
+// Codes the candidate's residual with the given transform sizes. Replaces `choice` and `best` if it costs less.
 void ModeDecision::evaluate(const PredictionUnit& unit, const Candidate& candidate, Transforms transforms,
                             UnitChoice& trial, UnitChoice& choice, float& best) const {
     if (candidate.head_cost >= best) return;
-    const UnitPlace place = place_of(unit);
+    const UnitPosition place = position_of(unit);
     candidate.put(trial);
     const bool inter = is_inter(trial.source);
     bool all_valid = true;
@@ -167,13 +167,13 @@ void ModeDecision::evaluate(const PredictionUnit& unit, const Candidate& candida
     TransformTarget targets[codec::kPlanes];
     float plain_error = 0;
     for (int plane = 0; plane < codec::kPlanes; ++plane) {
-        targets[plane] = {samples_of(place, plane), candidate.predicted[plane], unit.size, all_valid};
+        targets[plane] = {target_samples(place, plane), candidate.predicted[plane], unit.size, all_valid};
         plain_error += kPlaneWeights[static_cast<std::size_t>(plane)] *
                        targets[plane].error_of(candidate.predicted[plane], unit.size);
     }
 
     const auto finish = [&](float error) {
-        Estimator bits(costs_);
+        CostEstimator bits(costs_);
         codec::code_coefficients(bits, state_.grid, unit, task_.code->sign_data_hiding, trial);
         const float cost = candidate.head_cost + error + task_.lambda * bits.bits();
         if (cost >= best) return;
@@ -219,11 +219,11 @@ void ModeDecision::evaluate(const PredictionUnit& unit, const Candidate& candida
     }
 }
 
-// Of the modes, the likeliest by Y alone.
+// Adds the intra modes of the lowest estimate, from Y alone.
 void ModeDecision::add_intra(const PredictionUnit& unit, UnitChoice& trial, Candidates& candidates) const {
-    const UnitPlace place = place_of(unit);
+    const UnitPosition place = position_of(unit);
     trial.source = Source::kIntra;
-    const MaskedSamples wanted = samples_of(place, 0);
+    const SampleBlock wanted = target_samples(place, 0);
     std::array<std::pair<int, int>, codec::kIntraModes> ranked;
     std::uint8_t predicted[codec::kIntraModes][kMacroblockSamples];
     const auto predict = [&](int plane, std::uint8_t* out) {
@@ -245,13 +245,13 @@ void ModeDecision::add_intra(const PredictionUnit& unit, UnitChoice& trial, Cand
         Candidate& candidate = candidates.add();
         std::copy_n(predicted[trial.intra_mode], unit.size * unit.size, candidate.predicted[0]);
         for (const int plane : {1, 2}) predict(plane, candidate.predicted[plane]);
-        weigh(unit, trial, candidate);
+        estimate_cost(unit, trial, candidate);
     }
 }
 
 void ModeDecision::add_inter(const PredictionUnit& unit, const UnitChoice* around, UnitChoice& trial,
                              Candidates& candidates) const {
-    const UnitPlace place = place_of(unit);
+    const UnitPosition place = position_of(unit);
     MotionSearch search;
     search.source = task_.source;
     search.x = place.x;
@@ -259,7 +259,7 @@ void ModeDecision::add_inter(const PredictionUnit& unit, const UnitChoice* aroun
     search.size = unit.size;
     search.bit_cost = bit_cost();
     search.neighbours = task_.effort.fractions;
-    std::array<FoundMotion, 2> found;
+    std::array<MotionMatch, 2> found;
     std::array<MotionVector, 2> from;
     const int references = task_.head.references();
     const auto add = [&](Source source) {
@@ -276,30 +276,30 @@ void ModeDecision::add_inter(const PredictionUnit& unit, const UnitChoice* aroun
                                       unit.size);
             codec::average_into(candidate.predicted[plane], unit.size, other, unit.size, unit.size);
         }
-        weigh(unit, trial, candidate);
+        estimate_cost(unit, trial, candidate);
     };
     for (int r = 0; r < references; ++r) {
         const auto n = static_cast<std::size_t>(r);
-        from[n] = codec::predicted_motion(state_.grid, unit, r, task_.head.global_motion[n]);
+        from[n] = codec::predict_motion(state_.grid, unit, r, task_.head.global_motion[n]);
         search.reference = task_.references[n][0];
         if (around != nullptr && is_inter(around->source)) {
             const std::array<MotionVector, 2> starts = {around->motion[n], from[n]};
             search.reach_x = 3;
             search.reach_y = 1;
             search.step = 1;
-            found[n] = find_motion(search, starts, from[n]);
+            found[n] = search_motion(search, starts, from[n]);
         } else {
             const std::array<MotionVector, 2> starts = {MotionVector{}, from[n]};
             search.reach_x = task_.reach[n];
             search.reach_y = 2;
             search.step = task_.effort.motion_step;
-            found[n] = find_motion(search, starts, from[n]);
+            found[n] = search_motion(search, starts, from[n]);
         }
         trial.motion[n] = found[n].vector;
     }
     for (int r = 0; r < references; ++r) add(r == 0 ? Source::kFirst : Source::kSecond);
     if (references < 2) return;
-    // Both: each once more, against the other.
+    // Bidirectional: refine each vector given the other's prediction.
     search.reach_x = 1;
     search.reach_y = 1;
     search.step = 1;
@@ -309,7 +309,7 @@ void ModeDecision::add_inter(const PredictionUnit& unit, const UnitChoice* aroun
                                   unit.size);
         search.reference = task_.references[r][0];
         const std::array<MotionVector, 1> starts = {trial.motion[r]};
-        trial.motion[r] = find_motion(search, starts, from[r], other).vector;
+        trial.motion[r] = search_motion(search, starts, from[r], other).vector;
     }
     add(Source::kBoth);
 }
@@ -319,11 +319,11 @@ float ModeDecision::choose(const PredictionUnit& unit, UnitChoice& choice, const
     Candidates candidates;
     if (task_.head.references() > 0) add_inter(unit, around, trial, candidates);
     add_intra(unit, trial, candidates);
-    const std::span<const Candidate*> likeliest = candidates.likeliest(task_.effort.coded);
+    const std::span<const Candidate*> select_best = candidates.select_best(task_.effort.coded);
     const Transforms transforms = task_.effort.all_transforms ? Transforms::kBoth : Transforms::kLarge;
-    float best = kNever;
+    float best = kInfiniteCost;
     const Candidate* winner = nullptr;
-    for (const Candidate* candidate : likeliest) {
+    for (const Candidate* candidate : select_best) {
         const float before = best;
         evaluate(unit, *candidate, transforms, trial, choice, best);
         if (best < before) winner = candidate;

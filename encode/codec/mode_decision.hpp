@@ -1,5 +1,5 @@
 #pragma once
-// The best choice for one unit of a tile.
+// Mode decision for one unit of a tile.
 
 #include "encode/codec/search_kernels.hpp"
 #include "encode/codec/tile_encoder.hpp"
@@ -13,13 +13,12 @@
 
 namespace rs::encode {
 
-// What the units of a tile know of each other. The masks and depths are those of the whole tile: where a unit's are
-// coded, only those before them are looked at, and a decoder has 0 in place of others only where they are not looked at
-// either.
+/// Shared state of a tile's units. Masks and depths cover the whole tile; coding a unit reads only those of units
+/// before it, as the decoder does.
 struct TileState {
     codec::TileGrid grid;
     codec::AlphaLevels alpha;   // mask
-    codec::AlphaLevels depths;  // of syntax::alpha_depth
+    codec::AlphaLevels depths;  // for syntax::alpha_depth
 };
 
 class ModeDecision {
@@ -27,36 +26,37 @@ public:
     ModeDecision(const ImageTask& task, const CostTable& costs, TileState& state, int left, int top)
         : task_(task), costs_(costs), state_(state), left_(left), top_(top) {}
 
-    // Fills `choice`; returns its weighted squared error and lambda * bits. The samples of the unit in task.out are
-    // used as scratch. `around`: the choice of the macroblock as a whole, whose vectors are tried too.
+    /// Chooses the modes of a unit. The samples of the unit in task.out are used as scratch.
+    /// \param around  choice of the macroblock as a whole, whose vectors are tried too; may be null.
+    /// \return weighted squared error plus lambda * bits.
     float choose(const codec::PredictionUnit& unit, codec::UnitChoice& choice,
                  const codec::UnitChoice* around = nullptr) const;
 
-    // Writes the unit's decisions.
+    /// Writes the unit's decisions.
     void write(const codec::PredictionUnit& unit, codec::UnitChoice& choice, SymbolBuffer& recorder) const;
 
-    // Reconstructs the unit in task.out and enters it into the grid.
+    /// Reconstructs the unit in task.out and records it in the grid.
     void commit(const codec::PredictionUnit& unit, const codec::UnitChoice& choice) const;
 
 private:
-    // A way to predict a unit.
+    // A prediction of a unit.
     struct Candidate {
         codec::Source source = codec::Source::kIntra;
         int intra_mode = 0;
         std::array<codec::MotionVector, 2> motion;
         float head_cost = 0;  // lambda * bits of prediction and alpha
-        float estimate = 0;   // for comparing before anything is coded: bits and what is left, as absolute differences
+        float estimate = 0;   // cost estimate before coding: bits and residual, as absolute differences
         std::uint8_t predicted[codec::kPlanes][codec::kMacroblock * codec::kMacroblock];  // rows of the unit's size
 
         void take(const codec::UnitChoice& choice);
         void put(codec::UnitChoice& choice) const;
     };
-    // Of one unit: three from images, the rest intra.
+    // Candidates of one unit: up to three inter, the rest intra.
     class Candidates {
     public:
         Candidate& add() { return all_[count_++]; }
-        // The `count` that look best, the best first.
-        std::span<const Candidate*> likeliest(int count);
+        // The `count` candidates of the lowest estimate, best first.
+        std::span<const Candidate*> select_best(int count);
 
     private:
         std::array<Candidate, 3 + codec::kIntraModes> all_;
@@ -65,11 +65,11 @@ private:
     };
     enum class Transforms : std::uint8_t { kLarge, kSmall, kBoth };  // kLarge: as large as the unit
 
-    [[nodiscard]] codec::UnitPlace place_of(const codec::PredictionUnit& unit) const;
-    [[nodiscard]] MaskedSamples samples_of(const codec::UnitPlace& place, int plane) const;
-    // The sum of absolute differences that a bit is worth.
+    [[nodiscard]] codec::UnitPosition position_of(const codec::PredictionUnit& unit) const;
+    [[nodiscard]] SampleBlock target_samples(const codec::UnitPosition& place, int plane) const;
+    // The sum of absolute differences equivalent to one bit.
     [[nodiscard]] float bit_cost() const { return std::sqrt(task_.lambda / kPlaneWeights[0]); }
-    void weigh(const codec::PredictionUnit& unit, codec::UnitChoice& trial, Candidate& candidate) const;
+    void estimate_cost(const codec::PredictionUnit& unit, codec::UnitChoice& trial, Candidate& candidate) const;
     void evaluate(const codec::PredictionUnit& unit, const Candidate& candidate, Transforms transforms,
                   codec::UnitChoice& trial, codec::UnitChoice& choice, float& best) const;
     void add_intra(const codec::PredictionUnit& unit, codec::UnitChoice& trial, Candidates& candidates) const;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kLargest = codec::kLargestTransform;
 
-// What quantise() knows of a place in scan order.
+// A position in scan order.
 struct ScanPlace {
     std::uint8_t place;  // v * size + u
     std::uint8_t band;
@@ -38,7 +38,7 @@ const std::array<ScanPlace, kSize * kSize>& scan_places() {
     return kPlaces;
 }
 
-// The magnitudes of Levels, 3 at most: syntax::near_sum() of them is five additions.
+// Magnitudes of Levels, limited to 3, so that syntax::near_sum() takes five additions.
 struct Magnitudes {
     std::uint8_t at[(kLargest + 2) * codec::Levels::kStride] = {};
 
@@ -51,14 +51,14 @@ struct Magnitudes {
     }
 };
 
-// Where a level is worth more or less than it costs: what quantise() knows of a transform.
+// Rate-distortion costs of one transform's levels.
 struct Quantiser {
     const std::int32_t* coefficients;
     const QuantiserSettings& settings;
     const CostTable& costs;
     const ScanPlace* scan;
     float step;   // in units of the coefficients
-    float scale;  // of their squared errors
+    float scale;  // factor of their squared errors
 
     [[nodiscard]] float magnitude(int i) const { return static_cast<float>(std::abs(coefficients[scan[i].place])); }
     [[nodiscard]] float distortion(int i, int level) const {
@@ -71,7 +71,8 @@ struct Quantiser {
     [[nodiscard]] float last_cost(int last) const { return settings.lambda * costs.last_place(settings.kind, last); }
 };
 
-// Makes the parities of the groups those of the signs that they hide, with the level changed by one that costs least.
+// Sign data hiding: changes one level per group, the cheapest, where the parity of the group's sum does not match the
+// hidden sign.
 class SignHider {
 public:
     SignHider(const Quantiser& quantiser, codec::Levels& levels, Magnitudes& magnitudes, int& last)
@@ -79,15 +80,15 @@ public:
 
     void hide() {
         for (int begin = last_ & ~(codec::syntax::kSignGroup - 1); begin >= 0; begin -= codec::syntax::kSignGroup) {
-            if (!agrees(begin)) mend(begin);
+            if (!is_parity_right(begin)) adjust_parity(begin);
         }
     }
 
 private:
     std::int16_t& at(int i) { return levels_.at[quantiser_.scan[i].at]; }
 
-    // Whether the group's parity is that of the sign that it hides, if it hides one.
-    bool agrees(int begin) {
+    // True if the group hides no sign, or its parity matches the hidden sign.
+    bool is_parity_right(int begin) {
         int highest = -1;
         int lowest = -1;
         int sum = 0;
@@ -101,7 +102,7 @@ private:
         return (sum & 1) == (at(lowest) < 0 ? 1 : 0);
     }
 
-    void mend(int begin) {
+    void adjust_parity(int begin) {
         const int end = std::min(begin + codec::syntax::kSignGroup - 1, last_);
         float best_cost = std::numeric_limits<float>::max();
         int best_place = -1;
@@ -119,9 +120,9 @@ private:
                                  : quantiser_.level_cost(i, near, i == last_, changed);
                 if (cost >= best_cost) continue;
                 const int level = quantiser_.coefficients[quantiser_.scan[i].place] < 0 ? -changed : changed;
-                // The parity changes in any case; the sign that is hidden only where a level comes or goes.
+                // Any change flips the parity; adding or removing a level may also change which sign is hidden.
                 at(i) = static_cast<std::int16_t>(level);
-                if ((size != 0 && changed != 0) || agrees(begin)) {
+                if ((size != 0 && changed != 0) || is_parity_right(begin)) {
                     best_cost = cost;
                     best_place = i;
                     best_level = level;
@@ -134,7 +135,7 @@ private:
         if (best_place == last_ && best_level == 0) last_ = last_below(last_);
     }
 
-    // The next place below that has a level; a group that is mended has two at least.
+    // The next lower position with a level; a group to be adjusted has at least two.
     int last_below(int i) {
         do --i;
         while (at(i) == 0);
@@ -153,7 +154,7 @@ bool quantise(const std::int32_t* coefficients, const QuantiserSettings& setting
               codec::Levels& levels, int& last) {
     const int size = settings.size;
     const int count = size * size;
-    const float unit = size == 8 ? 16.0F : 8.0F;  // of the coefficients, in orthonormal ones
+    const float unit = size == 8 ? 16.0F : 8.0F;  // scale of the coefficients relative to orthonormal ones
     const float step = static_cast<float>(codec::step_q4(settings.step)) / 16.0F * unit;
     const float inverse = 1 / step;
     const ScanPlace* const scan = size == 8 ? scan_places<8>().data() : scan_places<16>().data();
@@ -163,7 +164,8 @@ bool quantise(const std::int32_t* coefficients, const QuantiserSettings& setting
     while (start >= 0 && quantiser.magnitude(start) * inverse < 0.5F) --start;
     if (start < 0) return false;
 
-    // cost[i]: of coding place i; dropped[i]: of leaving it out; flagless[i]: of coding it as the last one.
+    // cost[i]: cost of coding position i; dropped[i]: cost of setting it to 0; flagless[i]: cost of coding it as the
+    // last one.
     std::array<float, kLargest * kLargest> cost;
     std::array<float, kLargest * kLargest> dropped;
     std::array<float, kLargest * kLargest> flagless;
@@ -192,7 +194,7 @@ bool quantise(const std::int32_t* coefficients, const QuantiserSettings& setting
         magnitudes.set(scan[i].at, best);
     }
 
-    // Where to stop: everything above the last one is dropped.
+    // Choose the last position: all levels above it are dropped.
     float below = 0;
     float all_dropped = 0;
     for (int i = 0; i <= start; ++i) all_dropped += dropped[static_cast<std::size_t>(i)];

@@ -1,5 +1,5 @@
 #pragma once
-// Which images of a ring one is predicted from: the nearest on either side that may serve.
+// Reference selection: the nearest eligible images of a ring on either side of an image.
 
 #include "rayspace/object/ray_space_object.hpp"
 
@@ -8,9 +8,9 @@
 
 namespace rs::encode {
 
-// Calls use(view, reach_px) for the nearest view before place n of the ring, then for the nearest behind it, of the
-// places p for which may_serve(p), of which there is one at least; once where both are the same view. `reach_px`: how
-// far sideways surfaces of an image of `width` pixels may have moved between the two, within 8 .. most_reach_px.
+/// Calls use(view, reach_px) for the nearest view before position n of the ring, then for the nearest after it, among
+/// the positions p for which may_serve(p) is true (at least one). Calls it once if both are the same view. `reach_px`:
+/// the largest horizontal displacement of surfaces between the two images of `width` pixels, within 8 .. most_reach_px.
 template <class MayServe, class Use>
 void for_ring_references(const Ring& ring, int n, int width, int most_reach_px, const MayServe& may_serve,
                          const Use& use) {

@@ -1,5 +1,5 @@
 #pragma once
-// How much the dense encoder tries. tests/bench/ENCODER.md has what every effort costs and gains.
+// Effort levels of the dense encoder's search. docs/notes/codec.md lists the time and gain of each level.
 
 #include <algorithm>
 #include <array>
@@ -7,24 +7,24 @@
 namespace rs::encode {
 
 inline constexpr int kLeastEffort = 1;
-inline constexpr int kMostEffort = 9;
-inline constexpr int kUsualEffort = 5;
+inline constexpr int kMaxEffort = 9;
+inline constexpr int kDefaultEffort = 5;
 
-// What is tried for each unit.
+/// Search effort per unit.
 struct UnitEffort {
-    int intra = 4;               // modes of intra prediction that are looked at closely
-    int coded = 7;               // predictions that are coded in full, of those that look best
-    int refits = 2;              // times a unit with samples that are not valid is coded anew
-    bool all_transforms = true;  // both sizes for each prediction; else small ones for the best prediction alone
-    bool all_splits = true;      // quarters even where the whole needs no coefficients
+    int intra = 4;               // intra modes that are evaluated with all planes
+    int coded = 7;               // predictions that are coded in full, best estimates first
+    int refits = 2;              // repetitions of the transform for units with invalid samples
+    bool all_transforms = true;  // both sizes for each prediction; else small ones for the best prediction only
+    bool all_splits = true;      // try splitting even if the whole unit needs no coefficients
     int motion_step = 1;         // MotionSearch::step
-    int fractions = 8;           // neighbours in halves and quarters of a sample: 8, or 4
+    int fractions = 8;           // MotionSearch::neighbours
 };
 
 struct SearchEffort {
     UnitEffort unit;
-    UnitEffort first_pass;  // of the pass that only finds the probabilities
-    int sampled = 1;        // the first pass takes every so many-th tile
+    UnitEffort first_pass;  // effort of the pass that only measures the probabilities
+    int sampled = 1;        // the first pass codes every `sampled`-th tile
 };
 
 constexpr SearchEffort search_effort(int effort) {
@@ -35,16 +35,16 @@ constexpr SearchEffort search_effort(int effort) {
     constexpr UnitEffort kMore{4, 4, 1, false, true, 1, 8};
     constexpr UnitEffort kMuch{4, 5, 2, true, true, 1, 8};
     constexpr UnitEffort kAll{};
-    constexpr std::array<SearchEffort, kMostEffort> kEfforts = {{{kLeast, kLeast, 8},
-                                                                 {kLess, kLeast, 8},
-                                                                 {kSome, kLeast, 4},
-                                                                 {kSome, kLess, 4},
-                                                                 {kUsual, kLess, 4},
-                                                                 {kUsual, kSome, 2},
-                                                                 {kMore, kSome, 2},
-                                                                 {kMuch, kUsual, 1},
-                                                                 {kAll, kAll, 1}}};
-    return kEfforts[static_cast<std::size_t>(std::clamp(effort, kLeastEffort, kMostEffort) - 1)];
+    constexpr std::array<SearchEffort, kMaxEffort> kEfforts = {{{kLeast, kLeast, 8},
+                                                                {kLess, kLeast, 8},
+                                                                {kSome, kLeast, 4},
+                                                                {kSome, kLess, 4},
+                                                                {kUsual, kLess, 4},
+                                                                {kUsual, kSome, 2},
+                                                                {kMore, kSome, 2},
+                                                                {kMuch, kUsual, 1},
+                                                                {kAll, kAll, 1}}};
+    return kEfforts[static_cast<std::size_t>(std::clamp(effort, kLeastEffort, kMaxEffort) - 1)];
 }
 
 }  // namespace rs::encode

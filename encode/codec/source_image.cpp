@@ -53,7 +53,7 @@ void set_alpha_bits(SourceImage& source, int alpha_bits) {
     }
 }
 
-codec::EdgeAlpha usual_edge_alpha(const std::vector<SourceImage>& sources) {
+codec::EdgeAlpha estimate_edge_alpha(const std::vector<SourceImage>& sources) {
     std::array<std::int64_t, 24> sum{};
     std::array<std::int64_t, 24> count{};
     for (const SourceImage& source : sources) {

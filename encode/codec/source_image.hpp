@@ -1,5 +1,5 @@
 #pragma once
-// An image as the encoder sees it: planes of the coded size, and which samples are valid.
+// Encoder input image: planes of the coded size and the mask of valid samples.
 
 #include "rayspace/codec/code/dense_code.hpp"
 #include "rayspace/image/image.hpp"
@@ -17,17 +17,17 @@ struct SourceImage {
     Image<std::uint8_t> valid;                  // 255 where the alpha level is not 0, else 0
 };
 
-// `image` has straight alpha. The coded size is its own, rounded up to a multiple of 16.
+/// Converts an image with straight alpha. The coded size is its size rounded up to a multiple of 16.
 SourceImage source_image(ConstImageView<Rgba8> image, int alpha_bits);
 
-// The same image with alpha in another number of bits.
+/// Requantises alpha to another number of bits.
 void set_alpha_bits(SourceImage& source, int alpha_bits);
 
-// The mean alpha, off 0 or 255, beside the edges of masks of one bit.
-codec::EdgeAlpha usual_edge_alpha(const std::vector<SourceImage>& sources);
+/// Mean distance of alpha from 0 or 255 beside the edges of 1-bit masks.
+codec::EdgeAlpha estimate_edge_alpha(const std::vector<SourceImage>& sources);
 
-// Weights of squared errors of Y, U and V that make up the squared error of R, G and B together (BT.601), but for the
-// products of different planes' errors: 3, 1.772^2 + 0.344^2, 1.402^2 + 0.714^2.
+/// Weights of squared errors of Y, U and V in the sum of squared errors of R, G and B (BT.601), without the cross
+/// terms: 3, 1.772^2 + 0.344^2, 1.402^2 + 0.714^2.
 inline constexpr std::array<float, 3> kPlaneWeights = {3.0F, 3.258F, 2.476F};
 
 }  // namespace rs::encode

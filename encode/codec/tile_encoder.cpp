@@ -35,15 +35,15 @@ public:
         for (int y = 0; y < place_.height; y += kMacroblock) {
             for (int x = 0; x < place_.width; x += kMacroblock) macroblock(x / kBlock, y / kBlock);
         }
-        codec::AlphaFinish(recorder_, *task_.code, state_.grid, state_.alpha, state_.depths, task_.references, place_,
-                           task_.out[3])
+        codec::AlphaFinisher(recorder_, *task_.code, state_.grid, state_.alpha, state_.depths, task_.references, place_,
+                             task_.out[3])
             .finish();
         codec::filter_edges(state_.grid, *task_.code, task_.head.step, place_, task_.out);
     }
 
 private:
-    // Alpha levels of the whole tile, and the classes of its blocks (kept apart: the grid may not know what comes
-    // later).
+    // Computes alpha levels of the whole tile and the classes of its blocks. The classes are stored separately, since
+    // the grid must not contain blocks that are coded later.
     void classify(int width, int height) {
         const int full = (1 << task_.code->alpha_bits) - 1;
         for (int by = 0; by < height / kBlock; ++by) {
@@ -81,9 +81,9 @@ private:
         }
         const ModeDecision search(task_, costs_, state_, left_, top_);
 
-        Estimator whole_bits(costs_);
+        CostEstimator whole_bits(costs_);
         codec::syntax::split(whole_bits, state_.grid, bx, by, false);
-        Estimator split_bits(costs_);
+        CostEstimator split_bits(costs_);
         codec::syntax::split(split_bits, state_.grid, bx, by, true);
 
         const PredictionUnit whole{bx, by, kMacroblock};
@@ -138,7 +138,7 @@ private:
     std::array<std::vector<codec::MotionVector>, 2>& motions_;
     TileState state_;
     std::array<std::array<AlphaClass, 8>, 8> classes_{};
-    // Of the four quarters, and of the whole.
+    // Choices of the four quarters and of the whole macroblock.
     std::array<std::unique_ptr<UnitChoice>, 5> choices_ = {
         std::make_unique<UnitChoice>(), std::make_unique<UnitChoice>(), std::make_unique<UnitChoice>(),
         std::make_unique<UnitChoice>(), std::make_unique<UnitChoice>()};

@@ -24,7 +24,8 @@ Result<CapturedView> captured_view(const Camera& camera, int planes) {
     }
     if (!is_below(lateral_px, kMostLateral)) {
         return Error{
-            "it looks too far past the axis for its distance and focal length; bring the axis nearer to the "
+            "its optical axis passes too far from the Y axis for its distance and focal length; bring the axis nearer "
+            "to the "
             "middle of the image, or scale the images down"};
     }
     if (!is_below(camera.centre().y, kMostRadii) || !is_below(depth, kMostRadii)) {

@@ -45,7 +45,7 @@ HWY_INLINE void match_run(const ColumnMatch& match, int begin, int count, std::u
         };
         const auto difference = [&](int shift) { return std::abs(32 * channel(own[n], shift) - between(shift)); };
         const int sum = difference(0) + difference(8) + difference(16);
-        const int cost = std::min((sum * 43691) >> 22, kMostCost);  // sum / 96, exact up to 3 * 32 * 255
+        const int cost = std::min((sum * 43691) >> 22, kMaxCost);  // sum / 96, exact up to 3 * 32 * 255
         const int known = between(24) < 128 * 32 ? kOutsideMatch : cost;
         const bool none = (own[n] >> 24) == 0 || row[n] < 0 || row[n] >= height;
         costs[n] = static_cast<std::uint8_t>(none ? kUnknownMatch : known);
@@ -68,7 +68,7 @@ HWY_INLINE void compare_depth_run(const ColumnDepths& found, int begin, int coun
     const float cost_per_unit = found.cost_per_unit;
     for (int n = 0; n < count; ++n) {
         const float away = std::abs(there[n] - depth) * cost_per_unit;
-        const int cost = away < static_cast<float>(kMostCost) ? static_cast<int>(away) : kMostCost;
+        const int cost = away < static_cast<float>(kMaxCost) ? static_cast<int>(away) : kMaxCost;
         const bool none = std::isnan(there[n]) || row[n] < 0 || row[n] >= height;
         least[n] = static_cast<std::uint8_t>(std::min(none ? kUnknownMatch : cost, static_cast<int>(least[n])));
     }
@@ -91,7 +91,7 @@ HWY_INLINE void weigh_kind(const std::uint8_t* costs, int rows, int neighbours, 
     std::uint8_t best[kRun];
     std::uint8_t worst[kRun];
     for (int n = 0; n < kRun; ++n) {
-        best[n] = kMostCost;
+        best[n] = kMaxCost;
         worst[n] = 0;
         kind.known[n] = 0;
         kind.outside[n] = 0;
@@ -122,7 +122,7 @@ void merge_all(const std::uint8_t* costs, int rows, int beside, int across, std:
         weigh_kind(costs + static_cast<std::ptrdiff_t>(beside) * rows + begin, rows, across, count, b);
         for (int n = 0; n < count; ++n) {
             const int both = (a.cost[n] + b.cost[n]) / 2;
-            const int of_a = a.known[n] != 0 ? a.cost[n] : kMostCost / 2;
+            const int of_a = a.known[n] != 0 ? a.cost[n] : kMaxCost / 2;
             const int of_b = a.known[n] != 0 ? both : b.cost[n];
             const int cost = b.known[n] != 0 ? of_b : of_a;
             const bool outside = (a.outside[n] | b.outside[n]) != 0;

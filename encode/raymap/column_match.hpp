@@ -9,10 +9,10 @@
 
 namespace rs::encode {
 
-inline constexpr int kMostCost = 60;
-inline constexpr int kOutsideCost = 2 * kMostCost;
+inline constexpr int kMaxCost = 60;
+inline constexpr int kOutsideCost = 2 * kMaxCost;
 
-// The cost of a pixel at a depth against one neighbor is 0 .. kMostCost, or one of these.
+/// The cost of a pixel at a depth against one neighbor is 0 .. kMaxCost, or one of these.
 inline constexpr std::uint8_t kUnknownMatch = 255;  // the pixel is transparent, or the point outside of the frame
 inline constexpr std::uint8_t kOutsideMatch = 254;  // the neighbor is transparent there
 
@@ -39,12 +39,12 @@ struct ColumnDepths {
     std::int32_t step_q16 = 0;
 };
 
-/// Writes for each row the mean absolute difference of R, G and B, at most kMostCost, or kUnknownMatch or
+/// Writes for each row the mean absolute difference of R, G and B, at most kMaxCost, or kUnknownMatch or
 /// kOutsideMatch.
 void match_column(const ColumnMatch& match, std::uint8_t* costs);
 
 /// Lowers least[row] to the distance between the depth and the neighbor's, times cost_per_unit, rounded down, at most
-/// kMostCost.
+/// kMaxCost.
 void compare_depth_column(const ColumnDepths& found, std::uint8_t* least);
 
 /// Merges the costs of several neighbors: costs[n * rows + row], first of `beside` neighbors, then of `across`, into

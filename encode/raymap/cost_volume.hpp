@@ -11,7 +11,7 @@
 
 namespace rs::encode {
 
-// A rectangle of pixels, [left, right) x [top, bottom).
+/// A rectangle of pixels, [left, right) x [top, bottom).
 struct ObjectBox {
     int left = 0, top = 0, right = 0, bottom = 0;
     [[nodiscard]] int width() const { return right - left; }
@@ -45,11 +45,11 @@ struct CostVolume {
 /// that the hull allows. Levels inside the hull cost 0, levels between them but outside of it kOutsideCost. A pixel
 /// whose ray misses the hull has all levels, at kOutsideCost. \param only  if not null, only its pixels that are not 0
 /// are part of the volume; transposed as WorkView::columns is.
-CostVolume levels_within(const SampledHull& hull, const WorkView& view, const DepthRange& range,
+CostVolume create_volume(const SampledHull& hull, const WorkView& view, const DepthRange& range,
                          const Image<std::uint8_t>* only = nullptr);
 
 /// The depth at which each pixel's ray enters the hull, as DepthView::depth.
-Image<float> first_allowed(const WorkView& view, const CostVolume& costs, const DepthRange& range);
+Image<float> first_allowed_depth(const WorkView& view, const CostVolume& costs, const DepthRange& range);
 
 /// The photos that a photo is compared with, at most two of each kind.
 struct Neighbours {
@@ -57,7 +57,7 @@ struct Neighbours {
     std::vector<const DepthView*> across;  // in the rings below and above
 };
 
-/// Sets the costs from colours. Each neighbor gives the mean absolute difference of R, G and B, at most kMostCost; none
+/// Sets the costs from colours. Each neighbor gives the mean absolute difference of R, G and B, at most kMaxCost; none
 /// where the point is outside of its frame; kOutsideCost where it is transparent there. A surface is seen from one side
 /// at least, so that the better neighbor of a kind has most of the weight. Where there are neighbors of both kinds
 /// their mean is taken, since horizontal edges can be matched only across rings. Costs that are kOutsideCost already
@@ -65,7 +65,7 @@ struct Neighbours {
 void match_colours(CostVolume& volume, const WorkView& view, const Neighbours& neighbours, const DepthRange& range);
 
 /// Adds the distance of a point from the nearest surface in the neighbors' depth maps at its projections: 5 per level,
-/// at most kMostCost; nothing where none has a depth there. So the depth of another photo outweighs the colours of a
+/// at most kMaxCost; nothing where none has a depth there. So the depth of another photo outweighs the colours of a
 /// few pixels.
 void add_inconsistency(CostVolume& volume, const WorkView& view, const Neighbours& neighbours, const DepthRange& range);
 

@@ -1,9 +1,9 @@
 #pragma once
-// Geometry of a shape map's line (rayspace/object/shape_map.hpp): its cells and their rays, in object radii.
+// Geometry of a shape map's line (rayspace/api/types/shape_map.hpp): its cells and their rays, in object radii.
 
 #include "encode/raymap/silhouettes/visual_hull.hpp"
 #include "encode/raymap/silhouettes/work_view.hpp"
-#include "rayspace/object/shape_map.hpp"
+#include "rayspace/api/types/shape_map.hpp"
 
 #include <glm/vec2.hpp>
 
@@ -14,7 +14,7 @@
 
 namespace rs::encode {
 
-inline constexpr double kHalfWidth = kDeepest;  // of the ranges of p and depth
+inline constexpr double kHalfWidth = kMaxDepth;  // of the ranges of p and depth
 inline constexpr int kDepths = 256;
 inline constexpr double kDepthStep = 2 * kHalfWidth / (kDepths - 1);
 
@@ -27,7 +27,7 @@ struct LineGrid {
     double distance = 0, height = 0;  // of the reference viewpoint
     int fine = 1;                     // raster points along a cell's side
 
-    // The distance from the reference viewpoint to the foot of a ray at distance p from the axis.
+    /// The distance from the reference viewpoint to the foot of a ray at distance p from the axis.
     [[nodiscard]] double rho(double p) const {
         return std::sqrt(std::max(distance * distance - p * p, distance * distance / 4));
     }
@@ -47,7 +47,7 @@ public:
     CellRay(const LineGrid& grid, const glm::dvec2& viewpoint, int p_cell);
 
     [[nodiscard]] glm::dvec2 place(int depth) const { return ray_.place_at(-kHalfWidth + depth * kDepthStep); }
-    // The height of a band's centre at a depth, and the inverse: band coordinate n + 1/2 is the centre of band n.
+    /// The height of a band's centre at a depth, and the inverse: band coordinate n + 1/2 is the centre of band n.
     [[nodiscard]] double height(int band, int depth) const;
     [[nodiscard]] double bands_at(double height, int depth) const;
 

@@ -46,7 +46,7 @@ std::string sector_text(const DepthView& from, const DepthView& to) {
 }
 
 DepthRange range_of(int levels) {
-    return {-kDeepest, 2 * kDeepest / (levels - 1), levels};
+    return {-kMaxDepth, 2 * kMaxDepth / (levels - 1), levels};
 }
 
 Image<float> depths_at(Image<float> levels, const DepthRange& range) {
@@ -55,7 +55,7 @@ Image<float> depths_at(Image<float> levels, const DepthRange& range) {
 }
 
 double contradicted_by(const VisualHull& hull, const std::vector<const WorkView*>& views) {
-    return contradicted_share(views, hull, range_of(kHullLevels));
+    return inconsistent_share(views, hull, range_of(kHullLevels));
 }
 
 bool agree_with(const std::vector<const WorkView*>& views, const VisualHull& hull) {
@@ -85,8 +85,8 @@ void RingDepthEstimator::set_photo(std::size_t n, const Image<Rgba8>& image) {
     WorkView& view = views_[n].view;
     view = make_work_view(camera, image, reduction_);
     soft_[n] = soft_pixels(view);
-    if (layer_ == Layer::kSoft) cover_soft(view, soft_[n]);
-    weaken_shading(view);
+    if (layer_ == Layer::kSoft) make_soft_opaque(view, soft_[n]);
+    attenuate_shading(view);
     texture_[n] = measure_texture(view);
 }
 
@@ -112,12 +112,13 @@ Status RingDepthEstimator::complete_masks(Progress* progress, const PhotoSink& s
     if (count() < 3 || exact) return {};
     RingDepthEstimator half(set_, rig_, ring_, options_);
     half.reduction_ = 2 * reduction_;
-    for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halved(views_[n].view);
+    for (std::size_t n = 0; n < views_.size(); ++n) half.views_[n].view = halve(views_[n].view);
     RS_ASSIGN_OR_RETURN(std::vector<Image<float>> missing, half.find_missing(*this, progress));
     missing_ = std::move(missing);
 
     std::vector<Image<float>> parts(views_.size());
-    for_each_index(views_.size(), [&](std::size_t n) { parts[n] = lost_part(half.views_[n].view, missing_[n]); });
+    for_each_index(views_.size(),
+                   [&](std::size_t n) { parts[n] = select_lost_part(half.views_[n].view, missing_[n]); });
     std::vector<std::size_t> lacking;
     for (std::size_t n = 0; n < views_.size(); ++n) {
         if (share_of(parts[n], half.views_[n].view) >= kLargePart) lacking.push_back(n);
@@ -155,7 +156,7 @@ Result<std::vector<Image<float>>> RingDepthEstimator::find_missing(const RingDep
         const Neighbours neighbours = neighbours_of(n);
         if (neighbours.beside.size() < 2) return;
         const auto v = static_cast<std::size_t>(n);
-        points[v] = ruled_out(views_[v], neighbours.beside, range_of(n, neighbours).step, *sampled_hull_, *hull);
+        points[v] = find_ruled_out(views_[v], neighbours.beside, range_of(n, neighbours).step, *sampled_hull_, *hull);
     });
     std::vector<Image<float>> missing(views_.size());
     for_each_index(views_.size(), [&](std::size_t n) { missing[n] = missing_depths(views_[n].view, points); });
@@ -174,7 +175,7 @@ Result<std::optional<Image<Rgba8>>> RingDepthEstimator::paint_part(std::size_t n
         std::vector<LostPartPainter::Painter> painters;
         for (const int sense : {-away, away}) {
             const auto from = static_cast<std::size_t>((static_cast<int>(n) + sense + count()) % count());
-            if (degrees(angle_between(views_[n].view, views_[from].view)) > options_.lines.widest_gap_deg) continue;
+            if (degrees(angle_between(views_[n].view, views_[from].view)) > options_.lines.max_gap_deg) continue;
             RS_ASSIGN_OR_RETURN(Image<Rgba8> other, read_upright_image(set_, ring_.views[from]));
             images.push_back(std::move(other));
             painters.push_back({&half.views_[from], &images.back()});
@@ -195,14 +196,14 @@ Status RingDepthEstimator::match_colors(Progress* progress) {
     return estimate_depths("depth", progress, true);
 }
 
-Status RingDepthEstimator::enforce_consistency(Progress* progress, std::vector<FoundDepth>& samples) {
+Status RingDepthEstimator::enforce_consistency(Progress* progress, std::vector<DepthPreview>& samples) {
     const int every = std::max(1, (count() + kSampleViews - 1) / kSampleViews);
     const std::size_t first_sample = samples.size();
     samples.resize(first_sample + static_cast<std::size_t>((count() + every - 1) / every));
     std::vector<Image<float>> agreed(views_.size());
     for (const int first : {0, 1}) {
         const int of_these = (count() + 1 - first) / 2;
-        Status status = for_each_in_parallel(of_these, "depth that agrees", progress, [&](int m) -> Status {
+        Status status = for_each_in_parallel(of_these, "consistent depth", progress, [&](int m) -> Status {
             const int n = first + 2 * m;
             const WorkView& view = views_[static_cast<std::size_t>(n)].view;
             const Neighbours neighbours = neighbours_of(n);
@@ -215,7 +216,7 @@ Status RingDepthEstimator::enforce_consistency(Progress* progress, std::vector<F
             if (n % every == 0) {
                 samples[first_sample + static_cast<std::size_t>(n / every)] = {
                     ring_.views[static_cast<std::size_t>(n)],
-                    first_allowed(view, levels_within(*sampled_hull_, view, range), range), depth};
+                    first_allowed_depth(view, create_volume(*sampled_hull_, view, range), range), depth};
             }
             return {};
         });
@@ -254,16 +255,16 @@ void RingDepthEstimator::append_warnings(const ShapeMap& shape, std::vector<std:
         const DepthView& view = views_[n];
         const std::string& name = rig_.views[static_cast<std::size_t>(ring_.views[n])].file_path;
         if (object_box(view.view).empty()) {
-            warnings.push_back(name + " shows no object at all (its alpha is 0 everywhere)");
+            warnings.push_back(name + " shows no object (its alpha is 0 everywhere)");
         }
         if (shape.gaps[n].lines != 0) continue;
         missing += (missing.empty() ? "" : ", ") + sector_text(view, views_[(n + 1) % views_.size()]);
     }
     if (views_.size() == 1) {
-        warnings.push_back("there is one image; it is shown as it is from everywhere");
+        warnings.push_back("there is only one image; it is shown unchanged from all directions");
     } else if (!missing.empty()) {
         warnings.push_back("there are no images between " + missing +
-                           "; from there the nearest image is shown as it is");
+                           "; the nearest image is shown unchanged from there");
     }
 }
 
@@ -271,7 +272,7 @@ CostVolume RingDepthEstimator::color_costs(int n, const Neighbours& neighbours, 
     const WorkView& view = views_[static_cast<std::size_t>(n)].view;
     std::optional<Image<std::uint8_t>> near_soft;
     if (layer_ == Layer::kSoft) near_soft = dilated(soft_[static_cast<std::size_t>(n)], kNearSoft_px);
-    CostVolume costs = levels_within(*sampled_hull_, view, range, near_soft ? &*near_soft : nullptr);
+    CostVolume costs = create_volume(*sampled_hull_, view, range, near_soft ? &*near_soft : nullptr);
     match_colours(costs, view, neighbours, range);
     return costs;
 }
@@ -320,7 +321,7 @@ Status RingDepthEstimator::estimate_depths(const char* label, Progress* progress
 void RingDepthEstimator::choose_margin(const std::vector<const RingDepthEstimator*>& beside) {
     const std::vector<const WorkView*> all = silhouettes(beside);
     tolerated_share_ = 0;
-    for (margin_px_ = 1; margin_px_ <= options_.widest_hull_margin_px; margin_px_ *= 2) {
+    for (margin_px_ = 1; margin_px_ <= options_.max_hull_margin_px; margin_px_ *= 2) {
         hull_ = std::make_unique<VisualHull>(all, margin_px_);
         contradicted_ = contradicted_by(*hull_, all);
         silhouettes_agree_ = contradicted_ <= kMaxContradicted;
@@ -354,10 +355,10 @@ Neighbours RingDepthEstimator::neighbours_of(int n) const {
     const int before = (n + count() - 1) % count();
     const int after = (n + 1) % count();
     Neighbours found;
-    if (before != n && gap_deg(before) <= options_.lines.widest_gap_deg) {
+    if (before != n && gap_deg(before) <= options_.lines.max_gap_deg) {
         found.beside.push_back(&views_[static_cast<std::size_t>(before)]);
     }
-    if (after != n && after != before && gap_deg(n) <= options_.lines.widest_gap_deg) {
+    if (after != n && after != before && gap_deg(n) <= options_.lines.max_gap_deg) {
         found.beside.push_back(&views_[static_cast<std::size_t>(after)]);
     }
     const WorkView& view = views_[static_cast<std::size_t>(n)].view;
@@ -379,8 +380,8 @@ DepthRange RingDepthEstimator::range_of(int n, const Neighbours& neighbours) con
             most_moved = std::max(most_moved, std::sin(angle_between(view, neighbour->view)));
         }
     }
-    const double levels = 2 * kDeepest * most_moved * view.fl_x / glm::length(view.place()) / options_.level_px;
-    return rs::encode::range_of(std::clamp(static_cast<int>(levels), options_.fewest_levels, options_.most_levels));
+    const double levels = 2 * kMaxDepth * most_moved * view.fl_x / glm::length(view.place()) / options_.level_px;
+    return rs::encode::range_of(std::clamp(static_cast<int>(levels), options_.min_levels, options_.max_levels));
 }
 
 }  // namespace rs::encode

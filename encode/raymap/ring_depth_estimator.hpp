@@ -52,7 +52,7 @@ public:
     /// Estimates each photo's depth again, from colours and the neighbors' depths: first every second photo, then the
     /// others, which see the first ones' results; all at once would exchange errors. Then finds the occluders.
     /// Appends a few evenly spaced depth maps to `samples`.
-    Status enforce_consistency(Progress* progress, std::vector<FoundDepth>& samples);
+    Status enforce_consistency(Progress* progress, std::vector<DepthPreview>& samples);
 
     /// True if any photo has soft coverage.
     [[nodiscard]] bool has_soft_pixels() const;

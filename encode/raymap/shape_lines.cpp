@@ -78,8 +78,8 @@ ShapeCell make_cell(std::vector<float>& found) {
     return cell;
 }
 
-// Tests which cells of a column lie in the hull at which depth. Each depth is computed when it is first asked for,
-// since the surfaces of a column have few.
+// Tests which cells of a column are inside the hull at which depth. Each depth is computed on first use, since the
+// surfaces of a column have few.
 class HullColumns {
 public:
     HullColumns(const LineGrid& grid, const SampledHull& hull)
@@ -162,7 +162,7 @@ public:
             clamp_to_hull(grid_, CellRay(grid_, photos.viewpoint, p), hull, cells_.data() + column,
                           meets_hull.data() + column);
         }
-        if (layer.silhouettes_agree) remove_outside_hull(grid_, meets_hull, cells_.data());
+        if (layer.silhouettes_agree) remove_cells_outside_hull(grid_, meets_hull, cells_.data());
         if (layer.in_front) remove_small_components(grid_, floating_share, cells_.data());
         for (int p = 0; p < grid_.p_cells; ++p) {
             ShapeCell* const column = cells_.data() + p * grid_.bands;
@@ -217,15 +217,15 @@ HeightRange height_range(const std::vector<SurfaceLayer>& layers, double distanc
 }
 
 // The number of depth steps by which a surface may be moved to save bits, so that a point seen from the middle of the
-// widest gap with lines moves by options.settled_px at most.
-int settled_steps(const std::vector<DepthView>& ring, const ShapeMap& map, double px_per_radius,
-                  const ShapeLinesOptions& options) {
+// widest gap with lines moves by options.depth_shift_px at most.
+int max_shift_steps(const std::vector<DepthView>& ring, const ShapeMap& map, double px_per_radius,
+                    const ShapeLinesOptions& options) {
     double widest = 0;
     for (std::size_t n = 0; n < ring.size(); ++n) {
         if (map.gaps[n].lines > 0) widest = std::max(widest, gap_width(ring, n));
     }
     const double step_px = kDepthStep * std::sin(widest / 2) * px_per_radius;
-    return static_cast<int>(std::min<double>(options.most_settled, options.settled_px / step_px));
+    return static_cast<int>(std::min<double>(options.max_depth_shift, options.depth_shift_px / step_px));
 }
 
 }  // namespace
@@ -271,7 +271,7 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
     std::uint32_t lines = 0;
     for (std::size_t n = 0; n < ring.size(); ++n) {
         const double width_deg = degrees(gap_width(ring, n));
-        const bool wide = ring.size() < 2 || width_deg > options.widest_gap_deg;
+        const bool wide = ring.size() < 2 || width_deg > options.max_gap_deg;
         const int count_of_gap =
             wide ? 0 : std::clamp(static_cast<int>(std::ceil(width_deg / options.line_deg - 0.01)) - 1, 1, 1024);
         map.gaps.push_back({static_cast<std::uint16_t>(count_of_gap), lines});
@@ -301,7 +301,7 @@ ShapeMap make_shape_lines(const std::vector<SurfaceLayer>& layers, const ShapeLi
             }
         }
     });
-    shape_coding::settle_depths(map, settled_steps(ring, map, scale, options));
+    shape_coding::snap_depths(map, max_shift_steps(ring, map, scale, options));
     return map;
 }
 

@@ -1,11 +1,11 @@
 #pragma once
-// Computes the cells of a shape map (rayspace/object/shape_map.hpp) from the photos' depth maps: the depth maps on
+// Computes the cells of a shape map (rayspace/api/types/shape_map.hpp) from the photos' depth maps: the depth maps on
 // either side of each line of rays are reprojected to the line's viewpoint and merged.
 
 #include "encode/raymap/silhouettes/visual_hull.hpp"
 #include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/image/image.hpp"
-#include "rayspace/object/shape_map.hpp"
+#include "rayspace/api/types/shape_map.hpp"
 
 #include <vector>
 
@@ -19,9 +19,9 @@ struct ShapeLinesOptions {
     int thickness = 8;      // of the object behind its surfaces, depth steps, 0..255
     // Depths are moved towards the file's prediction to save bits: by at most this many steps, and so that a point
     // moves by at most this many pixels of a working view between a line and the photos beside it.
-    double settled_px = 0.15;
-    int most_settled = 3;
-    double widest_gap_deg = 45.01;  // wider gaps have no lines
+    double depth_shift_px = 0.15;
+    int max_depth_shift = 3;
+    double max_gap_deg = 45.01;  // wider gaps have no lines
 };
 
 /// The depth maps of one layer of surfaces, and the hull that encloses them.

@@ -12,19 +12,19 @@ namespace {
 std::string lost_parts_text(const CompletedImages& completed, const Rig& rig) {
     const std::string first = rig.views[static_cast<std::size_t>(completed.begin()->first)].file_path;
     const std::string count = std::to_string(completed.size());
-    return (completed.size() == 1 ? "the cut-out of " + first + " lacks" : count + " cut-outs lack") +
-           " a large part that the images beside show" +
+    return (completed.size() == 1 ? "the mask of " + first + " lacks" : count + " masks lack") +
+           " a large part that neighbouring photos show" +
            (completed.size() == 1 ? "" : " (" + first + " is the first)") +
-           "; it is painted from those. Cut out whole it would be the photograph's own";
+           "; it is painted from these; correct the masks to use the photos' own pixels";
 }
 
 }  // namespace
 
-Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
-                                   const ShapeOptions& options, bool keep_images, RaySpaceObject& object,
-                                   Progress* progress) {
+Result<ShapeMapOutput> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
+                                      const ShapeOptions& options, bool keep_images, RaySpaceObject& object,
+                                      Progress* progress) {
     RS_CHECK(set.completed.empty());
-    FoundShapes found;
+    ShapeMapOutput found;
     const auto keep = [&](int v, const Image<Rgba8>& image) {
         if (keep_images) object.images[static_cast<std::size_t>(v)] = planar_from_rgba(image);
     };
@@ -65,7 +65,7 @@ Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const 
         std::vector<SurfaceLayer> layers = {estimators[r].surfaces()};
         RingDepthEstimator soft(whole, rig, rings[r], options, Layer::kSoft);
         if (estimators[r].has_soft_pixels()) {
-            std::vector<FoundDepth> unused;
+            std::vector<DepthPreview> unused;
             RS_TRY(soft.read_photos(progress, [](int, const Image<Rgba8>&) {}));
             soft.choose_hull({});
             RS_TRY(soft.match_colors(progress));

@@ -1,5 +1,5 @@
 #pragma once
-// Computes the shape maps of an object (rayspace/object/shape_map.hpp) from its photos.
+// Computes the shape maps of an object (rayspace/api/types/shape_map.hpp) from its photos.
 //
 // For each photo of a ring: the visual hull of all silhouettes, including those of the rings next below and above,
 // bounds the depths, after parts that single masks lack are restored (silhouette_repair.hpp, lost_parts.hpp); matching
@@ -23,26 +23,26 @@
 namespace rs::encode {
 
 struct ShapeOptions {
-    int working_size_px = 768;       // photos whose longer side is longer are reduced by a whole factor
-    int widest_hull_margin_px = 16;  // of the working views; the narrowest margin that fits is used
+    int working_size_px = 768;    // photos whose longer side is longer are reduced by a whole factor
+    int max_hull_margin_px = 16;  // of the working views; the narrowest margin that fits is used
     // Distance of depth levels: how far a point moves from one level to the next, in pixels of the working view of the
     // neighbor where it moves most.
     double level_px = 0.3;
-    int fewest_levels = 32, most_levels = 256;
+    int min_levels = 32, max_levels = 256;
     SmoothnessOptions smoothness;
     ShapeLinesOptions lines;
 };
 
 /// Depth maps of one photo for display: distances from the foot of the pixel's ray in object radii, NaN where unknown,
 /// at the working size.
-struct FoundDepth {
+struct DepthPreview {
     int view = 0;
     Image<float> hull;   // where the ray enters the visual hull
     Image<float> depth;  // of the surface
 };
 
-struct FoundShapes {
-    std::vector<FoundDepth> samples;    // of a few views
+struct ShapeMapOutput {
+    std::vector<DepthPreview> samples;  // of a few views
     CompletedImages completed;          // photos whose masks were completed
     std::vector<std::string> warnings;  // one line each
 };
@@ -56,8 +56,8 @@ struct FoundShapes {
 /// \return warnings and depth maps for display; errors of reading.
 /// Memory: at the working size 10 bytes per pixel and photo, 4 bytes per full-size pixel of `completed`, and for each
 /// thread about 3 bytes per object pixel and depth level.
-Result<FoundShapes> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
-                                   const ShapeOptions& options, bool keep_images, RaySpaceObject& object,
-                                   Progress* progress = nullptr);
+Result<ShapeMapOutput> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
+                                      const ShapeOptions& options, bool keep_images, RaySpaceObject& object,
+                                      Progress* progress = nullptr);
 
 }  // namespace rs::encode

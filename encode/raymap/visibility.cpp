@@ -17,7 +17,7 @@ constexpr int kMinTexture = 6;            // standard deviation of luma, codes
 // point is outside of the frame.
 template <class IsCounted>
 int count_around(const WorkView& view, const glm::dvec2& place, double y, const IsCounted& is_counted) {
-    const std::optional<SeenPoint> seen = view.see(place, y);
+    const std::optional<ProjectedPoint> seen = view.see(place, y);
     if (!seen) return 0;
     int count = 0;
     for_each_around(view, seen->whole_column(), seen->whole_row(), 1,
@@ -28,7 +28,7 @@ int count_around(const WorkView& view, const glm::dvec2& place, double y, const 
 // True if a pixel without depth in this layer covers the point or one of the pixels around it.
 bool is_covered_by_foreground(const DepthView& photo, const glm::dvec2& place, double y) {
     const auto is_foreground = [&](int column, int row) {
-        return std::isnan(photo.depth(row, column)) && photo.view.at(column, row).a >= kFaintest;
+        return std::isnan(photo.depth(row, column)) && photo.view.at(column, row).a >= kMinVisibleAlpha;
     };
     return count_around(photo.view, place, y, is_foreground) > 0;
 }
@@ -44,7 +44,7 @@ bool is_occluded(const DepthView& photo, const glm::dvec2& place, double y) {
 
 // Left-right consistency: whether a photo's depth map holds this point.
 bool is_confirmed_by(const DepthView& photo, const glm::dvec2& place, double y) {
-    const std::optional<SeenPoint> seen = photo.view.see(place, y);
+    const std::optional<ProjectedPoint> seen = photo.view.see(place, y);
     if (!seen) return false;
     const double depth = photo.view.ray_of(seen->column).depth_of(place);
     const auto found = static_cast<double>(photo.depth(seen->whole_row(), seen->whole_column()));

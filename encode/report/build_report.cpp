@@ -13,7 +13,7 @@ namespace {
 constexpr int kThumbnail_px = 150;
 constexpr int kCompared_px = 260;
 
-void add_what_was_built(HtmlPage& page, const BuildReport& report) {
+void add_build_facts(HtmlPage& page, const BuildReport& report) {
     std::vector<std::vector<std::string>> rows;
     for (const ReportFact& fact : report.facts) rows.push_back({fact.name, fact.value});
     if (!rows.empty()) page.table({"", ""}, rows);
@@ -32,19 +32,19 @@ Status add_captured(HtmlPage& page, const BuildReport& report) {
 void add_rings(HtmlPage& page, const BuildReport& report) {
     if (report.rig.views.empty()) return;
     page.heading("The cameras from above");
-    page.drawing(svg_of_rings(report.rig));
+    page.drawing(draw_ring_plan(report.rig));
     std::vector<std::string> missing = describe_missing_sectors(report.rig);
     if (missing.empty()) {
         page.paragraph("No sector is missing.");
     } else {
-        page.paragraph("Sectors without views, counted from +Z towards +X; what is seen from there is a guess:");
+        page.paragraph("Sectors without views, measured from +Z towards +X; renderings from these are extrapolated:");
         page.list(missing);
     }
 }
 
 LinePlot plot_of_scores(const std::vector<MethodScores>& scores) {
     LinePlot plot;
-    plot.title = "PSNR of the views held out";
+    plot.title = "PSNR of the held-out views";
     plot.x_label = "view";
     plot.y_label = "dB";
     for (const MethodScores& method : scores) {
@@ -67,10 +67,10 @@ void add_score_tables(HtmlPage& page, const std::vector<MethodScores>& scores) {
         summary.push_back({method.method, two_decimals(method.mean_psnr_db), two_decimals(method.pooled_psnr_db),
                            two_decimals(method.mean_ssim * 100), two_decimals(method.build_seconds)});
     }
-    page.table({"answered by", "mean PSNR, dB", "PSNR of all pixels, dB", "mean SSIM, %", "build, s"}, summary);
+    page.table({"method", "mean PSNR, dB", "PSNR of all pixels, dB", "mean SSIM, %", "build, s"}, summary);
     page.drawing(svg_of(plot_of_scores(scores)));
 
-    std::vector<std::string> header{"view", "picture"};
+    std::vector<std::string> header{"view", "image"};
     for (const MethodScores& method : scores) header.push_back(method.method + ", dB");
     std::vector<std::vector<std::string>> rows;
     for (std::size_t n = 0; n < scores.front().views.size(); ++n) {
@@ -79,34 +79,34 @@ void add_score_tables(HtmlPage& page, const std::vector<MethodScores>& scores) {
         for (const MethodScores& method : scores) row.push_back(two_decimals(method.views[n].psnr_db));
         rows.push_back(std::move(row));
     }
-    page.begin_details("Every view held out");
+    page.begin_details("All held-out views");
     page.table(header, rows);
     page.end_details();
 }
 
 Status add_scores(HtmlPage& page, const BuildReport& report) {
     if (report.scores.empty() && report.why_no_scores.empty()) return {};
-    page.heading("Views held out");
+    page.heading("Held-out views");
     if (report.scores.empty()) {
         page.paragraph(report.why_no_scores);
         return {};
     }
     page.paragraph(
-        "For these figures alone objects were built without the views that they are scored on. " + report.hold_out +
-        " \"photo\" shows the nearest image that was kept, \"plane\" takes the object to lie on the reference "
+        "For these figures, objects were built without the views that they are scored on. " + report.hold_out +
+        " \"photo\" shows the nearest kept image, \"plane\" assumes the object to lie on the reference "
         "planes, "
-        "\"shape\" uses the depth found from the images. The steps between the kept views are wider than those of "
+        "\"shape\" uses the depth estimated from the images. The kept views are farther apart than the views of "
         "the "
-        "object in the file, which is better than these figures. PSNR and SSIM over the object's pixels, colours "
+        "object in the file, which is therefore better. PSNR and SSIM over the object's pixels, colours "
         "premultiplied by alpha.");
     add_score_tables(page, report.scores);
     if (!report.held_out.empty()) {
-        page.paragraph("Beside each answer its error: black is right, white is " + std::to_string(kErrorFullScale) +
-                       " of 255 or more off in the worst of R, G and B.");
+        page.paragraph("Error map beside each rendering: black is no error, white an error of " +
+                       std::to_string(kErrorFullScale) + " of 255 or more in the worst of R, G and B.");
     }
     for (const ImageRow& row : report.held_out) {
         page.paragraph(row.caption);
-        if (Status status = page.images(row.images, kCompared_px, ImageLayout::kLine); !status) return status;
+        RS_TRY(page.images(row.images, kCompared_px, ImageLayout::kLine));
     }
     return {};
 }
@@ -144,12 +144,12 @@ void add_accounts(HtmlPage& page, const BuildReport& report) {
 
 Result<std::string> build_report_page(const BuildReport& report) {
     HtmlPage page(report.name);
-    add_what_was_built(page, report);
+    add_build_facts(page, report);
     RS_TRY(add_captured(page, report));
     add_rings(page, report);
     RS_TRY(add_scores(page, report));
     RS_TRY(add_found(page, "Visual hull", report.hull_images));
-    RS_TRY(add_found(page, "Depth found", report.depth_images));
+    RS_TRY(add_found(page, "Estimated depth", report.depth_images));
     add_accounts(page, report);
     return page.text();
 }

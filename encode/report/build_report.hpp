@@ -1,5 +1,5 @@
 #pragma once
-// The page of a build: what was made from what, how good it is on views held out, and what was found on the way.
+// HTML report of a build: its input and output, its quality on held-out views, and intermediate results.
 
 #include "encode/hold_out.hpp"
 #include "encode/report/stage_clock.hpp"
@@ -23,24 +23,24 @@ struct ImageRow {
     std::vector<CaptionedImage> images;
 };
 
-// What is empty is not shown.
+/// Contents of the report. Empty members are omitted.
 struct BuildReport {
-    std::string name;                          // of the object
+    std::string name;                          // object name
     std::vector<ReportFact> facts;             // views, sizes, options
-    std::vector<StageTime> stages;             // of the build
-    std::vector<ChunkSummary> chunks;          // of the file
+    std::vector<StageTime> stages;             // build stages
+    std::vector<ChunkSummary> chunks;          // chunks of the file
     std::vector<std::string> warnings;         // one line each
-    Rig rig;                                   // the upright cameras; the plan of the rings is drawn of them
-    std::vector<CaptionedImage> captured;      // some of the images
-    std::string hold_out;                      // which views were held out, in words
-    std::vector<MethodScores> scores;          // all of the same views, in the same order
-    std::string why_no_scores;                 // where there are none
-    std::vector<ImageRow> held_out;            // of some views: truth, answers, error maps
-    std::vector<CaptionedImage> hull_images;   // of the visual hull
-    std::vector<CaptionedImage> depth_images;  // depth found, as depth_image() colours it
+    Rig rig;                                   // the upright cameras, for the plan of the rings
+    std::vector<CaptionedImage> captured;      // some of the photos
+    std::string hold_out;                      // sentence about the held-out views
+    std::vector<MethodScores> scores;          // all for the same views, in the same order
+    std::string why_no_scores;                 // reason if `scores` is empty
+    std::vector<ImageRow> held_out;            // some views: ground truth, renderings, error maps
+    std::vector<CaptionedImage> hull_images;   // depth maps of the visual hull
+    std::vector<CaptionedImage> depth_images;  // estimated depth, coloured by depth_image()
 };
 
-// The text of the page. Fails only where an image cannot be encoded.
+/// Returns the HTML text. Fails only if an image cannot be encoded.
 Result<std::string> build_report_page(const BuildReport& report);
 
 }  // namespace rs::encode

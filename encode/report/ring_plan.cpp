@@ -18,7 +18,7 @@ constexpr int kColours = 5;
 
 double azimuth_rad(const glm::dvec3& centre) {
     const double angle = std::atan2(centre.x, centre.z);
-    // As find_rings counts: a hair below zero is zero.
+    // As in find_rings, tiny negative angles count as zero.
     return angle < -1e-9 ? angle + 2 * kPi : std::max(angle, 0.0);
 }
 
@@ -30,7 +30,7 @@ std::vector<double> azimuths_of(const Rig& rig, const ViewRing& ring) {
     return azimuths;
 }
 
-// The plan's pixels from the object frame's (x, z).
+// Maps (x, z) of the object frame to the plan's pixels.
 struct Plan {
     double px_per_unit = 1;
     [[nodiscard]] std::string at(double x, double z) const {
@@ -47,7 +47,7 @@ std::string wedge(const Plan& plan, const MissingSector& sector, double inner, d
         const std::string r = two_decimals(radius * plan.px_per_unit);
         return "A" + r + " " + r + " 0 " + large + " " + sweep + " " + plan.polar(radius, to);
     };
-    // Angles grow against the clock on the plan, which SVG calls sweep 0.
+    // Angles grow counterclockwise on the plan, which is SVG's sweep 0.
     return "<path d=\"M" + plan.polar(inner, sector.from_rad) + "L" + plan.polar(outer, sector.from_rad) +
            arc(outer, "0", sector.to_rad) + "L" + plan.polar(inner, sector.to_rad) + arc(inner, "1", sector.from_rad) +
            "Z\" style=\"fill:var(--bad);fill-opacity:.25;stroke:var(--bad)\"/>\n";
@@ -64,7 +64,7 @@ std::string camera_mark(const Plan& plan, const Camera& camera, double size, con
 
 }  // namespace
 
-std::vector<MissingSector> missing_sectors(const std::vector<double>& azimuths_rad) {
+std::vector<MissingSector> find_missing_sectors(const std::vector<double>& azimuths_rad) {
     const std::size_t count = azimuths_rad.size();
     if (count < 3) return {};
     std::vector<double> steps;
@@ -80,7 +80,7 @@ std::vector<MissingSector> missing_sectors(const std::vector<double>& azimuths_r
     return missing;
 }
 
-std::string svg_of_rings(const Rig& rig) {
+std::string draw_ring_plan(const Rig& rig) {
     double farthest = rig.object_radius;
     for (const RigView& view : rig.views) {
         farthest = std::max(farthest, std::hypot(view.camera.centre().x, view.camera.centre().z));
@@ -100,7 +100,7 @@ std::string svg_of_rings(const Rig& rig) {
             const glm::dvec3 centre = rig.views[static_cast<std::size_t>(view)].camera.centre();
             radius += std::hypot(centre.x, centre.z) / static_cast<double>(rings[r].views.size());
         }
-        for (const MissingSector& sector : missing_sectors(azimuths_of(rig, rings[r]))) {
+        for (const MissingSector& sector : find_missing_sectors(azimuths_of(rig, rings[r]))) {
             svg += wedge(plan, sector, std::min(rig.object_radius, radius), radius);
         }
         const std::string colour = "var(--s" + std::to_string(r % kColours) + ")";
@@ -118,7 +118,7 @@ std::vector<std::string> describe_missing_sectors(const Rig& rig) {
     std::vector<std::string> lines;
     const std::vector<ViewRing> rings = find_rings(rig);
     for (std::size_t r = 0; r < rings.size(); ++r) {
-        for (const MissingSector& sector : missing_sectors(azimuths_of(rig, rings[r]))) {
+        for (const MissingSector& sector : find_missing_sectors(azimuths_of(rig, rings[r]))) {
             lines.push_back("from " + two_decimals(degrees(sector.from_rad)) + " to " +
                             two_decimals(degrees(sector.to_rad)) + " degrees (ring " + std::to_string(r + 1) + ")");
         }

@@ -5,18 +5,18 @@
 namespace rs::encode {
 
 void StageClock::start(const std::string& label, std::int64_t total) {
-    note();
+    record();
     label_ = label;
     begun_ = Clock::now();
     shown_.start(label, total);
 }
 
 void StageClock::finish() {
-    note();
+    record();
     shown_.finish();
 }
 
-void StageClock::note() {
+void StageClock::record() {
     if (!begun_) return;
     const double seconds = std::chrono::duration<double>(Clock::now() - *begun_).count();
     begun_.reset();

@@ -1,5 +1,5 @@
 #pragma once
-// A Progress that passes everything on and notes how long each stage took.
+// Progress decorator that measures the duration of each stage.
 
 #include "rayspace/base/progress.hpp"
 
@@ -15,8 +15,8 @@ struct StageTime {
     double seconds = 0;
 };
 
-// start() and finish() from one thread, advance() from any, as Progress states. Time between a stage's end and the next
-// one's start belongs to neither. A stage that comes again is added to its first time.
+/// Threads as in Progress: start() and finish() from one thread, advance() from any. Time between a stage's end and the
+/// next start is not counted. The time of a repeated stage is added to its first entry.
 class StageClock final : public Progress {
 public:
     explicit StageClock(Progress& shown) : shown_(shown) {}
@@ -24,12 +24,12 @@ public:
     void advance(std::int64_t steps = 1) override { shown_.advance(steps); }
     void finish() override;
 
-    // In the order in which they began; the one that runs is not in it.
+    /// Finished stages, in the order of their first start.
     [[nodiscard]] const std::vector<StageTime>& stages() const { return stages_; }
 
 private:
     using Clock = std::chrono::steady_clock;
-    void note();
+    void record();
 
     Progress& shown_;
     std::vector<StageTime> stages_;

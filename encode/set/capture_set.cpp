@@ -27,13 +27,14 @@ Result<Image<Rgba8>> read_captured_image(const CaptureSet& set, int view) {
     if (!image) return image;
     if (image->width() != captured.camera.width || image->height() != captured.camera.height) {
         return Error{path.string() + ": is " + std::to_string(image->width()) + "x" + std::to_string(image->height()) +
-                     " pixels, but its frame in " + kRigFileName + " says " + std::to_string(captured.camera.width) +
+                     " pixels, but its frame in " + kRigFileName + " states " + std::to_string(captured.camera.width) +
                      "x" + std::to_string(captured.camera.height) + "; make them agree"};
     }
     return image;
 }
 
-// The names of lens distortion in rigs of NeRF tools; an object's images must be free of it.
+// The first distortion parameter that is not 0, by the key names of NeRF tools; empty if there is none. Images of an
+// object must be undistorted.
 std::string distortion_in(const nlohmann::json& extras) {
     for (const char* key : {"k1", "k2", "k3", "k4", "p1", "p2"}) {
         const auto found = extras.find(key);
@@ -44,7 +45,7 @@ std::string distortion_in(const nlohmann::json& extras) {
 
 Status check_views(const CaptureSet& set) {
     const std::string where = (set.folder / kRigFileName).string();
-    if (set.captured.views.empty()) return Error{where + ": holds no frames; a capture set needs at least one image"};
+    if (set.captured.views.empty()) return Error{where + ": has no frames; a capture set needs at least one image"};
     const Camera& first = set.captured.views.front().camera;
     for (std::size_t i = 0; i < set.captured.views.size(); ++i) {
         const RigView& view = set.captured.views[i];
@@ -71,7 +72,7 @@ Status check_views(const CaptureSet& set) {
 }
 
 // Upright cameras with one focal length; their principal points are set by frame_upright_cameras.
-void turn_upright(Rig& rig) {
+void make_cameras_upright(Rig& rig) {
     const double fl_px = rig.views.front().camera.fl_x;
     for (RigView& view : rig.views) {
         view.camera = upright_camera(view.camera);
@@ -80,7 +81,7 @@ void turn_upright(Rig& rig) {
     }
 }
 
-// Where each image shows something, in pixels of its upright camera.
+// Bounding box of each image's visible pixels, in pixels of its upright camera.
 Result<std::vector<PixelBox>> measure_images(const CaptureSet& set, Progress* progress) {
     std::vector<PixelBox> occupied(set.captured.views.size());
     const int count = static_cast<int>(occupied.size());
@@ -88,11 +89,12 @@ Result<std::vector<PixelBox>> measure_images(const CaptureSet& set, Progress* pr
         const auto n = static_cast<std::size_t>(i);
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, read_captured_image(set, i));
         const Camera& captured = set.captured.views[n].camera;
-        const auto box =
-            set.resampled ? occupied_box_seen_by(set.upright.views[n].camera, captured, image) : occupied_box(image);
+        const auto box = set.resampled ? project_occupied_box(set.upright.views[n].camera, captured, image)
+                                       : find_occupied_box(image);
         if (!box) {
-            return Error{image_path(set.folder, set.captured.views[n]).string() +
-                         ": shows something beyond straight up or down, which no upright image can hold; leave it out"};
+            return Error{
+                image_path(set.folder, set.captured.views[n]).string() +
+                ": shows pixels beyond straight up or down, which an upright image cannot contain; leave it out"};
         }
         occupied[n] = *box;
         return {};
@@ -100,9 +102,9 @@ Result<std::vector<PixelBox>> measure_images(const CaptureSet& set, Progress* pr
     return occupied;
 }
 
-// Gives all upright cameras one frame, as large as it takes to show what any image shows; `occupied` moves along.
+// Sets one frame size for all upright cameras, large enough for all visible pixels; `occupied` is moved along.
 Status frame_upright_cameras(CaptureSet& set, std::vector<PixelBox>& occupied) {
-    PixelBox all{0, 0, 1, 1};  // something to hold where every image is empty
+    PixelBox all{0, 0, 1, 1};  // not empty even if every image is
     bool first = true;
     for (const PixelBox& box : occupied) {
         if (box.empty()) continue;
@@ -118,9 +120,9 @@ Status frame_upright_cameras(CaptureSet& set, std::vector<PixelBox>& occupied) {
     if (width > kMaxImageSide_px - 1 || height > kMaxImageSide_px - 1) {
         return Error{(set.folder / kRigFileName).string() +
                      ": made upright, the images would be wider or higher than " + std::to_string(kMaxImageSide_px) +
-                     " pixels; crop the images or photograph from less above"};
+                     " pixels; crop the images or capture from a lower elevation"};
     }
-    // Even sizes: chroma is stored at half of them.
+    // Even sizes, since chroma is stored at half of them.
     const auto even = [](double size) { return 2 * static_cast<int>(std::ceil(size / 2)); };
     set.width = even(width);
     set.height = even(height);
@@ -135,8 +137,8 @@ Status frame_upright_cameras(CaptureSet& set, std::vector<PixelBox>& occupied) {
     return {};
 }
 
-// The largest distance from Y of the vertical planes that bound the silhouettes: the radius of a cylinder that holds
-// the visual hull.
+// The largest distance from the Y axis of the vertical planes that bound the silhouettes: the radius of a cylinder that
+// contains the visual hull.
 double radius_from_silhouettes(const Rig& upright, const std::vector<PixelBox>& occupied) {
     double radius = 0;
     for (std::size_t i = 0; i < upright.views.size(); ++i) {
@@ -181,7 +183,7 @@ Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress*
     set.resampled = !std::all_of(set.captured.views.begin(), set.captured.views.end(),
                                  [](const RigView& view) { return is_upright(view.camera); });
 
-    if (set.resampled) turn_upright(set.upright);
+    if (set.resampled) make_cameras_upright(set.upright);
     if (set.resampled || set.captured.object_radius <= 0) {
         RS_ASSIGN_OR_RETURN(std::vector<PixelBox> occupied, measure_images(set, progress));
         if (set.resampled) {
@@ -190,8 +192,7 @@ Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress*
         if (set.upright.object_radius <= 0) {
             set.upright.object_radius = radius_from_silhouettes(set.upright, occupied);
             if (set.upright.object_radius <= 0) {
-                return Error{path.string() +
-                             ": every image is transparent; is the backdrop setting of the import right?"};
+                return Error{path.string() + ": every image is transparent; check the backdrop setting of the import"};
             }
         }
     }
@@ -214,8 +215,8 @@ Status check_memory(const CaptureSet& set, std::int64_t memory_bytes) {
     const Camera& captured = set.captured.views.front().camera;
     std::string why;
     if (set.resampled) {
-        why = " (made upright, those of " + std::to_string(captured.width) + "x" + std::to_string(captured.height) +
-              " become so large)";
+        why = " (enlarged from " + std::to_string(captured.width) + "x" + std::to_string(captured.height) +
+              " to be upright)";
     }
     return Error{(set.folder / kRigFileName).string() + ": " + std::to_string(set.upright.views.size()) +
                  " images of " + std::to_string(set.width) + "x" + std::to_string(set.height) + why + " take about " +
@@ -232,10 +233,10 @@ Result<Image<Rgba8>> read_upright_image(const CaptureSet& set, int view) {
     Result<Image<Rgba8>> image = read_captured_image(set, view);
     if (!image || !set.resampled) return image;
     const auto i = static_cast<std::size_t>(view);
-    return resampled_image(set.upright.views[i].camera, set.captured.views[i].camera, *image);
+    return resample_image(set.upright.views[i].camera, set.captured.views[i].camera, *image);
 }
 
-CaptureSet with_views(const CaptureSet& set, std::span<const int> views) {
+CaptureSet select_views(const CaptureSet& set, std::span<const int> views) {
     RS_CHECK(!views.empty());
     CaptureSet chosen = set;
     const auto choose = [&](const Rig& from, Rig& to) {

@@ -1,10 +1,11 @@
 #pragma once
-// A capture set as the encoder takes it: cameras checked, made upright where they are not, images read on demand.
+// Capture set as the encoder's input: checked cameras, converted to upright cameras if necessary, with images read on
+// demand.
 //
-// The engine walks images down their columns, so every stored image must be that of an upright camera: each column
-// a vertical plane of rays. Images of a rig whose cameras are upright already are used as they are, untouched.
-// Otherwise every image is resampled once, in linear light, to an upright camera at the same place (a rotation about
-// the camera's own centre, so no ray is lost but those outside of the frame).
+// The engine processes images by columns, so every stored image must be that of an upright camera, whose columns are
+// vertical planes of rays. Images of upright cameras are used unchanged. Otherwise every image is resampled once, in
+// linear light, to an upright camera at the same position (a rotation about the camera's centre, so that only rays
+// outside of the frame are lost).
 
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
@@ -19,40 +20,41 @@
 
 namespace rs::encode {
 
-// By their number in the set: images that cut-outs lack a part of, with it.
+/// Completed images by view index: photos whose alpha matte lacked a part, with that part added.
 using CompletedImages = std::map<int, Image<Rgba8>>;
 
 struct CaptureSet {
     std::filesystem::path folder;
     Rig captured;  // as read
-    Rig upright;   // the cameras of the images that read_upright_image returns; object_radius is set
+    Rig upright;   // cameras of the images returned by read_upright_image; object_radius is set
     bool resampled = false;
     int width = 0;  // px, of the upright images
     int height = 0;
-    CompletedImages completed = {};  // that read_upright_image() gives in place of what the files show
+    CompletedImages completed = {};  // returned by read_upright_image() instead of the file's contents
 };
 
-// Reads transforms.json, plans the upright cameras, and measures the object radius from the silhouettes where the rig
-// does not give it. Cameras may be pitched up to 60 degrees. Images are read only where that needs them; those that
-// are missing show at the latest in read_upright_image. Errors: no views, missing or unreadable images, differing
-// sizes, lens distortion, a camera within the object radius, more images than the machine has memory for.
+/// Reads transforms.json, computes the upright cameras, and measures the object radius from the silhouettes if the rig
+/// does not contain it. Cameras may be pitched by up to 60 degrees. Images are read only if that requires them;
+/// otherwise missing images are detected by read_upright_image. Errors: no views, missing or unreadable images,
+/// differing sizes, lens distortion, a camera within the object radius, more images than fit into the machine's memory.
 Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress* progress = nullptr);
 
-// What encoding a set takes at most for every pixel of its upright images, as it was measured.
+/// Measured upper limit of the encoder's memory per pixel of the upright images.
 inline constexpr std::int64_t kEncodingBytesPerPixel = 16;
 
-// An error where encoding the set takes more than `memory_bytes`: cameras on a hemisphere have upright images many
-// times as high as those that were taken. open_capture_set() looks up the machine's memory.
+/// Fails if encoding the set takes more than `memory_bytes`: upright images of cameras on a hemisphere are many times
+/// as high as the photos. open_capture_set() calls this with the machine's memory.
 Status check_memory(const CaptureSet& set, std::int64_t memory_bytes);
 
-// The name of the set's folder, however that was given: what objects and pages are called where nobody names them.
+/// The name of the set's folder, which is the default name of objects and pages.
 std::string name_of(const CaptureSet& set);
 
-// Image `view` of the set, seen by upright.views[view].camera. Thread-safe.
+/// Reads image `view` of the set as seen by upright.views[view].camera. Thread-safe.
 Result<Image<Rgba8>> read_upright_image(const CaptureSet& set, int view);
 
-// The same set with only the views `views` (indices into the rig, each once, at least one), in that order. Radius,
-// image size and framing stay those of the whole set, so its views remain comparable; no image is read.
-CaptureSet with_views(const CaptureSet& set, std::span<const int> views);
+/// A subset of the views, in the given order. Radius, image size and framing stay those of the whole set, so that views
+/// remain comparable; no image is read.
+/// \param views  indices into the rig, each at most once, at least one.
+CaptureSet select_views(const CaptureSet& set, std::span<const int> views);
 
 }  // namespace rs::encode

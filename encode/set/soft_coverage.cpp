@@ -6,10 +6,10 @@ namespace rs::encode {
 namespace {
 
 bool is_soft(std::uint8_t alpha) {
-    return alpha >= kFaintest && alpha <= 255 - kFaintest;
+    return alpha >= kMinVisibleAlpha && alpha <= 255 - kMinVisibleAlpha;
 }
 
-// Counts of set samples in the rectangle above and to the left of a corner.
+// Summed-area table of set samples.
 class Sums {
 public:
     explicit Sums(const Image<std::uint8_t>& set) : sums_(set.width() + 1, set.height() + 1, 0) {
@@ -21,7 +21,7 @@ public:
             }
         }
     }
-    // Of left <= x < right, top <= y < bottom, cut to the image.
+    // The number of set samples in left <= x < right, top <= y < bottom, clipped to the image.
     [[nodiscard]] int within(int left, int top, int right, int bottom) const {
         left = std::max(left, 0);
         top = std::max(top, 0);
@@ -34,7 +34,7 @@ private:
     Image<int> sums_;
 };
 
-// Where holds(how many of the samples in the square around it are set).
+// 255 where holds(n) is true for the number n of set samples in the square around a sample.
 template <class Holds>
 Image<std::uint8_t> where(const Image<std::uint8_t>& set, int radius, const Holds& holds) {
     const Sums sums(set);
@@ -49,7 +49,7 @@ Image<std::uint8_t> where(const Image<std::uint8_t>& set, int radius, const Hold
 
 }  // namespace
 
-Image<std::uint8_t> soft_patches(ConstImageView<std::uint8_t> alpha, int radius) {
+Image<std::uint8_t> find_soft_patches(ConstImageView<std::uint8_t> alpha, int radius) {
     Image<std::uint8_t> soft(alpha.width(), alpha.height());
     for (int y = 0; y < alpha.height(); ++y) {
         for (int x = 0; x < alpha.width(); ++x) soft(x, y) = is_soft(alpha(x, y)) ? 255 : 0;

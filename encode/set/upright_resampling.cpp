@@ -28,7 +28,7 @@ void PixelBox::include(double x, double y) {
     y1 = std::max(y1, y);
 }
 
-PixelBox occupied_box(ConstImageView<Rgba8> image) {
+PixelBox find_occupied_box(ConstImageView<Rgba8> image) {
     PixelBox box;
     for (int y = 0; y < image.height(); ++y) {
         if (const auto span = occupied_columns(image.row_span(y))) {
@@ -39,7 +39,7 @@ PixelBox occupied_box(ConstImageView<Rgba8> image) {
     return box;
 }
 
-std::optional<PixelBox> occupied_box_seen_by(const Camera& to, const Camera& from, ConstImageView<Rgba8> image) {
+std::optional<PixelBox> project_occupied_box(const Camera& to, const Camera& from, ConstImageView<Rgba8> image) {
     const glm::dmat3 to_from_from = pixel_in_to_from_pixel_in_from(to, from);
     PixelBox seen;
     for (int y = 0; y < image.height(); ++y) {
@@ -56,7 +56,7 @@ std::optional<PixelBox> occupied_box_seen_by(const Camera& to, const Camera& fro
     return seen;
 }
 
-Image<Rgba8> resampled_image(const Camera& to, const Camera& from, ConstImageView<Rgba8> image) {
+Image<Rgba8> resample_image(const Camera& to, const Camera& from, ConstImageView<Rgba8> image) {
     Image<Rgba8> result(to.width, to.height);
     const glm::dmat3 from_from_to = pixel_in_to_from_pixel_in_from(from, to);
     for (int y = 0; y < to.height; ++y) {

@@ -5,7 +5,7 @@
 #include "encode/report/stage_clock.hpp"
 #include "encode/set/capture_set.hpp"
 #include "encode/tools/profile_options.hpp"
-#include "encode/tools/report_of_build.hpp"
+#include "encode/tools/report_contents.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
@@ -29,7 +29,7 @@ struct BuildArguments {
     std::string set;
     std::string output;
     std::string raymap = to_string(MapKind::kShape);
-    std::string cells;  // empty: as usual for the kind of map
+    std::string cells;  // empty: the default of the map's kind
     std::string report;
     ProfileArguments profile;
     int planes = PlaneMapOptions{}.planes;
@@ -38,15 +38,15 @@ struct BuildArguments {
     bool json = false;
 };
 
-// What a build came to, for stdout and for the page.
+// Summary of a build, for stdout and the report.
 struct BuildSummary {
     std::uint64_t bytes = 0;
     double seconds = 0;
     long long peak_memory_bytes = 0;
-    std::optional<double> psnr_db;  // of compressed images
+    std::optional<double> psnr_db;  // compressed images only
 };
 
-// The most memory that this process has held, as the system counts it.
+// Peak resident memory of this process.
 long long peak_memory_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
@@ -56,17 +56,17 @@ long long peak_memory_bytes() {
 Result<BuildOptions> options_of(const BuildArguments& arguments) {
     BuildOptions options;
     options.name = arguments.name;
-    const std::optional<MapKind> kind = map_kind_from(arguments.raymap);
+    const std::optional<MapKind> kind = parse_map_kind(arguments.raymap);
     if (!kind) {
         return Error{"--raymap " + arguments.raymap +
-                     ": there is no such kind of RS map; give shape or plane (its size is --cells)"};
+                     ": is not a kind of RS map; use shape or plane (--cells sets its size)"};
     }
     options.raymap = *kind;
     options.map = usual_plane_map(*kind);
     options.map.planes = arguments.planes;
     if (!arguments.cells.empty()) {
         const Result<PixelSize> cells = parse_size(arguments.cells);
-        if (!cells) return Error{"--cells " + arguments.cells + ": give cells of x and of u, such as 512x512"};
+        if (!cells) return Error{"--cells " + arguments.cells + ": is not XxU; use cells of x and u, such as 512x512"};
         options.map.x_cells = cells->width;
         options.map.u_cells = cells->height;
     }
@@ -114,8 +114,8 @@ std::vector<ReportFact> facts_of(const BuildArguments& arguments, const BuildOpt
     return {
         {"capture set", arguments.set},
         {"object", arguments.output},
-        {"pictures", std::to_string(object.views.size()) + " of " + std::to_string(object.width) + "x" +
-                         std::to_string(object.height) + (set.resampled ? ", made upright" : "")},
+        {"images", std::to_string(object.views.size()) + " of " + std::to_string(object.width) + "x" +
+                       std::to_string(object.height) + (set.resampled ? ", resampled upright" : "")},
         {"rings of views", std::to_string(object.rings.size())},
         {"RS map", to_string(options.raymap) + "; " + map},
         {"stored as", arguments.profile.profile +
@@ -134,7 +134,7 @@ Status run_build(const BuildArguments& arguments) {
     RS_ASSIGN_OR_RETURN(BuildOptions options, options_of(arguments));
 
     RS_ASSIGN_OR_RETURN(CaptureSet set, open_capture_set(arguments.set, &progress));
-    // The places of object and page are tried before the work is done.
+    // Check that the output files can be written before the long build.
     RS_TRY(StagedFile::create(arguments.output));
     std::optional<StagedFile> page;
     if (!arguments.report.empty()) {
@@ -142,20 +142,20 @@ Status run_build(const BuildArguments& arguments) {
         page = std::move(created);
     }
     if (options.name.empty()) options.name = name_of(set);
-    RS_ASSIGN_OR_RETURN(const std::optional<ImageGoal> goal, goal_of(arguments.profile));
+    RS_ASSIGN_OR_RETURN(const std::optional<ImageGoal> goal, parse_goal(arguments.profile));
     options.raw_images = !goal.has_value();
-    if (set.resampled) std::cerr << "rs-encode: the cameras look up or down; their images are made upright\n";
+    if (set.resampled) std::cerr << "rs-encode: the cameras are pitched; their images are resampled to upright ones\n";
     RS_ASSIGN_OR_RETURN(BuiltObject built, build_object(set, options, &progress));
     BuildSummary summary;
     if (goal) {
         set.completed = std::move(built.completed);
         RS_ASSIGN_OR_RETURN(EncodedImages encoded,
                             encode_images(set, built.object, *goal, arguments.profile.alpha_bits, &progress));
-        set.completed.clear();  // what is scored is compared with the photographs
+        set.completed.clear();  // scores compare with the photos as captured
         summary.psnr_db = encoded.psnr_db;
         built.object.coded = std::make_shared<codec::CodedImages>(std::move(encoded.coded));
     }
-    if (Status status = write_object(arguments.output, built.object, &progress); !status) return status;
+    RS_TRY(write_object(arguments.output, built.object, &progress));
     for (const std::string& warning : built.warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
 
     summary.bytes = std::filesystem::file_size(arguments.output);
@@ -170,11 +170,11 @@ Status run_build(const BuildArguments& arguments) {
         report.chunks = summarise_chunks(container);
         report.warnings = built.warnings;
         report.rig = set.upright;
-        built.object.images.clear();  // their memory is wanted for the objects that are scored
-        if (Status status = add_captured_images(set, report); !status) return status;
-        add_depths(set, built.depths, report);
-        if (Status status = add_held_out_views(set, options.map.planes, report, &bar); !status) return status;
-        if (Status status = write_report(*page, report); !status) return status;
+        built.object.images.clear();  // frees memory for the objects to be scored
+        RS_TRY(add_captured_images(set, report));
+        add_depth_images(set, built.depths, report);
+        RS_TRY(add_evaluation(set, options.map.planes, report, &bar));
+        RS_TRY(write_report(*page, report));
     }
     print_summary(arguments, options, built.object, summary);
     return {};
@@ -191,20 +191,20 @@ void add_build_command(CLI::App& app, std::function<Status()>& run) {
         ->check(ends_in({".rso"}));
     command
         ->add_option("--raymap", arguments->raymap,
-                     "shape: depth of every ray, found from the images; plane: the object lies on the reference planes")
+                     "shape: depth of every ray, estimated from the images; plane: depth of the reference planes")
         ->capture_default_str();
     command->add_option("--cells", arguments->cells,
-                        "cells of the RS map of a plane, X x U; 512x512 for plane and 128x128 for shape if not given");
+                        "cells of each plane's RS map, XxU; default 512x512 for plane and 128x128 for shape");
     command->add_option("--planes", arguments->planes, "reference planes about the axis, 3..64")->capture_default_str();
     add_profile_options(*command, arguments->profile);
-    command->add_option("--name", arguments->name, "name of the object; the set's folder where not given");
+    command->add_option("--name", arguments->name, "object name; default: the set's folder");
     command
         ->add_option("--report", arguments->report,
-                     "also write a page about the build, PAGE.html; takes as long again, for it scores objects "
-                     "that are built without every other view")
+                     "also write a report, PAGE.html; doubles the time, since it scores objects that are built "
+                     "without every second view")
         ->check(ends_in({".html", ".htm"}));
-    command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
-    command->add_flag("--json", arguments->json, "the summary as JSON");
+    command->add_flag("-q,--quiet", arguments->quiet, "suppress the progress bar");
+    command->add_flag("--json", arguments->json, "print the summary as JSON");
     command->footer(
         "Examples:\n  rs-encode build vase-set -o vase.rso --report vase.html\n"
         "  rs-encode build vase-set -o vase.rso --psnr 36\n"

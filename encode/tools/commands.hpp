@@ -1,5 +1,5 @@
 #pragma once
-// The commands of rs-encode. Each adds itself to `app`, and sets `run` where it is the one that is called.
+// Subcommands of rs-encode. Each function adds one to `app`; its callback sets `run`.
 
 #include "rayspace/base/result.hpp"
 
@@ -9,11 +9,11 @@
 
 namespace rs::encode {
 
-// A capture set as an object, and a page about it.
+/// Builds an object, and optionally a report, from a capture set.
 void add_build_command(CLI::App& app, std::function<Status()>& run);
-// How good an object of a set is, on views that are held out of it.
+/// Measures quality on held-out views of a set.
 void add_evaluate_command(CLI::App& app, std::function<Status()>& run);
-// A look into objects.
+/// Inspection of objects.
 void add_info_command(CLI::App& app, std::function<Status()>& run);
 void add_verify_command(CLI::App& app, std::function<Status()>& run);
 void add_extract_command(CLI::App& app, std::function<Status()>& run);

@@ -1,7 +1,7 @@
 #include "encode/tools/commands.hpp"
 
-#include "encode/tools/evaluation.hpp"
-#include "encode/tools/report_of_build.hpp"
+#include "encode/evaluation/evaluation.hpp"
+#include "encode/tools/report_contents.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -33,12 +33,13 @@ struct EvaluateArguments {
     bool json = false;
 };
 
-// FOLDER/truth/0001.png, FOLDER/plane/0001.png, FOLDER/plane-error/0001.png, named by the view's number in the set.
-class AnswerFolder {
+// Writes FOLDER/truth/0001.png, FOLDER/plane/0001.png and FOLDER/plane-error/0001.png, named by the view's index in the
+// set.
+class EvaluationFolder {
 public:
-    static Result<AnswerFolder> create(const std::string& path, const std::vector<Method>& methods) {
+    static Result<EvaluationFolder> create(const std::string& path, const std::vector<Method>& methods) {
         RS_ASSIGN_OR_RETURN(StagedFolder folder, StagedFolder::create(path, "answers of methods"));
-        AnswerFolder made(std::move(folder), methods.front());
+        EvaluationFolder made(std::move(folder), methods.front());
         std::vector<std::string> names{"truth"};
         for (const Method method : methods) {
             names.push_back(to_string(method));
@@ -47,20 +48,20 @@ public:
         for (const std::string& name : names) {
             std::error_code error;
             if (!std::filesystem::create_directory(made.folder_.temporary_path() / name, error)) {
-                return Error{path + "/" + name + ": cannot be made: " + error.message()};
+                return Error{path + "/" + name + ": cannot be created: " + error.message()};
             }
         }
         return made;
     }
 
-    [[nodiscard]] Status write(const AnsweredView& answered) const {
+    [[nodiscard]] Status write(const EvaluatedView& answered) const {
         const std::string name = numbered_image_name(static_cast<std::size_t>(answered.view));
         const std::string method = to_string(answered.method);
         const std::filesystem::path& root = folder_.temporary_path();
         if (answered.method == first_) {
-            if (Status status = write_png(root / "truth" / name, answered.truth); !status) return status;
+            RS_TRY(write_png(root / "truth" / name, answered.truth));
         }
-        if (Status status = write_png(root / method / name, answered.answer); !status) return status;
+        RS_TRY(write_png(root / method / name, answered.answer));
         return write_png(root / (method + "-error") / name,
                          error_image(answered.truth, answered.answer, kErrorFullScale));
     }
@@ -68,9 +69,9 @@ public:
     Status commit() { return folder_.commit(); }
 
 private:
-    AnswerFolder(StagedFolder folder, Method first) : folder_(std::move(folder)), first_(first) {}
+    EvaluationFolder(StagedFolder folder, Method first) : folder_(std::move(folder)), first_(first) {}
     StagedFolder folder_;
-    Method first_;  // the truth is written once, with this method's answers
+    Method first_;  // ground truth is written once, with this method's renderings
 };
 
 void print_json(const EvaluateArguments& arguments, const HoldOut& hold_out, const std::vector<MethodScores>& scores) {
@@ -95,7 +96,7 @@ void print_json(const EvaluateArguments& arguments, const HoldOut& hold_out, con
 
 void print_table(const EvaluateArguments& arguments, const HoldOut& hold_out, const std::vector<MethodScores>& scores) {
     if (arguments.views) {
-        std::printf("%5s  %-24s", "view", "picture");
+        std::printf("%5s  %-24s", "view", "image");
         for (const MethodScores& method : scores) std::printf("  %8s dB", method.method.c_str());
         std::printf("\n");
         for (std::size_t n = 0; n < hold_out.held.size(); ++n) {
@@ -116,14 +117,14 @@ void print_table(const EvaluateArguments& arguments, const HoldOut& hold_out, co
 }
 
 Status write_page(const EvaluateArguments& arguments, const CaptureSet& set, const HoldOut& hold_out,
-                  const std::vector<MethodScores>& scores, KeptAnswers answers, StagedFile& file) {
+                  const std::vector<MethodScores>& scores, EvaluationThumbnails answers, StagedFile& file) {
     BuildReport report;
     report.name = name_of(set);
     report.facts = {{"capture set", arguments.set},
-                    {"pictures", std::to_string(set.upright.views.size()) + (set.resampled ? ", made upright" : "")},
+                    {"images", std::to_string(set.upright.views.size()) + (set.resampled ? ", resampled upright" : "")},
                     {"reference planes", std::to_string(arguments.planes)}};
     report.rig = set.upright;
-    if (Status status = add_captured_images(set, report); !status) return status;
+    RS_TRY(add_captured_images(set, report));
     std::string which = arguments.hold_out;  // every-3rd
     std::ranges::replace(which, '-', ' ');
     add_scores(set, hold_out, which, scores, std::move(answers), report);
@@ -140,9 +141,9 @@ Status run_evaluate(const EvaluateArguments& arguments) {
     ProgressBar progress(arguments.quiet);
     RS_ASSIGN_OR_RETURN(const CaptureSet set, open_capture_set(arguments.set, &progress));
     RS_ASSIGN_OR_RETURN(const HoldOut hold_out, choose_hold_out(set.upright, every, arguments.set));
-    std::optional<AnswerFolder> folder;
+    std::optional<EvaluationFolder> folder;
     if (!arguments.output.empty()) {
-        RS_ASSIGN_OR_RETURN(AnswerFolder created, AnswerFolder::create(arguments.output, options.methods));
+        RS_ASSIGN_OR_RETURN(EvaluationFolder created, EvaluationFolder::create(arguments.output, options.methods));
         folder = std::move(created);
     }
     std::optional<StagedFile> page;
@@ -150,21 +151,19 @@ Status run_evaluate(const EvaluateArguments& arguments) {
         RS_ASSIGN_OR_RETURN(StagedFile created, StagedFile::create(arguments.report));
         page = std::move(created);
     }
-    KeptAnswers answers(hold_out, options.methods);
-    const LookAtAnswer look = [&](const AnsweredView& answered) -> Status {
+    EvaluationThumbnails answers(hold_out, options.methods);
+    const EvaluationSink look = [&](const EvaluatedView& answered) -> Status {
         if (page) {
-            if (Status status = answers.keep(answered); !status) return status;
+            RS_TRY(answers.keep(answered));
         }
         return folder ? folder->write(answered) : Status{};
     };
     RS_ASSIGN_OR_RETURN(const std::vector<MethodScores> scores, evaluate(set, hold_out, options, look, &progress));
     if (folder) {
-        if (Status status = folder->commit(); !status) return status;
+        RS_TRY(folder->commit());
     }
     if (page) {
-        if (Status status = write_page(arguments, set, hold_out, scores, std::move(answers), *page); !status) {
-            return status;
-        }
+        RS_TRY(write_page(arguments, set, hold_out, scores, std::move(answers), *page));
     }
     if (arguments.json) {
         print_json(arguments, hold_out, scores);
@@ -182,26 +181,26 @@ void add_evaluate_command(CLI::App& app, std::function<Status()>& run) {
         app.add_subcommand("evaluate",
                            "Build objects from some views of a set, render the others, and print PSNR and SSIM against "
                            "their images.\nRGB premultiplied by alpha, 8 bit, over pixels where either image's "
-                           "alpha is above 0. A view that an object was built from is never scored");
+                           "alpha is above 0. Views used to build an object are never scored");
     command->add_option("SET", arguments->set, "capture set: a folder with transforms.json and its images")->required();
     command
         ->add_option("--hold-out", arguments->hold_out,
-                     "every-Nth: of each N neighbouring views of a ring the middle one is held out")
+                     "every-Nth: hold out the middle one of each N neighbouring views of a ring")
         ->capture_default_str();
     command
         ->add_option("--methods", arguments->methods,
-                     "who answers: photo (the nearest kept image, as it is), plane and shape (as --raymap of build)")
+                     "methods: photo (the nearest kept image, unchanged), plane and shape (as --raymap of build)")
         ->capture_default_str();
     command->add_option("--planes", arguments->planes, "reference planes about the axis, 3..64")->capture_default_str();
     command->add_option("-o,--output", arguments->output,
-                        "folder for the true images of the views held out, the answers and their errors, as PNG");
+                        "folder for ground truth, renderings and error maps of the held-out views, as PNG");
     command
         ->add_option("--report", arguments->report,
-                     "also write a page of it, PAGE.html: scores, some answers beside the truth, the cameras")
+                     "also write a report, PAGE.html: scores, some renderings beside ground truth, the cameras")
         ->check(ends_in({".html", ".htm"}));
-    command->add_flag("--views", arguments->views, "every view's PSNR too");
-    command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
-    command->add_flag("--json", arguments->json, "everything as JSON");
+    command->add_flag("--views", arguments->views, "also print the PSNR of every view");
+    command->add_flag("-q,--quiet", arguments->quiet, "suppress the progress bar");
+    command->add_flag("--json", arguments->json, "print all results as JSON");
     command->footer(
         "Examples:\n  rs-encode evaluate vase-set --report vase.html\n"
         "  rs-encode evaluate vase-set --hold-out every-4th --methods plane,shape -o vase-errors --json");

@@ -89,7 +89,7 @@ Status run_info(const ObjectArguments& arguments) {
 
 Status run_verify(const ObjectArguments& arguments) {
     RS_ASSIGN_OR_RETURN(const ContainerReader container, ContainerReader::open(arguments.object));
-    // Every chunk, also those that an object is read without, and then every bound of FORMAT.md.
+    // Check every chunk, including those that read_object() skips, and then every bound of FORMAT.md.
     for (const ChunkEntry& entry : container.table()) {
         RS_TRY(container.read(entry));
     }
@@ -102,12 +102,12 @@ Status run_verify(const ObjectArguments& arguments) {
 Status run_extract(const ObjectArguments& arguments) {
     RS_ASSIGN_OR_RETURN(const RaySpaceObject object, read_object(arguments.object));
     ProgressBar progress(arguments.quiet);
-    if (Status status = extract_images(object, arguments.output, &progress); !status) return status;
+    RS_TRY(extract_images(object, arguments.output, &progress));
     std::printf("%s: %zu images\n", arguments.output.c_str(), object.images.size());
     return {};
 }
 
-// What the three commands share; the caller adds its own options.
+// Adds a subcommand with the options common to all three.
 CLI::App* add_object_command(CLI::App& app, std::function<Status()>& run, const char* name, const char* about,
                              const std::shared_ptr<ObjectArguments>& arguments,
                              Status (*action)(const ObjectArguments&)) {
@@ -121,9 +121,9 @@ CLI::App* add_object_command(CLI::App& app, std::function<Status()>& run, const 
 
 void add_info_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<ObjectArguments>();
-    CLI::App* command =
-        add_object_command(app, run, "info", "Say what an object holds and where its bytes go", arguments, run_info);
-    command->add_flag("--json", arguments->json, "as JSON");
+    CLI::App* command = add_object_command(app, run, "info", "Print an object's contents and the size of its parts",
+                                           arguments, run_info);
+    command->add_flag("--json", arguments->json, "print as JSON");
     command->footer("Example:\n  rs-encode info vase.rso --json");
 }
 
@@ -138,7 +138,7 @@ void add_extract_command(CLI::App& app, std::function<Status()>& run) {
     CLI::App* command = add_object_command(
         app, run, "extract", "Write the stored images and their rig as a capture set", arguments, run_extract);
     command->add_option("-o,--output", arguments->output, "capture set to write")->required();
-    command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
+    command->add_flag("-q,--quiet", arguments->quiet, "suppress the progress bar");
     command->footer("Example:\n  rs-encode extract vase.rso -o vase-images");
 }
 

@@ -5,7 +5,7 @@
 namespace rs::encode {
 namespace {
 
-// "800k" -> 800000. Nothing for text that is no size above 0.
+// "800k" -> 800000; nullopt if the text is not a size above 0.
 std::optional<std::uint64_t> bytes_of(const std::string& text) {
     std::size_t read = 0;
     double number = 0;
@@ -35,40 +35,42 @@ std::optional<std::uint64_t> bytes_of(const std::string& text) {
 void add_profile_options(CLI::App& command, ProfileArguments& arguments) {
     command
         .add_option("--profile", arguments.profile,
-                    "how images are stored. dense: compressed, any tile of them reachable; board: in records of fixed "
-                    "sizes that hardware unpacks by look-ups, larger for the same quality; raw: uncompressed, with "
+                    "storage of images. dense: compressed, with random access to tiles; board: fixed-size records "
+                    "that hardware decodes by table look-up, larger for the same quality; raw: uncompressed, with "
                     "colour at half width and height")
         ->capture_default_str();
-    CLI::Option* quality = command
-                               .add_option("--quality", arguments.quality,
-                                           "of compressed images, 1..100; 14 more halve a dense object's error")
-                               ->capture_default_str();
-    CLI::Option* psnr = command.add_option("--psnr", arguments.psnr_db,
-                                           "or: the smallest images of at least so many dB over the object's pixels");
+    CLI::Option* quality =
+        command
+            .add_option("--quality", arguments.quality,
+                        "quality of compressed images, 1..100; 14 more halves the error of a dense object")
+            ->capture_default_str();
+    CLI::Option* psnr =
+        command.add_option("--psnr", arguments.psnr_db,
+                           "alternative: smallest images with at least this PSNR in dB over the object's pixels");
     CLI::Option* size = command.add_option(
-        "--size", arguments.size, "or: the best images that take at most so many bytes together, such as 800k or 2M");
+        "--size", arguments.size, "alternative: best images within this many bytes in total, such as 800k or 2M");
     quality->excludes(psnr)->excludes(size);
     psnr->excludes(size);
     command
         .add_option("--effort", arguments.effort,
-                    "how much the dense encoder tries, 1..9: 9 takes many times as long as 1 for somewhat fewer bits")
+                    "search effort of the dense encoder, 1..9: 9 takes many times as long as 1 and saves a few bits")
         ->capture_default_str();
     command.add_option(
         "--alpha-bits", arguments.alpha_bits,
-        "bits of compressed images' alpha, 1..6; without it 2, or for dense images 6 where something is soft over "
-        "an area, such as a shadow, else 1 for a --psnr below 31 or a quality below 54");
+        "alpha bits of compressed images, 1..6; default 2; for dense images 6 if an area is soft, such as "
+        "a shadow, else 1 for a --psnr below 31 or a quality below 54");
 }
 
-Result<std::optional<ImageGoal>> goal_of(const ProfileArguments& arguments) {
+Result<std::optional<ImageGoal>> parse_goal(const ProfileArguments& arguments) {
     if (arguments.profile == "raw") return std::optional<ImageGoal>();
     if (arguments.profile != "dense" && arguments.profile != "board") {
-        return Error{"--profile " + arguments.profile + ": there is no such profile; give dense, board or raw"};
+        return Error{"--profile " + arguments.profile + ": is not a profile; use dense, board or raw"};
     }
     if (arguments.alpha_bits && (*arguments.alpha_bits < 1 || *arguments.alpha_bits > codec::kMaxAlphaBits)) {
         return Error{"--alpha-bits " + std::to_string(*arguments.alpha_bits) + ": must be 1.." +
                      std::to_string(codec::kMaxAlphaBits)};
     }
-    if (arguments.effort < kLeastEffort || arguments.effort > kMostEffort) {
+    if (arguments.effort < kLeastEffort || arguments.effort > kMaxEffort) {
         return Error{"--effort " + std::to_string(arguments.effort) + ": must be 1..9"};
     }
     ImageGoal goal;
@@ -82,7 +84,8 @@ Result<std::optional<ImageGoal>> goal_of(const ProfileArguments& arguments) {
     if (goal.psnr_db && !(*goal.psnr_db >= 10 && *goal.psnr_db <= 60)) return Error{"--psnr: must be 10..60 dB"};
     if (!arguments.size.empty()) {
         goal.images_bytes = bytes_of(arguments.size);
-        if (!goal.images_bytes) return Error{"--size " + arguments.size + ": give bytes, such as 750000, 800k or 2M"};
+        if (!goal.images_bytes)
+            return Error{"--size " + arguments.size + ": is not a size; use bytes, such as 750000, 800k or 2M"};
     }
     return std::optional<ImageGoal>(goal);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The options of `rs-encode build` that choose how images are stored.
+// Options of `rs-encode build` for the storage of images.
 
 #include "encode/encode_images.hpp"
 #include "rayspace/base/result.hpp"
@@ -15,14 +15,14 @@ struct ProfileArguments {
     std::string profile = "dense";
     double quality = ImageGoal{}.quality;
     std::optional<double> psnr_db;
-    std::string size;  // bytes of the images, with k, M or G; empty: not given
+    std::string size;  // bytes of the images with suffix k, M or G; empty: not given
     int effort = ImageGoal{}.effort;
-    std::optional<int> alpha_bits;  // nothing: as suits the quality
+    std::optional<int> alpha_bits;  // nullopt: chosen by encode_images()
 };
 
 void add_profile_options(CLI::App& command, ProfileArguments& arguments);
 
-// Nothing for images that are stored raw.
-Result<std::optional<ImageGoal>> goal_of(const ProfileArguments& arguments);
+/// Converts the options; nullopt for raw images.
+Result<std::optional<ImageGoal>> parse_goal(const ProfileArguments& arguments);
 
 }  // namespace rs::encode

@@ -71,8 +71,8 @@ Implementation implementation_of(std::shared_ptr<Executor> executor) {
     return {name,
             [executor = std::move(executor)](const ConformanceCase& of_case,
                                              const RaySpaceObject& object) -> Result<ExecuteView> {
-                RS_TRY(executor->takes(object));
-                if (executor->as_drawn(object).images != object.images) {
+                RS_TRY(executor->supports(object));
+                if (executor->as_rendered(object).images != object.images) {
                     return Error{"its alpha has values that " + executor->traits().name + " does not hold"};
                 }
                 RS_ASSIGN_OR_RETURN(const std::optional<int> slot, executor->load(object));
@@ -83,7 +83,7 @@ Implementation implementation_of(std::shared_ptr<Executor> executor) {
                 });
                 return ExecuteView([executor, loaded, &of_case](std::size_t v) -> Result<ExecutedView> {
                     const ViewRegisters& registers = of_case.views[v].registers;
-                    RS_TRY(executor->draws(registers));
+                    RS_TRY(executor->can_render(registers));
                     RS_ASSIGN_OR_RETURN(std::vector<ExecutedView> drawn, executor->render({{*loaded, registers}}));
                     return std::move(drawn.front());
                 });

@@ -3,7 +3,7 @@
 // what the definition gave.
 
 #include "engine/conformance/vectors.hpp"
-#include "engine/core/definition/executor.hpp"
+#include "rayspace/api/types/executor.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/object/ray_space_object.hpp"

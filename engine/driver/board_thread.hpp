@@ -5,7 +5,7 @@
 // Thread-safety: every member function may be called from any thread, but reserve(), draw() and wait() belong together,
 // from one.
 
-#include "engine/core/definition/executor.hpp"
+#include "rayspace/api/types/executor.hpp"
 
 #include <condition_variable>
 #include <cstdint>

@@ -115,8 +115,8 @@ Result<ObjectHandle> RenderSession::load_checked(RaySpaceObject object) {
 
 std::shared_ptr<const RaySpaceObject> RenderSession::as_board_draws(RaySpaceObject& object) const {
     const BoardThread* const board = state_->executor.board();
-    if (board == nullptr || !board->device().takes(object)) return nullptr;
-    object = board->device().as_drawn(std::move(object));
+    if (board == nullptr || !board->device().supports(object)) return nullptr;
+    object = board->device().as_rendered(std::move(object));
     return std::make_shared<const RaySpaceObject>(object);
 }
 
@@ -175,7 +175,7 @@ Result<CycleHandle> RenderSession::submit(const std::vector<ViewRequest>& views)
             prepare_view(object, view.camera, is_filtered ? std::nullopt : std::optional(TexelFilter::kBilinear));
         if (!registers) return Error{object.name + ": " + registers.error().message};
         const bool board_draws = found->second.on_board && (!view.depth || board->device().traits().depth) &&
-                                 board->device().draws(*registers).ok();
+                                 board->device().can_render(*registers).ok();
         cycle->views.push_back(
             {view.object.number, found->second.renderer, std::move(*registers), view.depth, board_draws});
     }

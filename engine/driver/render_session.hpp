@@ -8,7 +8,7 @@
 // Two executors: the software core, which draws everything, and, if the module is given one, a board. The board's
 // memory holds the objects that were requested last; the core draws what the board does not hold or cannot draw, at the
 // same time, and stands in for the board when it fails. Either gives the same bits: with a board,
-// objects that it takes are drawn as it holds them (Executor::as_drawn).
+// objects that it takes are drawn as it holds them (Executor::as_rendered).
 //
 // Thread-safety: every member function may be called from any thread.
 

@@ -8,7 +8,7 @@ namespace {
 constexpr std::uint64_t kMostCycles = std::uint64_t{1} << 40;
 
 // Pixel (i, j) is half (j & 1) of word i * ceil(height / 2) + (j >> 1).
-Image<Rgba8> image_of(const HostImage& words, const BoardView& view) {
+Image<Rgba8> unpack_host_image(const HostImage& words, const BoardView& view) {
     Image<Rgba8> image(view.width, view.height);
     const auto pitch = static_cast<std::size_t>(view.words_per_column());
     for (int j = 0; j < view.height; ++j) {
@@ -134,7 +134,7 @@ RenderedCycle Board::collect(std::uint64_t cycle) {
     std::deque<HostImage>& arrived = top_->host_bus.images();
     for (const BoardView& view : top_->programs[done.program].bank.views) {
         RS_CHECK(!arrived.empty() && arrived.front().words.size() == static_cast<std::size_t>(view.words()));
-        result.images.push_back(image_of(arrived.front(), view));
+        result.images.push_back(unpack_host_image(arrived.front(), view));
         result.arrived = (arrived.front().arrived + 1) * static_cast<std::uint64_t>(top_->config.pci.period) /
                          static_cast<std::uint64_t>(top_->config.clock_period);
         arrived.pop_front();

@@ -1,7 +1,7 @@
 #pragma once
 // The model of the board as an executor: what a host program would see of the real one, only slower.
 
-#include "engine/core/definition/executor.hpp"
+#include "rayspace/api/types/executor.hpp"
 #include "engine/model/signals/board_config.hpp"
 
 #include <memory>

@@ -2,7 +2,7 @@
 
 #include "engine/conformance/run_vectors.hpp"
 #include "engine/core/views/conformance.hpp"
-#include "engine/executors/executor_table.hpp"
+#include "rayspace/api/types/executor_table.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/format/object_file.hpp"
 
@@ -29,7 +29,7 @@ struct ConformanceArguments {
 Result<Implementation> implementation_from(const std::string& name) {
     constexpr std::string_view kFiles = "files:";
     if (name.starts_with(kFiles)) return implementation_in_files(name.substr(kFiles.size()));
-    Result<std::unique_ptr<Executor>> executor = make_executor(name, {.instant_loads = true});
+    Result<std::unique_ptr<Executor>> executor = ExecutorTable().create(name);
     if (!executor) return Error{executor.error().message + " or files:FOLDER"};
     return implementation_of(std::move(*executor));
 }
@@ -126,7 +126,7 @@ void add_conformance_command(CLI::App& app, std::function<Status()>& run) {
     command->add_option("TARGET", arguments->target, "the folder of the conformance set, or an object, .rso")
         ->required();
     command->add_option("--executor", arguments->executors,
-                        "of the set: " + executor_names() +
+                        "of the set: " + ExecutorTable().names() +
                             " (a configuration of `simulate`), or files:FOLDER, "
                             "images that another implementation wrote; may be given several times; scalar and core if "
                             "not given");

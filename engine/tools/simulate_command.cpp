@@ -205,7 +205,7 @@ Status use_images(const model::BoardRun& run, const std::vector<Drawing>& drawin
 Status run_simulate(const SimulateArguments& arguments) {
     RS_ASSIGN_OR_RETURN(const model::BoardConfig config, model::read_board_config(arguments.config));
     if (arguments.print_config) {
-        std::printf("%s\n", model::board_config_jsonconfig.c_str());
+        std::printf("%s\n", model::board_config_json(config).c_str());
         return {};
     }
     model::Board board(config);
@@ -216,7 +216,7 @@ Status run_simulate(const SimulateArguments& arguments) {
     std::vector<RaySpaceObject> objects;
     for (const std::string& path : arguments.objects) {
         RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path));
-        objects.push_back(model::layout_of(config.limits.kind).as_drawn(std::move(object)));
+        objects.push_back(model::layout_of(config.limits.kind).as_rendered(std::move(object)));
     }
     for (const RaySpaceObject& object : objects) print_footprint(object, board);
     RS_ASSIGN_OR_RETURN(const std::vector<int> slots, put_on_board(board, objects, arguments.load));

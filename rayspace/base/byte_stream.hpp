@@ -1,5 +1,5 @@
 #pragma once
-// Little-endian numbers in and out of bytes, for the .rso format (encode/FORMAT.md).
+// Reads and writes little-endian numbers, for the .rso format (encode/FORMAT.md).
 
 #include <concepts>
 #include <cstddef>
@@ -20,7 +20,7 @@ public:
         auto bits = static_cast<Bits>(number);
         for (std::size_t i = 0; i < sizeof(T); ++i) {
             bytes_.push_back(static_cast<std::byte>(bits & 0xFFU));
-            // Two halves: shifting an 8-bit number by 8 is allowed only because it is promoted, a 64-bit one never.
+            // Two shifts of 4, since a shift by 8 is undefined for operands of 8 bits that are not promoted.
             bits = static_cast<Bits>(bits >> 4U >> 4U);
         }
     }
@@ -42,8 +42,8 @@ private:
     std::vector<std::byte> bytes_;
 };
 
-// Reading past the end gives zeros and turns ok() false, so that a parser checks once, at its end, and before it
-// allocates by a number that it read.
+/// Reads past the end return zeros and make ok() false. A parser checks ok() once at its end, and before it allocates
+/// memory by a number it has read.
 class ByteReader {
 public:
     explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
@@ -64,7 +64,7 @@ public:
         std::memcpy(&number, &bits, sizeof number);
         return number;
     }
-    // The next `count` bytes, or none at all where there are fewer.
+    /// The next `count` bytes; empty if there are fewer.
     std::span<const std::byte> take(std::size_t count) {
         if (count > bytes_.size()) {
             ok_ = false;
@@ -75,7 +75,7 @@ public:
         bytes_ = bytes_.subspan(count);
         return taken;
     }
-    // True where the next `count` bytes are there and zero.
+    /// True if the next `count` bytes exist and are zero.
     bool take_zeros(std::size_t count) {
         for (const std::byte b : take(count)) {
             if (b != std::byte{0}) return false;

@@ -1,5 +1,6 @@
 #pragma once
-// JSON text that others wrote: scenes, recipes, rigs, boards, conformance vectors, all with the same limits and words.
+// Parser of JSON text from outside (scenes, recipes, rigs, boards, conformance vectors), with common limits and
+// messages.
 
 #include "rayspace/base/result.hpp"
 
@@ -10,8 +11,8 @@
 
 namespace rs {
 
-// Errors, which name `where` and the line: text that is no JSON, brackets that nest more than 64 deep, a number that is
-// out of range, and an object that names a key twice. Pure; thread-safe.
+/// Parses JSON text. Errors, which name `where` and the line: invalid JSON, brackets nested more than 64 deep, a number
+/// out of range, a repeated key. Thread-safe.
 Result<nlohmann::json> parse_json(std::string_view text, const std::string& where);
 
 }  // namespace rs

@@ -1,5 +1,5 @@
 #pragma once
-// The middle of some numbers.
+// Median of a list.
 
 #include <algorithm>
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace rs {
 
-// The upper median: of an even count the greater of the two in the middle; 0 of none. The values change places.
+/// The upper median: of an even count the greater of the two middle values; 0 for an empty list. Reorders the values.
 template <class T>
 T median_of(std::span<T> values) {
     if (values.empty()) return T{};
@@ -17,7 +17,7 @@ T median_of(std::span<T> values) {
     return *middle;
 }
 
-// The same of values that stay as they are.
+/// The upper median, without reordering.
 template <class T>
 T median(std::vector<T> values) {
     return median_of(std::span<T>(values));

@@ -1,5 +1,5 @@
 #pragma once
-// The same work on many things at once.
+// Parallel loops with errors, progress, or a thread count.
 
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
@@ -10,13 +10,13 @@
 
 namespace rs {
 
-// Calls work(0) .. work(count - 1) on the threads of the calling tbb arena, in any order, and advances `progress` (may
-// be null) under `label`. After a failure no further call is begun; of the failures that happened the one with the
-// lowest index is returned.
+/// Calls work(0) .. work(count - 1) on the threads of the calling tbb arena, in any order, and advances `progress` (may
+/// be null) under `label`. After a failure no further call starts.
+/// \return the error with the lowest index among those that occurred.
 Status for_each_in_parallel(int count, const std::string& label, Progress* progress,
                             const std::function<Status(int)>& work);
 
-// Calls work(0) .. work(count - 1), in any order, on `threads` threads (0 = as many as the processor has).
+/// Calls work(0) .. work(count - 1), in any order, on `threads` threads (0: one per processor).
 void for_each_index(std::int64_t count, int threads, const std::function<void(std::int64_t)>& work);
 
 }  // namespace rs

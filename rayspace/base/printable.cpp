@@ -29,7 +29,7 @@ std::string printable(std::string_view text) {
 }
 
 std::string with_digits(double value, int digits) {
-    char text[512];  // the largest double has 309 before the point
+    char text[512];  // the largest double has 309 digits before the point
     std::snprintf(text, sizeof text, "%.*f", digits, value);
     return text;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Text for people: with names of files and what stands in them, and with numbers.
+// Formats text for display: names from files, and numbers.
 
 #include <cstddef>
 #include <span>
@@ -8,14 +8,14 @@
 
 namespace rs {
 
-// Control characters (those of Unicode's second block as UTF-8, too) and the byte 127 become \xNN, so that a name
-// cannot colour, move or clear anything; everything else stays, UTF-8 or not.
+/// Replaces control characters (including C1 as UTF-8, and byte 127) by \xNN, so that a name cannot send terminal
+/// commands. All other bytes are kept, valid UTF-8 or not.
 std::string printable(std::string_view text);
 
-// So many digits behind the point.
+/// Formats a number with a fixed number of digits after the decimal point.
 std::string with_digits(double value, int digits);
 
-// "a, b and 3 more": the first `most`, and how many there are beside.
+/// "a, b and 3 more": the first `most` names and the number of the others.
 std::string listed(std::span<const std::string> names, std::size_t most);
 
 }  // namespace rs

@@ -63,7 +63,7 @@ void ProgressBar::finish() {
     const std::lock_guard lock(mutex_);
     if (!running_) return;
     running_ = false;
-    // What was drawn once is drawn to its end, so that no bar stands at 97 % for ever.
+    // A visible bar is completed, so that none remains at 97 %.
     if (drawn_ && (terminal_ || last_tenth_ < 10)) draw(Clock::now(), true);
 }
 
@@ -79,7 +79,7 @@ void ProgressBar::draw(Clock::time_point now, bool last) {
         std::string bar(static_cast<std::size_t>(filled), '=');
         if (filled < kBarCharacters) bar += '>';
         bar.resize(kBarCharacters, ' ');
-        // "\033[K" clears what a longer line left behind.
+        // "\033[K" clears the rest of a longer previous line.
         std::fprintf(stderr, "\r%s [%s] %3d %%  %s\033[K%s", label_.c_str(), bar.c_str(), percent, time.c_str(),
                      last ? "\n" : "");
     } else {

@@ -1,7 +1,7 @@
 #pragma once
-// Progress of long work. Libraries take a `Progress*` (null = silent) and call advance(); the tools give a ProgressBar,
-// which draws "label [=====>   ]  45 %  12 s left" on stderr: redrawn in place on a terminal, a line at every tenth
-// otherwise, nothing at all for work that ends within half a second.
+// Progress of long work. Libraries take a `Progress*` (null: silent) and call advance(). Tools pass a ProgressBar,
+// which draws "label [=====>   ]  45 %  12 s left" on stderr: redrawn in place on a terminal, one line per tenth
+// otherwise, nothing for work that ends within half a second.
 
 #include <chrono>
 #include <cstdint>
@@ -13,16 +13,16 @@ namespace rs {
 class Progress {
 public:
     virtual ~Progress() = default;
-    // Starts a piece of work of `total` steps; ends the piece before it, if any.
+    /// Starts a stage of `total` steps; ends the previous stage, if any.
     virtual void start(const std::string& label, std::int64_t total) = 0;
-    // Thread-safe.
+    /// Thread-safe.
     virtual void advance(std::int64_t steps = 1) = 0;
     virtual void finish() = 0;
 };
 
 class ProgressBar final : public Progress {
 public:
-    // Nothing is drawn for work that ends within `silence`.
+    /// Nothing is drawn for stages that end within `silence`.
     explicit ProgressBar(bool quiet = false, std::chrono::milliseconds silence = std::chrono::milliseconds(500));
     ~ProgressBar() override;
 

@@ -1,7 +1,6 @@
 #pragma once
-// Reads JSON that must be exactly as documented, for all files in JSON that people write: every value is checked where
-// it is taken, and a key that nobody took is an error. Errors travel as the exception MalformedJson up to read_json().
-// No two threads may use one JsonObject at a time.
+// Strict reader for JSON files written by users: every value is checked when it is read, and unknown keys are errors.
+// Errors travel as the exception MalformedJson up to read_json(). A JsonObject is not thread-safe.
 
 #include "rayspace/base/result.hpp"
 
@@ -19,13 +18,13 @@
 namespace rs {
 
 struct MalformedJson {
-    std::string message;  // "FILE: KEY: what is wrong; what to do", printable
+    std::string message;  // "FILE: KEY: what is wrong; what to do", without control characters
 };
 
-// As parse_json() of json_text.hpp, but throws MalformedJson.
+/// As parse_json() of json_text.hpp, but throws MalformedJson.
 nlohmann::json parse_json_text(std::string_view text, const std::string& file);
 
-// One value, the file's name and how the value is reached there, such as "nodes[2].box". Refers to `value`.
+/// A value with the file's name and its path in the file, such as "nodes[2].box". Refers to `value`.
 class JsonValue {
 public:
     JsonValue(const nlohmann::json& value, std::string file, std::string key);
@@ -38,11 +37,11 @@ public:
     [[nodiscard]] bool boolean() const;
     [[nodiscard]] std::string text() const;           // not empty, without zero characters
     [[nodiscard]] std::string text_or_empty() const;  // without zero characters
-    // The index of the text in `words`.
+    /// The index of the text in `words`.
     [[nodiscard]] std::size_t one_of(const std::vector<std::string>& words) const;
     [[nodiscard]] glm::dvec3 triple(double lowest, double highest) const;
-    [[nodiscard]] glm::dvec3 direction() const;  // three numbers, not all 0; given back with unit length
-    // Refuses what is no list, or one of another length.
+    [[nodiscard]] glm::dvec3 direction() const;  // three numbers, not all 0; normalised
+    /// Fails unless the value is a list of `least` to `most` items.
     std::size_t list_size(std::size_t least, std::size_t most) const;
     [[nodiscard]] JsonValue item(std::size_t i) const;
 
@@ -62,21 +61,21 @@ public:
     explicit JsonObject(const JsonValue& value);
 
     [[nodiscard]] bool has(const std::string& name) const;
-    // The value of a key that is there (`has`) or must be.
+    /// The value of a required key.
     JsonValue take(const std::string& name);
-    // The same for a key that may be missing.
+    /// The value of an optional key.
     std::optional<JsonValue> find(const std::string& name);
-    // Likewise; of a key that is missing `value` stays as it is.
+    /// Reads an optional key; `value` is unchanged if the key is missing.
     void read(const std::string& name, double& value, double lowest = -kMost, double highest = kMost);
     void read(const std::string& name, float& value, double lowest = -kMost, double highest = kMost);
     void read(const std::string& name, int& value, int lowest, int highest);
     void read(const std::string& name, bool& value);
     void read(const std::string& name, std::string& value);  // may be empty
-    // Three numbers; one number stands for three equal ones.
+    /// Three numbers; a single number sets all three.
     void read(const std::string& name, glm::vec3& value, double lowest = -kMost, double highest = kMost);
-    // All keys that were not taken, which this takes.
+    /// All unread keys, which then count as read.
     [[nodiscard]] nlohmann::json take_rest();
-    // To be called last: fails on the first key that was not taken, and lists those that could have been.
+    /// Fails on the first unread key, and lists the keys that are allowed. Must be called last.
     void expect_all_taken() const;
 
 private:
@@ -84,8 +83,8 @@ private:
     mutable std::set<std::string> known_;
 };
 
-// What `read` makes of the object that is the whole text; it must take all of its keys. Errors are those of
-// parse_json() and what `read` throws as MalformedJson.
+/// Parses a JSON object and returns read(object), which must read all keys. Errors: those of parse_json(), and
+/// MalformedJson thrown by `read`.
 template <class Read>
 auto read_json(std::string_view text, const std::string& file, const Read& read)
     -> Result<decltype(read(std::declval<JsonObject&>()))> {

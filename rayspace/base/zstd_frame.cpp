@@ -10,20 +10,20 @@
 namespace rs {
 namespace {
 
-constexpr int kCompressionLevel = 19;  // above it libzstd makes decoders need larger windows
+constexpr int kCompressionLevel = 19;  // higher levels require larger decoder windows
 
 }  // namespace
 
-std::vector<std::byte> zstd_frame(std::span<const std::uint8_t> bytes) {
+std::vector<std::byte> compress_zstd(std::span<const std::uint8_t> bytes) {
     if (bytes.empty()) return {};
     std::vector<std::byte> frame(ZSTD_compressBound(bytes.size()));
     const std::size_t size = ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), kCompressionLevel);
-    RS_CHECK(!ZSTD_isError(size));  // it cannot lack room
+    RS_CHECK(!ZSTD_isError(size));  // the buffer is large enough
     frame.resize(size);
     return frame;
 }
 
-std::optional<std::uint64_t> stated_zstd_bytes(std::span<const std::byte> bytes) {
+std::optional<std::uint64_t> read_zstd_content_size(std::span<const std::byte> bytes) {
     ByteReader start(bytes);
     if (start.get<std::uint32_t>() != ZSTD_MAGICNUMBER) return std::nullopt;
     const unsigned long long stated_bytes = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
@@ -31,7 +31,7 @@ std::optional<std::uint64_t> stated_zstd_bytes(std::span<const std::byte> bytes)
     return stated_bytes;
 }
 
-// libzstd would also take several frames, skippable ones and those of versions before the format was settled.
+// libzstd would also accept several frames, skippable ones and frames of early versions.
 Status check_zstd_frame(std::span<const std::byte> frame, std::uint64_t size_bytes, const char* what) {
     if (size_bytes == 0 && frame.empty()) return {};
     ByteReader start(frame);
@@ -49,8 +49,8 @@ Status check_zstd_frame(std::span<const std::byte> frame, std::uint64_t size_byt
     return {};
 }
 
-Status expand_zstd_frame(std::span<const std::byte> frame, std::uint64_t size_bytes, const char* what,
-                         std::vector<std::uint8_t>& bytes) {
+Status decompress_zstd_frame(std::span<const std::byte> frame, std::uint64_t size_bytes, const char* what,
+                             std::vector<std::uint8_t>& bytes) {
     bytes.resize(static_cast<std::size_t>(size_bytes));
     if (bytes.empty()) return {};
     const std::size_t written = ZSTD_decompress(bytes.data(), bytes.size(), frame.data(), frame.size());
@@ -61,11 +61,11 @@ Status expand_zstd_frame(std::span<const std::byte> frame, std::uint64_t size_by
     return {};
 }
 
-Result<std::vector<std::uint8_t>> zstd_content(std::span<const std::byte> frame, std::uint64_t size_bytes,
-                                               const char* what) {
+Result<std::vector<std::uint8_t>> decompress_zstd(std::span<const std::byte> frame, std::uint64_t size_bytes,
+                                                  const char* what) {
     RS_TRY(check_zstd_frame(frame, size_bytes, what));
     std::vector<std::uint8_t> bytes;
-    RS_TRY(expand_zstd_frame(frame, size_bytes, what, bytes));
+    RS_TRY(decompress_zstd_frame(frame, size_bytes, what, bytes));
     return bytes;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// How what was read makes likely what comes next: encode/FORMAT.md, section "Context adaptation".
+// Adaptation of probabilities: encode/FORMAT.md, section "Context adaptation".
 
 #include "rayspace/codec/bool_decoder.hpp"
 
@@ -11,10 +11,10 @@
 
 namespace rs::codec {
 
-inline constexpr int kFractionBits = 16 - kProbabilityBits;  // of a probability in 65536ths
+inline constexpr int kFractionBits = 16 - kProbabilityBits;  // extra bits of a probability in 65536ths
 inline constexpr std::uint8_t kMostUses = 255;
 
-// By how many decisions a context has had: floor(log2(uses)).
+/// Adaptation shifts by the number of decisions of a context: floor(log2(uses)).
 using AdaptationShifts = std::array<std::uint8_t, kMostUses + 1>;
 inline constexpr AdaptationShifts kAdaptationShifts = [] {
     AdaptationShifts shifts{};
@@ -22,22 +22,22 @@ inline constexpr AdaptationShifts kAdaptationShifts = [] {
     return shifts;
 }();
 
-// Of a 0, in 4096ths, as BoolDecoder takes it.
+/// The probability of a 0 in 4096ths, for BoolDecoder.
 inline std::uint32_t decoder_probability(std::uint16_t zero_q16) {
     constexpr std::uint32_t kLeast = 8;
     return std::clamp(std::uint32_t{zero_q16} >> kFractionBits, kLeast, (1U << kProbabilityBits) - kLeast);
 }
 
-// The probability of a 0 after a decision.
-inline std::uint16_t adapted(std::uint16_t zero_q16, unsigned shift, int bit) {
+/// Updates the probability of a 0 after a decision.
+inline std::uint16_t adapt_probability(std::uint16_t zero_q16, unsigned shift, int bit) {
     const std::uint32_t p = zero_q16;
     const std::uint32_t more = p + ((65536U - p) >> shift);
     const std::uint32_t less = p - (p >> shift);
     return static_cast<std::uint16_t>(bit == 0 ? more : less);
 }
 
-// The decisions that a context has had, after one more.
-inline std::uint8_t one_more(std::uint8_t uses) {
+/// The number of decisions of a context, after one more, saturated.
+inline std::uint8_t increment_uses(std::uint8_t uses) {
     return static_cast<std::uint8_t>(uses + (uses < kMostUses ? 1 : 0));
 }
 

@@ -17,8 +17,8 @@ int alpha_between(const ConstImageView<std::uint8_t>& plane, int x, int y, Motio
 
 }  // namespace
 
-int interpolated_alpha(Source source, const std::array<MotionVector, 2>& motion,
-                       const std::array<ConstPlaneViews, 2>& references, int x, int y) {
+int interpolate_alpha(Source source, const std::array<MotionVector, 2>& motion,
+                      const std::array<ConstPlaneViews, 2>& references, int x, int y) {
     if (!is_inter(source)) return -1;
     if (source != Source::kBoth) {
         const std::size_t r = uses(source, 0) ? 0 : 1;

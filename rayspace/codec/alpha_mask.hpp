@@ -1,6 +1,6 @@
 #pragma once
-// Alpha as a mask: a bit per sample that states whether it is covered by half or more, and what is made of it when a
-// tile's masks are known. Integer and normative: encode/FORMAT.md, section "Masks". No function here allocates.
+// Alpha coded as a mask: one bit per sample, set if alpha is one half or more, and the reconstruction of alpha from a
+// tile's masks. Integer and normative: encode/FORMAT.md, section "Masks". No function allocates.
 
 #include "rayspace/codec/code/dense_code.hpp"
 #include "rayspace/codec/dense_tile.hpp"
@@ -16,8 +16,8 @@ constexpr int mask_of_level(int level, int bits) {
     return level >> (bits - 1);
 }
 
-// Samples of the mask at (x, y) and around it, weighted 1 2 1, 2 4 2, 1 2 1: 0 .. 16. Outside of the tile
-// (width x height samples) they are the nearest ones inside.
+/// Weighted sum of the mask around (x, y) with weights 1 2 1, 2 4 2, 1 2 1: 0 .. 16. Samples outside of the tile (width
+/// x height samples) repeat the nearest ones inside.
 inline int mask_sum(const AlphaLevels& mask, int x, int y, int width, int height) {
     const int left = std::max(x - 1, 0);
     const int right = std::min(x + 1, width - 1);
@@ -25,38 +25,37 @@ inline int mask_sum(const AlphaLevels& mask, int x, int y, int width, int height
     return row(std::max(y - 1, 0)) + 2 * row(y) + row(std::min(y + 1, height - 1));
 }
 
-// How much of `sum` is unlike the sample in its middle: 0 .. 12.
-constexpr int unlike_weight(int mask, int sum) {
+/// The weight in `sum` of samples that differ from the centre: 0 .. 12.
+constexpr int differing_weight(int mask, int sum) {
     return mask != 0 ? 16 - sum : sum;
 }
 
-// Alpha where the mask is all there is: edges are as soft as the object's mostly are.
+/// Alpha reconstructed from the mask only, with the object's mean edge softness.
 inline int smooth_alpha(const EdgeAlpha& edge, int mask, int sum) {
-    const int weight = unlike_weight(mask, sum);
+    const int weight = differing_weight(mask, sum);
     const int off = weight == 0 ? 0 : edge[static_cast<std::size_t>(kEdgeWeights * mask + weight - 1)];
     return mask != 0 ? 255 - off : off;
 }
 
-// The alpha that a unit's references show for sample (x, y) of the image, between samples interpolated; -1 where it
-// has none.
-int interpolated_alpha(Source source, const std::array<MotionVector, 2>& motion,
-                       const std::array<ConstPlaneViews, 2>& references, int x, int y);
+/// The references' alpha at sample (x, y) of the image, interpolated between samples; -1 if the unit has no references.
+int interpolate_alpha(Source source, const std::array<MotionVector, 2>& motion,
+                      const std::array<ConstPlaneViews, 2>& references, int x, int y);
 
-// The first index of context::kMask.
-constexpr int predicted_mask(int alpha) {
+/// The first index of context::kMask.
+constexpr int mask_context(int alpha) {
     if (alpha < 0) return 0;
     if (alpha == 0) return 1;
     return alpha < 64 ? 2 : alpha < 112 ? 3 : alpha < 144 ? 4 : alpha < 192 ? 5 : alpha < 255 ? 6 : 7;
 }
 
-// A tile's alpha once its masks and units are known: smoothed, or of more than one bit, coded. `depths`: a writer's, as
-// in syntax::alpha_depth; filled in.
+/// Finishes a tile's alpha after its masks and units are known: smooths it, or codes the further bits.
+/// \param depths  values for syntax::alpha_depth if the coder writes; filled in.
 template <class Coder>
-class AlphaFinish {
+class AlphaFinisher {
 public:
-    AlphaFinish(Coder& coder, const DenseCode& code, const TileGrid& grid, const AlphaLevels& mask, AlphaLevels& depths,
-                const std::array<ConstPlaneViews, 2>& references, const TilePlace& place,
-                const ImageView<std::uint8_t>& out)
+    AlphaFinisher(Coder& coder, const DenseCode& code, const TileGrid& grid, const AlphaLevels& mask,
+                  AlphaLevels& depths, const std::array<ConstPlaneViews, 2>& references, const TilePlace& place,
+                  const ImageView<std::uint8_t>& out)
         : coder_(coder),
           bits_(code.alpha_bits),
           edge_(code.edge_alpha),
@@ -73,7 +72,7 @@ public:
                 if (grid_.at(bx, by).source == Source::kNone) continue;
                 if (bits_ > 1) {
                     if (grid_.at(bx, by).alpha == AlphaClass::kMixed) refine(bx, by);
-                } else if (!alone(bx, by)) {
+                } else if (!is_uniform(bx, by)) {
                     smooth(bx, by);
                 }
             }
@@ -81,8 +80,8 @@ public:
     }
 
 private:
-    // Nothing but blocks of its own class, or the tile's rim, around a block that is not mixed.
-    [[nodiscard]] bool alone(int bx, int by) const {
+    // True if a block is not mixed and its neighbours in the tile have the same class.
+    [[nodiscard]] bool is_uniform(int bx, int by) const {
         const AlphaClass own = grid_.at(bx, by).alpha;
         if (own == AlphaClass::kMixed) return false;
         for (int y = std::max(by - 1, 0); y <= std::min(by + 1, place_.height / kBlock - 1); ++y) {
@@ -102,23 +101,22 @@ private:
         }
     }
 
-    // The depth of (x, y), of which `own` is the mask, as a sample of that mask sees it: one on the other side of half
-    // lies beyond all depths.
-    [[nodiscard]] int depth_as_seen(int x, int y, int own) const {
+    // The depth at (x, y) relative to the mask `own`. A sample with the other mask counts as deeper than all depths.
+    [[nodiscard]] int depth_relative_to(int x, int y, int own) const {
         return mask_.at(x, y) == own ? depths_.at(x, y) : (1 << (bits_ - 1)) - 1;
     }
 
     int code_depth(int x, int y, int mask, int sum, int predicted) {
         const bool has_west = x > 0;
         const bool has_north = y > 0;
-        int west = has_west ? depth_as_seen(x - 1, y, mask) : 0;
-        int north = has_north ? depth_as_seen(x, y - 1, mask) : west;
+        int west = has_west ? depth_relative_to(x - 1, y, mask) : 0;
+        int north = has_north ? depth_relative_to(x, y - 1, mask) : west;
         if (!has_west) west = north;
-        const int north_west = has_west && has_north ? depth_as_seen(x - 1, y - 1, mask) : west;
-        // As far on from one as the other is from that between them, but not beyond both.
+        const int north_west = has_west && has_north ? depth_relative_to(x - 1, y - 1, mask) : west;
+        // Gradient prediction, clamped to the range of both neighbours.
         const int guess = std::clamp(west + north - north_west, std::min(west, north), std::max(west, north));
         const int activity = std::abs(west - north_west) + std::abs(north - north_west);
-        const int beside = unlike_weight(mask, sum) != 0 ? 1 : 0;
+        const int beside = differing_weight(mask, sum) != 0 ? 1 : 0;
         return syntax::alpha_depth(coder_, bits_, guess, activity, beside, predicted, depths_.at(x, y));
     }
 
@@ -129,7 +127,7 @@ private:
             for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
                 const int mask = mask_.at(x, y);
                 const int interpolated =
-                    interpolated_alpha(info.source, info.motion, references_, place_.left + x, place_.top + y);
+                    interpolate_alpha(info.source, info.motion, references_, place_.left + x, place_.top + y);
                 const int predicted = interpolated < 0 ? 0 : interpolated < 32 || interpolated > 223 ? 1 : 2;
                 const int sum = mask_sum(mask_, x, y, place_.width, place_.height);
                 const int neighbours = (depths_.at(x - 1, y) != 0 ? 1 : 0) + (depths_.at(x, y - 1) != 0 ? 1 : 0);

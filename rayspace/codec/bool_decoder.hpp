@@ -1,9 +1,8 @@
 #pragma once
-// The binary arithmetic decoder of coded images: encode/FORMAT.md, section "Bits".
+// Binary arithmetic decoder of coded images: encode/FORMAT.md, section "Bits".
 //
-// What is likely comes from outside (context_states.hpp) and begins anew with every tile, so any tile can be begun
-// without its neighbours. Reading past the end gives zeros, as many as are read: a decoder never fails, and what
-// it makes of damaged bytes is bounded by the syntax that is read through it.
+// Probabilities come from the caller (context_states.hpp) and are reset for every tile, so that tiles are independent.
+// Reads past the end return zeros: a decoder never fails, and the syntax bounds the result of damaged bytes.
 
 #include <bit>
 #include <cstddef>
@@ -12,7 +11,7 @@
 
 namespace rs::codec {
 
-// P(bit is 0) = probability / 4096.
+/// P(bit is 0) = probability / 4096.
 inline constexpr int kProbabilityBits = 12;
 
 class BoolDecoder {
@@ -21,7 +20,7 @@ public:
         refill();
     }
 
-    // `probability`: 1 .. 4095.
+    /// `probability`: 1 .. 4095.
     int bit(std::uint32_t probability) {
         const std::uint32_t split = (range_ * probability) >> kProbabilityBits;
         const std::uint64_t high_split = std::uint64_t{split} << 48;

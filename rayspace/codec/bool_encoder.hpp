@@ -1,5 +1,5 @@
 #pragma once
-// The writer for bool_decoder.hpp.
+// Binary arithmetic encoder for bool_decoder.hpp.
 
 #include "rayspace/codec/bool_decoder.hpp"
 
@@ -11,7 +11,7 @@ namespace rs::codec {
 
 class BoolEncoder {
 public:
-    // probability: of a 0, 1 .. 4095.
+    /// `probability`: probability of a 0 in 4096ths, 1 .. 4095.
     void bit(int value, std::uint32_t probability) {
         const std::uint32_t split = (range_ * probability) >> kProbabilityBits;
         if (value != 0) {
@@ -27,7 +27,7 @@ public:
         while (pending_bits_ >= 8) put_byte();
     }
 
-    // The shortest bytes that a decoder reads as what was written; the encoder is done then.
+    /// Returns the shortest bytes that decode to the written decisions. The encoder must not be used afterwards.
     std::vector<std::byte> finish() {
         for (int zeros = 16; zeros >= 0; --zeros) {
             const std::uint64_t mask = (std::uint64_t{1} << zeros) - 1;
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    // low_ has 16 + pending_bits_ bits, and above them perhaps a carry.
+    // low_ has 16 + pending_bits_ bits, and possibly a carry above.
     void put_byte() {
         const int below = 16 + pending_bits_ - 8;
         const std::uint64_t top = low_ >> below;

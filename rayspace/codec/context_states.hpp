@@ -1,6 +1,6 @@
 #pragma once
-// What a tile's decisions so far make likely: encode/FORMAT.md, section "Context adaptation". Every tile begins with
-// the probabilities of the object's table, so tiles stay independent of each other.
+// Adaptive probabilities of a tile's contexts: encode/FORMAT.md, section "Context adaptation". Every tile starts with
+// the object's probability table, so that tiles are independent.
 
 #include "rayspace/codec/adaptation.hpp"
 #include "rayspace/codec/code/contexts.hpp"
@@ -21,26 +21,27 @@ public:
         uses_ = kFirstUses;
     }
 
-    // Of a 0, in 4096ths; for BoolDecoder.
+    /// The probability of a 0 in 4096ths, for BoolDecoder.
     [[nodiscard]] std::uint32_t probability(int context) const {
         return decoder_probability(zero_q16_[static_cast<std::size_t>(context)]);
     }
 
     void adapt(int context, int bit) {
         const auto c = static_cast<std::size_t>(context);
-        zero_q16_[c] = adapted(zero_q16_[c], shifts_[uses_[c]], bit);
-        uses_[c] = one_more(uses_[c]);
+        zero_q16_[c] = adapt_probability(zero_q16_[c], shifts_[uses_[c]], bit);
+        uses_[c] = increment_uses(uses_[c]);
     }
 
 private:
-    // So far that nothing changes.
+    // A shift that leaves the probability unchanged.
     static constexpr AdaptationShifts kFixed = [] {
         AdaptationShifts shifts{};
         shifts.fill(17);
         return shifts;
     }();
 
-    // How many decisions the object's probability counts for: levels differ little from tile to tile, outlines much.
+    // The number of decisions that the object's probability counts for: levels differ little from tile to tile,
+    // silhouettes much.
     static constexpr std::array<std::uint8_t, context::kCount> kFirstUses = [] {
         std::array<std::uint8_t, context::kCount> uses{};
         for (int c = 0; c < context::kCount; ++c) {

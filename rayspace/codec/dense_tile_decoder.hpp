@@ -1,6 +1,6 @@
 #pragma once
-// The steps by which a tile of a dense image is decoded, for any Coder (syntax.hpp): one that reads, or one that also
-// looks at what is read.
+// Decoding steps of a tile of a dense image, for any reading Coder (syntax.hpp), such as a decoder or one that also
+// measures.
 
 #include "rayspace/codec/alpha_mask.hpp"
 #include "rayspace/codec/deblocking.hpp"
@@ -36,7 +36,7 @@ public:
             for (int x = 0; x < place_.width; x += kMacroblock) macroblock(x / kBlock, y / kBlock);
         }
         if (code_.has_masks) {
-            AlphaFinish(reader_, code_, grid_, alpha_, depths_, references_, place_, out_[3]).finish();
+            AlphaFinisher(reader_, code_, grid_, alpha_, depths_, references_, place_, out_[3]).finish();
         }
         filter_edges(grid_, code_, head_.step, place_, out_);
     }
@@ -66,20 +66,20 @@ private:
         UnitChoice& choice = choice_;
         choice.coded = false;
         code_prediction(reader_, grid_, unit, around_, choice);
-        if (listener_ != nullptr) announce(unit, choice);
+        if (listener_ != nullptr) notify_listener(unit, choice);
         if (code_.has_masks) {
             mask(unit, choice);
         } else {
             alpha(unit, choice);
         }
         code_coefficients(reader_, grid_, unit, code_.sign_data_hiding, choice);
-        const UnitPlace place = place_of_unit(grid_, unit, left_, top_);
+        const UnitPosition place = unit_position(grid_, unit, left_, top_);
         reconstruct_unit(choice, place, head_.step, code_, references_, out_);
-        enter_unit(grid_, unit, choice);
-        if (choice.coded) forget_levels(unit, choice);
+        record_unit(grid_, unit, choice);
+        if (choice.coded) clear_levels(unit, choice);
     }
 
-    void announce(const PredictionUnit& unit, const UnitChoice& choice) {
+    void notify_listener(const PredictionUnit& unit, const UnitChoice& choice) {
         for (int r = 0; r < 2; ++r) {
             if (!uses(choice.source, r)) continue;
             const MotionVector motion = choice.motion[static_cast<std::size_t>(r)];
@@ -101,7 +101,7 @@ private:
             const AlphaClass kind = grid_.at(bx, by).alpha;
             if (kind == AlphaClass::kMixed) {
                 const auto predicted = [&](int x, int y) {
-                    return predicted_alpha(choice, references_, left_ + x, top_ + y, code_.alpha_bits);
+                    return predict_alpha(choice, references_, left_ + x, top_ + y, code_.alpha_bits);
                 };
                 code_block_alpha(reader_, alpha_, code_.alpha_bits, bx, by, predicted);
             } else {
@@ -117,7 +117,8 @@ private:
         }
     }
 
-    // What is shown where no more than the mask is coded: in blocks that are not mixed, and have none beside them.
+    // Decodes the unit's mask. Alpha of blocks that are not mixed is written now; AlphaFinisher changes the blocks near
+    // an edge.
     void mask(const PredictionUnit& unit, const UnitChoice& choice) {
         for (int i = 0; i < unit.blocks() * unit.blocks(); ++i) {
             const int bx = unit.bx + (i & (unit.blocks() - 1));
@@ -125,8 +126,8 @@ private:
             const AlphaClass kind = grid_.at(bx, by).alpha;
             if (kind == AlphaClass::kMixed) {
                 code_block_mask(reader_, alpha_, bx, by, [&](int x, int y) {
-                    return predicted_mask(
-                        interpolated_alpha(choice.source, choice.motion, references_, left_ + x, top_ + y));
+                    return mask_context(
+                        interpolate_alpha(choice.source, choice.motion, references_, left_ + x, top_ + y));
                 });
                 continue;
             }
@@ -138,7 +139,7 @@ private:
         }
     }
 
-    static void forget_levels(const PredictionUnit& unit, UnitChoice& choice) {
+    static void clear_levels(const PredictionUnit& unit, UnitChoice& choice) {
         for (std::size_t plane = 0; plane < kPlanes; ++plane) {
             for (std::size_t t = 0; t < static_cast<std::size_t>(choice.transforms(unit.size)); ++t) {
                 if (choice.plane_coded[plane][t]) choice.levels[plane][t] = Levels{};

@@ -1,6 +1,6 @@
 #pragma once
-// A macroblock's alpha and a unit's choices in the order of the stream: encode/FORMAT.md, sections "Macroblocks" and
-// "Parts". Built from the single decisions of syntax.hpp; used by the decoder and, with other coders, by the encoder.
+// Syntax of a macroblock's alpha and a unit's choices in stream order: encode/FORMAT.md, sections "Macroblocks" and
+// "Parts". Built from the single decisions of syntax.hpp; shared by decoder and encoder.
 
 #include "rayspace/codec/code/tile_grid.hpp"
 #include "rayspace/codec/syntax.hpp"
@@ -11,7 +11,7 @@
 
 namespace rs::codec {
 
-// The alpha of a tile in levels 0 .. 2^bits - 1, or its mask, with a margin of zeros above and on both sides.
+/// Alpha levels 0 .. 2^bits - 1 of a tile, or its mask, with a margin of zeros above and on both sides.
 class AlphaLevels {
 public:
     void clear() { std::memset(levels_, 0, sizeof levels_); }
@@ -36,16 +36,16 @@ constexpr int level_of_alpha(int alpha, int bits) {
 
 inline constexpr int kPlanes = 3;  // Y, U, V
 
-// All choices of a unit, but for its alpha.
+/// All choices of a unit except its alpha.
 struct UnitChoice {
     Source source = Source::kIntra;
     int intra_mode = 0;
     std::array<MotionVector, 2> motion;
     bool coded = false;
-    bool small_transforms = false;  // of a 16x16 unit: four of 8x8 in every plane
+    bool small_transforms = false;  // 16x16 unit only: four transforms of 8x8 in every plane
     std::array<std::array<bool, 4>, kPlanes> plane_coded = {};
     std::array<std::array<Levels, 4>, kPlanes> levels;
-    std::array<std::array<int, 4>, kPlanes> last = {};  // scan places, for a writer
+    std::array<std::array<int, 4>, kPlanes> last = {};  // scan positions, set by a writer
 
     [[nodiscard]] int transform_size(int unit_size) const {
         return unit_size == kMacroblock && !small_transforms ? kMacroblock : kBlock;
@@ -53,13 +53,13 @@ struct UnitChoice {
     [[nodiscard]] int transforms(int unit_size) const { return unit_size == kMacroblock && small_transforms ? 4 : 1; }
 };
 
-// A mixed block's alpha. predicted(x, y): the level that the references show for sample (x, y) of the tile, -1 where
-// there are none.
+/// Codes a mixed block's alpha. predicted(x, y): the references' level at sample (x, y) of the tile, -1 if there is
+/// none.
 template <class Coder, class Predicted>
 void code_block_alpha(Coder& coder, AlphaLevels& alpha, int bits, int bx, int by, const Predicted& predicted) {
     for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
         for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
-            // The sample to the upper right stands for itself only where it has been coded.
+            // The upper right sample is used only if it has been coded, else the one above.
             const bool later = (x & (kBlock - 1)) == kBlock - 1;
             const int north = alpha.at(x, y - 1);
             alpha.at(x, y) = static_cast<std::uint8_t>(
@@ -69,12 +69,12 @@ void code_block_alpha(Coder& coder, AlphaLevels& alpha, int bits, int bx, int by
     }
 }
 
-// A mixed block's mask. predicted(x, y): what the references' alpha makes likely (predicted_mask).
+/// Codes a mixed block's mask. predicted(x, y): the context class of the references' alpha (mask_context).
 template <class Coder, class Predicted>
 void code_block_mask(Coder& coder, AlphaLevels& mask, int bx, int by, const Predicted& predicted) {
     for (int y = by * kBlock; y < (by + 1) * kBlock; ++y) {
         for (int x = bx * kBlock; x < (bx + 1) * kBlock; ++x) {
-            // The sample to the upper right stands for itself only where it has been coded.
+            // The upper right sample is used only if it has been coded, else the one above.
             const int north = mask.at(x, y - 1);
             const int north_east = (x & (kBlock - 1)) == kBlock - 1 ? north : mask.at(x + 1, y - 1);
             const int before = mask.at(x - 1, y) + 2 * north + 4 * mask.at(x - 1, y - 1) + 8 * north_east +
@@ -85,8 +85,8 @@ void code_block_mask(Coder& coder, AlphaLevels& mask, int bx, int by, const Pred
     }
 }
 
-// The alpha classes of the macroblock at block (bx, by), of itself and of its blocks, into the grid, which holds them
-// for a writer. False where it is empty and nothing follows.
+/// Codes the alpha classes of the macroblock at block (bx, by) and of its blocks; reads them from the grid if the coder
+/// writes, else stores them there. Returns false if the macroblock is empty and nothing follows.
 template <class Coder>
 bool code_macroblock_alpha(Coder& coder, TileGrid& grid, int bx, int by) {
     const auto block = [&](int i) -> BlockInfo& { return grid.at(bx + (i & 1), by + (i >> 1)); };
@@ -114,7 +114,7 @@ struct UnitSurroundings {
     std::array<MotionVector, 2> global_motion;
 };
 
-// What the unit is predicted from.
+/// Codes the prediction of a unit.
 template <class Coder>
 void code_prediction(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, const UnitSurroundings& around,
                      UnitChoice& choice) {
@@ -126,7 +126,7 @@ void code_prediction(Coder& coder, const TileGrid& grid, const PredictionUnit& u
     for (int r = 0; r < 2; ++r) {
         if (!uses(choice.source, r)) continue;
         const auto n = static_cast<std::size_t>(r);
-        const MotionVector from = predicted_motion(grid, unit, r, around.global_motion[n]);
+        const MotionVector from = predict_motion(grid, unit, r, around.global_motion[n]);
         const auto off = syntax::motion(coder, unit, {choice.motion[n].x - from.x, choice.motion[n].y - from.y});
         const auto component = [](int value) {
             return static_cast<std::int16_t>(std::clamp(value, -kMaxMotion_q2, kMaxMotion_q2));
@@ -135,7 +135,7 @@ void code_prediction(Coder& coder, const TileGrid& grid, const PredictionUnit& u
     }
 }
 
-// The coefficients; `choice` has its prediction.
+/// Codes the coefficients of a unit, whose prediction is known.
 template <class Coder>
 void code_coefficients(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, bool sign_data_hiding,
                        UnitChoice& choice) {

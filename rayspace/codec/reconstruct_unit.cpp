@@ -7,8 +7,8 @@
 
 namespace rs::codec {
 
-int predicted_alpha(const UnitChoice& choice, const std::array<ConstPlaneViews, 2>& references, int x, int y,
-                    int alpha_bits) {
+int predict_alpha(const UnitChoice& choice, const std::array<ConstPlaneViews, 2>& references, int x, int y,
+                  int alpha_bits) {
     if (!is_inter(choice.source)) return -1;
     const std::size_t r = uses(choice.source, 0) ? 0 : 1;
     const ConstImageView<std::uint8_t>& plane = references[r][3];
@@ -18,7 +18,7 @@ int predicted_alpha(const UnitChoice& choice, const std::array<ConstPlaneViews, 
                           alpha_bits);
 }
 
-void predict_unit(const UnitChoice& choice, const UnitPlace& place, int plane,
+void predict_unit(const UnitChoice& choice, const UnitPosition& place, int plane,
                   const std::array<ConstPlaneViews, 2>& references, ImageView<std::uint8_t> out) {
     std::uint8_t* const samples = out.row(place.y) + place.x;
     const auto p = static_cast<std::size_t>(plane);
@@ -41,7 +41,7 @@ void add_residual(const Levels& levels, int step, int size, std::uint8_t* sample
     for (int v = 0; v < levels.used; ++v) {
         for (int u = 0; u < levels.used; ++u) {
             const int level = levels.at[v * Levels::kStride + u];
-            if (level != 0) coefficients[v * size + u] = dequantised(level, step, size);
+            if (level != 0) coefficients[v * size + u] = dequantise(level, step, size);
         }
     }
     inverse_transform(coefficients, size, std::max(levels.used, 1), residual);
@@ -53,7 +53,7 @@ void add_residual(const Levels& levels, int step, int size, std::uint8_t* sample
     }
 }
 
-void reconstruct_unit(const UnitChoice& choice, const UnitPlace& place, int step, const DenseCode& code,
+void reconstruct_unit(const UnitChoice& choice, const UnitPosition& place, int step, const DenseCode& code,
                       const std::array<ConstPlaneViews, 2>& references, const PlaneViews& out) {
     const int size = choice.transform_size(place.size);
     for (int plane = 0; plane < kPlanes; ++plane) {

@@ -1,14 +1,13 @@
 #pragma once
-// The syntax of dense images, once for reading and writing: encode/FORMAT.md, section "Syntax".
+// Syntax of dense images, shared by reader and writer: encode/FORMAT.md, section "Syntax".
 //
-// A Coder has   int bit(int context, int value)   and   int raw(int value):   a reader ignores `value` and returns what
-// stands in the stream; a writer writes `value` and returns it; an estimator adds up what it would cost. Every function
-// here takes the values to be written and returns, or fills in, those that are then known.
+// A Coder has   int bit(int context, int value)   and   int raw(int value):   a reader ignores `value` and returns the
+// decoded value; a writer writes `value` and returns it; an estimator adds up its cost. Every function takes the values
+// to be written and returns, or fills in, the values that are then known.
 
 #include "rayspace/codec/code/contexts.hpp"
 #include "rayspace/codec/code/tile_grid.hpp"
 #include "rayspace/codec/kernels/transform.hpp"
-#include "rayspace/codec/levels.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -17,7 +16,8 @@
 
 namespace rs::codec::syntax {
 
-// `value` below 2^bits as `bits` decisions, the highest first, each in the context of those before it.
+/// Codes `value` below 2^bits as a binary tree of `bits` decisions, highest bit first, each in the context of the
+/// previous ones.
 template <class Coder>
 int tree(Coder& coder, int context, int bits, int value) {
     int node = 1;
@@ -25,8 +25,8 @@ int tree(Coder& coder, int context, int bits, int value) {
     return node - (1 << bits);
 }
 
-// A number 0 .. 2^(places) - 1 as its bit length in unary (contexts class_context + 0 ..), its second highest bit
-// (top_context + length), and the bits below as they are.
+/// Codes a number 0 .. 2^(places) - 1: its bit length in unary (contexts class_context + 0 ..), its second highest bit
+/// (top_context + length), and the lower bits raw.
 template <class Coder>
 int number(Coder& coder, int class_context, int places, int top_context, int value) {
     const int wanted = std::bit_width(static_cast<unsigned>(value));
@@ -38,7 +38,7 @@ int number(Coder& coder, int class_context, int places, int top_context, int val
     return read;
 }
 
-// Of a macroblock (context::kMacroblockAlpha) or a block (kBlockAlpha).
+/// Codes the alpha class of a macroblock (context::kMacroblockAlpha) or a block (kBlockAlpha).
 template <class Coder>
 AlphaClass alpha_class(Coder& coder, int context, AlphaClass left, AlphaClass above, AlphaClass value) {
     const int at = context + 2 * (4 * static_cast<int>(left) + static_cast<int>(above));
@@ -52,7 +52,7 @@ bool split(Coder& coder, const TileGrid& grid, int bx, int by, bool value) {
     return coder.bit(context::kSplit + neighbours, value ? 1 : 0) != 0;
 }
 
-// How many of the two neighbours fulfil the condition.
+/// The number of the two neighbours that fulfil the condition.
 template <class Condition>
 int count_neighbours(const TileGrid& grid, const PredictionUnit& unit, const Condition& condition) {
     return (condition(grid.at(unit.bx - 1, unit.by)) ? 1 : 0) + (condition(grid.at(unit.bx, unit.by - 1)) ? 1 : 0);
@@ -62,7 +62,7 @@ constexpr int size_index(int size) {
     return size == kMacroblock ? 1 : 0;
 }
 
-// `references`: how many images there are to predict from, 0 .. 2.
+/// Codes the source of a unit's prediction. `references`: number of reference images, 0 .. 2.
 template <class Coder>
 Source source(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, int references, Source value) {
     if (references == 0) return Source::kIntra;
@@ -82,7 +82,8 @@ int intra_mode(Coder& coder, const PredictionUnit& unit, int value) {
     return tree(coder, context::kIntraMode + 7 * size_index(unit.size), 3, value);
 }
 
-// A vector less its prediction. What is read may lie outside of +-kMaxMotion_q2: the reader has to look.
+/// Codes the difference of a vector from its prediction. A read vector may exceed +-kMaxMotion_q2: the caller clamps
+/// it.
 template <class Coder>
 std::array<int, 2> motion(Coder& coder, const PredictionUnit& unit, std::array<int, 2> value) {
     constexpr int kPlaces = 10;
@@ -102,7 +103,7 @@ std::array<int, 2> motion(Coder& coder, const PredictionUnit& unit, std::array<i
     return read;
 }
 
-// Whether a unit has any coefficients.
+/// Codes whether a unit has any coefficients.
 template <class Coder>
 bool coded(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, bool inter, bool value) {
     const int neighbours = count_neighbours(grid, unit, [](const BlockInfo& b) { return b.coded; });
@@ -112,10 +113,11 @@ bool coded(Coder& coder, const TileGrid& grid, const PredictionUnit& unit, bool 
 
 // ------------------------------------------------------------------------------------------------------- coefficients
 
-// The places of a block in the order of diagonals, from the mean: [i] = v * size + u.
+/// The positions of a block in diagonal order from the DC coefficient: [i] = v * size + u.
 const std::uint8_t* scan_order(int size);
 
-// min(magnitudes to the right and below of (u, v), 3 each), halved up to kNearSums - 1.
+/// Context from the neighbours to the right and below of (u, v): the sum of their magnitudes, limited to 3 each,
+/// halved, at most kNearSums - 1.
 inline int near_sum(const Levels& levels, int u, int v) {
     const std::int16_t* const l = levels.at + v * Levels::kStride + u;
     const auto size = [](int level) { return std::min(std::abs(level), 3); };
@@ -124,7 +126,7 @@ inline int near_sum(const Levels& levels, int u, int v) {
     return std::min((sum + 1) >> 1, context::kNearSums - 1);
 }
 
-// The kind of coefficient block, as in contexts.hpp.
+/// The kind of coefficient block, as in contexts.hpp.
 constexpr int block_kind(int plane, int transform_size, bool inter) {
     return (plane == 0 ? 0 : 4) + 2 * size_index(transform_size) + (inter ? 1 : 0);
 }
@@ -135,7 +137,7 @@ constexpr int band_of(int diagonal, int size) {
     return d <= 2 ? 1 : d <= 5 ? 2 : 3;
 }
 
-// The magnitude of one level; `must_be`: known not to be zero.
+/// Codes the magnitude of one level; `must_be`: known not to be zero.
 template <class Coder>
 int magnitude(Coder& coder, int kind, int band, int near, bool must_be, int value) {
     if (!must_be) {
@@ -162,19 +164,19 @@ int magnitude(Coder& coder, int kind, int band, int near, bool must_be, int valu
     return read;
 }
 
-// Of the last level that is not zero, in scan order.
+/// Codes the scan position of the last non-zero level.
 template <class Coder>
 int last_place(Coder& coder, int kind, int size, int value) {
     return number(coder, context::kLastClass + 8 * kind, size == 8 ? 6 : 8, context::kLastTop + 9 * kind, value);
 }
 
-// Levels are looked at in groups of this many places. Where signs are hidden, that of a group's lowest level that is
-// not zero is the parity of its magnitudes' sum, if the highest lies kHidingSpan places above it at least.
+/// Levels are processed in groups of kSignGroup positions. With sign data hiding, the sign of a group's lowest non-zero
+/// level is the parity of the sum of its magnitudes, if the highest one is at least kHidingSpan positions above it.
 inline constexpr int kSignGroup = 16;
 inline constexpr int kHidingSpan = 4;
 
-// A block with at least one level that is not zero. `levels` holds those to be written, or zeros, and is filled in;
-// `last`: the scan place of the last one, for a writer.
+/// Codes a block with at least one non-zero level. `levels` contains the values to be written, or zeros, and is filled
+/// in; `last`: the scan position of the last one, for a writer.
 template <class Coder>
 void block(Coder& coder, int kind, int size, bool sign_data_hiding, Levels& levels, int last) {
     const std::uint8_t* const scan = scan_order(size);
@@ -182,7 +184,7 @@ void block(Coder& coder, int kind, int size, bool sign_data_hiding, Levels& leve
         return levels.at[(scan[i] / size) * Levels::kStride + (scan[i] & (size - 1))];
     };
     last = last_place(coder, kind, size, last);
-    int places[kSignGroup];  // of the group's levels that are not zero, from the highest
+    int places[kSignGroup];  // positions of the group's non-zero levels, from the highest
     int found = 0;
     int sum = 0;
     for (int i = last; i >= 0; --i) {
@@ -212,13 +214,13 @@ void block(Coder& coder, int kind, int size, bool sign_data_hiding, Levels& leve
 
 // -------------------------------------------------------------------------------------------------------------- alpha
 
-// 0: transparent, 2: covered, 1: between.
+/// 0: transparent, 2: covered, 1: between.
 constexpr int alpha_kind(int alpha, int full) {
     return alpha == 0 ? 0 : alpha == full ? 2 : 1;
 }
 
-// One sample of a mixed block, 0 .. full (full = 2^bits - 1). The neighbours count as 0 outside of the tile;
-// `predicted` is the alpha of the predicting image's sample, -1 where there is none.
+/// Codes one sample of a mixed block, 0 .. full (full = 2^bits - 1). Neighbours outside of the tile count as 0.
+/// \param predicted  alpha level of the reference's sample, -1 if there is none.
 template <class Coder>
 int alpha_sample(Coder& coder, int bits, int west, int north, int north_west, int north_east, int predicted,
                  int value) {
@@ -233,16 +235,18 @@ int alpha_sample(Coder& coder, int bits, int west, int north, int north_west, in
     return tree(coder, context::kAlphaBetween + 16 * mean, bits, value);
 }
 
-// What a sample of a mixed block lies away from the end that its mask names, of two bits of alpha: 0 or 1. `sum`: of
-// the mask around it, 0 .. 16; `neighbours`: how many of those to the left and above are not 0; `predicted`: 0 without
-// references, 1 where those show an end, 2 where they show something between.
+/// Codes the distance of a sample of a mixed block from the end of the range given by its mask, for two bits of alpha:
+/// 0 or 1. \param sum         weighted sum of the mask around it, 0 .. 16. \param neighbours  number of the left and
+/// upper neighbours with a distance that is not 0. \param predicted   0: no references; 1: these are at an end of the
+/// range; 2: between.
 template <class Coder>
 int alpha_inner(Coder& coder, int mask, int sum, int neighbours, int predicted, int value) {
     return coder.bit(context::kInner + ((3 * neighbours + predicted) * 2 + mask) * 17 + sum, value);
 }
 
-// The same of more bits: 0 .. 2^(bits - 1) - 1, as its distance from `guess`. `activity`: how much the depths around it
-// differ; `beside`: 1 where masks around it are unlike its own, else 0.
+/// Codes that distance for more bits, 0 .. 2^(bits - 1) - 1, as a difference from `guess`.
+/// \param activity  variation of the neighbouring distances.
+/// \param beside    1 if the mask around the sample differs from its own, else 0.
 template <class Coder>
 int alpha_depth(Coder& coder, int bits, int guess, int activity, int beside, int predicted, int value) {
     constexpr int kActivities = 6;

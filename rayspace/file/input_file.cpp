@@ -148,15 +148,6 @@ Status check_keeps_inputs(const fs::path& output) {
     return Error{output.string() + ": is an input (" + named + ") and would be replaced; give another name"};
 }
 
-std::vector<fs::path> noted_inputs() {
-    std::vector<fs::path> paths;
-    const std::lock_guard lock(inputs().mutex);
-    for (const auto& [identity, noted] : inputs().files) {
-        if (!noted.written && Inputs::is_there(identity, noted)) paths.push_back(fs::absolute(noted.path));
-    }
-    return paths;
-}
-
 void note_written(const fs::path& path) {
     if (const std::optional<FileInfo> info = info_of(path.c_str())) note(*info, path, true);
 }

@@ -26,9 +26,6 @@ void keep_inputs();
 // keep_inputs().
 Status check_keeps_inputs(const std::filesystem::path& output);
 
-// What was noted as an input and is still there, absolute, in no order.
-std::vector<std::filesystem::path> noted_inputs();
-
 // `path` was written by this process.
 void note_written(const std::filesystem::path& path);
 

@@ -6,16 +6,16 @@ namespace rs::object_chunks {
 
 std::span<const ChunkKind> chunk_table() {
     static const ChunkKind table[] = {
-        head_chunk(),  rig_chunk(), views_chunk(), foot_chunk(), code_chunk(),  // of the object
-        ring_chunk(),  map_chunk(), shape_chunk(),                              // of a ring
-        image_chunk(),                                                          // of a view
+        head_chunk(),  rig_chunk(), views_chunk(), foot_chunk(), code_chunk(),  // per object
+        ring_chunk(),  map_chunk(), shape_chunk(),                              // per ring
+        image_chunk(),                                                          // per view
     };
     return table;
 }
 
-std::size_t count_of(OneFor each, const RaySpaceObject& object) {
-    if (each == OneFor::object) return 1;
-    return each == OneFor::ring ? object.rings.size() : object.images.size();
+std::size_t max_chunk_count(ChunkScope each, const RaySpaceObject& object) {
+    if (each == ChunkScope::object) return 1;
+    return each == ChunkScope::ring ? object.rings.size() : object.images.size();
 }
 
 int level_of(const RaySpaceObject& object, const Ring& ring, std::size_t n) {
@@ -25,18 +25,18 @@ int level_of(const RaySpaceObject& object, const Ring& ring, std::size_t n) {
 std::vector<ChunkKey> chunk_order(const RaySpaceObject& object,
                                   const std::function<bool(const ChunkKind&, std::uint32_t)>& has) {
     std::vector<ChunkKey> order;
-    const auto add = [&](OneFor each, std::uint32_t index) {
+    const auto add = [&](ChunkScope each, std::uint32_t index) {
         for (const ChunkKind& kind : chunk_table()) {
-            if (kind.each == each && (kind.is_there == nullptr || has(kind, index)))
+            if (kind.each == each && (kind.is_present == nullptr || has(kind, index)))
                 order.push_back({kind.name, index});
         }
     };
-    add(OneFor::object, 0);
-    for (std::uint32_t r = 0; r < object.rings.size(); ++r) add(OneFor::ring, r);
+    add(ChunkScope::object, 0);
+    for (std::uint32_t r = 0; r < object.rings.size(); ++r) add(ChunkScope::ring, r);
     for (int level = 0; level < kProgressiveLevels; ++level) {
         for (const Ring& ring : object.rings) {
             for (std::size_t n = 0; n < ring.views.size(); ++n) {
-                if (level_of(object, ring, n) == level) add(OneFor::view, ring.views[n]);
+                if (level_of(object, ring, n) == level) add(ChunkScope::view, ring.views[n]);
             }
         }
     }
@@ -45,7 +45,7 @@ std::vector<ChunkKey> chunk_order(const RaySpaceObject& object,
 
 std::vector<ChunkKey> chunk_order(const RaySpaceObject& object) {
     return chunk_order(object,
-                       [&](const ChunkKind& kind, std::uint32_t index) { return kind.is_there(object, index); });
+                       [&](const ChunkKind& kind, std::uint32_t index) { return kind.is_present(object, index); });
 }
 
 Payload chunk_payload(const RaySpaceObject& object, ChunkKey key) {

@@ -1,5 +1,5 @@
 #pragma once
-// The byte layout of the .rso container, for its writer and its reader; encode/FORMAT.md, section "Container".
+// Byte layout of the .rso container, shared by writer and reader; encode/FORMAT.md, section "Container".
 
 #include "rayspace/format/container.hpp"
 
@@ -9,13 +9,14 @@
 
 namespace rs::container_layout {
 
-// As PNG's: the first byte is no text, the line ends and the end-of-file mark are what text-mode transfers damage.
+/// Like PNG's signature: a byte that is not text, and line ends and an end-of-file mark that text-mode transfers
+/// damage.
 inline constexpr std::array<std::uint8_t, 8> kMagic = {0x89, 'R', 'S', 'O', 0x0D, 0x0A, 0x1A, 0x0A};
 inline constexpr std::uint16_t kVersionMajor = 2;
 inline constexpr std::uint16_t kVersionMinor = 3;
 
 inline constexpr std::uint64_t kHeader_bytes = 48;
-inline constexpr std::uint64_t kHeaderChecked_bytes = 40;  // the header's checksum covers these and follows them
+inline constexpr std::uint64_t kHeaderChecked_bytes = 40;  // covered by the header's checksum, which follows
 inline constexpr std::uint64_t kTableOffset_bytes = kHeader_bytes;
 inline constexpr std::uint64_t kEntry_bytes = 32;
 inline constexpr std::uint64_t kAlignment_bytes = 16;

@@ -19,8 +19,8 @@ using namespace container_layout;
 struct ContainerReader::Source {
     std::string where;
     std::uint64_t size_bytes = 0;
-    int descriptor = -1;            // of a file,
-    std::vector<std::byte> memory;  // or else the bytes themselves
+    int descriptor = -1;            // the file, or -1
+    std::vector<std::byte> memory;  // the bytes if there is no file
     std::vector<ChunkEntry> table;
     std::vector<std::uint32_t> by_name;  // positions in the table, sorted by (name, index)
 
@@ -31,8 +31,8 @@ struct ContainerReader::Source {
         if (descriptor >= 0) ::close(descriptor);
     }
 
-    // [offset, offset + size) lies inside the file as it was when opened. pread keeps no position, hence any thread
-    // may.
+    // [offset, offset + size) must be inside the file as it was when opened. Thread-safe, since pread has no file
+    // position.
     [[nodiscard]] Result<std::vector<std::byte>> bytes_at(std::uint64_t offset, std::uint64_t size) const {
         RS_CHECK(offset <= size_bytes && size <= size_bytes - offset);
         if (descriptor < 0) {
@@ -83,14 +83,14 @@ Status check_magic(std::span<const std::byte> start, const std::string& where) {
 
 Status ContainerReader::Source::read_header(std::uint32_t& chunk_count, std::uint64_t& table_checksum) const {
     RS_ASSIGN_OR_RETURN(const auto start, bytes_at(0, std::min(size_bytes, kHeader_bytes)));
-    if (Status status = check_magic(start, where); !status) return status;
+    RS_TRY(check_magic(start, where));
     if (start.size() < kHeader_bytes) return wrong("ends inside its header" + std::string(kDamaged));
 
     ByteReader header(start);
     header.take(kMagic.size());
     const auto major = header.get<std::uint16_t>();
-    const auto minor = header.get<std::uint16_t>();  // a newer one adds nothing that may not be skipped
-    // Another major version may have another header, so nothing behind these fields is looked at.
+    const auto minor = header.get<std::uint16_t>();  // newer minor versions only add chunks that may be skipped
+    // Other major versions may have a different header, so nothing after these fields is read.
     if (major > kVersionMajor) {
         return wrong("is written in format version " + std::to_string(major) + ", newer than the " +
                      std::to_string(kVersionMajor) + " that is read here; update these tools");
@@ -144,7 +144,7 @@ Status ContainerReader::Source::check_entries() const {
     std::uint64_t expected_offset = kTableOffset_bytes + table.size() * kEntry_bytes;
     for (std::size_t i = 0; i < table.size(); ++i) {
         const ChunkEntry& entry = table[i];
-        // Only a name that was checked may appear in a message.
+        // Messages contain only checked names.
         if (!is_valid(entry.name))
             return wrong("table entry " + std::to_string(i) + ": its name is not letters and digits");
         if (entry.offset_bytes != expected_offset) {
@@ -221,9 +221,9 @@ const ChunkEntry* ContainerReader::find(ChunkName name, std::uint32_t index) con
 }
 
 Result<std::vector<std::byte>> ContainerReader::read(const ChunkEntry& entry) const {
-    // The padding belongs to the chunk before it: a file of which every chunk was read was checked to the last byte.
+    // The padding belongs to the chunk before it, so that reading every chunk checks every byte of the file.
     RS_ASSIGN_OR_RETURN(auto bytes, source_->bytes_at(entry.offset_bytes, aligned(entry.size_bytes)));
-    const std::span<const std::byte> padding = std::spanbytes.subspan(static_cast<std::size_t>(entry.size_bytes));
+    const std::span<const std::byte> padding = std::span(bytes).subspan(static_cast<std::size_t>(entry.size_bytes));
     if (std::any_of(padding.begin(), padding.end(), [](std::byte b) { return b != std::byte{0}; })) {
         return source_->wrong(place(entry) + "the padding behind it is not zero" + kDamaged);
     }

@@ -9,10 +9,10 @@
 namespace rs::line_coding {
 namespace {
 
-// A number of the lines, and how it runs over the planes.
+// A number of the lines, and its model over the planes.
 struct Field {
     std::int32_t CapturedLine::*number;
-    bool is_sine;  // otherwise constant
+    bool is_sine;  // false: constant
 };
 
 constexpr std::array<Field, 4> kFields = {{{&CapturedLine::l0_q20, false},
@@ -22,7 +22,7 @@ constexpr std::array<Field, 4> kFields = {{{&CapturedLine::l0_q20, false},
 constexpr std::size_t kBytes = sizeof(std::int32_t);
 static_assert(kFields.size() * kBytes == kBytesPerLine);
 
-// Predicts a field's numbers from those before them, in the order of the lines.
+// Predicts a field's numbers from the previous ones, in line order.
 class Predictor {
 public:
     Predictor(std::span<const CapturedLine> lines, int planes, const Field& field)
@@ -63,9 +63,9 @@ constexpr std::uint32_t unfolded(std::uint32_t folded_difference) {
 
 }  // namespace
 
-std::vector<std::uint8_t> residual_plane(std::span<const CapturedLine> lines, int planes) {
+std::vector<std::uint8_t> encode_residuals(std::span<const CapturedLine> lines, int planes) {
     std::vector<std::uint8_t> plane(lines.size() * kBytesPerLine);
-    std::size_t row = 0;  // of lines.size() bytes
+    std::size_t row = 0;  // rows of lines.size() bytes
     for (const Field& field : kFields) {
         const Predictor predicted(lines, planes, field);
         for (std::size_t i = 0; i < lines.size(); ++i) {
@@ -79,7 +79,7 @@ std::vector<std::uint8_t> residual_plane(std::span<const CapturedLine> lines, in
     return plane;
 }
 
-void put_residuals(std::span<const std::uint8_t> plane, int planes, std::span<CapturedLine> lines) {
+void decode_residuals(std::span<const std::uint8_t> plane, int planes, std::span<CapturedLine> lines) {
     RS_CHECK(plane.size() == lines.size() * kBytesPerLine);
     std::size_t row = 0;
     for (const Field& field : kFields) {

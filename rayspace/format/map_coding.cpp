@@ -8,8 +8,7 @@
 namespace rs::map_coding {
 namespace {
 
-// What the runs before let expect of the next one, modulo 2^16. Runs behind those that the rows count belong to the
-// last.
+// Predicts the next run from the previous ones, modulo 2^16. Runs beyond the counts of the rows belong to the last row.
 class Prediction {
 public:
     explicit Prediction(std::span<const std::uint16_t> counts) : counts_(counts), lengths_(std::size_t{1} << 16, 0) {}
@@ -33,15 +32,15 @@ public:
 
 private:
     std::span<const std::uint16_t> counts_;
-    std::size_t row_ = 0;                 // the next one
-    std::size_t left_ = 0;                // runs of the row before it
-    std::vector<std::uint16_t> lengths_;  // of the last run of each view
-    std::uint16_t first_ = 0;             // the view of the last row's first run
-    std::uint16_t view_ = 0;              // of the last run
-    bool begins_row_ = false;             // the run whose view was requested last
+    std::size_t row_ = 0;                 // next row
+    std::size_t left_ = 0;                // remaining runs of the row before it
+    std::vector<std::uint16_t> lengths_;  // [view] length of its last run
+    std::uint16_t first_ = 0;             // view of the last row's first run
+    std::uint16_t view_ = 0;              // view of the last run
+    bool begins_row_ = false;             // true if the run whose view was requested last is the first of its row
 };
 
-// The n-th number of a plane.
+// Stores the n-th number of a plane.
 void put(std::uint16_t number, std::size_t n, std::vector<std::uint8_t>& plane) {
     plane[2 * n] = static_cast<std::uint8_t>(number & 0xFFU);
     plane[2 * n + 1] = static_cast<std::uint8_t>(number >> 8U);
@@ -53,7 +52,7 @@ std::uint64_t residual_bytes(std::uint64_t rows, std::uint64_t runs) {
     return 2 * rows + 4 * runs;
 }
 
-Runs runs_of(std::span<const std::uint16_t> cells, int u_cells) {
+Runs encode_runs(std::span<const std::uint16_t> cells, int u_cells) {
     const auto width = static_cast<std::size_t>(u_cells);
     RS_CHECK(cells.size() % width == 0);
     Runs runs;
@@ -71,7 +70,7 @@ Runs runs_of(std::span<const std::uint16_t> cells, int u_cells) {
     return runs;
 }
 
-std::vector<std::uint8_t> residual_plane(const Runs& runs) {
+std::vector<std::uint8_t> encode_residuals(const Runs& runs) {
     const std::size_t rows = runs.counts.size();
     const std::size_t count = runs.views.size();
     std::vector<std::uint8_t> plane(residual_bytes(rows, count));
@@ -86,7 +85,7 @@ std::vector<std::uint8_t> residual_plane(const Runs& runs) {
     return plane;
 }
 
-Runs runs_of_residuals(std::span<const std::uint8_t> plane, std::size_t rows, std::size_t runs) {
+Runs decode_run_residuals(std::span<const std::uint8_t> plane, std::size_t rows, std::size_t runs) {
     RS_CHECK(plane.size() == residual_bytes(rows, runs));
     const auto number = [&](std::size_t n) { return static_cast<std::uint16_t>(plane[2 * n] | plane[2 * n + 1] << 8); };
     Runs found{std::vector<std::uint16_t>(rows), std::vector<std::uint16_t>(runs), std::vector<std::uint16_t>(runs)};
@@ -102,7 +101,7 @@ Runs runs_of_residuals(std::span<const std::uint8_t> plane, std::size_t rows, st
     return found;
 }
 
-Status put_runs(const Runs& runs, int u_cells, std::span<std::uint16_t> cells) {
+Status decode_runs(const Runs& runs, int u_cells, std::span<std::uint16_t> cells) {
     const auto width = static_cast<std::size_t>(u_cells);
     RS_CHECK(cells.size() == runs.counts.size() * width);
     std::size_t run = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// The chunks of an .rso file that others name, write or parse by themselves; all of them are in chunk_table.hpp.
-// encode/FORMAT.md, section "Chunks".
+// Names of the chunks of an .rso file, and the chunk functions used outside of chunk_table.hpp. encode/FORMAT.md,
+// section "Chunks".
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/format/container.hpp"
@@ -26,17 +26,17 @@ inline constexpr ChunkName kImage = {'P', 'I', 'C', 'T'};
 
 using Payload = std::vector<std::byte>;
 
-// RING r: everything of object.rings[r] but its cells, and the lines of the ring's views. A view that another ring has
-// already is refused.
+/// RING r: all of object.rings[r] except its cells, and the lines of the ring's views. Views of other rings are
+/// rejected.
 enum class LineCoding : std::uint8_t { kPlain = 0, kResiduals = 1 };  // rayspace/format/line_coding.hpp
 Payload ring_payload(const RaySpaceObject& object, std::size_t ring, LineCoding coding = LineCoding::kResiduals);
 Status parse_ring(std::span<const std::byte> payload, RaySpaceObject& object, std::size_t ring);
 
-// RMAP r.
+/// RMAP r.
 Payload map_payload(const Ring& ring);
 Payload map_payload(const map_coding::Runs& runs);
 
-// Of the planes of a PICT that is not coded.
+/// The size of the planes of an uncoded PICT.
 std::uint64_t raw_image_bytes(int width, int height);
 
 }  // namespace rs::object_chunks

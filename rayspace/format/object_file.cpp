@@ -14,7 +14,7 @@ using namespace object_chunks;
 
 namespace {
 
-// Reads one object; holds what the steps share.
+// Reads one object; shares state between the steps.
 class ObjectReader {
 public:
     ObjectReader(const ContainerReader& container, const ReadObjectOptions& options)
@@ -26,13 +26,13 @@ public:
             if (stage != ReadStage::geometry) continue;
             RS_TRY(check_geometry());
         }
-        RS_TRY(validate_object(unread_.object, container_.where()));
-        if (unread_.coded && options_.decode) codec::decode_images(unread_.object);
-        return std::move(unread_.object);
+        RS_TRY(validate_object(partial_.object, container_.where()));
+        if (partial_.coded && options_.decode) codec::decode_images(partial_.object);
+        return std::move(partial_.object);
     }
 
-    // Nothing that is large is read. What is small is bounded by what its chunks take: the text of a rig, which is
-    // parsed, is the worst.
+    // Measures without reading large chunks. The memory of small ones is bounded by their size; the worst case is the
+    // parsed text of a rig.
     Result<ReadingMemory> measure() {
         constexpr std::uint64_t kParsedOverText = 24;
         constexpr std::uint64_t kSmallThings_bytes = 1U << 20;
@@ -44,32 +44,32 @@ public:
         std::uint64_t largest_chunk = 0;
         for (const ChunkEntry& entry : container_.table()) {
             largest_chunk = std::max(largest_chunk, entry.size_bytes);
-            if (unread_.coded && entry.name == kImage) kept += entry.size_bytes;
+            if (partial_.coded && entry.name == kImage) kept += entry.size_bytes;
             const auto kind = std::ranges::find(chunk_table(), entry.name, &ChunkKind::name);
             if (kind == chunk_table().end() || kind->memory == nullptr) continue;
             RS_ASSIGN_OR_RETURN(const auto payload, read_payload(entry));
-            const Result<ChunkMemory> takes = kind->memory(payload, unread_, entry.index);
+            const Result<ChunkMemory> takes = kind->memory(payload, partial_, entry.index);
             if (!takes) return in_chunk({entry.name, entry.index}, takes.error());
             kept_by_maps += takes->kept_bytes;
-            largest_passing = std::max(largest_passing, takes->passing_bytes);
+            largest_passing = std::max(largest_passing, takes->temporary_bytes);
         }
         const std::uint64_t passing =
-            largest_chunk + largest_passing + kParsedOverText * unread_.object.rig_json.size();
+            largest_chunk + largest_passing + kParsedOverText * partial_.object.rig_json.size();
         const std::uint64_t images = wanted_images();
-        const std::uint64_t passing_planes = unread_.coded && options_.decode ? images * coded_planes_bytes() : 0;
+        const std::uint64_t passing_planes = partial_.coded && options_.decode ? images * coded_planes_bytes() : 0;
         ReadingMemory memory;
         memory.most_bytes = static_cast<std::int64_t>(kept + needed_bytes_ + kept_by_maps + passing);
         memory.object_bytes = static_cast<std::int64_t>(kept + needed_bytes_ + kept_by_maps - passing_planes);
-        memory.width = unread_.object.width;
-        memory.height = unread_.object.height;
+        memory.width = partial_.object.width;
+        memory.height = partial_.object.height;
         memory.images = static_cast<std::int64_t>(images);
         return memory;
     }
 
 private:
     [[nodiscard]] std::uint64_t memory_of_geometry() const {
-        std::uint64_t bytes = static_cast<std::uint64_t>(memory_of(unread_.object));
-        for (const Ring& ring : unread_.object.rings)
+        std::uint64_t bytes = static_cast<std::uint64_t>(memory_of(partial_.object));
+        for (const Ring& ring : partial_.object.rings)
             bytes += sizeof(NormalLine) * ring.views.size() * static_cast<std::uint64_t>(ring.planes);
         return bytes;
     }
@@ -84,65 +84,68 @@ private:
         return container_.read(entry);
     }
 
-    // What the chunk states that it needs is held against the cap before it is allocated: a few bytes may state much.
+    // The memory stated by a chunk is checked against the limit before it is allocated, since a few bytes may state a
+    // lot.
     Status read_chunk(const ChunkKind& kind, std::uint32_t index) {
         const ChunkEntry* const entry = container_.find(kind.name, index);
         if (entry == nullptr) {
-            if (kind.is_there != nullptr) return {};
+            if (kind.is_present != nullptr) return {};
             return Error{container_.where() + ": has no chunk " + to_string(kind.name) + " " + std::to_string(index)};
         }
         RS_ASSIGN_OR_RETURN(const auto payload, read_payload(*entry));
         if (kind.memory != nullptr) {
-            const Result<ChunkMemory> takes = kind.memory(payload, unread_, index);
+            const Result<ChunkMemory> takes = kind.memory(payload, partial_, index);
             if (!takes) return in_chunk({kind.name, index}, takes.error());
             needed_bytes_ += takes->kept_bytes;
-            const std::uint64_t most_bytes = needed_bytes_ + takes->passing_bytes;
+            const std::uint64_t most_bytes = needed_bytes_ + takes->temporary_bytes;
             if (most_bytes > options_.memory_cap_bytes) return too_large(most_bytes);
         }
-        const Status parsed = kind.parse(payload, unread_, index);
+        const Status parsed = kind.parse(payload, partial_, index);
         return parsed ? Status{} : in_chunk({kind.name, index}, parsed.error());
     }
 
     Status read_stage(ReadStage stage) {
         if (stage == ReadStage::images) return read_images();
-        for (const OneFor each : {OneFor::object, OneFor::ring}) {
-            for (std::uint32_t index = 0; index < count_of(each, unread_.object); ++index) {
-                if (Status status = read_each(each, stage, index); !status) return status;
+        for (const ChunkScope each : {ChunkScope::object, ChunkScope::ring}) {
+            for (std::uint32_t index = 0; index < max_chunk_count(each, partial_.object); ++index) {
+                RS_TRY(read_each(each, stage, index));
             }
         }
         return {};
     }
 
     Status read_images() {
-        for (const Ring& ring : unread_.object.rings) {
+        for (const Ring& ring : partial_.object.rings) {
             for (std::size_t n = 0; n < ring.views.size(); ++n) {
                 if (!is_wanted(ring, n)) continue;
-                if (Status status = read_each(OneFor::view, ReadStage::images, ring.views[n]); !status) return status;
-                if (!unread_.coded) continue;
-                needed_bytes_ += unread_.coded->images[ring.views[n]].bytes.size();
+                if (Status status = read_each(ChunkScope::view, ReadStage::images, ring.views[n]); !status)
+                    return status;
+                if (!partial_.coded) continue;
+                needed_bytes_ += partial_.coded->images[ring.views[n]].bytes.size();
                 if (needed_bytes_ > options_.memory_cap_bytes) return too_large(needed_bytes_);
             }
         }
         return {};
     }
 
-    Status read_each(OneFor each, ReadStage stage, std::uint32_t index) {
+    Status read_each(ChunkScope each, ReadStage stage, std::uint32_t index) {
         for (const ChunkKind& kind : chunk_table()) {
             if (kind.each != each || kind.stage != stage) continue;
-            if (Status status = read_chunk(kind, index); !status) return status;
+            RS_TRY(read_chunk(kind, index));
         }
         return {};
     }
 
     Status check_geometry() {
-        if (Status status = check_chunks(); !status) return status;
+        RS_TRY(check_chunks());
         return check_memory();
     }
 
-    // The file holds the chunks of this object, in the format's order, and else only what may be skipped.
+    // Checks that the file contains the chunks of this object in the format's order, and otherwise only chunks that may
+    // be skipped.
     Status check_chunks() const {
         const std::vector<ChunkKey> expected = chunk_order(
-            unread_.object,
+            partial_.object,
             [&](const ChunkKind& kind, std::uint32_t index) { return container_.find(kind.name, index) != nullptr; });
         const auto named = [](ChunkKey key) { return to_string(key.name) + " " + std::to_string(key.index); };
         std::size_t next = 0;
@@ -164,10 +167,10 @@ private:
         return Error{container_.where() + ": has no chunk " + named(expected[next]) + " in its place"};
     }
 
-    // What the maps and images need, but for what their chunks state themselves.
+    // Checks the memory of maps and images, except memory stated by their own chunks.
     Status check_memory() {
-        // No product here reaches 2^64: every factor is capped by conventions.hpp.
-        for (const Ring& ring : unread_.object.rings) {
+        // No product reaches 2^64, since every factor is limited by conventions.hpp.
+        for (const Ring& ring : partial_.object.rings) {
             needed_bytes_ += sizeof(std::uint16_t) * static_cast<std::uint64_t>(ring.planes) *
                              static_cast<std::uint64_t>(ring.x_cells) * static_cast<std::uint64_t>(ring.u_cells);
         }
@@ -177,26 +180,26 @@ private:
 
     [[nodiscard]] std::uint64_t wanted_images() const {
         std::uint64_t images = 0;
-        for (const Ring& ring : unread_.object.rings) {
+        for (const Ring& ring : partial_.object.rings) {
             for (std::size_t n = 0; n < ring.views.size(); ++n) images += is_wanted(ring, n) ? 1 : 0;
         }
         return images;
     }
 
     [[nodiscard]] bool is_wanted(const Ring& ring, std::size_t n) const {
-        return level_of(unread_.object, ring, n) <= options_.max_level;
+        return level_of(partial_.object, ring, n) <= options_.max_level;
     }
 
-    // What an image will take: a coded one is unpacked at full size, from planes that are a little larger.
+    // Memory of one image: coded ones are decoded at full size, from planes that are slightly larger.
     [[nodiscard]] std::uint64_t image_bytes() const {
-        if (!unread_.coded) return raw_image_bytes(unread_.object.width, unread_.object.height);
-        return codec::tile_table_bytes(*unread_.coded) + (options_.decode ? 2 * coded_planes_bytes() : 0);
+        if (!partial_.coded) return raw_image_bytes(partial_.object.width, partial_.object.height);
+        return codec::tile_table_bytes(*partial_.coded) + (options_.decode ? 2 * coded_planes_bytes() : 0);
     }
 
     [[nodiscard]] std::uint64_t coded_planes_bytes() const {
         constexpr std::uint64_t kCodedPlanes = 4;
-        return kCodedPlanes * static_cast<std::uint64_t>(unread_.coded->coded_width()) *
-               static_cast<std::uint64_t>(unread_.coded->coded_height());
+        return kCodedPlanes * static_cast<std::uint64_t>(partial_.coded->coded_width()) *
+               static_cast<std::uint64_t>(partial_.coded->coded_height());
     }
 
     [[nodiscard]] Error too_large(std::uint64_t needed_bytes) const {
@@ -209,14 +212,14 @@ private:
 
     const ContainerReader& container_;
     const ReadObjectOptions& options_;
-    UnreadObject unread_;
-    std::uint64_t needed_bytes_ = 0;  // of the memory cap
+    PartialObject partial_;
+    std::uint64_t needed_bytes_ = 0;  // counted against memory_cap_bytes
 };
 
 }  // namespace
 
 Status write_object(const std::filesystem::path& path, const RaySpaceObject& object, Progress* progress) {
-    if (Status status = validate_object(object, path.string()); !status) return status;
+    RS_TRY(validate_object(object, path.string()));
     for (std::size_t i = 0; i < object.images.size(); ++i) {
         if (object.coded ? !object.coded->images[i].loaded() : object.images[i].empty()) {
             return Error{path.string() + ": image " + std::to_string(i) + " is not loaded; an object is written whole"};
@@ -226,7 +229,7 @@ Status write_object(const std::filesystem::path& path, const RaySpaceObject& obj
     RS_ASSIGN_OR_RETURN(auto writer, ContainerWriter::create(path, static_cast<std::uint32_t>(order.size())));
     if (progress != nullptr) progress->start("writing", static_cast<std::int64_t>(order.size()));
     for (const ChunkKey key : order) {
-        if (Status status = writer.add(key.name, key.index, chunk_payload(object, key)); !status) return status;
+        RS_TRY(writer.add(key.name, key.index, chunk_payload(object, key)));
         if (progress != nullptr) progress->advance();
     }
     Status status = writer.commit();

@@ -1,5 +1,5 @@
 #pragma once
-// How much memory ray-space objects take, for whoever keeps to a budget. Pure; thread-safe.
+// Memory of ray-space objects, for callers with a memory budget. Thread-safe.
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/format/container.hpp"
@@ -10,18 +10,18 @@
 
 namespace rs {
 
-// Of everything that the object holds, coded images included even where they are shared.
+/// Memory of the whole object, including coded images even if they are shared.
 std::int64_t memory_of(const RaySpaceObject& object);
 
-// What read_object() of a file will take. Bounds, close ones: nothing of the images is read for them.
+/// Upper bounds of the memory for read_object(), close to the real values; computed without reading the images.
 struct ReadingMemory {
-    std::int64_t most_bytes = 0;    // at a time
-    std::int64_t object_bytes = 0;  // of the object, when it is read: at least memory_of() it
-    int width = 0;                  // of its images, px
+    std::int64_t most_bytes = 0;    // peak while reading
+    std::int64_t object_bytes = 0;  // the object after reading; at least memory_of() it
+    int width = 0;                  // px, of its images
     int height = 0;
     std::int64_t images = 0;
 };
-// Reads what is small, and the heads of shape maps. Fails as read_object() would for the same reasons.
+/// Reads the small chunks and the heads of shape maps. Errors as in read_object().
 Result<ReadingMemory> memory_to_read(const ContainerReader& container, const ReadObjectOptions& options = {});
 
 }  // namespace rs

@@ -12,8 +12,7 @@
 namespace rs::shape_coding {
 namespace {
 
-// The cells around one, by their distance from it in lines, in p and in bands. Those that the map does not have are
-// empty.
+// Neighbours of the current cell by their offset in lines, in p and in bands. Cells outside of the map are empty.
 class Neighbourhood {
 public:
     explicit Neighbourhood(const ShapeMap& shape)
@@ -22,7 +21,7 @@ public:
           bands_(shape.bands),
           line_stride_(std::ptrdiff_t{shape.p_cells} * shape.bands) {}
 
-    // Call for every cell of the map in its order.
+    // Moves to the next cell; call for every cell in the map's order.
     void go_to_next() {
         ++cell_;
         if (++band_ < bands_) return;
@@ -50,9 +49,9 @@ private:
 };
 
 constexpr int kSpreads = 11;
-constexpr int kUnguided = kSpreads * kSpreads;  // the context of a depth without neighbours
+constexpr int kUnguided = kSpreads * kSpreads;  // context of a depth without neighbours
 
-// How far apart candidates are, coarsely: 0 .. kSpreads - 1.
+// Class of the distance between candidates, 0 .. kSpreads - 1.
 int spread_class(int apart) {
     constexpr std::array<std::uint8_t, kSpreads - 1> kFrom = {1, 2, 3, 4, 6, 9, 13, 21, 41, 81};
     int found = 0;
@@ -62,11 +61,11 @@ int spread_class(int apart) {
 
 struct Prediction {
     std::uint8_t depth = 128;
-    int context = kUnguided;  // by how far the candidates are apart
+    int context = kUnguided;  // from the distances between the candidates
 };
 
-// The median of what the neighbours suggest, each by itself or by the slope of a surface through three of them. Looks
-// only at cells that stand before this one.
+// Predicts a depth: the median of candidates from the neighbours, each alone and by the slope of a surface through
+// three of them. Uses only cells before the current one.
 Prediction predict(const Neighbourhood& around) {
     constexpr int kNone = -1;
     std::array<int, 9> candidates{};
@@ -85,7 +84,7 @@ Prediction predict(const Neighbourhood& around) {
     const auto suggest_alone = [&](int value) {
         if (value != kNone) suggest(value);
     };
-    // From `a`, as much as `to` differs from `from`.
+    // `a` plus the difference of `to` and `from`.
     const auto suggest_slope = [&](int a, int to, int from) {
         if (a != kNone && to != kNone && from != kNone) suggest(std::clamp(a + to - from, 0, 255));
     };
@@ -110,12 +109,12 @@ Prediction predict(const Neighbourhood& around) {
 }
 
 // Context numbers.
-constexpr int kPlaces = 4096;  // of six neighbours, each shown in one of four ways
+constexpr int kPlaces = 4096;  // states of six neighbours with four values of `shown` each
 constexpr int kHasSurface = 0;
 constexpr int kByBoth = kHasSurface + kPlaces;
 constexpr int kBySecond = kByBoth + kPlaces;
 constexpr int kGuides = kUnguided + 1;
-constexpr int kUnary = 14;  // of a residual, before raw bits
+constexpr int kUnary = 14;  // unary bins of a residual, before raw bits
 constexpr int kRawBits = 7;
 constexpr int kDiffers = kBySecond + kPlaces;
 constexpr int kIsNearer = kDiffers + kGuides;
@@ -127,13 +126,13 @@ public:
     [[nodiscard]] std::uint32_t probability(int context) const { return codec::decoder_probability(of(context).zero); }
     void adapt(int context, int bit) {
         State& state = states_[static_cast<std::size_t>(context)];
-        state.zero = codec::adapted(state.zero, codec::kAdaptationShifts[state.uses], bit);
-        state.uses = codec::one_more(state.uses);
+        state.zero = codec::adapt_probability(state.zero, codec::kAdaptationShifts[state.uses], bit);
+        state.uses = codec::increment_uses(state.uses);
     }
 
 private:
     struct State {
-        std::uint16_t zero = 1 << 15;  // its probability, in 65536ths
+        std::uint16_t zero = 1 << 15;  // probability of a 0 in 65536ths
         std::uint8_t uses = 2;
     };
     [[nodiscard]] const State& of(int context) const { return states_[static_cast<std::size_t>(context)]; }
@@ -143,7 +142,7 @@ private:
 
 constexpr std::uint32_t kRaw = 1U << (codec::kProbabilityBits - 1);
 
-// Writer and reader take the same way through a cell: bit() gives what it is given, or what it reads.
+// Writer and reader share the syntax of a cell: bit() returns its argument, or the decoded value.
 class Writer {
 public:
     int bit(int context, int value) {
@@ -215,7 +214,7 @@ ShapeCell pass_cell(Bits& bits, const Neighbourhood& around, ShapeCell cell) {
 
 }  // namespace
 
-std::vector<std::byte> coded_cells(const ShapeMap& shape) {
+std::vector<std::byte> encode_cells(const ShapeMap& shape) {
     Writer bits;
     Neighbourhood around(shape);
     for (const ShapeCell& cell : shape.cells) {
@@ -225,7 +224,7 @@ std::vector<std::byte> coded_cells(const ShapeMap& shape) {
     return bits.finish();
 }
 
-void put_cells(std::span<const std::byte> bytes, ShapeMap& shape) {
+void decode_cells(std::span<const std::byte> bytes, ShapeMap& shape) {
     Reader bits(bytes);
     Neighbourhood around(shape);
     for (ShapeCell& cell : shape.cells) {
@@ -234,7 +233,7 @@ void put_cells(std::span<const std::byte> bytes, ShapeMap& shape) {
     }
 }
 
-void settle_depths(ShapeMap& shape, int tolerance) {
+void snap_depths(ShapeMap& shape, int tolerance) {
     if (tolerance == 0) return;
     Neighbourhood around(shape);
     for (ShapeCell& cell : shape.cells) {

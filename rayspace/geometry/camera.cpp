@@ -12,7 +12,7 @@ Camera look_at_camera(const glm::dvec3& eye, const glm::dvec3& target, double fo
     RS_CHECK(glm::length(line_of_sight) > 0);
     RS_CHECK(fov_x_rad > 0 && width > 0 && height > 0);
     const glm::dvec3 forward = glm::normalize(line_of_sight);
-    // Where the view is vertical Y shows nothing about which way up the image is.
+    // In a vertical view Y does not determine the image's orientation.
     const bool vertical = std::hypot(forward.x, forward.z) < 1e-12;
     const glm::dvec3 world_up = vertical ? glm::dvec3(0, 0, 1) : glm::dvec3(0, 1, 0);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, world_up));
@@ -42,7 +42,7 @@ double rotation_error(const Camera& camera) {
     for (int column = 0; column < 3; ++column) {
         for (int row = 0; row < 3; ++row) {
             const double defect = std::abs(product[column][row] - (column == row ? 1.0 : 0.0));
-            // A NaN compares false with everything and would pass for perfect.
+            // NaN compares false with everything and would count as no deviation.
             worst = std::isnan(defect) ? INFINITY : std::max(worst, defect);
         }
     }

@@ -32,8 +32,7 @@ Camera upright_camera(const Camera& camera) {
 }
 
 glm::dmat3 pixel_in_to_from_pixel_in_from(const Camera& to, const Camera& from) {
-    // Directions in OpenGL camera axes; a pixel (x, y, 1) of a camera looks along ((x - cx) / fl_x, (cy - y) / fl_y,
-    // -1).
+    // Directions in OpenGL camera axes: the ray of pixel (x, y, 1) is ((x - cx) / fl_x, (cy - y) / fl_y, -1).
     const auto direction_from_pixel = [](const Camera& c) {
         return glm::dmat3(1 / c.fl_x, 0, 0, 0, -1 / c.fl_y, 0, -c.cx / c.fl_x, c.cy / c.fl_y, -1);
     };

@@ -72,7 +72,7 @@ fs::path image_path(const fs::path& folder, const RigView& view) {
     if (fs::is_regular_file(as_given, ignored)) return as_given;
     fs::path with_extension = as_given;
     with_extension += ".png";
-    // Where neither exists, the name that a reader would look for, and that an error should show.
+    // If neither exists, the name that a reader would try, for its error message.
     if (fs::is_regular_file(with_extension, ignored) || !as_given.has_extension()) return with_extension;
     return as_given;
 }
@@ -96,7 +96,7 @@ Rig make_ring(const RingOptions& options) {
         view.file_path = name;
         view.camera =
             look_at_camera(target + options.distance * direction, target, fov_x_rad, options.width, options.height);
-        // As given, not by way of the angle and back.
+        // The given value, without a round trip through the angle.
         view.camera.fl_x = options.fl_px;
         view.camera.fl_y = options.fl_px;
         rig.views.push_back(std::move(view));

@@ -16,25 +16,24 @@ using nlohmann::ordered_json;
 constexpr std::size_t kMaxPath_bytes = 4096;
 constexpr double kMinFocal_px = 1e-3;
 constexpr double kMaxFocal_px = 1e7;
-constexpr double kMinAngle_rad =
-    1e-9;  // so small, and so near to pi, that the angle of every possible focal length passes
+constexpr double kMinAngle_rad = 1e-9;  // allows the angle of every possible focal length
 constexpr double kMaxPrincipal_px = 1e6;
 constexpr double kMaxLength = 1e12;
 constexpr double kRigidTolerance = 1e-3;
 
-// What one object, the file or a frame, says about the lens.
+// Intrinsics stated by one JSON object, the file or a frame.
 struct Intrinsics {
     std::optional<int> w, h;
     std::optional<double> fl_x, fl_y, cx, cy, angle_x_rad, angle_y_rad;
 };
 
-// The number of a key that may be missing.
+// Reads an optional number.
 std::optional<double> number_of(JsonObject& object, const char* key, double lowest, double highest) {
     const auto found = object.find(key);
     return found ? std::optional(found->number(lowest, highest)) : std::nullopt;
 }
 
-// Some tools write whole numbers as 800.0.
+// Reads an optional image side; some tools write integers as 800.0.
 std::optional<int> side_of(JsonObject& object, const char* key) {
     const auto found = object.find(key);
     return found ? std::optional(found->whole_number(1, kMaxImageSide_px)) : std::nullopt;
@@ -63,7 +62,7 @@ double focal_from_angle(int side_px, double angle_rad) {
     return side_px / (2 * std::tan(angle_rad / 2));
 }
 
-// A focal length outranks an angle, and a frame outranks the file.
+// Precedence: focal length before angle, frame before file.
 std::optional<double> choose_focal(const std::optional<double>& frame_focal, const std::optional<double>& frame_angle,
                                    const std::optional<double>& file_focal, const std::optional<double>& file_angle,
                                    int side_px) {
@@ -92,7 +91,7 @@ void apply_intrinsics(const Intrinsics& frame, const Intrinsics& file, const Jso
     camera.cy = frame.cy.value_or(file.cy.value_or(camera.height / 2.0));
 }
 
-// Three rows, or four with 0 0 0 1 as the last.
+// Reads a matrix of three rows, or of four with 0 0 0 1 as the last.
 glm::dmat4 matrix_of(const JsonValue& rows) {
     glm::dmat4 matrix(1.0);
     const std::size_t count = rows.list_size(3, 4);
@@ -140,7 +139,7 @@ void put_intrinsics(ordered_json& object, const Camera& camera) {
     object["fl_y"] = camera.fl_y;
     object["cx"] = camera.cx;
     object["cy"] = camera.cy;
-    // Redundant, but all that the oldest NeRF loaders look at.
+    // Redundant, but the only intrinsics that old NeRF loaders read.
     object["camera_angle_x"] = 2 * std::atan(camera.width / (2 * camera.fl_x));
 }
 
@@ -149,7 +148,7 @@ bool same_intrinsics(const Camera& a, const Camera& b) {
            a.cy == b.cy;
 }
 
-// Keys of ours win over extras of the same name.
+// Keys of this project take precedence over extras of the same name.
 void put_extras(ordered_json& object, const json& extras) {
     if (!extras.is_object()) return;
     for (const auto& [key, value] : extras.items()) {
@@ -173,8 +172,8 @@ ordered_json frame_to_json(const RigView& view, bool own_intrinsics) {
     return frame;
 }
 
-std::string dumped(const ordered_json& value) {
-    // Names that are no UTF-8 must not throw here; write_rig() refuses them beforehand.
+std::string dump_json(const ordered_json& value) {
+    // Names that are not UTF-8 must not throw here; write_rig() rejects them before.
     return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
@@ -201,7 +200,7 @@ Result<Rig> rig_from_json(const std::string& text, const std::string& where) {
     return parse_rig(text, where, nullptr);
 }
 
-// One line per key and per frame: short, and still good to read and to compare.
+// One line per key and per frame, which is compact and easy to compare.
 std::string rig_to_json(const Rig& rig) {
     const bool shared = !rig.views.empty() && std::all_of(rig.views.begin(), rig.views.end(), [&](const RigView& view) {
         return same_intrinsics(view.camera, rig.views.front().camera);
@@ -214,10 +213,10 @@ std::string rig_to_json(const Rig& rig) {
     top.erase("frames");
 
     std::string text = "{\n";
-    for (const auto& [key, value] : top.items()) text += "  " + dumped(key) + ": " + dumped(value) + ",\n";
+    for (const auto& [key, value] : top.items()) text += "  " + dump_json(key) + ": " + dump_json(value) + ",\n";
     text += "  \"frames\": [";
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
-        text += (i == 0 ? "\n    " : ",\n    ") + dumped(frame_to_json(rig.views[i], !shared));
+        text += (i == 0 ? "\n    " : ",\n    ") + dump_json(frame_to_json(rig.views[i], !shared));
     }
     return text + "\n  ]\n}\n";
 }

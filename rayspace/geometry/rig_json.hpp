@@ -1,5 +1,5 @@
 #pragma once
-// The parser behind read_rig() and rig_from_json(); private to rayspace.
+// Parser of read_rig() and rig_from_json(); internal to rayspace.
 
 #include "rayspace/geometry/rig.hpp"
 
@@ -12,7 +12,7 @@ struct ImageSize {
     int height = 0;
 };
 
-// Called once, for the first frame, when neither the file nor that frame states how large the images are.
+/// Called for the first frame if neither the file nor that frame states the image size.
 using FindImageSize = std::function<Result<ImageSize>(const RigView& first)>;
 
 Result<Rig> parse_rig(const std::string& text, const std::string& where, const FindImageSize& find_size);

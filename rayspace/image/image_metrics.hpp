@@ -1,8 +1,8 @@
 #pragma once
-// How near an image is to another: the one metric that every figure of this project uses.
+// Image difference metrics, used for all figures of this project.
 //
-// Colours are premultiplied by alpha (8 bit, on black). Only *object pixels* count: those where either image's alpha
-// is above 0. So nobody is paid for empty background, and a silhouette that is off costs what it should.
+// Colours are premultiplied by alpha (8 bit, on black). Only *object pixels* count: those with alpha above 0 in either
+// image. So empty background does not raise the score, and silhouette errors lower it.
 
 #include "rayspace/image/image.hpp"
 
@@ -16,23 +16,23 @@ struct ImageDifference {
     double squared_error = 0;  // summed over object pixels and R, G, B; 8-bit units
     double ssim = 1;           // mean over object pixels and R, G, B
 
-    // dB with peak 255 over object pixels and R, G, B; 99 where the images are equal or both empty.
+    /// dB with peak 255 over object pixels and R, G, B; 99 if the images are equal or both empty.
     [[nodiscard]] double psnr_db() const;
 };
 
-// Of several images, all counting alike.
+/// Summary of several images with equal weights.
 struct DifferenceSummary {
     double mean_psnr_db = 0;    // mean of the images' dB
-    double pooled_psnr_db = 0;  // dB of all images' object pixels taken together; lower where images differ
+    double pooled_psnr_db = 0;  // dB over all images' object pixels together; lower if images differ in quality
     double mean_ssim = 0;
 };
 DifferenceSummary summarise(std::span<const ImageDifference> differences);
 
-// Both images have the same size. SSIM as in Wang, Bovik, Sheikh, Simoncelli 2004: Gaussian window of sigma 1.5 and
-// 11x11 pixels (clipped at the image's edge and renormalised), K1 = 0.01, K2 = 0.03.
+/// PSNR and SSIM of two images of the same size. SSIM as in Wang, Bovik, Sheikh, Simoncelli 2004: Gaussian window of
+/// sigma 1.5 and 11x11 pixels (clipped at the image's edge and renormalised), K1 = 0.01, K2 = 0.03.
 ImageDifference compare_images(ConstImageView<Rgba8> a, ConstImageView<Rgba8> b);
 
-// PSNR alone: several times faster.
+/// PSNR only; several times faster.
 ImageDifference compare_images_psnr(ConstImageView<Rgba8> a, ConstImageView<Rgba8> b);
 
 }  // namespace rs

@@ -15,7 +15,7 @@ inline float srgb_from_linear(float linear) {
     return linear <= 0.0031308F ? linear * 12.92F : 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F;
 }
 
-// Of an 8-bit code, by table.
+/// Linear value of an 8-bit code, by table.
 inline float linear_from_srgb8(std::uint8_t code) {
     static const std::array<float, 256> kTable = [] {
         std::array<float, 256> table{};
@@ -26,7 +26,7 @@ inline float linear_from_srgb8(std::uint8_t code) {
     return kTable[code];
 }
 
-// Rounded to the nearest code; values outside of 0..1 are clamped, NaN gives 0.
+/// The nearest code; values outside of 0..1 are clamped, NaN gives 0.
 inline std::uint8_t srgb8_from_linear(float linear) {
     if (!(linear > 0)) return 0;
     if (linear >= 1) return 255;

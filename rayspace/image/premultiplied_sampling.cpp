@@ -24,7 +24,7 @@ RgbaF premultiplied(const Rgba8& p) {
 Rgba8 straight(const RgbaF& p) {
     const auto alpha = static_cast<std::uint8_t>(std::lround(std::clamp(p.a, 0.0F, 1.0F) * 255.0F));
     if (alpha == 0) return {};
-    // Divided by the alpha as it is: the kernel overshoots 1 just inside of an edge, and the colour with it.
+    // Divide by the unclamped alpha: the kernel overshoots 1 just inside of an edge, and the colour with it.
     return {srgb8_by_table(p.r / p.a), srgb8_by_table(p.g / p.a), srgb8_by_table(p.b / p.a), alpha};
 }
 

@@ -9,7 +9,7 @@
 namespace rs::detail {
 namespace {
 
-// Positive floats are in the order of their bits.
+// Binary search over bit patterns: positive floats are in the order of their bits.
 float least_with_code(std::uint8_t code) {
     std::uint32_t below = 0;
     auto reached = std::bit_cast<std::uint32_t>(1.0F);

@@ -1,8 +1,8 @@
 #pragma once
-// What librayspace_image_io.so offers to image_io.cpp: a table of functions, found under one C name.
+// Interface between image_io.cpp and librayspace_image_io.so: a table of functions, found by one C symbol.
 //
-// The module is built with the tools and lies beside them, so C++ types may cross; it takes from this library only what
-// stands in headers, and so has no symbol to find in the program that opens it. `path` is the file that is read;
+// The module is built with the tools and installed with them, so that C++ types may cross the boundary. It uses only
+// header code of this library, and so needs no symbols of the program that opens it. `path` is the file to be read;
 // `shown` is its name in errors. Exceptions do not leave the module.
 
 #include "rayspace/base/result.hpp"
@@ -18,16 +18,16 @@
 
 namespace rs::image_io {
 
-// Encodes into a file of its own; image_io.cpp stages and renames it.
+/// Encodes into a file, which image_io.cpp stages and renames.
 class VideoEncoder {
 public:
     virtual ~VideoEncoder() = default;
     virtual Status add(ConstImageView<Rgba8> frame) = 0;
-    // Closes the file; all of it is on the disk then.
+    /// Closes the file, which is then complete on the disk.
     virtual Status finish() = 0;
 };
 
-// Interface behind VideoReader (video_reader.hpp).
+/// Interface behind VideoReader (video_reader.hpp).
 class VideoDecoder {
 public:
     virtual ~VideoDecoder() = default;
@@ -60,17 +60,17 @@ struct Backend {
     Result<std::unique_ptr<VideoDecoder>> (*read_video)(const std::string& path) = nullptr;
 };
 
-// Grows with every change of the declarations above.
+/// Must be incremented with every change of the declarations above.
 inline constexpr std::uint32_t kBackendVersion = 5;
 inline constexpr const char* kBackendFileName = "librayspace_image_io.so";
 inline constexpr const char* kBackendSymbol = "rayspace_image_io_backend";
 using BackendFunction = const Backend* (*)();
 
-// Module-internal: video_backend.cpp.
+/// Module-internal: video_backend.cpp.
 Result<std::unique_ptr<VideoEncoder>> open_video(const std::string& path, const std::string& shown,
                                                  const VideoOptions& options);
 
-// Module-internal: video_decoder.cpp.
+/// Module-internal: video_decoder.cpp.
 Result<std::unique_ptr<VideoDecoder>> read_video(const std::string& path);
 
 }  // namespace rs::image_io

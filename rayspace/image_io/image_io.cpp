@@ -24,13 +24,13 @@ struct LoadedBackend {
 LoadedBackend load_backend() {
     std::error_code ignored;
     const fs::path here = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-    // Of this code: the program, or librayspace.so.
+    // The file of this code: the program, or librayspace.so.
     Dl_info info{};
     const bool found = ::dladdr(reinterpret_cast<const void*>(&load_backend), &info) != 0 && info.dli_fname != nullptr;
     const fs::path library = found ? fs::path(info.dli_fname).parent_path() : here;
     const fs::path candidates[] = {
         here / image_io::kBackendFileName,                              // a build folder
-        image_io::kBackendFileName,                                     // the run path and the system's folders
+        image_io::kBackendFileName,                                     // the run path and the system's library folders
         here / ".." / "lib" / "rayspace" / image_io::kBackendFileName,  // an installation of tools
         library / image_io::kBackendFileName,                           // a build folder's Python module
         // An installation of librayspace.so in lib or lib/MACHINE, of the Python module in lib/python3/dist-packages.
@@ -40,11 +40,11 @@ LoadedBackend load_backend() {
     };
     std::string why;
     for (const fs::path& candidate : candidates) {
-        // RTLD_LOCAL keeps the symbols of some hundred libraries to themselves. The handle is never closed: those
-        // libraries run threads and exit handlers.
+        // RTLD_LOCAL hides the symbols of about a hundred libraries. The handle is never closed, since those libraries
+        // have threads and exit handlers.
         void* const module = ::dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
         if (module == nullptr) {
-            // A module that is there but lacks a library explains more than two that are not there.
+            // The error of an existing module that lacks a library is more useful than that of a missing module.
             const char* const message = ::dlerror();
             if (why.empty() || fs::exists(candidate, ignored)) why = message != nullptr ? message : "unknown reason";
             continue;
@@ -54,9 +54,9 @@ LoadedBackend load_backend() {
         if (backend != nullptr && backend->version == image_io::kBackendVersion) return {backend, {}};
         why = candidate.string() + " belongs to another version of these tools";
     }
-    // What the loader reports where the address space or the memory of a process is limited.
+    // Messages of the loader if the address space or memory of the process is limited.
     if (why.find("failed to map segment") != std::string::npos || why.find("annot allocate") != std::string::npos) {
-        return {nullptr, "not enough memory to load what reads and writes images; raise the limit (ulimit -v)"};
+        return {nullptr, "not enough memory to load the image libraries; raise the limit (ulimit -v)"};
     }
     return {nullptr, std::string(image_io::kBackendFileName) + " cannot be opened (" + why +
                          "); put it beside the program or in ../lib/rayspace, with OpenImageIO and FFmpeg installed"};
@@ -68,22 +68,22 @@ Result<const image_io::Backend*> backend_for(const fs::path& path) {
     return loaded.backend;
 }
 
-// All images are encoded in memory, so that the disk's troubles are reported by StagedFile alone.
+// Images are encoded in memory, so that only StagedFile reports disk errors.
 Status check_size(const std::string& shown, int width, int height) {
     if (width >= 1 && height >= 1 && width <= kMaxImageSide_px && height <= kMaxImageSide_px) return {};
     return Error{shown + ": an image of " + std::to_string(width) + "x" + std::to_string(height) +
                  " pixels cannot be written; each side must be 1.." + std::to_string(kMaxImageSide_px)};
 }
 
-// `encode` makes the file's bytes with the backend.
+// Writes an image. `encode` returns the file's bytes from the backend.
 template <class Pixel, class Encode>
 Status write_encoded(const fs::path& path, ConstImageView<Pixel> image, const Encode& encode) {
-    if (Status status = check_size(path.string(), image.width(), image.height()); !status) return status;
+    RS_TRY(check_size(path.string(), image.width(), image.height()));
     RS_ASSIGN_OR_RETURN(const auto backend, backend_for(path));
-    // The place is tried before the work is done.
+    // Check that the file can be written before encoding.
     RS_ASSIGN_OR_RETURN(auto file, StagedFile::create(path));
     RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, encode(*backend));
-    if (Status status = file.write(bytes); !status) return status;
+    RS_TRY(file.write(bytes));
     return file.commit();
 }
 
@@ -155,7 +155,7 @@ Status write_exr_channel(const fs::path& path, ConstImageView<float> channel) {
 }
 
 struct VideoWriter::Backend {
-    // Members end in reverse order: the encoder closes the file before it is removed.
+    // Members are destroyed in reverse order: the encoder closes the file before it is removed.
     StagedFile file;
     std::unique_ptr<image_io::VideoEncoder> encoder;
     image_io::VideoOptions options;
@@ -198,7 +198,7 @@ Status VideoWriter::add(ConstImageView<Rgba8> frame) {
 
 Status VideoWriter::finish() {
     RS_CHECK(backend_ != nullptr && backend_->encoder != nullptr);
-    if (Status status = backend_->encoder->finish(); !status) return status;
+    RS_TRY(backend_->encoder->finish());
     backend_->encoder.reset();
     return backend_->file.commit();
 }

@@ -1,14 +1,12 @@
 #pragma once
-// Images and video on disk, through OpenImageIO and FFmpeg.
+// Image and video files, with OpenImageIO and FFmpeg.
 //
-// Those libraries take a quarter of a second to load, so their code lives in a module (librayspace_image_io.so, beside
-// the tools) that is opened at the first call of a function of this header; a tool that only prints its help never
-// pays.
+// Those libraries take a quarter of a second to load. Their code is therefore in a module (librayspace_image_io.so,
+// beside the tools) that is loaded at the first call of a function of this header.
 //
-// Every reader checks the header's size against kMaxImageSide_px, or another limit that it is given, before it
-// allocates. Every writer writes to a
-// temporary name beside `path` and renames; on failure nothing is left. All functions may be called from any thread.
-// Errors name the file and what to do.
+// Every reader checks the header's size against kMaxImageSide_px, or a given limit, before it allocates. Every writer
+// writes to a temporary name beside `path` and renames; a failure leaves no file. All functions are thread-safe. Errors
+// name the file and a remedy.
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/result.hpp"
@@ -27,53 +25,54 @@ struct ImageInfo {
     int height = 0;
     int channels = 0;
     bool has_alpha = false;
-    // EXIF: how the stored pixels are to be shown. 1 as they are, 3 upside down, 6 and 8 on their side, 2, 4, 5 and 7
-    // mirrored too. 1 where the file states nothing, or nothing valid.
+    // EXIF orientation of the stored pixels: 1 as stored, 3 upside down, 6 and 8 rotated by 90 degrees, 2, 4, 5 and 7
+    // mirrored too. 1 if missing or invalid.
     int orientation = 1;
-    // EXIF: mm of the lens that shows as much on film, 43.27 mm across the image's diagonal. 0 where nothing is
-    // stated.
+    // EXIF focal length equivalent to 35 mm film (43.27 mm diagonal), mm. 0 if missing.
     int focal_35mm = 0;
 };
 
-// Only the header is read.
+/// Reads the header only.
 Result<ImageInfo> read_image_info(const std::filesystem::path& path, int max_side_px = kMaxImageSide_px);
 
-// Any image format that OpenImageIO reads, but icons, Photoshop's and JPEG 2000 files, as 8-bit sRGB with straight
-// alpha (255 where the file has none). Colours of an RGB profile (ICC) become sRGB, but of float files (a HEIC file's
-// profile is not read by OpenImageIO 2.4); a file with a damaged profile is an error. Grey is spread to RGB; 16-bit and
-// float files are converted (float as linear light). Associated alpha is undone. EXIF orientation is not applied
-// (ImageInfo has it): pixels stay where the camera model has them. A damaged or truncated file is an error.
+/// Reads an image as 8-bit sRGB with straight alpha (255 if the file has none), in any format that OpenImageIO reads,
+/// except icons, Photoshop and JPEG 2000. Colours are converted from RGB profiles (ICC) to sRGB, except in float files
+/// (the profile of HEIC files is not read by OpenImageIO 2.4); a damaged profile is an error. Grey is expanded to RGB;
+/// 16-bit and float files are converted (float as linear light). Associated alpha is divided out. EXIF orientation is
+/// not applied (see ImageInfo), since the camera model refers to the stored pixels. A damaged or truncated file is an
+/// error.
 Result<Image<Rgba8>> read_image(const std::filesystem::path& path, int max_side_px = kMaxImageSide_px);
 
-// Linear-light float RGBA, alpha straight: EXR and HDR as they are, 8- and 16-bit files through the sRGB curve.
+/// Reads linear-light float RGBA with straight alpha: EXR and HDR unchanged, 8- and 16-bit files through the sRGB
+/// curve.
 Result<Image<RgbaF>> read_image_linear(const std::filesystem::path& path);
 
-// An image of light itself, such as an environment: the same, opaque, every value finite and not negative. What is not
-// finite is an error; below 0 (panorama tools that sharpened) it becomes 0.
+/// Reads a radiance image, such as an environment, as read_image_linear() does, opaque, with finite and non-negative
+/// values. Values that are not finite are an error; negative ones (from sharpening in panorama tools) become 0.
 Result<Image<RgbaF>> read_radiance(const std::filesystem::path& path);
 
-// One-channel float image, such as a depth channel written by write_exr_channel; the channel "Z" or else the first.
+/// Reads a one-channel float image, such as a depth channel written by write_exr_channel: channel "Z", else the first
+/// one.
 Result<Image<float>> read_channel(const std::filesystem::path& path);
 
-// PNG, 8 bit, straight alpha.
+/// Writes a PNG, 8 bit, straight alpha.
 Status write_png(const std::filesystem::path& path, ConstImageView<Rgba8> image);
 
-// JPEG as cameras write it: 8-bit sRGB, alpha left out, colour differences at half the resolution. `quality` 1..100.
+/// Writes a JPEG: 8-bit sRGB, without alpha, chroma at half resolution. `quality` 1..100.
 Status write_jpeg(const std::filesystem::path& path, ConstImageView<Rgba8> image, int quality);
 
-// The bytes that write_png would write, for images inside of other files; `shown` names the image in errors.
+/// Encodes a PNG as write_png does, for embedding; `shown` names the image in errors.
 Result<std::vector<std::byte>> encode_png(ConstImageView<Rgba8> image, const std::string& shown);
 
-// OpenEXR, float, zip; linear light. The EXR convention is associated alpha: colours are multiplied on writing and
-// divided on reading.
+/// Writes an OpenEXR file: float, zip, linear light. EXR files have associated alpha: colours are multiplied by alpha
+/// on writing and divided on reading.
 Status write_exr(const std::filesystem::path& path, ConstImageView<RgbaF> image);
 
-// One float channel named "Z".
+/// Writes one float channel named "Z".
 Status write_exr_channel(const std::filesystem::path& path, ConstImageView<float> channel);
 
-// A video file (mp4: H.264) written frame by frame. Alpha is composited over `backdrop`. Frames must have the size
-// given at opening, which must be even. finish() renames the temporary file; a writer that is dropped before it leaves
-// nothing.
+/// Writes a video file (mp4: H.264) frame by frame. Alpha is composited over `backdrop`. Frames must have the size
+/// given to open(), which must be even. finish() renames the temporary file; without it no file remains.
 class VideoWriter {
 public:
     static Result<VideoWriter> open(const std::filesystem::path& path, int width, int height, double frames_per_second,
@@ -85,7 +84,7 @@ public:
     Status add(ConstImageView<Rgba8> frame);
     Status finish();
 
-    struct Backend;  // in the module
+    struct Backend;  // defined in the module
 
 private:
     explicit VideoWriter(std::unique_ptr<Backend> backend);

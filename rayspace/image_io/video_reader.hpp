@@ -11,7 +11,7 @@
 
 namespace rs {
 
-namespace images {
+namespace image_io {
 class VideoDecoder;
 }
 

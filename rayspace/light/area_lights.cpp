@@ -12,7 +12,7 @@ constexpr const char* kDiameter[] = {"diameter"};
 
 class AreaModel : public LightModel {
 public:
-    // `share`: area of a light whose halves are perpendicular and 1 long.
+    // `share`: area of a light whose half sides are perpendicular with length 1.
     AreaModel(const char* kind, std::span<const char* const> sizes, double share)
         : LightModel(LightForm::kArea, {.kind = kind,
                                         .power = "lumens",
@@ -41,7 +41,7 @@ public:
         Light spot = point_light(light.location, light.colour);
         spot.kind = LightKind::kSpot;
         spot.towards = axis(light);
-        // A cosine, by a straight line from the axis to the plane of the area.
+        // Approximates the cosine by a linear falloff from the axis to the area's plane.
         spot.beam_width_rad = 0;
         spot.cut_off_rad = kPi / 2;
         spot.colour = light.colour * white;
@@ -50,7 +50,7 @@ public:
     }
 
     void describe(const LightEntry& entry, Light& light) const override {
-        const AimedAxes axes = axes_of(unit_of(entry.aim), radians(entry.turn_deg));
+        const AimedAxes axes = aimed_axes(unit_vector(entry.aim), radians(entry.turn_deg));
         light.half_u = 0.5 * entry.size.y * axes.along;
         light.half_v = 0.5 * entry.size.x * axes.across;
         light.colour = colour_of(entry, kLuxOfWhite * strength(light));
@@ -73,7 +73,7 @@ public:
     }
 
 private:
-    // In coordinates -1..1, around.
+    // Closed contour in coordinates -1..1.
     [[nodiscard]] virtual std::vector<glm::dvec2> rim() const = 0;
 
     double share_;
@@ -103,7 +103,7 @@ public:
     DiscModel() : AreaModel("disc", kDiameter, kPi) {}
 
     [[nodiscard]] bool covers(const glm::vec2& at) const override { return glm::dot(at, at) <= 1.0F; }
-    [[nodiscard]] glm::vec2 point(const glm::vec2& u) const override { return disc_point(u); }
+    [[nodiscard]] glm::vec2 point(const glm::vec2& u) const override { return sample_disc(u); }
     [[nodiscard]] LightEntry example() const override {
         LightEntry panel;
         panel.power = 1000;

@@ -14,7 +14,7 @@ public:
     }
     void describe(const LightEntry& entry, Light& light) const override {
         light.colour = colour_of(entry, kLuxOfWhite);
-        light.towards = unit_of(entry.aim);
+        light.towards = unit_vector(entry.aim);
     }
     void describe(const Light& light, LightEntry& entry) const override {
         set_colour(light.colour, kLuxOfWhite, entry);

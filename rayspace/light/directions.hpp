@@ -1,5 +1,5 @@
 #pragma once
-// Directions on the sphere: frames, how they are drawn, luminance weights.
+// Directions on the sphere: frames, sampling, luminance, MIS weights.
 
 #include <glm/glm.hpp>
 
@@ -41,20 +41,20 @@ struct Frame {
     }
 };
 
-// Evenly within the unit disc.
-inline glm::vec2 disc_point(const glm::vec2& u) {
+// Uniform sample of the unit disc.
+inline glm::vec2 sample_disc(const glm::vec2& u) {
     return std::sqrt(u.x) * glm::vec2(std::cos(2.0F * kPiF * u.y), std::sin(2.0F * kPiF * u.y));
 }
 
-// Evenly within the cone about +z whose cosine is at least `least_cos`.
-inline glm::vec3 cone_direction(const glm::vec2& u, float least_cos) {
-    const float z = 1.0F - u.x * (1.0F - least_cos);
+// Uniform direction in the cone about +z with cosine >= `min_cos`.
+inline glm::vec3 sample_cone(const glm::vec2& u, float min_cos) {
+    const float z = 1.0F - u.x * (1.0F - min_cos);
     const float r = std::sqrt(std::max(0.0F, 1.0F - z * z));
     return {r * std::cos(2.0F * kPiF * u.y), r * std::sin(2.0F * kPiF * u.y), z};
 }
 
-// A direction about +z with density cos / pi.
-inline glm::vec3 cosine_direction(const glm::vec2& u) {
+// Direction in the hemisphere about +z with density cos / pi.
+inline glm::vec3 sample_cosine_hemisphere(const glm::vec2& u) {
     const float radius = std::sqrt(u.x);
     const float phi = 2.0F * kPiF * u.y;
     return {radius * std::cos(phi), radius * std::sin(phi), std::sqrt(std::max(0.0F, 1.0F - u.x))};

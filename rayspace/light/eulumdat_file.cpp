@@ -1,8 +1,9 @@
-// EULUMDAT: one item a line, by its number. Source: A. Stockmar, "EULUMDAT file format", 1990, as published with
-// the International Lighting Data Format: lines 1..26 head, lamp sets, ten direct ratios, angles, intensities.
+// EULUMDAT reader: one item per line, identified by the line number. Source: A. Stockmar, "EULUMDAT file format", 1990,
+// as published with the International Lighting Data Format: lines 1..26 header, lamp sets, ten direct ratios, angles,
+// intensities.
 
-#include "rayspace/light/file_words.hpp"
 #include "rayspace/light/luminaire.hpp"
+#include "rayspace/light/photometric_text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,10 +21,11 @@ class Lines {
 public:
     Lines(std::string_view text, std::string name) : name_(std::move(name)), lines_(split_lines(text)) {}
 
-    // Lines count from 1.
+    // Line numbers start at 1.
     Result<double> number(std::size_t line, const std::string& what) const {
         if (line > lines_.size()) {
-            return Error{name_ + ": ends before line " + std::to_string(line) + ", " + what + "; is it whole?"};
+            return Error{name_ + ": ends before line " + std::to_string(line) + ", " + what +
+                         "; check that it is complete"};
         }
         std::string word = utf8_text(lines_[line - 1]);
         std::replace(word.begin(), word.end(), ',', '.');
@@ -53,7 +55,7 @@ private:
 
 enum Symmetry { kNone = 0, kAboutAxis = 1, kPlane0 = 2, kPlane90 = 3, kBothPlanes = 4 };
 
-// The planes whose intensities stand in the file, as numbers of the planes listed.
+// Indices of the listed planes whose intensities are in the file.
 std::vector<int> stored_planes(int symmetry, int planes) {
     int first = 0, count = planes;
     if (symmetry == kAboutAxis) count = 1;
@@ -87,7 +89,7 @@ Result<Luminaire> parse_eulumdat(std::string_view text, const std::string& name)
                                         std::pair{8, "TEST"}, std::pair{12, "ISSUEDATE"}}) {
         luminaire.keywords.emplace_back(keyword, lines.text(static_cast<std::size_t>(line)));
     }
-    constexpr int kMost = static_cast<int>(PhotometricWeb::kMostAngles);
+    constexpr int kMost = static_cast<int>(PhotometricWeb::kMaxAngles);
     RS_ASSIGN_OR_RETURN(const int symmetry, lines.whole(3, "the symmetry (Isym)", kNone, kBothPlanes));
     RS_ASSIGN_OR_RETURN(const int planes, lines.whole(4, "the number of C planes (Mc)", 1, kMost));
     RS_ASSIGN_OR_RETURN(const int rows, lines.whole(6, "the number of intensities in a plane (Ng)", 2, kMost));
@@ -99,7 +101,7 @@ Result<Luminaire> parse_eulumdat(std::string_view text, const std::string& name)
                                   std::to_string(divisor));
     }
     RS_ASSIGN_OR_RETURN(const int sets, lines.whole(26, "the number of lamp sets", 1, kMostSets));
-    // Sets are alternatives; the first is taken.
+    // Lamp sets are alternatives; the first is used.
     RS_ASSIGN_OR_RETURN(const double lamps, lines.number(kLinesOfHead + 1, "the number of lamps"));
     RS_ASSIGN_OR_RETURN(const double lumens, lines.number(kLinesOfHead + 3, "the lamps' luminous flux"));
     if (!(lumens > 0)) return lines.error(kLinesOfHead + 3, "the lamps' luminous flux must be above 0");
@@ -107,8 +109,8 @@ Result<Luminaire> parse_eulumdat(std::string_view text, const std::string& name)
     RS_ASSIGN_OR_RETURN(const double conversion, lines.number(24, "the conversion factor"));
     if (!(conversion > 0)) return lines.error(24, "the conversion factor must be above 0");
     luminaire.lamps = static_cast<int>(std::clamp(std::abs(lamps), 0.0, 1e6));
-    luminaire.lumens_per_lamp = lamps < 0 ? -1 : lumens / std::max(luminaire.lamps, 1);  // < 0: measured absolutely
-    luminaire.multiplier = lumens / 1000 * conversion;                                   // files hold cd per 1000 lm
+    luminaire.lumens_per_lamp = lamps < 0 ? -1 : lumens / std::max(luminaire.lamps, 1);  // < 0: absolute photometry
+    luminaire.multiplier = lumens / 1000 * conversion;  // intensities are in cd per 1000 lm
     luminaire.input_w = watts ? *watts : 0;
     double size_m[3] = {};
     for (std::size_t i = 0; i < 2; ++i) {
@@ -131,13 +133,13 @@ Result<Luminaire> parse_eulumdat(std::string_view text, const std::string& name)
         table.vertical_deg.push_back(angle);
     }
     const std::vector<int> stored = stored_planes(symmetry, planes);
-    if (stored.size() * table.vertical_deg.size() > PhotometricWeb::kMostValues) {
-        return lines.error(4, "more intensities than " + std::to_string(PhotometricWeb::kMostValues));
+    if (stored.size() * table.vertical_deg.size() > PhotometricWeb::kMaxValues) {
+        return lines.error(4, "more intensities than " + std::to_string(PhotometricWeb::kMaxValues));
     }
     std::vector<std::vector<double>> columns;
     for (const int plane : stored) {
         RS_ASSIGN_OR_RETURN(const double angle, lines.number(c_line + static_cast<std::size_t>(plane), "a C angle"));
-        // Mirrored in the plane 90-270: 270..90 by way of 0 is 270..90 the other way round.
+        // Symmetric about the plane 90-270: 270..90 through 0 equals 270..90 in reverse order.
         double at = symmetry == kPlane90 ? 180 - angle : angle;
         if (at < 0) at += 360;
         table.horizontal_deg.push_back(symmetry == kAboutAxis ? 0 : at);

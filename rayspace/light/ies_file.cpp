@@ -1,10 +1,10 @@
-// IES LM-63: labels, TILT=, then numbers in any arrangement of lines. Sources: ANSI/IESNA LM-63-2002; I. Ashdown,
+// IES LM-63 reader: labels, TILT=, then numbers with arbitrary line breaks. Sources: ANSI/IESNA LM-63-2002; I. Ashdown,
 // "Parsing the IESNA LM-63 photometric data file", 1998, for the older editions.
 
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
-#include "rayspace/light/file_words.hpp"
 #include "rayspace/light/luminaire.hpp"
+#include "rayspace/light/photometric_text.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,7 +31,7 @@ constexpr std::array kEditions = {
     EditionName{"IESNA:LM-63-2002", Edition::k2002, "LM-63-2002"},
     EditionName{"IES:LM-63-2019", Edition::k2019, "LM-63-2019"},
 };
-constexpr EditionName kFirstEdition{"", Edition::k1986, "LM-63-1986"};  // begins with any label
+constexpr EditionName kFirstEdition{"", Edition::k1986, "LM-63-1986"};  // no identification line
 
 const EditionName& edition_of(std::string_view first_line) {
     const std::string line = utf8_text(first_line);
@@ -40,7 +40,7 @@ const EditionName& edition_of(std::string_view first_line) {
     return found == kEditions.end() ? kFirstEdition : *found;
 }
 
-// "[KEYWORD] text"; lines of [MORE] go on with the one before.
+// Parses "[KEYWORD] text"; [MORE] continues the previous line.
 void add_keyword(std::string_view line, std::vector<std::pair<std::string, std::string>>& keywords) {
     const std::string text = utf8_text(line);
     const std::size_t close = text.find(']');
@@ -57,8 +57,8 @@ void add_keyword(std::string_view line, std::vector<std::pair<std::string, std::
     }
 }
 
-// By the signs and zeros of the three dimensions: LM-63-1995 and -2002, table 1. A round thing's second diameter is 0
-// in one edition and repeated in the other.
+// Opening shape from the signs and zeros of the three dimensions: LM-63-1995 and -2002, table 1. The second diameter of
+// round openings is 0 in one edition and repeated in the other.
 LuminousOpening opening_of(double across, double along, double height, Edition edition) {
     LuminousOpening opening{OpeningShape::kPoint, std::abs(across), std::abs(along), std::abs(height)};
     const bool round = across < 0 || along < 0;
@@ -87,9 +87,9 @@ LuminousOpening opening_of(double across, double along, double height, Edition e
 
 Result<TiltTable> read_tilt(NumberStream& numbers) {
     TiltTable tilt;
-    RS_ASSIGN_OR_RETURN(const int geometry, numbers.next_whole("the lamp-to-luminaire geometry of TILT", 1, 3));
+    RS_ASSIGN_OR_RETURN(const int geometry, numbers.next_integer("the lamp-to-luminaire geometry of TILT", 1, 3));
     tilt.lamp_to_luminaire = geometry;
-    RS_ASSIGN_OR_RETURN(const int count, numbers.next_whole("the number of tilt angles", 1, kMostTiltAngles));
+    RS_ASSIGN_OR_RETURN(const int count, numbers.next_integer("the number of tilt angles", 1, kMostTiltAngles));
     RS_ASSIGN_OR_RETURN(std::vector<double> angles, numbers.next(static_cast<std::size_t>(count), "tilt angle"));
     if (!std::is_sorted(angles.begin(), angles.end())) return numbers.error("tilt angles must ascend");
     RS_ASSIGN_OR_RETURN(std::vector<double> factors, numbers.next(static_cast<std::size_t>(count), "tilt factor"));
@@ -101,7 +101,7 @@ Result<TiltTable> read_tilt(NumberStream& numbers) {
     return tilt;
 }
 
-// The ten numbers behind TILT, and the three behind them.
+// The ten numbers after TILT, and the three that follow.
 struct Header {
     double multiplier, across, along, height, ballast_factor, last_factor, input_w, lumens_per_lamp, metres_per_unit;
     int lamps, vertical, horizontal;
@@ -119,11 +119,11 @@ Result<Header> read_header(NumberStream& numbers) {
     };
     const auto whole = [&](const char* what, int least, int most) {
         if (failed) return least;
-        const Result<int> number = numbers.next_whole(what, least, most);
+        const Result<int> number = numbers.next_integer(what, least, most);
         if (!number) failed = number.error();
         return number ? *number : least;
     };
-    constexpr int kMost = static_cast<int>(PhotometricWeb::kMostAngles);
+    constexpr int kMost = static_cast<int>(PhotometricWeb::kMaxAngles);
     header.lamps = whole("the number of lamps", 0, 1'000'000);
     header.lumens_per_lamp = real("the lumens per lamp");
     header.multiplier = real("the candela multiplier");
@@ -144,7 +144,7 @@ Result<Header> read_header(NumberStream& numbers) {
     return header;
 }
 
-// Where TILT= stands: at the beginning of a line, for a label may hold the word.
+// Line that begins with TILT=; labels may contain the word elsewhere.
 std::optional<std::size_t> tilt_line(const std::vector<std::string_view>& lines) {
     const auto found = std::ranges::find_if(lines, [](std::string_view line) { return line.starts_with("TILT="); });
     if (found == lines.end()) return std::nullopt;
@@ -164,7 +164,7 @@ Error line_error(const std::string& name, std::size_t line, const std::string& p
 Result<Luminaire> parse_ies(std::string_view text, const std::string& name) {
     const std::vector<std::string_view> lines = split_lines(text);
     const auto tilt_at = tilt_line(lines);
-    if (!tilt_at) return Error{name + ": no line begins with TILT=; this is no IES file (LM-63)"};
+    if (!tilt_at) return Error{name + ": no line begins with TILT=; use an IES file (LM-63)"};
     Luminaire luminaire;
     const EditionName& edition = edition_of(lines.front());
     luminaire.format = edition.format;
@@ -188,7 +188,7 @@ Result<Luminaire> parse_ies(std::string_view text, const std::string& name) {
     luminaire.multiplier = header.multiplier;
     luminaire.ballast_factor = header.ballast_factor;
     luminaire.input_w = header.input_w;
-    // Until 1991 the number behind it was a second factor, of the lamp on this ballast.
+    // Until 1991 the last number was the ballast-lamp photometric factor.
     if (edition.edition <= Edition::k1991 && header.last_factor > 0) luminaire.ballast_factor *= header.last_factor;
     const double unit = header.metres_per_unit;
     luminaire.opening = opening_of(header.across * unit, header.along * unit, header.height * unit, edition.edition);
@@ -196,9 +196,9 @@ Result<Luminaire> parse_ies(std::string_view text, const std::string& name) {
     PhotometricTable table{header.type, {}, {}, {}};
     const auto rows = static_cast<std::size_t>(header.vertical);
     const auto planes = static_cast<std::size_t>(header.horizontal);
-    if (rows * planes > PhotometricWeb::kMostValues) {
+    if (rows * planes > PhotometricWeb::kMaxValues) {
         return numbers.error(std::to_string(planes) + " planes of " + std::to_string(rows) +
-                             " intensities are too many; " + std::to_string(PhotometricWeb::kMostValues) +
+                             " intensities are too many; " + std::to_string(PhotometricWeb::kMaxValues) +
                              " are allowed in all");
     }
     for (auto [into, count, what] : {std::tuple{&table.vertical_deg, rows, "vertical angle"},
@@ -216,7 +216,7 @@ Result<Luminaire> parse_ies(std::string_view text, const std::string& name) {
 
 Result<Luminaire> read_luminaire(const std::filesystem::path& path) {
     const auto read_text = [](const std::filesystem::path& from) -> Result<std::string> {
-        RS_ASSIGN_OR_RETURN(const auto bytes, read_file(from, kMostLuminaireBytes));
+        RS_ASSIGN_OR_RETURN(const auto bytes, read_file(from, kMaxLuminaireFile_bytes));
         return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     };
     RS_ASSIGN_OR_RETURN(std::string text, read_text(path));
@@ -225,7 +225,7 @@ Result<Luminaire> read_luminaire(const std::filesystem::path& path) {
     if (const auto at = tilt_line(lines)) {
         const std::string named = tilt_word(lines[*at]);
         const std::filesystem::path beside = path.parent_path() / named;
-        // A name with a folder is of the maker's machine.
+        // Uses the file name only: folders refer to the manufacturer's machine.
         const bool plain =
             named != "NONE" && named != "INCLUDE" && !named.empty() && named.find('/') == std::string::npos;
         std::error_code none;

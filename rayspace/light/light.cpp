@@ -31,7 +31,7 @@ Light punctual_of(const Light& light) {
     return punctual;
 }
 
-Light turned_about_y(const Light& light, double angle_rad) {
+Light rotate_about_y(const Light& light, double angle_rad) {
     const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), angle_rad, glm::dvec3(0, 1, 0)));
     Light turned = light;
     turned.towards = turn * light.towards;
@@ -52,7 +52,7 @@ Status check_light(const Light& light) {
         return Error{"its colour must be finite and not negative"};
     }
     const LightModel& model = model_of(light);
-    if (model.form != LightForm::kDistant && !finite(light.location)) return Error{"its place must be finite"};
+    if (model.form != LightForm::kDistant && !finite(light.location)) return Error{"its location must be finite"};
     return model.check(light);
 }
 

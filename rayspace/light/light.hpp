@@ -1,9 +1,9 @@
 #pragma once
-// A light, wherever it comes from (VRML97, glTF, a recipe, a list of lights) and whoever draws by it (raster, tracer).
+// Light source of any origin (VRML97, glTF, recipe, light list) for all renderers (raster, tracer).
 //
-// Colours are linear light and may exceed 1. What `colour` means, by kind:
-//   directional, point, spot   the radiance of a white matte surface that faces the light where nothing is attenuated,
-//                              as VRML97's formula has it: irradiance / pi
+// Colours are linear light and may exceed 1. Meaning of `colour`:
+//   directional, point, spot   irradiance / pi without attenuation: the radiance of a white diffuse surface that faces
+//                              the light (VRML97's lighting formula)
 //   rectangle, disc            the radiance of the area itself
 //   luminaire                  a factor on its photometric web, whose radiant intensity is candela / kLumensPerWatt
 
@@ -18,69 +18,66 @@
 
 namespace rs {
 
-// In the order in which people are offered them. What each is: light_model.hpp.
+// In the order of user interfaces. Properties of each kind: light_model.hpp.
 enum class LightKind { kPoint, kSpot, kLuminaire, kRectangle, kDisc, kDirectional };
-inline constexpr std::size_t kLightKinds = static_cast<std::size_t>(LightKind::kDirectional) + 1;  // the last of them
+inline constexpr std::size_t kLightKinds = static_cast<std::size_t>(LightKind::kDirectional) + 1;  // the last kind
 
-// In scene coordinates. The first block is ISO/IEC 14772-1, 4.6.6 and 4.14.
+// Light in scene coordinates. The first block follows ISO/IEC 14772-1, 4.6.6 and 4.14.
 struct Light {
     LightKind kind = LightKind::kDirectional;
     glm::vec3 colour{1};
-    glm::vec3 ambient{0};          // what it adds everywhere that it reaches, whatever the surface's direction
-    glm::dvec3 towards{0, 0, -1};  // the direction in which the light travels, unit length; directional and spot
-    // All but directional ones; the middle of areas.
+    glm::vec3 ambient{0};          // added to surfaces of any orientation within the light's range
+    glm::dvec3 towards{0, 0, -1};  // direction in which the light travels, unit length; directional and spot
+    // All but directional; the centre of area lights.
     glm::dvec3 location{0};
-    // Points and spots: falls off as 1 / max(a.x + a.y * d + a.z * d * d, least_attenuation) at distance d; VRML97's
-    // light is nowhere above `colour`.
+    // Point and spot: factor 1 / max(a.x + a.y * d + a.z * d * d, least_attenuation) at distance d. VRML97 lights never
+    // exceed `colour`.
     glm::vec3 attenuation{1, 0, 0};
     float least_attenuation = 1;
-    double radius = 100;  // no light beyond; points and spots
-    // Spots only: full light up to `beam_width_rad` from the axis, none beyond `cut_off_rad`.
+    double radius = 100;  // point and spot: no light beyond
+    // Spot: full intensity up to `beam_width_rad` from the axis, none beyond `cut_off_rad`.
     double beam_width_rad = kPi / 2;
     double cut_off_rad = kPi / 4;
-    // Reaches all geometry; else only that whose GeometryNode::lights names it.
+    // Lights all geometry; otherwise only nodes whose GeometryNode::lights names it.
     bool everywhere = true;
 
-    // Areas: the halves of a rectangle's sides, or two radii of a disc. They shine to where cross(half_u, half_v)
-    // points.
+    // Area lights: half sides of a rectangle, or two radii of a disc. Emission is towards cross(half_u, half_v).
     glm::dvec3 half_u{0.5, 0, 0};
     glm::dvec3 half_v{0, 0, 0.5};
 
-    // Luminaires, in the frame of photometric_web.hpp.
+    // Luminaire, in the frame of photometric_web.hpp.
     std::shared_ptr<const Luminaire> luminaire{};
     glm::dmat3 world_from_luminaire{1.0};  // rotation
 
-    std::string name{};  // for people; may be empty
+    std::string name{};  // display name; may be empty
 };
 
-// A light from far away, `irradiance` on a surface that faces it. `towards` need not have unit length.
+/// Directional light with `irradiance` on a surface that faces it. `towards` need not have unit length.
 Light directional_light(const glm::dvec3& towards, const glm::vec3& irradiance);
-// Radiant intensity over the square of the distance, however near or far.
+/// Point light with inverse-square falloff at all distances; `intensity` is radiant intensity.
 Light point_light(const glm::dvec3& location, const glm::vec3& intensity);
-// From a corner along two sides; shines to where their cross product points.
+/// Rectangle spanned by two sides from a corner; emits towards their cross product.
 Light rectangle_light(const glm::dvec3& corner, const glm::dvec3& side_u, const glm::dvec3& side_v,
                       const glm::vec3& radiance);
 
-// Of area lights, in square units; else 0.
+/// Area of area lights in square units; 0 for other kinds.
 double area_of(const Light& light);
 
-// Of a point or spot: whether it falls off by the square of the distance, however near, as lights of so many candelas
-// do.
+/// Returns true if a point or spot light has inverse-square falloff at all distances, like lights specified in candela.
 bool is_inverse_square(const Light& light);
 
-// Irradiance at `position`, which faces the light, with nothing in between; 0 where none arrives. Areas give 0: they
-// are no point.
+/// Unoccluded irradiance at `position` on a surface that faces the light; 0 for area lights.
 glm::vec3 irradiance_at(const Light& light, const glm::dvec3& position);
 
-// What comes nearest to the light among points, spots and directional lights, for renderers that know no others: what
-// is none of them becomes a spot of the same intensity along its aim and about the same width, with no light behind.
+/// Approximates a light by a point, spot or directional light, for renderers without other kinds: area lights and
+/// luminaires become spots with the same intensity along the aim and about the same width, without emission backwards.
 Light punctual_of(const Light& light);
 
-// The light turned about Y; positive angles take +Z to +X.
-Light turned_about_y(const Light& light, double angle_rad);
+/// Rotates a light about Y; positive angles from +Z towards +X.
+Light rotate_about_y(const Light& light, double angle_rad);
 
-// Why the light cannot be used, without a file's name; nothing where it can: numbers that are not finite, a direction
-// or an area of nothing, a luminaire that is not there.
+/// Validates a light: finite numbers, non-zero direction and area, luminaire present.
+/// \return an error without a file name
 Status check_light(const Light& light);
 
 }  // namespace rs

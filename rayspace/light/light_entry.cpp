@@ -5,7 +5,7 @@
 
 namespace rs {
 
-// Rounded once, so that entry_of() finds the numbers that give back the same ones.
+// A single rounding to float, so that entry_of() can invert it exactly.
 glm::vec3 colour_of(const LightEntry& entry, double unit) {
     return glm::vec3(entry.radiance ? *entry.radiance * entry.colour : entry.power / unit * entry.colour);
 }
@@ -18,18 +18,18 @@ void set_colour(const glm::vec3& colour, double unit, LightEntry& entry) {
 }
 
 double turn_of(const glm::dvec3& aim, const glm::dvec3& across) {
-    const AimedAxes at_rest = axes_of(aim, 0);
+    const AimedAxes at_rest = aimed_axes(aim, 0);
     return degrees(std::atan2(glm::dot(across, at_rest.along), glm::dot(across, at_rest.across)));
 }
 
-glm::dvec3 unit_of(const glm::dvec3& v) {
+glm::dvec3 unit_vector(const glm::dvec3& v) {
     return std::abs(glm::dot(v, v) - 1) < 1e-15 ? v : glm::normalize(v);
 }
 
-AimedAxes axes_of(const glm::dvec3& aim, double turn_rad) {
+AimedAxes aimed_axes(const glm::dvec3& aim, double turn_rad) {
     const glm::dvec3 towards = std::abs(aim.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
     const glm::dvec3 across = glm::normalize(towards - glm::dot(towards, aim) * aim);
-    const glm::dvec3 quarter = glm::cross(-aim, across);  // counter-clockwise, seen from behind the light
+    const glm::dvec3 quarter = glm::cross(-aim, across);  // counter-clockwise as seen from behind the light
     return {std::cos(turn_rad) * across + std::sin(turn_rad) * quarter,
             std::cos(turn_rad) * quarter - std::sin(turn_rad) * across};
 }

@@ -5,7 +5,7 @@
 
 namespace rs {
 
-// Each in the file of its kind.
+// Defined in the file of each kind.
 const LightModel& point_model();
 const LightModel& spot_model();
 const LightModel& luminaire_model();
@@ -14,7 +14,7 @@ const LightModel& disc_model();
 const LightModel& directional_model();
 
 const LightModel& model_of(LightKind kind) {
-    // As LightKind counts them.
+    // In the order of LightKind.
     static const std::array models = {&point_model(),     &spot_model(), &luminaire_model(),
                                       &rectangle_model(), &disc_model(), &directional_model()};
     static_assert(std::tuple_size_v<decltype(models)> == kLightKinds);

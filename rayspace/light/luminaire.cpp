@@ -37,7 +37,7 @@ double candela_in_plane(const PhotometricWeb& web, double horizontal_deg, double
 }
 
 BeamSpread beam_spread(const PhotometricWeb& web, double horizontal_deg) {
-    constexpr int kSteps = 18000;  // a hundredth of a degree
+    constexpr int kSteps = 18000;  // 0.01 degrees
     const auto angle = [](int step) { return kPi * step / kSteps; };
     double peak = 0;
     for (int step = -kSteps; step <= kSteps; ++step) {

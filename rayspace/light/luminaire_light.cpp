@@ -1,4 +1,4 @@
-// Luminaires as lights: a point with a photometric web.
+// Luminaire light: a point light with a photometric web.
 #include "rayspace/light/light_model.hpp"
 
 #include <algorithm>
@@ -14,8 +14,8 @@ constexpr LightWords kLuminaireWords{.kind = "luminaire",
                                      .turns = true,
                                      .has_file = true};
 
-// By looking at the web a degree at a time.
-float least_cos_of(const PhotometricWeb& web) {
+// Cosine of the cone that contains all light, found by scanning the web in steps of one degree.
+float min_cos_of(const PhotometricWeb& web) {
     constexpr int kTurns = 48;
     for (int polar = 179; polar > 0; --polar) {
         const double p = radians(polar);
@@ -55,7 +55,7 @@ public:
     }
     [[nodiscard]] LightReach reach(const Light& light) const override {
         LightReach reach;
-        reach.least_cos = least_cos_of(light.luminaire->web);
+        reach.min_cos = min_cos_of(light.luminaire->web);
         return reach;
     }
     [[nodiscard]] std::optional<LightDirection> sample(const Light& light, const glm::vec2& u) const override {
@@ -70,7 +70,7 @@ public:
         spot.towards = axis(light);
         const BeamSpread across = beam_spread(light.luminaire->web, 0);
         const BeamSpread along = beam_spread(light.luminaire->web, 90);
-        // Half the intensity is left half-way from the axis to the cut-off.
+        // Linear falloff: half the intensity half-way from the axis to the cut-off.
         const double half_beam = std::clamp(0.25 * (across.beam_rad + along.beam_rad), 0.01, kPi / 4);
         spot.beam_width_rad = 0;
         spot.cut_off_rad = 2 * half_beam;
@@ -80,9 +80,9 @@ public:
     void describe(const LightEntry& entry, Light& light) const override {
         light.colour = colour_of(entry, 1);
         light.luminaire = entry.luminaire;
-        const glm::dvec3 aim = unit_of(entry.aim);
-        const AimedAxes axes = axes_of(aim, radians(entry.turn_deg));
-        // Its X, -Z and aim: planes C0 and C90, and the nadir.
+        const glm::dvec3 aim = unit_vector(entry.aim);
+        const AimedAxes axes = aimed_axes(aim, radians(entry.turn_deg));
+        // The luminaire's X (plane C0), -Z (plane C90) and nadir.
         light.world_from_luminaire = glm::dmat3(axes.across, -aim, -axes.along);
     }
     void describe(const Light& light, LightEntry& entry) const override {
@@ -93,7 +93,7 @@ public:
     }
     [[nodiscard]] LightEntry example() const override { return {}; }
 
-    // The web in planes C0 and C90.
+    // Polar curves of the web in planes C0 and C90.
     [[nodiscard]] LightOutline outline(const LightEntry& entry) const override {
         constexpr int kSteps = 48;
         LightOutline shape;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr double kAngleTolerance_deg = 1e-6;
 
-bool is_angle(double found, double wanted) {
-    return std::abs(found - wanted) <= kAngleTolerance_deg;
+bool is_angle(double found, double target) {
+    return std::abs(found - target) <= kAngleTolerance_deg;
 }
 
 std::string shown(double value) {
@@ -32,14 +32,14 @@ Status check_angles(const std::vector<double>& angles, const std::string& name, 
             return Error{which + "; it must be " + shown(least) + ".." + shown(most)};
         }
         if (i > 0 && !(angles[i] > angles[i - 1])) {
-            return Error{which + ", behind " + shown(angles[i - 1]) + "; angles must ascend"};
+            return Error{which + ", after " + shown(angles[i - 1]) + "; angles must ascend"};
         }
     }
     return {};
 }
 
 Status check_table(const PhotometricTable& table) {
-    const std::size_t most = PhotometricWeb::kMostAngles;
+    const std::size_t most = PhotometricWeb::kMaxAngles;
     for (const std::size_t count : {table.vertical_deg.size(), table.horizontal_deg.size()}) {
         if (count > most) {
             return Error{"has " + std::to_string(count) + " angles; " + std::to_string(most) + " are allowed"};
@@ -47,10 +47,10 @@ Status check_table(const PhotometricTable& table) {
     }
     if (table.vertical_deg.size() < 2) return Error{"needs at least 2 vertical angles"};
     if (table.candela.size() != table.vertical_deg.size() * table.horizontal_deg.size() ||
-        table.candela.size() > PhotometricWeb::kMostValues) {
+        table.candela.size() > PhotometricWeb::kMaxValues) {
         return Error{"has " + std::to_string(table.candela.size()) + " values for " +
                      std::to_string(table.vertical_deg.size()) + " by " + std::to_string(table.horizontal_deg.size()) +
-                     " angles; at most " + std::to_string(PhotometricWeb::kMostValues) + " are allowed"};
+                     " angles; at most " + std::to_string(PhotometricWeb::kMaxValues) + " are allowed"};
     }
     const bool round = table.type == Goniometer::kTypeC;
     if (Status fine = check_angles(table.vertical_deg, "vertical", round ? 0 : -90, round ? 180 : 90); !fine) {
@@ -73,10 +73,10 @@ Status check_table(const PhotometricTable& table) {
                  "; they must end at 0, 90, 180 or 360, or go from 90 to 270"};
 }
 
-// A plane of the table as it is or mirrored.
-using Plane = std::pair<double, std::size_t>;  // angle in degrees, number in the table
+// A plane of the table, original or mirrored.
+using Plane = std::pair<double, std::size_t>;  // angle in degrees, index in the table
 
-// All planes from 0 to 360 degrees.
+// Expands the planes to 0..360 degrees by symmetry.
 std::vector<Plane> planes_of_circle(const std::vector<double>& horizontal_deg) {
     std::vector<Plane> planes;
     for (std::size_t h = 0; h < horizontal_deg.size(); ++h) planes.emplace_back(horizontal_deg[h], h);
@@ -91,12 +91,12 @@ std::vector<Plane> planes_of_circle(const std::vector<double>& horizontal_deg) {
     const double last = horizontal_deg.back();
     if (is_angle(last, 0)) return {{0.0, 0}, {360.0, 0}};
     if (is_angle(horizontal_deg.front(), 90)) {  // 90..270
-        add_mirrored(270);                       // .. 450; those beyond 360 are the ones before 90
+        add_mirrored(270);                       // .. 450; planes beyond 360 are those before 90
         for (auto& [angle, h] : planes) {
             if (angle > 360 + kAngleTolerance_deg) angle -= 360;
         }
         std::sort(planes.begin(), planes.end());
-        // The seam, which may lie between two planes, is doubled or put in by whoever looks beyond the ends.
+        // The seam, which may lie between two planes, is inserted by create().
         return planes;
     }
     if (is_angle(last, 90)) add_mirrored(90);
@@ -105,7 +105,7 @@ std::vector<Plane> planes_of_circle(const std::vector<double>& horizontal_deg) {
     return planes;
 }
 
-// Angles that begin at 0 are mirrored to the negative ones.
+// Mirrors angles that start at 0 to negative ones.
 std::vector<Plane> angles_of_half(const std::vector<double>& angles_deg) {
     std::vector<Plane> all;
     for (std::size_t i = 0; i < angles_deg.size(); ++i) all.emplace_back(angles_deg[i], i);
@@ -115,13 +115,13 @@ std::vector<Plane> angles_of_half(const std::vector<double>& angles_deg) {
     return all;
 }
 
-// The interval of `edges` that holds `value`, which lies between their ends.
+// Index of the interval of `edges` that contains `value`, which must lie between their ends.
 std::size_t interval(const std::vector<double>& edges, double value) {
     const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, value);
     return static_cast<std::size_t>(above - edges.begin()) - 1;
 }
 
-// The integral of (i0 + (i1 - i0) (p - p0) / (p1 - p0)) sin p from p0 to p.
+// Integral of (i0 + (i1 - i0) (p - p0) / (p1 - p0)) sin p from p0 to p.
 double column_integral(double p0, double p1, double i0, double i1, double p) {
     const double slope = (i1 - i0) / (p1 - p0);
     const double at_zero = i0 - slope * p0;
@@ -129,12 +129,12 @@ double column_integral(double p0, double p1, double i0, double i1, double p) {
     return primitive(p) - primitive(p0);
 }
 
-// The root of an integral of something not negative: where it reaches `wanted`, between `low` and `high`.
+// Argument in low..high at which a monotonic integral reaches `target`.
 template <class Integral>
-double invert(const Integral& integral, double wanted, double low, double high) {
+double invert(const Integral& integral, double target, double low, double high) {
     for (int step = 0; step < 52; ++step) {
         const double middle = 0.5 * (low + high);
-        (integral(middle) < wanted ? low : high) = middle;
+        (integral(middle) < target ? low : high) = middle;
     }
     return 0.5 * (low + high);
 }
@@ -169,7 +169,7 @@ Result<PhotometricWeb> PhotometricWeb::create(const PhotometricTable& table) {
         }
     }
     if (table.type == Goniometer::kTypeC) {
-        // The circle closes: 90..270 need not have had a plane at its seam.
+        // Closes the circle: 90..270 may have no plane at the seam.
         const auto put_seam = [&](bool front) {
             const double before = web.azimuth_.back() - 2 * kPi, after = web.azimuth_.front();
             const double share = (0 - before) / std::max(after - before, 1e-12);
@@ -197,13 +197,14 @@ Result<PhotometricWeb> PhotometricWeb::create(const PhotometricTable& table) {
         web.round_ = web.is_round();
     }
     web.accumulate();
-    if (!(web.total_ > 0) || !std::isfinite(web.total_)) return Error{"gives no light, or more than can be computed"};
+    if (!(web.total_ > 0) || !std::isfinite(web.total_)) return Error{"has no light, or more than can be represented"};
     return web;
 }
 
 bool PhotometricWeb::is_round() const {
     const auto plane = static_cast<std::ptrdiff_t>(polar_.size());
-    return std::equal(candela_.begin() + plane, candela_.end(), candela_.begin());  // each as the one before it
+    return std::equal(candela_.begin() + plane, candela_.end(),
+                      candela_.begin());  // each plane equals the previous one
 }
 
 void PhotometricWeb::accumulate() {
@@ -252,14 +253,14 @@ glm::dvec3 PhotometricWeb::direction_of(double polar, double azimuth) const {
 }
 
 glm::dvec3 PhotometricWeb::sample(const glm::dvec2& u) const {
-    // The cell by its flux; what is left of u.x is as good as new. Then the azimuth by the flux of its column, which
-    // is linear, then the place in the column.
-    const double wanted = u.x * total_;
-    auto found = std::upper_bound(flux_.begin(), flux_.end(), wanted);
+    // Samples the cell by its flux and reuses the remainder of u.x for the azimuth, whose column flux is linear, then
+    // samples the polar angle in the column.
+    const double target = u.x * total_;
+    auto found = std::upper_bound(flux_.begin(), flux_.end(), target);
     if (found == flux_.end()) --found;
     const auto cell = static_cast<std::size_t>(found - flux_.begin());
     const double before = cell > 0 ? flux_[cell - 1] : 0;
-    const double rest = std::clamp((wanted - before) / (flux_[cell] - before), 0.0, 1.0);
+    const double rest = std::clamp((target - before) / (flux_[cell] - before), 0.0, 1.0);
     const std::size_t a = cell / (polar_.size() - 1);
     const std::size_t p = cell % (polar_.size() - 1);
     const double p0 = polar_[p], p1 = polar_[p + 1];

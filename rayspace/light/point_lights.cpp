@@ -1,4 +1,4 @@
-// Points, and spots: points that shine within a cone.
+// Point and spot lights.
 #include "rayspace/light/directions.hpp"
 #include "rayspace/light/light_model.hpp"
 
@@ -8,7 +8,7 @@
 namespace rs {
 namespace {
 
-// Full angles in degrees of which radians(_) / 2 is exactly the half angle, where there is one.
+// Full angle in degrees such that radians(angle) / 2 == half_rad exactly, if it exists; otherwise the nearest.
 double full_degrees(double half_rad) {
     const double nearest = degrees(2 * half_rad);
     double down = nearest;
@@ -30,13 +30,13 @@ constexpr LightWords kPointWords{
     .kind = "point", .power = "candela", .radiance = "intensity", .has_aim = false, .falls_off = true};
 
 constexpr LightNumber kCone[] = {{"beam_deg", "beam, degrees", &LightEntry::beam_deg, 0, 180, &LightEntry::cut_off_deg},
-                                 {"cut_off_deg", "cut-off, degrees", &LightEntry::cut_off_deg, kLeastCutOff_deg, 180}};
+                                 {"cut_off_deg", "cut-off, degrees", &LightEntry::cut_off_deg, kMinCutOff_deg, 180}};
 constexpr LightWords kSpotWords{
     .kind = "spot", .power = "candela", .radiance = "intensity", .falls_off = true, .numbers = kCone};
 
 class PointModel : public LightModel {
 public:
-    explicit PointModel(const LightWords& said = kPointWords) : LightModel(LightForm::kPoint, said) {}
+    explicit PointModel(const LightWords& kind_words = kPointWords) : LightModel(LightForm::kPoint, kind_words) {}
 
     [[nodiscard]] Status check(const Light&) const override { return {}; }
     [[nodiscard]] double strength(const Light&) const override { return kPi; }
@@ -56,12 +56,12 @@ public:
         return kPiF * light.colour * static_cast<float>(strength);
     }
 
-    [[nodiscard]] bool is_even() const override { return true; }
+    [[nodiscard]] bool is_isotropic() const override { return true; }
     [[nodiscard]] LightReach reach(const Light& light) const override {
         return {light.attenuation, light.least_attenuation, light.radius, -1.0F};
     }
     [[nodiscard]] std::optional<LightDirection> sample(const Light&, const glm::vec2& u) const override {
-        return LightDirection{Frame(glm::vec3(0, 0, 1)).to_world(cone_direction(u, -1.0F)), 4.0F * kPiF};
+        return LightDirection{Frame(glm::vec3(0, 0, 1)).to_world(sample_cone(u, -1.0F)), 4.0F * kPiF};
     }
 
     void describe(const LightEntry& entry, Light& light) const override {
@@ -91,7 +91,7 @@ private:
         return 1 / std::max(attenuation, static_cast<double>(light.least_attenuation));
     }
 
-    // Of the intensity on the axis, what goes along `way`, of length d; and its integral over all directions.
+    // Intensity along `way`, of length d, relative to the axis; and its integral over all directions.
     [[nodiscard]] virtual double share(const Light&, const glm::dvec3&, double) const { return 1; }
     [[nodiscard]] virtual double solid_angle(const Light&) const { return 4 * kPi; }
 };
@@ -101,28 +101,28 @@ public:
     SpotModel() : PointModel(kSpotWords) {}
 
     [[nodiscard]] Status check(const Light& light) const override { return check_direction(light.towards); }
-    [[nodiscard]] bool is_even() const override { return false; }
+    [[nodiscard]] bool is_isotropic() const override { return false; }
     [[nodiscard]] LightReach reach(const Light& light) const override {
         LightReach reach = PointModel::reach(light);
-        reach.least_cos = static_cast<float>(std::cos(light.cut_off_rad)) - 1e-4F;
+        reach.min_cos = static_cast<float>(std::cos(light.cut_off_rad)) - 1e-4F;
         return reach;
     }
     [[nodiscard]] std::optional<LightDirection> sample(const Light& light, const glm::vec2& u) const override {
-        const auto least_cos = static_cast<float>(std::cos(std::min(light.cut_off_rad, kPi)));
-        return LightDirection{Frame(glm::vec3(light.towards)).to_world(cone_direction(u, least_cos)),
-                              2.0F * kPiF * (1.0F - least_cos)};
+        const auto min_cos = static_cast<float>(std::cos(std::min(light.cut_off_rad, kPi)));
+        return LightDirection{Frame(glm::vec3(light.towards)).to_world(sample_cone(u, min_cos)),
+                              2.0F * kPiF * (1.0F - min_cos)};
     }
 
     void describe(const LightEntry& entry, Light& light) const override {
         PointModel::describe(entry, light);
-        light.towards = unit_of(entry.aim);
+        light.towards = unit_vector(entry.aim);
         light.cut_off_rad = half_angle(entry.cut_off_deg);
         light.beam_width_rad = half_angle(entry.beam_deg);
     }
     void describe(const Light& light, LightEntry& entry) const override {
         PointModel::describe(light, entry);
         entry.aim = light.towards;
-        entry.cut_off_deg = std::max(full_degrees(light.cut_off_rad), kLeastCutOff_deg);
+        entry.cut_off_deg = std::max(full_degrees(light.cut_off_rad), kMinCutOff_deg);
         entry.beam_deg = std::min(full_degrees(light.beam_width_rad), entry.cut_off_deg);
     }
     [[nodiscard]] LightEntry example() const override {
@@ -131,7 +131,7 @@ public:
         return lamp;
     }
 
-    // Beam and cut-off as circles, and the cone's sides.
+    // Circles of beam and cut-off, and lines along the cone.
     [[nodiscard]] LightOutline outline(const LightEntry& entry) const override {
         constexpr int kCorners = 32;
         constexpr int kSides = 4;
@@ -152,7 +152,7 @@ public:
     }
 
 private:
-    // Full up to the beam's width, from there to the cut-off by a straight line.
+    // 1 within the beam, then linear to 0 at the cut-off.
     [[nodiscard]] double share(const Light& light, const glm::dvec3& way, double d) const override {
         const double angle = std::acos(std::clamp(glm::dot(way, light.towards) / d, -1.0, 1.0));
         if (angle > light.cut_off_rad) return 0;

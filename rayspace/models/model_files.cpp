@@ -54,8 +54,8 @@ private:
     std::size_t at_ = 0;
 };
 
-// A .glb (glTF 2.0, 4.4; 1.0 has its JSON's length in the same place): Assimp allocates what a chunk's length states
-// before it looks whether the file has it.
+// Checks a .glb (glTF 2.0, 4.4; version 1.0 has its JSON's length at the same place), since Assimp allocates a chunk's
+// stated length before it checks the file's size.
 bool is_whole_glb(std::span<const std::byte> bytes) {
     constexpr std::size_t kHeader_bytes = 12, kChunkHeader_bytes = 8;
     std::size_t at = kHeader_bytes;
@@ -70,9 +70,9 @@ bool is_whole_glb(std::span<const std::byte> bytes) {
     return true;
 }
 
-// From the first newmtl on, for statements before it crash Assimp, and without the space before statements, which hides
-// them from it; a comment alone where there is no newmtl, for fewer than 8 bytes are an error to it.
-std::vector<std::byte> plain_materials(std::vector<std::byte> bytes) {
+// The material file from its first newmtl on, since earlier statements crash Assimp, without leading spaces, which hide
+// statements from it; a single comment if there is no newmtl, since Assimp rejects files of fewer than 8 bytes.
+std::vector<std::byte> extract_materials(std::vector<std::byte> bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     std::size_t kept = 0;
     for (std::size_t line = 0; line < text.size();) {
@@ -97,7 +97,7 @@ bool finite(const aiVector3D& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-void note_lines(const aiScene& model) {
+void set_primitive_types(const aiScene& model) {
     constexpr unsigned kTypes[] = {0, aiPrimitiveType_POINT, aiPrimitiveType_LINE, aiPrimitiveType_TRIANGLE,
                                    aiPrimitiveType_POLYGON};
     for (unsigned m = 0; m < model.mNumMeshes; ++m) {
@@ -143,7 +143,7 @@ Assimp::IOStream* ModelFiles::Open(const char* path, const char* mode) {
         refusal_ = std::string(path) + ": is a damaged .glb file; export it again";
         return nullptr;
     }
-    return new MemoryFile(lower_case_extension(path) == ".mtl" ? plain_materials(std::move(*bytes))
+    return new MemoryFile(lower_case_extension(path) == ".mtl" ? extract_materials(std::move(*bytes))
                                                                : std::move(*bytes));
 }
 
@@ -162,7 +162,7 @@ ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes
     }
     for (Assimp::BaseImporter* const other : others) {
         importer.UnregisterLoader(other);
-        delete other;  // ours once it is not registered
+        delete other;  // owned by the caller after unregistering
     }
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kCreaseAngle_deg);
     auto* const files = new ModelFiles(cap_bytes);
@@ -181,7 +181,7 @@ Result<const aiScene*> post_processed(Assimp::Importer& importer, unsigned steps
     const aiScene* const model = importer.GetScene();
     if (model == nullptr) return model;
     RS_TRY(check_finite(*model, file));
-    note_lines(*model);
+    set_primitive_types(*model);
     return importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | steps);
 }
 

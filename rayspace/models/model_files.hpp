@@ -1,5 +1,6 @@
 #pragma once
-// What Assimp may open, and what it may give: models are outside bytes, and the library trusts them.
+// Restricts the files that Assimp may open and checks the scenes it returns, since model files are untrusted and Assimp
+// does not validate them.
 
 #include "rayspace/base/result.hpp"
 
@@ -12,9 +13,9 @@
 
 namespace rs {
 
-// Files of a model for an Assimp::Importer, which takes it over: regular files of at most cap_bytes, read whole and
-// noted as inputs (input_file.hpp), never written. Of an MTL what stands before its first newmtl is left out, which
-// Assimp does not survive. A .glb whose chunks are longer than the file is refused.
+/// File access for an Assimp::Importer, which takes ownership: regular files of at most cap_bytes, read as a whole and
+/// recorded as inputs (input_file.hpp), never written. Text before the first newmtl of an MTL file is removed, since it
+/// crashes Assimp. A .glb whose chunks exceed the file is rejected.
 class ModelFiles : public Assimp::IOSystem {
 public:
     explicit ModelFiles(std::uint64_t cap_bytes) : cap_bytes_(cap_bytes) {}
@@ -24,7 +25,7 @@ public:
     Assimp::IOStream* Open(const char* path, const char* mode) override;
     void Close(Assimp::IOStream* stream) override;
 
-    // Why the last file that is there could not be opened; empty where all could.
+    /// Reason why the last existing file could not be opened; empty if all could.
     [[nodiscard]] const std::string& refusal() const { return refusal_; }
 
 private:
@@ -32,17 +33,18 @@ private:
     std::string refusal_;
 };
 
-// Lets `importer` read OBJ, glTF and GLB alone, through the files that are returned, which it takes over. Without
-// it Assimp goes by what a file's contents resemble, and all its readers are open to them. Where a file has no normals,
-// edges of more than 60 degrees stay sharp.
+/// Restricts `importer` to OBJ, glTF and GLB, and to the returned file access, which it owns. By default Assimp guesses
+/// the format from a file's contents, so that all its readers can be reached. In files without normals, edges of more
+/// than 60 degrees stay sharp.
 ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes);
 
-// Assimp's words in one line.
+/// Assimp's message in one line.
 std::string shown_error(const char* words);
 
-// What `importer` has just read, without post-processing, after the aiProcess `steps`; null where Assimp refuses it.
-// Its structure is validated, faces of two corners are lines (which its OBJ reader does not report), and a vertex or a
-// texture coordinate that is not finite is an error, which steps would merge with its neighbours; `file` names it.
+/// Applies the aiProcess `steps` to the scene just read by `importer` without post-processing, and validates its
+/// structure. Faces of two corners are marked as lines, which Assimp's OBJ reader omits. Vertices or texture
+/// coordinates that are not finite are an error, since post-processing would merge them with their neighbours. `file`
+/// names the scene in errors. Null if Assimp rejects it.
 Result<const aiScene*> post_processed(Assimp::Importer& importer, unsigned steps, const std::string& file);
 
 }  // namespace rs

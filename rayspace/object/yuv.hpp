@@ -1,5 +1,6 @@
 #pragma once
-// YUV 4:2:0 with alpha <-> RGBA. The way back (rgb_from_yuv) is normative: engine/RECONSTRUCTION.md, section "Colour".
+// Conversion between YUV 4:2:0 with alpha and RGBA. rgba_from_yuva() is normative: engine/RECONSTRUCTION.md, section
+// "Colour".
 
 #include "rayspace/image/image.hpp"
 #include "rayspace/object/ray_space_object.hpp"
@@ -9,7 +10,7 @@
 
 namespace rs {
 
-// BT.601 full range in 16-bit fixed point, rounded to nearest, clamped to 0..255. `alpha` 0 gives {0, 0, 0, 0}.
+/// BT.601 full range in 16-bit fixed point, rounded to nearest, clamped to 0..255. `alpha` 0 gives {0, 0, 0, 0}.
 constexpr Rgba8 rgba_from_yuva(int y, int u, int v, int alpha) {
     if (alpha == 0) return {};
     const int base = (y << 16) + 32768;
@@ -18,15 +19,15 @@ constexpr Rgba8 rgba_from_yuva(int y, int u, int v, int alpha) {
             clamp(base + 116130 * (u - 128)), static_cast<std::uint8_t>(alpha)};
 }
 
-// Pixel (column, row) of a stored image.
+/// Pixel (column, row) of a stored image.
 inline Rgba8 rgba_at(const PlanarImage& image, int column, int row) {
     const int shift = image.chroma_shift;
     return rgba_from_yuva(image.y(column, row), image.u(column >> shift, row >> shift),
                           image.v(column >> shift, row >> shift), image.a(column, row));
 }
 
-// Chroma is the alpha-weighted mean of its 2x2 pixels (128 where all are transparent), so that what lies outside a
-// silhouette does not tint its rim. Transparent pixels are stored with Y 0.
+/// Converts to planes. Chroma is the alpha-weighted mean of its 2x2 pixels (128 if all are transparent), so that
+/// colours outside of a silhouette do not tint its edge. Transparent pixels are stored with Y 0.
 PlanarImage planar_from_rgba(ConstImageView<Rgba8> image);
 Image<Rgba8> rgba_from_planar(const PlanarImage& image);
 

@@ -16,7 +16,7 @@ Result<OutputKind> output_kind(const std::string& output) {
     for (const char* other :
          {".jpg", ".jpeg", ".webp", ".tif", ".tiff", ".exr", ".bmp", ".gif", ".avi", ".mov", ".mkv", ".webm"}) {
         if (extension == other) {
-            return Error{output + ": views are written as .png or .mp4; give such a name, or a folder"};
+            return Error{output + ": views are written as .png or .mp4; use such a name, or a folder"};
         }
     }
     return OutputKind::folder;
@@ -41,16 +41,16 @@ Rig rig_of_views(const std::vector<Camera>& cameras) {
 
 Status write_view_video(const std::string& output, double frames_per_second, const std::vector<Camera>& cameras,
                         const RenderView& render, Progress& progress) {
-    // H.264 at 4:2:0 needs even sizes: the last odd row or column is dropped.
+    // H.264 at 4:2:0 requires even sizes: the last odd row or column is dropped.
     const int width = cameras.front().width & ~1;
     const int height = cameras.front().height & ~1;
     RS_ASSIGN_OR_RETURN(VideoWriter video, VideoWriter::open(output, width, height, frames_per_second));
     for (const Camera& camera : cameras) {
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> frame, render(camera));
         if ((frame.width() & ~1) != width || (frame.height() & ~1) != height) {
-            return Error{output + ": a video needs views of one size; give --size"};
+            return Error{output + ": a video needs views of one size; use --size"};
         }
-        if (Status status = video.add(frame.view().crop(0, 0, width, height)); !status) return status;
+        RS_TRY(video.add(frame.view().crop(0, 0, width, height)));
         progress.advance();
     }
     return video.finish();

@@ -9,7 +9,7 @@
 namespace rs {
 namespace {
 
-// currentColor and the variables are what the drawings use, so that they follow the page.
+// Drawings use currentColor and these variables, so that they follow the page.
 constexpr const char* kStyle = R"(
 :root { color-scheme: light dark; --ground: #ffffff; --ink: #1c1e21; --faint: #6b7280; --rule: #d5d9df; --tile: #eceef1;
   --s0: #1f6fd1; --s1: #d1571f; --s2: #1c8a4c; --s3: #9440b8; --s4: #9a7500; --bad: #d62f2f; }
@@ -21,8 +21,8 @@ h1 { font-size: 1.6em; } h2 { font-size: 1.15em; margin: 2em 0 .4em; border-bott
 table { border-collapse: collapse; margin: .6em 0; display: block; overflow-x: auto; }
 th, td { padding: .2em 1em .2em 0; text-align: left; border-bottom: 1px solid var(--rule); }
 th.number, td.number { text-align: right; font-variant-numeric: tabular-nums; }
-.pictures { display: flex; flex-wrap: wrap; gap: 10px; margin: .6em 0; }
-.pictures.line { flex-wrap: nowrap; } .pictures.line figure { flex: 0 1 auto; min-width: 0; }
+.images { display: flex; flex-wrap: wrap; gap: 10px; margin: .6em 0; }
+.images.line { flex-wrap: nowrap; } .images.line figure { flex: 0 1 auto; min-width: 0; }
 figure { margin: 0; } figure img { display: block; background: var(--tile); max-width: 100%; height: auto; }
 figcaption { font-size: .85em; color: var(--faint); }
 .drawing svg { max-width: 100%; height: auto; }
@@ -30,7 +30,7 @@ svg text { font: 12px system-ui, sans-serif; fill: var(--ink); }
 details { margin: .6em 0; } summary { cursor: pointer; }
 )";
 
-// Length of the UTF-8 sequence of an XML character at the start of `text`; 0 where there is none.
+// Length of the UTF-8 sequence of an XML character at the start of `text`; 0 if there is none.
 std::size_t character_bytes(std::string_view text) {
     const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
     const std::uint32_t first = byte(0);
@@ -165,7 +165,7 @@ void HtmlPage::end_details() {
 
 std::string HtmlPage::text() const {
     RS_CHECK(!in_details_);
-    // Well-formed as XML too, so that a page can be checked by any XML reader.
+    // Well-formed XML too, so that any XML reader can check a page.
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>" +
            title_ + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>\n<h1>" + title_ + "</h1>\n" + body_ +

@@ -12,9 +12,9 @@ namespace {
 
 constexpr double kPoint_px = 2.5;
 
-// The legend stands beside the curves: a line of its colour and a name each.
+// The legend is beside the curves: a line of the curve's colour and its name.
 constexpr double kLegendText_px = 42;     // from the curves to the name
-constexpr double kLegendLetter_px = 7.5;  // broad enough for the mean letter of 13 px
+constexpr double kLegendLetter_px = 7.5;  // upper estimate of the mean letter width at 13 px
 constexpr double kLeastLegend_px = 130;
 
 std::string axes(const LinePlot& plot, const PlotFrame& frame) {
@@ -77,7 +77,7 @@ AxisTicks axis_ticks(double least, double most) {
         most = least + around;
         least -= around;
     }
-    // At most 8 steps are wanted; rounding the ends outwards may add two.
+    // Aim at 8 steps at most; rounding the ends outwards may add two.
     const double rough = (most - least) / 8;
     const double power = std::pow(10.0, std::floor(std::log10(rough)));
     double step = 10 * power;

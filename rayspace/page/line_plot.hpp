@@ -9,7 +9,7 @@ namespace rs {
 struct PlotSeries {
     std::string name;
     std::vector<double> x;
-    std::vector<double> y;  // as many as x; a point that is not finite interrupts the line
+    std::vector<double> y;  // same size as x; points that are not finite interrupt the line
 };
 
 struct LinePlot {
@@ -21,8 +21,8 @@ struct LinePlot {
     int height_px = 340;
 };
 
-// The line of numbers that an axis shows: `low` and `high` are multiples of `step`, which is 1, 2 or 5 times a power of
-// ten, and hold all of least..most; 3 to 11 ticks. Where least >= most the axis is a step to each side.
+/// Ticks of an axis: `low` and `high` are multiples of `step`, which is 1, 2 or 5 times a power of ten, and enclose
+/// least..most; 3 to 11 ticks. If least >= most the axis has one step to each side.
 struct AxisTicks {
     double low = 0;
     double high = 1;
@@ -31,7 +31,7 @@ struct AxisTicks {
 };
 AxisTicks axis_ticks(double least, double most);
 
-// Where a plot draws its points, in SVG pixels.
+/// Mapping of a plot's values to SVG pixels.
 struct PlotFrame {
     AxisTicks x, y;
     double left = 0, top = 0, right = 0, bottom = 0;  // px
@@ -42,10 +42,10 @@ struct PlotFrame {
 };
 PlotFrame plot_frame(const LinePlot& plot);
 
-// Colours are the variables --s0 .. --s4 of HtmlPage's style, in turn. Texts are escaped.
+/// Draws a plot. Colours are the variables --s0 .. --s4 of HtmlPage's style, in turn. Text is escaped.
 std::string svg_of(const LinePlot& plot);
 
-// The same as an image of its own: with its colours, on white.
+/// Draws a plot as a standalone SVG file with colours, on white.
 std::string standalone_svg_of(const LinePlot& plot);
 
 }  // namespace rs

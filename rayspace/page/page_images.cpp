@@ -11,7 +11,7 @@
 namespace rs {
 namespace {
 
-// One axis of an area average: output n is the mean of the input over [n * scale, (n + 1) * scale).
+// Weights of an area average along an axis: output n is the mean of the input over [n * scale, (n + 1) * scale).
 struct Coverage {
     int first = 0;
     std::vector<float> weights;  // sum 1

@@ -14,8 +14,8 @@ namespace {
 constexpr double kLine_px = 18;
 constexpr double kMargin_px = 34;
 
-// To what fits over the plot; not within a character of several bytes.
-std::string shortened(const std::string& title) {
+// Shortens a title to the plot's width, at a UTF-8 character boundary.
+std::string shorten(const std::string& title) {
     std::size_t most = 58;
     if (title.size() <= most) return title;
     while (most > 0 && (static_cast<unsigned char>(title[most]) & 0xC0U) == 0x80) --most;
@@ -23,7 +23,7 @@ std::string shortened(const std::string& title) {
 }
 
 struct PolarFrame {
-    double x = 0, y = 0, radius_px = 0;  // the pole, and how far `most` lies from it
+    double x = 0, y = 0, radius_px = 0;  // the pole, and the distance of `most` from it
     double most = 1;
     [[nodiscard]] double x_px(double angle_rad, double radius) const {
         return x + std::sin(angle_rad) * radius / most * radius_px;
@@ -48,7 +48,7 @@ std::string rings_and_spokes(const PolarFrame& frame, const AxisTicks& ticks) {
         svg += svg_text(frame.x_px(angle, beyond), frame.y_px(angle, beyond) + 4, "middle",
                         std::to_string(std::abs(spoke)) + "\xC2\xB0", " style=\"fill:var(--faint);font-size:11px\"");
     }
-    // On a white ground, for curves run below.
+    // White background, since curves may cross the labels.
     for (int n = 1; n < ticks.count(); ++n) {
         const double value = n * ticks.step;
         svg += svg_text(frame.x_px(radians(165), value), frame.y_px(radians(165), value) + 4, "middle",
@@ -75,7 +75,7 @@ std::string standalone_svg_of(const PolarPlot& plot) {
     frame.most = ticks.high;
     std::string svg = svg_head(plot.side_px, static_cast<int>(std::ceil(head_px)) + plot.side_px, plot.title);
     double y = kLine_px + 4;
-    svg += svg_text(16, y, "start", shortened(plot.title), " style=\"font-weight:600\"");
+    svg += svg_text(16, y, "start", shorten(plot.title), " style=\"font-weight:600\"");
     for (const std::string& note : plot.notes) svg += svg_text(16, y += kLine_px, "start", note);
     for (std::size_t n = 0; n < plot.curves.size(); ++n) {
         y += kLine_px;

@@ -30,7 +30,7 @@ std::string two_decimals(double value) {
 
 std::string tick_label(double value, double step) {
     const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 12);
-    // A hair off zero is zero, not "-0".
+    // Values close to zero become 0 instead of "-0".
     return decimal(std::abs(value) < step * 1e-6 ? 0.0 : value, digits);
 }
 

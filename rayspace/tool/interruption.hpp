@@ -1,5 +1,5 @@
 #pragma once
-// What Ctrl-C leaves behind: nothing half-made. Part of the tools' frame (tool_main.hpp).
+// Signal handling of the tools (tool_main.hpp): an interrupted tool leaves no partial files.
 
 #include <atomic>
 #include <csignal>
@@ -7,15 +7,9 @@
 
 namespace rs {
 
-// From now on the first signal that an InterruptionGuard watches for is only noted, for work that comes to its end by
-// itself; one that comes more than three seconds later ends the process. Thread-safe, as interruption() is.
-void note_interruptions();
-// The signal that was noted; 0 where there was none.
-int interruption();
-
-// While it lives, SIGINT, SIGTERM and SIGHUP remove the staged output of this process (file_output.hpp) before they end
-// it in their usual way. Made on the main thread before any other thread runs, so that all of them inherit its signal
-// mask.
+/// During its lifetime, SIGINT, SIGTERM and SIGHUP remove the staged output of this process (file_output.hpp) before
+/// they end it in the default way. Must be created on the main thread before any other thread, so that all threads
+/// inherit its signal mask.
 class InterruptionGuard {
 public:
     InterruptionGuard();

@@ -2,9 +2,7 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
-#include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
-#include "rayspace/file/input_list.hpp"
 #include "rayspace/tool/interruption.hpp"
 
 #include <algorithm>
@@ -12,7 +10,6 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -20,7 +17,7 @@
 namespace rs {
 namespace {
 
-// Messages may quote what a library reported; whatever line breaks that holds, an error is one line.
+// Joins the lines of a message, which may quote a library's output: an error is one line.
 std::string folded(const std::string& message) {
     std::string line;
     for (const char c : message) {
@@ -40,7 +37,7 @@ int fail(const CLI::App& app, const std::string& message) {
     return kExitFailed;
 }
 
-// The subcommand that was being parsed, for "rs-xxx render --help".
+// Help option of the subcommand that was parsed, such as "rs-xxx render --help".
 std::string help_command(const CLI::App& app) {
     std::string command = app.get_name();
     for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
@@ -50,7 +47,7 @@ std::string help_command(const CLI::App& app) {
     return command + " --help";
 }
 
-// Reads a number from the front of `text` and removes it; empty on anything that is no finite number.
+// Removes a number from the front of `text`; false if it is not a finite number.
 template <class T>
 bool take_number(std::string_view& text, T& number) {
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
@@ -63,14 +60,6 @@ bool take(std::string_view& text, char expected) {
     if (text.empty() || text.front() != expected) return false;
     text.remove_prefix(1);
     return true;
-}
-
-// For whoever started the tool and needs to know (input_list.hpp).
-Status list_inputs() {
-    const char* const list = std::getenv(kInputListVariable);
-    if (list == nullptr) return {};
-    RS_ASSIGN_OR_RETURN(const std::vector<InputStamp> stamps, input_stamps());
-    return write_file(list, input_list_text(stamps));
 }
 
 }  // namespace
@@ -91,12 +80,11 @@ int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run
         return kExitUsage;
     }
     const InterruptionGuard guard;
-    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit fails instead, and is reported with advice
+    std::signal(SIGXFSZ, SIG_IGN);  // writes beyond the limit return an error instead
     keep_inputs();
     try {
         const Status status = run();
         if (!status) return fail(app, status.error().message);
-        if (const Status listed = list_inputs(); !listed) return fail(app, listed.error().message);
     } catch (const std::bad_alloc&) {
         return fail(app, "out of memory");
     } catch (const std::system_error& refused) {
@@ -107,9 +95,9 @@ int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run
     } catch (const std::exception& escaped) {
         return fail(app, escaped.what());
     }
-    // A full disk or a closed pipe behind `> file` shows only when the buffer is flushed.
+    // A full disk or a closed pipe is detected only when the buffer is flushed.
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-        return fail(app, "standard output cannot be written; is the disk full?");
+        return fail(app, "standard output cannot be written; check the free disk space");
     }
     return kExitOk;
 }
@@ -117,7 +105,7 @@ int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run
 std::function<std::string(const std::string&)> ends_in(std::vector<std::string> endings) {
     return [endings = std::move(endings)](const std::string& name) {
         if (std::ranges::find(endings, lower_case_extension(name)) != endings.end()) return std::string();
-        return name + ": a name that ends in " + endings.front() + " is asked for";
+        return name + ": must end in " + endings.front();
     };
 }
 
@@ -125,7 +113,7 @@ Result<PixelSize> parse_size(const std::string& text) {
     PixelSize size;
     std::string_view rest = text;
     if (!take_number(rest, size.width) || !take(rest, 'x') || !take_number(rest, size.height) || !rest.empty()) {
-        return Error{"'" + text + "' is not a size; write WIDTHxHEIGHT, such as 640x480"};
+        return Error{"'" + text + "' is not a size; use WIDTHxHEIGHT, such as 640x480"};
     }
     if (size.width < 1 || size.height < 1 || size.width > kMaxImageSide_px || size.height > kMaxImageSide_px) {
         return Error{"the size " + text + " is out of range; each side must be 1.." + std::to_string(kMaxImageSide_px) +
@@ -139,7 +127,7 @@ Result<Triple> parse_triple(const std::string& text, const std::string& what) {
     std::string_view rest = text;
     if (!take_number(rest, triple.x) || !take(rest, ',') || !take_number(rest, triple.y) || !take(rest, ',') ||
         !take_number(rest, triple.z) || !rest.empty()) {
-        return Error{what + ": '" + text + "' is not three numbers; write X,Y,Z, such as 0.5,1,-2"};
+        return Error{what + ": '" + text + "' is not three numbers; use X,Y,Z, such as 0.5,1,-2"};
     }
     return triple;
 }

@@ -30,7 +30,7 @@ struct Arguments {
     int passes = 0;
 };
 
-struct Image {
+struct RenderedImages {
     Image<RgbaF> radiance;
     Image<Rgba8> shown;
 };
@@ -44,7 +44,7 @@ struct Taken {
     double cpu_s = 0;
 };
 
-void print_row(const char* name, const TracedRenderer& renderer, const Taken& taken, const Image& reference) {
+void print_row(const char* name, const TracedRenderer& renderer, const Taken& taken, const RenderedImages& reference) {
     const Image<RgbaF> radiance = renderer.radiance();
     double sum = 0, reference_sum = 0, squares = 0;
     for (int y = 0; y < radiance.height(); ++y) {
@@ -87,7 +87,7 @@ Status run(const Arguments& arguments) {
         progress.advance();
     }
     progress.finish();
-    const Image reference{renderer->radiance(), renderer->image()};
+    const RenderedImages reference{renderer->radiance(), renderer->image()};
 
     const auto trace = [&](const NamedMethod& named, double seconds, int passes) {
         renderer->set_method(named.method);

@@ -10,7 +10,7 @@
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "compositor/gl/context.hpp"
-#include "compositor/traced/object_rays.hpp"
+#include "compositor/traced/object_primitive.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "rayspace/tool/tool_main.hpp"

@@ -12,12 +12,12 @@
 #include "capture/tracer/packets/packet.hpp"
 #include "capture/tracer/rays/ray_scene.hpp"
 #include "capture/tracer/scene/flatten.hpp"
-#include "datasets-synthetic/measuring/hall.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/geometry/camera.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "rayspace/light/light.hpp"
 #include "rayspace/tool/tool_main.hpp"
+#include "tests/bench/scenes/hall.hpp"
 #include "tests/bench/stopwatch.hpp"
 
 #include <CLI/CLI.hpp>

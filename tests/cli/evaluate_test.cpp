@@ -95,7 +95,7 @@ TEST_F(Evaluate, WritesAPageOfItsScores) {
     EXPECT_THAT(done.out, HasSubstr("mean PSNR"));
     std::ifstream file(work_ / "page.html");
     const std::string page(std::istreambuf_iterator<char>(file), {});
-    EXPECT_THAT(page, HasSubstr("Of 12 views every 3rd was held out, 4 in all."));
+    EXPECT_THAT(page, HasSubstr("Of 12 views, every 3rd was held out, 4 in total."));
     EXPECT_THAT(page, HasSubstr("error of shape"));
     EXPECT_EQ(page.find("error of plane"), std::string::npos);
     expect_failure({"evaluate", in("set"), "--report", in("nowhere/page.html"), "-q"}, {"nowhere"});

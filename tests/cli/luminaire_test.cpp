@@ -44,8 +44,7 @@ TEST(LuminaireTool, WhatCannotBeReadIsNamedAndNothingIsWritten) {
     ASSERT_TRUE(write_file(file, kDownlight.substr(0, kDownlight.size() - 4)));
     const test::ToolRun run = test::run_tool(scratch.path(), "rs-capture", {"luminaire", file, "-o", plot});
     EXPECT_EQ(run.exit_code, 1);
-    EXPECT_NE(run.err.find("cut.ies: line 7: the file ends where intensity 2 should stand"), std::string::npos)
-        << run.err;
+    EXPECT_NE(run.err.find("cut.ies: line 7: the file ends before intensity 2"), std::string::npos) << run.err;
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
     EXPECT_FALSE(std::filesystem::exists(plot));
     EXPECT_EQ(test::run_tool(scratch.path(), "rs-capture", {"luminaire", file, "-o", "cut.png"}).exit_code, 2);

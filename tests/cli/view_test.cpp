@@ -1,4 +1,4 @@
-// rs-view as a user runs it: scenes of all kinds, without a display.
+// rs-view render, open, probe, lights and tile: scenes of all kinds, without a display.
 
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
@@ -26,9 +26,13 @@ class View : public testing::Test {
 protected:
     std::string in(const std::string& name) const { return (work_ / name).string(); }
     void write(const std::string& name, const std::string& text) const { std::ofstream(work_ / name) << text; }
-    test::ToolRun view(std::vector<std::string> arguments) const {
-        arguments.insert(arguments.end(), {"-q", "--size", "64x48"});
+    test::ToolRun run(const std::vector<std::string>& arguments) const {
         return test::run_tool(scratch_.path(), "rs-view", arguments);
+    }
+    test::ToolRun render(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.begin(), "render");
+        arguments.insert(arguments.end(), {"-q", "--size", "64x48"});
+        return run(arguments);
     }
 
     test::TemporaryFolder work_;
@@ -50,22 +54,22 @@ int red_pixels(const std::string& file) {
 
 TEST_F(View, AWorldIsShownFromItsViewpoints) {
     write("hall.wrl", kWorld);
-    const test::ToolRun run = view({in("hall.wrl"), "-o", in("far.png")});
+    const test::ToolRun run = render({in("hall.wrl"), "-o", in("far.png")});
     if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(run.err, "rs-view: warning: " + in("hall.wrl") + ": line 4: Material has no field 'gloss'; left out\n");
-    ASSERT_EQ(view({in("hall.wrl"), "-o", in("near.png"), "--viewpoint", "near"}).exit_code, 0);
+    ASSERT_EQ(render({in("hall.wrl"), "-o", in("near.png"), "--viewpoint", "near"}).exit_code, 0);
     const int far = red_pixels(in("far.png"));
     EXPECT_GT(far, 20);
     EXPECT_GT(red_pixels(in("near.png")), 4 * far);
-    const test::ToolRun unknown = view({in("hall.wrl"), "-o", in("x.png"), "--viewpoint", "roof"});
+    const test::ToolRun unknown = render({in("hall.wrl"), "-o", in("x.png"), "--viewpoint", "roof"});
     EXPECT_EQ(unknown.exit_code, 1);
     EXPECT_THAT(unknown.err, HasSubstr("it has 'far', 'near'"));
 }
 
 TEST_F(View, AModelIsShownWhole) {
     write("hall.obj", "v -50 0 0\nv 50 0 0\nv 0 80 0\nf 1 2 3\n");
-    const test::ToolRun run = view({in("hall.obj"), "-o", in("shot.png")});
+    const test::ToolRun run = render({in("hall.obj"), "-o", in("shot.png")});
     if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.err, IsEmpty());
@@ -91,7 +95,7 @@ TEST_F(View, LightIsTracedWhereThatIsAskedFor) {
         std::vector<std::string> arguments = base;
         arguments.insert(arguments.end(), more.begin(), more.end());
         arguments.insert(arguments.end(), {"-o", in(name)});
-        run_ = view(arguments);
+        run_ = render(arguments);
         const auto image = run_.exit_code == 0 ? read_image(in(name)) : Result<Image<Rgba8>>(Error{run_.err});
         return image ? static_cast<int>((*image)(32, 24).g) : -1;
     };
@@ -104,8 +108,10 @@ TEST_F(View, LightIsTracedWhereThatIsAskedFor) {
     EXPECT_GE(brightness("brief.png", {"--renderer", "path", "--seconds", "0.1"}), 0) << run_.err;
 
     std::vector<std::string> probe = base;
-    probe.insert(probe.end(), {"--probe=0,1,0", "--passes", "2", "-o", in("probe.exr")});
-    ASSERT_EQ(view(probe).exit_code, 0);
+    probe.insert(probe.begin(), "probe");
+    probe.insert(probe.end(), {"--position", "0,1,0", "--passes", "2", "-q", "-o", in("probe.exr")});
+    run_ = run(probe);
+    ASSERT_EQ(run_.exit_code, 0) << run_.err;
     const auto info = read_image_info(in("probe.exr"));
     ASSERT_TRUE(info);
     EXPECT_EQ(info->width, 512);
@@ -118,7 +124,7 @@ TEST_F(View, CartoonsHaveTonesWhateverTheExposure) {
         in("hall.wrl"), "--lights", in("evening.json"), "--renderer", "toon", "--passes", "1", "-o", in("x.png")};
     const auto tone = [&](std::vector<std::string> more) {
         more.insert(more.begin(), base.begin(), base.end());
-        run_ = view(more);
+        run_ = render(more);
         const auto image = run_.exit_code == 0 ? read_image(in("x.png")) : Result<Image<Rgba8>>(Error{run_.err});
         return image ? static_cast<int>((*image)(8, 24).g) : -1;
     };
@@ -128,22 +134,25 @@ TEST_F(View, CartoonsHaveTonesWhateverTheExposure) {
     EXPECT_EQ(tone({"--exposure", "-2"}), 255);
     EXPECT_EQ(tone({"--soft-shadows", "--toon-lines", "0", "--lens", "f/2", "--focus", "6"}), 255) << run_.err;
     EXPECT_EQ(tone({"--lens", "25"}), -1);
-    EXPECT_EQ(run_.err, "rs-view: error: --lens 25: nothing would be sharp; add --focus DISTANCE\n");
+    EXPECT_EQ(run_.err, "rs-view: error: --lens 25: has no distance of focus; add --focus DISTANCE\n");
     EXPECT_EQ(tone({"--lens", "f/wide", "--focus", "2"}), -1);
-    EXPECT_THAT(run_.err, HasSubstr("--lens f/wide: must be the opening in mm, as 25, or an f-number, as f/2.8"));
-    EXPECT_EQ(view({in("hall.wrl"), "--lens", "25", "--focus", "2", "-o", in("y.png")}).exit_code, 2);
+    EXPECT_THAT(run_.err, HasSubstr("--lens f/wide: must be the diameter in mm, as 25, or an f-number, as f/2.8"));
+    EXPECT_EQ(render({in("hall.wrl"), "--lens", "25", "--focus", "2", "-o", in("y.png")}).exit_code, 2);
 }
 
 TEST_F(View, ListsOfLightsThatMakeNoSenseAreRefused) {
     write("hall.wrl", kShadedFloor);
     write("evening.json", R"({"lights": [{"kind": "luminaire", "file": "none.ies", "location": [0, 1, 0]}]})");
-    const test::ToolRun run = view({in("hall.wrl"), "--lights", in("evening.json"), "-o", in("x.png")});
+    const test::ToolRun run = render({in("hall.wrl"), "--lights", in("evening.json"), "-o", in("x.png")});
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_EQ(run.err, "rs-view: error: " + in("evening.json") + ": lights[0].file: " + in("none.ies") +
                            ": cannot be opened: No such file or directory\n");
     EXPECT_FALSE(std::filesystem::exists(in("x.png")));
-    EXPECT_EQ(view({in("hall.wrl"), "--probe=0,1,0", "-o", in("x.png")}).exit_code, 2);
-    EXPECT_EQ(view({in("hall.wrl"), "--passes", "2", "--seconds", "1", "-o", in("x.png")}).exit_code, 2);
+    EXPECT_EQ(run({"probe", in("hall.wrl"), "--position", "0,1,0", "-o", in("x.png")}).exit_code, 2);
+    EXPECT_EQ(
+        render({in("hall.wrl"), "--renderer", "path", "--passes", "2", "--seconds", "1", "-o", in("x.png")}).exit_code,
+        2);
+    EXPECT_EQ(render({in("hall.wrl"), "--passes", "2", "-o", in("x.png")}).exit_code, 2);
 }
 
 // A scene's own lights and those of a list, in one list that replaces them all.
@@ -156,28 +165,28 @@ TEST_F(View, SavedLightsGiveTheSameImage) {
           R"({"lights": [{"kind": "luminaire", "file": "lamp.ies", "location": [0.4, 1.7, 0.1], "turn_deg": 12.34},
                          {"kind": "point", "name": "buried", "location": [0, 0.5, 0], "candela": 1},
                          {"kind": "disc", "name": "off", "location": [0, 1, 0], "aim": [0, -1, 0], "size": 0.1, "lumens": 0}]})");
-    test::ToolRun run = view({in("hall.wrl"), "--lights", in("lamp.json"), "--save-lights", in("all.json")});
-    ASSERT_EQ(run.exit_code, 0) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("'buried' stands inside of a solid"));
-    EXPECT_THAT(run.err, HasSubstr("'off' has no power"));
-    run = view({in("hall.wrl"), "--lights", in("lamp.json"), "-o", in("a.png")});
+    const test::ToolRun saved = run({"lights", in("hall.wrl"), "--lights", in("lamp.json"), "-o", in("all.json")});
+    ASSERT_EQ(saved.exit_code, 0) << saved.err;
+    EXPECT_THAT(saved.err, HasSubstr("'buried' is inside a solid"));
+    EXPECT_THAT(saved.err, HasSubstr("'off' has no power"));
+    const test::ToolRun run = render({in("hall.wrl"), "--lights", in("lamp.json"), "-o", in("a.png")});
     if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
-    ASSERT_EQ(view({in("hall.wrl"), "--lights", in("all.json"), "-o", in("b.png")}).exit_code, 0);
+    ASSERT_EQ(render({in("hall.wrl"), "--lights", in("all.json"), "-o", in("b.png")}).exit_code, 0);
     EXPECT_EQ(read_image(in("a.png")).value(), read_image(in("b.png")).value());
-    ASSERT_EQ(view({in("hall.wrl"), "--lights", in("all.json"), "--save-lights", in("again.json")}).exit_code, 0);
+    ASSERT_EQ(this->run({"lights", in("hall.wrl"), "--lights", in("all.json"), "-o", in("again.json")}).exit_code, 0);
     EXPECT_EQ(read_file(in("all.json"), 1 << 20).value(), read_file(in("again.json"), 1 << 20).value());
 }
 
 TEST_F(View, AnObjectThatIsNotThereIsLeftOut) {
     write("hall.wrl", std::string(kWorld) + "RaySpace { url \"gone.rso\" }\nRaySpace { url \"gone.rso\" }\n");
-    const test::ToolRun run = view({in("hall.wrl"), "-o", in("shot.png")});
+    const test::ToolRun run = render({in("hall.wrl"), "-o", in("shot.png")});
     if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("gone.rso"));
     EXPECT_THAT(run.err, HasSubstr("shown without this object"));
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;  // one for the file, one of the world
     EXPECT_GT(red_pixels(in("shot.png")), 20);
-    const test::ToolRun asked = view({in("hall.wrl"), "--object", in("gone.rso"), "-o", in("other.png")});
+    const test::ToolRun asked = render({in("hall.wrl"), "--object", in("gone.rso"), "-o", in("other.png")});
     EXPECT_EQ(asked.exit_code, 1);
     EXPECT_FALSE(std::filesystem::exists(in("other.png")));
 }
@@ -188,7 +197,7 @@ TEST_F(View, AWalkIsTakenFromItsFile) {
           R"({"camera": {"path": [{"eye": [0, 0, 9], "at": [0, 0, 0]}, {"eye": [0, 0, 4], "at": [0, 0, 0]}],
                                       "frames": 3, "fov_degrees": 40}})");
     const test::ToolRun run =
-        view({in("hall.wrl"), "--path", in("walk.json"), "-o", in("frames"), "--stats", in("s.json")});
+        render({in("hall.wrl"), "--path", in("walk.json"), "-o", in("frames"), "--stats", in("s.json")});
     if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_TRUE(std::filesystem::exists(in("frames/0002.png")));
@@ -196,7 +205,7 @@ TEST_F(View, AWalkIsTakenFromItsFile) {
     const std::string text((std::istreambuf_iterator<char>(stats)), {});
     EXPECT_THAT(text, HasSubstr("\"frames\": 3"));
     write("empty.json", "{}");
-    const test::ToolRun none = view({in("hall.wrl"), "--path", in("empty.json"), "-o", in("x.png")});
+    const test::ToolRun none = render({in("hall.wrl"), "--path", in("empty.json"), "-o", in("x.png")});
     EXPECT_EQ(none.exit_code, 1);
     EXPECT_THAT(none.err, HasSubstr("has no camera path"));
 }
@@ -218,7 +227,7 @@ TEST_F(View, RoomsAreWalkedThroughWithinABudget) {
                                               in("s.json"),     "--samples", "1"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         std::filesystem::remove_all(in("frames"));
-        run_ = view(arguments);
+        run_ = render(arguments);
         std::ifstream file(in("s.json"));
         return run_.exit_code == 0 ? nlohmann::json::parse(file) : nlohmann::json();
     };
@@ -248,7 +257,6 @@ TEST_F(View, RoomsAreWalkedThroughWithinABudget) {
     EXPECT_EQ(run_.exit_code, 1);
     stats_of({"--executor", "fpga"});
     EXPECT_THAT(run_.err, HasSubstr("give one of scalar, core, board:CONFIG"));
-    EXPECT_EQ(view({in("rooms.json"), "--streaming"}).exit_code, 2);
     stats_of({"--memory", "1"});
     EXPECT_EQ(run_.exit_code, 0);
     EXPECT_THAT(run_.err, HasSubstr("more than the budget of 1 MiB"));
@@ -262,7 +270,7 @@ TEST_F(View, WhatIsNoSceneIsRefusedOnOneLine) {
         {"hall.txt", "hall.txt: is no scene by its name"},
         {"gone.wrl", "gone.wrl"}};
     for (const auto& [name, expected] : cases) {
-        const test::ToolRun run = view({in(name), "-o", in("shot.png")});
+        const test::ToolRun run = render({in(name), "-o", in("shot.png")});
         EXPECT_EQ(run.exit_code, 1);
         EXPECT_THAT(run.err, HasSubstr(expected));
         EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
@@ -276,9 +284,9 @@ TEST_F(View, WithoutAWindowTheFirstViewIsWritten) {
     std::filesystem::current_path(work_.path());
     unsetenv("DISPLAY");
     unsetenv("WAYLAND_DISPLAY");
-    const test::ToolRun run = view({in("hall.wrl")});
+    const test::ToolRun run = this->run({in("hall.wrl"), "--size", "64x48"});
     setenv("LIBGL_DRIVERS_PATH", work_.path().c_str(), 1);
-    const test::ToolRun without_drivers = view({in("hall.wrl")});
+    const test::ToolRun without_drivers = this->run({"open", in("hall.wrl"), "--size", "64x48"});
     unsetenv("LIBGL_DRIVERS_PATH");
     std::filesystem::current_path(before);
     EXPECT_EQ(without_drivers.exit_code, 1);
@@ -288,6 +296,86 @@ TEST_F(View, WithoutAWindowTheFirstViewIsWritten) {
     EXPECT_THAT(run.err, HasSubstr("window: "));
     EXPECT_THAT(run.err, HasSubstr("the first view goes to ./screenshot-1.png"));
     EXPECT_GT(red_pixels(in("screenshot-1.png")), 20);
+}
+
+// Every subcommand: its help fits on a screen and has an example, and its options do not exist elsewhere.
+TEST_F(View, HelpOfEachSubcommandFitsOnAScreen) {
+    const std::vector<std::vector<std::string>> commands = {
+        {"open"},   {"render"}, {"quilt"},        {"walls"},         {"sequence"},        {"probe"},
+        {"lights"}, {"tile"},   {"tile", "plan"}, {"tile", "trace"}, {"tile", "assemble"}};
+    for (std::vector<std::string> command : commands) {
+        command.emplace_back("--help");
+        const test::ToolRun help = run(command);
+        SCOPED_TRACE(help.out);
+        EXPECT_EQ(help.exit_code, 0);
+        EXPECT_LE(std::count(help.out.begin(), help.out.end(), '\n'), 40);
+        EXPECT_THAT(help.out, HasSubstr("Example"));
+    }
+}
+
+TEST_F(View, OldFlagsNameTheirSubcommand) {
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+        {{"hall.wrl", "-o", "x.png"}, "use 'rs-view render SCENE -o FILE'"},
+        {{"hall.wrl", "--quilt", "5x9", "-o", "x.png"}, "use 'rs-view quilt SCENE --layout COLSxROWS'"},
+        {{"hall.wrl", "--walls=cave"}, "use 'rs-view walls SCENE --display"},
+        {{"--sequence", "town"}, "use 'rs-view sequence FOLDER'"},
+        {{"hall.wrl", "--probe=0,0,0", "-o", "x.exr"}, "use 'rs-view probe SCENE --position X,Y,Z'"},
+        {{"hall.wrl", "--save-lights", "x.json"}, "use 'rs-view lights SCENE -o FILE.json'"},
+        {{"hall.wrl", "--tile", "0:0,0,8x8", "-o", "x.png"}, "use 'rs-view tile trace SCENE"},
+    };
+    for (const auto& [arguments, advice] : cases) {
+        const test::ToolRun refused = run(arguments);
+        EXPECT_EQ(refused.exit_code, 2);
+        EXPECT_THAT(refused.err, HasSubstr(advice));
+        EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
+    }
+}
+
+// Tiles that are traced one by one give the frame that is traced whole, bit for bit.
+TEST_F(View, AssembledTilesEqualTheFrame) {
+    write("hall.wrl", kShadedFloor);
+    ASSERT_TRUE(write_object(work_ / "small.rso", test::small_object()).ok());
+    const std::vector<std::string> frames = {in("hall.wrl"),
+                                             "--object",
+                                             in("small.rso") + "@1,0,2",
+                                             "--orbit",
+                                             "2",
+                                             "--size",
+                                             "64x48",
+                                             "--renderer",
+                                             "whitted",
+                                             "--passes",
+                                             "2",
+                                             "--exposure",
+                                             "2",
+                                             "-q"};
+    const auto with = [&](std::vector<std::string> command, const std::vector<std::string>& more) {
+        command.insert(command.end(), frames.begin(), frames.end());
+        command.insert(command.end(), more.begin(), more.end());
+        run_ = run(command);
+        return run_.exit_code;
+    };
+    const int whole = with({"render"}, {"-o", in("whole")});
+    if (whole != 0 && run_.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run_.err;
+    ASSERT_EQ(whole, 0) << run_.err;
+    ASSERT_EQ(with({"tile", "plan"}, {"-o", in("plan.json")}), 0) << run_.err;
+    std::ifstream file(in("plan.json"));
+    EXPECT_EQ(nlohmann::json::parse(file), nlohmann::json({{"frames", 2}, {"width", 64}, {"height", 48}}));
+    std::filesystem::create_directory(work_ / "tiles");
+    EXPECT_EQ(with({"tile", "assemble"}, {"--tiles", in("tiles"), "-o", in("assembled")}), 1);
+    EXPECT_THAT(run_.err, HasSubstr("lacks tiles of frame 0"));
+    for (const std::string frame : {"0", "1"}) {
+        for (const auto& [name, tile] : {std::pair{"-0-0.png", ":0,0,40x48"}, std::pair{"-40-0.png", ":40,0,24x48"}}) {
+            ASSERT_EQ(with({"tile", "trace"}, {"--tile", frame + tile, "-o", in("tiles/" + frame + name)}), 0)
+                << run_.err;
+        }
+    }
+    ASSERT_EQ(with({"tile", "assemble"}, {"--tiles", in("tiles"), "-o", in("assembled")}), 0) << run_.err;
+    for (const char* const name : {"0000.png", "0001.png"}) {
+        EXPECT_EQ(read_image(work_ / "assembled" / name).value(), read_image(work_ / "whole" / name).value());
+    }
+    EXPECT_EQ(with({"tile", "trace"}, {"--tile", "2:0,0,8x8", "-o", in("x.png")}), 1);
+    EXPECT_THAT(run_.err, HasSubstr("there are 2 frames"));
 }
 
 }  // namespace

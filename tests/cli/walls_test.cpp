@@ -1,4 +1,4 @@
-// rs-view on walls and in tiles, as a user runs it.
+// rs-view walls and rs-view quilt.
 
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image_io/image_io.hpp"
@@ -30,7 +30,7 @@ class Displays : public testing::Test {
 protected:
     void SetUp() override {
         write("hall.wrl", kBoxWorld);
-        const test::ToolRun run = view({in("hall.wrl"), "--size", "16x16", "-o", in("probe.png")});
+        const test::ToolRun run = view({"render", in("hall.wrl"), "--size", "16x16", "-o", in("probe.png")});
         if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
         ASSERT_EQ(run.exit_code, 0) << run.err;
     }
@@ -52,7 +52,7 @@ protected:
 };
 
 TEST_F(Displays, EachWallIsAImage) {
-    test::ToolRun run = view({in("hall.wrl"), "--walls", "cave", "--size", "40x40", "-o", in("cave")});
+    test::ToolRun run = view({"walls", in("hall.wrl"), "--display", "cave", "--size", "40x40", "-o", in("cave")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     for (const char* name : {"left", "front", "right", "floor"})
         EXPECT_TRUE(exists(std::string("cave/") + name + ".png"));
@@ -66,8 +66,8 @@ TEST_F(Displays, EachWallIsAImage) {
     EXPECT_EQ(rig->views.size(), 4U);
     EXPECT_NEAR(rig->views[1].camera.fl_x, 20, 1e-9);
 
-    run = view({in("hall.wrl"), "--walls", "cave", "--wall", "front", "--size", "40x40", "--stereo", "side-by-side",
-                "-o", in("pair")});
+    run = view({"walls", in("hall.wrl"), "--display", "cave", "--wall", "front", "--size", "40x40", "--stereo",
+                "side-by-side", "-o", in("pair")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(image("pair/front.png").width(), 80);
     EXPECT_FALSE(exists("pair/left.png"));
@@ -75,7 +75,7 @@ TEST_F(Displays, EachWallIsAImage) {
 
 TEST_F(Displays, StereoAloneMeansTwoFolders) {
     const test::ToolRun run =
-        view({in("hall.wrl"), "--walls", "power-wall", "--size", "32x18", "-o", in("two"), "--stereo"});
+        view({"walls", in("hall.wrl"), "--display", "power-wall", "--size", "32x18", "-o", in("two"), "--stereo"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_NE(image("two/left/front.png"), image("two/right/front.png"));
     EXPECT_EQ(read_rig(in("two"))->views.size(), 2U);
@@ -87,12 +87,12 @@ TEST_F(Displays, HeadsMoveFrameByFrameAndNotThroughWalls) {
               "pixels": [32, 32]}], "head": {"position": [0, 1, 0]}})");
     write("heads.json", R"({"heads": [{"position": [-0.5, 1, 0]}, {"position": [0.5, 1, 0]}]})");
     test::ToolRun run =
-        view({in("hall.wrl"), "--walls", in("walls.json"), "--heads", in("heads.json"), "-o", in("walk")});
+        view({"walls", in("hall.wrl"), "--display", in("walls.json"), "--heads", in("heads.json"), "-o", in("walk")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_NE(image("walk/w/0000.png"), image("walk/w/0001.png"));
 
     write("heads.json", R"({"heads": [{"position": [0, 1, 0]}, {"position": [0, 1, -1.4]}]})");
-    run = view({in("hall.wrl"), "--walls", in("walls.json"), "--heads", in("heads.json"), "-o", in("no")});
+    run = view({"walls", in("hall.wrl"), "--display", in("walls.json"), "--heads", in("heads.json"), "-o", in("no")});
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_THAT(run.err, HasSubstr("heads.json: head 1: an eye is 0.4 m behind wall 'w'"));
     EXPECT_FALSE(exists("no"));
@@ -119,20 +119,20 @@ TEST_F(Displays, ImagesAreOfTheHeadThatIsTracked) {
           R"({"walls": [{"name": "w", "lower_left": [-1, 0, -1], "lower_right": [1, 0, -1], "upper_left": [-1, 2, -1],
               "pixels": [32, 32]}], "head": {"position": [0, 1, 0]}})");
     write("heads.json", R"({"heads": [{"position": [0.4, 1.1, 0.5]}]})");
-    test::ToolRun run =
-        view({in("hall.wrl"), "--walls", in("walls.json"), "--heads", in("heads.json"), "-o", in("by-file")});
+    test::ToolRun run = view(
+        {"walls", in("hall.wrl"), "--display", in("walls.json"), "--heads", in("heads.json"), "-o", in("by-file")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const std::uint16_t port = test::TakenPort().number();
     const std::string udp = "udp:" + std::to_string(port);
     {
         const Tracker tracker(port, {40, 10, 50, 0, 0, 0});
-        run = view({in("hall.wrl"), "--walls", in("walls.json"), "--heads", udp, "-o", in("tracked")});
+        run = view({"walls", in("hall.wrl"), "--display", in("walls.json"), "--heads", udp, "-o", in("tracked")});
     }
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_EQ(image("tracked/w.png"), image("by-file/w.png"));
     {
         const Tracker tracker(port, {0, 0, -140, 0, 0, 0});
-        run = view({in("hall.wrl"), "--walls", in("walls.json"), "--heads", udp, "-o", in("behind")});
+        run = view({"walls", in("hall.wrl"), "--display", in("walls.json"), "--heads", udp, "-o", in("behind")});
     }
     EXPECT_EQ(run.exit_code, 1);
     EXPECT_THAT(run.err, HasSubstr(udp + ": an eye is 0.4 m behind wall 'w'"));
@@ -141,7 +141,8 @@ TEST_F(Displays, ImagesAreOfTheHeadThatIsTracked) {
 
 TEST_F(Displays, ATrackerThatSaysNothingIsNamed) {
     const auto fault = [&](const std::string& heads) {
-        const test::ToolRun run = view({in("hall.wrl"), "--walls", "cave", "--heads", heads, "-o", in("none")});
+        const test::ToolRun run =
+            view({"walls", in("hall.wrl"), "--display", "cave", "--heads", heads, "-o", in("none")});
         EXPECT_EQ(run.exit_code, 1);
         EXPECT_FALSE(exists("none"));
         return run.err;
@@ -156,16 +157,16 @@ TEST_F(Displays, ATrackerThatSaysNothingIsNamed) {
 
 TEST_F(Displays, TracedLightFallsOnWallsToo) {
     for (const char* renderer : {"whitted", "radiosity", "path"}) {
-        const test::ToolRun run = view({in("hall.wrl"), "--walls", "cave", "--wall", "front", "--size", "40x40",
-                                        "--renderer", renderer, "--passes", "2", "-o", in(renderer)});
+        const test::ToolRun run = view({"walls", in("hall.wrl"), "--display", "cave", "--wall", "front", "--size",
+                                        "40x40", "--renderer", renderer, "--passes", "2", "-o", in(renderer)});
         ASSERT_EQ(run.exit_code, 0) << run.err;
         EXPECT_GT(image(std::string(renderer) + "/front.png")(20, 17).r, 200) << renderer;
     }
 }
 
 TEST_F(Displays, AQuiltHasItsLayoutInItsName) {
-    test::ToolRun run =
-        view({in("hall.wrl"), "--quilt", "3x2", "--tile-size", "30x40", "--cone", "30", "-o", in("hall.png")});
+    test::ToolRun run = view(
+        {"quilt", in("hall.wrl"), "--layout", "3x2", "--tile-size", "30x40", "--cone", "30", "-o", in("hall.png")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const Image<Rgba8> quilt = image("hall_qs3x2a0.75.png");
     ASSERT_EQ(quilt.width(), 90);
@@ -175,25 +176,27 @@ TEST_F(Displays, AQuiltHasItsLayoutInItsName) {
     for (int column = 0; column < 3; ++column) {
         for (int row = 0; row < 2; ++row) EXPECT_GT(quilt(30 * column + 15, 40 * row + 20).r, 200);
     }
-    run = view({in("hall.wrl"), "--quilt", "3x2", "--tile-size", "30x40", "--orbit", "2", "-o", in("turn")});
+    run = view({"quilt", in("hall.wrl"), "--layout", "3x2", "--tile-size", "30x40", "--orbit", "2", "-o", in("turn")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_TRUE(exists("turn/0001_qs3x2a0.75.png"));
 }
 
 TEST_F(Displays, WhatCannotBeIsRefusedInOneLine) {
-    const auto fault = [&](std::vector<std::string> arguments) {
-        arguments.insert(arguments.begin(), in("hall.wrl"));
+    const auto fault = [&](const std::vector<std::string>& arguments) {
         const test::ToolRun run = view(arguments);
         EXPECT_NE(run.exit_code, 0);
         return run.err;
     };
-    EXPECT_THAT(fault({"--walls", "dome", "-o", in("x")}), HasSubstr("dome: is neither a preset"));
-    EXPECT_THAT(fault({"--walls", "cave", "-o", in("x.png")}), HasSubstr("walls go into a folder"));
-    EXPECT_THAT(fault({"--walls", "cave", "--wall", "roof", "-o", in("x")}), HasSubstr("no wall 'roof'"));
-    EXPECT_THAT(fault({"--stereo", "anaglyph", "-o", in("x")}), HasSubstr("--walls"));
-    EXPECT_THAT(fault({"--quilt", "5by9", "-o", in("x.png")}), HasSubstr("COLUMNSxROWS"));
-    EXPECT_THAT(fault({"--quilt", "5x9"}), HasSubstr("--quilt needs -o"));
-    EXPECT_THAT(fault({"--quilt", "5x9", "-o", in("x.mp4")}), HasSubstr(".png or a folder"));
+    const std::string hall = in("hall.wrl");
+    EXPECT_THAT(fault({"walls", hall, "--display", "dome", "-o", in("x")}), HasSubstr("dome: is neither a preset"));
+    EXPECT_THAT(fault({"walls", hall, "--display", "cave", "-o", in("x.png")}), HasSubstr("walls go into a folder"));
+    EXPECT_THAT(fault({"walls", hall, "--display", "cave", "--wall", "roof", "-o", in("x")}),
+                HasSubstr("no wall 'roof'"));
+    EXPECT_THAT(fault({"walls", hall, "--stereo", "anaglyph", "-o", in("x")}), HasSubstr("--display is required"));
+    EXPECT_THAT(fault({"walls", hall, "--display", "cave", "--orbit", "3"}), HasSubstr("--orbit needs -o"));
+    EXPECT_THAT(fault({"quilt", hall, "--layout", "5by9", "-o", in("x.png")}), HasSubstr("COLUMNSxROWS"));
+    EXPECT_THAT(fault({"quilt", hall, "--layout", "5x9"}), HasSubstr("--output is required"));
+    EXPECT_THAT(fault({"quilt", hall, "--layout", "5x9", "-o", in("x.mp4")}), HasSubstr(".png or a folder"));
     EXPECT_FALSE(exists("x"));
 }
 
@@ -202,14 +205,14 @@ TEST_F(Displays, OlderAndNewerWorldsAreShown) {
     write("new.x3d",
           "<X3D><Scene><Shape><Appearance><Material emissiveColor='1 0 0'/></Appearance><Box/></Shape></Scene></X3D>");
     for (const char* name : {"old.wrl", "new.x3d"}) {
-        const test::ToolRun run = view({in(name), "--size", "40x40", "-o", in("shot.png")});
+        const test::ToolRun run = view({"render", in(name), "--size", "40x40", "-o", in("shot.png")});
         ASSERT_EQ(run.exit_code, 0) << run.err;
         EXPECT_GT(image("shot.png")(20, 20).r, 200) << name;
     }
     write("bad.x3d", "<X3D>\n<Scene>\n<Shape>\n</Scene></X3D>");
-    const test::ToolRun run = view({in("bad.x3d"), "-o", in("bad.png")});
+    const test::ToolRun run = view({"render", in("bad.x3d"), "-o", in("bad.png")});
     EXPECT_EQ(run.exit_code, 1);
-    EXPECT_THAT(run.err, HasSubstr("bad.x3d: line 4: is no well-formed XML"));
+    EXPECT_THAT(run.err, HasSubstr("bad.x3d: line 4: is not well-formed XML"));
 }
 
 }  // namespace

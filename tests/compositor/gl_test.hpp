@@ -1,6 +1,6 @@
 #pragma once
-// Tests that draw: each has an OpenGL context of its own, and is skipped where none can be had. At the end of each the
-// context must have seen no error and hold nothing that was not released.
+// Fixture of tests that render: each has its own OpenGL context and is skipped without OpenGL. At its end the context
+// must have no error and no unreleased object.
 
 #include "compositor/gl/context.hpp"
 

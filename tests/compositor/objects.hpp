@@ -1,5 +1,5 @@
 #pragma once
-// Viewable objects made in memory, for the compositor's tests.
+// Viewable objects created in memory, for the compositor's tests.
 
 #include "compositor/viewer/residency/object_source.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
@@ -10,7 +10,7 @@
 
 namespace rs::test {
 
-// A drum of radius 1, from about -1 to 1 in height: noise with alpha of all sizes, or opaque in one colour.
+// Drum of radius 1, from about -1 to 1 in height: noise with random alpha, or opaque in one colour.
 inline RaySpaceObject drum_object(std::optional<Rgba8> colour = std::nullopt) {
     RingObjectOptions options;
     options.views = 24;
@@ -22,7 +22,7 @@ inline RaySpaceObject drum_object(std::optional<Rgba8> colour = std::nullopt) {
         for (std::size_t i = 0; i < object.images.size(); ++i) {
             std::mt19937_64 random(i);
             Image<Rgba8> image = noise_image(rig.views[i].camera, random);
-            // Every column that shows something is opaque over its whole height.
+            // Non-empty columns are opaque over their whole height.
             for (int x = 0; x < image.width(); ++x) {
                 bool shows = false;
                 for (int y = 0; y < image.height(); ++y) shows |= image(x, y).a > 0;
@@ -40,13 +40,13 @@ inline std::shared_ptr<const compositor::ViewableObject> drum(std::optional<Rgba
     return std::make_shared<const compositor::ViewableObject>(std::move(*viewable));
 }
 
-// A drum for every file.
+// Source of one drum for every file.
 class ObjectsInMemory final : public compositor::ObjectSource {
 public:
     explicit ObjectsInMemory(std::optional<Rgba8> colour = std::nullopt) : colour_(colour) {}
     Result<std::int64_t> most_bytes(const std::filesystem::path& /*file*/) override { return std::int64_t{8} << 20; }
     Result<compositor::ViewableObject> read(const std::filesystem::path& /*file*/, std::int64_t /*most_bytes*/,
-                                            const Tell& /*tell*/) override {
+                                            const ProgressCallback& /*on_progress*/) override {
         return compositor::make_viewable(drum_object(colour_));
     }
 

@@ -1,4 +1,4 @@
-// Where scene files put mirrored objects: as geometry below the same transforms.
+// Placement of mirrored objects in scene files: as geometry below the same transforms.
 
 #include "compositor/scene/reader/scene_file.hpp"
 #include "compositor/viewer/views/object_view.hpp"
@@ -68,7 +68,7 @@ TEST(MirroredNodes, OfGltfAreMirrored) {
     ASSERT_EQ(scene.objects.size(), 1U);
     const Similarity place = world_from_node(scene.objects[0].chain);
     EXPECT_TRUE(place.mirrors());
-    // Half a turn more or less about Y is 2 atan2(0.6, 0.8): cosine 0.28, sine 0.96.
+    // About half a turn about Y is 2 atan2(0.6, 0.8): cosine 0.28, sine 0.96.
     EXPECT_LT(glm::distance(place.point({1, 1, 0}), glm::dvec3(1 + 2 * 0.28, 2 - 2, 3 - 2 * 0.96)), 1e-6);
 }
 
@@ -76,13 +76,13 @@ TEST(ObjectView, TakesSeveralSamplesWhereCapturedPixelsAreSmaller) {
     const auto object = test::drum();
     const auto samples_at = [&](double distance, int most) {
         const Camera camera = look_at_camera({0, 0, distance}, {0, 0, 0}, radians(50), 400, 400);
-        const auto view = view_of_object(test::placed_at(object), camera, {.most_samples_across = most});
+        const auto view = view_of_object(test::placed_at(object), camera, {.max_samples_across = most});
         RS_CHECK(view.has_value());
         EXPECT_EQ(view->camera.width, view->rectangle.width * view->samples_across);
         EXPECT_EQ(view->camera.height, view->rectangle.height * view->samples_across);
         return view->samples_across;
     };
-    // Captured at 60 / 3.5 pixels a radius; seen at 429 / distance.
+    // Captured at 60 / 3.5 pixels per radius, displayed at 429 / distance.
     EXPECT_EQ(samples_at(5, 4), 1);
     EXPECT_EQ(samples_at(30, 4), 1);
     EXPECT_EQ(samples_at(50, 4), 2);

@@ -32,7 +32,7 @@ void add_block(capture::Scene& scene, const glm::vec3& size, const glm::vec3& ce
     scene.meshes.push_back(std::move(mesh));
 }
 
-// Spots, by which encoders find the depth of a surface.
+// Spots, as texture for depth estimation.
 capture::Texture spots() {
     constexpr int kSide = 16;
     std::mt19937_64 random(5);

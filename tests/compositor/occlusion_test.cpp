@@ -1,10 +1,9 @@
-// What hides what: frames of an object among geometry against images in golden/, each of which was looked at. Skipped
-// where no OpenGL context can be had.
+// Occlusion: frames of an object among geometry against reviewed images in golden/. Skipped without OpenGL.
 //
-// After a wanted change: RAYSPACE_UPDATE_GOLDEN=1 test_compositor --gtest_filter='Occlusion*' writes the images anew;
-// look at them before they are kept (RAYSPACE_TRUTH_FOLDER=FOLDER writes the truth of each beside), and say why they
-// changed. Tolerance: drivers
-// rasterise edges in their own ways, so one pixel in a hundred may differ, all others by up to kTolerance codes.
+// After an intended change, RAYSPACE_UPDATE_GOLDEN=1 test_compositor --gtest_filter='Occlusion*' rewrites the images;
+// review them before committing (RAYSPACE_TRUTH_FOLDER=FOLDER writes the reference of each beside it), and state the
+// reason. Tolerance: drivers rasterise edges differently, so one pixel in a hundred may differ, all others by up to
+// kTolerance codes.
 
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -27,8 +26,8 @@ namespace {
 constexpr int kGoldenWidth = 160;
 constexpr int kGoldenHeight = 120;
 constexpr int kTolerance = 6;
-constexpr double kMayDiffer = 0.01;         // share of the pixels
-constexpr double kUprightMayLose_db = 1.1;  // by looking up in the image of a level camera
+constexpr double kMayDiffer = 0.01;         // fraction of the pixels
+constexpr double kUprightMayLose_db = 1.1;  // loss by resampling an upright image
 constexpr glm::vec3 kWall{0.7F, 0.66F, 0.55F};
 constexpr glm::vec3 kGreen{0.1F, 0.5F, 0.2F};
 
@@ -56,13 +55,13 @@ Image<Rgba8> flipped(const Image<Rgba8>& image) {
     return result;
 }
 
-// A frame that golden/NAME.png shows.
+// Frame of golden/NAME.png.
 struct Case {
     std::string name;
     Scene scene;
     std::vector<PlacedObject> objects;
     Camera camera;
-    double least_truth_db;  // to the meshes in the objects' place; some 2 dB below what was measured
+    double least_truth_db;  // against the meshes; about 2 dB below the measured value
     ObjectDepth depth = ObjectDepth::kPlane;
 };
 
@@ -83,7 +82,7 @@ protected:
         return std::move(*frame);
     }
 
-    // The meshes in the objects' place.
+    // Frame with meshes instead of the objects.
     static Image<Rgba8> truth(const Scene& scene, const std::vector<PlacedObject>& objects, const Camera& camera) {
         std::vector<test::TracedNode> nodes;
         for (const PlacedObject& object : objects) {
@@ -160,7 +159,7 @@ TEST_F(Occlusion, LooksAsInTheImages) {
                    {{{0.1, 3, 1.2}, {0, 0, 0}, kWall, 0}}),
         with_boxes({"inside_the_cylinder", room, one, seen({0.55, 0.35, 0.75}, {-0.3, 0.05, -0.2}, 60), 18},
                    {{{0.2, 3, 0.2}, {-0.2, 0, -1.4}, kGreen, 0}}),
-        // From where no image was taken little is left of the object; geometry before and below it must be whole.
+        // From above, where no image was taken, little of the object remains; geometry must be complete.
         with_boxes({"straight_down", room, one, seen({0.2, 4.5, 0.1}, {0.2, 0, 0.1}), 15},
                    {{{4, 0.1, 4}, {0, -1.1, 0}, kWall, 0}, {{0.2, 0.2, 3}, {0.6, 1.3, 0}, kGreen, 0}}),
     };
@@ -170,7 +169,7 @@ TEST_F(Occlusion, LooksAsInTheImages) {
 TEST_F(Occlusion, AMirroredNodeIsTheMirrorImage) {
     for (const ObjectDepth depth : {ObjectDepth::kPlane, ObjectDepth::kPixel}) {
         Scene scene = test::empty_room();
-        scene.lights.clear();  // they would not be mirrored
+        scene.lights.clear();  // lights would not be mirrored
         Scene mirrored_scene = scene;
         test::add_box(scene, {0.2, 3, 0.2}, {0.9, 0, 0.6}, kGreen);
         test::add_box(mirrored_scene, {0.2, 3, 0.2}, {-0.9, 0, 0.6}, kGreen);
@@ -186,10 +185,10 @@ TEST_F(Occlusion, AMirroredNodeIsTheMirrorImage) {
     }
 }
 
-// What one depth for all of an object cannot show, and one for each pixel can.
+// Cases that need per-pixel depth.
 TEST_F(Occlusion, DepthsOfPixelsLetThingsReachIntoEachOther) {
     Case pole{"pole_plane", test::empty_room(), {placed()}, seen({4.5, 0.6, 0.5}), 20};
-    // Behind the plane and the block, but before the post.
+    // Behind the plane and the block, in front of the post.
     test::add_box(pole.scene, {0.1, 0.12, 2.4}, {-0.09, -0.45, 0}, kGreen);
     const Case crossing{"crossing_plane",
                         test::empty_room(),

@@ -1,5 +1,5 @@
 #pragma once
-// A row of six rooms with a door from each to the next and eight objects in each, and a walk through all of them.
+// Row of six rooms connected by doors, with eight objects each, and a walk through all of them.
 
 #include "compositor/scene/scene.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -22,7 +22,7 @@ inline std::size_t room_at(double z) {
     return static_cast<std::size_t>(std::clamp(number, 0.0, kRooms - 1.0));
 }
 
-// Room r lies between z = -r * kRoomSide and the next. `file_of(room, number)`: each object's.
+// Room r extends from z = -r * kRoomSide to the next. `file_of(room, number)` gives the file of an object.
 template <class FileOf>
 compositor::Scene six_rooms(const FileOf& file_of) {
     using namespace compositor;
@@ -42,7 +42,7 @@ compositor::Scene six_rooms(const FileOf& file_of) {
         scene.rooms.push_back({"room " + std::to_string(r), {{-half, 0, front - kRoomSide}, {half, 3, front}}});
         for (const double side : {-1.0, 1.0}) {
             add_wall({0.1, 3, kRoomSide}, {side * half, 1.5, front - half}, colour);
-            // Beside the door to the next room, 1.6 wide.
+            // Wall next to the door to the next room, 1.6 wide.
             add_wall({half - 0.8, 3, 0.1}, {side * (half + 0.8) / 2, 1.5, front - kRoomSide}, colour);
         }
         for (int n = 0; n < kObjectsInRoom; ++n) {
@@ -61,7 +61,7 @@ compositor::Scene six_rooms(const FileOf& file_of) {
     return scene;
 }
 
-// From the first room's entrance to the last room's end, looking ahead and a little from side to side.
+// From the entrance of the first room to the end of the last, looking ahead and slightly from side to side.
 inline std::vector<Camera> walk_through(int frames, int width, int height) {
     std::vector<Camera> cameras;
     for (int i = 0; i < frames; ++i) {

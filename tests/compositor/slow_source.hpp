@@ -1,6 +1,6 @@
 #pragma once
-// Objects for tests of what is in memory when: small drums, of which the test says what they take and how long reading
-// them lasts, and that are counted independently of any budget.
+// Object source for residency tests: small drums with configurable size and load time, counted independently of
+// budgets.
 
 #include "compositor/viewer/residency/object_source.hpp"
 #include "tests/compositor/objects.hpp"
@@ -17,7 +17,7 @@
 
 namespace rs::test {
 
-// What happens to the source, which belongs to a cache, and to its objects, which belong to nobody.
+// Events of the source, which the cache owns, and of its objects, which have shared owners.
 struct SourceLog {
     std::mutex mutex;
     std::vector<std::string> read;  // names, in order
@@ -37,9 +37,9 @@ struct SourceLog {
 
 struct SlowSourceOptions {
     std::chrono::microseconds reading{0};
-    std::set<std::string> broken;             // names of files that are refused when they are read
-    std::set<std::string> gone;               // that cannot even be measured
-    std::map<std::string, int> times_larger;  // while they are read, of what others take
+    std::set<std::string> broken;             // files that fail to load
+    std::set<std::string> gone;               // files whose size cannot be determined
+    std::map<std::string, int> times_larger;  // memory factor while loading
 };
 
 class SlowSource final : public compositor::ObjectSource {
@@ -47,7 +47,7 @@ public:
     SlowSource(std::shared_ptr<SourceLog> log, SlowSourceOptions options)
         : log_(std::move(log)), options_(std::move(options)) {}
 
-    // Of an object, and while it is read.
+    // Size of an object in memory.
     static std::int64_t object_bytes() {
         static const std::int64_t bytes = drum()->memory_bytes() + std::int64_t{4096};
         return bytes;
@@ -61,9 +61,9 @@ public:
     }
 
     Result<compositor::ViewableObject> read(const std::filesystem::path& file, std::int64_t most_bytes,
-                                            const Tell& tell) override {
+                                            const ProgressCallback& on_progress) override {
         log_->add(most_bytes);
-        tell(0.5F);
+        on_progress(0.5F);
         std::this_thread::sleep_for(options_.reading);
         {
             const std::lock_guard lock(log_->mutex);
@@ -76,7 +76,7 @@ public:
         static const RaySpaceObject kDrum = drum_object();
         Result<compositor::ViewableObject> viewable = compositor::make_viewable(kDrum);
         log_->add(object_bytes() - most_bytes);
-        // Dies with the object.
+        // Released with the object.
         viewable->for_board =
             std::shared_ptr<const RaySpaceObject>(new RaySpaceObject(), [log = log_](const auto* object) {
                 delete object;

@@ -11,8 +11,8 @@ namespace rs::test {
 namespace {
 
 constexpr int kFarthest_px = 8;
-constexpr float kWhole = 0.99F;      // share from which a pixel counts as inside of an object
-constexpr float kAnything = 0.008F;  // of what two codes of 8 bits can tell
+constexpr float kWhole = 0.99F;      // coverage from which a pixel counts as inside of an object
+constexpr float kAnything = 0.008F;  // two codes of 8 bits
 
 compositor::Scene plain(compositor::Scene scene, const glm::vec3& colour) {
     for (compositor::GeometryNode& node : scene.geometry) {
@@ -40,10 +40,10 @@ struct SquaredError {
     }
 };
 
-// A place between two pixel centres at which coverage passes one half.
+// Position between two pixel centres at which coverage crosses one half.
 struct Crossing {
     glm::dvec2 place;
-    bool inside;  // both pixels lie inside of an object, so that only geometry can end it here
+    bool inside;  // both pixels are inside of an object, so that only geometry can end it here
 };
 
 std::vector<Crossing> crossings(const Image<float>& shown, const Image<float>& unhidden_a,

@@ -1,6 +1,6 @@
 #pragma once
-// How far composited frames are from the truth: colours where objects are seen and elsewhere, and the edges at which
-// geometry cuts objects.
+// Error of composited frames against traced references: colours on objects and elsewhere, and the positions of edges
+// where geometry occludes objects.
 
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "tests/compositor/truth_image.hpp"
@@ -9,26 +9,26 @@
 
 namespace rs::test {
 
-// Of places at which one of two images has such an edge; each looks for the nearest edge of the other, up to 8 px.
+// Distances from edge positions in either image to the nearest edge of the other, up to 8 px.
 struct EdgeDistances {
     int places = 0;
     double mean_px = 0;
-    double within_px = 0;  // 99 of 100 places
+    double within_px = 0;  // 99th percentile
     double largest_px = 0;
 };
 
 struct TruthDifference {
-    // dB with peak 255 over R, G, B of sRGB codes.
-    double objects_db = 99;    // pixels in which the truth or the frame shows something of an object
+    // PSNR over R, G, B of sRGB codes, in dB.
+    double objects_db = 99;    // pixels in which the reference or the frame shows an object
     double elsewhere_db = 99;  // all others
-    double alone_db = 99;      // objects without any geometry: what the engine's images can reach
-    double object_share = 0;   // of the pixels
+    double alone_db = 99;      // objects without geometry: upper bound given by the engine's images
+    double object_share = 0;   // fraction of the pixels
     EdgeDistances cuts;
     Image<Rgba8> frame;
     TruthImage truth;
 };
 
-// Needs a gl::Context that is current, and outlives it.
+// Requires a current gl::Context that outlives it.
 class TruthComparison {
 public:
     static Result<TruthComparison> create(const compositor::Scene& scene,
@@ -38,8 +38,7 @@ public:
     Result<TruthDifference> compare(const Camera& camera, const TruthOptions& options);
 
 private:
-    // The same scene with everything but objects in white and in black: their difference tells how much of a pixel
-    // objects cover.
+    // The scene with everything but the objects in white and in black: their difference gives the objects' coverage.
     struct Backdrops {
         compositor::FrameCompositor white;
         compositor::FrameCompositor black;
@@ -57,7 +56,7 @@ private:
     Backdrops with_geometry_;
     Backdrops without_;
     TruthScene truth_;
-    TruthScene objects_alone_;  // before black
+    TruthScene objects_alone_;  // on black
 };
 
 }  // namespace rs::test

@@ -26,7 +26,7 @@ glm::vec3 texel(const compositor::SceneTexture& texture, int x, int y) {
     return {linear_from_srgb8(pixel.r), linear_from_srgb8(pixel.g), linear_from_srgb8(pixel.b)};
 }
 
-// Between the four nearest texels; (0, 0) is the lower left corner.
+// Bilinear lookup; (0, 0) is the lower left corner.
 glm::vec3 texture_at(const compositor::SceneTexture& texture, const glm::vec2& st) {
     const float x = st.s * static_cast<float>(texture.image.width()) - 0.5F;
     const float y = (1 - st.t) * static_cast<float>(texture.image.height()) - 0.5F;
@@ -41,7 +41,7 @@ glm::vec3 texture_at(const compositor::SceneTexture& texture, const glm::vec2& s
 
 struct LitPoint {
     glm::vec3 place;
-    glm::vec3 normal;  // towards the eye's side
+    glm::vec3 normal;  // facing the eye
     glm::vec3 to_eye;
     glm::vec3 diffuse;
 };
@@ -89,7 +89,7 @@ Result<std::shared_ptr<const TracedObject>> TracedObject::create(capture::Scene 
     return std::shared_ptr<const TracedObject>(std::move(object));
 }
 
-// Geometry as one scene in the world's coordinates; material i is node i's.
+// Geometry as one scene in world coordinates; material i is that of node i.
 struct TruthScene::Room {
     compositor::Scene scene;
     capture::Scene meshes;

@@ -1,11 +1,11 @@
 #pragma once
-// What a composited frame ought to show: the same scene with the objects' meshes in place of their images, traced by
-// our tracer from the same camera.
+// Reference for composited frames: the same scene with the objects' meshes instead of their images, traced from the
+// same camera.
 //
-// For each sample of a pixel, the nearest of geometry and meshes counts. Meshes are traced in their own coordinates
-// with the light of their capture, so they look as when they were photographed, and what is brighter than a photograph
-// can hold is clipped as there. Geometry is shaded by the formula of VRML97 (ISO/IEC 14772-1, 4.14.4), written here a
-// second time and from the standard, by the lights of the scene. Nothing casts a shadow between the two.
+// Each sample takes the nearest hit of geometry and meshes. Meshes are traced in their own coordinates with the light
+// of their capture, clipped to the range of photos. Geometry is shaded by the formula of VRML97 (ISO/IEC 14772-1,
+// 4.14.4), implemented here independently from the standard, with the lights of the scene. There are no shadows between
+// the two.
 
 #include "capture/tracer/integrator/surface.hpp"
 #include "capture/tracer/light/light_set.hpp"
@@ -23,11 +23,11 @@
 
 namespace rs::test {
 
-// An object as it stood before the camera that captured it.
+// Object as it was in front of the capture camera.
 class TracedObject {
 public:
-    // `object_radius`: length of the object radius in the mesh's units (capture::SceneFile). The scene has passed
-    // capture::check_scene.
+    // \param object_radius length of the object radius in the mesh's units (capture::SceneFile). The scene must have
+    // passed capture::check_scene.
     static Result<std::shared_ptr<const TracedObject>> create(capture::Scene scene, double object_radius);
 
     [[nodiscard]] double object_radius() const { return object_radius_; }
@@ -53,21 +53,21 @@ struct TracedNode {
 
 struct TruthImage {
     Image<Rgba8> image;     // opaque
-    Image<float> objects;   // share of the pixel that shows objects
-    Image<float> unhidden;  // the same were there no geometry
+    Image<float> objects;   // fraction of the pixel covered by objects
+    Image<float> unhidden;  // same without geometry
 };
 
 struct TruthOptions {
     int samples = 16;          // per pixel, powers of two are stratified best
-    int paths_per_sample = 4;  // of those that meet an object
+    int paths_per_sample = 4;  // for samples that hit an object
 };
 
 class TruthScene {
 public:
-    // Of the scene its geometry, lights and background count; geometry must be opaque triangles without colours of
-    // their own or fog.
+    // Uses the scene's geometry, lights and background; geometry must be opaque triangles without vertex colours and
+    // fog.
     static Result<TruthScene> create(const compositor::Scene& scene, std::vector<TracedNode> nodes);
-    // On all threads; the same image whatever their number.
+    // Multithreaded; the result does not depend on the number of threads.
     [[nodiscard]] TruthImage render(const Camera& camera, const TruthOptions& options) const;
 
 private:

@@ -21,7 +21,7 @@ namespace {
 
 constexpr double kFieldOfView_rad = radians(60);
 
-// Lengths in metres; the visitor comes from +Z. Lights of every kind, and surfaces that shine.
+// Lengths in metres; the visitor enters from +Z. Lights of every kind, and emissive surfaces.
 constexpr const char* kRoom = R"(#VRML V2.0 utf8
 NavigationInfo { headlight FALSE }
 Background { skyColor 0.75 0.78 0.82 }
@@ -114,7 +114,7 @@ std::uint8_t code(double value) {
     return static_cast<std::uint8_t>(std::lround(std::clamp(value, 0.0, 255.0)));
 }
 
-// Smooth patterns that repeat, so that what is measured are cameras and light and not the filtering of texels.
+// Smooth periodic patterns, so that cameras and light are measured instead of texture filtering.
 Image<Rgba8> waves(const glm::dvec3& colour, double across, double along) {
     constexpr int kSide = 256;
     Image<Rgba8> image(kSide, kSide);

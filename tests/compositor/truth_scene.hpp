@@ -1,6 +1,6 @@
 #pragma once
-// The scene by which composited frames are compared with the truth (truth_image.hpp): a room with a table, a shelf, a
-// plinth, pillars and a low screen, procedural objects, and eight viewpoints of a visitor's walk.
+// Scene of the comparison with references (truth_image.hpp): a room with a table, a shelf, a plinth, pillars and a low
+// screen, procedural objects, and eight viewpoints of a visitor's walk.
 
 #include "capture/tracer/scene/scene_file.hpp"
 #include "compositor/scene/scene.hpp"
@@ -17,37 +17,37 @@
 
 namespace rs::test {
 
-// Procedural objects that the room shows.
+// Names of the procedural objects in the room.
 std::vector<std::string> truth_object_names();
 
-// Writes the room as VRML97 with its textures into `folder`, which should hold NAME.rso of all the names, and reads it
-// again.
+// Writes the room as VRML97 with its textures into `folder`, which should contain NAME.rso for all names, and reads it
+// back.
 Result<compositor::Scene> write_truth_room(const std::filesystem::path& folder);
 
 struct TruthViewpoint {
-    std::string what;  // a few words for tables
+    std::string what;  // short label for tables
     Camera camera;
 };
 std::vector<TruthViewpoint> truth_walk(int width, int height);
 
-// How an object is photographed for the comparison.
+// Capture parameters of the objects.
 struct TruthCapture {
-    std::vector<double> elevations_deg = {4, 10, 16};  // one ring each: about where a visitor's eyes are
-    int views = 60;                                    // of each ring
+    std::vector<double> elevations_deg = {4, 10, 16};  // one ring each: about the heights of a visitor's eyes
+    int views = 60;                                    // per ring
     int side_px = 384;
     int samples = 16;  // per pixel
 };
 
-// The procedural object of the recipe NAME.json: mesh, light and camera.
+// Procedural object of the recipe NAME.json: mesh, light and camera.
 Result<capture::SceneFile> object_of_recipe(const std::string& name);
 
-// Reads the objects of the scene's nodes and places them, in their order.
+// Reads and places the objects of the scene's nodes, in their order.
 Result<std::vector<compositor::PlacedObject>> read_placed_objects(const compositor::Scene& scene);
 
-// As the tracer has it in the truth.
+// Object for the tracer of the reference.
 Result<std::shared_ptr<const TracedObject>> traced_object(capture::SceneFile object);
 
-// Captures it, encodes it as rs-encode does by default, and writes folder/NAME.rso.
+// Captures the object, encodes it with the defaults of rs-encode, and writes folder/NAME.rso.
 Status write_captured_object(const std::string& name, capture::SceneFile object, const TruthCapture& capture,
                              const std::filesystem::path& folder, Progress* progress = nullptr);
 

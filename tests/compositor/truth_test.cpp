@@ -1,5 +1,5 @@
-// Composited frames against the same room traced with the meshes in the objects' places, small; bench_truth is the full
-// comparison. Skipped where no OpenGL context can be had.
+// Composited frames against references of the same room, in small size; bench_truth is the full comparison. Skipped
+// without OpenGL.
 
 #include "tests/compositor/gl_test.hpp"
 #include "tests/compositor/occlusion_scene.hpp"
@@ -23,7 +23,7 @@ protected:
     void SetUp() override {
         GlTest::SetUp();
         if (!context_) return;
-        // The room's own objects take minutes to capture; the signpost stands in for them all.
+        // The room's own objects take minutes to capture; the signpost replaces them.
         Result<compositor::Scene> scene = write_truth_room(folder_.path());
         ASSERT_TRUE(scene) << scene.error().message;
         scene_ = std::move(*scene);
@@ -59,7 +59,7 @@ TEST_F(Truth, FramesAreNearIt) {
     EXPECT_GT(cuts, 50) << "geometry must cut objects";
 }
 
-// The comparison must notice what it is there for: an object out of place, and geometry that hides too much.
+// The comparison detects displaced objects, and geometry that hides too much.
 TEST_F(Truth, ErrorsAreSeen) {
     const Camera camera = truth_walk(kTruthWidth, kTruthHeight)[0].camera;
     const TruthOptions options{.samples = 8, .paths_per_sample = 1};
@@ -71,11 +71,11 @@ TEST_F(Truth, ErrorsAreSeen) {
                                               {.width = kTruthWidth, .height = kTruthHeight, .object_samples = 1});
     ASSERT_TRUE(one_sample);
     EXPECT_LT(one_sample->compare(camera, options)->objects_db, objects_db - 1) << "far objects are averaged";
-    for (TracedNode& node : traced_) node.world_from_object.translation.x += 0.015;  // some two pixels
+    for (TracedNode& node : traced_) node.world_from_object.translation.x += 0.015;  // about two pixels
     auto moved = TruthComparison::create(scene_, placed_, traced_, frame);
     ASSERT_TRUE(moved);
     EXPECT_LT(moved->compare(camera, options)->objects_db, objects_db - 3);
-    // Nearer to the eye and smaller: the same image, but before the pillars.
+    // Nearer to the eye and smaller: the same image, but in front of the pillars.
     const compositor::Similarity nearer{glm::dmat3(1.0), camera.centre() * 0.7, 0.3};
     for (compositor::PlacedObject& object : placed_) object.world_from_object = nearer * object.world_from_object;
     auto before = TruthComparison::create(scene_, placed_, traced_, frame);

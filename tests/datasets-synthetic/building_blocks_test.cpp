@@ -1,4 +1,4 @@
-// The parts that objects are made of: numbers, shapes, paint, letters.
+// Building blocks of objects: random numbers, shapes, paint, letters.
 
 #include "datasets-synthetic/objects/petal.hpp"
 #include "datasets-synthetic/shapes/curve.hpp"
@@ -51,7 +51,7 @@ TEST(PortableMath, AgreesWithTheCLibrary) {
     }
 }
 
-// The first numbers that the reference implementation of PCG32 prints for seed 42, stream 54.
+// First numbers of the PCG32 reference implementation for seed 42, stream 54.
 TEST(Random, IsPcg32) {
     Random random(42, 54);
     for (const std::uint32_t expected : {0xA15C02B7U, 0x7B47F409U, 0xBA1D3330U, 0x83D2F293U, 0xBFA4784BU, 0xCBED606EU})
@@ -162,7 +162,7 @@ TEST(Shapes, KeptSurfacePointsAreUniformByArea) {
     int inner = 0;
     int kept = 0;
     while (kept < 20000) {
-        const SurfaceDraw draw = draw_point(disc, random);
+        const RejectionSample draw = sample_surface(disc, random);
         if (!draw.keep) continue;
         ASSERT_NEAR(disc.level(draw.point.position), 1.0F, 1e-4F);
         const vec3 p = draw.point.position;

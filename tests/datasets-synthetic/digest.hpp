@@ -1,5 +1,5 @@
 #pragma once
-// One number for all that a renderer sees of a scene's object.
+// Hash of a scene's meshes, textures and materials.
 
 #include "capture/tracer/scene/scene.hpp"
 

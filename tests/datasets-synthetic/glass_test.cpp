@@ -1,4 +1,4 @@
-// A ray that enters glass must leave it: glass is closed, and its faces look outwards.
+// Glass surfaces are closed with outward faces.
 
 #include "datasets-synthetic/objects.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 using capture::Mesh;
 using glm::vec3;
 
-// Vertices at the same place are one: texture seams and creases part vertices, not surfaces.
+// Merges vertices at equal positions, which texture seams and creases duplicate.
 struct WeldedMesh {
     std::vector<vec3> positions;
     std::vector<std::array<std::size_t, 3>> triangles;

@@ -1,5 +1,5 @@
-// The objects are the same bits with every compiler, optimisation level and C library. Who changes an object on purpose
-// replaces its number here and says why in the change's description; a number that changes by itself is a defect.
+// Objects are bit-identical with every compiler, optimisation level and C library. An intended change of an object
+// updates its hash here, with the reason in the commit message; any other change of a hash is a defect.
 
 #include "datasets-synthetic/objects.hpp"
 #include "tests/datasets-synthetic/digest.hpp"

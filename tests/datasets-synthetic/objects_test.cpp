@@ -1,4 +1,4 @@
-// What holds for every procedural object, whatever it shows.
+// Invariants of all procedural objects.
 
 #include "datasets-synthetic/objects.hpp"
 #include "tests/datasets-synthetic/digest.hpp"
@@ -33,7 +33,7 @@ vec3 face_cross(const Mesh& mesh, glm::uvec3 t) {
 
 class EveryObject : public testing::TestWithParam<std::string> {
 protected:
-    // Made once in a process, however many tests run in it.
+    // Generated once per process.
     static const Scene& scene() {
         static std::map<std::string, Scene> made;
         const std::string& name = GetParam();

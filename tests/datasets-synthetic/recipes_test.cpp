@@ -1,4 +1,4 @@
-// The recipes that come with the objects can be read, and their cameras see all of the object.
+// The objects' recipes are valid, and their cameras show the whole object.
 
 #include "capture/tracer/scene/scene_check.hpp"
 #include "capture/tracer/scene/scene_file.hpp"
@@ -55,7 +55,7 @@ TEST_P(EveryRecipe, ShowsAllOfTheObject) {
     }
 }
 
-// Those of the objects, and of their cartoons.
+// Recipes of the objects and of their toon versions.
 std::vector<std::string> recipe_names() {
     std::vector<std::string> names = object_names();
     names.insert(names.end(), {"blocks-toon", "doll-toon", "vase-toon"});

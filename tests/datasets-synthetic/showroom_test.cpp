@@ -1,5 +1,5 @@
-// The showroom as a visitor and a renderer need it: about as large as announced, every face has an area and the right
-// side, solids are closed, nothing flickers, objects stand on something, and the way leads through without bumping.
+// Geometry of the showroom: size as documented, no degenerate or reversed faces, closed solids, no coplanar overlap,
+// supported objects, and a camera path without collisions.
 
 #include "datasets-synthetic/showroom/showroom.hpp"
 #include "capture/tracer/scene/scene_file.hpp"
@@ -73,7 +73,7 @@ TEST(Showroom, EveryFaceHasAnAreaAndItsNormals) {
     }
 }
 
-// Edges are compared by their ends, rounded to a fifth of a millimetre.
+// Edges are identified by their ends, rounded to 0.2 mm.
 using Corner = std::tuple<long, long, long>;
 Corner corner(const dvec3& p) {
     return {std::lround(p.x * 5000), std::lround(p.y * 5000), std::lround(p.z * 5000)};

@@ -1,4 +1,4 @@
-// The street as files: the same bytes every time, objects that stand apart, traffic that keeps its distance.
+// Street files: deterministic bytes, separate objects, traffic that keeps its distance.
 
 #include "datasets-synthetic/street/street.hpp"
 #include "datasets-synthetic/street/traffic.hpp"
@@ -36,7 +36,7 @@ std::map<std::string, std::string> files_of(const fs::path& folder) {
 TEST(Street, IsTheSameEveryTime) {
     const test::TemporaryFolder folder;
     StreetOptions options;
-    options.scenario = usual_scenario();
+    options.scenario = default_scenario();
     options.scenario.seconds = 0.12;
     options.texture_scale = 0.1F;
     for (const char* name : {"a", "b"}) ASSERT_TRUE(write_street(options, folder / name));
@@ -53,7 +53,7 @@ TEST(Street, IsTheSameEveryTime) {
 TEST(Street, NamesObjectsThatAreNotThere) {
     const test::TemporaryFolder folder;
     StreetOptions options;
-    options.scenario = usual_scenario();
+    options.scenario = default_scenario();
     options.scenario.seconds = 0.04;
     options.texture_scale = 0.1F;
     options.objects = "..";
@@ -88,9 +88,9 @@ TEST(Street, VehiclesStandOnTheirWheels) {
     }
 }
 
-// Ninety seconds: nobody drives through the one ahead, or over the crossing while others do.
+// Ninety seconds without collisions between vehicles or on the crossing.
 TEST(Street, TrafficKeepsItsDistance) {
-    Scenario scenario = usual_scenario();
+    Scenario scenario = default_scenario();
     scenario.seconds = 90;
     scenario.frames_per_second = 10;
     for (TrafficSource& source : scenario.sources) source.count *= 4;
@@ -102,13 +102,13 @@ TEST(Street, TrafficKeepsItsDistance) {
         bool main = false;
         bool other = false;
         for (std::size_t i = 0; i < frame.vehicles.size(); ++i) {
-            const VehiclePlace& a = frame.vehicles[i];
+            const VehiclePose& a = frame.vehicles[i];
             const bool on_crossing = std::max(std::abs(a.place.x), std::abs(a.place.z)) < 3;
             const bool along_x = std::abs(std::remainder(a.turn_deg, 180)) < 1;
             main = main || (on_crossing && along_x);
             other = other || (on_crossing && !along_x);
             for (std::size_t j = 0; j < i; ++j) {
-                const VehiclePlace& b = frame.vehicles[j];
+                const VehiclePose& b = frame.vehicles[j];
                 if (a.turn_deg != b.turn_deg) continue;
                 const double apart = glm::distance(a.place, b.place);
                 EXPECT_GT(apart, (length[a.model] + length[b.model]) / 2 + 0.5);
@@ -123,7 +123,7 @@ TEST(Street, TrafficKeepsItsDistance) {
 }
 
 TEST(Scenario, IsReadStrictlyAndWrittenAsItIs) {
-    const std::string text = scenario_json(usual_scenario());
+    const std::string text = scenario_json(default_scenario());
     const auto read = scenario_from_json(text, "s.json");
     ASSERT_TRUE(read) << read.error().message;
     EXPECT_EQ(scenario_json(*read), text);

@@ -1,4 +1,4 @@
-// The showroom as files: the same bytes every time, whole, and with a RaySpace node for every object.
+// Showroom files: deterministic bytes, complete, with a RaySpace node for every object.
 
 #include "datasets-synthetic/showroom/world_file.hpp"
 #include "datasets-synthetic/showroom/showroom.hpp"
@@ -81,7 +81,7 @@ TEST(WorldFile, NamesWhatIsThere) {
     EXPECT_EQ(walk["camera"]["frames"], world.walk_frames);
 }
 
-// The words after "description" up to the orientation's angle, turned back into a line of sight.
+// Parses a viewpoint and converts its orientation to a viewing direction.
 TEST(WorldFile, ViewpointsLookAtTheirPoint) {
     World world;
     world.viewpoints = {
@@ -89,7 +89,7 @@ TEST(WorldFile, ViewpointsLookAtTheirPoint) {
     const std::string text = vrml_text(world, ".");
     EXPECT_NE(text.find("\"ahead\" position 0 1 0 orientation 0 1 0 0 "), std::string::npos) << text;
     EXPECT_NE(text.find("\"left\" position 0 1 0 orientation 0 1 0 1.5708 "), std::string::npos) << text;
-    // Right by 90 degrees, then down by 45: as matrices multiply, checked by hand.
+    // Right by 90 degrees, then down by 45; reference computed by hand.
     EXPECT_NE(text.find("\"down\" position 0 1 0 orientation -0.3574 -0.8629 -0.3574 1.7178 "), std::string::npos)
         << text;
 }

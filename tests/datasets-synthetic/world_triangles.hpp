@@ -1,5 +1,5 @@
 #pragma once
-// The triangles of a world one by one, and what tests ask of them.
+// Triangles of a world and predicates for tests.
 
 #include "datasets-synthetic/showroom/world.hpp"
 
@@ -17,7 +17,7 @@ struct WorldTriangle {
     [[nodiscard]] glm::dvec3 normal() const {
         return glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
     }
-    // Points all over it, at most `step` apart along its sides.
+    // Points on the triangle, at most `step` apart along its sides.
     [[nodiscard]] std::vector<glm::dvec3> samples(double step) const {
         double longest = 0;
         for (std::size_t k = 0; k < 3; ++k)
@@ -47,7 +47,8 @@ inline std::vector<WorldTriangle> triangles_of(const World& world) {
     return triangles;
 }
 
-// Whether two triangles in one plane across `axis` share more than a strip of `margin`: no side of either parts them.
+// Returns true if two triangles in a plane perpendicular to `axis` overlap by more than `margin` (separating axis
+// test).
 inline bool overlap(const WorldTriangle& a, const WorldTriangle& b, int axis, double margin) {
     const int u = (axis + 1) % 3;
     const int v = (axis + 2) % 3;

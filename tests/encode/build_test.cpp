@@ -1,4 +1,4 @@
-// Capture sets on disk -> objects: what is stored, what is refused, and what upright resampling does.
+// Builds objects from capture sets on disk: stored content, rejected sets, and upright resampling.
 
 #include "encode/build.hpp"
 #include "encode/set/upright_resampling.hpp"
@@ -42,7 +42,7 @@ TEST(Build, UprightImagesAreStoredAsTheyAreAndComeBackFromTheFile) {
     EXPECT_EQ(read->rings, built->object.rings);
     EXPECT_EQ(read->images, built->object.images);
 
-    // extract: the stored images as a capture set that can be built again.
+    // Extract the stored images as a capture set that can be built again.
     ASSERT_TRUE(extract_images(*read, folder / "extracted").ok());
     const Result<CaptureSet> again = open_capture_set(folder / "extracted");
     ASSERT_TRUE(again.ok()) << again.error().message;
@@ -53,7 +53,7 @@ TEST(Build, UprightImagesAreStoredAsTheyAreAndComeBackFromTheFile) {
 
 TEST(Build, TheFootIsStoredWhereTheRigTellsIt) {
     const test::TemporaryFolder folder;
-    Rig rig = test::drawn_ring(8, 20);  // looks down: made upright about the same axis
+    Rig rig = test::drawn_ring(8, 20);  // pitched cameras, resampled to upright ones about the same axis
     rig.foot_height = -0.45;
     rig.object_radius = 0.9;
     test::write_drawn_set(folder / "set", rig);
@@ -126,15 +126,15 @@ TEST(BuildErrors, AImageThatShowsWhatIsStraightBelowIsRefused) {
 TEST(UprightResampling, TheSameCameraGivesTheSameImage) {
     const Camera camera = test::drawn_ring(8).views[1].camera;
     const Image<Rgba8> image = test::drawn_image(camera);
-    EXPECT_GT(compare_images_psnr(resampled_image(camera, camera, image), image).psnr_db(), 55);
+    EXPECT_GT(compare_images_psnr(resample_image(camera, camera, image), image).psnr_db(), 55);
 }
 
 TEST(UprightResampling, OccupiedBoxIsTight) {
     Image<Rgba8> image(10, 8);
-    EXPECT_TRUE(occupied_box(image).empty());
+    EXPECT_TRUE(find_occupied_box(image).empty());
     image(3, 2).a = 1;
     image(6, 5).a = 255;
-    const PixelBox box = occupied_box(image);
+    const PixelBox box = find_occupied_box(image);
     EXPECT_EQ(box.x0, 3);
     EXPECT_EQ(box.y0, 2);
     EXPECT_EQ(box.x1, 7);
@@ -218,11 +218,10 @@ TEST(CaptureSetMemory, IsBoundedBeforehand) {
     EXPECT_TRUE(check_memory(set, needed).ok());
     const Status refused = check_memory(set, needed - 1);
     ASSERT_FALSE(refused.ok());
-    EXPECT_EQ(
-        refused.error().message,
-        "hemisphere/transforms.json: 250 images of 886x5814 (made upright, those of 800x800 become so large) take "
-        "about 20.6 GB of memory, and this machine has 20.6; leave out the steepest views, or make the images "
-        "smaller");
+    EXPECT_EQ(refused.error().message,
+              "hemisphere/transforms.json: 250 images of 886x5814 (enlarged from 800x800 to be upright) take "
+              "about 20.6 GB of memory, and this machine has 20.6; leave out the steepest views, or make the images "
+              "smaller");
 }
 
 }  // namespace

@@ -1,9 +1,9 @@
-// Which views are held out, what is kept of the set, and who stands in for a held-out view.
+// Hold-out selection, subsets of a set, and the kept view nearest to a held-out view.
 
 #include "encode/hold_out.hpp"
 #include "encode/build.hpp"
+#include "encode/evaluation/evaluation.hpp"
 #include "encode/set/capture_set.hpp"
-#include "encode/tools/evaluation.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/image_metrics.hpp"
 #include "tests/support/drawn_set.hpp"
@@ -25,7 +25,7 @@ TEST(HoldOut, OfEachRunTheMiddleViewIsHeldOut) {
     ASSERT_TRUE(second.ok()) << second.error().message;
     EXPECT_THAT(second->held, ElementsAre(1, 3, 5));
     EXPECT_THAT(second->kept, ElementsAre(0, 2, 4, 6));
-    // The last run of three has two views, of which index 1 is there.
+    // The last run of three has two views, including index 1.
     const Result<HoldOut> third = choose_hold_out(test::drawn_ring(8), 3, "set");
     ASSERT_TRUE(third.ok());
     EXPECT_THAT(third->held, ElementsAre(1, 4, 7));
@@ -36,7 +36,7 @@ TEST(HoldOut, OfEachRunTheMiddleViewIsHeldOut) {
 
 TEST(HoldOut, RunsFollowTheTurnAndEachRingHasItsOwn) {
     Rig rig = test::drawn_ring(4);
-    // The order of the file is not the order of the turn: 0, 2, 1, 3.
+    // File order differs from turning order: 0, 2, 1, 3.
     std::swap(rig.views[1], rig.views[2]);
     const Rig above = test::drawn_ring(3, 20);
     rig.views.insert(rig.views.end(), above.views.begin(), above.views.end());
@@ -79,23 +79,23 @@ TEST(NearestKeptView, IsNearestInTheTurnOfTheNearestRing) {
     EXPECT_EQ(nearest_kept_view(ring, {{0, 5}, {11}}, 11), 0);  // across +Z
     EXPECT_EQ(nearest_kept_view(ring, {{0, 5}, {11}}, 4), 5);
 
-    // The ring above has a view at the very azimuth; the view's own ring answers all the same.
+    // The ring above has a view at the same azimuth, but the view's own ring has precedence.
     Rig two = test::drawn_ring(4);
     const Rig above = test::drawn_ring(8, 30);
     two.views.insert(two.views.end(), above.views.begin(), above.views.end());
     EXPECT_EQ(nearest_kept_view(two, {{0, 2, 5, 6}, {1}}, 1), 0);
-    // No view of its ring is kept: the other ring answers.
+    // No view of its ring is kept, so the other ring is used.
     EXPECT_EQ(nearest_kept_view(two, {{4, 6, 8}, {1}}, 1), 6);
 }
 
 TEST(WithViews, KeepsWhatTheWholeSetHas) {
     const test::TemporaryFolder folder;
-    Rig rig = test::drawn_ring(8, 20);  // looks down: images are made upright, in one frame for all
+    Rig rig = test::drawn_ring(8, 20);  // pitched cameras, resampled to upright images of one frame size
     rig.object_radius = 0;              // measured over all images
     test::write_drawn_set(folder / "set", rig);
     const Result<CaptureSet> all = open_capture_set(folder / "set");
     ASSERT_TRUE(all.ok()) << all.error().message;
-    const CaptureSet some = with_views(*all, std::vector<int>{1, 6});
+    const CaptureSet some = select_views(*all, std::vector<int>{1, 6});
     ASSERT_EQ(some.upright.views.size(), 2U);
     EXPECT_EQ(some.upright.object_radius, all->upright.object_radius);
     EXPECT_EQ(some.width, all->width);
@@ -109,7 +109,7 @@ TEST(WithViews, KeepsWhatTheWholeSetHas) {
     CaptureSet completed = *all;
     completed.completed = {{3, Image<Rgba8>(2, 2)}, {6, Image<Rgba8>(1, 1)}};
     EXPECT_EQ(read_upright_image(completed, 6)->width(), 1);
-    const CaptureSet some_completed = with_views(completed, std::vector<int>{1, 6});
+    const CaptureSet some_completed = select_views(completed, std::vector<int>{1, 6});
     EXPECT_EQ(some_completed.completed.size(), 1U);
     EXPECT_EQ(read_upright_image(some_completed, 1)->width(), 1);
     EXPECT_EQ(read_upright_image(some_completed, 0)->width(), all->width);
@@ -136,7 +136,7 @@ TEST(Evaluation, ScoresOnlyWhatWasHeldOutAgainstItsOwnImage) {
 
     std::mutex mutex;
     std::multiset<int> looked;
-    const auto look = [&](const AnsweredView& answered) -> Status {
+    const auto look = [&](const EvaluatedView& answered) -> Status {
         const std::lock_guard lock(mutex);
         looked.insert(answered.view);
         EXPECT_EQ(answered.view, hold_out.held[answered.number]);
@@ -160,7 +160,7 @@ TEST(Evaluation, ScoresOnlyWhatWasHeldOutAgainstItsOwnImage) {
         for (const HeldOutScore& view : method.views) mean += view.psnr_db / 12;
         EXPECT_NEAR(method.mean_psnr_db, mean, 1e-9) << method.method;
         EXPECT_LE(method.pooled_psnr_db, method.mean_psnr_db + 1e-9) << method.method;
-        // Balls seen from 15 degrees aside: neither perfect nor nonsense.
+        // Balls seen from 15 degrees aside: neither perfect nor unrelated.
         EXPECT_GT(method.mean_psnr_db, 8) << method.method;
         EXPECT_LT(method.mean_psnr_db, 45) << method.method;
     }
@@ -174,7 +174,7 @@ TEST(Evaluation, WhatLookingFailsWithIsReturned) {
     EvaluationOptions options;
     options.methods = {Method::kPhoto};
     const auto scores = evaluate(*set, *choose_hold_out(set->upright, 2, "set"), options,
-                                 [](const AnsweredView&) -> Status { return Error{"no room"}; });
+                                 [](const EvaluatedView&) -> Status { return Error{"no room"}; });
     ASSERT_FALSE(scores.ok());
     EXPECT_EQ(scores.error().message, "no room");
 }

@@ -1,4 +1,4 @@
-// Parsers that take files by their names: the bytes stand in a folder of the process's own.
+// Entries of parsers that take file names: the bytes are written to a folder of the process.
 #include "capture/tracer/scene/mesh_file.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
 #include "rayspace/base/check.hpp"
@@ -53,7 +53,7 @@ void read_object(const fs::path& path) {
     }
 }
 
-// As a room, and as an object to photograph.
+// Reads a model as a room, and as an object to be captured.
 void read_model(const fs::path& path) {
     if (const auto scene = compositor::read_scene(path); accepted(scene)) check_scene(*scene);
     read_object(path);
@@ -101,7 +101,7 @@ int fuzz_film(const std::uint8_t* data, std::size_t size) {
     const VideoInfo info = reader->info();
     RS_CHECK(info.width >= 1 && info.width <= kMaxImageSide_px && info.height >= 1);
     RS_CHECK(info.height <= kMaxImageSide_px && info.orientation >= 1 && info.orientation <= 8);
-    constexpr std::int64_t kMostPixels = 1 << 20;  // keeps an input below a second and 100 MB
+    constexpr std::int64_t kMostPixels = 1 << 20;  // limits an input to one second and 100 MB
     if (std::int64_t{info.width} * info.height > kMostPixels) return 0;
     Image<Rgba8> frame;
     for (int i = 0; i < 16; ++i) {

@@ -6,7 +6,7 @@
 
 namespace rs::fuzz {
 
-// Where no file is named, what was read is written as it was, and lights a scene.
+// Lists without file names must survive a round trip and be usable in a scene.
 int fuzz_lights(const std::uint8_t* data, std::size_t size) {
     const std::filesystem::path nowhere = "/nonexistent/lights.json";
     const std::string text(reinterpret_cast<const char*>(data), size);

@@ -8,7 +8,7 @@
 namespace rs::fuzz {
 namespace {
 
-// What was read shines within reason, and is drawn from where it shines.
+// Accepted luminaires must have plausible intensities and be drawable.
 void check_luminaire(const Result<Luminaire>& read) {
     if (!read) {
         RS_CHECK(read.error().message.find('\n') == std::string::npos);

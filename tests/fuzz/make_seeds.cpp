@@ -1,4 +1,4 @@
-// Writes the seed files of the corpus: `make_fuzz_seeds tests/fuzz/corpus`. Run it again when the format changes.
+// Writes the seed files of the corpus: `make_fuzz_seeds tests/fuzz/corpus`. Must be run again when the format changes.
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_chunks.hpp"
 #include "rayspace/format/object_file.hpp"
@@ -26,7 +26,7 @@ Status write_seeds(const fs::path& corpus) {
     one_ring.height = 2;
     test::SmallObjectOptions two_rings = one_ring;
     two_rings.rings = 2;
-    // Gaps without lines, too; two rings, only one of which has a shape map.
+    // Includes gaps without lines; two rings, only one of which has a shape map.
     const test::SmallShapeOptions shape{.p_cells = 5, .bands = 4, .lines = {2, 0, 1}};
     RaySpaceObject with_shape = test::small_object(two_rings);
     with_shape.rings[1].shape = test::small_shape(with_shape, 1, shape);
@@ -49,7 +49,7 @@ Status write_seeds(const fs::path& corpus) {
         for (const ChunkEntry& entry : reader->table()) {
             auto payload = reader->read(entry);
             if (!payload) return payload.error();
-            // Mutations get at numbers that are not compressed.
+            // Uncompressed, so that mutations change the numbers.
             if (entry.name == object_chunks::kRing && name == std::string_view("two-rings")) {
                 payload = object_chunks::ring_payload(object, entry.index, object_chunks::LineCoding::kPlain);
             }

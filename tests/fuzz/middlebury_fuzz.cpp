@@ -15,7 +15,7 @@ int fuzz_middlebury(const std::uint8_t* data, std::size_t size) {
         RS_CHECK(file.error().message.find('\n') == std::string::npos);
         return 0;
     }
-    // What was accepted is complete and finite.
+    // Accepted files are complete and finite.
     const capture::KnownInputs& known = file->known;
     RS_CHECK(known.f_px && known.principal_point && known.distortion && known.pose && known.angles_rad);
     RS_CHECK(*known.f_px > 0 && std::isfinite(*known.f_px));

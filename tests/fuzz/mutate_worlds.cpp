@@ -1,6 +1,6 @@
-// mutate_worlds COUNT SEED WORLD.wrl...: reads COUNT mutations of the worlds in this process, and tells how many were
-// read, how many refused, and the longest time. A crash shows as one; a mutation that takes more than 20 s ends the
-// program. The mutation in work stands in mutation.wrl in the working folder.
+// mutate_worlds COUNT SEED WORLD.wrl...: reads COUNT mutations of the worlds in this process, and prints the numbers of
+// accepted and rejected ones, and the longest time. A crash ends the program, as does a mutation that takes more than
+// 20 s. The current mutation is stored in mutation.wrl in the working folder.
 #include "compositor/scene/reader/vrml_file.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "tests/fuzz/entries.hpp"

@@ -47,7 +47,7 @@ constexpr std::array kStrange = {"-1",
 constexpr std::array kNumbers = {"-1",   "0",     "1",     "2",     "3",  "7",   "100",
                                  "1e38", "-1e38", "1e-30", "99999", "-2", "0.5", "2147483647"};
 
-// Words, brackets and the space between them, so that they can be put together again.
+// Splits into words, brackets and the space between them, which can be joined again.
 std::vector<std::string> pieces_of(const std::string& world) {
     std::vector<std::string> pieces;
     for (std::size_t i = 0; i < world.size();) {
@@ -76,7 +76,7 @@ bool is_number(const std::string& piece) {
     return std::isdigit(static_cast<unsigned char>(first)) != 0 || ((first == '-' || first == '.') && piece.size() > 1);
 }
 
-// After the bracket that closes the one at `at`.
+// The index after the bracket that closes the one at `at`.
 std::size_t after_close(const std::vector<std::string>& pieces, std::size_t at) {
     int open = 0;
     for (std::size_t i = at; i < pieces.size(); ++i) {
@@ -86,7 +86,7 @@ std::size_t after_close(const std::vector<std::string>& pieces, std::size_t at) 
     return pieces.size();
 }
 
-// Changes that keep the syntax: numbers, and whole lists and bodies.
+// Changes that keep the syntax: numbers, whole lists and node bodies.
 void change_gently(std::vector<std::string>& pieces, std::size_t first, std::mt19937_64& random) {
     const auto below = [&](std::size_t count) { return static_cast<std::size_t>(random() % count); };
     const auto find = [&](auto&& wanted) {
@@ -112,7 +112,7 @@ void change_gently(std::vector<std::string>& pieces, std::size_t first, std::mt1
             if (closed > opened + 2) pieces.erase(at(opened + 1), at(closed - 1));
             break;
         case 3: {
-            // A whole node into a list of nodes.
+            // Insert a whole node into a list of nodes.
             const std::size_t list = find([](const std::string& piece) { return piece == "["; });
             if (opened < 2 || pieces[opened] != "{" || list < 2 || pieces[list - 2] != "children") break;
             const std::vector<std::string> node(at(opened - 2), at(closed));
@@ -120,7 +120,7 @@ void change_gently(std::vector<std::string>& pieces, std::size_t first, std::mt1
             break;
         }
         default: {
-            // Names and types of another place.
+            // Names and types from another place.
             const auto is_word = [&](const std::string& piece) {
                 return std::isalpha(static_cast<unsigned char>(piece[0])) != 0;
             };
@@ -138,7 +138,7 @@ std::string mutated_world(const std::vector<std::string>& worlds, std::mt19937_6
     };
     std::vector<std::string> pieces = pieces_of(worlds[below(worlds.size())]);
     const std::vector<std::string> others = pieces_of(worlds[below(worlds.size())]);
-    // The header stays in most of them: the first line's words.
+    // Most mutations keep the header: the first line's words.
     const std::size_t first = below(20) == 0 ? 0 : std::min<std::size_t>(6, pieces.size());
     if (below(2) == 0 && pieces.size() > first + 8) {
         for (std::size_t count = 1 + below(6); count > 0; --count) change_gently(pieces, first, random);

@@ -1,6 +1,6 @@
 #pragma once
-// VRML worlds with faults, made from whole ones: bytes are changed, and words and brackets dropped, doubled, exchanged
-// and replaced, so that many get past the syntax.
+// Creates faulty VRML worlds from valid ones: changes bytes, and drops, doubles, exchanges and replaces words and
+// brackets, so that many pass the syntax check.
 
 #include <random>
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace rs::fuzz {
 
-// A mutation of one of the worlds, with pieces of the others. Depends on the generator's state alone.
+/// A mutation of one of the worlds, with pieces of the others. Depends only on the generator's state.
 std::string mutated_world(const std::vector<std::string>& worlds, std::mt19937_64& random);
 
 }  // namespace rs::fuzz

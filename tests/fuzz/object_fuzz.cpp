@@ -8,7 +8,7 @@
 namespace rs::fuzz {
 namespace {
 
-// What was accepted must survive being written: the payloads that the writer makes of it give the same object again.
+// Accepted objects must survive a round trip: the writer's payloads give the same object again.
 void check_rewriting(const RaySpaceObject& object) {
     using namespace object_chunks;
     std::vector<SoupChunk> chunks;
@@ -23,7 +23,7 @@ void check_rewriting(const RaySpaceObject& object) {
     RS_CHECK(again->views == object.views && again->rings == object.rings && again->images == object.images);
 }
 
-// What was accepted must be safe to render, from anywhere.
+// Accepted objects must be safe to render from any viewpoint.
 void check_rendering(const RaySpaceObject& object) {
     // In front, close by, far below, and nearly overhead, where rays have the least horizontal length.
     for (const glm::dvec3 eye :

@@ -9,7 +9,7 @@ int fuzz_rig(const std::uint8_t* data, std::size_t size) {
         RS_CHECK(rig.error().message.find('\n') == std::string::npos);
         return 0;
     }
-    // What was accepted must survive being written, to the last bit.
+    // Accepted rigs must survive a round trip without loss.
     const auto again = rig_from_json(rig_to_json(*rig), "again");
     RS_CHECK(again.ok());
     RS_CHECK(again->views.size() == rig->views.size());

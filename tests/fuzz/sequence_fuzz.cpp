@@ -9,7 +9,7 @@
 
 namespace rs::fuzz {
 
-// What was read can be placed; what was not is told in one line with its place.
+// Accepted sequences can be placed in a scene; rejected ones give a one-line error with its place.
 int fuzz_sequence(const std::uint8_t* data, std::size_t size) {
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     const auto read = compositor::parse_extended_obj(text, "fuzz.obj");

@@ -36,7 +36,7 @@ int fuzz_vrml1(const std::uint8_t* data, std::size_t size) {
 }
 
 int fuzz_x3d(const std::uint8_t* data, std::size_t size) {
-    // Past the first "<" all bytes are the fuzzer's.
+    // All bytes after the first "<" are fuzzer input.
     const std::string_view text = text_of(data, size);
     return read_world("<" + std::string(text.substr(text.starts_with("<") ? 1 : 0)));
 }

@@ -1,4 +1,4 @@
-// Tools that are killed while they replace what is there: it stays, or the new one stands there whole.
+// Kills tools while they replace a file: either the old or the complete new one exists afterwards.
 
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/rig.hpp"
@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Starts the tool and kills it `after`; true where it had not ended by then.
+// Starts the tool and kills it `after`; true if it was still running.
 bool killed(const std::string& tool, std::vector<std::string> arguments, std::chrono::microseconds after, int signal) {
     const std::string program = std::string(RAYSPACE_TOOLS_DIR) + "/" + tool;
     arguments.insert(arguments.begin(), program);
@@ -76,7 +76,7 @@ TEST(HostileKills, WhatIsThereStaysWhole) {
         }
     }
     EXPECT_GT(kills, 0);
-    // Whoever comes next clears away what the killed ones left.
+    // The next run removes the leftovers of the killed ones.
     ASSERT_EQ(test::run_tool(folder.path(), "rs-encode", build).exit_code, 0);
     ASSERT_EQ(test::run_tool(folder.path(), "rs-encode", extract).exit_code, 0);
     for (const auto& entry : fs::directory_iterator(folder.path())) {

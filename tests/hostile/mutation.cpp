@@ -47,29 +47,29 @@ std::ptrdiff_t at(std::size_t i) {
 
 constexpr std::array kMagic = {std::byte{0x28}, std::byte{0xB5}, std::byte{0x2F}, std::byte{0xFD}};
 
-// Mutates what the first Zstandard frame of the bytes holds; false where there is none.
+// Mutates the content of the first Zstandard frame of the bytes; false if there is none.
 bool mutate_compressed(std::vector<std::byte>& bytes, Random& random) {
     const auto frame = std::search(bytes.begin(), bytes.end(), kMagic.begin(), kMagic.end());
     if (frame == bytes.end()) return false;
     const std::vector<std::byte> rest(frame, bytes.end());
-    const auto size = stated_zstd_bytes(rest);
+    const auto size = read_zstd_content_size(rest);
     if (!size || *size > (std::uint64_t{1} << 24)) return false;
-    const auto content = zstd_content(rest, *size, "it");
+    const auto content = decompress_zstd(rest, *size, "it");
     if (!content) return false;
     std::vector<std::byte> inside(content->size());
     std::memcpy(inside.data(), content->data(), inside.size());
     const std::size_t before = inside.size();
     mutate_bytes(inside, random);
-    if (below(random, 4) != 0) inside.resize(before);  // what the chunk says of the size stays true
+    if (below(random, 4) != 0) inside.resize(before);  // the size stated in the chunk stays valid
     std::vector<std::uint8_t> numbers(inside.size());
     if (!inside.empty()) std::memcpy(numbers.data(), inside.data(), inside.size());
-    const std::vector<std::byte> again = zstd_frame(numbers);
+    const std::vector<std::byte> again = compress_zstd(numbers);
     bytes.erase(frame, bytes.end());
     bytes.insert(bytes.end(), again.begin(), again.end());
     return true;
 }
 
-// Runs of letters and digits, of space, and single other characters.
+// Splits into runs of letters and digits, runs of space, and single other characters.
 std::vector<std::string> pieces_of(const std::string& text) {
     std::vector<std::string> pieces;
     const auto kind = [](char c) {
@@ -95,7 +95,7 @@ std::size_t below(Random& random, std::size_t count) {
 
 void mutate_bytes(std::vector<std::byte>& bytes, Random& random) {
     if (bytes.empty()) bytes.push_back(std::byte{0});
-    // Heads hold the sizes and counts.
+    // Prefer heads, which contain the sizes and counts.
     const auto place = [&] {
         return below(random, below(random, 2) == 0 ? std::min<std::size_t>(bytes.size(), 96) : bytes.size());
     };
@@ -174,7 +174,7 @@ void mutate_chunks(std::vector<fuzz::SoupChunk>& chunks, Random& random) {
     }
 }
 
-std::string mutated_text(const std::string& text, Random& random) {
+std::string mutate_text(const std::string& text, Random& random) {
     std::vector<std::string> pieces = pieces_of(text);
     for (std::size_t n = 1 + below(random, 3); n > 0 && !pieces.empty(); --n) {
         std::size_t one = below(random, pieces.size());

@@ -1,5 +1,5 @@
 #pragma once
-// Files with faults, made from whole ones. What a mutation does depends on the generator's state alone.
+// Creates faulty files from valid ones. Mutations depend only on the generator's state.
 
 #include "tests/fuzz/chunk_soup.hpp"
 
@@ -12,17 +12,17 @@ namespace rs::test {
 
 using Random = std::mt19937_64;
 
-// Below `count`, which is above 0.
+/// A random index below `count`, which is above 0.
 std::size_t below(Random& random, std::size_t count);
 
-// Bits turned, numbers of any width replaced by those at the ends of their ranges, bytes cut off, moved and repeated.
+/// Flips bits, replaces numbers of any width by extreme values, removes, moves and repeats bytes.
 void mutate_bytes(std::vector<std::byte>& bytes, Random& random);
 
-// The same inside of chunks, and inside of what they hold compressed; chunks that are lost, doubled, exchanged and
-// renamed. Checksums and frames are made anew by whoever puts them together again (fuzz::container_of).
+/// Mutates the contents of chunks and of their compressed frames; removes, doubles, exchanges and renames chunks.
+/// fuzz::container_of recomputes checksums and frames.
 void mutate_chunks(std::vector<fuzz::SoupChunk>& chunks, Random& random);
 
-// Numbers, words, brackets, quotes and lines of a text changed, lost, doubled and exchanged.
-std::string mutated_text(const std::string& text, Random& random);
+/// Changes, removes, doubles and exchanges numbers, words, brackets, quotes and lines of a text.
+std::string mutate_text(const std::string& text, Random& random);
 
 }  // namespace rs::test

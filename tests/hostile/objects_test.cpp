@@ -1,5 +1,4 @@
-// Objects whose chunks are faulty behind sound checksums: refused with one line, or drawn, the same by definition and
-// core.
+// Objects with faulty chunks and valid checksums: rejected with one line, or rendered equally by definition and core.
 
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/core/fast/renderer.hpp"
@@ -20,7 +19,7 @@ namespace {
 
 using fuzz::SoupChunk;
 
-// The objects of the conformance set: every profile, map and shape of ring.
+// Objects of the conformance set: every profile, map and ring shape.
 std::vector<std::vector<SoupChunk>> sound_objects() {
     std::vector<std::vector<SoupChunk>> objects;
     const std::filesystem::path folder = std::filesystem::path(RAYSPACE_SOURCE_DIR) / "engine/conformance/vectors";
@@ -42,8 +41,8 @@ std::vector<std::vector<SoupChunk>> sound_objects() {
     return objects;
 }
 
-// From the front, close by, far below and nearly overhead; what is wrong, if anything.
-std::string drawn_alike(const RaySpaceObject& object, const engine::Renderer& renderer) {
+// Renders from the front, close by, far below and nearly overhead; returns the first difference, if any.
+std::string find_difference(const RaySpaceObject& object, const engine::Renderer& renderer) {
     for (const glm::dvec3 eye :
          {glm::dvec3(0, 0, 3), glm::dvec3(-1.1, 0.4, -0.6), glm::dvec3(40, -30, 2), glm::dvec3(0.2, 2.5, 0.3)}) {
         const Camera camera = look_at_camera(eye * object.units_per_radius, glm::dvec3(0), 0.8, 40, 33);
@@ -66,9 +65,9 @@ std::string of_one_line(const Error& error) {
 TEST(HostileObjects, AreRefusedOrDrawnAlike) {
     const auto sound = sound_objects();
     ASSERT_GT(sound.size(), 10U);
-    int accepted = 0, tried = 0;  // by the child that runs
+    int accepted = 0, tried = 0;  // counts of the running child
     const int trials = test::survive([&](std::uint64_t seed) -> std::string {
-        if (seed == test::hostile_seed()) {  // without a mutation all are accepted
+        if (seed == test::hostile_seed()) {  // all are accepted without a mutation
             for (const auto& chunks : sound) {
                 const auto container = ContainerReader::over(fuzz::container_of(chunks), "sound");
                 if (!container || !read_object(*container)) return "a sound object is refused";
@@ -94,7 +93,7 @@ TEST(HostileObjects, AreRefusedOrDrawnAlike) {
         const bool is_coded = coded->images.empty() || coded->images.front().empty();
         const auto renderer = engine::Renderer::create(is_coded ? std::move(*coded) : *object);
         if (!renderer) return of_one_line(renderer.error());
-        return drawn_alike(*object, *renderer);
+        return find_difference(*object, *renderer);
     });
     EXPECT_GT(trials, 20);
 }

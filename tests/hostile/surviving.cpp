@@ -18,11 +18,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// What parent and child share.
+// State shared by parent and child.
 struct Report {
-    std::uint64_t seed;   // of the trial that runs
-    std::int32_t trials;  // that were begun
-    std::int32_t failed;  // 1 where `wrong` holds something
+    std::uint64_t seed;   // seed of the running trial
+    std::int32_t trials;  // number of started trials
+    std::int32_t failed;  // 1 if `wrong` is not empty
     char wrong[1000];
 };
 

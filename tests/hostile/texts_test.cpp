@@ -1,4 +1,4 @@
-// Sets, scenes, recipes, models and photographs with faults: read, or refused with one line.
+// Faulty sets, scenes, recipes, models and photos: read, or rejected with one line.
 
 #include "capture/calibration/known/known_files.hpp"
 #include "capture/tracer/scene/mesh_file.hpp"
@@ -30,7 +30,7 @@ std::string one_line(const Result<T>& read) {
 }
 
 struct Kind {
-    std::string name;  // of the file
+    std::string name;  // file name
     std::string text;
     std::function<std::string(const fs::path&)> read;
 };
@@ -112,7 +112,7 @@ TEST(HostileTexts, AreReadOrRefused) {
         test::Random random(seed);
         const Kind& kind = all[test::below(random, all.size())];
         const fs::path path = folder / kind.name;
-        if (!write_file(path, test::mutated_text(kind.text, random))) return "the disk is full";
+        if (!write_file(path, test::mutate_text(kind.text, random))) return "the disk is full";
         const std::string wrong = kind.read(path);
         return wrong.empty() ? "" : kind.name + ": " + wrong;
     });

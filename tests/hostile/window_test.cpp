@@ -1,4 +1,4 @@
-// A window that is shaken: random keys, drags and sizes, and the visit goes on.
+// Random keys, drags and sizes in a window, which must keep running.
 
 #include "compositor/window/visit.hpp"
 #include "tests/compositor/objects.hpp"

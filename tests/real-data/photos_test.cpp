@@ -2,8 +2,8 @@
 
 #include "capture/photos/import.hpp"
 #include "capture/photos/rig/turning.hpp"
+#include "encode/evaluation/evaluation.hpp"
 #include "encode/hold_out.hpp"
-#include "encode/tools/evaluation.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image_io/image_io.hpp"

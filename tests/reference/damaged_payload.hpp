@@ -1,6 +1,6 @@
 #pragma once
-// The fixture of the damage tests: a stream, and the check that the library's parsers and those written from
-// encode/FORMAT.md judge a payload of it the same and read the same from what they accept.
+// Fixture of the damage tests: a stream, and the check that the library's parsers and the reference parsers written
+// from encode/FORMAT.md accept the same payloads and read the same values.
 
 #include "rayspace/codec/stream/coded_chunks.hpp"
 #include "tests/reference/decoder/reference_chunks.hpp"
@@ -25,7 +25,7 @@ struct Tally {
 class DamagedPayload : public testing::TestWithParam<Profile> {
 protected:
     void SetUp() override {
-        // A view with two references, in a stream whose last byte of `present` has bits of no tile.
+        // A view with two references, in a stream whose last byte of `present` has unused bits.
         for (seed_ = 1; seed_ < 10000; ++seed_) {
             stream_ = random_stream(seed_, GetParam());
             ASSERT_EQ(parse_stream(stream_, coded_), "");
@@ -133,7 +133,7 @@ protected:
         }
     }
 
-    // Every value of the byte, or of the two bytes from there on.
+    // Tries every value of the byte, or of the two bytes from there on.
     template <class Check>
     void try_values(const Payload& payload, std::size_t at, std::size_t bytes, Check check) {
         for (int value = 0; value < (bytes == 1 ? 256 : 65536); ++value) {
@@ -147,7 +147,7 @@ protected:
 
     template <class Check>
     void try_lengths(const Payload& payload, Check check) {
-        const std::size_t head = 300;  // of codebooks' many bytes behind it not every length is tried
+        const std::size_t head = 300;  // not every length is tried in the codebooks, which follow
         for (std::size_t size = 0; size < payload.size() + 4; ++size) {
             if (size > head && size + 20 < payload.size() && payload.size() > 4000 && size % 97 != 0) continue;
             Payload damaged = payload;

@@ -10,7 +10,7 @@ namespace {
 using namespace object_chunks;
 using Numbers = std::vector<std::uint8_t>;
 
-// Nothing where the chunk is not there or damaged.
+// The payload; empty if the chunk is missing or damaged.
 Numbers payload_of(const ContainerReader& file, ChunkName name, std::uint32_t index) {
     const ChunkEntry* const entry = file.find(name, index);
     if (entry == nullptr) return {};
@@ -67,7 +67,7 @@ FileSums reference_sums(const ContainerReader& file) {
     if (!images.error.empty()) return {images.error, {}};
     for (std::size_t v = 0; v < picts.size(); ++v) {
         for (std::size_t p = 0; p < 4; ++p) {
-            const reference::Image& image = images.views[v];
+            const reference::DecodedImage& image = images.views[v];
             sums.views[v][p] = plane_sum({image.planes[p].data(), image.width, image.height, image.width},
                                          static_cast<int>(width), static_cast<int>(height));
         }

@@ -1,5 +1,5 @@
 #pragma once
-// The golden files' expected samples: XXH64 (seed 0) of every plane of every image.
+// Expected samples of the golden files: XXH64 (seed 0) of every plane of every image.
 
 #include "rayspace/format/container.hpp"
 #include "rayspace/object/ray_space_object.hpp"
@@ -12,7 +12,8 @@
 
 namespace rs::golden {
 
-// Of Y, U, V and alpha, row by row without gaps, width x height samples; U and V of raw images half as many each way.
+/// Hashes of Y, U, V and alpha, row by row without gaps, width x height samples; U and V of raw images have half the
+/// width and height.
 using PlaneSums = std::array<std::uint64_t, 4>;
 
 struct FileSums {
@@ -20,13 +21,13 @@ struct FileSums {
     std::vector<PlaneSums> views;
 };
 
-// By the second decoder; of raw images of the bytes as they stand in the file.
+/// Computes the hashes with the reference decoder; for raw images from the bytes in the file.
 [[nodiscard]] FileSums reference_sums(const ContainerReader& file);
 
-// By the library: of the object's images, which are unpacked.
+/// Computes the hashes with the library, from the object's decoded images.
 [[nodiscard]] std::vector<PlaneSums> object_sums(const RaySpaceObject& object);
 
-// Of a plane's first width x height samples.
+/// Hash of a plane's first width x height samples.
 [[nodiscard]] std::uint64_t plane_sum(ConstImageView<std::uint8_t> plane, int width, int height);
 
 }  // namespace rs::golden

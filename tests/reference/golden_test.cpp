@@ -1,5 +1,5 @@
-// The golden files: the valid ones decode to the samples that are written down beside them, by either decoder; the
-// invalid ones are refused for the reason that is written down.
+// Golden files: both decoders give the recorded samples of valid files, and reject invalid ones with the recorded
+// messages.
 
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 const fs::path kFolder = fs::path(RAYSPACE_SOURCE_DIR) / "tests" / "reference" / "golden";
 
-// Of a text file, those that say something.
+// The lines of a text file without comments and empty lines.
 std::vector<std::string> lines_of(const fs::path& path) {
     std::ifstream file(path);
     EXPECT_TRUE(file.good()) << path;
@@ -110,7 +110,7 @@ TEST(GoldenFiles, ValidOnesDecodeToTheirSums) {
     EXPECT_GE(kinds["with a shape"], 3);
 }
 
-// Nothing else would notice a sum that every file has.
+// Detects a hash that is equal for all files, which no other test would.
 TEST(GoldenFiles, SumsTellImagesApart) {
     std::set<std::uint64_t> luma;
     std::size_t images = 0;

@@ -11,7 +11,7 @@ std::vector<LibraryPlanes> decode_by_tiles(const codec::CodedImages& coded) {
     for (auto& planes : decoded) {
         for (auto& plane : planes) plane = Image<std::uint8_t>(coded.coded_width(), coded.coded_height(), 77);
     }
-    const auto views_of = [](auto& planes) {
+    const auto plane_views = [](auto& planes) {
         return codec::PlaneViews{planes[0].view(), planes[1].view(), planes[2].view(), planes[3].view()};
     };
     for (int level = 0; level < kProgressiveLevels; ++level) {
@@ -20,10 +20,10 @@ std::vector<LibraryPlanes> decode_by_tiles(const codec::CodedImages& coded) {
             const codec::CodedImage& image = coded.images[v];
             std::array<codec::ConstPlaneViews, 2> references;
             for (std::size_t r = 0; r < static_cast<std::size_t>(image.head.references()); ++r) {
-                std::ranges::copy(views_of(decoded[image.head.reference[r]]), references[r].begin());
+                std::ranges::copy(plane_views(decoded[image.head.reference[r]]), references[r].begin());
             }
             for (std::size_t t = 0; t < image.tiles.size(); ++t) {
-                codec::decode_tile(coded, v, t, references, nullptr, views_of(decoded[v]));
+                codec::decode_tile(coded, v, t, references, nullptr, plane_views(decoded[v]));
             }
         }
     }

@@ -11,8 +11,8 @@
 namespace rs::reference {
 namespace {
 
-// Under even probabilities most of a tile is empty or without coefficients, its bytes are spent on alpha, and levels
-// drive samples to 0 or 255. A tame stream has less of all these.
+// With even probabilities most of a tile is empty or without coefficients, its bytes are spent on alpha, and levels
+// saturate samples at 0 or 255. A tame stream has fewer of all these.
 int tame_probability(int context, Random& random) {
     if (context < kSplit) return context % 2 == 0 ? random.whole(5, 60) : random.whole(150, 250);
     if (context >= kCoded && context < kLastClass) return random.whole(5, 120);
@@ -28,8 +28,8 @@ int random_class(bool may_be_predicted, bool has_stages, Random& random) {
     return predicted + alpha + 4 * random.whole(0, 2) + 16 * random.whole(0, 4);
 }
 
-// How many of each kind of codebook the classes use: "of flat records the block stages' ..., then the quarter stages';
-// likewise of predicted ones; then, if any class has alpha, that of alpha".
+// Number of codebooks of each kind used by the classes: "of flat records the block stages' ..., then the quarter
+// stages'; likewise of predicted ones; then, if any class has alpha, that of alpha".
 struct BookCounts {
     std::array<int, 2> block = {0, 0};  // [is predicted]
     std::array<int, 2> quarter = {0, 0};
@@ -43,8 +43,8 @@ struct BookCounts {
     }
 };
 
-// Differences as bytes: of a tame book small ones, else anything, with entries at the ends of the range. Entry e is
-// that of e mod `distinct`: fewer than 256 make a frame that is much smaller than the book.
+// Differences as bytes: small ones in a tame book, else any, with entries at the ends of the range. Entry e equals
+// entry e mod `distinct`: with fewer than 256 the frame is much smaller than the book.
 void put_book(std::vector<std::uint8_t>& books, int bytes_of_entry, int distinct, bool is_tame, Random& random) {
     const std::size_t begin = books.size();
     const int largest = is_tame ? random.whole(1, 12) : 127;

@@ -1,5 +1,5 @@
 #pragma once
-// Random payloads of the chunk CODE that break no rule, of both profiles.
+// Valid random payloads of the chunk CODE, of both profiles.
 
 #include <cstdint>
 #include <random>
@@ -26,8 +26,8 @@ inline void put16(std::vector<std::uint8_t>& bytes, int value) {
     put(bytes, (value >> 8) & 255);
 }
 
-// `levels`: of the views. Under a tame code the random bytes of a tile become something image-like; without, samples
-// are soon at 0 or 255.
+/// `levels`: levels of the views. With a tame code the random bytes of a tile give image-like samples; otherwise
+/// samples soon saturate at 0 or 255.
 [[nodiscard]] std::vector<std::uint8_t> random_dense_code(const std::vector<int>& levels, bool is_tame, Random& random);
 [[nodiscard]] std::vector<std::uint8_t> random_board_code(const std::vector<int>& levels, bool is_tame, Random& random);
 

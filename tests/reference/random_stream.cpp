@@ -14,7 +14,7 @@ std::vector<std::uint8_t> random_tile(Profile profile, Random& random) {
     const int longest = profile == Profile::kBoard ? 500 : 2500;
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(random.whole(0, random.one_in(4) ? 40 : longest)));
     for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random.whole(0, 255));
-    // A value that begins as large as the range is the decoder's corner.
+    // An initial value as large as the range is a corner case of the decoder.
     if (random.one_in(8)) std::fill_n(bytes.begin(), std::min<std::size_t>(bytes.size(), 2), std::uint8_t{255});
     if (random.one_in(32)) std::fill(bytes.begin(), bytes.end(), std::uint8_t{255});
     return bytes;
@@ -61,7 +61,7 @@ Stream random_stream(std::uint64_t seed, Profile profile) {
     Stream stream;
     stream.width = random.whole(1, 96);
     stream.height = random.whole(1, 96);
-    // The longest vectors matter only where they do not always lead out of the image.
+    // The longest vectors are rare, so that not all point out of the image.
     if (random.one_in(12)) {
         stream.width = random.whole(300, 420);
         stream.height = random.whole(1, 32);

@@ -1,5 +1,5 @@
 #pragma once
-// Payloads of CODE and PICT that break no rule but say random things: any bytes of a tile decode to some samples.
+// Valid random payloads of CODE and PICT: any bytes of a tile decode to some samples.
 
 #include "rayspace/codec/code/coded_images.hpp"
 #include "tests/reference/decoder/reference_chunks.hpp"
@@ -19,10 +19,10 @@ struct Stream {
     std::vector<std::vector<std::uint8_t>> picts;  // [view]
 };
 
-// The same seed and profile give the same stream. 2 .. 5 views of at most 96 x 96, or 420 x 32 or 32 x 420.
+/// Deterministic. 2 .. 5 views of at most 96 x 96, or 420 x 32 or 32 x 420.
 [[nodiscard]] Stream random_stream(std::uint64_t seed, Profile profile);
 
-// The library's parsers on the stream; "" or their message. All images are loaded then.
+/// Runs the library's parsers on the stream; returns "" or their message. All images are loaded then.
 [[nodiscard]] std::string parse_stream(const Stream& stream, codec::CodedImages& coded);
 
 inline std::span<const std::byte> as_payload(const std::vector<std::uint8_t>& bytes) {

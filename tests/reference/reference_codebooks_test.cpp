@@ -1,4 +1,4 @@
-// The codebooks' frame in CODE of board images: both readers accept and refuse the same ones.
+// The codebooks' frame in CODE of board images: both readers accept and reject the same ones.
 
 #include "tests/reference/damaged_payload.hpp"
 
@@ -9,7 +9,7 @@ namespace {
 
 class DamagedCodebooks : public DamagedPayload {
 protected:
-    // CODE with one class, of the payload's own and its whole codebook, and these bytes for the frame.
+    // CODE with one class and its whole codebook from the payload, and these bytes as the frame.
     void judge(int record, const Payload& frame, bool is_valid, const std::string& what) {
         Payload payload(stream_.code.begin(), stream_.code.begin() + 8 + views());
         payload.resize(payload.size() + 14);
@@ -71,7 +71,7 @@ TEST_P(DamagedCodebooks, AreJudgedTheSame) {
     wrong_sum.back() = static_cast<std::uint8_t>(wrong_sum.back() ^ 1);
     judge(kAlpha, wrong_sum, false, "a wrong checksum of its content");
     Payload dictionary = right;
-    dictionary[4] = static_cast<std::uint8_t>(dictionary[4] | 1);  // one byte of a dictionary's number follows
+    dictionary[4] = static_cast<std::uint8_t>(dictionary[4] | 1);  // a dictionary ID of one byte follows
     const std::ptrdiff_t number_at = (right[4] & 0x20) != 0 ? 5 : 6;
     dictionary.insert(dictionary.begin() + number_at, 9);
     judge(kAlpha, dictionary, false, "a dictionary");

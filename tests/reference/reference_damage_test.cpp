@@ -1,5 +1,5 @@
-// What must be rejected of CODE and PICT: the library's parsers and those written from encode/FORMAT.md refuse the same
-// payloads, and read the same from what they accept.
+// Invalid payloads of CODE and PICT: the library's parsers and those written from encode/FORMAT.md reject the same
+// payloads and read the same values from accepted ones.
 
 #include "tests/reference/damaged_payload.hpp"
 
@@ -10,7 +10,7 @@ namespace {
 
 TEST_P(DamagedPayload, OfCodeIsJudgedTheSame) {
     const auto check = [&](const Payload& payload, const std::string& what) { expect_same_code(payload, what); };
-    // To the first probabilities, or past the head of the codebooks' frame (at most 18 bytes).
+    // Up to the first probabilities, or past the head of the codebooks' frame (at most 18 bytes).
     const std::size_t begin = 8 + stream_.picts.size();
     const std::size_t end = begin + (GetParam() == Profile::kBoard ? 14 + 22 : 181 + 4);
     for (std::size_t at = 0; at < end && !HasFatalFailure(); ++at) {
@@ -31,11 +31,11 @@ TEST_P(DamagedPayload, OfPictIsJudgedTheSame) {
     for (std::size_t at = 2; at < 14 && !HasFatalFailure(); at += 2) try_values(payload, at, 2, check);
     try_lengths(payload, check);
     std::cout << tally_.accepted << " accepted, " << tally_.refused << " refused\n";
-    EXPECT_GT(tally_.accepted, GetParam() == Profile::kBoard ? 20 : 1000);  // of board images most numbers are 0
+    EXPECT_GT(tally_.accepted, GetParam() == Profile::kBoard ? 20 : 1000);  // most numbers of board images are 0
     EXPECT_GT(tally_.refused, 1000);
 }
 
-// The shortest, longer and too large forms of sizes, in an image of one tile.
+// Shortest, longer and too large forms of sizes, in an image of one tile.
 TEST_P(DamagedPayload, SizesAreJudgedTheSame) {
     stream_.width = 16;
     stream_.height = 16;
@@ -71,7 +71,7 @@ TEST_P(DamagedPayload, SizesAreJudgedTheSame) {
     EXPECT_GT(tally_.refused, 20);
 }
 
-// Sizes that add up to 2^32, of an image with enough tiles, and no bytes for them.
+// Sizes that add up to 2^32 in an image with enough tiles, without bytes for them.
 class DamagedDensePayload : public DamagedPayload {};  // board images have too few tiles
 
 TEST_P(DamagedDensePayload, OfSizesThatAddUpTo2To32IsRefusedByBoth) {

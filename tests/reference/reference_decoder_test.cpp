@@ -1,5 +1,5 @@
-// Two decoders of coded images, the library's and the one written from encode/FORMAT.md, give the same samples: of
-// what the encoder writes, and of random bytes.
+// Compares the library's decoder with the reference decoder written from encode/FORMAT.md, on encoder output and on
+// random bytes.
 
 #include "tests/reference/decoder/reference_decoder.hpp"
 
@@ -22,8 +22,8 @@
 namespace rs::reference {
 namespace {
 
-// The first sample of width x height in which the planes differ; "" for none.
-std::string difference(const Image& expected, std::size_t plane, const Image<std::uint8_t>& found, int width,
+// The first of width x height samples that differs; "" if none does.
+std::string difference(const DecodedImage& expected, std::size_t plane, const Image<std::uint8_t>& found, int width,
                        int height) {
     if (found.width() < width || found.height() < height) return "a plane is too small";
     for (int y = 0; y < height; ++y) {
@@ -41,7 +41,7 @@ void expect_same(const Images& expected, const codec::CodedImages& coded) {
     const std::vector<LibraryPlanes> found = decode_by_tiles(coded);
     ASSERT_EQ(expected.views.size(), found.size());
     for (std::size_t v = 0; v < found.size(); ++v) {
-        const Image& image = expected.views[v];
+        const DecodedImage& image = expected.views[v];
         ASSERT_EQ(image.width, coded.coded_width());
         ASSERT_EQ(image.height, coded.coded_height());
         for (std::size_t p = 0; p < 4; ++p) {
@@ -64,7 +64,7 @@ Stream stream_of(const codec::CodedImages& coded) {
     return stream;
 }
 
-// Coloured blobs with a soft rim before nothing, and a texture on them, that move with the view.
+// Textured, coloured blobs with soft edges on a transparent background, which move with the view.
 Image<Rgba8> blobs(int width, int height, int view) {
     Image<Rgba8> image(width, height);
     const auto byte = [](double value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0, 255.0)); };
@@ -147,7 +147,7 @@ INSTANTIATE_TEST_SUITE_P(Blobs, EncodedObject,
                                          EncodedCase{97, 70, 12, 2, 5, 5, 12, Profile::kBoard},
                                          EncodedCase{33, 49, 5, 4, 5, 5, 40, Profile::kBoard}));
 
-// How many references stand behind each other at most.
+// Length of the longest chain of references.
 int longest_chain(const Stream& stream, const codec::CodedImages& coded) {
     std::vector<int> chain(stream.picts.size(), 0);
     for (int level = 0; level < kProgressiveLevels; ++level) {
@@ -170,7 +170,7 @@ TEST_P(RandomStreams, AreTheSameByBothDecoders) {
     const std::uint64_t streams = wanted != nullptr ? std::stoull(wanted) : 1500;
     ASSERT_GE(streams, 100U);
     std::size_t samples = 0;
-    std::size_t telling = 0;                           // neither an empty tile's nor at the end of the range
+    std::size_t telling = 0;                           // samples outside of empty tiles, not saturated
     std::array<std::size_t, 3> images = {0, 0, 0};     // [references]
     std::array<std::size_t, 4> chains = {0, 0, 0, 0};  // [longest chain of a stream]
     for (std::uint64_t seed = 1; seed <= streams; ++seed) {
@@ -181,7 +181,7 @@ TEST_P(RandomStreams, AreTheSameByBothDecoders) {
         codec::CodedImages coded;
         ASSERT_EQ(parse_stream(stream, coded), "");
         ASSERT_NO_FATAL_FAILURE(expect_same(expected, coded));
-        for (const Image& image : expected.views) {
+        for (const DecodedImage& image : expected.views) {
             samples += image.planes[0].size();
             telling += static_cast<std::size_t>(
                 std::ranges::count_if(image.planes[0], [](std::uint8_t s) { return s != 0 && s != 128 && s != 255; }));

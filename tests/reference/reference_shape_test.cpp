@@ -1,5 +1,5 @@
-// Chunk shap: the library's parser and the one written from encode/FORMAT.md read the same of what they accept, and
-// refuse the same.
+// Chunk shap: the library's parser and the one written from encode/FORMAT.md accept the same payloads and read the same
+// values.
 
 #include "tests/reference/decoder/reference_shape.hpp"
 #include "rayspace/format/chunks/shape_chunk.hpp"
@@ -37,7 +37,7 @@ std::size_t u32_at(const Payload& payload, std::size_t at) {
     return number;
 }
 
-// Nothing if the library refuses the payload.
+// The library's result; nullopt if it rejects the payload.
 std::optional<ShapeMap> library_shape(const Payload& payload, Ring ring) {
     ring.shape = {};
     const auto coded = object_chunks::parse_shape_head(payload, ring);
@@ -92,7 +92,7 @@ void judge(const Payload& payload, const Ring& ring, Tally& tally) {
     ++(by_library ? tally.accepted : tally.refused);
 }
 
-// The object of the smallest shape map that has gaps with and without lines.
+// An object with the smallest shape map that has gaps with and without lines.
 RaySpaceObject small_shaped() {
     test::SmallObjectOptions options;
     options.views_per_ring = 3;
@@ -140,7 +140,7 @@ TEST(ReferenceShape, DamagedFieldsAreJudgedTheSame) {
     EXPECT_GT(tally.refused, 500);
 }
 
-// Each bound of the numbers, and what lies beside it.
+// Each bound of the numbers, and the values beside it.
 TEST(ReferenceShape, BoundsAreJudgedTheSame) {
     const Ring ring = small_shaped().rings[0];
     const Payload payload = object_chunks::shape_payload(ring);
@@ -171,7 +171,7 @@ TEST(ReferenceShape, BoundsAreJudgedTheSame) {
     EXPECT_GT(tally.refused, 300);
 }
 
-// Any bytes are those of some cells; here they claim as many surfaces as they have.
+// Any bytes decode to some cells; here the stated number of surfaces is corrected.
 TEST(ReferenceShape, CellsOfAnyBytesAreReadTheSame) {
     const Ring ring = small_shaped().rings[0];
     std::mt19937_64 random(6);
@@ -183,7 +183,7 @@ TEST(ReferenceShape, CellsOfAnyBytesAreReadTheSame) {
         std::vector<std::byte> bytes(random() % 80);
         for (std::byte& byte : bytes) byte = static_cast<std::byte>(i % 2 == 0 ? random() : random() & random());
         ShapeMap shape = ring.shape;
-        shape_coding::put_cells(bytes, shape);
+        shape_coding::decode_cells(bytes, shape);
         const auto surfaces = std::ranges::count_if(shape.cells, &ShapeCell::has_surface);
         put_number(payload, kSurfacesAt, static_cast<std::uint64_t>(surfaces), 4);
         put_number(payload, kCellBytesAt, bytes.size(), 4);
@@ -193,7 +193,7 @@ TEST(ReferenceShape, CellsOfAnyBytesAreReadTheSame) {
     EXPECT_EQ(tally.accepted, 400);
 }
 
-// Ring 1 of raw-shape.rso, which has 3 views and 3 planes, and what was made of it.
+// Ring 1 of raw-shape.rso, which has 3 views and 3 planes, and the files derived from it.
 TEST(ReferenceShape, GoldenFilesAreJudgedTheSame) {
     const fs::path folder = fs::path(RAYSPACE_SOURCE_DIR) / "tests" / "reference" / "golden";
     const Ring ring = small_shaped().rings[0];

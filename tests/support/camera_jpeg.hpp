@@ -1,5 +1,5 @@
 #pragma once
-// JPEG files as a camera writes them, with an EXIF header that holds the orientation and the lens, and nothing else.
+// JPEG files like those of a camera, with an EXIF header that contains only the orientation and the focal length.
 
 #include <cstddef>
 #include <filesystem>
@@ -16,8 +16,8 @@ inline std::string bytes(std::initializer_list<int> values) {
     return text;
 }
 
-// The segment of a JPEG file. `orientation` is written as it is, valid (1..8) or not; of the lens nothing where
-// `focal_35mm` is 0.
+/// The EXIF segment. `orientation` is written unchecked, valid (1..8) or not; the focal length is omitted if
+/// `focal_35mm` is 0.
 inline std::string exif_segment(int orientation, int focal_35mm) {
     const auto entry = [](int tag, int type, int value) {  // little-endian, one value
         return bytes({tag & 0xFF, tag >> 8, type, 0, 1, 0, 0, 0, value & 0xFF, value >> 8, 0, 0});
@@ -37,7 +37,7 @@ inline std::string exif_segment(int orientation, int focal_35mm) {
     return bytes({0xFF, 0xE1, 0, static_cast<int>(exif.size()) + 2}) + exif;
 }
 
-// Puts a segment in front of all others of a JPEG file.
+/// Inserts a segment before all others of a JPEG file.
 inline void insert_segment(const std::filesystem::path& path, const std::string& segment) {
     std::string file;
     {
@@ -51,14 +51,14 @@ inline void add_exif(const std::filesystem::path& path, int orientation, int foc
     insert_segment(path, exif_segment(orientation, focal_35mm));
 }
 
-// An ICC profile of at most 60 kB.
+/// Adds an ICC profile of at most 60 kB.
 inline void add_profile(const std::filesystem::path& path, const std::string& icc) {
     const std::string payload = std::string("ICC_PROFILE") + bytes({0, 1, 1}) + icc;
     const int size = static_cast<int>(payload.size()) + 2;
     insert_segment(path, bytes({0xFF, 0xE2, size >> 8, size & 0xFF}) + payload);
 }
 
-// 8 x 8 grey pixels.
+/// Writes 8 x 8 grey pixels.
 inline void write_oriented_jpeg(const std::filesystem::path& path, int orientation, int focal_35mm = 0) {
     const std::string one_code = bytes({1}) + std::string(16, '\0');  // a single code, one bit long, for symbol 0
     std::ofstream(path, std::ios::binary)

@@ -12,7 +12,7 @@
 
 namespace rs::test {
 
-// `object` without its raw images, of drawn ones; any size.
+/// Drawn images for the views of `object`, of any size.
 inline std::vector<Image<Rgba8>> drawn_images(const RaySpaceObject& object) {
     Rig rig = make_ring({.count = static_cast<int>(object.views.size()),
                          .fl_px = 1.3 * object.width,

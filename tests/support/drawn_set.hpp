@@ -1,5 +1,5 @@
 #pragma once
-// A capture set on disk with images drawn by arithmetic: coloured balls around the axis, seen by the set's cameras.
+// A capture set on disk with computed images: coloured balls around the axis, seen by the set's cameras.
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"
@@ -13,7 +13,7 @@
 
 namespace rs::test {
 
-// Three balls, nearest first; edges smooth over about a pixel.
+/// Three balls, nearest first; edges smooth over about a pixel.
 inline Image<Rgba8> drawn_image(const Camera& camera) {
     struct Ball {
         glm::dvec3 centre;
@@ -47,7 +47,7 @@ inline Image<Rgba8> drawn_image(const Camera& camera) {
     return image;
 }
 
-// A ring of small cameras around the balls.
+/// A ring of small cameras around the balls.
 inline Rig drawn_ring(int count, double elevation_deg = 0) {
     Rig rig = make_ring({.count = count,
                          .distance = 3.5,
@@ -59,7 +59,7 @@ inline Rig drawn_ring(int count, double elevation_deg = 0) {
     return rig;
 }
 
-// Draws every view of `rig` into `folder`.
+/// Draws every view of `rig` into `folder`.
 inline void write_drawn_set(const std::filesystem::path& folder, Rig rig,
                             Image<Rgba8> (*draw)(const Camera&) = drawn_image) {
     std::filesystem::create_directories(folder);

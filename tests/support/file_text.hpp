@@ -1,5 +1,5 @@
 #pragma once
-// What stands in a file, for tests; empty where it cannot be read.
+// The contents of a file, for tests; empty if it cannot be read.
 
 #include <filesystem>
 #include <fstream>
@@ -10,7 +10,7 @@ namespace rs::test {
 
 inline std::string text_in(const std::filesystem::path& path) {
     std::ostringstream text;
-    text << std::ifstream(path, std::ios::binary).rdbuf();  // which also ends where a process of /proc has gone
+    text << std::ifstream(path, std::ios::binary).rdbuf();  // also ends if a file of /proc disappears
     return text.str();
 }
 

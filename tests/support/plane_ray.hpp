@@ -1,6 +1,6 @@
 #pragma once
-// A ray <-> (plane, x, u), and vertical compensation, as the paper has them: what maps and images are checked
-// against.
+// Conversion between rays and (plane, x, u), and vertical compensation, as in the paper; the reference for tests of
+// maps and images.
 //
 // Source: Sakagawa, Katayama, Kotake, Tamura, "A Hardware Ray-Space Data Renderer for Interactive Augmented
 // Virtuality", section 2, equations 1 and 2.
@@ -16,7 +16,7 @@ struct Ray {
     glm::dvec3 direction;  // any length but 0
 };
 
-// The plane that a ray of this direction crosses most squarely: the largest -direction . n_k (lowest k among equals).
+/// The plane most perpendicular to a ray: the largest -direction . n_k (lowest k among equals).
 inline int most_square_plane(const glm::dvec3& direction, int count) {
     int best = 0;
     double best_squareness = -glm::dot(direction, reference_plane(0, count).normal);
@@ -30,9 +30,9 @@ inline int most_square_plane(const glm::dvec3& direction, int count) {
     return best;
 }
 
-// A ray in ray space. x and y: where it crosses the plane, along the tangent and in height. u: tangent of the angle
-// between its horizontal part and the plane's normal, so that x = a + u c for a viewpoint (a, b, c) in the plane's
-// frame. slope: rise per unit of travel along -normal. Of these the paper's ray space keeps x and u.
+/// A ray in ray space. x and y: intersection with the plane, along the tangent and in height. u: tangent of the angle
+/// between its horizontal part and the plane's normal, so that x = a + u c for a viewpoint (a, b, c) in the plane's
+/// frame. slope: rise per unit of travel along -normal. The paper's ray space uses only x and u.
 struct PlaneRay {
     double x = 0;
     double u = 0;
@@ -40,7 +40,7 @@ struct PlaneRay {
     double slope = 0;
 };
 
-// Nothing where the ray does not run against the plane's normal (it is parallel, or crosses from behind).
+/// Converts a ray; nullopt if it is parallel to the plane or crosses it from behind.
 inline std::optional<PlaneRay> to_ray_space(const Ray& ray, const ReferencePlane& plane) {
     const double against = -glm::dot(ray.direction, plane.normal);
     if (against <= 0) return std::nullopt;
@@ -53,16 +53,16 @@ inline std::optional<PlaneRay> to_ray_space(const Ray& ray, const ReferencePlane
     return result;
 }
 
-// The ray as seen from distance c in front of the plane: origin = (x - u c) t + (y - slope c) Y + c n.
+/// Converts back, with the origin at distance c in front of the plane: origin = (x - u c) t + (y - slope c) Y + c n.
 inline Ray from_ray_space(const PlaneRay& ray, const ReferencePlane& plane, double c) {
     const glm::dvec3 up(0, 1, 0);
     return {(ray.x - ray.u * c) * plane.tangent + (ray.y - ray.slope * c) * up + c * plane.normal,
             ray.u * plane.tangent + ray.slope * up - plane.normal};
 }
 
-// Vertical compensation (equation 2, generalised to cameras at any height): a view ray at vertical slope s_p over axial
-// depth l_p from height b_p meets the plane at Y = b_p + s_p l_p; the slope at which a camera at height b_q and axial
-// depth l_q sees that point. With b_p = b_q = 0 this is the paper's h_q = (l_p / l_q) h_p.
+/// Vertical compensation (equation 2, generalised to cameras at any height): a view ray of vertical slope s_p over
+/// axial depth l_p from height b_p meets the plane at Y = b_p + s_p l_p. Returns the slope of that point from a camera
+/// at height b_q and axial depth l_q. With b_p = b_q = 0 this is the paper's h_q = (l_p / l_q) h_p.
 constexpr double compensated_slope(double s_p, double b_p, double l_p, double b_q, double l_q) {
     return (b_p + s_p * l_p - b_q) / l_q;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// PNG files whose header claims another size than their pixels have, its checksum with it.
+// PNG files with a wrong size and a valid checksum in the header.
 
 #include <zlib.h>
 
@@ -9,7 +9,7 @@
 
 namespace rs::test {
 
-// `png` begins as every PNG file does: signature, IHDR.
+/// Overwrites the size. `png` begins with signature and IHDR.
 inline void claim_size(std::span<std::byte> png, std::uint32_t width, std::uint32_t height) {
     const auto put_big_endian = [&](std::size_t at, std::uint32_t n) {
         for (std::size_t i = 0; i < 4; ++i) png[at + i] = static_cast<std::byte>(n >> (24 - 8 * i));

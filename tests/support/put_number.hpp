@@ -1,5 +1,5 @@
 #pragma once
-// Numbers over what stands in bytes, little-endian, to see what a reader says of it.
+// Overwrites little-endian numbers in bytes, to test readers.
 
 #include <cstddef>
 #include <cstdint>

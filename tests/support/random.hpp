@@ -1,5 +1,5 @@
 #pragma once
-// Draws for tests, the same in every run.
+// Random numbers for tests, the same in every run.
 
 #include <cstdint>
 #include <random>

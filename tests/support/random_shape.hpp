@@ -1,8 +1,7 @@
 #pragma once
-// Shape maps that are valid but mean nothing: for ring objects (ring_object.hpp) and small ones, to compare renderers
-// on.
+// Valid random shape maps for ring objects (ring_object.hpp) and small ones, to compare renderers.
 
-#include "rayspace/object/shape_map.hpp"
+#include "rayspace/api/types/shape_map.hpp"
 #include "tests/support/small_shape.hpp"
 
 #include <algorithm>
@@ -11,9 +10,9 @@
 
 namespace rs::test {
 
-// Lines, right normal lines and sizes as small_shape() makes them; then, by chance, another band height, other depths,
-// another reference viewpoint, gaps without lines, and cells of which `empty_share` are empty. The surfaces of the rest
-// lie at depths near one another (`smooth`) or anywhere.
+/// Lines, correct normal lines and sizes as in small_shape(); then, at random, another band height, other depths,
+/// another reference viewpoint, gaps without lines, and a fraction `empty_share` of empty cells. The depths of the
+/// others are close to each other (`smooth`) or arbitrary.
 inline ShapeMap random_shape(const RaySpaceObject& object, std::size_t ring, std::mt19937_64& random,
                              double empty_share) {
     using small_object_detail::fixed;
@@ -31,7 +30,7 @@ inline ShapeMap random_shape(const RaySpaceObject& object, std::size_t ring, std
         shape.h_low_q20 = fixed(real(-1.5, 0.2), 20);
         shape.bands_per_unit_q12 = fixed(options.bands * real(0.3, 3), 12);
     }
-    if (whole(0, 5) == 0) {  // to the ends of the ranges, where numbers saturate
+    if (whole(0, 5) == 0) {  // up to the ends of the ranges, where numbers saturate
         shape.h_low_q20 = fixed(real(-255, 255), 20);
         shape.bands_per_unit_q12 = fixed(real(100, 16383), 12);
     }

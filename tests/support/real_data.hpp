@@ -1,5 +1,5 @@
 #pragma once
-// Where the test inputs are that the project may not carry: $RAYSPACE_DATA, or shared/data beside the checkout.
+// Test inputs that are not part of the project: $RAYSPACE_DATA, or shared/data beside the checkout.
 
 #include <cstdlib>
 #include <filesystem>
@@ -20,7 +20,7 @@ inline std::optional<std::filesystem::path> real_data(const std::filesystem::pat
 
 }  // namespace rs::test
 
-// Inside a TEST: `const auto path = RS_REAL_DATA_OR_SKIP("meshes/spot");`
+/// Inside a TEST: `const auto path = RS_REAL_DATA_OR_SKIP("meshes/spot");`
 #define RS_REAL_DATA_OR_SKIP(relative)                                                                     \
     ({                                                                                                     \
         auto found = ::rs::test::real_data(relative);                                                      \

@@ -1,6 +1,5 @@
 #pragma once
-// Ray-space objects made in memory: a ring of cameras with images drawn by arithmetic, encoded by the real encoder's
-// map.
+// Ray-space objects in memory: a ring of cameras with computed images and the encoder's map.
 
 #include "encode/raymap/captured_view.hpp"
 #include "encode/raymap/plane_map.hpp"
@@ -41,7 +40,7 @@ inline Rig ring_rig(const RingObjectOptions& options) {
     return rig;
 }
 
-// Noise in every pixel whose ray passes within the unit cylinder, alpha of all sizes, transparent elsewhere.
+/// Noise in every pixel whose ray passes through the unit cylinder, with all values of alpha; transparent elsewhere.
 inline Image<Rgba8> noise_image(const Camera& camera, std::mt19937_64& random) {
     Image<Rgba8> image(camera.width, camera.height);
     for (int x = 0; x < camera.width; ++x) {
@@ -58,7 +57,7 @@ inline Image<Rgba8> noise_image(const Camera& camera, std::mt19937_64& random) {
     return image;
 }
 
-// Makes the middle of every image opaque: half of its columns and rows. Only opaque pixels have detail.
+/// Makes the middle of every image opaque: half of its columns and rows. Only opaque pixels have detail.
 inline void make_middle_opaque(RaySpaceObject& object) {
     for (PlanarImage& image : object.images) {
         for (int row = object.height / 4; row < object.height - object.height / 4; ++row) {

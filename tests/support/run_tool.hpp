@@ -1,5 +1,5 @@
 #pragma once
-// Running one of the tools as a user would, and looking at what it printed.
+// Runs a tool as a child process and captures its output.
 
 #include <sys/wait.h>
 
@@ -14,7 +14,7 @@
 namespace rs::test {
 
 struct ToolRun {
-    int exit_code = -1;  // 128 + signal where a signal ended it
+    int exit_code = -1;  // 128 + signal if a signal ended it
     std::string out;
     std::string err;
 };
@@ -25,7 +25,7 @@ inline std::string quoted(const std::string& argument) {
     return result + "'";
 }
 
-// `scratch` is a folder for what the program prints.
+/// `scratch` is a folder for the captured output.
 inline ToolRun run_program(const std::filesystem::path& scratch, const std::string& program,
                            const std::vector<std::string>& arguments) {
     std::string command = quoted(program);

@@ -1,5 +1,5 @@
 #pragma once
-// A disk that is soon full: a small tmpfs over a folder, for tests of what happens then. Needs the right to mount.
+// A small tmpfs is_mounted on a folder, for tests of a full disk. Requires the privilege to mount.
 
 #include <sys/mount.h>
 
@@ -19,7 +19,7 @@ public:
     ~SmallDisk() {
         if (mounted_) ::umount2(folder_.c_str(), MNT_DETACH);
     }
-    // False where this user may not mount; the test is then to be skipped.
+    /// False if mounting is not permitted; the test is then skipped.
     [[nodiscard]] bool mounted() const { return mounted_; }
 
 private:

@@ -1,5 +1,5 @@
 #pragma once
-// A small valid ray-space object, made by hand from the formulas of encode/FORMAT.md, with no help from the encoder.
+// A small valid ray-space object, computed from the formulas of encode/FORMAT.md without the encoder.
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"
@@ -62,7 +62,7 @@ inline PlanarImage image(int width, int height, unsigned seed) {
             filled(half_size(width), half_size(height), 3), filled(width, height, 4)};
 }
 
-// Of the ring's views in front of the plane, the one whose ray through x is nearest to u; seen from it x lies ahead.
+/// The view of the ring in front of the plane whose ray through x is nearest to u, with x in front of the camera.
 inline std::uint16_t nearest_view(const std::vector<Camera>& cameras, std::uint16_t first, int plane, int planes,
                                   double x, double u) {
     const glm::dvec3 t = tangent(plane, planes);
@@ -84,7 +84,7 @@ inline std::uint16_t nearest_view(const std::vector<Camera>& cameras, std::uint1
 
 }  // namespace small_object_detail
 
-// Ring r holds the views r * views_per_ring + 0, 1, ...: upright cameras at height r / 4 that look at the Y axis.
+/// Ring r has the views r * views_per_ring + 0, 1, ...: upright cameras at height r / 4, directed at the Y axis.
 inline RaySpaceObject small_object(const SmallObjectOptions& options = {}) {
     using namespace small_object_detail;
     RaySpaceObject object;

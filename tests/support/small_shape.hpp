@@ -1,6 +1,6 @@
 #pragma once
-// A small valid shape map for a ring of a small object (small_object.hpp): two balls, one of which hides some of the
-// other, made by hand from the formulas of encode/FORMAT.md.
+// A small valid shape map for a ring of a small object (small_object.hpp): two balls, one partly occluding the other,
+// computed from the formulas of encode/FORMAT.md.
 
 #include "tests/support/small_object.hpp"
 
@@ -13,7 +13,7 @@ namespace rs::test {
 struct SmallShapeOptions {
     int p_cells = 9;
     int bands = 7;
-    std::vector<int> lines = {2};  // per gap, over and over
+    std::vector<int> lines = {2};  // per gap, repeated
 };
 
 namespace small_shape_detail {
@@ -23,7 +23,7 @@ struct Ball {
     double radius;
 };
 
-// How far along the ray the ball begins.
+/// Distance along the ray to the ball.
 inline std::optional<double> entry(const Ball& ball, const glm::dvec3& from, const glm::dvec3& direction) {
     const glm::dvec3 to_centre = ball.centre - from;
     const double nearest = glm::dot(to_centre, direction);
@@ -40,7 +40,7 @@ inline NormalLine normal_line(const Camera& camera, int plane, int planes) {
             fixed(glm::dot(camera.centre(), t), 20), fixed(glm::dot(camera.centre(), normal), 20)};
 }
 
-// What the ray through `foot` meets first.
+/// First hit of the ray through `foot`.
 inline ShapeCell cell(const ShapeMap& shape, const glm::dvec3& foot, const glm::dvec3& direction) {
     const Ball balls[] = {{{0.1, 0, -0.15}, 0.7}, {{0.2, 0.1, 0.6}, 0.3}};
     std::optional<double> nearest;
@@ -56,7 +56,7 @@ inline ShapeCell cell(const ShapeMap& shape, const glm::dvec3& foot, const glm::
 
 }  // namespace small_shape_detail
 
-// `object` is a small_object(); its rig is needed.
+/// `object` is a small_object() with its rig.
 inline ShapeMap small_shape(const RaySpaceObject& object, std::size_t ring_index,
                             const SmallShapeOptions& options = {}) {
     using small_object_detail::fixed;

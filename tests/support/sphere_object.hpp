@@ -1,7 +1,6 @@
 #pragma once
-// A ray-space object whose shape is known exactly: a ball beside the axis with a grey texture, drawn by ray casting
-// into the images of a ring_object() and into its shape map, straight from the formulas of
-// rayspace/object/shape_map.hpp.
+// A ray-space object of exactly known shape: a ball beside the axis with a grey texture, ray-cast into the images and
+// the shape map of a ring_object(), by the formulas of rayspace/api/types/shape_map.hpp.
 
 #include "rayspace/geometry/ray_space.hpp"
 #include "tests/support/ring_object.hpp"
@@ -30,7 +29,7 @@ inline std::optional<SphereHit> hit(const Sphere& sphere, const glm::dvec3& from
     return SphereHit{nearest - std::sqrt(rest), nearest + std::sqrt(rest)};
 }
 
-// Smooth, and different everywhere on a side of the ball.
+/// A smooth texture without repetition on one side of the ball.
 inline double grey_at(const glm::dvec3& p) {
     return 128 + 55 * std::sin(5 * p.x + 1) * std::cos(4 * p.z) + 55 * std::sin(6 * p.y + 2 * p.x);
 }
@@ -49,7 +48,7 @@ inline Image<Rgba8> sphere_image(const Sphere& sphere, const Camera& camera) {
     return image;
 }
 
-// Numbers, gaps and normal lines of a shape map for the ring of `rig`; all cells empty.
+/// Numbers, gaps and normal lines of a shape map for the ring of `rig`; all cells empty.
 inline ShapeMap empty_shape(const Rig& rig, const Ring& ring, int lines, int p_cells, int bands) {
     const auto fixed = [](double value, int bits) {
         return static_cast<std::int32_t>(std::lround(std::ldexp(value, bits)));
@@ -85,9 +84,9 @@ inline ShapeMap empty_shape(const Rig& rig, const Ring& ring, int lines, int p_c
     return shape;
 }
 
-// The ray of a cell's middle: from the foot, one radius of horizontal length. The captured rays that are parallel to it
-// pass the axis at D sin(phi - alpha), where alpha is the azimuth it comes from; so p is D times a weighted sum of two
-// sines, which is again a sine.
+/// The ray of a cell's centre: from the foot, one radius of horizontal length. The parallel captured rays pass the axis
+/// at D sin(phi - alpha), where alpha is the azimuth of the ray's origin; p is therefore D times a weighted sum of two
+/// sines, which is again a sine.
 struct CellRay {
     glm::dvec3 foot;
     glm::dvec3 direction;
@@ -101,7 +100,7 @@ inline CellRay cell_ray(const Rig& rig, std::size_t gap, double fraction, double
     return {{p * std::cos(alpha), h, -p * std::sin(alpha)}, {-std::sin(alpha), (h - first.y) / rho, -std::cos(alpha)}};
 }
 
-// Rays that miss the ball by less than a cell get the depth of its rim.
+/// Draws the ball's shape map. Rays that miss the ball by less than a cell get the depth of its rim.
 inline ShapeMap sphere_shape(const Sphere& sphere, const Rig& rig, const Ring& ring, int lines, int p_cells,
                              int bands) {
     ShapeMap shape = empty_shape(rig, ring, lines, p_cells, bands);
@@ -130,7 +129,7 @@ inline ShapeMap sphere_shape(const Sphere& sphere, const Rig& rig, const Ring& r
     return shape;
 }
 
-// Options of a ring whose images are large enough for the ball's texture.
+/// Options of a ring whose images are large enough for the ball's texture.
 inline RingObjectOptions sphere_options() {
     return {.views = 36, .width = 128, .height = 128, .fl_px = 200, .camera_height = 0.3};
 }
@@ -145,7 +144,7 @@ inline RaySpaceObject sphere_object(const RingObjectOptions& options, const Sphe
     return object;
 }
 
-// The upright camera of the ring's kind at a horizontal place, looking at the axis.
+/// An upright camera with the ring's intrinsics at a horizontal position, directed at the axis.
 inline Camera upright_at(const RingObjectOptions& options, const glm::dvec3& centre) {
     Camera camera = upright_camera(look_at_camera(centre, {0, centre.y, 0}, 1, options.width, options.height));
     const double distance = std::hypot(centre.x, centre.z);
@@ -155,7 +154,8 @@ inline Camera upright_at(const RingObjectOptions& options, const glm::dvec3& cen
     return camera;
 }
 
-// On the straight line between the viewpoints of views n and n + 1, where all rays have about the same weight.
+/// A camera on the straight line between the viewpoints of views n and n + 1, where all rays have about the same
+/// weight.
 inline Camera between_views(const RingObjectOptions& options, std::size_t n, double fraction) {
     const Rig rig = ring_rig(options);
     return upright_at(options, (1 - fraction) * rig.views[n].camera.centre() +

@@ -1,5 +1,5 @@
 #pragma once
-// A head tracker for tests: datagrams to a port of this machine.
+// Head tracker for tests: sends datagrams to a local port.
 
 #include "rayspace/base/byte_stream.hpp"
 
@@ -13,7 +13,7 @@
 
 namespace rs::test {
 
-// x, y, z in cm, yaw, pitch, roll in degrees, as they are sent.
+/// A datagram of x, y, z in cm and yaw, pitch, roll in degrees.
 inline std::vector<std::byte> head_datagram(const std::array<double, 6>& numbers) {
     ByteWriter writer;
     for (const double number : numbers) writer.put(number);
@@ -37,7 +37,7 @@ private:
     asio::ip::udp::endpoint to_;
 };
 
-// Holds a port of this machine that was free as long as it lives.
+/// Occupies a free local port during its lifetime.
 class TakenPort {
 public:
     [[nodiscard]] std::uint16_t number() const { return socket_.local_endpoint().port(); }

@@ -1,5 +1,5 @@
 #pragma once
-// A display that nobody sees, for tests that open windows: Xvfb, started by itself, and DISPLAY set to it.
+// A virtual display for tests that open windows: starts Xvfb and sets DISPLAY.
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -11,7 +11,7 @@
 
 namespace rs::test {
 
-// -noreset: a server that loses its last client would start anew, and refuse the next one meanwhile.
+/// -noreset: otherwise the server restarts when its last client disconnects, and rejects new clients meanwhile.
 class VirtualDisplay {
 public:
     VirtualDisplay() {
@@ -28,7 +28,7 @@ public:
             _exit(127);
         }
         close(numbers[1]);
-        std::string number;  // it writes the display's number and a newline when it is ready
+        std::string number;  // Xvfb writes the display's number and a newline when it is ready
         for (char c = 0; read(numbers[0], &c, 1) == 1 && c != '\n';) number += c;
         close(numbers[0]);
         if (number.empty()) return;
@@ -43,7 +43,7 @@ public:
         waitpid(child_, nullptr, 0);
     }
 
-    // False where there is no Xvfb.
+    /// False if Xvfb is not installed.
     [[nodiscard]] bool ready() const { return ready_; }
 
 private:

@@ -2,7 +2,7 @@
 
 #include "rayspace/base/check.hpp"
 #include "rayspace/image_io/image_io.hpp"
-#include "rayspace/image_io/photograph_size.hpp"
+#include "rayspace/image_io/photo_size.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include "capture/photos/intake/reduction.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/image_io/image_io.hpp"
-#include "rayspace/image_io/photograph_size.hpp"
+#include "rayspace/image_io/photo_size.hpp"
 
 #include <utility>
 

@@ -6,7 +6,7 @@
 #include "capture/photos/masks/mask_statistics.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/image_io/image_io.hpp"
-#include "rayspace/image_io/photograph_size.hpp"
+#include "rayspace/image_io/photo_size.hpp"
 
 #include <algorithm>
 #include <cmath>

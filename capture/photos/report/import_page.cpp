@@ -240,7 +240,7 @@ Result<std::string> import_page(const std::filesystem::path& photos, const Impor
         add_estimates(page, *report.calibration.calibration);
         add_plots(page, *report.calibration.calibration);
     }
-    RS_TRY(add_photographs(page, report));
+    RS_TRY(add_photos(page, report));
     RS_TRY(add_alpha_mattes(page, report));
     return page.text();
 }

@@ -10,7 +10,7 @@ namespace rs::capture {
 namespace {
 
 template <class Pixel>
-Image<Pixel> part_of(const Image<Pixel>& image, const PixelRectangle& part) {
+Image<Pixel> cropped(const Image<Pixel>& image, const PixelRectangle& part) {
     Image<Pixel> result(part.x1 - part.x0, part.y1 - part.y0);
     for (int y = part.y0; y < part.y1; ++y) {
         for (int x = part.x0; x < part.x1; ++x) result(x - part.x0, y - part.y0) = image(x, y);
@@ -24,26 +24,26 @@ PixelRectangle overlap(const PixelRectangle& a, const PixelRectangle& b) {
     return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
 }
 
-Accumulation Accumulation::cut_out(const PixelRectangle& part) const {
-    return {part_of(sum, part), samples, guides.empty() ? Image<GuideSum>() : part_of(guides, part)};
+Accumulation Accumulation::crop(const PixelRectangle& part) const {
+    return {cropped(sum, part), samples, guides.empty() ? Image<GuideSum>() : cropped(guides, part)};
 }
 
-void Accumulation::add(int x, int y, const RadianceSample& arrived) {
+void Accumulation::add(int x, int y, const RadianceSample& sample) {
     RgbaF& pixel = sum(x, y);
-    pixel.r += arrived.radiance.r;
-    pixel.g += arrived.radiance.g;
-    pixel.b += arrived.radiance.b;
+    pixel.r += sample.radiance.r;
+    pixel.g += sample.radiance.g;
+    pixel.b += sample.radiance.b;
     pixel.a += 1.0F;
     if (guides.empty()) return;
-    GuideSum& of_pixel = guides(x, y);
-    const float l = luminance(arrived.radiance);
-    of_pixel.squares += l * l;
-    if (!arrived.guided) return;
-    of_pixel.sum.place += arrived.guide.place;
-    of_pixel.sum.normal += arrived.guide.normal;
-    of_pixel.sum.colour += arrived.guide.colour;
-    of_pixel.sum.distance += arrived.guide.distance;
-    of_pixel.count += 1.0F;
+    GuideSum& guide_sum = guides(x, y);
+    const float l = luminance(sample.radiance);
+    guide_sum.squares += l * l;
+    if (!sample.has_guide) return;
+    guide_sum.sum.position += sample.guide.position;
+    guide_sum.sum.normal += sample.guide.normal;
+    guide_sum.sum.colour += sample.guide.colour;
+    guide_sum.sum.distance += sample.guide.distance;
+    guide_sum.count += 1.0F;
 }
 
 Image<RgbaF> Accumulation::mean() const& {

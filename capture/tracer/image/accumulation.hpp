@@ -1,5 +1,5 @@
 #pragma once
-// Samples of an image and their sums.
+// Radiance samples of an image and their sums.
 
 #include "rayspace/image/image.hpp"
 
@@ -13,36 +13,36 @@ struct PixelRectangle {
 };
 PixelRectangle overlap(const PixelRectangle& a, const PixelRectangle& b);
 
-// The first surface on a ray's way that is no mirror and no glass.
+// Denoising guide: the first surface along a path that is neither mirror nor glass.
 struct Guide {
-    glm::vec3 place, normal, colour;
-    float distance;  // that the ray came
+    glm::vec3 position, normal, colour;
+    float distance;  // length of the path to it
 };
 
-// What arrived along a ray.
+// Result of tracing one camera ray.
 struct RadianceSample {
     glm::vec3 radiance{0.0F};
-    bool met = false;
-    bool guided = false;
-    Guide guide{};  // where `guided`
+    bool hit = false;  // of a surface or a light
+    bool has_guide = false;
+    Guide guide{};  // valid if has_guide
 };
 
 struct GuideSum {
     Guide sum{};
-    float count = 0.0F;    // of guides
-    float squares = 0.0F;  // of the luminance of all samples
+    float count = 0.0F;    // number of guides
+    float squares = 0.0F;  // sum of the squared luminance of all samples
 };
 
-// An image that gains samples: sums, so that passes of one sample each and one pass of as many give the same bits.
+// Progressive image. Stores sums, so that the result does not depend on how samples are divided into passes.
 struct Accumulation {
-    Image<RgbaF> sum;        // radiance of the camera rays that met a surface; alpha counts them
-    int samples = 0;         // of each pixel so far
-    Image<GuideSum> guides;  // empty where the method gives none
+    Image<RgbaF> sum;        // radiance of the camera rays with a hit; alpha is their number
+    int samples = 0;         // per pixel
+    Image<GuideSum> guides;  // empty if the method has none
 
-    // Of a ray that met something. Not from several threads for one pixel.
-    void add(int x, int y, const RadianceSample& arrived);
-    // As far as it lies in a part of the image, which is not empty and not larger than it.
-    [[nodiscard]] Accumulation cut_out(const PixelRectangle& part) const;
+    // Adds a sample with a hit. Not thread-safe for the same pixel.
+    void add(int x, int y, const RadianceSample& sample);
+    // Copy of a non-empty rectangle inside the image.
+    [[nodiscard]] Accumulation crop(const PixelRectangle& part) const;
     // Linear light, straight alpha = share of camera rays that hit a surface.
     [[nodiscard]] Image<RgbaF> mean() const&;
     [[nodiscard]] Image<RgbaF> mean() &&;

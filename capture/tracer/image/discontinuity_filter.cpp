@@ -15,35 +15,35 @@ namespace rs::capture {
 namespace {
 
 constexpr int kLevels = 5;                             // steps of 1, 2, 4, 8, 16 px
-constexpr int kPatternLevels = 2;                      // within which the pattern of groups shows
-constexpr std::array<float, 4> kNoise = {1, 1, 1, 1};  // over which the variance is averaged
-constexpr std::array<float, 2> kAround = {2, 1};       // at each level
-// In which all groups count alike, so that their pattern is gone, and the noise is about a quarter.
+constexpr int kPatternLevels = 2;                      // levels at which the pattern of groups is visible
+constexpr std::array<float, 4> kNoise = {1, 1, 1, 1};  // weights for averaging the variance
+constexpr std::array<float, 2> kAround = {2, 1};       // weights for averaging the variance at each level
+// Weights that give all groups the same total, which removes their pattern and three quarters of the noise.
 constexpr std::array<float, 3> kPattern = {2, 2, 1};
 static_assert((1 << kLevels) - 1 + kPatternLevels * (static_cast<int>(kPattern.size()) - 1) +
                   static_cast<int>(kNoise.size()) - 1 <=
               kFilterReach_px);
-// Differences that count as much as one another.
-constexpr float kNormal = 0.3F;      // length
-constexpr float kColour = 0.4F;      // likewise
-constexpr float kPlane = 0.012F;     // distance from the plane, of that from the camera
-constexpr float kDeviations = 8.0F;  // of the light
-constexpr float kFewSamples = 8.0F;  // where there are more, fewer deviations: noise matters less than what it hides
-constexpr int kStrip_px = 1 << 20;   // filtered at a time: what is looked up takes some 200 bytes a pixel
-constexpr float kDark = 0.02F;       // added to colours that are divided by
+// Scales of the differences that reduce a weight.
+constexpr float kNormal = 0.3F;      // length of the difference vector
+constexpr float kColour = 0.4F;      // length of the difference vector
+constexpr float kPlane = 0.012F;     // distance from the tangent plane over distance from the camera
+constexpr float kDeviations = 8.0F;  // standard deviations of the luminance
+constexpr float kFewSamples = 8.0F;  // with more samples the number of deviations decreases
+constexpr int kStrip_px = 1 << 20;   // pixels per strip: buffers take about 200 bytes a pixel
+constexpr float kDark = 0.02F;       // offset of colour divisors
 
-using Plane = std::vector<float>;  // a number for each pixel, row by row
+using Plane = std::vector<float>;  // one value per pixel, row by row
 
-// What stays the same over the levels.
+// Inputs that are constant over the levels.
 struct Guides {
     int width, height, samples;
-    std::array<Plane, 3> normal, place, colour;
+    std::array<Plane, 3> normal, position, colour;
     Plane nearness;  // 1 / tolerated distance from the plane
-    Plane known;     // 1: there is a surface; 0: the pixel is left alone and counts for none
+    Plane known;     // 1: has a surface; 0: excluded from the filter
 };
 
 struct Estimates {
-    std::array<Plane, 3> colour;  // divided by the surface's
+    std::array<Plane, 3> colour;  // radiance divided by the surface colour
     Plane variance;               // of its luminance
 };
 
@@ -52,16 +52,16 @@ glm::vec3 divisor(const glm::vec3& colour) {
 }
 
 template <class Work>
-void for_rows(int height, const Work& work) {
+void for_each_row(int height, const Work& work) {
     for_each_index(height, 0, [&](std::int64_t y) { work(static_cast<int>(y)); });
 }
 
-Guides guides_of(const Accumulation& from) {
+Guides make_guides(const Accumulation& from) {
     const int width = from.sum.width(), height = from.sum.height();
     const auto size = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     Guides guides{width, height, from.samples, {}, {}, {}, Plane(size), Plane(size)};
-    for (auto* planes : {&guides.normal, &guides.place, &guides.colour}) planes->fill(Plane(size));
-    for_rows(height, [&](int y) {
+    for (auto* planes : {&guides.normal, &guides.position, &guides.colour}) planes->fill(Plane(size));
+    for_each_row(height, [&](int y) {
         for (int x = 0; x < width; ++x) {
             const GuideSum& g = from.guides(x, y);
             const std::size_t i =
@@ -71,7 +71,7 @@ Guides guides_of(const Accumulation& from) {
             for (int c = 0; c < 3; ++c) {
                 const auto axis = static_cast<std::size_t>(c);
                 guides.normal[axis][i] = share * g.sum.normal[c];
-                guides.place[axis][i] = share * g.sum.place[c];
+                guides.position[axis][i] = share * g.sum.position[c];
                 guides.colour[axis][i] = share * g.sum.colour[c];
             }
             guides.nearness[i] = 1.0F / (kPlane * share * g.sum.distance + 1e-12F);
@@ -81,16 +81,15 @@ Guides guides_of(const Accumulation& from) {
     return guides;
 }
 
-// The mean over a square, of pixels that are known, with weights[i] for those that are i px away along x times that
-// along y.
-Plane blurred(const Plane& plane, const Guides& guides, std::span<const float> weights) {
+// Weighted mean of the known pixels in a square; the weight at offset (x, y) is weights[|x|] * weights[|y|].
+Plane blur(const Plane& plane, const Guides& guides, std::span<const float> weights) {
     const int width = guides.width, height = guides.height, radius = static_cast<int>(weights.size()) - 1;
     Plane sums(plane.size()), counts(plane.size()), result(plane.size());
     const auto at = [width](int x, int y) {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
     };
     const auto weight = [&](int away) { return weights[static_cast<std::size_t>(std::abs(away))]; };
-    for_rows(height, [&](int y) {
+    for_each_row(height, [&](int y) {
         for (int x = 0; x < width; ++x) {
             for (int i = std::max(x - radius, 0); i <= std::min(x + radius, width - 1); ++i) {
                 const float counted = weight(i - x) * guides.known[at(i, y)];
@@ -99,7 +98,7 @@ Plane blurred(const Plane& plane, const Guides& guides, std::span<const float> w
             }
         }
     });
-    for_rows(height, [&](int y) {
+    for_each_row(height, [&](int y) {
         for (int x = 0; x < width; ++x) {
             float sum = 0.0F, count = 0.0F;
             for (int i = std::max(y - radius, 0); i <= std::min(y + radius, height - 1); ++i) {
@@ -120,29 +119,30 @@ Plane luminances(const Estimates& light) {
     return result;
 }
 
-// Of the mean: from how samples differ, or pixels where there is one sample only.
-void find_variance(const Accumulation& from, const Image<RgbaF>& mean, const Guides& guides, Estimates& light) {
+// Estimates the variance of the mean from the samples, or from neighbouring pixels if there is only one sample.
+void estimate_variance(const Accumulation& from, const Image<RgbaF>& mean, const Guides& guides, Estimates& light) {
     const auto samples = static_cast<float>(from.samples);
-    Plane luminance_of = luminances(light);
-    Plane squares(luminance_of.size());
+    Plane luminance_plane = luminances(light);
+    Plane squares(luminance_plane.size());
     for (std::size_t i = 0; i < squares.size(); ++i) {
         if (from.samples == 1) {
-            squares[i] = luminance_of[i] * luminance_of[i];
+            squares[i] = luminance_plane[i] * luminance_plane[i];
             continue;
         }
         const RgbaF& m = mean.pixels()[i];
-        const float of_all = luminance({m.r, m.g, m.b}) * m.a;
+        const float mean_luminance = luminance({m.r, m.g, m.b}) * m.a;
         const glm::vec3 colour(guides.colour[0][i], guides.colour[1][i], guides.colour[2][i]);
         const float by = luminance(divisor(colour));
         if (!(guides.known[i] > 0.0F)) continue;
-        const float variance = std::max(from.guides.pixels()[i].squares / samples - of_all * of_all, 0.0F);
+        const float variance =
+            std::max(from.guides.pixels()[i].squares / samples - mean_luminance * mean_luminance, 0.0F);
         squares[i] = variance / ((samples - 1.0F) * by * by);
     }
-    light.variance = blurred(squares, guides, kNoise);
+    light.variance = blur(squares, guides, kNoise);
     if (from.samples > 1) return;
-    luminance_of = blurred(luminance_of, guides, kNoise);
+    luminance_plane = blur(luminance_plane, guides, kNoise);
     for (std::size_t i = 0; i < squares.size(); ++i) {
-        light.variance[i] = std::max(light.variance[i] - luminance_of[i] * luminance_of[i], 0.0F);
+        light.variance[i] = std::max(light.variance[i] - luminance_plane[i] * luminance_plane[i], 0.0F);
     }
 }
 
@@ -153,12 +153,12 @@ struct FilteredRow {
     explicit FilteredRow(std::size_t width) : weight(width), variance(width) { colour.fill(Plane(width)); }
 };
 
-// Adds to the pixels [from, to) of a row what lies `offset` pixels on. `sharpness` is 1 / tolerated difference of
-// brightness.
+// Adds the neighbour at `offset` (in pixels of the plane) to the pixels [from, to) of a row. `sharpness` is 1 /
+// tolerated difference of brightness.
 void add_neighbours(const Guides& guides, const Estimates& light, const Plane& brightness, const Plane& sharpness,
                     std::size_t row, std::ptrdiff_t offset, float weight, int from, int to, FilteredRow& sums) {
     const auto& [nx, ny, nz] = guides.normal;
-    const auto& [px, py, pz] = guides.place;
+    const auto& [px, py, pz] = guides.position;
     const auto& [cr, cg, cb] = guides.colour;
     for (auto x = static_cast<std::size_t>(from); x < static_cast<std::size_t>(to); ++x) {
         const std::size_t i = row + x;
@@ -170,7 +170,7 @@ void add_neighbours(const Guides& guides, const Estimates& light, const Plane& b
                                  (er * er + eg * eg + eb * eb) * (1.0F / (kColour * kColour)) +
                                  off_plane * guides.nearness[i] +
                                  std::abs(brightness[j] - brightness[i]) * sharpness[i];
-        // About exp(-difference).
+        // Approximates exp(-difference).
         const float near = 1.0F - 0.25F * difference;
         const float square = near * near;
         const float w = near > 0.0F ? weight * guides.known[j] * square * square : 0.0F;
@@ -182,21 +182,21 @@ void add_neighbours(const Guides& guides, const Estimates& light, const Plane& b
     }
 }
 
-Estimates smoothed(const Estimates& light, const Guides& guides, int level) {
+Estimates filter_level(const Estimates& light, const Guides& guides, int level) {
     const int width = guides.width, height = guides.height, step = 1 << level;
     Plane brightness = luminances(light);
     float deviations = kDeviations * std::min(1.0F, std::sqrt(kFewSamples / static_cast<float>(guides.samples)));
     if (level < kPatternLevels) {
-        // And a little of what there is in truth, lest patterns of light stay hidden however little noise there is.
-        constexpr float kOfTruth = 1.0F / 16;
-        const Plane means = blurred(brightness, guides, kPattern);
-        for (std::size_t i = 0; i < means.size(); ++i) brightness[i] = means[i] + kOfTruth * brightness[i];
+        // A small share of the unblurred brightness preserves lighting patterns once noise is low.
+        constexpr float kUnblurred = 1.0F / 16;
+        const Plane means = blur(brightness, guides, kPattern);
+        for (std::size_t i = 0; i < means.size(); ++i) brightness[i] = means[i] + kUnblurred * brightness[i];
         deviations /= 4;
     }
-    Plane sharpness = blurred(light.variance, guides, kAround);
+    Plane sharpness = blur(light.variance, guides, kAround);
     for (float& s : sharpness) s = 1.0F / (deviations * std::sqrt(s) + 1e-6F);
     Estimates result = light;
-    for_rows(height, [&](int y) {
+    for_each_row(height, [&](int y) {
         const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
         FilteredRow sums(static_cast<std::size_t>(width));
         for (int dy = -step; dy <= step; dy += step) {
@@ -217,10 +217,10 @@ Estimates smoothed(const Estimates& light, const Guides& guides, int level) {
     return result;
 }
 
-// All of it, at once.
-Image<RgbaF> filtered_whole(const Accumulation& accumulation) {
+// Filters a whole accumulation at once.
+Image<RgbaF> filter_image(const Accumulation& accumulation) {
     Image<RgbaF> image = accumulation.mean();
-    Guides guides = guides_of(accumulation);
+    Guides guides = make_guides(accumulation);
     const std::size_t size = guides.known.size();
     Estimates light;
     light.variance.resize(size);
@@ -239,8 +239,8 @@ Image<RgbaF> filtered_whole(const Accumulation& accumulation) {
         light.colour[1][i] = p.g / by.g;
         light.colour[2][i] = p.b / by.b;
     }
-    find_variance(accumulation, image, guides, light);
-    for (int level = 0; level < kLevels; ++level) light = smoothed(light, guides, level);
+    estimate_variance(accumulation, image, guides, light);
+    for (int level = 0; level < kLevels; ++level) light = filter_level(light, guides, level);
     for (std::size_t i = 0; i < size; ++i) {
         if (!(guides.known[i] > 0.0F)) continue;
         RgbaF& p = image.pixels()[i];
@@ -271,7 +271,7 @@ Image<RgbaF> filtered_mean(const Accumulation& accumulation, const PixelRectangl
     for (int top = shown.y0; top < shown.y1; top += rows) {
         const PixelRectangle strip{shown.x0, top, shown.x1, std::min(top + rows, shown.y1)};
         const PixelRectangle around = overlap(whole, within_reach(strip));
-        const Image<RgbaF> filtered = filtered_whole(accumulation.cut_out(around));
+        const Image<RgbaF> filtered = filter_image(accumulation.crop(around));
         for (int y = strip.y0; y < strip.y1; ++y) {
             for (int x = strip.x0; x < strip.x1; ++x) image(x, y) = filtered(x - around.x0, y - around.y0);
         }

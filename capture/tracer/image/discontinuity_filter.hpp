@@ -1,30 +1,27 @@
 #pragma once
-// Brings together what neighbouring pixels have gathered from different lights, but not across edges: the discontinuity
-// buffer of interleaved instant radiosity (A. Keller, W. Heidrich, "Interleaved Sampling", Eurographics Rendering
-// Workshop 2001; I. Wald et al. 2002).
+// Edge-avoiding denoising filter: the discontinuity buffer of interleaved instant radiosity (A. Keller, W. Heidrich,
+// "Interleaved Sampling", Eurographics Rendering Workshop 2001; I. Wald et al. 2002). It averages the interleaved
+// groups of virtual lights of neighbouring pixels, and the noise of path-traced images.
 //
-// Paths, whose samples have no such pattern, gain as much: their noise is averaged likewise.
-//
-// Pixels are averaged as far as their surfaces lie in one plane, face one way and have one colour, and as far as their
-// light differs by no more than its noise: the edge-avoiding wavelets of H. Dammertz et al. ("Edge-Avoiding A-Trous
-// Wavelet Transform for fast Global Illumination Filtering", HPG 2010) with the noise's variance as a measure
-// (C. Schied et al., "Spatiotemporal Variance-Guided Filtering", HPG 2017). Light is divided by the surface's colour
-// before and multiplied by it afterwards. As samples are added the noise falls and less is averaged: images go to
-// where their mean goes.
+// Weights decrease with the distance from the pixel's tangent plane, with differences of normal and surface colour,
+// and with radiance differences relative to the noise: the edge-avoiding wavelets of H. Dammertz et al.
+// ("Edge-Avoiding A-Trous Wavelet Transform for fast Global Illumination Filtering", HPG 2010) with variance-guided
+// weights (C. Schied et al., "Spatiotemporal Variance-Guided Filtering", HPG 2017). Radiance is divided by the surface
+// colour before filtering and multiplied afterwards. As samples are added the variance and thus the smoothing
+// decrease, so filtered images converge to the unfiltered mean.
 
 #include "capture/tracer/image/accumulation.hpp"
 
 namespace rs::capture {
 
-// How far away a pixel may be that has a part in one's result, along x or y.
+// Radius of the filter's support along x and y.
 inline constexpr int kFilterReach_px = 40;
 
-// As Accumulation::mean(), smoothed where the accumulation has guides. The same bits with any number of threads.
+/// Filters Accumulation::mean() where the accumulation has guides. The result does not depend on the thread count.
 Image<RgbaF> filtered_mean(const Accumulation& accumulation);
-// Only this part of the image is smoothed; it has the bits that it has in the whole one. There must be samples as far
-// around it as the filter reaches.
+/// Filters only `part`, with the same result as for the whole image. within_reach(part) must have samples.
 Image<RgbaF> filtered_mean(const Accumulation& accumulation, const PixelRectangle& part);
-// A part and what the filter takes into account around it.
+/// `part` enlarged by the filter's support.
 PixelRectangle within_reach(const PixelRectangle& part);
 
 }  // namespace rs::capture

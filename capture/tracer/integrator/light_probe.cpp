@@ -11,25 +11,26 @@
 namespace rs::capture {
 namespace {
 
-RayImage all_directions(const glm::dvec3& place, int width) {
-    return {width, width / 2, place, {0, 0, -1}, [width](double x, double y) { return probe_direction(x, y, width); }};
+RayImage all_directions(const glm::dvec3& position, int width) {
+    return {
+        width, width / 2, position, {0, 0, -1}, [width](double x, double y) { return probe_direction(x, y, width); }};
 }
 
-// Of a pixel in this row.
+// Solid angle of a pixel in row y.
 double solid_angle(int y, int width) {
     const double step = 2 * kPi / width;
     return (std::cos(y * step) - std::cos((y + 1) * step)) * 2 * kPi / width;
 }
 
-void add_light(const Light& light, const Tracer& tracer, const glm::dvec3& place, Image<RgbaF>& map) {
-    const glm::vec3 irradiance = irradiance_at(light, place);
+void add_light(const Light& light, const Tracer& tracer, const glm::dvec3& position, Image<RgbaF>& map) {
+    const glm::vec3 irradiance = irradiance_at(light, position);
     if (irradiance == glm::vec3(0)) return;
     const bool distant = model_of(light).form == LightForm::kDistant;
-    const glm::dvec3 way = distant ? -light.towards : light.location - place;
+    const glm::dvec3 way = distant ? -light.towards : light.location - position;
     const double distance = glm::length(way);
     const glm::dvec3 direction = way / distance;
     const double reach = distant ? std::numeric_limits<double>::infinity() : distance;
-    if (!tracer.sees(place, direction, reach)) return;
+    if (!tracer.is_unoccluded(position, direction, reach)) return;
     const int width = map.width();
     const double turns = 0.5 + std::atan2(direction.x, -direction.z) / (2 * kPi);
     const double polar = std::acos(std::clamp(direction.y, -1.0, 1.0)) / kPi;
@@ -52,7 +53,7 @@ std::int64_t light_probe_steps(const LightProbeOptions& options) {
     return Tracer::step_count(all_directions({}, options.width));
 }
 
-Image<RgbaF> light_probe(const Tracer& tracer, const glm::dvec3& place, const LightProbeOptions& options,
+Image<RgbaF> light_probe(const Tracer& tracer, const glm::dvec3& position, const LightProbeOptions& options,
                          Progress* progress) {
     RS_CHECK(options.width >= 2 && options.width % 2 == 0);
     RenderOptions render;
@@ -60,8 +61,8 @@ Image<RgbaF> light_probe(const Tracer& tracer, const glm::dvec3& place, const Li
     render.max_bounces = options.max_bounces;
     render.see_areas = true;
     render.see_environment = true;
-    Image<RgbaF> map = tracer.render(all_directions(place, options.width), render, progress).image;
-    for (const Light& light : tracer.lights()) add_light(light, tracer, place, map);
+    Image<RgbaF> map = tracer.render(all_directions(position, options.width), render, progress).image;
+    for (const Light& light : tracer.lights()) add_light(light, tracer, position, map);
     return map;
 }
 

@@ -1,24 +1,24 @@
 #pragma once
-// What light reaches a place, from all sides: a map that lights other scenes as this place was lit (scene.hpp,
-// Environment). Lights without an area, which nobody sees, are pixels of the radiance that gives their irradiance.
+// Light probe: an environment map of the radiance that arrives at a position from all directions (scene.hpp,
+// Environment). Lights without an area become single pixels with the radiance that yields their irradiance.
 
 #include "capture/tracer/integrator/tracer.hpp"
 
 namespace rs::capture {
 
 struct LightProbeOptions {
-    int width = 512;  // px, even; half as high
+    int width = 512;  // px, even; the height is half of it
     int samples_per_pixel = 64;
     int max_bounces = 16;
 };
 
-// Linear light; alpha is the share of a pixel's rays that met a surface or a light, and what the others see is missing.
-// The layout is Environment's. Advances `progress` by step_count() steps.
-Image<RgbaF> light_probe(const Tracer& tracer, const glm::dvec3& place, const LightProbeOptions& options,
+/// Renders a light probe with the layout of Environment. Advances `progress` by light_probe_steps() steps.
+/// \return linear light; alpha is the share of a pixel's rays that hit a surface or a light
+Image<RgbaF> light_probe(const Tracer& tracer, const glm::dvec3& position, const LightProbeOptions& options,
                          Progress* progress = nullptr);
 std::int64_t light_probe_steps(const LightProbeOptions& options);
 
-// Through the middle of a pixel of such a map, or any position in it; unit length.
+/// Unit direction of a pixel position in a map of this width; pixel centres have fraction 0.5.
 glm::dvec3 probe_direction(double x, double y, int width);
 
 }  // namespace rs::capture

@@ -1,5 +1,5 @@
 #pragma once
-// Which glass a ray runs in.
+// Nested glass media along a ray.
 
 #include "capture/tracer/scene/scene.hpp"
 
@@ -8,16 +8,16 @@
 
 namespace rs::capture {
 
-// The glass that a path is inside of, the innermost last. Glass may overlap: what is left is the last entry of its
-// kind.
+// Media that contain the current path segment, the innermost last. Glass may overlap: leaving one removes its last
+// entry.
 class MediumStack {
 public:
-    // What is left of light that has come `distance` through what the path runs in now.
-    [[nodiscard]] glm::vec3 passed(float distance) const {
+    // Transmittance of the innermost medium over `distance`.
+    [[nodiscard]] glm::vec3 transmittance(float distance) const {
         return size_ > 0 ? glm::pow(media_[size_ - 1]->colour, glm::vec3(distance)) : glm::vec3(1.0F);
     }
 
-    // Where `glass` is met from its front or its back side, and passed.
+    // Updates the stack after a refraction through the front or the back side of `glass`.
     void cross(const Material& glass, bool front_side) {
         if (front_side) {
             enter(glass);
@@ -27,25 +27,25 @@ public:
     }
 
 private:
-    // Where all places are taken, the outermost glass is forgotten.
+    // Drops the outermost medium if the stack is full.
     void enter(const Material& glass) {
-        if (size_ == kMost) drop(0);
+        if (size_ == kMaxDepth) drop(0);
         media_[size_++] = &glass;
     }
-    // Leaving what was never entered (the camera stood inside, or the surface is open) changes nothing.
+    // Leaving a medium that was never entered (the camera is inside it, or its surface is open) has no effect.
     void leave(const Material& glass) {
         for (std::size_t i = size_; i-- > 0;) {
             if (media_[i] == &glass) return drop(i);
         }
     }
 
-    static constexpr std::size_t kMost = 4;
+    static constexpr std::size_t kMaxDepth = 4;
 
     void drop(std::size_t index) {
         for (--size_; index < size_; ++index) media_[index] = media_[index + 1];
     }
 
-    std::array<const Material*, kMost> media_{};
+    std::array<const Material*, kMaxDepth> media_{};
     std::size_t size_ = 0;
 };
 

@@ -9,8 +9,8 @@ namespace rs::capture {
 
 namespace {
 
-// The mean over visible normals of Fresnel reflectance times the share that is not shadowed on the way out. A midpoint
-// rule suffices: the integrand is smooth, and it is evaluated once per table.
+// Mean over visible normals of Fresnel reflectance times the unshadowed share. A midpoint rule suffices: the integrand
+// is smooth.
 template <class Fresnel>
 float integrate_albedo(float cos_angle, float alpha, Fresnel fresnel) {
     constexpr int kSteps = 24;
@@ -19,7 +19,7 @@ float integrate_albedo(float cos_angle, float alpha, Fresnel fresnel) {
     double sum = 0;
     for (int i = 0; i < kSteps; ++i) {
         for (int j = 0; j < kSteps; ++j) {
-            // Half a turn is enough, for the other half mirrors it.
+            // Half a turn suffices by symmetry.
             const glm::vec2 u((static_cast<float>(i) + 0.5F) / (2.0F * kSteps),
                               (static_cast<float>(j) + 0.5F) / kSteps);
             const glm::vec3 normal = sample_visible_normal(wo, alpha, u);
@@ -69,7 +69,7 @@ glm::vec3 sample_visible_normal(const glm::vec3& wo, float alpha, const glm::vec
 MicrofacetValue evaluate_microfacet(const glm::vec3& wo, const glm::vec3& wi, float alpha, float lambda_o) {
     const glm::vec3 half = glm::normalize(wo + wi);
     const float alpha2 = alpha * alpha;
-    // 1 - z^2 through x and y: the lobe of a smooth surface is narrower than the rounding of z^2.
+    // 1 - z^2 computed as x^2 + y^2: the lobe of a smooth surface is narrower than the rounding error of z^2.
     const float root = alpha2 * half.z * half.z + half.x * half.x + half.y * half.y;
     const float distribution = alpha2 / (kPiF * root * root);
     const float lambda_i = smith_lambda(wi, alpha);

@@ -19,28 +19,28 @@ void PacketMaterial::fill(std::size_t lane, MaterialLanes& lanes) const {
 static_assert(AlbedoTable::kSize == kAlbedoNumbers);
 
 PacketMaterials::PacketMaterials(const Scene& scene, const std::vector<SurfaceModel>& models) {
-    tables_.assign(AlbedoTable::kSize, 0.0F);  // of materials without one
-    std::map<const AlbedoTable*, std::int32_t> places = {{nullptr, 0}};
+    tables_.assign(AlbedoTable::kSize, 0.0F);  // for materials without a table
+    std::map<const AlbedoTable*, std::int32_t> table_offsets = {{nullptr, 0}};
     materials_.reserve(scene.materials.size());
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const Material& of = scene.materials[i];
+        const Material& source = scene.materials[i];
         const SurfaceModel& model = models[i];
         const AlbedoTable* table = model.albedo.get();
-        const auto [place, is_new] = places.try_emplace(table, static_cast<std::int32_t>(tables_.size()));
+        const auto [entry, is_new] = table_offsets.try_emplace(table, static_cast<std::int32_t>(tables_.size()));
         if (is_new) tables_.insert(tables_.end(), table->values().begin(), table->values().end());
         PacketMaterial material{};
-        material.number = static_cast<int>(i);
+        material.index = static_cast<int>(i);
         material.kind = model.kind;
-        material.colour = of.colour;
-        material.texture = of.texture < 0 ? nullptr : &scene.textures[static_cast<std::size_t>(of.texture)];
+        material.colour = source.colour;
+        material.texture = source.texture < 0 ? nullptr : &scene.textures[static_cast<std::size_t>(source.texture)];
         material.alpha = model.alpha;
         material.ior = model.ior;
         material.translucency = model.translucency;
         material.base = table == nullptr ? 1.0F : std::max(1.0F - table->mean(), 1e-4F);
-        material.table = place->second;
-        material.shines = max_component(of.emission) > 0.0F;
-        material.relief = of.relief >= 0;
-        material.one_sided = of.is_one_sided();
+        material.table = entry->second;
+        material.emissive = max_component(source.emission) > 0.0F;
+        material.has_relief = source.relief >= 0;
+        material.one_sided = source.is_one_sided();
         materials_.push_back(material);
     }
 }
@@ -48,8 +48,8 @@ PacketMaterials::PacketMaterials(const Scene& scene, const std::vector<SurfaceMo
 void PacketMaterials::set_lane(std::size_t lane, const LightTransport::Vertex& vertex, SurfaceLanes& surfaces) const {
     const glm::vec3& facet = vertex.point.geometric_normal;
     (*this)[vertex.point.material].fill(lane, surfaces.material);
-    surfaces.near_start.set(lane, vertex.start_of(facet, true));
-    surfaces.far_start.set(lane, vertex.start_of(-facet, false));
+    surfaces.near_start.set(lane, vertex.ray_origin(facet, true));
+    surfaces.far_start.set(lane, vertex.ray_origin(-facet, false));
     surfaces.geometric_normal.set(lane, facet);
     surfaces.normal.set(lane, vertex.frame.normal);
     surfaces.tangent.set(lane, vertex.frame.tangent);
@@ -60,8 +60,8 @@ void PacketMaterials::set_lane(std::size_t lane, const LightTransport::Vertex& v
     surfaces.lambda[lane] = vertex.surface.lambda();
 }
 
-VirtualLight PacketMaterials::virtual_light(const LightTransport::Vertex& vertex, const glm::vec3& flux,
-                                            int depth) const {
+VirtualLight PacketMaterials::make_virtual_light(const LightTransport::Vertex& vertex, const glm::vec3& flux,
+                                                 int depth) const {
     const PacketMaterial& material = (*this)[vertex.point.material];
     const glm::vec3& facet = vertex.point.geometric_normal;
     return {material.kind,
@@ -71,7 +71,7 @@ VirtualLight PacketMaterials::virtual_light(const LightTransport::Vertex& vertex
             material.base,
             material.table,
             vertex.point.position,
-            vertex.start_of(facet, true),
+            vertex.ray_origin(facet, true),
             facet,
             vertex.frame.normal,
             vertex.frame.tangent,

@@ -1,20 +1,20 @@
 #pragma once
-// Instant radiosity, a pass of virtual lights at a time (A. Keller, "Instant Radiosity", SIGGRAPH 1997).
+// Instant radiosity with one set of virtual lights per pass (A. Keller, "Instant Radiosity", SIGGRAPH 1997).
 //
 //     photons from the lights -> virtual lights (virtual_lights.hpp)
-//     camera ray -> mirrors, glass -> surface: a sample of each light for direct light, virtual lights for the rest
+//     camera ray -> mirrors, glass -> surface: a sample of each light (direct), all virtual lights (indirect)
 //
-// In images of 65,536 pixels and more virtual lights are interleaved: of the pixels of each square of 4 x 4 every one
-// has a group of its own, so that neighbours together see sixteen times as many (I. Wald et al., "Interactive Global
-// Illumination using Fast Ray Tracing", Eurographics Rendering Workshop 2002); discontinuity_filter.hpp brings them
-// together. Sixteen pixels that have the same group go together as a packet.
+// In images of 65,536 pixels and more virtual lights are interleaved: each pixel of a square of 4 x 4 has its own
+// group, so that a square uses sixteen times as many (I. Wald et al., "Interactive Global Illumination using Fast Ray
+// Tracing", Eurographics Rendering Workshop 2002); discontinuity_filter.hpp averages the groups. A packet consists of
+// sixteen pixels with the same group.
 //
-// Near a virtual light the geometry term is bounded, so that no bright spots stand in corners. What that cuts off is
-// found by paths, which go on from a surface only where the term exceeds the bound (T. Kollig, A. Keller, "Illumination
-// in the Presence of Weak Singularities", MCQMC 2004). So the mean of the passes goes to what a path tracer finds.
+// The geometry term is bounded near a virtual light to avoid bright spots in corners. Paths compute the clamped
+// remainder: they continue from a surface only where the term exceeds the bound (T. Kollig, A. Keller, "Illumination
+// in the Presence of Weak Singularities", MCQMC 2004). The mean of the passes thus converges to the path tracer's
+// result.
 //
-// Left out is the light that reaches the camera over more than one surface from primitives, and from surfaces that
-// shine and move while the shutter is open.
+// Not computed: indirect light from primitives and from emissive surfaces that move while the shutter is open.
 
 #include "capture/tracer/image/ray_image.hpp"
 #include "capture/tracer/integrator/gather_packet.hpp"
@@ -31,51 +31,51 @@ namespace rs::capture {
 
 class RadiosityTracer final : public Integrator {
 public:
-    // Makes ready for the samples first <= s < first + count of an image; each is a pass of its own. The same `key`
-    // and sample give the same virtual lights.
+    /// Traces the virtual lights for samples first <= s < first + count of an image; each sample is one pass. They
+    /// depend only on `key` and the sample index.
     RadiosityTracer(const LightTransport& transport, const VirtualLightOptions& options, const RayImage& image,
                     std::uint64_t key, int first, int count);
     RadiosityTracer(const RadiosityTracer&) = delete;
     RadiosityTracer& operator=(const RadiosityTracer&) = delete;
     ~RadiosityTracer() override = default;
 
-    // At the time of the sampler's pass, whatever `time` is. All rays of a call are of one pass. One ray alone counts
-    // as the first pixel of its square.
+    /// Ignores `time`: the pass determines the time. A single ray uses the group of the first pixel of a square.
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
-    void trace_many(std::span<CameraRay> rays, std::span<RadianceSample> arrived) const override;
+    /// All rays must belong to one pass.
+    void trace_many(std::span<CameraRay> rays, std::span<RadianceSample> samples) const override;
 
-    [[nodiscard]] bool gives_guides() const override { return true; }
+    [[nodiscard]] bool has_guides() const override { return true; }
 
-    // Of the passes that are ready.
+    // Number of virtual lights of all passes.
     [[nodiscard]] std::size_t light_count() const;
 
 private:
     using Vertex = LightTransport::Vertex;
-    // A camera ray on its way.
-    struct Way {
-        CameraRay* ray = nullptr;
-        RadianceSample* arrived = nullptr;
+    // State of the path that starts with one camera ray.
+    struct PathState {
+        CameraRay* ray = nullptr;  // null if the path has ended
+        RadianceSample* sample = nullptr;
         LightTransport::Segment segment{};
         MediumStack media;
         glm::vec3 throughput{1.0F};
-        std::optional<Vertex> vertex;  // where it has arrived
-        // Where virtual lights stand for what the segment would find on a surface, up to their bound: the cosine at its
-        // beginning; else 0.
+        std::optional<Vertex> vertex;  // end of the last segment
+        // Cosine at the segment's origin if virtual lights have already accounted, up to the bound, for the light that
+        // the segment finds on a surface; otherwise 0.
         float gathered_cos = 0.0F;
-        float distance = 0.0F;  // so far
+        float distance = 0.0F;  // length of the path
 
         void begin(CameraRay& from, RadianceSample& into, float at);
     };
     struct Packet;
 
     void trace_packet(Packet& packet) const;
-    void follow_to_surfaces(Packet& packet, int bounce) const;
-    void meet(Way& way, bool hit, const SurfacePoint& point, int bounce) const;
+    void trace_to_surfaces(Packet& packet, int bounce) const;
+    void finish_hit(PathState& path, bool hit, const SurfacePoint& point, int bounce) const;
     void gather(Packet& packet, int bounce) const;
-    [[nodiscard]] glm::vec3 from_areas(const Vertex& vertex, Sampler& sampler) const;
-    void go_on(Way& way, int bounce) const;
-    // A pass is a moment, for its virtual lights and all that they shine on. 0 where nothing moves.
+    [[nodiscard]] glm::vec3 gather_areas(const Vertex& vertex, Sampler& sampler) const;
+    void continue_path(PathState& path, int bounce) const;
+    // Time of a pass, for its virtual lights and its camera rays. 0 if nothing moves.
     [[nodiscard]] float time_of(int pass) const;
     [[nodiscard]] const std::vector<VirtualLight>& lights_for(const CameraRay& ray) const;
 
@@ -84,9 +84,9 @@ private:
     VirtualLightOptions options_;
     std::uint64_t key_;
     int first_;
-    int groups_ = 1;  // of a pass
+    int groups_ = 1;  // per pass
     float bound_ = 0.0F;
-    std::vector<std::vector<VirtualLight>> lights_;  // of each group of each pass
+    std::vector<std::vector<VirtualLight>> lights_;  // [pass * groups_ + group]
 };
 
 }  // namespace rs::capture

@@ -1,11 +1,10 @@
 #pragma once
-// Random numbers for one path, as a function of (seed, pixel, sample, dimension) alone: no state is shared, so images
-// do not depend on threads or tiles.
+// Random numbers for one path, a pure function of (seed, pixel, sample, dimension), so that images do not depend on
+// threads or tiles.
 //
 // Each call draws from the first two dimensions of the Sobol sequence; the order of the samples and both coordinates
 // are Owen-scrambled by hashes of pixel and dimension (B. Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4),
-// 2020). Thereby the first N samples of a pixel are stratified in every pair of dimensions, best where N is a power of
-// two.
+// 2020). The first N samples of a pixel are stratified in every pair of dimensions, best if N is a power of two.
 
 #include <glm/glm.hpp>
 

@@ -83,13 +83,13 @@ Surface::Value Surface::evaluate(const glm::vec3& wi) const {
 bool Surface::sample(float u_lobe, const glm::vec2& u, SurfaceSample& drawn) const {
     if (is_specular()) return sample_specular(u_lobe, drawn);
     if (model_.kind == SurfaceKind::diffuse) {
-        drawn.direction = cosine_direction(u);
+        drawn.direction = sample_cosine_hemisphere(u);
         if (u_lobe < model_.translucency) drawn.direction.z = -drawn.direction.z;
     } else if (model_.kind == SurfaceKind::metal || u_lobe < coat_probability_) {
         const glm::vec3 normal = sample_visible_normal(wo_, model_.alpha, u);
         drawn.direction = 2.0F * glm::dot(wo_, normal) * normal - wo_;
     } else {
-        drawn.direction = cosine_direction(u);
+        drawn.direction = sample_cosine_hemisphere(u);
     }
     const Value value = evaluate(drawn.direction);
     if (!(value.pdf > 1e-12F)) return false;
@@ -103,12 +103,12 @@ SurfaceSample Surface::reflected(const glm::vec3& weight) const {
     return {reflect_about_normal(wo_), weight, 0.0F, true};
 }
 
-float Surface::index_step() const {
+float Surface::relative_ior() const {
     return leaving_ ? 1.0F / model_.ior : model_.ior;
 }
 
 SurfaceSample Surface::refracted(const glm::vec3& weight) const {
-    const float eta = index_step();
+    const float eta = relative_ior();
     const float cos_refracted = std::sqrt(std::max(0.0F, 1.0F - (1.0F - wo_.z * wo_.z) / (eta * eta)));
     return {{-wo_.x / eta, -wo_.y / eta, -cos_refracted}, weight, 0.0F, true};
 }
@@ -118,20 +118,20 @@ bool Surface::sample_specular(float u_lobe, SurfaceSample& drawn) const {
         drawn = reflected(colour_);
         return true;
     }
-    // What is drawn by its own probability needs no factor.
-    const bool back = u_lobe < fresnel_dielectric(wo_.z, index_step());
+    // Sampled with its own probability, so the weight is 1.
+    const bool back = u_lobe < fresnel_dielectric(wo_.z, relative_ior());
     drawn = back ? reflected(glm::vec3(1.0F)) : refracted(glm::vec3(1.0F));
     return true;
 }
 
-std::vector<SurfaceSample> Surface::specular_ways() const {
+std::vector<SurfaceSample> Surface::specular_directions() const {
     switch (model_.kind) {
         case SurfaceKind::mirror:
             return {reflected(colour_)};
         case SurfaceKind::metal:
             return {reflected(fresnel_schlick(wo_.z, colour_))};
         case SurfaceKind::glass: {
-            const float back = fresnel_dielectric(wo_.z, index_step());
+            const float back = fresnel_dielectric(wo_.z, relative_ior());
             if (back >= 1.0F) return {reflected(glm::vec3(1.0F))};
             return {reflected(glm::vec3(back)), refracted(glm::vec3(1.0F - back))};
         }

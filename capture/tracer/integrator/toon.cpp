@@ -9,11 +9,11 @@ namespace rs::capture {
 
 namespace {
 
-constexpr float kFarAway = std::numeric_limits<float>::infinity();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Place `index` of a sequence that fills the unit square evenly, shifted (M. Roberts, "The Unreasonable Effectiveness
+// Point `index` of a shifted low-discrepancy sequence in the unit square (M. Roberts, "The Unreasonable Effectiveness
 // of Quasirandom Sequences", 2018).
-glm::vec2 even_place(const glm::vec2& shift, int index) {
+glm::vec2 quasirandom_point(const glm::vec2& shift, int index) {
     return glm::min(glm::fract(shift + static_cast<float>(index) * glm::vec2(0.75487767F, 0.56984029F)),
                     glm::vec2(0x1.fffffep-1F));
 }
@@ -25,29 +25,29 @@ ToonTracer::ToonTracer(const LightTransport& transport, IrradianceMap irradiance
     : WhittedTracer(transport, std::move(irradiance), ambient, max_depth),
       style_(std::move(style)),
       edges_(transport.rays(), style_, pixel_rad),
-      everywhere_(kPiF * luminance(ambient)) {
-    find_sky();
+      isotropic_irradiance_(kPiF * luminance(ambient)) {
+    find_sky_light();
 }
 
-void ToonTracer::find_sky() {
+void ToonTracer::find_sky_light() {
     constexpr int kDirections = 2048;
     constexpr float kGoldenAngle_rad = 2.39996323F;
-    constexpr float kLeastDifference = 0.05F;
-    float least = kFarAway, most = 0;
+    constexpr float kMinDifference = 0.05F;
+    float smallest = kInfinity, largest = 0;
     for (int i = 0; i < kDirections; ++i) {
         const float height = 1.0F - 2.0F * (static_cast<float>(i) + 0.5F) / kDirections;
         const float across = std::sqrt(1.0F - height * height), turn = kGoldenAngle_rad * static_cast<float>(i);
         const glm::vec3 normal(across * std::cos(turn), height, across * std::sin(turn));
         const float irradiance = luminance(this->irradiance().at(normal));
-        least = std::min(least, irradiance);
-        if (!(irradiance > most)) continue;
-        most = irradiance;
-        sky_ = normal;
+        smallest = std::min(smallest, irradiance);
+        if (!(irradiance > largest)) continue;
+        largest = irradiance;
+        sky_direction_ = normal;
     }
-    // What is even all around has no direction.
-    if (most - least < kLeastDifference * most) least = most;
-    of_sky_ = most - least;
-    everywhere_ += least;
+    // A nearly uniform environment has no direction.
+    if (largest - smallest < kMinDifference * largest) smallest = largest;
+    sky_irradiance_ = largest - smallest;
+    isotropic_irradiance_ += smallest;
 }
 
 bool ToonTracer::trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
@@ -59,11 +59,11 @@ bool ToonTracer::trace(const glm::vec3& origin, const glm::vec3& direction, floa
 
 bool ToonTracer::shade(const LightTransport::Vertex& vertex, const Ray& ray, Sampler& sampler,
                        glm::vec3& radiance) const {
-    if (edges_.near_edge(vertex.point, ray.segment.direction, ray.behind)) {
+    if (edges_.is_near_edge(vertex.point, ray.segment.direction, ray.previous_distance)) {
         radiance += style_.brightness * style_.edge_colour;
         return false;
     }
-    // A metal shows what it mirrors, as a mirror does.
+    // Metals are treated as mirrors.
     if (vertex.surface.is_specular() || transport().model_of(vertex.point).kind == SurfaceKind::metal) return true;
     radiance += style_.brightness * style_.tone(intensity(vertex, sampler)) * vertex.surface.colour();
     return true;
@@ -72,34 +72,34 @@ bool ToonTracer::shade(const LightTransport::Vertex& vertex, const Ray& ray, Sam
 float ToonTracer::intensity(const LightTransport::Vertex& vertex, Sampler& sampler) const {
     const float through = transport().model_of(vertex.point).translucency;
     float lit = 0, sum = 0;
-    glm::vec3 towards(0.0F);
+    glm::vec3 net_irradiance(0.0F);
     const auto add = [&](float strength, const glm::vec3& direction, float distance) {
         sum += strength;
-        towards += strength * direction;
+        net_irradiance += strength * direction;
         const float cosine = glm::dot(vertex.frame.normal, direction);
         const float received = cosine > 0.0F ? (1.0F - through) * cosine : -through * cosine;
         if (!(received > 0.0F)) return;
-        const glm::vec3 start = vertex.start_of(direction, cosine > 0.0F);
+        const glm::vec3 start = vertex.ray_origin(direction, cosine > 0.0F);
         if (!transport().rays().occluded(start, direction, distance * (1.0F - 1e-4F), vertex.point.time))
             lit += strength * received;
     };
-    if (of_sky_ > 0.0F) add(of_sky_, sky_, kFarAway);
+    if (sky_irradiance_ > 0.0F) add(sky_irradiance_, sky_direction_, kInfinity);
     const LightSet& lights = transport().lights();
-    const glm::vec3 place = vertex.start_of(vertex.point.geometric_normal, true);
+    const glm::vec3 position = vertex.ray_origin(vertex.point.geometric_normal, true);
     const int rays = std::max(style_.shadow_rays, 1);
     const glm::vec2 shift = style_.shadow_rays > 0 ? sampler.next_2d() : glm::vec2(0.0F);
     for (int ray = 0; ray < rays; ++ray) {
-        const auto place_on_light = [&] { return even_place(shift, ray); };
+        const auto point_on_light = [&] { return quasirandom_point(shift, ray); };
         for (std::size_t i = 0; i < lights.light_count(); ++i) {
-            const auto light =
-                style_.shadow_rays > 0 ? lights.point(i, place, place_on_light) : lights.middle(i, place);
+            const auto light = style_.shadow_rays > 0 ? lights.sample_point(i, position, point_on_light)
+                                                      : lights.sample_centre(i, position);
             if (!light || (light->delta && ray > 0)) continue;
             const float share = light->delta ? 1.0F : 1.0F / static_cast<float>(rays);
             add(share * luminance(light->radiance) / light->pdf, light->direction, light->distance);
         }
     }
-    const float most = std::max(glm::length(towards), 0.5F * sum) + everywhere_;
-    return most > 0.0F ? (lit + everywhere_) / most : 0.0F;
+    const float largest = std::max(glm::length(net_irradiance), 0.5F * sum) + isotropic_irradiance_;
+    return largest > 0.0F ? (lit + isotropic_irradiance_) / largest : 0.0F;
 }
 
 }  // namespace rs::capture

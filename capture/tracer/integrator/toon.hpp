@@ -1,17 +1,17 @@
 #pragma once
-// Scenes as cartoons: Whitted's recursion, where the intensity of the light, not the colour, is stepped at every hit,
-// so that what mirrors and glass show is drawn alike, with lines along edges (toon_edges.hpp). Source: N. Burnett and
-// T. Piazza, "Toon Shading Using Distributed Raytracing".
+// Toon shading: Whitted ray tracing that quantises the light intensity, not the colour, at every hit, so that objects
+// in mirrors and glass have the same style, with lines along edges (toon_edges.hpp). Source: N. Burnett and T. Piazza,
+// "Toon Shading Using Distributed Raytracing".
 //
-//     colour of the surface * tone( (sum of E_k (N . L_k) over the lights that are seen + A) / (M + A) )
+//     surface colour * tone( (sum of E_k (N . L_k) over the unoccluded lights + A) / (M + A) )
 //
-// E_k is the irradiance that light k would give a surface which faces it. M is what the surface at this place could get
-// at most if it were turned the best way with nothing in between: |sum of E_k L_k|, or half the sum of E_k where lights
-// stand opposite each other. So a single light has N . L for its intensity, however bright it is, and the best lit
-// sides have the first tone however many lights there are. Colours of lights count nothing. The environment is one more
-// light from far away, from where it shines the most, with what is above its least irradiance; the least, and the light
-// that surfaces reflect, are A, which comes from everywhere. Normals are those of the vertices, interpolated. Emission
-// is seen as it is, up to 1.
+// E_k is the irradiance of light k on a surface that faces it. M is the largest irradiance that a surface at this
+// position can receive without occlusion: |sum of E_k L_k|, or half the sum of E_k for lights on opposite sides. The
+// intensity of a single light is therefore N . L at any brightness, and the best-lit sides have the first tone for any
+// number of lights. Light colours are ignored. The environment is one more distant light from the direction of its
+// largest irradiance, with strength largest - smallest irradiance. A is isotropic: the environment's smallest
+// irradiance plus the ambient (indirect) light. Normals are interpolated vertex normals. Emission is unchanged, up
+// to 1.
 
 #include "capture/tracer/integrator/toon_edges.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
@@ -23,14 +23,14 @@ namespace rs::capture {
 
 class ToonTracer final : public WhittedTracer {
 public:
-    // `pixel_rad`: between the rays of neighbouring pixels in the middle of the image.
+    /// \param pixel_rad angle between adjacent pixels' rays at the image centre
     ToonTracer(const LightTransport& transport, IrradianceMap irradiance, const glm::vec3& ambient, int max_depth,
                ToonStyle style, float pixel_rad);
 
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
-    void trace_many(std::span<CameraRay> rays, std::span<RadianceSample> arrived) const override {
-        trace_one_by_one(rays, arrived);
+    void trace_many(std::span<CameraRay> rays, std::span<RadianceSample> samples) const override {
+        trace_one_by_one(rays, samples);
     }
 
 protected:
@@ -38,14 +38,14 @@ protected:
                glm::vec3& radiance) const override;
 
 private:
-    void find_sky();
+    void find_sky_light();
     [[nodiscard]] float intensity(const LightTransport::Vertex& vertex, Sampler& sampler) const;
 
     ToonStyle style_;
     ToonEdges edges_;
-    glm::vec3 sky_{0, 1, 0};  // where the environment shines the most from,
-    float of_sky_ = 0;        // with as much irradiance,
-    float everywhere_ = 0;    // and as much from everywhere
+    glm::vec3 sky_direction_{0, 1, 0};  // of the environment's largest irradiance
+    float sky_irradiance_ = 0;          // largest minus smallest irradiance of the environment
+    float isotropic_irradiance_ = 0;    // A
 };
 
 }  // namespace rs::capture

@@ -11,18 +11,18 @@ namespace rs::capture {
 
 namespace {
 
-constexpr int kFewestDiameters = 4, kMostDiameters = 64;  // diameters
-constexpr float kNarrower_px = 0.4F;                      // that a line may be than its disc, between two diameters
-constexpr float kHidden_px = 0.3F;      // that a line may be narrower because its crease hides in the last chord
-constexpr float kMostAngle_rad = 3.1F;  // of a crease; its half has a tangent
-constexpr float kFlattest = 0.01F;      // cosine of a ray and a surface's normal, that is told from a flatter one
+constexpr int kMinDiameters = 4, kMaxDiameters = 64;
+constexpr float kNarrower_px = 0.4F;   // tolerated narrowing of a line between two diameters
+constexpr float kHidden_px = 0.3F;     // tolerated narrowing of a line whose crease lies within the last chord
+constexpr float kMaxAngle_rad = 3.1F;  // of a crease; keeps the tangent of its half finite
+constexpr float kMinCos = 0.01F;       // lower bound for the cosine between a ray and a normal
 
-// How many radii before the disc its rays start: before the facet that is met, if that goes on.
-float start_of(float cos_ray) {
+// Distance from the ray origins to the disc, in radii: in front of the facet's plane over the whole disc.
+float ray_offset(float cos_ray) {
     return 4.0F + 1.25F * std::sqrt(std::max(1.0F - cos_ray * cos_ray, 0.0F)) / cos_ray;
 }
 
-// Two perpendicular directions in the disc, the first of them level: views beside each other have about the same.
+// Two perpendicular directions in the disc, the first one horizontal, so that they vary little between adjacent views.
 void span_disc(const glm::vec3& direction, glm::vec3& u, glm::vec3& v) {
     const glm::vec3 level = glm::cross(direction, glm::vec3(0, 1, 0));
     const float length = glm::length(level);
@@ -30,23 +30,23 @@ void span_disc(const glm::vec3& direction, glm::vec3& u, glm::vec3& v) {
     v = glm::cross(u, direction);
 }
 
-// How many diameters a disc needs, so that lines are as wide as it is.
-std::size_t diameters_of(float radius_px) {
-    std::size_t count = kFewestDiameters;
+// Number of diameters that keeps the narrowing of lines below kNarrower_px.
+std::size_t diameter_count(float radius_px) {
+    std::size_t count = kMinDiameters;
     // 1 - cos(x) is x * x / 2 here.
-    for (float narrower_px = radius_px * kPiF * kPiF / (8.0F * kFewestDiameters * kFewestDiameters);
-         narrower_px > kNarrower_px && count < kMostDiameters; narrower_px /= 4.0F) {
+    for (float narrower_px = radius_px * kPiF * kPiF / (8.0F * kMinDiameters * kMinDiameters);
+         narrower_px > kNarrower_px && count < kMaxDiameters; narrower_px /= 4.0F) {
         count *= 2;
     }
     return count;
 }
 
-// Of each diameter after the fewest: cosine and sine from the first one. The first N of all, for N = 8, 16, ..., are
-// spread evenly.
-std::array<glm::vec2, kMostDiameters - kFewestDiameters> make_turns() {
-    std::array<glm::vec2, kMostDiameters - kFewestDiameters> turns;
+// Cosine and sine of the angle to the first diameter, for each diameter after the first kMinDiameters. The first N of
+// all diameters, N = 8, 16, ..., are evenly spaced.
+std::array<glm::vec2, kMaxDiameters - kMinDiameters> make_turns() {
+    std::array<glm::vec2, kMaxDiameters - kMinDiameters> turns;
     std::size_t count = 0;
-    for (int all = 2 * kFewestDiameters; all <= kMostDiameters; all *= 2) {
+    for (int all = 2 * kMinDiameters; all <= kMaxDiameters; all *= 2) {
         for (int odd = 1; odd < all; odd += 2) {
             const double turn_rad = kPi * odd / all;
             turns[count++] = glm::vec2(glm::dvec2(std::cos(turn_rad), std::sin(turn_rad)));
@@ -55,10 +55,10 @@ std::array<glm::vec2, kMostDiameters - kFewestDiameters> make_turns() {
     return turns;
 }
 
-const std::array<glm::vec2, kMostDiameters - kFewestDiameters> kTurns = make_turns();
+const std::array<glm::vec2, kMaxDiameters - kMinDiameters> kTurns = make_turns();
 
-// Of the disc that u and v span.
-glm::vec3 way_of(std::size_t diameter, const glm::vec3& u, const glm::vec3& v) {
+// Direction of a diameter of the disc spanned by u and v.
+glm::vec3 diameter_direction(std::size_t diameter, const glm::vec3& u, const glm::vec3& v) {
     constexpr float kDiagonal = 0.70710678F;
     switch (diameter) {
         case 0:
@@ -70,7 +70,7 @@ glm::vec3 way_of(std::size_t diameter, const glm::vec3& u, const glm::vec3& v) {
         case 3:
             return (u - v) * kDiagonal;
         default:
-            return u * kTurns[diameter - kFewestDiameters].x + v * kTurns[diameter - kFewestDiameters].y;
+            return u * kTurns[diameter - kMinDiameters].x + v * kTurns[diameter - kMinDiameters].y;
     }
 }
 
@@ -84,26 +84,26 @@ ToonEdges::ToonEdges(const RayScene& rays, const ToonStyle& style, float pixel_r
       pixel_rad_(pixel_rad),
       cos_angle_(std::cos(style.edge_angle_rad)),
       sin_angle_(std::sin(style.edge_angle_rad)),
-      // The slopes beside a crease differ by 2 tan(angle / 2) at least; that of a chord changes by as much of this as
-      // it has behind the crease.
-      least_bend_px_(kHidden_px * kSteps * 2.0F * std::tan(0.5F * std::min(style.edge_angle_rad, kMostAngle_rad))) {}
+      // The slopes beside a crease differ by at least 2 tan(angle / 2); the slope of a chord changes in proportion to
+      // its part behind the crease.
+      min_bend_px_(kHidden_px * kSteps * 2.0F * std::tan(0.5F * std::min(style.edge_angle_rad, kMaxAngle_rad))) {}
 
-bool ToonEdges::near_edge(const SurfacePoint& point, const glm::vec3& direction, float behind) const {
+bool ToonEdges::is_near_edge(const SurfacePoint& point, const glm::vec3& direction, float previous_distance) const {
     if (!(radius_ > 0.0F)) return false;
-    const float cos_ray = std::max(-glm::dot(point.geometric_normal, direction), kFlattest);
-    const float before = std::min(radius_ * start_of(cos_ray), 0.999F * point.distance);
-    const glm::vec3 middle = point.position - direction * before;
+    const float cos_ray = std::max(-glm::dot(point.geometric_normal, direction), kMinCos);
+    const float before = std::min(radius_ * ray_offset(cos_ray), 0.999F * point.distance);
+    const glm::vec3 centre = point.position - direction * before;
     glm::vec3 u, v;
     span_disc(direction, u, v);
-    const Ray ray{direction, point.time, radius_ / ((behind + point.distance) * pixel_rad_)};
-    const std::size_t count = diameters_of(ray.radius_px);
+    const Ray ray{direction, point.time, radius_ / ((previous_distance + point.distance) * pixel_rad_)};
+    const std::size_t count = diameter_count(ray.radius_px);
     for (std::size_t d = 0; d < count; ++d) {
-        const glm::vec3 way = way_of(d, u, v);
+        const glm::vec3 axis = diameter_direction(d, u, v);
         Diameter diameter;
-        diameter.way = way;
+        diameter.direction = axis;
         std::array<glm::vec3, RayScene::kBundle> origins;
         for (int i = -kSteps; i <= kSteps; ++i) {
-            diameter.origins[static_cast<std::size_t>(i + kSteps)] = middle + way * (static_cast<float>(i) * spacing_);
+            diameter.origins[static_cast<std::size_t>(i + kSteps)] = centre + axis * (static_cast<float>(i) * spacing_);
         }
         std::copy_n(diameter.origins.begin(), kSteps, origins.begin());
         std::copy_n(diameter.origins.begin() + kSteps + 1, kSteps, origins.begin() + kSteps);
@@ -111,21 +111,21 @@ bool ToonEdges::near_edge(const SurfacePoint& point, const glm::vec3& direction,
         std::copy_n(depths.begin(), kSteps, diameter.depths.begin());
         std::copy_n(depths.begin() + kSteps, kSteps, diameter.depths.begin() + kSteps + 1);
         diameter.depths[kSteps] = before;
-        diameter.slope = glm::dot(point.geometric_normal, way) / cos_ray;
-        const Extent extent = extent_of(diameter);
-        if (extent.ends || has_crease(diameter, extent, ray)) return true;
+        diameter.slope = glm::dot(point.geometric_normal, axis) / cos_ray;
+        const Extent extent = find_extent(diameter);
+        if (extent.has_edge || has_crease(diameter, extent, ray)) return true;
     }
     return false;
 }
 
-ToonEdges::Extent ToonEdges::extent_of(const Diameter& diameter) const {
+ToonEdges::Extent ToonEdges::find_extent(const Diameter& diameter) const {
     Extent extent;
-    extent.first -= reach_of(diameter, -1, extent.ends);
-    extent.last += reach_of(diameter, 1, extent.ends);
+    extent.first -= count_steps(diameter, -1, extent.has_edge);
+    extent.last += count_steps(diameter, 1, extent.has_edge);
     return extent;
 }
 
-int ToonEdges::reach_of(const Diameter& diameter, int side, bool& ends) const {
+int ToonEdges::count_steps(const Diameter& diameter, int side, bool& has_edge) const {
     const auto depth = [&](int step) { return diameter.depths[static_cast<std::size_t>(kSteps + side * step)]; };
     const auto departs = [&](float step, float expected) {
         return std::abs(step - expected) > jump_ + std::abs(expected);
@@ -136,7 +136,7 @@ int ToonEdges::reach_of(const Diameter& diameter, int side, bool& ends) const {
         const bool misses = std::isinf(step);
         const bool is_last = i == kSteps || std::isinf(depth(i + 1));
         if (misses || (departs(step, before) && (is_last || departs(step, depth(i + 1) - depth(i))))) {
-            ends = ends || misses || step > before;
+            has_edge = has_edge || misses || step > before;
             return i - 1;
         }
         before = step;
@@ -148,7 +148,7 @@ bool ToonEdges::has_crease(const Diameter& diameter, const Extent& extent, const
     const auto rise = [&](int i) {
         return diameter.depths[static_cast<std::size_t>(i + 1)] - diameter.depths[static_cast<std::size_t>(i)];
     };
-    // Of two chords beside each other, and of two with one between, which may lie across the edge.
+    // Compares adjacent chords, and chords with one between them, which may lie across the edge.
     for (int gap = 1; gap <= 2; ++gap) {
         for (int i = extent.first; i + gap + 1 <= extent.last; ++i) {
             if (slopes_turn(spacing_, rise(i), rise(i + gap)) && normals_turn(diameter, i, i + gap + 1, ray)) {
@@ -167,13 +167,13 @@ bool ToonEdges::has_crease_at_end(const Diameter& diameter, const Extent& extent
     const int before = inner + (inner - outer);
     if (before >= extent.first && before <= extent.last) {
         const float bend = (depth(outer) - depth(inner)) - (depth(inner) - depth(before));
-        if (std::abs(bend) * ray.radius_px < least_bend_px_ * spacing_) return false;
+        if (std::abs(bend) * ray.radius_px < min_bend_px_ * spacing_) return false;
     }
     return normals_turn(diameter, outer, inner, ray, true);
 }
 
 bool ToonEdges::slopes_turn(float run, float a, float b) const {
-    // The angle, without its tangent.
+    // Compares tangents without division.
     const float sine = run * std::abs(b - a), cosine = run * run + a * b;
     return sine * cos_angle_ > cosine * sin_angle_;
 }
@@ -185,8 +185,8 @@ bool ToonEdges::normals_turn(const Diameter& diameter, int first, int last, cons
         return false;
     }
     const auto slope = [&](const SurfacePoint& point) {
-        return glm::dot(point.geometric_normal, diameter.way) /
-               std::max(-glm::dot(point.geometric_normal, ray.direction), kFlattest);
+        return glm::dot(point.geometric_normal, diameter.direction) /
+               std::max(-glm::dot(point.geometric_normal, ray.direction), kMinCos);
     };
     if (and_facets && !slopes_turn(1.0F, slope(here), slope(there))) return false;
     return glm::dot(here.shading_normal, there.shading_normal) < cos_angle_;

@@ -1,19 +1,19 @@
 #pragma once
-// Edges of a drawing, found by rays around a ray: a disc of some radius stands at the hit, perpendicular to the ray;
-// rays parallel to it, along four diameters of nine points each, sample the depth of the surface there. Source: N.
-// Burnett and T. Piazza, "Toon Shading Using Distributed Raytracing", section 3.
+// Edge detection for toon shading: samples the depth of the surface on a disc centred at the hit and perpendicular to
+// the ray, with parallel rays along four diameters of nine points each. Source: N. Burnett and T. Piazza, "Toon Shading
+// Using Distributed Raytracing", section 3.
 //
-// N diameters reach an edge halfway between two of them at radius * cos(pi / 2N) only: four make lines narrower by up
-// to 8 %. Where that is more than 0.4 px there are 8, 16, ... of them, and narrow lines have four.
+// With N diameters, an edge halfway between two of them is reached at radius * cos(pi / 2N) only: four diameters make
+// lines narrower by up to 8 %. If that exceeds 0.4 px, 8, 16, ... diameters are used.
 //
 //        ray ──────────────►│· · · · (4) · · · ·│   depths t[0..8] of one diameter, spacing h = radius / 4
 //
-// Out from the middle, the nearer surface has the line, on its own side: where the next ray misses, or meets something
-// farther than the slope until there, and the slope after it, would have it. Where it meets something nearer, that
-// hides the rest of the diameter. On what is left, an edge is where the slope turns by more than the style's angle and
-// the surface's normals turn by as much: facets of a smooth mesh that are seen at a flat angle bend the slope alone.
-// Slopes are those of chords; between the last two depths, which an edge may divide as it likes, those of the facets.
-// A threshold on the depth alone would find edges all over steep planes.
+// The line lies on the nearer of two surfaces. Stepping outwards from the centre, a depth edge is where the next ray
+// misses or hits a point farther than extrapolation with the slopes before and after it predicts. A nearer hit hides
+// the rest of the diameter. On the remaining extent, a crease is where both the slope and the surface normal turn by
+// more than the style's angle: facets of a smooth mesh at a grazing angle change the slope only. Slopes are those of
+// chords, except between the last two depths, where the crease may lie anywhere: there those of the facets.
+// A threshold on depth alone would report edges all over steep planes.
 
 #include "capture/tracer/rays/ray_scene.hpp"
 #include "capture/tracer/scene/toon_style.hpp"
@@ -25,48 +25,52 @@ namespace rs::capture {
 // Thread-safe.
 class ToonEdges {
 public:
-    // Refers to `rays`. `pixel_rad`: between the rays of neighbouring pixels, > 0.
+    /// Keeps a reference to `rays`.
+    /// \param pixel_rad angle between adjacent pixels' rays, > 0
     ToonEdges(const RayScene& rays, const ToonStyle& style, float pixel_rad);
 
-    // Whether an edge passes within the radius of a hit. `direction`, of unit length, is that of the ray which met it,
-    // and `behind` how far it had come, by mirrors and through glass, before it began.
-    [[nodiscard]] bool near_edge(const SurfacePoint& point, const glm::vec3& direction, float behind) const;
+    /// Returns true if an edge lies within the line radius of a hit.
+    /// \param direction of the ray, unit length
+    /// \param previous_distance path length from the camera to the ray's origin (over mirrors and through glass)
+    [[nodiscard]] bool is_near_edge(const SurfacePoint& point, const glm::vec3& direction,
+                                    float previous_distance) const;
 
 private:
-    static constexpr int kSteps = 4;  // from the middle to the disc's rim
+    static constexpr int kSteps = 4;  // from the disc's centre to its rim
     struct Ray {
         glm::vec3 direction;
         float time;
-        float radius_px;  // of the disc where the ray meets the surface
+        float radius_px;  // of the disc at the hit
     };
     struct Diameter {
         std::array<glm::vec3, 2 * kSteps + 1> origins;
         std::array<float, 2 * kSteps + 1> depths;
-        glm::vec3 way;  // of unit length, from the first to the last
-        float slope;    // of the surface's facet at the middle, along the way
+        glm::vec3 direction;  // unit length, from the first to the last
+        float slope;          // of the facet at the centre, along `direction`
     };
-    // What of a diameter shows the surface that is at its middle.
+    // Part of a diameter that belongs to the surface at its centre.
     struct Extent {
         int first = kSteps, last = kSteps;
-        bool ends = false;  // before the rim, where there is an edge
+        bool has_edge = false;  // ends at a depth edge before the rim
     };
-    [[nodiscard]] Extent extent_of(const Diameter& diameter) const;
-    // How many steps it goes on to one side, -1 or 1.
-    [[nodiscard]] int reach_of(const Diameter& diameter, int side, bool& ends) const;
+    [[nodiscard]] Extent find_extent(const Diameter& diameter) const;
+    // Number of steps of the extent to one side, -1 or 1.
+    [[nodiscard]] int count_steps(const Diameter& diameter, int side, bool& has_edge) const;
     [[nodiscard]] bool has_crease(const Diameter& diameter, const Extent& extent, const Ray& ray) const;
-    // In the last chord at an end of the extent, from `outer` to `inner`, beside it.
+    // Tests the last chord at one end of the extent, from `outer` to the adjacent `inner`.
     [[nodiscard]] bool has_crease_at_end(const Diameter& diameter, const Extent& extent, int outer, int inner,
                                          const Ray& ray) const;
-    // Whether (run, a) and (run, b) have more than the angle between them.
+    // Returns true if the angle between (run, a) and (run, b) exceeds the style's angle.
     [[nodiscard]] bool slopes_turn(float run, float a, float b) const;
-    // Whether the normals at two rays do, and if requested the slopes of the facets there.
+    // Returns true if the angle between the normals at two rays, and optionally between the slopes of their facets,
+    // exceeds the style's angle.
     [[nodiscard]] bool normals_turn(const Diameter& diameter, int first, int last, const Ray& ray,
                                     bool and_facets = false) const;
 
     const RayScene& rays_;
     float radius_, spacing_, jump_, pixel_rad_;
     float cos_angle_, sin_angle_;
-    float least_bend_px_;  // by a disc's radius: of slopes beside its rim, that may be the beginning of a crease
+    float min_bend_px_;  // times the disc's radius: smallest slope change at the rim that may be a crease
 };
 
 }  // namespace rs::capture

@@ -53,7 +53,7 @@ PixelRectangle visible_rectangle(const Camera& camera, const RayScene& rays) {
             clamp(std::ceil(right) + 1, camera.width), clamp(std::ceil(bottom) + 1, camera.height)};
 }
 
-// Those that are visible of the tile with this corner, in squares of 4 x 4, which are packets of rays.
+// Visible pixels of the tile with this corner, in squares of 4 x 4: one ray packet each.
 std::vector<glm::ivec2> pixels_of_tile(int left, int top, const PixelRectangle& visible) {
     std::vector<glm::ivec2> pixels;
     for (int y0 = top; y0 < top + kTileSide_px; y0 += kSquare_px) {
@@ -68,7 +68,7 @@ std::vector<glm::ivec2> pixels_of_tile(int left, int top, const PixelRectangle& 
     return pixels;
 }
 
-// Each camera position has noise of its own, so that neighbouring views do not share a pattern.
+// Hash of seed and camera position, so that neighbouring views do not share a noise pattern.
 std::uint64_t image_key(std::uint64_t seed, std::initializer_list<glm::dvec3> placement) {
     std::uint64_t key = mix_bits(seed);
     for (const glm::dvec3& vector : placement) {
@@ -85,24 +85,24 @@ std::uint64_t image_key(std::uint64_t seed, const Camera& camera) {
     return image_key(seed, {glm::dvec3(m[0]), glm::dvec3(m[1]), glm::dvec3(m[2]), glm::dvec3(m[3])});
 }
 
-LightSet::Extent extent_of(const RayScene& rays) {
+LightSet::Extent scene_extent(const RayScene& rays) {
     if (rays.empty()) return {};
     return {0.5F * (rays.upper() + rays.lower()), 0.5F * glm::length(rays.upper() - rays.lower())};
 }
 
-RayImage rays_of(const Camera& camera) {
+RayImage make_rays(const Camera& camera) {
     return {camera.width, camera.height, camera.centre(), camera.forward(),
             [camera](double x, double y) { return camera.ray(x, y); }};
 }
 
-// Between the rays of pixels beside each other in the middle.
+// Angle between adjacent pixels' rays at the image centre.
 float pixel_rad_of(const RayImage& rays) {
     const double x = 0.5 * rays.width, y = 0.5 * rays.height;
     return static_cast<float>(
         glm::distance(glm::normalize(rays.ray(x - 0.5, y)), glm::normalize(rays.ray(x + 0.5, y))));
 }
 
-// Axial, of the first surface through each pixel's centre.
+// Axial depth of the first surface through each pixel's centre.
 Image<float> first_depths(const RayImage& rays, const PixelRectangle& visible, const RayScene& scene, int threads) {
     Image<float> depths(rays.width, rays.height);
     for_each_index(std::max(visible.y1 - visible.y0, 0), threads, [&](std::int64_t row) {
@@ -110,7 +110,7 @@ Image<float> first_depths(const RayImage& rays, const PixelRectangle& visible, c
         for (int x = visible.x0; x < visible.x1; ++x) {
             const glm::dvec3 ray = glm::normalize(rays.ray(x + 0.5, y + 0.5));
             SurfacePoint point;
-            if (!scene.intersect_seen(glm::vec3(rays.centre), glm::vec3(ray), 0.0F, point)) continue;
+            if (!scene.intersect_visible(glm::vec3(rays.centre), glm::vec3(ray), 0.0F, point)) continue;
             depths(x, y) = static_cast<float>(glm::dot(glm::dvec3(point.position) - rays.centre, rays.forward));
         }
     });
@@ -119,7 +119,7 @@ Image<float> first_depths(const RayImage& rays, const PixelRectangle& visible, c
 
 }  // namespace
 
-// What of an image may show something, and what its noise is drawn from.
+// Pixels that may show the scene, and the key of the image's random numbers.
 struct Tracer::Frame {
     PixelRectangle visible;
     std::uint64_t key;
@@ -152,10 +152,10 @@ void Tracer::turn_lights(double angle_rad) {
     state_->lights->turn(static_cast<float>(angle_rad));
 }
 
-Tracer::Frame Tracer::frame_of(const Camera& camera, const RenderOptions& options) const {
-    // What is out of focus is wider than it is.
-    const bool anywhere = options.see_areas || options.see_environment || options.lens.aperture > 0;
-    return {anywhere ? PixelRectangle{0, 0, camera.width, camera.height} : visible_rectangle(camera, *state_->rays),
+Tracer::Frame Tracer::make_frame(const Camera& camera, const RenderOptions& options) const {
+    // Defocus extends the scene beyond its projected bounds.
+    const bool whole = options.see_areas || options.see_environment || options.lens.aperture > 0;
+    return {whole ? PixelRectangle{0, 0, camera.width, camera.height} : visible_rectangle(camera, *state_->rays),
             image_key(options.seed, camera)};
 }
 
@@ -183,7 +183,7 @@ std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& 
 }
 
 Rendering Tracer::render(const Camera& camera, const RenderOptions& options, Progress* progress) const {
-    return render(rays_of(camera), frame_of(camera, options), options, progress);
+    return render(make_rays(camera), make_frame(camera, options), options, progress);
 }
 
 Rendering Tracer::render(const RayImage& rays, const RenderOptions& options, Progress* progress) const {
@@ -195,7 +195,7 @@ Rendering Tracer::render(const RayImage& rays, const Frame& frame, const RenderO
                          Progress* progress) const {
     RS_CHECK(options.samples_per_pixel >= 1 && options.samples_per_pixel <= 65536);
     Accumulation sum;
-    // Virtual lights of many passes would take much memory; passes have the same bits however they are grouped.
+    // Limits the memory for virtual lights; the result does not depend on the grouping of passes.
     constexpr int kPassesAtOnce = 64;
     const int at_once = options.method == RenderMethod::kRadiosity ? kPassesAtOnce : options.samples_per_pixel;
     while (sum.samples < options.samples_per_pixel) {
@@ -211,7 +211,7 @@ Rendering Tracer::render(const RayImage& rays, const Frame& frame, const RenderO
 
 bool Tracer::accumulate(const Camera& camera, const RenderOptions& options, int count, Accumulation& into,
                         Progress* progress, const std::atomic<bool>* stop) const {
-    return accumulate(rays_of(camera), frame_of(camera, options), options, count, into, progress, stop);
+    return accumulate(make_rays(camera), make_frame(camera, options), options, count, into, progress, stop);
 }
 
 bool Tracer::accumulate(const RayImage& rays, const Frame& frame, const RenderOptions& options, int count,
@@ -226,7 +226,7 @@ bool Tracer::accumulate(const RayImage& rays, const Frame& frame, const RenderOp
                                    {options.see_areas, options.see_environment});
     const std::unique_ptr<const Integrator> integrator =
         make_integrator(transport, rays, frame.key, options, into.samples, count);
-    if (into.samples == 0 && integrator->gives_guides()) sum.guides = Image<GuideSum>(rays.width, rays.height);
+    if (into.samples == 0 && integrator->has_guides()) sum.guides = Image<GuideSum>(rays.width, rays.height);
     const PixelRectangle visible = options.part ? overlap(frame.visible, *options.part) : frame.visible;
     const bool blurred = state_->rays->blurred();
     const double filter_width_px = 2.0 * static_cast<double>(options.filter_radius_px);
@@ -249,15 +249,15 @@ bool Tracer::accumulate(const RayImage& rays, const Frame& frame, const RenderOp
         const int across = tiles_along(rays.width);
         const std::vector<glm::ivec2> pixels = pixels_of_tile(static_cast<int>(tile % across) * kTileSide_px,
                                                               static_cast<int>(tile / across) * kTileSide_px, visible);
-        std::vector<CameraRay> many;
-        many.reserve(pixels.size());
-        std::vector<RadianceSample> arrived(pixels.size());
+        std::vector<CameraRay> camera_rays;
+        camera_rays.reserve(pixels.size());
+        std::vector<RadianceSample> samples(pixels.size());
         for (int s = into.samples; s < into.samples + count && !pixels.empty(); ++s) {
-            many.clear();
-            for (const glm::ivec2& p : pixels) many.push_back(camera_ray(p.x, p.y, s));
-            integrator->trace_many(many, arrived);
+            camera_rays.clear();
+            for (const glm::ivec2& p : pixels) camera_rays.push_back(camera_ray(p.x, p.y, s));
+            integrator->trace_many(camera_rays, samples);
             for (std::size_t i = 0; i < pixels.size(); ++i) {
-                if (arrived[i].met) sum.add(pixels[i].x, pixels[i].y, arrived[i]);
+                if (samples[i].hit) sum.add(pixels[i].x, pixels[i].y, samples[i]);
             }
         }
         if (progress != nullptr) progress->advance(1);
@@ -273,9 +273,9 @@ const std::vector<Light>& Tracer::lights() const {
     return state_->scene.lights;
 }
 
-bool Tracer::sees(const glm::dvec3& place, const glm::dvec3& direction, double distance) const {
-    constexpr double kJustShort = 1 - 1e-4;
-    return !state_->rays->occluded(glm::vec3(place), glm::vec3(direction), static_cast<float>(distance * kJustShort),
+bool Tracer::is_unoccluded(const glm::dvec3& position, const glm::dvec3& direction, double distance) const {
+    constexpr double kShorten = 1 - 1e-4;
+    return !state_->rays->occluded(glm::vec3(position), glm::vec3(direction), static_cast<float>(distance * kShorten),
                                    0.0F);
 }
 
@@ -291,12 +291,12 @@ std::size_t Tracer::instance_count() const {
 Status Tracer::move(std::size_t instance, const glm::dmat4& world_from_part,
                     const std::optional<glm::dmat4>& at_close) {
     RS_CHECK(instance < state_->scene.instances.size());
-    Instance& there = state_->scene.instances[instance];
-    const Instance placed{there.part, world_from_part, at_close};
-    if (Status fine = check_placement(placed); !fine) {
-        return Error{"instance " + std::to_string(instance + 1) + ": " + fine.error().message};
+    Instance& current = state_->scene.instances[instance];
+    const Instance placed{current.part, world_from_part, at_close};
+    if (Status status = check_placement(placed); !status) {
+        return Error{"instance " + std::to_string(instance + 1) + ": " + status.error().message};
     }
-    there = placed;
+    current = placed;
     state_->moved.push_back(instance);
     return {};
 }
@@ -305,12 +305,12 @@ void Tracer::commit() {
     if (state_->moved.empty()) return;
     state_->rays->update(state_->moved);
     state_->moved.clear();
-    state_->lights->update_instances(extent_of(*state_->rays));
+    state_->lights->update_instances(scene_extent(*state_->rays));
 }
 
 Tracer::Builds Tracer::builds() const {
     const RayScene::Builds builds = state_->rays->builds();
-    return {builds.of_triangles, builds.of_instances};
+    return {builds.triangle_trees, builds.instance_trees};
 }
 
 void Tracer::set_environment(Environment environment) {
@@ -330,7 +330,7 @@ Result<Tracer> Tracer::create(Scene scene) {
     RS_ASSIGN_OR_RETURN(RayScene rays, RayScene::create(state->scene));
     state->rays = std::move(rays);
     Environment environment = std::exchange(state->scene.environment, Environment{});
-    state->lights.emplace(state->scene, std::move(environment), extent_of(*state->rays));
+    state->lights.emplace(state->scene, std::move(environment), scene_extent(*state->rays));
     state->models = make_surface_models(state->scene.materials);
     return Tracer(std::move(state));
 }

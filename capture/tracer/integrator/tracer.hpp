@@ -1,9 +1,9 @@
 #pragma once
-// The tracer: images of a Scene from any camera. Second room of the capture pipeline's synthetic branch:
+// Renders images of a Scene from any camera. Second stage of the capture pipeline's synthetic branch:
 //
 //     mesh file, recipe -> Scene -> Tracer -> images -> capture set (capture_set.hpp)
 //
-// The same scene, camera and options give the same bytes, whatever the number of threads. Source: J. Kajiya, "The
+// The same scene, camera and options give the same bytes with any number of threads. Source: J. Kajiya, "The
 // Rendering Equation", 1986; E. Veach's thesis, 1997, for multiple importance sampling.
 
 #include "capture/tracer/image/accumulation.hpp"
@@ -23,7 +23,7 @@
 namespace rs::capture {
 
 enum class RenderMethod {
-    kPath,       // path.hpp; the only one for objects with surroundings
+    kPath,       // path.hpp; the only method that supports scenes with surroundings
     kRadiosity,  // radiosity.hpp; each sample of all pixels is a pass
     kWhitted,    // whitted.hpp
     kToon,       // toon.hpp
@@ -31,30 +31,28 @@ enum class RenderMethod {
 
 struct RenderOptions {
     RenderMethod method = RenderMethod::kPath;
-    int samples_per_pixel = 64;  // 1..65536; powers of two are stratified best
+    int samples_per_pixel = 64;  // 1..65536; stratification is best for powers of two
     std::uint64_t seed = 1;
-    int max_bounces = 16;           // surfaces that a path may visit after the first
-    float filter_radius_px = 0.5F;  // box filter, (0, 0.5]: an image shows no blur of its own
+    int max_bounces = 16;           // surfaces on a path after the first
+    float filter_radius_px = 0.5F;  // box filter, (0, 0.5]
     bool depth = false;
-    // Of render() by paths or radiosity: smoothed where surfaces are alike, as far as there is noise
-    // (discontinuity_filter.hpp). Images with more samples are smoothed less; they go to where those without it go.
+    // render() by paths or radiosity only: denoises within surfaces (discontinuity_filter.hpp). Smoothing decreases as
+    // samples are added, so filtered and unfiltered images converge to the same result.
     bool filtered = false;
-    // What stands in the image itself; else it is seen in reflections and through glass only.
+    // Visible to camera rays; otherwise visible in reflections and through glass only.
     bool see_areas = false;
     bool see_environment = false;
-    glm::vec3 ambient{
-        0.0F};  // whitted, toon: what stands for light that surfaces reflect, as the radiance of white matter
-    bool soft_shadows = false;  // whitted: areas light from all over; of toon the style says so
+    glm::vec3 ambient{0.0F};    // whitted, toon: approximates indirect light; radiance of a white diffuse surface
+    bool soft_shadows = false;  // whitted: samples area lights; ToonStyle has its own setting
     ToonStyle toon{};
     ThinLens lens{};
-    int threads = 0;                     // 0 = as many as the processor has
-    std::optional<PixelRectangle> part;  // of accumulate(): other pixels get no samples; these have the bits they have
-                                         // without it
+    int threads = 0;                     // 0 = one per hardware thread
+    std::optional<PixelRectangle> part;  // accumulate() samples these pixels only; their values do not depend on it
 };
 
 struct Rendering {
     Image<RgbaF> image;  // linear light, straight alpha = share of camera rays that hit a surface
-    // Axial, of the first surface through the pixel's centre at time 0; 0 = none; empty if not requested.
+    // Axial depth of the first surface through the pixel's centre at time 0; 0 = none; empty if not requested.
     Image<float> depth;
 };
 
@@ -63,60 +61,62 @@ class LightTransport;
 
 class Tracer {
 public:
-    // Checks the scene (scene_check.hpp) and builds what rendering needs; a second or so per million triangles.
+    /// Checks the scene (scene_check.hpp) and builds its acceleration structures: about 1 s per million triangles.
     static Result<Tracer> create(Scene scene);
     Tracer(Tracer&&) noexcept;
     Tracer& operator=(Tracer&&) noexcept;
     ~Tracer();
 
-    // Advances `progress` (may be null) by step_count(camera) steps. May be called from several threads at once.
+    /// Advances `progress` (may be null) by step_count(camera) steps. Thread-safe.
     [[nodiscard]] Rendering render(const Camera& camera, const RenderOptions& options,
                                    Progress* progress = nullptr) const;
     [[nodiscard]] static std::int64_t step_count(const Camera& camera);
-    // The same for any projection.
+    /// Renders any projection.
     [[nodiscard]] Rendering render(const RayImage& rays, const RenderOptions& options,
                                    Progress* progress = nullptr) const;
     [[nodiscard]] static std::int64_t step_count(const RayImage& rays);
 
-    // Adds `count` samples to each pixel, those that come after the ones it has; an empty accumulation begins anew. Of
-    // the options samples_per_pixel and depth count nothing. Advances `progress` by step_count(camera) steps. Once
-    // `stop` is true no further tile is begun (virtual lights are finished first) and false is returned: the
-    // accumulation then is as it was.
+    /// Adds the next `count` samples of the sequence to each pixel of `into`, which may be empty. The options
+    /// `samples_per_pixel` and `depth` are ignored. Advances `progress` by step_count(camera) steps.
+    /// \param stop when true, no further tile is started (virtual lights are completed first)
+    /// \return false if stopped; `into` is unchanged then
     bool accumulate(const Camera& camera, const RenderOptions& options, int count, Accumulation& into,
                     Progress* progress = nullptr, const std::atomic<bool>* stop = nullptr) const;
 
-    // Other lights than the scene came with; they must be as check_light() requires them. Not while anything is drawn.
+    /// Replaces the scene's lights, which must satisfy check_light(). Not thread-safe with rendering.
     void set_lights(std::vector<Light> lights);
-    // Another environment, whose pixels are finite and not negative, or the same one brighter and turned (the fields of
-    // Environment), which costs nothing. Not while anything is drawn.
+    /// Replaces the environment (pixels finite and not negative), or only its scale and rotation (fields of
+    /// Environment), which is free. Not thread-safe with rendering.
     void set_environment(Environment environment);
     void set_environment(float scale, float turn_rad);
 
-    // Places an instance of the scene anew (scene.hpp, Instance); refused, with nothing changed, where a matrix has no
-    // inverse. Seen after commit(), which costs what the tree over the instances costs: no tree of triangles is built
-    // again. `instance` < instance_count(). Not while anything is drawn.
+    /// Sets the transform of an instance (scene.hpp, Instance). Takes effect at commit(), which rebuilds the tree over
+    /// the instances but no triangle trees. Not thread-safe with rendering.
+    /// \param instance < instance_count()
+    /// \return an error, with nothing changed, if a matrix has no inverse
     Status move(std::size_t instance, const glm::dmat4& world_from_part,
                 const std::optional<glm::dmat4>& at_close = {});
     void commit();
     [[nodiscard]] std::size_t instance_count() const;
-    // How often trees of triangles were built, and the tree of instances above them.
+    // Number of builds of triangle trees and of the instance tree above them.
     struct Builds {
-        std::int64_t of_triangles, of_instances;
+        std::int64_t triangle_trees, instance_trees;
     };
     [[nodiscard]] Builds builds() const;
 
-    [[nodiscard]] const std::vector<Light>& lights() const;  // of the scene, not turned
-    // Whether nothing stands between a place and what is `distance` away in a direction of unit length, at time 0.
-    [[nodiscard]] bool sees(const glm::dvec3& place, const glm::dvec3& direction, double distance) const;
+    [[nodiscard]] const std::vector<Light>& lights() const;  // without the rotation of turn_lights()
+    /// Returns true if nothing lies between `position` and the point at `distance` along a unit direction, at time 0.
+    [[nodiscard]] bool is_unoccluded(const glm::dvec3& position, const glm::dvec3& direction, double distance) const;
 
-    // Turns the scene's lights and environment, but not surfaces that shine, about Y by `angle_rad` from where the
-    // scene has them; positive angles take +Z to +X. Costs nothing. Not while render() runs.
+    /// Rotates the lights and the environment, but not emissive surfaces, about Y from their positions in the scene.
+    /// Not thread-safe with rendering.
+    /// \param angle_rad positive from +Z towards +X
     void turn_lights(double angle_rad);
 
 private:
     struct State;
     struct Frame;
-    [[nodiscard]] Frame frame_of(const Camera& camera, const RenderOptions& options) const;
+    [[nodiscard]] Frame make_frame(const Camera& camera, const RenderOptions& options) const;
     [[nodiscard]] Rendering render(const RayImage& rays, const Frame& frame, const RenderOptions& options,
                                    Progress* progress) const;
     bool accumulate(const RayImage& rays, const Frame& frame, const RenderOptions& options, int count,

@@ -13,21 +13,21 @@ namespace {
 
 constexpr float kBound = 4.0F;
 constexpr int kCameraPoints = 64;
-constexpr int kPilotPhotons = 64;  // at a time
-constexpr int kPilotLights = 32;   // that bring something
-constexpr int kMostPhotons = 4096;
-constexpr float kLeastKept = 0.05F;
-// Keys of the random numbers of parts.
-constexpr std::uint64_t kOfCameraPoints = 0x63616D657261ULL;
-constexpr std::uint64_t kOfPilot = 0x70696C6F74ULL;
-constexpr std::uint64_t kOfGroups = 0x706173736573ULL;
+constexpr int kPilotPhotons = 64;  // per iteration
+constexpr int kPilotLights = 32;   // minimum number with importance > 0
+constexpr int kMaxPhotons = 4096;
+constexpr float kMinKeepProbability = 0.05F;
+// Keys of independent random sequences.
+constexpr std::uint64_t kCameraPointsKey = 0x63616D657261ULL;
+constexpr std::uint64_t kPilotKey = 0x70696C6F74ULL;
+constexpr std::uint64_t kGroupsKey = 0x706173736573ULL;
 
 float away_from_zero(float cosine) {
     return std::max(std::abs(cosine), 1e-2F);
 }
 
-// Light that is followed forwards meets interpolated normals otherwise than light that is followed backwards
-// (E. Veach, thesis, 5.3.2). `in` is where it comes from.
+// Correction for light traced forwards: interpolated normals make the BSDF non-symmetric (E. Veach, thesis, 5.3.2).
+// `in` points to the photon's origin.
 float adjoint_factor(const LightTransport::Vertex& vertex, const glm::vec3& in, const glm::vec3& out) {
     const glm::vec3& smooth = vertex.frame.normal;
     const glm::vec3& facet = vertex.point.geometric_normal;
@@ -49,7 +49,7 @@ void VirtualLights::find_camera_points(const RayImage& image) {
     std::vector<float> distances;
     int found = 0;
     for (int i = 0; i < kCameraPoints; ++i) {
-        Sampler sampler(mix_bits(key_ ^ kOfCameraPoints), static_cast<std::uint32_t>(i));
+        Sampler sampler(mix_bits(key_ ^ kCameraPointsKey), static_cast<std::uint32_t>(i));
         const glm::vec2 at = sampler.next_2d();
         const glm::dvec3 ray =
             image.ray(at.x * static_cast<float>(image.width), at.y * static_cast<float>(image.height));
@@ -57,8 +57,10 @@ void VirtualLights::find_camera_points(const RayImage& image) {
         MediumStack media;
         glm::vec3 throughput(1.0F), ignored(0.0F);
         SurfacePoint point;
-        for (int mirrors = 0; mirrors <= kMostMirrors; ++mirrors) {
-            if (transport_.meet(segment, media, throughput, ignored, point) != LightTransport::Met::kSurface) break;
+        for (int mirrors = 0; mirrors <= kMaxSpecularBounces; ++mirrors) {
+            if (transport_.trace_segment(segment, media, throughput, ignored, point) !=
+                LightTransport::SegmentEnd::kSurface)
+                break;
             const Vertex vertex = transport_.vertex_at(point, segment.direction);
             const bool specular = vertex.surface.is_specular();
             if (!specular) {
@@ -71,14 +73,14 @@ void VirtualLights::find_camera_points(const RayImage& image) {
             const float lobe = sampler.next_2d().x;
             if (!vertex.surface.sample(lobe, specular ? glm::vec2(0.0F) : sampler.next_2d(), drawn)) break;
             throughput *= drawn.weight;
-            segment = transport_.segment_from(vertex, drawn);
+            segment = transport_.make_segment(vertex, drawn);
             if (!specular) {
                 if (transport_.rays().intersect(segment.origin, segment.direction, 0.0F, point)) {
                     distances.push_back(point.distance);
                 }
                 break;
             }
-            if (vertex.surface.passes(drawn)) media.cross(transport_.material_of(point), point.front_side);
+            if (vertex.surface.is_transmission(drawn)) media.cross(transport_.material_of(point), point.front_side);
         }
     }
     find_bound(std::move(distances));
@@ -91,51 +93,52 @@ void VirtualLights::find_bound(std::vector<float> distances) {
     bound_ = kBound / std::max(reach * reach, 1e-12F);
 }
 
-// How many photons give as many virtual lights as are requested, and what one brings. The same for every group.
+// Estimates the number of photons that yields the requested number of virtual lights, and their mean importance, from
+// a pilot sequence. The same for every group.
 void VirtualLights::plan_photons() {
-    std::vector<Found> found;
+    std::vector<Candidate> found;
     double sum = 0;
     int photons = 0, useful = 0;
     do {
-        for (const Found& light : lights_of(kOfPilot, photons, kPilotPhotons, 0.0F)) {
+        for (const Candidate& light : trace_photons(kPilotKey, photons, kPilotPhotons, 0.0F)) {
             sum += static_cast<double>(light.importance);
             useful += light.importance > 0.0F;
             found.push_back(light);
         }
         photons += kPilotPhotons;
-    } while (by_importance() && useful < kPilotLights && photons < kMostPhotons);
+    } while (uses_importance() && useful < kPilotLights && photons < kMaxPhotons);
 
     double kept = static_cast<double>(found.size());
     if (sum > 0) {
         mean_importance_ = static_cast<float>(sum / static_cast<double>(found.size()));
         kept = 0;
-        for (const Found& light : found) {
-            kept += std::min(static_cast<double>(light.importance / mean_importance_ + kLeastKept), 1.0);
+        for (const Candidate& light : found) {
+            kept += std::min(static_cast<double>(light.importance / mean_importance_ + kMinKeepProbability), 1.0);
         }
     }
-    const double wanted = options_.lights_of_group * photons / std::max(kept, 1.0);
-    photons_ = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, static_cast<double>(kMostPhotons)));
+    const double photons_needed = options_.lights_per_group * photons / std::max(kept, 1.0);
+    photons_ = static_cast<int>(std::clamp(std::ceil(photons_needed), 1.0, static_cast<double>(kMaxPhotons)));
 }
 
-std::vector<VirtualLights::Found> VirtualLights::lights_of(std::uint64_t sequence, std::int64_t first, int count,
-                                                           float time) const {
-    constexpr int kAtOnce = 32;
-    const int chunks = (count + kAtOnce - 1) / kAtOnce;
-    std::vector<std::vector<Found>> of_chunk(static_cast<std::size_t>(chunks));
+std::vector<VirtualLights::Candidate> VirtualLights::trace_photons(std::uint64_t sequence, std::int64_t first,
+                                                                   int count, float time) const {
+    constexpr int kChunkSize = 32;
+    const int chunks = (count + kChunkSize - 1) / kChunkSize;
+    std::vector<std::vector<Candidate>> of_chunk(static_cast<std::size_t>(chunks));
     for_each_index(chunks, [&](int chunk) {
         PacketLight scratch(transport_.rays(), materials_);
         std::vector<VirtualLight> lights;
-        for (int i = chunk * kAtOnce; i < std::min((chunk + 1) * kAtOnce, count); ++i) {
+        for (int i = chunk * kChunkSize; i < std::min((chunk + 1) * kChunkSize, count); ++i) {
             Sampler sampler(mix_bits(key_ ^ sequence), static_cast<std::uint32_t>(first + i));
             lights.clear();
             follow_photon(time, sampler, lights);
             for (const VirtualLight& light : lights) {
-                const float importance = by_importance() ? importance_of(light, scratch) : 0.0F;
+                const float importance = uses_importance() ? estimate_importance(light, scratch) : 0.0F;
                 of_chunk[static_cast<std::size_t>(chunk)].push_back({light, importance, sampler.next_2d().x});
             }
         }
     });
-    std::vector<Found> all;
+    std::vector<Candidate> all;
     for (const auto& found : of_chunk) all.insert(all.end(), found.begin(), found.end());
     return all;
 }
@@ -152,9 +155,9 @@ void VirtualLights::follow_photon(float time, Sampler& sampler, std::vector<Virt
     for (int depth = 1; depth < options_.max_bounces; ++depth) {
         SurfacePoint point;
         if (!transport_.rays().intersect(segment.origin, segment.direction, time, point)) return;
-        if (transport_.rays().ask_primitives(segment.origin, segment.direction, point.distance)) return;
+        if (transport_.rays().intersect_primitives(segment.origin, segment.direction, point.distance)) return;
         if (depth == 1) flux = photon->flux_at(point.position);
-        flux *= media.passed(point.distance);
+        flux *= media.transmittance(point.distance);
         if (!(max_component(flux) > 0.0F)) return;
         const Material& material = transport_.material_of(point);
         if (!point.front_side && material.is_one_sided()) return;
@@ -164,29 +167,29 @@ void VirtualLights::follow_photon(float time, Sampler& sampler, std::vector<Virt
         if (!vertex.surface.is_specular()) {
             const float bent = std::abs(glm::dot(in, vertex.frame.normal)) /
                                away_from_zero(glm::dot(in, vertex.point.geometric_normal));
-            lights.push_back(materials_.virtual_light(vertex, flux * bent, depth));
+            lights.push_back(materials_.make_virtual_light(vertex, flux * bent, depth));
         }
         SurfaceSample drawn;
         if (!vertex.surface.sample(sampler.next_2d().x, sampler.next_2d(), drawn)) return;
-        segment = transport_.segment_from(vertex, drawn);
+        segment = transport_.make_segment(vertex, drawn);
         glm::vec3 weight = drawn.weight;
         if (!drawn.specular) weight *= adjoint_factor(vertex, in, segment.direction);
-        if (vertex.surface.passes(drawn)) media.cross(material, point.front_side);
+        if (vertex.surface.is_transmission(drawn)) media.cross(material, point.front_side);
         const float survival = std::min(1.0F, max_component(weight));
         if (!(sampler.next_2d().x < survival)) return;
         flux *= weight / survival;
     }
 }
 
-std::vector<VirtualLight> VirtualLights::group(int number, float time) const {
+std::vector<VirtualLight> VirtualLights::make_group(int number, float time) const {
     std::vector<VirtualLight> kept;
     if (transport_.lights().empty()) return kept;
-    // One sequence for all groups, so that their photons are stratified together.
-    for (Found& found : lights_of(kOfGroups, static_cast<std::int64_t>(number) * photons_, photons_, time)) {
+    // One sequence for all groups stratifies their photons together.
+    for (Candidate& found : trace_photons(kGroupsKey, static_cast<std::int64_t>(number) * photons_, photons_, time)) {
         if (mean_importance_ > 0.0F) {
-            const float chance = std::min(found.importance / mean_importance_ + kLeastKept, 1.0F);
-            if (!(found.chosen < chance)) continue;
-            found.light.flux /= chance;
+            const float probability = std::min(found.importance / mean_importance_ + kMinKeepProbability, 1.0F);
+            if (!(found.u_keep < probability)) continue;
+            found.light.flux /= probability;
         }
         found.light.flux /= static_cast<float>(photons_);
         kept.push_back(found.light);
@@ -194,13 +197,13 @@ std::vector<VirtualLight> VirtualLights::group(int number, float time) const {
     return kept;
 }
 
-float VirtualLights::importance_of(const VirtualLight& light, PacketLight& scratch) const {
+float VirtualLights::estimate_importance(const VirtualLight& light, PacketLight& scratch) const {
     float sum = 0.0F;
     for (const CameraPoints& points : camera_points_) {
         scratch.begin(points.packet);
         scratch.add_virtual(light, bound_, points.packet);
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            if (points.packet.lit[lane] != 0) sum += luminance(points.throughput[lane] * scratch.sent(lane));
+            if (points.packet.lit[lane] != 0) sum += luminance(points.throughput[lane] * scratch.reflected(lane));
         }
     }
     return sum;

@@ -1,10 +1,10 @@
 #pragma once
-// Where light that has fallen on surfaces goes out again: the virtual lights of instant radiosity (radiosity.hpp).
+// Virtual point lights of instant radiosity (radiosity.hpp).
 //
-// Photons leave lights drawn by their flux and die by roulette over what surfaces absorb. Virtual lights that bring the
-// view little are few but strong: one is kept with the probability min(c / mean c + 0.05, 1), c being what it brings to
-// some points that the camera sees, and its power is divided by that (I. Georgiev, P. Slusallek, "Simple and Robust
-// Iterative Importance Sampling of Virtual Point Lights", Eurographics 2010).
+// Photons start at lights chosen in proportion to flux and are absorbed by Russian roulette. A virtual light is kept
+// with probability min(c / mean c + 0.05, 1), where c is its contribution to a set of points visible to the camera, and
+// its power is divided by that probability (I. Georgiev, P. Slusallek, "Simple and Robust Iterative Importance Sampling
+// of Virtual Point Lights", Eurographics 2010).
 
 #include "capture/tracer/image/ray_image.hpp"
 #include "capture/tracer/integrator/gather_packet.hpp"
@@ -16,25 +16,26 @@
 
 namespace rs::capture {
 
-inline constexpr int kMostMirrors = 8;  // that are followed for certain
+inline constexpr int kMaxSpecularBounces = 8;  // followed without Russian roulette
 
 struct VirtualLightOptions {
-    int max_bounces = 16;      // as RenderOptions has it
-    int lights_of_group = 48;  // that are kept, about
-    bool importance = true;    // else all are kept
+    int max_bounces = 16;       // see RenderOptions
+    int lights_per_group = 48;  // approximate number after selection
+    bool importance = true;     // select lights by importance; otherwise all are kept
 };
 
 // Thread-safe.
 class VirtualLights {
 public:
-    // Plans how many photons a group takes. Refers to all but the image.
+    // Determines the number of photons per group. Keeps references to all arguments but the image.
     VirtualLights(const LightTransport& transport, const PacketMaterials& materials, const VirtualLightOptions& options,
                   const RayImage& image, std::uint64_t key);
 
-    // Each stands for all light that has met a surface; their mean is it. At a time (RayScene).
-    [[nodiscard]] std::vector<VirtualLight> group(int number, float time) const;
-    // Of the geometry term, cosines over squared distance: that of surfaces half as far apart as those that the camera
-    // sees are from what is around them (median), and at most a quarter of the scene's diagonal.
+    // Traces one group of virtual lights at a time (RayScene). Each group is an unbiased estimate of all indirect
+    // light; groups are averaged.
+    [[nodiscard]] std::vector<VirtualLight> make_group(int number, float time) const;
+    // Upper bound of the geometry term (cosines over squared distance): its value at half the median distance between
+    // surfaces visible to the camera and the surfaces around them, at most a quarter of the scene's diagonal.
     [[nodiscard]] float bound() const { return bound_; }
 
 private:
@@ -48,23 +49,24 @@ private:
     void find_bound(std::vector<float> distances);
     void plan_photons();
     void follow_photon(float time, Sampler& sampler, std::vector<VirtualLight>& lights) const;
-    // Of the photons first <= i < first + count of a sequence, in their order; in parallel.
-    struct Found {
+    struct Candidate {
         VirtualLight light;
-        float importance = 0.0F;  // where it counts
-        float chosen = 0.0F;      // a random number for whether it is kept
+        float importance = 0.0F;  // 0 if lights are not selected by importance
+        float u_keep = 0.0F;      // random number for the selection
     };
-    [[nodiscard]] std::vector<Found> lights_of(std::uint64_t sequence, std::int64_t first, int count, float time) const;
-    // What the camera points get, visibility included; luminance.
-    [[nodiscard]] float importance_of(const VirtualLight& light, PacketLight& scratch) const;
-    [[nodiscard]] bool by_importance() const { return options_.importance && !camera_points_.empty(); }
+    // Traces photons first <= i < first + count of a sequence in parallel; the result is in their order.
+    [[nodiscard]] std::vector<Candidate> trace_photons(std::uint64_t sequence, std::int64_t first, int count,
+                                                       float time) const;
+    // Luminance that the light contributes to the camera points, visibility included.
+    [[nodiscard]] float estimate_importance(const VirtualLight& light, PacketLight& scratch) const;
+    [[nodiscard]] bool uses_importance() const { return options_.importance && !camera_points_.empty(); }
 
     const LightTransport& transport_;
     const PacketMaterials& materials_;
     VirtualLightOptions options_;
     std::uint64_t key_;
     float bound_ = 0.0F;
-    int photons_ = 1;               // of a group
+    int photons_ = 1;               // per group
     float mean_importance_ = 0.0F;  // 0: all are kept
     std::vector<CameraPoints> camera_points_;
 };

@@ -1,15 +1,15 @@
 #pragma once
-// Ray tracing as T. Whitted has it ("An Improved Illumination Model for Shaded Display", CACM 23(6), 1980): direct
-// light with hard shadows, mirrors and glass to a depth of 8, and nothing at random.
+// Whitted ray tracing (T. Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980): direct
+// light with hard shadows, mirrors and glass to a depth of 8; deterministic.
 //
-//     direct       each light from one point: areas and surfaces that shine from their middle, or, for soft shadows,
-//                  from a place of theirs that each sample draws anew (R. Cook, T. Porter, L. Carpenter, "Distributed
-//                  Ray Tracing", SIGGRAPH 1984): then this is random, too
-//     environment  cosine-convolved, without shadows; seen in mirrors and through glass as it is
-//     the rest     a constant, `ambient`
-//     metal        a mirror of its colour, whatever its roughness, with the highlights of lights without an area
+//     direct       each light as one point: area lights and emissive meshes by their centre or, for soft shadows, by a
+//                  random point per sample (R. Cook, T. Porter, L. Carpenter, "Distributed Ray Tracing",
+//                  SIGGRAPH 1984)
+//     environment  cosine-convolved, without shadows; unchanged in mirrors and through glass
+//     indirect     a constant, `ambient`
+//     metal        a mirror of its colour at any roughness, with highlights of lights without an area
 //
-// Rays whose light would come to less than 1/256 of the image's are not followed.
+// Rays with a throughput below 1/256 are not traced.
 
 #include "capture/tracer/integrator/packet_materials.hpp"
 #include "capture/tracer/integrator/transport.hpp"
@@ -37,9 +37,8 @@ public:
 
     bool trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                glm::vec3& radiance) const override;
-    // Camera rays and those to lights in packets (packets/packet.hpp), light by light; mirrors and glass are followed
-    // ray by ray.
-    void trace_many(std::span<CameraRay> rays, std::span<RadianceSample> arrived) const override;
+    /// Traces camera rays and shadow rays in packets (packets/packet.hpp), specular rays one by one.
+    void trace_many(std::span<CameraRay> rays, std::span<RadianceSample> samples) const override;
 
 protected:
     struct Ray {
@@ -47,38 +46,38 @@ protected:
         glm::vec3 throughput{1.0F};
         MediumStack media{};
         int depth = 0;
-        float behind = 0.0F;  // how far it is from the camera to where the segment begins
+        float previous_distance = 0.0F;  // path length from the camera to the segment's origin
     };
-    // What a surface sends back along the ray that met it, beside what it reflects or lets pass. False where it does
-    // neither.
+    // Adds the radiance that a surface sends back along the ray, without specular reflection and refraction. Returns
+    // false if the ray has no specular continuation.
     virtual bool shade(const LightTransport::Vertex& vertex, const Ray& ray, Sampler& sampler,
                        glm::vec3& radiance) const;
     [[nodiscard]] const LightTransport& transport() const { return transport_; }
     [[nodiscard]] const IrradianceMap& irradiance() const { return irradiance_; }
 
 private:
-    // The ray to a light, and what the light makes the surface send where nothing is in its way.
-    struct Shadow {
+    // A shadow ray, and the radiance that the surface reflects if it is unoccluded.
+    struct ShadowRay {
         RayScene::Ray ray;
         glm::vec3 light;
     };
-    // Sixteen rays of neighbours, and what they have met.
+    // Sixteen neighbouring rays with their hits.
     struct Packet;
-    void trace_packet(std::span<CameraRay> rays, std::span<RadianceSample> arrived, Packet& packet) const;
-    void meet(std::span<const CameraRay> rays, std::span<RadianceSample> arrived, Packet& packet) const;
-    bool arrive_at(std::size_t lane, const Packet& packet, RadianceSample& arrived) const;
-    void make_ready(Packet& packet) const;
-    void light_packet(std::size_t light, std::span<CameraRay> rays, Packet& packet) const;
-    void go_on(std::span<CameraRay> rays, std::span<RadianceSample> arrived, const Packet& packet) const;
+    void trace_packet(std::span<CameraRay> rays, std::span<RadianceSample> samples, Packet& packet) const;
+    void intersect_packet(std::span<const CameraRay> rays, std::span<RadianceSample> samples, Packet& packet) const;
+    bool finish_camera_ray(std::size_t lane, const Packet& packet, RadianceSample& sample) const;
+    void prepare_shading(Packet& packet) const;
+    void add_light_samples(std::size_t light, std::span<CameraRay> rays, Packet& packet) const;
+    void trace_specular_rays(std::span<CameraRay> rays, std::span<RadianceSample> samples, const Packet& packet) const;
     bool follow(const Ray& ray, Sampler& sampler, glm::vec3& radiance) const;
-    void follow_mirrors(const Ray& ray, const LightTransport::Vertex& vertex, Sampler& sampler,
+    void trace_specular(const Ray& ray, const LightTransport::Vertex& vertex, Sampler& sampler,
                         glm::vec3& radiance) const;
-    // Nothing where the light of this number brings nothing.
-    [[nodiscard]] std::optional<Shadow> shadow_of(std::size_t number, const LightTransport::Vertex& vertex,
-                                                  Sampler& sampler) const;
+    // Empty if the light contributes nothing.
+    [[nodiscard]] std::optional<ShadowRay> make_shadow_ray(std::size_t index, const LightTransport::Vertex& vertex,
+                                                           Sampler& sampler) const;
     [[nodiscard]] bool is_metal(const LightTransport::Vertex& vertex) const;
-    [[nodiscard]] glm::vec3 matte_light(const LightTransport::Vertex& vertex) const;
-    [[nodiscard]] glm::vec3 from_everywhere(const glm::vec3& normal, float translucency) const;
+    [[nodiscard]] glm::vec3 ambient_light(const LightTransport::Vertex& vertex) const;
+    [[nodiscard]] glm::vec3 ambient_radiance(const glm::vec3& normal, float translucency) const;
 
     LightTransport transport_;
     IrradianceMap irradiance_;

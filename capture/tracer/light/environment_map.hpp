@@ -1,8 +1,9 @@
 #pragma once
-// An Environment made ready for light transport: look-up by direction, and directions drawn by brightness.
+// Environment light: radiance look-up by direction, and importance sampling of directions by luminance.
 //
 // Look-ups are bilinear. The density is constant over each pixel of the map (rows weighted by their solid angle), and
-// proportional to the mean luminance of the 3x3 pixels around it, so that it is positive wherever a look-up is.
+// proportional to the mean luminance of the 3x3 pixels around it, so that it is positive wherever a look-up is
+// positive.
 
 #include "capture/tracer/scene/scene.hpp"
 
@@ -15,17 +16,17 @@ public:
     // Pixel values must be finite and not negative.
     explicit EnvironmentMap(Environment environment);
 
-    // As in Environment.
+    // See Environment.
     void set_turn(float turn_rad) { turn_rad_ = turn_rad; }
     void set_scale(float scale) { scale_ = scale; }
 
-    // No light at all: radiance() is 0 everywhere and sample() must not be called.
+    // Returns true if radiance() is 0 everywhere; sample() must not be called then.
     [[nodiscard]] bool is_black() const { return row_cdf_.empty() || !(scale_ > 0.0F); }
 
     // Radiance arriving from unit direction `towards_sky`.
     [[nodiscard]] glm::vec3 radiance(const glm::vec3& towards_sky) const;
 
-    // Density of sample() per steradian.
+    // Density of sample() per steradian at a direction.
     [[nodiscard]] float pdf(const glm::vec3& towards_sky) const;
 
     struct Sample {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kColumns = 32, kRows = 17;  // of normals; the first and the last row are the poles
 constexpr int kSkyRows = 60;
-constexpr int kLooks = 4;  // per side of a patch of sky
+constexpr int kSamples = 4;  // per side of a sky patch
 
 glm::vec3 direction_of(float polar, float turn) {
     return {std::sin(polar) * std::sin(turn), std::cos(polar), -std::sin(polar) * std::cos(turn)};
@@ -32,15 +32,15 @@ std::vector<SkyPatch> patches_of(const EnvironmentMap& environment) {
         for (int column = 0; column < 2 * kSkyRows; ++column) {
             const float left = static_cast<float>(column) * step;
             glm::vec3 sum(0.0F);
-            for (int look_row = 0; look_row < kLooks; ++look_row) {
-                const float v = (static_cast<float>(look_row) + 0.5F) / kLooks;
-                for (int look_column = 0; look_column < kLooks; ++look_column) {
-                    const float u = (static_cast<float>(look_column) + 0.5F) / kLooks;
+            for (int sample_row = 0; sample_row < kSamples; ++sample_row) {
+                const float v = (static_cast<float>(sample_row) + 0.5F) / kSamples;
+                for (int sample_column = 0; sample_column < kSamples; ++sample_column) {
+                    const float u = (static_cast<float>(sample_column) + 0.5F) / kSamples;
                     sum += environment.radiance(direction_of(top + v * step, left + u * step));
                 }
             }
             patches.push_back(
-                {direction_of(top + 0.5F * step, left + 0.5F * step), sum * (solid_angle / (kLooks * kLooks))});
+                {direction_of(top + 0.5F * step, left + 0.5F * step), sum * (solid_angle / (kSamples * kSamples))});
         }
     }
     return patches;

@@ -1,4 +1,4 @@
-// The half of LightSet that follows light from its sources.
+// Photon emission of LightSet.
 #include "capture/tracer/light/light_set.hpp"
 #include "capture/tracer/scene/texture_lookup.hpp"
 #include "rayspace/light/directions.hpp"
@@ -21,7 +21,7 @@ float LightSet::flux_of(const Source& source) const {
             break;
     }
     const Light& light = lights_[source.kind == SourceKind::area ? areas_[source.index].light : source.index];
-    // At a distance that is usual in the scene.
+    // At a typical distance in the scene.
     const glm::vec3 flux(model_of(light).flux(light, 0.5 * static_cast<double>(extent_.radius)));
     return luminance(flux);
 }
@@ -37,59 +37,60 @@ std::optional<Photon> LightSet::emit(float u_source, const glm::vec2& u_place, c
     const auto found = std::ranges::upper_bound(flux_, u_source);
     const auto chosen = static_cast<std::size_t>(std::min(found, flux_.end() - 1) - flux_.begin());
     const float below = chosen > 0 ? flux_[chosen - 1] : 0.0F;
-    const float chance = flux_[chosen] - below;
-    if (!(chance > 0.0F)) return std::nullopt;
+    const float probability = flux_[chosen] - below;
+    if (!(probability > 0.0F)) return std::nullopt;
     const Source& source = sources_[chosen];
     switch (source.kind) {
         case SourceKind::environment: {
             const EnvironmentMap::Sample drawn = environment_.sample(u_direction);
             if (!(drawn.pdf > 0.0F)) return std::nullopt;
-            return emit_distant(-drawn.direction, environment_.radiance(drawn.direction) / (drawn.pdf * chance),
+            return emit_distant(-drawn.direction, environment_.radiance(drawn.direction) / (drawn.pdf * probability),
                                 u_place);
         }
         case SourceKind::distant: {
             const Light& light = lights_[source.index];
-            return emit_distant(light.towards, light.colour * (kPiF / chance), u_place);
+            return emit_distant(light.towards, light.colour * (kPiF / probability), u_place);
         }
         case SourceKind::area: {
             const Area& area = areas_[source.index];
             const glm::vec2 at = area.model->point(u_place);
-            return Photon{area.middle + area.half_u * at.x + area.half_v * at.y,
-                          Frame(area.normal).to_world(cosine_direction(u_direction)), area.normal,
-                          area.radiance * (kPiF * area.area / chance)};
+            return Photon{area.centre + area.half_u * at.x + area.half_v * at.y,
+                          Frame(area.normal).to_world(sample_cosine_hemisphere(u_direction)), area.normal,
+                          area.radiance * (kPiF * area.area / probability)};
         }
         case SourceKind::emitters:
-            return emit_emitter(std::min((u_source - below) / chance, 0x1.fffffep-1F), chance, u_place, u_direction);
+            return emit_emitter(std::min((u_source - below) / probability, 0x1.fffffep-1F), probability, u_place,
+                                u_direction);
         case SourceKind::local:
-            return emit_local(lights_[source.index], chance, u_direction);
+            return emit_local(lights_[source.index], probability, u_direction);
     }
     return std::nullopt;
 }
 
-// From a disc before the scene, which covers it.
+// Emits from a disc outside the scene whose projection covers it.
 Photon LightSet::emit_distant(const glm::vec3& direction, const glm::vec3& irradiance, const glm::vec2& u) const {
-    const glm::vec2 at = disc_point(u) * extent_.radius;
+    const glm::vec2 at = sample_disc(u) * extent_.radius;
     const Frame frame(direction);
     return {extent_.centre - direction * (2.0F * extent_.radius) + frame.tangent * at.x + frame.bitangent * at.y,
             direction, glm::vec3(0.0F), irradiance * (kPiF * extent_.radius * extent_.radius)};
 }
 
-std::optional<Photon> LightSet::emit_local(const Light& light, float chance, const glm::vec2& u) {
+std::optional<Photon> LightSet::emit_local(const Light& light, float probability, const glm::vec2& u) {
     const auto drawn = model_of(light).sample(light, u);
     if (!drawn) return std::nullopt;
     Photon photon{};
     photon.origin = glm::vec3(light.location);
     photon.point = &light;
     photon.direction = drawn->direction;
-    photon.inverse_pdf = drawn->inverse_pdf / chance;
+    photon.inverse_pdf = drawn->inverse_pdf / probability;
     return photon;
 }
 
-std::optional<Photon> LightSet::emit_emitter(float u_emitter, float chance, const glm::vec2& u_place,
+std::optional<Photon> LightSet::emit_emitter(float u_emitter, float probability, const glm::vec2& u_place,
                                              const glm::vec2& u_direction) const {
     const auto found = std::ranges::upper_bound(emitters_, u_emitter, {}, &Emitter::cumulative);
     const Emitter& emitter = found == emitters_.end() ? emitters_.back() : *found;
-    const EmitterPoint point = point_on(emitter, u_place);
+    const EmitterPoint point = emitter_point(emitter, u_place);
     if (point.hole) return std::nullopt;
     const int material = emitter.mesh->material;
     const bool both = scene_.materials[static_cast<std::size_t>(material)].two_sided;
@@ -99,8 +100,9 @@ std::optional<Photon> LightSet::emit_emitter(float u_emitter, float chance, cons
         if (u.x >= 0.5F) normal = -normal;
         u.x = std::min(2.0F * (u.x < 0.5F ? u.x : u.x - 0.5F), 0x1.fffffep-1F);
     }
-    const float pdf = brightness_[static_cast<std::size_t>(material)] / static_cast<float>(emitter_power_) * chance;
-    return Photon{point.position, Frame(normal).to_world(cosine_direction(u)), normal,
+    const float pdf =
+        brightness_[static_cast<std::size_t>(material)] / static_cast<float>(emitter_power_) * probability;
+    return Photon{point.position, Frame(normal).to_world(sample_cosine_hemisphere(u)), normal,
                   emission(material, point.uv) * ((both ? 2.0F : 1.0F) * kPiF / pdf)};
 }
 

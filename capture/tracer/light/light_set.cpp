@@ -13,8 +13,8 @@ namespace rs::capture {
 
 namespace {
 
-// By the mean of the texture, so that a mostly dark one draws few samples. Bilinear look-ups are 0 where the mean is.
-float brightness_of(const Material& material, const std::vector<Texture>& textures) {
+// Uses the texture's mean, so that mostly dark materials get few samples. A zero mean implies zero look-ups.
+float mean_emission(const Material& material, const std::vector<Texture>& textures) {
     if (material.emission_texture < 0) return luminance(material.emission);
     return luminance(material.emission * mean_colour(textures[static_cast<std::size_t>(material.emission_texture)]));
 }
@@ -27,7 +27,7 @@ LightSet::LightSet(const Scene& scene, Environment environment, const Extent& ex
       environment_(std::move(environment)),
       extent_{extent.centre, std::max(extent.radius, 1e-6F)} {
     for (const Material& material : scene_.materials) {
-        brightness_.push_back(brightness_of(material, scene_.textures));
+        brightness_.push_back(mean_emission(material, scene_.textures));
     }
     gather_emitters();
     set_lights(scene.lights);
@@ -35,10 +35,10 @@ LightSet::LightSet(const Scene& scene, Environment environment, const Extent& ex
 
 void LightSet::update_instances(const Extent& extent) {
     extent_ = {extent.centre, std::max(extent.radius, 1e-6F)};
-    if (instances_shine_) gather_emitters();
+    if (has_emissive_instances_) gather_emitters();
     if (emitter_source_.has_value() != (emitter_power_ > 0)) {
         const float turned = turn_rad_;
-        set_lights(std::vector<Light>(still_));
+        set_lights(std::vector<Light>(initial_lights_));
         turn(turned);
         return;
     }
@@ -53,7 +53,7 @@ float LightSet::emitters_irradiance() const {
 void LightSet::set_lights(const std::vector<Light>& lights) {
     sources_.clear();
     areas_.clear();
-    still_.clear();
+    initial_lights_.clear();
     points_.clear();
     environment_source_.reset();
     emitter_source_.reset();
@@ -66,7 +66,7 @@ void LightSet::set_lights(const std::vector<Light>& lights) {
         sources_.push_back({SourceKind::emitters, 0, emitters_irradiance()});
     }
     for (const Light& light : lights) add_light(light);
-    lights_ = still_;
+    lights_ = initial_lights_;
     turn_rad_ = 0.0F;
     place_lights(0.0F);
     sum_flux();
@@ -87,15 +87,15 @@ void LightSet::add_light(const Light& light) {
     const LightModel& model = model_of(light);
     const float power = luminance(light.colour) * static_cast<float>(model.strength(light));
     if (!(power > 0.0F)) return;
-    const std::size_t index = still_.size();
-    still_.push_back(light);
+    const std::size_t index = initial_lights_.size();
+    initial_lights_.push_back(light);
     const LightReach reach = model.reach(light);
     points_.push_back({.radius = reach.radius,
                        .attenuation = reach.attenuation,
                        .least_attenuation = reach.least_attenuation,
                        .colour = kPiF * light.colour,
                        .power = power,
-                       .least_cos = reach.least_cos});
+                       .min_cos = reach.min_cos});
     switch (model.form) {
         case LightForm::kDistant:
             sources_.push_back({SourceKind::distant, index, power});
@@ -117,14 +117,14 @@ void LightSet::turn(float angle_rad) {
 }
 
 void LightSet::place_lights(float turn_rad) {
-    for (std::size_t i = 0; i < still_.size(); ++i) {
-        lights_[i] = turned_about_y(still_[i], static_cast<double>(turn_rad));
+    for (std::size_t i = 0; i < initial_lights_.size(); ++i) {
+        lights_[i] = rotate_about_y(initial_lights_[i], static_cast<double>(turn_rad));
         points_[i].location = lights_[i].location;
         points_[i].towards = glm::vec3(model_of(lights_[i]).axis(lights_[i]));
     }
     for (Area& area : areas_) {
         const Light& light = lights_[area.light];
-        area.middle = light.location;
+        area.centre = light.location;
         area.half_u = light.half_u;
         area.half_v = light.half_v;
         const glm::vec3 cross = glm::cross(area.half_u, area.half_v);
@@ -138,8 +138,8 @@ void LightSet::place_lights(float turn_rad) {
 float LightSet::estimate(const Source& source, const glm::vec3& position) const {
     if (source.kind == SourceKind::area) {
         const Area& area = areas_[source.index];
-        const glm::vec3 way = position - area.middle;
-        // The whole area shines to one side of its plane.
+        const glm::vec3 way = position - area.centre;
+        // Area lights are one-sided.
         if (!(glm::dot(way, area.normal) > 0.0F)) return 0.0F;
         return source.power / std::max(glm::dot(way, way), area.area);
     }
@@ -149,7 +149,7 @@ float LightSet::estimate(const Source& source, const glm::vec3& position) const 
     const float distance2 = glm::dot(way, way);
     const float d = std::sqrt(distance2);
     if (!(d > 0.0F) || d > static_cast<float>(light.radius)) return 0.0F;
-    if (glm::dot(way, light.towards) < light.least_cos * d) return 0.0F;
+    if (glm::dot(way, light.towards) < light.min_cos * d) return 0.0F;
     return light.power / std::max(glm::dot(light.attenuation, glm::vec3(1.0F, d, distance2)), light.least_attenuation);
 }
 
@@ -161,15 +161,15 @@ LightSet::Selection LightSet::select(const glm::vec3& position) const {
         selection.total += estimated;
         reaching += estimated > 0.0F;
     }
-    if (reaching > 0) selection.even = 1.0F / static_cast<float>(reaching);
+    if (reaching > 0) selection.uniform = 1.0F / static_cast<float>(reaching);
     return selection;
 }
 
-LightSet::Selection LightSet::all(const glm::vec3& position) {
+LightSet::Selection LightSet::select_all(const glm::vec3& position) {
     return {position, std::numeric_limits<float>::infinity(), 2.0F};
 }
 
-std::optional<LightSample> LightSet::sky(const glm::vec2& u) const {
+std::optional<LightSample> LightSet::sample_sky(const glm::vec2& u) const {
     if (!environment_source_) return std::nullopt;
     return sample_environment(1.0F, u);
 }
@@ -177,13 +177,13 @@ std::optional<LightSample> LightSet::sky(const glm::vec2& u) const {
 void LightSet::gather_emitters() {
     placed_.clear();
     emitters_.clear();
-    glows_.clear();
+    proxies_.clear();
     emitter_power_ = 0;
     for (const Mesh& mesh : scene_.meshes) gather_emitter(mesh);
     for (const Instance& instance : scene_.instances) {
         for (const Mesh& mesh : scene_.parts[instance.part].meshes) {
             if (!(brightness_[static_cast<std::size_t>(mesh.material)] > 0.0F)) continue;
-            instances_shine_ = true;
+            has_emissive_instances_ = true;
             if (instance.at_close) continue;
             placed_.push_back(std::make_unique<const Mesh>(placed_mesh(mesh, instance.world_from_part)));
             gather_emitter(*placed_.back());
@@ -195,7 +195,7 @@ void LightSet::gather_emitters() {
 void LightSet::gather_emitter(const Mesh& mesh) {
     const float brightness = brightness_[static_cast<std::size_t>(mesh.material)];
     if (!(brightness > 0.0F)) return;
-    gather_glow(mesh);
+    add_proxy(mesh);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         const glm::uvec3& t = mesh.triangles[i];
         const glm::vec3 corner = mesh.positions[t.x];
@@ -207,29 +207,29 @@ void LightSet::gather_emitter(const Mesh& mesh) {
 }
 
 std::optional<LightSample> LightSet::sample(const Selection& selection, float u_source, const glm::vec2& u) const {
-    if (!(selection.even > 0.0F)) return std::nullopt;
+    if (!(selection.uniform > 0.0F)) return std::nullopt;
     const Source* chosen = nullptr;
-    float chance = 0.0F;
+    float probability = 0.0F;
     for (const Source& source : sources_) {
-        const float probable = probability(selection, estimate(source, selection.position));
-        if (!(probable > 0.0F)) continue;
-        // The last that reaches takes what rounding leaves over.
-        if (chosen != nullptr) u_source -= chance;
+        const float source_probability = selection_probability(selection, estimate(source, selection.position));
+        if (!(source_probability > 0.0F)) continue;
+        // The last source that reaches the position takes the rounding remainder.
+        if (chosen != nullptr) u_source -= probability;
         chosen = &source;
-        chance = probable;
-        if (u_source < probable) break;
+        probability = source_probability;
+        if (u_source < source_probability) break;
     }
     switch (chosen->kind) {
         case SourceKind::environment:
-            return sample_environment(chance, u);
+            return sample_environment(probability, u);
         case SourceKind::distant:
         case SourceKind::local:
-            return sample_light(lights_[chosen->index], selection.position, chance);
+            return sample_light(lights_[chosen->index], selection.position, probability);
         case SourceKind::area:
-            return sample_area(areas_[chosen->index], selection.position, chance,
+            return sample_area(areas_[chosen->index], selection.position, probability,
                                areas_[chosen->index].model->point(u));
         case SourceKind::emitters:
-            return sample_emitter(selection, std::min(u_source / chance, 0x1.fffffep-1F), u);
+            return sample_emitter(selection, std::min(u_source / probability, 0x1.fffffep-1F), u);
     }
     return std::nullopt;
 }
@@ -255,7 +255,7 @@ std::optional<LightSample> LightSet::sample_environment(float probability, const
 
 std::optional<LightSample> LightSet::sample_area(const Area& area, const glm::vec3& position, float probability,
                                                  const glm::vec2& at) {
-    const glm::vec3 to_light = area.middle + area.half_u * at.x + area.half_v * at.y - position;
+    const glm::vec3 to_light = area.centre + area.half_u * at.x + area.half_v * at.y - position;
     const float distance2 = glm::dot(to_light, to_light);
     if (!(distance2 > 0.0F)) return std::nullopt;
     const float distance = std::sqrt(distance2);
@@ -269,7 +269,7 @@ std::optional<LightSample> LightSet::sample_emitter(const Selection& selection, 
                                                     const glm::vec2& u) const {
     const auto found = std::ranges::upper_bound(emitters_, u_emitter, {}, &Emitter::cumulative);
     const Emitter& emitter = found == emitters_.end() ? emitters_.back() : *found;
-    const EmitterPoint point = point_on(emitter, u);
+    const EmitterPoint point = emitter_point(emitter, u);
     if (point.hole) return std::nullopt;
     const int material = emitter.mesh->material;
     const glm::vec3 to_light = point.position - selection.position;
@@ -284,14 +284,14 @@ std::optional<LightSample> LightSet::sample_emitter(const Selection& selection, 
                        emitter_pdf(selection, material, distance, cos_light), false};
 }
 
-LightSet::EmitterPoint LightSet::point_on(const Emitter& emitter, const glm::vec2& u) const {
+LightSet::EmitterPoint LightSet::emitter_point(const Emitter& emitter, const glm::vec2& u) const {
     const Mesh& mesh = *emitter.mesh;
     const Material& material = scene_.materials[static_cast<std::size_t>(mesh.material)];
     const glm::uvec3& t = mesh.triangles[emitter.triangle];
     const glm::vec3 corner = mesh.positions[t.x];
     const glm::vec3 edge_u = mesh.positions[t.y] - corner;
     const glm::vec3 edge_v = mesh.positions[t.z] - corner;
-    const float root = std::sqrt(u.x);  // even over the triangle
+    const float root = std::sqrt(u.x);  // uniform over the triangle
     const float along_u = root * (1.0F - u.y);
     const float along_v = root * u.y;
     const glm::vec2 uv = interpolate_uv(mesh, emitter.triangle, along_u, along_v);
@@ -310,13 +310,14 @@ glm::vec3 LightSet::emission(int material, const glm::vec2& uv) const {
 
 float LightSet::environment_pdf(const Selection& selection, const glm::vec3& direction) const {
     if (!environment_source_) return 0.0F;
-    return probability(selection, sources_[*environment_source_].power) * environment_.pdf(direction);
+    return selection_probability(selection, sources_[*environment_source_].power) * environment_.pdf(direction);
 }
 
 float LightSet::emitter_pdf(const Selection& selection, int material, float distance, float cos_light) const {
-    // An emitter is drawn by area times brightness, so the density per area is brightness over the sum of them.
+    // Emitters are selected in proportion to area * brightness, so the density per area is brightness over the sum.
     const float per_area = brightness_[static_cast<std::size_t>(material)] / static_cast<float>(emitter_power_);
-    return probability(selection, sources_[*emitter_source_].power) * per_area * distance * distance / cos_light;
+    return selection_probability(selection, sources_[*emitter_source_].power) * per_area * distance * distance /
+           cos_light;
 }
 
 std::optional<LightSet::Crossing> LightSet::cross_area(std::size_t index, const Selection& selection,
@@ -325,16 +326,16 @@ std::optional<LightSet::Crossing> LightSet::cross_area(std::size_t index, const 
     const Area& area = areas_[index];
     const float cos_light = -glm::dot(direction, area.normal);
     if (cos_light <= 1e-6F) return std::nullopt;
-    const glm::vec3 from_middle = origin - area.middle;
-    const float distance = glm::dot(from_middle, area.normal) / cos_light;
+    const glm::vec3 from_centre = origin - area.centre;
+    const float distance = glm::dot(from_centre, area.normal) / cos_light;
     if (!(distance > 0.0F && distance < max_distance)) return std::nullopt;
-    const glm::vec3 p = from_middle + direction * distance;
-    // Coordinates along the halves, which need not be perpendicular.
+    const glm::vec3 p = from_centre + direction * distance;
+    // Coordinates along half_u and half_v, which need not be perpendicular.
     const float s = glm::dot(glm::cross(p, area.half_v), area.normal) / area.parallelogram;
     const float t = glm::dot(glm::cross(area.half_u, p), area.normal) / area.parallelogram;
     if (!area.model->covers({s, t})) return std::nullopt;
-    const float chance = probability(selection, estimate(sources_[area.source], selection.position));
-    return Crossing{area.radiance, chance * distance * distance / (cos_light * area.area)};
+    const float probability = selection_probability(selection, estimate(sources_[area.source], selection.position));
+    return Crossing{area.radiance, probability * distance * distance / (cos_light * area.area)};
 }
 
 }  // namespace rs::capture

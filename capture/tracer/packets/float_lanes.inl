@@ -1,5 +1,5 @@
-// Formulas on vectors of floats, each in the order of its plain twin, once for every SIMD target. No include guard: the
-// sources of this room include it once for each target.
+// Vector arithmetic for every SIMD target, in the operation order of the scalar code. No include guard: the sources of
+// this folder include it once per target.
 
 #include "capture/tracer/packets/packet.hpp"
 
@@ -40,7 +40,7 @@ HWY_INLINE bool any(Mask mask) {
     return !hn::AllFalse(FloatTag(), mask);
 }
 
-// As std::max and std::min have it, which give their first argument where one is no number.
+// NaN semantics of std::max and std::min, which return their first argument if one is NaN.
 HWY_INLINE Floats greater(Floats a, Floats b) {
     return hn::IfThenElse(hn::Lt(a, b), b, a);
 }
@@ -102,7 +102,7 @@ HWY_INLINE Floats max_component(const Floats3& v) {
     return greater(v.x, greater(v.y, v.z));
 }
 
-// The twin of smith_lambda().
+// Vector version of smith_lambda().
 HWY_INLINE Floats smith_lambda(Floats cosine, Floats alpha) {
     const Floats one = number(1.0F);
     const Floats cos2 = cosine * cosine;
@@ -110,11 +110,11 @@ HWY_INLINE Floats smith_lambda(Floats cosine, Floats alpha) {
     return number(0.5F) * (hn::Sqrt(one + alpha * alpha * tan2) - one);
 }
 
-// The twin of AlbedoTable::at().
+// Vector version of AlbedoTable::at().
 HWY_INLINE Floats albedo_at(const float* tables, Ints table, Floats cosine) {
     const IntTag ints;
     const Floats x = hn::Sqrt(clamped(cosine, 0.0F, 1.0F)) * number(kAlbedoNumbers - 1);
-    // Lanes that do not count may hold no number.
+    // Inactive lanes may contain NaN.
     const Ints below = hn::Max(hn::Min(hn::ConvertTo(ints, x), hn::Set(ints, kAlbedoNumbers - 2)), hn::Zero(ints));
     const Ints index = table + below;
     const Floats part = x - hn::ConvertTo(FloatTag(), below);

@@ -1,4 +1,4 @@
-// What of a light arrives at sixteen places.
+// Light from point, area and directional lights at sixteen positions.
 #include "capture/tracer/packets/light_lanes.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -11,35 +11,35 @@
 HWY_BEFORE_NAMESPACE();
 namespace rs::capture::HWY_NAMESPACE {
 
-// The twin of LightSet::estimate(), of its sources that are points. `way` goes from the light to the place.
-HWY_INLINE Mask reached_by(const PointLight& light, const Floats3& way, Floats distance2, Floats distance) {
+// Vector version of LightSet::estimate() for point sources. `way` goes from the light to the position.
+HWY_INLINE Mask is_reached(const PointLight& light, const Floats3& way, Floats distance2, Floats distance) {
     const Floats zero = number(0.0F), one = number(1.0F);
     Mask none = hn::Not(hn::Gt(distance, zero));
     none = hn::Or(none, hn::Gt(distance, number(static_cast<float>(light.radius))));
-    none = hn::Or(none, hn::Lt(dot(way, broadcast(light.towards)), number(light.least_cos) * distance));
+    none = hn::Or(none, hn::Lt(dot(way, broadcast(light.towards)), number(light.min_cos) * distance));
     const Floats falloff =
         greater(dot(broadcast(light.attenuation), {one, distance, distance2}), number(light.least_attenuation));
     return hn::AndNot(none, hn::Gt(number(light.power) / falloff, zero));
 }
 
-bool reach(const PointLight& light, const SurfaceLanes& surfaces, const MaskLanes& wanted, MaskLanes& reached) {
+bool cull(const PointLight& light, const SurfaceLanes& surfaces, const MaskLanes& active, MaskLanes& reached) {
     const Floats zero = number(0.0F);
-    bool some = false;
+    bool any_lit = false;
     for (std::size_t i = 0; i < kLanes; i += lanes_at_once()) {
         const Floats3 way = load(surfaces.near_start, i) - broadcast(glm::vec3(light.location));
         const Floats distance2 = dot(way, way);
         const Floats distance = hn::Sqrt(distance2);
         const Floats cosine = dot(negated(way) / distance, load(surfaces.normal, i));
         const Mask open = hn::Or(hn::Gt(cosine, zero), hn::Gt(load(surfaces.material.translucency, i), zero));
-        const Mask there = hn::And(hn::And(load_mask(wanted, i), open), reached_by(light, way, distance2, distance));
+        const Mask there = hn::And(hn::And(load_mask(active, i), open), is_reached(light, way, distance2, distance));
         store_mask(there, reached, i);
-        some = some || any(there);
+        any_lit = any_lit || any(there);
     }
-    return some;
+    return any_lit;
 }
 
-// The strength of irradiance_at(), which counts in doubles; 0 where there is none.
-HWY_INLINE void find_strengths(const PointLight& light, const Lanes3& places, Lanes& strengths) {
+// Attenuated strength as computed by irradiance_at(), in double precision; 0 outside the light's radius.
+HWY_INLINE void compute_strengths(const PointLight& light, const Lanes3& positions, Lanes& strengths) {
     using Tag = hn::CappedTag<double, kLanes / 2>;
     using Half = hn::Rebind<float, Tag>;
     const auto number = [](double value) { return hn::Set(Tag(), value); };
@@ -48,9 +48,9 @@ HWY_INLINE void find_strengths(const PointLight& light, const Lanes3& places, La
         const auto wide = [&](const Lanes& lanes) {
             return hn::PromoteTo(Tag(), hn::Load(Half(), lanes.of.data() + i));
         };
-        const auto x = wide(places.x) - number(light.location.x);
-        const auto y = wide(places.y) - number(light.location.y);
-        const auto z = wide(places.z) - number(light.location.z);
+        const auto x = wide(positions.x) - number(light.location.x);
+        const auto y = wide(positions.y) - number(light.location.y);
+        const auto z = wide(positions.z) - number(light.location.z);
         const auto distance2 = x * x + y * y + z * z;
         const auto d = hn::Sqrt(distance2);
         const auto attenuation = number(static_cast<double>(light.attenuation.x)) * number(1.0) +
@@ -63,43 +63,44 @@ HWY_INLINE void find_strengths(const PointLight& light, const Lanes3& places, La
     }
 }
 
-bool from_point(const PointLight& light, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives) {
+bool from_point(const PointLight& light, const Lanes3& positions, const MaskLanes& active, LightLanes& incident) {
     Lanes strengths;
-    find_strengths(light, places, strengths);
-    bool some = false;
+    compute_strengths(light, positions, strengths);
+    bool any_lit = false;
     for (std::size_t i = 0; i < kLanes; i += lanes_at_once()) {
-        const Floats3 way = load(places, i) - broadcast(glm::vec3(light.location));
+        const Floats3 way = load(positions, i) - broadcast(glm::vec3(light.location));
         const Floats distance2 = dot(way, way);
         const Floats distance = hn::Sqrt(distance2);
         const Floats3 irradiance = broadcast(light.colour) * load(strengths, i);
-        const Mask reached = hn::And(load_mask(wanted, i), reached_by(light, way, distance2, distance));
+        const Mask reached = hn::And(load_mask(active, i), is_reached(light, way, distance2, distance));
         const Mask lit = hn::And(reached, hn::Gt(max_component(irradiance), number(0.0F)));
-        store_mask(lit, arrives.lit, i);
-        store(negated(way) / distance, arrives.direction, i);
-        store(distance, arrives.distance, i);
-        store(irradiance, arrives.radiance, i);
-        some = some || any(lit);
+        store_mask(lit, incident.lit, i);
+        store(negated(way) / distance, incident.direction, i);
+        store(distance, incident.distance, i);
+        store(irradiance, incident.radiance, i);
+        any_lit = any_lit || any(lit);
     }
-    arrives.delta = true;
-    return some;
+    incident.delta = true;
+    return any_lit;
 }
 
-void from_afar(const glm::vec3& direction, const glm::vec3& irradiance, const MaskLanes& wanted, LightLanes& arrives) {
+void from_direction(const glm::vec3& direction, const glm::vec3& irradiance, const MaskLanes& active,
+                    LightLanes& incident) {
     for (std::size_t i = 0; i < kLanes; i += lanes_at_once()) {
-        store_mask(load_mask(wanted, i), arrives.lit, i);
-        store(broadcast(direction), arrives.direction, i);
-        store(hn::Inf(FloatTag()), arrives.distance, i);
-        store(broadcast(irradiance), arrives.radiance, i);
+        store_mask(load_mask(active, i), incident.lit, i);
+        store(broadcast(direction), incident.direction, i);
+        store(hn::Inf(FloatTag()), incident.distance, i);
+        store(broadcast(irradiance), incident.radiance, i);
     }
-    arrives.delta = true;
+    incident.delta = true;
 }
 
-bool from_area(const AreaLight& light, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives) {
+bool from_area(const AreaLight& light, const Lanes3& positions, const MaskLanes& active, LightLanes& incident) {
     const Floats zero = number(0.0F), area = number(light.area);
-    const Floats3 middle = broadcast(light.middle), normal = broadcast(light.normal);
-    bool some = false;
+    const Floats3 centre = broadcast(light.centre), normal = broadcast(light.normal);
+    bool any_lit = false;
     for (std::size_t i = 0; i < kLanes; i += lanes_at_once()) {
-        const Floats3 way = load(places, i) - middle;
+        const Floats3 way = load(positions, i) - centre;
         const Floats distance2 = dot(way, way);
         // LightSet::estimate()
         const Mask before = hn::Gt(dot(way, normal), zero);
@@ -108,17 +109,17 @@ bool from_area(const AreaLight& light, const Lanes3& places, const MaskLanes& wa
         const Floats distance = hn::Sqrt(distance2);
         const Floats3 direction = negated(way) / distance;
         const Floats cos_light = hn::Neg(dot(direction, normal));
-        const Mask seen = hn::AndNot(hn::Le(cos_light, number(1e-6F)), hn::Gt(distance2, zero));
-        const Mask lit = hn::And(load_mask(wanted, i), hn::And(reached, seen));
-        store_mask(lit, arrives.lit, i);
-        store(direction, arrives.direction, i);
-        store(distance, arrives.distance, i);
-        store(broadcast(light.radiance), arrives.radiance, i);
-        store(distance2 / (cos_light * area), arrives.pdf, i);
-        some = some || any(lit);
+        const Mask visible = hn::AndNot(hn::Le(cos_light, number(1e-6F)), hn::Gt(distance2, zero));
+        const Mask lit = hn::And(load_mask(active, i), hn::And(reached, visible));
+        store_mask(lit, incident.lit, i);
+        store(direction, incident.direction, i);
+        store(distance, incident.distance, i);
+        store(broadcast(light.radiance), incident.radiance, i);
+        store(distance2 / (cos_light * area), incident.pdf, i);
+        any_lit = any_lit || any(lit);
     }
-    arrives.delta = false;
-    return some;
+    incident.delta = false;
+    return any_lit;
 }
 
 }  // namespace rs::capture::HWY_NAMESPACE
@@ -127,27 +128,27 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rs::capture {
 
-HWY_EXPORT(from_afar);
-HWY_EXPORT(reach);
+HWY_EXPORT(from_direction);
+HWY_EXPORT(cull);
 HWY_EXPORT(from_point);
 HWY_EXPORT(from_area);
 
-void light_from_afar(const glm::vec3& direction, const glm::vec3& irradiance, const MaskLanes& wanted,
-                     LightLanes& arrives) {
-    HWY_DYNAMIC_DISPATCH(from_afar)(direction, irradiance, wanted, arrives);
+void light_from_direction(const glm::vec3& direction, const glm::vec3& irradiance, const MaskLanes& active,
+                          LightLanes& incident) {
+    HWY_DYNAMIC_DISPATCH(from_direction)(direction, irradiance, active, incident);
 }
 
-bool reach_of_point(const PointLight& light, const SurfaceLanes& surfaces, const MaskLanes& wanted,
-                    MaskLanes& reached) {
-    return HWY_DYNAMIC_DISPATCH(reach)(light, surfaces, wanted, reached);
+bool cull_point_light(const PointLight& light, const SurfaceLanes& surfaces, const MaskLanes& active,
+                      MaskLanes& reached) {
+    return HWY_DYNAMIC_DISPATCH(cull)(light, surfaces, active, reached);
 }
 
-bool light_from_point(const PointLight& light, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives) {
-    return HWY_DYNAMIC_DISPATCH(from_point)(light, places, wanted, arrives);
+bool light_from_point(const PointLight& light, const Lanes3& positions, const MaskLanes& active, LightLanes& incident) {
+    return HWY_DYNAMIC_DISPATCH(from_point)(light, positions, active, incident);
 }
 
-bool light_from_area(const AreaLight& light, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives) {
-    return HWY_DYNAMIC_DISPATCH(from_area)(light, places, wanted, arrives);
+bool light_from_area(const AreaLight& light, const Lanes3& positions, const MaskLanes& active, LightLanes& incident) {
+    return HWY_DYNAMIC_DISPATCH(from_area)(light, positions, active, incident);
 }
 
 }  // namespace rs::capture

@@ -1,7 +1,6 @@
 #pragma once
-// One light that falls on sixteen surfaces. The twins are LightSet::middle(), Surface::evaluate() and what Whitted's
-// ray tracing does between them; that of virtual lights stands beside its test
-// (tests/capture/tracer/packets/packets_test.cpp).
+// One light on sixteen surfaces. Scalar counterparts: LightSet::sample_centre(), Surface::evaluate() and
+// WhittedTracer::make_shadow_ray(); for virtual lights, a function in tests/capture/tracer/packets/packets_test.cpp.
 
 #include "capture/tracer/packets/surface_lanes.hpp"
 
@@ -9,39 +8,39 @@
 
 namespace rs::capture {
 
-// As LightSample has it, for the lanes that are `lit`.
+// LightSample for the lanes that are `lit`.
 struct LightLanes {
     MaskLanes lit;
     Lanes3 direction;
     Lanes distance;
     Lanes3 radiance;
     Lanes pdf;
-    bool delta = true;  // all lanes; `pdf` is 1 then, and is not looked at
+    bool delta = true;  // for all lanes; `pdf` is 1 and unused then
 };
 
-// A point, a spot or a luminaire, as far as it is known without its web or its cone.
+// A point light, spot light or luminaire without its photometric web or cone falloff.
 struct PointLight {
     glm::dvec3 location{0.0};
     double radius = 0;
     glm::vec3 attenuation{1, 0, 0};
     float least_attenuation = 1;
     glm::vec3 colour{0};  // pi times the light's
-    // What LightSet estimates by.
+    // For LightSet's estimate.
     float power = 0;
     glm::vec3 towards{0};
-    float least_cos = -1;
+    float min_cos = -1;
 };
 
-// A rectangle or a disc, taken for its middle.
+// A rectangle or a disc, sampled at its centre.
 struct AreaLight {
-    glm::vec3 middle{0}, normal{0};
+    glm::vec3 centre{0}, normal{0};
     glm::vec3 radiance{0};
     float area = 1;
-    float power = 0;  // what LightSet estimates by
+    float power = 0;  // for LightSet's estimate
 };
 
-// A surface that light has fallen on and that lights others (integrator/virtual_lights.hpp), as SurfaceLanes has one.
-// Its viewer is where the light came from.
+// A surface point that reflects the flux of a photon (integrator/virtual_lights.hpp); fields as in SurfaceLanes. The
+// viewer is the direction to the photon's origin.
 struct VirtualLight {
     SurfaceKind kind = SurfaceKind::diffuse;
     float alpha = 1, ior = 1, translucency = 0, base = 1;
@@ -52,38 +51,39 @@ struct VirtualLight {
     glm::vec3 colour{0};
     glm::vec3 viewer{0};
     float step_off = 0;
-    glm::vec3 flux{0};  // that arrives
-    int depth = 1;      // surfaces that it has met, this one included
+    glm::vec3 flux{0};  // incident
+    int depth = 1;      // surfaces on the photon's path, this one included
 };
 
-// The same light everywhere; `direction` has unit length and goes to it.
-void light_from_afar(const glm::vec3& direction, const glm::vec3& irradiance, const MaskLanes& wanted,
-                     LightLanes& arrives);
+// Directional light; `direction` has unit length and points to the light.
+void light_from_direction(const glm::vec3& direction, const glm::vec3& irradiance, const MaskLanes& active,
+                          LightLanes& incident);
 
-// The lanes on which the light may have an effect: where LightSet's estimate is above 0, and which face it or let light
-// through. False where there are none.
-bool reach_of_point(const PointLight& light, const SurfaceLanes& surfaces, const MaskLanes& wanted, MaskLanes& reached);
+// Finds the lanes on which the light may have an effect: LightSet's estimate is above 0, and the surface faces the
+// light or is translucent. Returns false if there are none.
+bool cull_point_light(const PointLight& light, const SurfaceLanes& surfaces, const MaskLanes& active,
+                      MaskLanes& reached);
 
-// The light of a point with nothing in between; false where no lane is lit.
-bool light_from_point(const PointLight& light, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives);
+// The functions below compute unoccluded light and return false if no lane is lit.
 
-// That of an area.
-bool light_from_area(const AreaLight& light, const Lanes3& places, const MaskLanes& wanted, LightLanes& arrives);
+bool light_from_point(const PointLight& light, const Lanes3& positions, const MaskLanes& active, LightLanes& incident);
 
-// That of a virtual light: the geometry term, both cosines over squared distance, is cut down to `bound`.
+bool light_from_area(const AreaLight& light, const Lanes3& positions, const MaskLanes& active, LightLanes& incident);
+
+// Limits the geometry term, both cosines over squared distance, to `bound`.
 bool light_from_virtual(const VirtualLight& light, float bound, const float* tables, const SurfaceLanes& surfaces,
-                        const MaskLanes& wanted, LightLanes& arrives);
+                        const MaskLanes& active, LightLanes& incident);
 
-// What light makes surfaces of matte, coated and metal materials send to their viewers, and the rays that have to find
-// nothing in the way; false where there are none.
-struct SentLanes {
-    MaskLanes asked;  // lanes that have a ray
-    RayLanes ray;     // `time` is not touched
+// Shadow rays, and the radiance that diffuse, glossy and metal surfaces reflect to their viewers if unoccluded.
+struct ShadowLanes {
+    MaskLanes active;  // lanes that have a ray
+    RayLanes ray;      // `time` is not set
     Lanes3 light;
 };
-bool send_light(const SurfaceLanes& surfaces, const LightLanes& arrives, const float* tables, SentLanes& sent);
+// Returns false if no lane has a ray.
+bool reflect_light(const SurfaceLanes& surfaces, const LightLanes& incident, const float* tables, ShadowLanes& shadows);
 
-// Adds the light of the rays that have found nothing in the way to `sum`.
-void add_light(const SentLanes& sent, Lanes3& sum);
+// Adds the light of the unoccluded rays to `sum`.
+void add_light(const ShadowLanes& shadows, Lanes3& sum);
 
 }  // namespace rs::capture

@@ -1,15 +1,15 @@
 #pragma once
-// Sixteen rays at a time, number by number, so that vectors take them as they lie: lane i of every array is of ray i.
+// Packets of sixteen rays as structures of arrays for SIMD: lane i of every array belongs to ray i.
 //
-//     RayLanes -> HitLanes -> TriangleLanes   Embree; gathered lane by lane (rays/ray_scene.hpp)
-//     TriangleLanes -> SurfaceLanes           place_surfaces(), texture_surfaces(), face_viewers()
-//     SurfaceLanes, a light -> LightLanes     light_from_afar(), _point(), _area(), _virtual(); or lane by lane
-//     (LightSet) SurfaceLanes, LightLanes -> RayLanes    send_light(): the rays to the light, and what it makes the
-//     surfaces send
+//     RayLanes -> HitLanes -> TriangleLanes      Embree; gathered lane by lane (rays/ray_scene.hpp)
+//     TriangleLanes -> SurfaceLanes              place_surfaces(), texture_surfaces(), orient_surfaces()
+//     SurfaceLanes, a light -> LightLanes        light_from_direction(), _point(), _area(), _virtual(); or lane by lane
+//                                                (LightSet)
+//     SurfaceLanes, LightLanes -> ShadowLanes    reflect_light(): shadow rays, and the radiance reflected if unoccluded
 //
-// Every function gives the bits of its plain twin, which takes one ray at a time and which it names; so an image is
-// the same whether its rays go together or alone. Lanes that a mask leaves out may hold anything afterwards. No
-// function refers to what it was given after it returns; all are thread-safe.
+// Every function gives results bit-identical to its scalar counterpart, so that an image does not depend on the
+// grouping of its rays. Lanes excluded by a mask have unspecified values afterwards. All functions are thread-safe and
+// keep no references to their arguments.
 
 #include <glm/glm.hpp>
 
@@ -21,7 +21,7 @@
 namespace rs::capture {
 
 inline constexpr std::size_t kLanes = 16;
-inline constexpr int kAlbedoNumbers = 64;  // in the table of a coat's or a metal's albedo
+inline constexpr int kAlbedoNumbers = 64;  // size of an AlbedoTable
 
 template <class Number>
 struct alignas(64) LanesOf {
@@ -30,7 +30,7 @@ struct alignas(64) LanesOf {
     const Number& operator[](std::size_t lane) const { return of[lane]; }
 };
 using Lanes = LanesOf<float>;
-using MaskLanes = LanesOf<std::int32_t>;  // -1: the lane counts; 0: it does not
+using MaskLanes = LanesOf<std::int32_t>;  // -1: active; 0: inactive
 struct Lanes2 {
     Lanes x, y;
     void set(std::size_t lane, const glm::vec2& v) {
@@ -49,25 +49,26 @@ struct Lanes3 {
     [[nodiscard]] glm::vec3 at(std::size_t lane) const { return {x[lane], y[lane], z[lane]}; }
 };
 
-// As Embree has them in memory (RTCRayHit16).
+// Memory layout of Embree's RTCRay16.
 struct RayLanes {
     Lanes3 origin;
     Lanes nearest;     // 0
     Lanes3 direction;  // unit length
     Lanes time;
-    Lanes reach;  // what is farther away counts nothing; after a look for something in the way, below 0 where it is
+    Lanes reach;  // maximum distance; after an occlusion test, below 0 if occluded
     LanesOf<std::uint32_t> mask, id, flags;
 };
 struct HitLanes {
     Lanes3 normal;
     Lanes u, v;
-    LanesOf<std::uint32_t> triangle, mesh, instance;  // mesh ~0: nothing was met; instance ~0: what stands still
+    LanesOf<std::uint32_t> triangle, mesh, instance;  // mesh ~0: no hit; instance ~0: static mesh
 };
+// Memory layout of Embree's RTCRayHit16.
 struct MetLanes {
-    RayLanes ray;  // `reach` becomes the distance of what is met
+    RayLanes ray;  // `reach` becomes the distance of the hit
     HitLanes hit;
 
-    // A ray that has met nothing yet.
+    // Sets a lane to a ray without a hit.
     void begin(std::size_t lane, const glm::vec3& origin, const glm::vec3& direction, float time) {
         ray.origin.set(lane, origin);
         ray.direction.set(lane, direction);
@@ -77,16 +78,16 @@ struct MetLanes {
         ray.mask[lane] = ~0U;
         hit.mesh[lane] = hit.instance[lane] = ~0U;
     }
-    [[nodiscard]] bool has_met(std::size_t lane) const { return hit.mesh[lane] != ~0U; }
+    [[nodiscard]] bool has_hit(std::size_t lane) const { return hit.mesh[lane] != ~0U; }
 };
 
-// The triangles that rays have met, in the world.
+// The triangles hit by the rays, in world coordinates.
 struct TriangleLanes {
     std::array<Lanes3, 3> corner;
-    std::array<Lanes3, 3> normal;  // of the vertices; 0 where the mesh has none
+    std::array<Lanes3, 3> normal;  // of the vertices; 0 if the mesh has none
     std::array<Lanes2, 3> uv;
-    Lanes u, v;     // where
-    Lanes winding;  // -1 where an instance mirrors, else 1
+    Lanes u, v;     // barycentric coordinates of the hit
+    Lanes winding;  // -1 for instances with a mirroring matrix, else 1
 };
 
 }  // namespace rs::capture

@@ -1,4 +1,4 @@
-// Where triangles are met, and which way they face.
+// Positions and normals of triangle hits.
 #include "capture/tracer/packets/surface_lanes.hpp"
 
 #undef HWY_TARGET_INCLUDE

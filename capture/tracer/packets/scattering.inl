@@ -1,5 +1,5 @@
-// The twin of Surface::evaluate() on vectors, once for every SIMD target. No include guard: the sources of this room
-// include it once for each target.
+// Vector version of Surface::evaluate() for every SIMD target. No include guard: the sources of this folder include it
+// once per target.
 
 #include "capture/tracer/packets/float_lanes.inl"
 #include "rayspace/base/conventions.hpp"
@@ -9,7 +9,7 @@ namespace rs::capture::HWY_NAMESPACE {
 
 constexpr float kPiF = static_cast<float>(kPi);
 
-// The twin of fresnel_dielectric().
+// Vector version of fresnel_dielectric().
 HWY_INLINE Floats fresnel_dielectric(Floats cos_incident, Floats ior) {
     const Floats one = number(1.0F);
     const Floats c = clamped(cos_incident, 0.0F, 1.0F);
@@ -21,7 +21,7 @@ HWY_INLINE Floats fresnel_dielectric(Floats cos_incident, Floats ior) {
                           number(0.5F) * (perpendicular * perpendicular + parallel * parallel));
 }
 
-// The twin of evaluate_microfacet().
+// Vector version of evaluate_microfacet().
 struct Facets {
     Floats f_cos, cos_facet;
 };
@@ -35,8 +35,8 @@ HWY_INLINE Facets evaluate_facets(const Floats3& wo, const Floats3& wi, Floats a
     return {common / (number(1.0F) + lambda_o + lambda_i), dot(wo, half)};
 }
 
-// A surface as one viewer sees it: what SurfaceLanes has of it.
-struct SeenSurface {
+// BSDF parameters for a fixed viewer direction, from SurfaceLanes.
+struct ViewedSurface {
     Floats3 colour;
     Floats3 viewer;
     Floats albedo, lambda;
@@ -44,13 +44,13 @@ struct SeenSurface {
     Ints table;
 };
 
-HWY_INLINE Floats3 of_matte(const SeenSurface& s, const Floats3& wi) {
+HWY_INLINE Floats3 evaluate_diffuse(const ViewedSurface& s, const Floats3& wi) {
     const Mask above = hn::Gt(wi.z, number(0.0F));
     const Floats share = hn::IfThenElse(above, number(1.0F) - s.translucency, s.translucency);
     return s.colour * (share * hn::Abs(wi.z) / number(kPiF));
 }
 
-HWY_INLINE Floats3 of_coated(const SeenSurface& s, const Floats3& wi, const float* tables) {
+HWY_INLINE Floats3 evaluate_glossy(const ViewedSurface& s, const Floats3& wi, const float* tables) {
     const Floats one = number(1.0F);
     const Facets coat = evaluate_facets(s.viewer, wi, s.alpha, s.lambda);
     const Floats reflected = fresnel_dielectric(coat.cos_facet, s.ior);
@@ -59,7 +59,7 @@ HWY_INLINE Floats3 of_coated(const SeenSurface& s, const Floats3& wi, const floa
     return Floats3{coated, coated, coated} + s.colour * (through * wi.z / number(kPiF));
 }
 
-HWY_INLINE Floats3 of_metal(const SeenSurface& s, const Floats3& wi) {
+HWY_INLINE Floats3 evaluate_metal(const ViewedSurface& s, const Floats3& wi) {
     const Floats one = number(1.0F);
     const Floats3 ones = {one, one, one};
     const Facets metal = evaluate_facets(s.viewer, wi, s.alpha, s.lambda);

@@ -1,4 +1,4 @@
-// What of the scattering at a place depends on the viewer alone.
+// Shading frames and the parts of the BSDF that depend on the viewer only.
 #include "capture/tracer/packets/surface_lanes.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -11,7 +11,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace rs::capture::HWY_NAMESPACE {
 
-void face(const Lanes3& directions, const float* tables, SurfaceLanes& surfaces) {
+void orient(const Lanes3& directions, const float* tables, SurfaceLanes& surfaces) {
     constexpr float kLeastCos = 0.01F;  // facing_normal()
     const Floats one = number(1.0F);
     for (std::size_t i = 0; i < kLanes; i += lanes_at_once()) {
@@ -47,10 +47,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rs::capture {
 
-HWY_EXPORT(face);
+HWY_EXPORT(orient);
 
-void face_viewers(const Lanes3& direction, const float* tables, SurfaceLanes& surfaces) {
-    HWY_DYNAMIC_DISPATCH(face)(direction, tables, surfaces);
+void orient_surfaces(const Lanes3& direction, const float* tables, SurfaceLanes& surfaces) {
+    HWY_DYNAMIC_DISPATCH(orient)(direction, tables, surfaces);
 }
 
 }  // namespace rs::capture

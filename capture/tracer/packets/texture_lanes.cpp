@@ -1,4 +1,4 @@
-// Bilinear look-ups, a texture for each lane.
+// Bilinear texture look-ups with one texture per lane.
 #include "capture/tracer/packets/surface_lanes.hpp"
 
 #undef HWY_TARGET_INCLUDE
@@ -11,32 +11,33 @@
 HWY_BEFORE_NAMESPACE();
 namespace rs::capture::HWY_NAMESPACE {
 
-// place_of() of texture_lookup.cpp.
-HWY_INLINE Floats place_of(Floats coordinate, Mask repeats, Floats size) {
+// Vector version of wrap_coordinate() in texture_lookup.cpp.
+HWY_INLINE Floats wrap_coordinate(Floats coordinate, Mask repeats, Floats size) {
     const Floats zero = number(0.0F), one = number(1.0F);
     const Floats fraction = coordinate - hn::Floor(coordinate);
     const Mask within = hn::And(hn::Ge(fraction, zero), hn::Lt(fraction, one));
     const Floats half_px = number(0.5F) / size;
-    const Floats held = hn::IfThenElse(hn::Gt(coordinate, half_px), lesser(coordinate, one - half_px), half_px);
-    return hn::IfThenElse(repeats, hn::IfThenElseZero(within, fraction), held);
+    const Floats clamped_coordinate =
+        hn::IfThenElse(hn::Gt(coordinate, half_px), lesser(coordinate, one - half_px), half_px);
+    return hn::IfThenElse(repeats, hn::IfThenElseZero(within, fraction), clamped_coordinate);
 }
 
-struct Between {
+struct TexelPair {
     Lanes part;
-    MaskLanes before, behind;  // texels, `part` of the way between them
+    MaskLanes before, behind;  // texel indices; `part` is the fraction between them
 };
 
-HWY_INLINE void find_between(Floats place, Floats size, Between& between, std::size_t at) {
+HWY_INLINE void find_texels(Floats place, Floats size, TexelPair& pair, std::size_t at) {
     const IntTag ints;
     const Floats x = place * size - number(0.5F);
     const Floats left = hn::Floor(x);
-    store(x - left, between.part, at);
+    store(x - left, pair.part, at);
     const Ints whole = hn::ConvertTo(ints, size), one = hn::Set(ints, 1);
     const Ints found = hn::ConvertTo(ints, left);
     const Ints before = hn::IfThenElse(hn::Lt(found, hn::Zero(ints)), whole - one, found);
     const Ints next = before + one;
-    hn::Store(before, ints, between.before.of.data() + at);
-    hn::Store(hn::IfThenElse(hn::Eq(next, whole), hn::Zero(ints), next), ints, between.behind.of.data() + at);
+    hn::Store(before, ints, pair.before.of.data() + at);
+    hn::Store(hn::IfThenElse(hn::Eq(next, whole), hn::Zero(ints), next), ints, pair.behind.of.data() + at);
 }
 
 void texture(const std::array<const Texture*, kLanes>& textures, SurfaceLanes& surfaces) {
@@ -49,13 +50,14 @@ void texture(const std::array<const Texture*, kLanes>& textures, SurfaceLanes& s
         repeat_u[i] = texture != nullptr && texture->repeat_u ? -1 : 0;
         repeat_v[i] = texture != nullptr && texture->repeat_v ? -1 : 0;
     }
-    Between across, down;
+    TexelPair across, down;
     for (std::size_t i = 0; i < kLanes; i += lanes_at_once()) {
         const Floats columns = load(width, i), rows = load(height, i);
-        find_between(place_of(load(surfaces.uv.x, i), load_mask(repeat_u, i), columns), columns, across, i);
-        find_between(number(1.0F) - place_of(load(surfaces.uv.y, i), load_mask(repeat_v, i), rows), rows, down, i);
+        find_texels(wrap_coordinate(load(surfaces.uv.x, i), load_mask(repeat_u, i), columns), columns, across, i);
+        find_texels(number(1.0F) - wrap_coordinate(load(surfaces.uv.y, i), load_mask(repeat_v, i), rows), rows, down,
+                    i);
     }
-    // Four channels side by side; one by one where vectors are that short.
+    // Four channels at a time, or fewer where vectors are shorter.
     using Channels = hn::CappedTag<float, 4>;
     for (std::size_t i = 0; i < kLanes; ++i) {
         const Texture* texture = textures[i];

@@ -11,7 +11,7 @@
 
 namespace rs::capture {
 
-// Embree calls this for each candidate hit of a geometry that has holes.
+// Embree filter function, called for each candidate hit of a geometry with holes.
 struct CutoutFilter {
     static void reject_holes(const RTCFilterFunctionNArguments* arguments) {
         const auto& cutout = *static_cast<const MeshTree::Cutout*>(arguments->geometryUserPtr);
@@ -44,7 +44,7 @@ Result<MeshTree> MeshTree::build(RTCDeviceTy* device, const std::vector<Mesh>& m
         const Mesh& mesh = meshes[m];
         if (mesh.triangles.empty()) continue;
         RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        // Copied into buffers of Embree's own, which have the padding that its vector loads need.
+        // Copied into Embree's buffers, which have the padding required by its vector loads.
         void* vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                                  sizeof(glm::vec3), mesh.positions.size());
         void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,

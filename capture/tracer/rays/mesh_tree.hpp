@@ -1,6 +1,5 @@
 #pragma once
-// Embree's acceleration structure over meshes that never move against each other: one flattened tree. Part of
-// ray_scene.
+// Embree acceleration structure over meshes in a common coordinate system: one flattened tree. Part of ray_scene.
 
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
@@ -22,12 +21,13 @@ using EmbreeScene = std::unique_ptr<RTCSceneTy, ReleaseEmbree>;
 
 class MeshTree {
 public:
-    // Geometry m is meshes[m]; those without triangles are left out. The holes of textures are cut out. Refers to all
-    // of `scene`, of which `meshes` are a part. Fails where Embree has no memory.
+    /// Geometry m is meshes[m]; meshes without triangles are omitted. Texture holes are excluded from hits. Keeps
+    /// references to `scene`, which must contain `meshes`.
+    /// \return an error if Embree runs out of memory
     static Result<MeshTree> build(RTCDeviceTy* device, const std::vector<Mesh>& meshes, const Scene& scene);
 
     [[nodiscard]] RTCSceneTy* embree() const { return embree_.get(); }
-    [[nodiscard]] const glm::vec3& lower() const { return lower_; }  // of all vertices that triangles use
+    [[nodiscard]] const glm::vec3& lower() const { return lower_; }  // bounds of all vertices used by triangles
     [[nodiscard]] const glm::vec3& upper() const { return upper_; }
     [[nodiscard]] bool empty() const { return lower_.x > upper_.x; }
 
@@ -39,7 +39,7 @@ private:
     friend struct CutoutFilter;
 
     EmbreeScene embree_;
-    std::vector<std::unique_ptr<Cutout>> cutouts_;  // fixed addresses: Embree keeps pointers to them
+    std::vector<std::unique_ptr<Cutout>> cutouts_;  // Embree keeps pointers to the elements
     glm::vec3 lower_{1.0F};
     glm::vec3 upper_{-1.0F};
 };

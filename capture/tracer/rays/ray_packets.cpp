@@ -1,4 +1,4 @@
-// The half of RayScene that traces many rays at a time.
+// Packet tracing of RayScene.
 #include "capture/tracer/rays/ray_scene.hpp"
 #include "rayspace/base/check.hpp"
 
@@ -11,7 +11,7 @@ namespace rs::capture {
 
 namespace {
 
-// Fills the lanes that have a ray and gives how many they are.
+// Copies up to kLanes rays to a packet and returns their number.
 std::size_t fill(std::span<const RayScene::Ray> rays, RTCRay16& packet, int (&valid)[kLanes]) {
     const std::size_t count = std::min(rays.size(), kLanes);
     for (std::size_t i = 0; i < kLanes; ++i) {
@@ -32,7 +32,7 @@ std::size_t fill(std::span<const RayScene::Ray> rays, RTCRay16& packet, int (&va
     return count;
 }
 
-// For instances: Embree 3.13.5 does not come back from some coherent packets there.
+// For instances: Embree 3.13.5 does not return for some coherent packets.
 RTCIntersectContext incoherent() {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
@@ -56,10 +56,10 @@ void RayScene::intersect_many(std::span<const Ray> rays, std::span<Hit> hits) co
         std::fill(std::begin(packet.hit.geomID), std::end(packet.hit.geomID), RTC_INVALID_GEOMETRY_ID);
         std::fill(std::begin(packet.hit.instID[0]), std::end(packet.hit.instID[0]), RTC_INVALID_GEOMETRY_ID);
         RTCIntersectContext context = coherent();
-        rtcIntersect16(valid, still_->embree(), &context, &packet);
-        if (moving_) {
+        rtcIntersect16(valid, static_meshes_->embree(), &context, &packet);
+        if (instances_) {
             context = incoherent();
-            rtcIntersect16(valid, moving_->embree(), &context, &packet);
+            rtcIntersect16(valid, instances_->embree(), &context, &packet);
         }
         for (std::size_t i = 0; i < count; ++i) {
             hits[first + i] = {};
@@ -77,22 +77,22 @@ void RayScene::occluded_many(std::span<const Ray> rays, std::span<std::uint8_t> 
         alignas(64) int valid[kLanes];
         const std::size_t count = fill(rays.subspan(first), packet, valid);
         RTCIntersectContext context = coherent();
-        rtcOccluded16(valid, still_->embree(), &context, &packet);
-        if (moving_) {
+        rtcOccluded16(valid, static_meshes_->embree(), &context, &packet);
+        if (instances_) {
             for (std::size_t i = 0; i < count; ++i) valid[i] = packet.tfar[i] < 0.0F ? 0 : -1;
             context = incoherent();
-            rtcOccluded16(valid, moving_->embree(), &context, &packet);
+            rtcOccluded16(valid, instances_->embree(), &context, &packet);
         }
         for (std::size_t i = 0; i < count; ++i) {
             const Ray& ray = rays[first + i];
-            const bool in_the_way =
+            const bool occluded =
                 packet.tfar[i] < 0.0F || primitive_occludes(ray.origin, ray.direction, ray.reach, ray.time);
-            hidden[first + i] = in_the_way ? 1 : 0;
+            hidden[first + i] = occluded ? 1 : 0;
         }
     }
 }
 
-// Primitives take one ray at a time.
+// Primitives support single rays only.
 bool RayScene::primitive_occludes(const glm::vec3& origin, const glm::vec3& direction, float distance,
                                   float time) const {
     if (!primitives_) return false;
@@ -103,54 +103,54 @@ bool RayScene::primitive_occludes(const glm::vec3& origin, const glm::vec3& dire
     return ray.tfar < 0.0F;
 }
 
-void RayScene::intersect(const MaskLanes& asked, MetLanes& met) const {
+void RayScene::intersect(const MaskLanes& active, MetLanes& met) const {
     static_assert(sizeof(MetLanes) == sizeof(RTCRayHit16) && offsetof(MetLanes, hit) == offsetof(RTCRayHit16, hit));
     static_assert(offsetof(RayLanes, reach) == offsetof(RTCRay16, tfar));
     static_assert(offsetof(HitLanes, instance) == offsetof(RTCHit16, instID));
     auto* packet = reinterpret_cast<RTCRayHit16*>(&met);
     RTCIntersectContext context = coherent();
-    rtcIntersect16(asked.of.data(), still_->embree(), &context, packet);
-    if (!moving_) return;
+    rtcIntersect16(active.of.data(), static_meshes_->embree(), &context, packet);
+    if (!instances_) return;
     context = incoherent();
-    rtcIntersect16(asked.of.data(), moving_->embree(), &context, packet);
+    rtcIntersect16(active.of.data(), instances_->embree(), &context, packet);
 }
 
-void RayScene::occluded(const MaskLanes& asked, RayLanes& rays) const {
+void RayScene::occluded(const MaskLanes& active, RayLanes& rays) const {
     auto* packet = reinterpret_cast<RTCRay16*>(&rays);
     RTCIntersectContext context = coherent();
     const Lanes reach = rays.reach;
-    rtcOccluded16(asked.of.data(), still_->embree(), &context, packet);
-    if (moving_) {
-        MaskLanes left;
-        for (std::size_t i = 0; i < kLanes; ++i) left[i] = rays.reach[i] < 0.0F ? 0 : asked[i];
+    rtcOccluded16(active.of.data(), static_meshes_->embree(), &context, packet);
+    if (instances_) {
+        MaskLanes remaining;
+        for (std::size_t i = 0; i < kLanes; ++i) remaining[i] = rays.reach[i] < 0.0F ? 0 : active[i];
         context = incoherent();
-        rtcOccluded16(left.of.data(), moving_->embree(), &context, packet);
+        rtcOccluded16(remaining.of.data(), instances_->embree(), &context, packet);
     }
     if (!primitives_) return;
     for (std::size_t i = 0; i < kLanes; ++i) {
-        if (asked[i] == 0 || rays.reach[i] < 0.0F) continue;
+        if (active[i] == 0 || rays.reach[i] < 0.0F) continue;
         if (primitive_occludes(rays.origin.at(i), rays.direction.at(i), reach[i], rays.time[i])) rays.reach[i] = -1.0F;
     }
 }
 
-const Mesh& RayScene::triangle_of(const MetLanes& met, std::size_t lane, TriangleLanes& triangles) const {
+const Mesh& RayScene::gather_triangle(const MetLanes& met, std::size_t lane, TriangleLanes& triangles) const {
     const HitLanes& hit = met.hit;
     const unsigned instance = hit.instance[lane];
     const Mesh& mesh = mesh_of(hit.mesh[lane], instance);
     const glm::uvec3 t = mesh.triangles[hit.triangle[lane]];
-    const bool bent = !mesh.normals.empty(), mapped = !mesh.uvs.empty();
+    const bool has_normals = !mesh.normals.empty(), has_uvs = !mesh.uvs.empty();
     for (std::size_t i = 0; i < 3; ++i) {
         const unsigned vertex = t[static_cast<int>(i)];
         triangles.corner[i].set(lane, mesh.positions[vertex]);
-        triangles.normal[i].set(lane, bent ? mesh.normals[vertex] : glm::vec3(0.0F));
-        triangles.uv[i].set(lane, mapped ? mesh.uvs[vertex] : glm::vec2(0.0F));
+        triangles.normal[i].set(lane, has_normals ? mesh.normals[vertex] : glm::vec3(0.0F));
+        triangles.uv[i].set(lane, has_uvs ? mesh.uvs[vertex] : glm::vec2(0.0F));
     }
     triangles.winding[lane] = 1.0F;
     if (instance != RTC_INVALID_GEOMETRY_ID) {
         Corners corners(mesh, t);
         place(instance, met.ray.time[lane], corners);
         for (std::size_t i = 0; i < 3; ++i) {
-            triangles.corner[i].set(lane, corners.places[i]);
+            triangles.corner[i].set(lane, corners.positions[i]);
             triangles.normal[i].set(lane, corners.normals[i]);
         }
         triangles.winding[lane] = corners.winding;

@@ -14,19 +14,19 @@ namespace rs::capture {
 
 namespace {
 
-// Embree calls back for the primitives' boxes, and for what a ray meets in one. The answer travels in the context.
+// Embree calls back for the primitives' boxes and for intersection with one. The context carries the result.
 struct PrimitiveQuery {
     RTCIntersectContext context{};
     std::optional<RayPrimitive::Answer> nearest{};
 };
 
-void box_of(const RTCBoundsFunctionArguments* arguments) {
+void primitive_bounds(const RTCBoundsFunctionArguments* arguments) {
     const auto& primitive = *static_cast<const RayPrimitive*>(arguments->geometryUserPtr);
     const RayPrimitive::Box box = primitive.bounds();
     *arguments->bounds_o = {box.lower.x, box.lower.y, box.lower.z, 0, box.upper.x, box.upper.y, box.upper.z, 0};
 }
 
-std::optional<RayPrimitive::Answer> ask(const void* user, const RTCRay& ray) {
+std::optional<RayPrimitive::Answer> intersect_nearest(const void* user, const RTCRay& ray) {
     auto answer = static_cast<const RayPrimitive*>(user)->answer({ray.org_x, ray.org_y, ray.org_z},
                                                                  {ray.dir_x, ray.dir_y, ray.dir_z});
     if (answer && !(answer->distance > ray.tnear && answer->distance < ray.tfar)) answer.reset();
@@ -35,7 +35,7 @@ std::optional<RayPrimitive::Answer> ask(const void* user, const RTCRay& ray) {
 
 void intersect_primitive(const RTCIntersectFunctionNArguments* arguments) {
     auto& hit = *reinterpret_cast<RTCRayHit*>(arguments->rayhit);
-    const auto answer = ask(arguments->geometryUserPtr, hit.ray);
+    const auto answer = intersect_nearest(arguments->geometryUserPtr, hit.ray);
     if (!answer) return;
     hit.ray.tfar = answer->distance;
     hit.hit.geomID = arguments->geomID;
@@ -43,7 +43,7 @@ void intersect_primitive(const RTCIntersectFunctionNArguments* arguments) {
     reinterpret_cast<PrimitiveQuery*>(arguments->context)->nearest = answer;
 }
 
-// From the triangle's edges in space and on the texture; 0 where it has no area there.
+// Position derivatives by uv from the triangle's edges in space and in the texture; 0 without area in the texture.
 void set_texture_axes(const Mesh& mesh, const glm::uvec3& t, const std::array<glm::vec3, 3>& corners,
                       SurfacePoint& point) {
     point.along_u = point.along_v = glm::vec3(0.0F);
@@ -58,10 +58,10 @@ void set_texture_axes(const Mesh& mesh, const glm::uvec3& t, const std::array<gl
 
 void occlude_primitive(const RTCOccludedFunctionNArguments* arguments) {
     auto& ray = *reinterpret_cast<RTCRay*>(arguments->ray);
-    if (ask(arguments->geometryUserPtr, ray)) ray.tfar = -std::numeric_limits<float>::infinity();
+    if (intersect_nearest(arguments->geometryUserPtr, ray)) ray.tfar = -std::numeric_limits<float>::infinity();
 }
 
-glm::vec3 unit_or_zero(const glm::vec3& v) {
+glm::vec3 normalize_or_zero(const glm::vec3& v) {
     const float length = glm::length(v);
     return length > 0.0F ? v / length : glm::vec3(0.0F);
 }
@@ -75,7 +75,7 @@ void RayScene::add_primitives() {
         RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
         rtcSetGeometryUserPrimitiveCount(geometry, 1);
         rtcSetGeometryUserData(geometry, const_cast<RayPrimitive*>(primitive.get()));
-        rtcSetGeometryBoundsFunction(geometry, box_of, nullptr);
+        rtcSetGeometryBoundsFunction(geometry, primitive_bounds, nullptr);
         rtcSetGeometryIntersectFunction(geometry, intersect_primitive);
         rtcSetGeometryOccludedFunction(geometry, occlude_primitive);
         rtcCommitGeometry(geometry);
@@ -85,8 +85,8 @@ void RayScene::add_primitives() {
     rtcCommitScene(primitives_.get());
 }
 
-std::optional<RayPrimitive::Answer> RayScene::ask_primitives(const glm::vec3& origin, const glm::vec3& direction,
-                                                             float distance) const {
+std::optional<RayPrimitive::Answer> RayScene::intersect_primitives(const glm::vec3& origin, const glm::vec3& direction,
+                                                                   float distance) const {
     if (!primitives_) return std::nullopt;
     PrimitiveQuery query;
     rtcInitIntersectContext(&query.context);
@@ -99,9 +99,9 @@ std::optional<RayPrimitive::Answer> RayScene::ask_primitives(const glm::vec3& or
 }
 
 Result<RayScene> RayScene::create(const Scene& scene) {
-    // The order of the tree decides which of two triangles a ray through their common edge hits, so it must not depend
-    // on scheduling or on the number of processors: Embree takes the size of its own arena from the one it is started
-    // in. (Its option "threads=1" would limit the whole process.)
+    // The tree's order determines which of two triangles a ray through their common edge hits, so it must not depend
+    // on scheduling or the number of processors: Embree uses the concurrency of the calling arena. (Its option
+    // "threads=1" would limit the whole process.)
     tbb::task_arena one_thread(1);
     return one_thread.execute([&] { return build(scene); });
 }
@@ -116,29 +116,29 @@ Result<RayScene> RayScene::build(const Scene& scene) {
                          : "ray tracing: Embree cannot start; is there enough memory (ulimit -v)?"};
     }
     RS_ASSIGN_OR_RETURN(MeshTree still, MeshTree::build(result.device_.get(), scene.meshes, scene));
-    result.still_ = std::move(still);
+    result.static_meshes_ = std::move(still);
     if (!scene.instances.empty()) {
-        RS_ASSIGN_OR_RETURN(MovingParts moving, MovingParts::build(result.device_.get(), scene));
-        result.moving_ = std::move(moving);
+        RS_ASSIGN_OR_RETURN(InstanceTree moving, InstanceTree::build(result.device_.get(), scene));
+        result.instances_ = std::move(moving);
     }
     result.add_primitives();
     if (rtcGetDeviceError(result.device_.get()) != RTC_ERROR_NONE) {
         return Error{"ray tracing: Embree could not build its acceleration structure; use smaller meshes"};
     }
-    result.measure();
+    result.compute_bounds();
     return result;
 }
 
-void RayScene::measure() {
+void RayScene::compute_bounds() {
     glm::vec3 lower(std::numeric_limits<float>::infinity());
     glm::vec3 upper(-std::numeric_limits<float>::infinity());
-    if (!still_->empty()) {
-        lower = still_->lower();
-        upper = still_->upper();
+    if (!static_meshes_->empty()) {
+        lower = static_meshes_->lower();
+        upper = static_meshes_->upper();
     }
-    if (moving_ && !moving_->empty()) {
-        lower = glm::min(lower, moving_->lower());
-        upper = glm::max(upper, moving_->upper());
+    if (instances_ && !instances_->empty()) {
+        lower = glm::min(lower, instances_->lower());
+        upper = glm::max(upper, instances_->upper());
     }
     if (lower.x > upper.x) return;
     lower_ = lower;
@@ -148,17 +148,18 @@ void RayScene::measure() {
 }
 
 void RayScene::update(std::span<const std::size_t> moved) {
-    if (!moving_) return;
-    moving_->update(moved);
-    measure();
+    if (!instances_) return;
+    instances_->update(moved);
+    compute_bounds();
 }
 
 RayScene::Builds RayScene::builds() const {
-    return {1 + static_cast<std::int64_t>(moving_ ? scene_->parts.size() : 0), moving_ ? moving_->top_builds() : 0};
+    return {1 + static_cast<std::int64_t>(instances_ ? scene_->parts.size() : 0),
+            instances_ ? instances_->top_builds() : 0};
 }
 
-bool RayScene::intersect_seen(const glm::vec3& origin, const glm::vec3& direction, float time,
-                              SurfacePoint& point) const {
+bool RayScene::intersect_visible(const glm::vec3& origin, const glm::vec3& direction, float time,
+                                 SurfacePoint& point) const {
     float passed = 0.0F;
     while (intersect(origin + direction * passed, direction, time, point)) {
         point.distance += passed;
@@ -178,8 +179,8 @@ bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, fl
                  0xFFFFFFFFU, 0,           0};
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(still_->embree(), &context, &query);
-    if (moving_) rtcIntersect1(moving_->embree(), &context, &query);
+    rtcIntersect1(static_meshes_->embree(), &context, &query);
+    if (instances_) rtcIntersect1(instances_->embree(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     surface_at({query.ray.tfar, query.hit.u, query.hit.v, query.hit.geomID, query.hit.primID, query.hit.instID[0]},
                direction, time, point);
@@ -193,9 +194,9 @@ const Mesh& RayScene::mesh_of(unsigned mesh, unsigned instance) const {
 
 void RayScene::place(unsigned instance, float time, Corners& corners) const {
     if (instance == RTC_INVALID_GEOMETRY_ID) return;
-    const PlacedAt placed = moving_->placed_at(instance, time);
-    for (glm::vec3& place : corners.places) place = glm::vec3(placed.world_from_part * glm::vec4(place, 1.0F));
-    for (glm::vec3& normal : corners.normals) normal = unit_or_zero(placed.normals * normal);
+    const InstanceTransform placed = instances_->transform_at(instance, time);
+    for (glm::vec3& place : corners.positions) place = glm::vec3(placed.world_from_part * glm::vec4(place, 1.0F));
+    for (glm::vec3& normal : corners.normals) normal = normalize_or_zero(placed.normals * normal);
     if (glm::determinant(placed.normals) < 0.0F) corners.winding = -1.0F;
 }
 
@@ -204,11 +205,11 @@ void RayScene::surface_at(const Hit& hit, const glm::vec3& direction, float time
     const glm::uvec3 t = mesh.triangles[hit.triangle];
     Corners of(mesh, t);
     place(hit.instance, time, of);
-    const auto& corners = of.places;
+    const auto& corners = of.positions;
     const auto& normals = of.normals;
     const float weights[3] = {1.0F - hit.u - hit.v, hit.u, hit.v};
     point.time = time;
-    point.light_drawn = hit.instance == RTC_INVALID_GEOMETRY_ID || !scene_->instances[hit.instance].at_close;
+    point.is_light_sampled = hit.instance == RTC_INVALID_GEOMETRY_ID || !scene_->instances[hit.instance].at_close;
     point.position = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
     point.distance = hit.distance;
     point.material = mesh.material;
@@ -230,7 +231,7 @@ void RayScene::surface_at(const Hit& hit, const glm::vec3& direction, float time
     const glm::vec3 blended = normals[0] * weights[0] + normals[1] * weights[1] + normals[2] * weights[2];
     const float blended_length = glm::length(blended);
     if (!(blended_length > 1e-6F)) return;
-    // Some files wind triangles against their normals: the sides follow the winding, the curvature follows the normals.
+    // In some files the winding contradicts the normals: the sides follow the winding, the curvature the normals.
     const float side = glm::dot(blended, point.geometric_normal) < 0.0F ? -1.0F : 1.0F;
     point.shading_normal = blended * (side / blended_length);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -260,10 +261,10 @@ RayScene::Bundle RayScene::distances(const std::array<glm::vec3, kBundle>& origi
         query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
         query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect8(valid.data(), still_->embree(), &context, &query);
-    // Coherent packets and instances do not go together (ray_packets.cpp).
+    rtcIntersect8(valid.data(), static_meshes_->embree(), &context, &query);
+    // Instances do not support coherent packets (ray_packets.cpp).
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    if (moving_) rtcIntersect8(valid.data(), moving_->embree(), &context, &query);
+    if (instances_) rtcIntersect8(valid.data(), instances_->embree(), &context, &query);
     Bundle found;
     for (std::size_t i = 0; i < kBundle; ++i) {
         found[i] =
@@ -277,8 +278,8 @@ bool RayScene::occluded(const glm::vec3& origin, const glm::vec3& direction, flo
     rtcInitIntersectContext(&context);
     RTCRay ray{origin.x,    origin.y, origin.z, 0.0F,        direction.x, direction.y,
                direction.z, time,     distance, 0xFFFFFFFFU, 0,           0};
-    rtcOccluded1(still_->embree(), &context, &ray);
-    if (ray.tfar >= 0.0F && moving_) rtcOccluded1(moving_->embree(), &context, &ray);
+    rtcOccluded1(static_meshes_->embree(), &context, &ray);
+    if (ray.tfar >= 0.0F && instances_) rtcOccluded1(instances_->embree(), &context, &ray);
     if (ray.tfar >= 0.0F && primitives_) rtcOccluded1(primitives_.get(), &context, &ray);
     return ray.tfar < 0.0F;
 }

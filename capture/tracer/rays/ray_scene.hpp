@@ -1,17 +1,16 @@
 #pragma once
-// The surfaces of a scene in Embree's acceleration structures: nearest hits and occlusion, with the holes of textures
-// cut out.
+// Ray intersection with a scene: nearest hits and occlusion by Embree's acceleration structures, without texture holes.
 //
 //     meshes       one flattened tree                                              built once
-//     instances    a tree of each part, built once; above them a tree of instances built anew when something moves
+//     instances    a tree per part, built once; above them a tree of instances, rebuilt when instances move
 //     primitives   a tree of their boxes                                           built once
 //
-// Each ray asks one after the other, what it met before being its end. Rays have a time, 0 where the shutter opens and
-// 1 where it closes, at which they see what moves.
+// Each ray is tested against the trees in sequence and shortened to the nearest hit so far. The time of a ray, 0 when
+// the shutter opens to 1 when it closes, selects the position of moving instances.
 
 #include "capture/tracer/packets/packet.hpp"
+#include "capture/tracer/rays/instance_tree.hpp"
 #include "capture/tracer/rays/mesh_tree.hpp"
-#include "capture/tracer/rays/moving_parts.hpp"
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
 
@@ -24,106 +23,111 @@
 
 namespace rs::capture {
 
-// Where a ray meets a surface. Normals are unit length and face the ray's origin.
+// Intersection of a ray with a surface. Normals are unit length and face the ray's origin.
 struct SurfacePoint {
     glm::vec3 position;
-    // `position` lifted onto the curved surface that the vertex normals describe, outwards only; rays to lights begin
-    // here, so that coarse meshes show no faceted shadow line (J. Hanika, "Hacking the Shadow Terminator", Ray Tracing
+    // `position` lifted outwards onto the curved surface described by the vertex normals: origin of shadow rays, which
+    // avoids faceted shadow terminators on coarse meshes (J. Hanika, "Hacking the Shadow Terminator", Ray Tracing
     // Gems II).
     glm::vec3 lifted_position;
     glm::vec3 geometric_normal;
     glm::vec3 shading_normal;
-    glm::vec3 along_u, along_v;  // how the place moves with uv; set where the material has relief only
+    glm::vec3 along_u, along_v;  // derivatives of the position by uv; set only if the material has a normal map
     glm::vec2 uv;
-    glm::vec3 colour;  // of the vertices
+    glm::vec3 colour;  // interpolated vertex colour
     float distance;
     int material;
-    bool front_side;   // the side that the triangle's winding calls the outer one
-    float time;        // of the ray
-    bool light_drawn;  // where it shines, LightSet draws points of it: it stands still while the shutter is open
+    bool front_side;        // the triangle's winding is counter-clockwise as seen from the ray's origin
+    float time;             // of the ray
+    bool is_light_sampled;  // LightSet samples its emission; false for instances that move while the shutter is open
 };
 
 class RayScene {
 public:
-    // Refers to `scene`, which must stay where it is and unchanged, but for update(). Its indices must be valid (see
-    // check_scene). Fails where Embree has no memory.
+    /// Keeps a reference to `scene`, which must not be moved or changed, except before update().
+    /// \param scene must pass check_scene()
+    /// \return an error if Embree runs out of memory
     static Result<RayScene> create(const Scene& scene);
 
-    // After matrices of these instances of the scene have changed. Not while rays are traced.
+    /// Applies changed matrices of these instances. Not thread-safe with tracing.
     void update(std::span<const std::size_t> moved);
 
-    // The nearest hit beyond `origin`; `direction` has unit length, `time` is 0..1. Thread-safe, as is occluded().
+    // All functions below are const and thread-safe; directions have unit length.
+
+    /// Finds the nearest hit beyond `origin`.
+    /// \param time 0..1
     bool intersect(const glm::vec3& origin, const glm::vec3& direction, float time, SurfacePoint& point) const;
-    // The nearest hit that is not of what surrounds the object (Scene).
-    bool intersect_seen(const glm::vec3& origin, const glm::vec3& direction, float time, SurfacePoint& point) const;
-    // How far it is to the nearest hits of kBundle rays of one direction, which are near to each other; infinity where
-    // a ray meets nothing.
+    /// Finds the nearest hit that is visible to camera rays, i.e. not of the surroundings (Scene).
+    bool intersect_visible(const glm::vec3& origin, const glm::vec3& direction, float time, SurfacePoint& point) const;
+    // Distances to the nearest hits of kBundle parallel, nearby rays; infinity for rays without a hit.
     static constexpr int kBundle = 8;
     using Bundle = std::array<float, kBundle>;
     [[nodiscard]] Bundle distances(const std::array<glm::vec3, kBundle>& origins, const glm::vec3& direction,
                                    float time) const;
-    // The same for many rays, in Embree's packets of 16: the same bits, and the quicker the more alike neighbouring
-    // rays are. As many results as rays.
+    // Many rays in Embree's packets of 16, with bit-identical results to single rays; fastest if neighbouring rays are
+    // similar.
     struct Ray {
         glm::vec3 origin;
         glm::vec3 direction;  // unit length
         float time;
-        float reach;  // what is farther away counts nothing; may be infinite
+        float reach;  // maximum distance; may be infinite
     };
     struct Hit {
-        float distance = -1.0F;  // below 0: nothing was met
+        float distance = -1.0F;  // below 0: no hit
         float u = 0.0F, v = 0.0F;
         unsigned mesh = 0, triangle = 0;
-        unsigned instance = ~0U;  // ~0: a mesh that stands still
+        unsigned instance = ~0U;  // ~0: static mesh
         [[nodiscard]] bool met() const { return distance >= 0.0F; }
     };
     [[nodiscard]] static Hit hit_of(const MetLanes& met, std::size_t lane) {
         const HitLanes& hit = met.hit;
         return {met.ray.reach[lane], hit.u[lane], hit.v[lane], hit.mesh[lane], hit.triangle[lane], hit.instance[lane]};
     }
+    /// \param hits one per ray
     void intersect_many(std::span<const Ray> rays, std::span<Hit> hits) const;
-    // 1 where something is in the way, primitives included; else 0.
+    /// \param hidden one per ray: 1 if occluded, primitives included, else 0
     void occluded_many(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
-    // The same for the lanes `asked` of a packet; the others are left as they are. MetLanes::begin() comes before.
-    void intersect(const MaskLanes& asked, MetLanes& met) const;
-    void occluded(const MaskLanes& asked, RayLanes& rays) const;
-    // The triangle that a lane has met, and its mesh.
-    const Mesh& triangle_of(const MetLanes& met, std::size_t lane, TriangleLanes& triangles) const;
-    // What is where a ray has met something.
+    // The active lanes of a packet, initialised by MetLanes::begin(); other lanes are unchanged.
+    void intersect(const MaskLanes& active, MetLanes& met) const;
+    void occluded(const MaskLanes& active, RayLanes& rays) const;
+    // Copies the triangle hit by a lane to `triangles` and returns its mesh.
+    const Mesh& gather_triangle(const MetLanes& met, std::size_t lane, TriangleLanes& triangles) const;
+    // Surface properties at a hit.
     void surface_at(const Hit& hit, const glm::vec3& direction, float time, SurfacePoint& point) const;
-    // What a primitive answers that is nearer than `distance`.
-    [[nodiscard]] std::optional<RayPrimitive::Answer> ask_primitives(const glm::vec3& origin,
-                                                                     const glm::vec3& direction, float distance) const;
-    // Anything between origin and origin + direction * distance, primitives included.
+    // Nearest primitive hit within `distance`.
+    [[nodiscard]] std::optional<RayPrimitive::Answer> intersect_primitives(const glm::vec3& origin,
+                                                                           const glm::vec3& direction,
+                                                                           float distance) const;
+    // Returns true if anything lies between origin and origin + direction * distance, primitives included.
     [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction, float distance, float time) const;
 
-    // Whether anything moves while the shutter is open; else the time of rays counts nothing.
-    [[nodiscard]] bool blurred() const { return moving_ && moving_->blurred(); }
+    // Returns true if anything moves while the shutter is open; otherwise the time of rays is ignored.
+    [[nodiscard]] bool blurred() const { return instances_ && instances_->blurred(); }
 
-    // How often trees of triangles were built, and the tree of instances above them.
+    // Number of builds of triangle trees and of the instance tree above them.
     struct Builds {
-        std::int64_t of_triangles = 0;
-        std::int64_t of_instances = 0;
+        std::int64_t triangle_trees = 0;
+        std::int64_t instance_trees = 0;
     };
     [[nodiscard]] Builds builds() const;
 
-    // Of all vertices that triangles use; of instances, of their parts' boxes.
+    // Bounds of all vertices used by triangles and of the boxes of all instances.
     [[nodiscard]] const glm::vec3& lower() const { return lower_; }
     [[nodiscard]] const glm::vec3& upper() const { return upper_; }
     [[nodiscard]] bool empty() const { return lower_.x > upper_.x; }
-    // By how much to step off a surface before the next ray, against hitting it again.
+    // Offset of ray origins from a surface, against self-intersection.
     [[nodiscard]] float step_off() const { return step_off_; }
 
 private:
     RayScene() = default;
     static Result<RayScene> build(const Scene& scene);
-    // Of a triangle, as its mesh has it; place() puts it where its instance is.
+    // Corners of a triangle in the mesh's coordinates; place() transforms them to the world.
     struct Corners {
-        std::array<glm::vec3, 3> places;
-        std::array<glm::vec3, 3> normals{};  // 0 where the mesh has none
-        float winding = 1.0F;                // -1 where an instance mirrors
+        std::array<glm::vec3, 3> positions;
+        std::array<glm::vec3, 3> normals{};  // 0 if the mesh has none
+        float winding = 1.0F;                // -1 for a mirroring instance matrix
         Corners(const Mesh& mesh, const glm::uvec3& t)
-            : places{mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]} {
+            : positions{mesh.positions[t.x], mesh.positions[t.y], mesh.positions[t.z]} {
             if (!mesh.normals.empty()) normals = {mesh.normals[t.x], mesh.normals[t.y], mesh.normals[t.z]};
         }
     };
@@ -132,13 +136,13 @@ private:
     void add_primitives();
     [[nodiscard]] bool primitive_occludes(const glm::vec3& origin, const glm::vec3& direction, float distance,
                                           float time) const;
-    void measure();
+    void compute_bounds();
 
     const Scene* scene_ = nullptr;
     EmbreeDevice device_;
-    std::optional<MeshTree> still_;
-    std::optional<MovingParts> moving_;  // nothing where there are no instances
-    EmbreeScene primitives_;             // null where there are none
+    std::optional<MeshTree> static_meshes_;
+    std::optional<InstanceTree> instances_;  // empty without instances
+    EmbreeScene primitives_;                 // null without primitives
     glm::vec3 lower_{1.0F};
     glm::vec3 upper_{-1.0F};
     float step_off_ = 0.0F;

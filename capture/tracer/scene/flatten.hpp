@@ -1,14 +1,15 @@
 #pragma once
-// Instances as meshes of their own: what moves, made to stand still.
+// Converts instances to static meshes.
 
 #include "capture/tracer/scene/scene.hpp"
 
 namespace rs::capture {
 
-// A mesh where the matrix puts it, which must be affine and have an inverse. Outer sides stay outer where it mirrors.
+/// Transforms a mesh by an invertible affine matrix. The winding is reversed for mirroring matrices, so that outer
+/// sides stay outer.
 Mesh placed_mesh(const Mesh& mesh, const glm::dmat4& world_from_mesh);
 
-// The same scene at time 0 without parts and instances.
+/// The scene at time 0 with meshes in place of parts and instances.
 Scene flattened(Scene scene);
 
 }  // namespace rs::capture

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::uint64_t kMaxModelFile_bytes = std::uint64_t{4} << 30;
 
-// The way for a scene that was read here to Assimp's post-processing.
+// Passes a scene from our PLY reader to Assimp's post-processing.
 class PlyLoader : public Assimp::BaseImporter {
 public:
     explicit PlyLoader(std::unique_ptr<aiScene> scene) : scene_(std::move(scene)) {}
@@ -63,7 +63,7 @@ Mesh convert_mesh(const aiMesh& source) {
     if (source.HasNormals()) {
         mesh.normals.reserve(source.mNumVertices);
         for (unsigned i = 0; i < source.mNumVertices; ++i) {
-            // Vertices of degenerate faces have no normal of their own; a zero normal falls back to the facet's.
+            // Vertices of degenerate faces have no normal; shading uses the facet's normal instead of a zero normal.
             const glm::vec3 normal = to_vec(source.mNormals[i]);
             const float length = glm::length(normal);
             mesh.normals.push_back(length > 0.0F && std::isfinite(length) ? normal / length : glm::vec3(0.0F));
@@ -104,14 +104,14 @@ bool is_mesh_file(const std::filesystem::path& path) {
     return extension == ".obj" || extension == ".ply" || extension == ".gltf" || extension == ".glb";
 }
 
-Error missing_texture(const std::filesystem::path& path, const std::filesystem::path& asked_by) {
-    return Error{asked_by.string() + ": asks for the texture " + path.string() + ", which is not there; put it there"};
+Error missing_texture(const std::filesystem::path& path, const std::filesystem::path& referrer) {
+    return Error{referrer.string() + ": asks for the texture " + path.string() + ", which is not there; put it there"};
 }
 
-Result<Texture> read_texture(const std::filesystem::path& path, const std::filesystem::path& asked_by) {
+Result<Texture> read_texture(const std::filesystem::path& path, const std::filesystem::path& referrer) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) {
-        return missing_texture(path, asked_by);
+        return missing_texture(path, referrer);
     }
     RS_ASSIGN_OR_RETURN(Image<RgbaF> pixels, read_image_linear(path));
     return Texture{path.filename().string(), std::move(pixels)};
@@ -134,7 +134,7 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
         } else {
             importer.ReadFile(path.string(), 0);
         }
-        RS_ASSIGN_OR_RETURN(const const aiScene* read,
+        RS_ASSIGN_OR_RETURN(const aiScene* read,
                             post_processed(importer,
                                            aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
                                                aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices,

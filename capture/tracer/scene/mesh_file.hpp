@@ -1,9 +1,9 @@
 #pragma once
-// Mesh files as scenes: Wavefront OBJ with MTL, PLY, glTF 2.0 and GLB, through Assimp.
+// Reads mesh files as scenes: Wavefront OBJ with MTL, PLY, glTF 2.0 and GLB, through Assimp.
 //
 // Materials become the nearest SurfaceKind. glTF: metallic >= 0.5 is metal, transmission >= 0.5 is glass, the rest
-// glossy with the file's roughness and base colour; of a metallicRoughnessTexture the mean counts; the emissiveTexture
-// is kept; alphaMode OPAQUE has no holes, MASK those of its alphaCutoff, BLEND those of alpha below 0.5. MTL: illum 3
+// glossy with the file's roughness and base colour; a metallicRoughnessTexture is replaced by its mean; the
+// emissiveTexture is kept; alphaMode OPAQUE has no holes, MASK holes below alphaCutoff, BLEND below 0.5. MTL: illum 3
 // or 5 without a diffuse colour is mirror, illum 4, 6, 7, 9 or d < 0.5 glass, Ks > 0 with illum >= 2 glossy (roughness
 // from the exponent Ns), the rest diffuse; Ke is emission. Other formats: diffuse. Node transforms are applied;
 // cameras, lights, animation, points and lines are left out. Vertices without normals get smooth ones, with creases
@@ -16,17 +16,18 @@
 
 namespace rs::capture {
 
-// Positions are the file's own. Errors: the file is missing or not understood, it has no faces, a vertex is not finite,
-// a texture is missing (the message names the texture and the file that names it). An OBJ file whose MTL file is
-// missing is read without it, as diffuse grey.
+/// Reads a mesh file without changing its coordinates. An OBJ file whose MTL file is missing becomes diffuse grey.
+/// \return an error if the file is missing or malformed, has no faces or a vertex that is not finite, or if a texture
+/// is missing
 Result<Scene> read_mesh_file(const std::filesystem::path& path);
 
-// True for the name endings above, in any letter case.
+/// Returns true for the file name extensions above, in any letter case.
 bool is_mesh_file(const std::filesystem::path& path);
 
-Error missing_texture(const std::filesystem::path& path, const std::filesystem::path& asked_by);
+Error missing_texture(const std::filesystem::path& path, const std::filesystem::path& referrer);
 
-// An image file as a texture; `asked_by` is the file that names it.
-Result<Texture> read_texture(const std::filesystem::path& path, const std::filesystem::path& asked_by);
+/// Reads an image file as a texture.
+/// \param referrer the file that names it, for errors
+Result<Texture> read_texture(const std::filesystem::path& path, const std::filesystem::path& referrer);
 
 }  // namespace rs::capture

@@ -26,7 +26,7 @@
 namespace rs::capture {
 namespace {
 
-// "%20" and the like, which glTF's URIs have in the place of special characters.
+// Decodes the percent-encoding ("%20") of glTF URIs.
 std::string decode_uri(const std::string& uri) {
     std::string decoded;
     for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -61,7 +61,7 @@ Status write_bytes(const aiTexture& source, const std::filesystem::path& path) {
     return staged.commit();
 }
 
-// Images that stand inside of a GLB go through a file of their own, for readers take paths.
+// Copies images embedded in a GLB to a temporary file, because the image readers need a path.
 template <class Read>
 auto read_embedded(const aiTexture& source, const std::string& name, const std::filesystem::path& file, Read read)
     -> decltype(read(file)) {
@@ -110,7 +110,7 @@ Result<int> MeshTextures::colours(const std::string& name, float hole_alpha) {
 }
 
 Result<glm::vec3> MeshTextures::mean_numbers(const std::string& name) {
-    // As codes of 8 bits; the sRGB curve, which such images do not have, is then not undone.
+    // Reads 8-bit codes without sRGB decoding.
     RS_ASSIGN_OR_RETURN(
         const Image<Rgba8> codes,
         read_named(source_, name, file_, [&](const std::filesystem::path& path) -> Result<Image<Rgba8>> {
@@ -162,7 +162,7 @@ std::optional<std::string> texture_name(const aiMaterial& material, std::initial
     return std::nullopt;
 }
 
-// Which alpha of the base colour's texture is a hole (glTF 2.0, 3.9.4). Blended surfaces are cut at one half.
+// Alpha threshold for holes of the base colour texture (glTF 2.0, 3.9.4); 0.5 for blended surfaces.
 float hole_alpha_of(const aiMaterial& source) {
     const std::string mode = property<aiString>(source, AI_MATKEY_GLTF_ALPHAMODE).value_or(aiString("OPAQUE")).C_Str();
     if (mode == "BLEND") return kHoleAlpha;
@@ -178,7 +178,7 @@ Status convert_gltf(const aiMaterial& source, MeshTextures& textures, Material& 
         material.colour = as_reflectance(to_vec(*base));
     float metallic = property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1.0F);
     float roughness = property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1.0F);
-    // Assimp's place for the texture of both.
+    // Assimp's slot for the combined metallic-roughness texture.
     if (const auto name = texture_name(source, {aiTextureType_UNKNOWN})) {
         RS_ASSIGN_OR_RETURN(const glm::vec3 mean, textures.mean_numbers(*name));
         roughness *= mean.g;
@@ -216,7 +216,7 @@ Status convert_mtl(const aiMaterial& source, MeshTextures& textures, Material& m
     material.ior = ior > 1.0F ? std::min(ior, 10.0F) : 1.5F;
     material.colour = diffuse;
     material.emission = glm::max(colour_property(source, AI_MATKEY_COLOR_EMISSIVE), glm::vec3(0.0F));
-    // Lamps of MTL scenes are single polygons that shine downwards from just below a ceiling.
+    // Lamps in MTL scenes are usually single polygons just below a ceiling, emitting downwards.
     material.two_sided = material.emission == glm::vec3(0.0F);
     const bool transparent = illum == 4 || illum == 6 || illum == 7 || illum == 9 || opacity < 0.5F;
     const bool reflecting = (illum == 3 || illum == 5) && specular_peak > 0.0F;
@@ -227,14 +227,14 @@ Status convert_mtl(const aiMaterial& source, MeshTextures& textures, Material& m
         material.kind = SurfaceKind::mirror;
         material.colour = specular;
     } else if (specular_peak > 0.0F && exponent > 0.0F && illum >= 2) {
-        // A Phong lobe of exponent n is about as wide as GGX with alpha = sqrt(2 / (n + 2)), and alpha = roughness^2.
+        // A Phong lobe of exponent n is about as wide as GGX with alpha = sqrt(2 / (n + 2)); alpha = roughness^2.
         material.kind = SurfaceKind::glossy;
         material.roughness = std::sqrt(std::sqrt(2.0F / (exponent + 2.0F)));
     }
     if (const auto name = texture_name(source, {aiTextureType_DIFFUSE})) {
         RS_ASSIGN_OR_RETURN(const int texture, textures.colours(*name, kHoleAlpha));
         material.texture = texture;
-        // MTL files of many exporters say Kd 0 beside a texture, which would blacken it.
+        // Many exporters write Kd 0 for textured materials, which would make the texture black.
         if (material.colour == glm::vec3(0.0F)) material.colour = glm::vec3(1.0F);
     }
     return {};

@@ -1,5 +1,5 @@
 #pragma once
-// The materials of an Assimp scene as our own, with the textures they name. Part of mesh_file.
+// Converts the materials of an Assimp scene and loads their textures. Part of mesh_file.
 
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
@@ -10,25 +10,23 @@
 #include <utility>
 #include <vector>
 
-// The images that the materials of an Assimp scene name. Part of mesh_file.
-
 struct aiScene;
 
 namespace rs::capture {
 
-// Names are relative to the folder of `file`, which `source` was read from, or name an image inside of it. Each
-// image is read once. Errors name the image and `file`.
+// Loads the images named by the materials of an Assimp scene, each one once. Names are relative to the folder of
+// `file`, the file of the scene, or refer to images embedded in it. Errors name the image and `file`.
 class MeshTextures {
 public:
-    // Refers to all three; appends to `textures`.
+    /// Appends to `textures`. Keeps references to all three.
     MeshTextures(const aiScene& source, const std::filesystem::path& file, std::vector<Texture>& textures)
         : source_(source), file_(file), textures_(textures) {}
 
-    // The index of an image of colours in `textures`. What has alpha below `hole_alpha` becomes a hole: nothing for 0,
-    // everything for infinity.
+    /// Loads a colour image and returns its index in `textures`.
+    /// \param hole_alpha pixels with alpha below it become holes: none for 0, all for infinity
     Result<int> colours(const std::string& name, float hole_alpha);
 
-    // The mean red, green and blue of an image of numbers 0..1, which has no sRGB curve.
+    /// Mean red, green and blue of a linear (not sRGB) image of values 0..1.
     Result<glm::vec3> mean_numbers(const std::string& name);
 
 private:
@@ -38,14 +36,8 @@ private:
     std::map<std::pair<std::string, float>, int> loaded_;
 };
 
-}  // namespace rs::capture
-
-struct aiScene;
-
-namespace rs::capture {
-
-// Appends to scene.materials, index for index, and to scene.textures. `file` is where `source` was read from: textures
-// are named relative to its folder, or stand inside of it.
+/// Appends the materials in order to scene.materials and their textures to scene.textures.
+/// \param file the file of `source`
 Status convert_materials(const aiScene& source, const std::filesystem::path& file, Scene& scene);
 
 }  // namespace rs::capture

@@ -28,7 +28,7 @@ constexpr std::uint64_t kMaxPly_bytes = std::uint64_t{4} << 30;
 
 using Problem = std::optional<std::string>;
 
-// Calls `visit` with a zero of the C++ type that `type` stands for.
+// Calls `visit` with a zero of the C++ type of `type`.
 template <class Visit>
 auto with_type(PlyScalar type, Visit visit) {
     switch (type) {
@@ -63,12 +63,12 @@ bool fits(double value, PlyScalar type) {
     });
 }
 
-// Takes numbers from the body, one after the other.
+// Sequential reader of the numbers in the body.
 class Body {
 public:
     Body(std::string_view bytes, PlyEncoding encoding) : rest_(bytes), encoding_(encoding) {}
 
-    // Nothing where the body ends, or holds something that is no number of this type.
+    // Empty at the end of the body or if the next token is not a number of this type.
     std::optional<double> next(PlyScalar type) {
         if (encoding_ != PlyEncoding::ascii) {
             return with_type(type, [&](auto zero) { return take<decltype(zero)>(); });
@@ -107,7 +107,7 @@ private:
     PlyEncoding encoding_;
 };
 
-// The numbers that a mesh has a use for, each with its place in a row; all others have the row's last place.
+// Properties used by the mesh, each with its index in a row; all others go to the row's last element.
 using PlyRow = std::array<float, 9>;
 constexpr std::size_t kNormalAt = 3, kTextureAt = 6, kRestAt = 8;     // after a vertex' position
 constexpr std::size_t kSpecularAt = 3, kPowerAt = 6, kOpacityAt = 7;  // after a material's diffuse colour
@@ -141,7 +141,7 @@ aiMaterial* new_material(const PlyRow& row, const std::vector<std::string>& text
     return material;
 }
 
-// Reads the body, element by element.
+// Reads the body element by element.
 class PlyReader {
 public:
     PlyReader(const PlyHeader& header, std::string_view body) : body_(body, *header.encoding) {
@@ -167,7 +167,7 @@ public:
         return "has no faces; a mesh with triangles or polygons is needed";
     }
 
-    // Once: what was read goes into the scene.
+    // Moves the data to the scene; call once.
     [[nodiscard]] std::unique_ptr<aiScene> scene(const std::vector<std::string>& texture_files) && {
         auto scene = std::make_unique<aiScene>();
         auto* const mesh = new aiMesh;
@@ -180,7 +180,7 @@ public:
         if (!normals_.empty()) mesh->mNormals = new_array(std::exchange(normals_, {}));
         if (!uvs_.empty()) mesh->mTextureCoords[0] = new_array(std::exchange(uvs_, {}));
         mesh->mFaces = new aiFace[faces_.size()];
-        for (std::size_t i = 0; i < faces_.size(); ++i) {  // a copy of a face takes memory of its own
+        for (std::size_t i = 0; i < faces_.size(); ++i) {  // copying a face allocates
             std::swap(mesh->mFaces[i].mNumIndices, faces_[i].mNumIndices);
             std::swap(mesh->mFaces[i].mIndices, faces_[i].mIndices);
         }
@@ -196,7 +196,7 @@ public:
 private:
     struct Target {
         std::size_t at = kRestAt;
-        float one = 1;  // integers that stand for colours are shares of their type's largest
+        float one = 1;  // integer colours are divided by their type's maximum
     };
 
     void choose_targets(const PlyElement& element) {
@@ -222,7 +222,7 @@ private:
         }
     }
 
-    // `values`: null where nobody needs them.
+    // `values`: null if unused.
     Problem read_list(const PlyProperty& property, std::vector<double>* values) {
         const auto count = body_.next(*property.count_type);
         if (!count || *count < 0 || *count != std::floor(*count)) return "a list has no valid length";
@@ -283,9 +283,9 @@ private:
         }
     }
 
-    // Every vertex after the second makes a triangle with the two before it; each second one is turned around.
+    // Every vertex after the second forms a triangle with the two before it, with alternating winding.
     void append_strip() {
-        std::size_t begin = 0;  // of the strip since the last -1
+        std::size_t begin = 0;  // of the current strip
         for (std::size_t i = 0; i < vertices_.size(); ++i) {
             const std::size_t turned = (i - begin) % 2;
             if (vertices_[i] == -1) {
@@ -298,13 +298,13 @@ private:
 
     Body body_;
     double vertex_count_ = 0;
-    std::vector<Target> targets_;  // of the element's properties
+    std::vector<Target> targets_;  // [property of the element]
     PlyRow row_{};
     std::vector<double> vertices_, texcoords_;
     bool has_normals_ = false, has_uvs_ = false;
     std::vector<aiVector3D> positions_, normals_, uvs_;
     std::vector<aiFace> faces_;
-    std::optional<PlyRow> material_;  // the first: the mesh has that
+    std::optional<PlyRow> material_;  // the first one is the mesh's
 };
 
 }  // namespace

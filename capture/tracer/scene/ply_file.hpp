@@ -1,7 +1,7 @@
 #pragma once
-// PLY files, ascii or binary of either endianness, as what Assimp's own reader would give: one mesh with its material,
-// still without triangulation and normals. That reader is not used: Assimp 5.2 trusts what it reads, and a body that is
-// too short keeps it in an endless loop, a repeated element crashes it, and of a strip only the last triangle is kept.
+// Reads PLY files, ascii or binary of either endianness, with the result of Assimp's reader: one mesh with its
+// material, before triangulation and generation of normals. Assimp 5.2's own reader does not validate its input: a
+// truncated body causes an endless loop, a repeated element crashes it, and only the last triangle of a strip is kept.
 //
 // Source: G. Turk, "The PLY Polygon File Format", 1994.
 
@@ -14,10 +14,10 @@
 
 namespace rs::capture {
 
-// The vertices with their normals and texture coordinates, the faces of three corners and more (texcoord where it has
-// two numbers per corner), the materials and the texture. Strips become triangles; -1 begins a strip anew. Everything
-// is checked: what the header announces must be there (ply_header.hpp), every number must be one and fit its type,
-// faces must name existing vertices. Errors name the file, the element and what is wrong.
+/// Reads the vertices with normals and texture coordinates, the faces of three and more corners (with texcoord if it
+/// has two numbers per corner), the materials and the texture. Strips become triangles; -1 restarts a strip. \return an
+/// error with file and element if the header is invalid (ply_header.hpp), the body is truncated, a number is malformed
+/// or does not fit its type, or a face names a missing vertex
 Result<std::unique_ptr<aiScene>> read_ply_file(const std::filesystem::path& path);
 
 }  // namespace rs::capture

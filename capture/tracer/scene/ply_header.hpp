@@ -1,5 +1,5 @@
 #pragma once
-// The header of a PLY file. Part of ply_file.
+// Header of a PLY file. Part of ply_file.
 //
 // Source: G. Turk, "The PLY Polygon File Format", 1994.
 
@@ -23,7 +23,7 @@ struct PlyProperty {
     PlyScalar type = PlyScalar::float32;
     std::optional<PlyScalar> count_type;  // of a list
     [[nodiscard]] bool is_list() const { return count_type.has_value(); }
-    // The list that names which vertices a face or a strip has.
+    // Returns true for the list of vertex indices of a face or strip.
     [[nodiscard]] bool is_vertex_list() const { return name == "vertex_indices" || name == "vertex_index"; }
 };
 struct PlyElement {
@@ -35,12 +35,13 @@ enum class PlyEncoding { ascii, little_endian, big_endian };
 struct PlyHeader {
     std::optional<PlyEncoding> encoding;
     std::vector<PlyElement> elements;
-    std::vector<std::string> texture_files;  // of "comment TextureFile NAME" lines
+    std::vector<std::string> texture_files;  // from "comment TextureFile NAME" lines
     std::size_t size_bytes = 0;
 };
 
-// What is wrong, or nothing. A mesh is required: `vertex` with one number each for x, y and z, before exactly one of
-// `face` and `tristrips` with an integer list vertex_indices or vertex_index; no two elements of one name.
+/// Parses the header. It must describe a mesh: `vertex` with scalars x, y and z, before exactly one of `face` and
+/// `tristrips` with an integer list vertex_indices or vertex_index; element names must be unique.
+/// \return the problem, or nothing
 std::optional<std::string> parse_ply_header(std::string_view file, PlyHeader& header);
 
 }  // namespace rs::capture

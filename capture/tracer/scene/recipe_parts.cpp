@@ -82,7 +82,7 @@ void read_light(JsonObject object, Scene& scene) {
     object.expect_all_taken();
 }
 
-// Numbers from 0 to 1 in place of `values`.
+// Replaces `values` by a list of numbers in 0..1.
 void read_shares(JsonObject& object, const char* key, std::vector<float>& values) {
     const auto list = object.find(key);
     if (!list) return;

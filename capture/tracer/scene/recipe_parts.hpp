@@ -1,6 +1,6 @@
 #pragma once
-// The parts of a recipe that are the same whatever the object: materials, lights, environment, camera. The schema is in
-// capture/README.md. Part of scene_file.
+// Reads the parts of a recipe that do not depend on the object: materials, lights, environment, camera, toon style. The
+// schema is in capture/README.md. Part of scene_file.
 
 #include "capture/tracer/scene/scene.hpp"
 #include "capture/tracer/scene/toon_style.hpp"
@@ -10,7 +10,7 @@
 
 namespace rs::capture {
 
-// How the turntable's camera stands, when the command line says nothing else.
+// Default camera of the turntable; the command line overrides it.
 struct CameraRecipe {
     double distance_radii = 3.5;  // from the axis, in bounding-sphere radii
     double focal_widths = 1.4;    // focal length over image width
@@ -20,11 +20,12 @@ struct CameraRecipe {
     int width = 512;
     int height = 512;
     int samples_per_pixel = 64;
-    double aperture_radii = 0;  // diameter of the lens' opening; 0 = a pinhole
-    double focus_radii = 0;     // what is sharp, from the camera; 0 = the axis
+    double aperture_radii = 0;  // diameter of the aperture; 0 = pinhole
+    double focus_radii = 0;     // focus distance from the camera; 0 = the axis
 };
 
-// Each reads its JSON value over what `material`, `camera` ... hold, and throws MalformedJson where it is wrong.
+// Each function overwrites the members of its last argument that the JSON value contains, and throws MalformedJson on
+// errors.
 void read_material(JsonObject object, Material& material);
 void read_camera(JsonObject object, CameraRecipe& camera);
 void read_lights(const JsonValue& list, Scene& scene);

@@ -1,5 +1,5 @@
 #pragma once
-// What the tracer renders: triangle meshes with materials, textures, lights and an environment.
+// Scene description for the tracer: triangle meshes with materials, textures, lights and an environment.
 //
 // Units and axes as in rayspace/base/conventions.hpp: Y up, the turntable's axis is Y. Colours are linear-light RGB.
 
@@ -22,8 +22,8 @@ enum class SurfaceKind {
     glossy,   // a GGX dielectric coat (ior, roughness) over a Lambert base of `colour`
     metal,    // GGX conductor, reflectance at normal incidence `colour`, roughness
     mirror,   // perfectly smooth, reflectance `colour`
-    // Smooth dielectric interface (ior); inside, light is absorbed to `colour` per unit length. Glass inside of glass
-    // absorbs by the innermost one (up to 4 deep), but each surface refracts as against air.
+    // Smooth dielectric interface (ior); the transmittance inside is `colour` per unit length. In nested glass the
+    // innermost one absorbs (up to 4 levels), but each surface refracts as if against air.
     glass,
 };
 
@@ -35,12 +35,12 @@ struct Material {
     float roughness = 0.3F;  // GGX alpha = roughness^2; 0..1
     float ior = 1.5F;
     glm::vec3 emission{0.0F};   // radiance, W/(m^2 sr) in arbitrary units; multiplied by emission_texture
-    int emission_texture = -1;  // index into Scene::textures, -1 = none; its alpha counts nothing
+    int emission_texture = -1;  // index into Scene::textures, -1 = none; its alpha is ignored
     int relief = -1;            // index into Scene::reliefs, -1 = none
     bool two_sided = true;      // thin surfaces (petals, leaves): shaded the same from both sides
     float translucency = 0.0F;  // diffuse only: share of the light that leaves on the other side (petals), 0..1
 
-    // From behind such a surface is not there; glass is, for its rays come from within.
+    // Returns true if the surface is invisible from behind. Glass is not one-sided, since rays hit it from inside.
     [[nodiscard]] bool is_one_sided() const { return !two_sided && kind != SurfaceKind::glass; }
 };
 
@@ -54,23 +54,23 @@ struct Mesh {
     int material = 0;
 };
 
-// sRGB-decoded to linear when it was made; bilinear.
+// Linear-light pixels, bilinear look-up.
 struct Texture {
     std::string name;
     Image<RgbaF> pixels;   // alpha below 0.5 = a hole in the surface
-    bool repeat_u = true;  // else the border goes on
+    bool repeat_u = true;  // otherwise clamped to the border
     bool repeat_v = true;
 };
 
-// Latitude-longitude map: row 0 is +Y, the image's middle column is -Z, u grows towards +X from there. Empty = black.
+// Latitude-longitude map: row 0 is +Y, the central column is -Z, u grows towards +X from there. Empty = black.
 struct Environment {
     Image<RgbaF> pixels;
     float scale = 1.0F;
     float turn_rad = 0.0F;  // about Y
 };
 
-// What is no mesh but answers rays by itself: a ray-space object. It shines with what it answers, whatever the light on
-// it, and hides what is behind. Called from several threads at once.
+// Object with its own ray intersection instead of a mesh, e.g. a ray-space object. It emits the radiance that it
+// returns, does not reflect light, and occludes. Must be thread-safe.
 class RayPrimitive {
 public:
     struct Answer {
@@ -85,44 +85,42 @@ public:
     RayPrimitive(const RayPrimitive&) = delete;
     RayPrimitive& operator=(const RayPrimitive&) = delete;
     virtual ~RayPrimitive() = default;
-    // Holds whatever it may answer.
+    // Contains all intersections.
     [[nodiscard]] virtual Box bounds() const = 0;
-    // The first that the ray meets, or nothing. `direction` has unit length.
+    // First intersection with a ray, or nothing. `direction` has unit length.
     [[nodiscard]] virtual std::optional<Answer> answer(const glm::vec3& origin, const glm::vec3& direction) const = 0;
 };
 
-// Meshes that stay together, in coordinates of their own. Nothing is seen of a part but through instances.
+// Rigid group of meshes in local coordinates; visible through its instances only.
 struct Part {
     std::string name;
     std::vector<Mesh> meshes;
 };
 
-// A part as it stands in the scene, as often as one likes. Matrices are affine, finite and have an inverse; they may
-// mirror and stretch.
+// Placement of a part in the scene. Matrices are affine, finite and invertible; they may mirror and stretch.
 struct Instance {
     std::size_t part = 0;  // index into Scene::parts
     glm::dmat4 world_from_part{1.0};
-    // Where it moves while the shutter is open: its place at the end (ray time 1). Between them the matrix goes evenly,
-    // element by element: what turns by more than half a radian meanwhile becomes visibly smaller on its way.
+    // For motion while the shutter is open: the matrix at ray time 1. Matrices are interpolated linearly by element, so
+    // rotations of more than half a radian visibly shrink the object in between.
     std::optional<glm::dmat4> at_close = {};
 };
 
 struct Scene {
     std::string name;
-    std::vector<Mesh> meshes;  // what stands still
+    std::vector<Mesh> meshes;  // static
     std::vector<Part> parts;
     std::vector<Instance> instances;
     std::vector<Material> materials;
-    // From this number on they are of what surrounds the object: it lights and shades, and is seen in reflections and
-    // through glass, but rays of the camera pass it (surroundings.hpp).
+    // Materials from this index on belong to the surroundings of the object: they emit, reflect and occlude light and
+    // are visible in reflections and through glass, but not to camera rays (surroundings.hpp).
     int first_surrounding_material = std::numeric_limits<int>::max();
     std::vector<Texture> textures;
-    // Normal maps: a texel's r, g, b are a direction of any length along u, v and the normal; (0, 0, 1) leaves the
-    // normal as it is.
+    // Normal maps: a texel's r, g, b are a direction of any length along u, v and the normal; (0, 0, 1) is neutral.
     std::vector<Texture> reliefs;
-    std::vector<Light> lights;  // ambient parts count nothing here; areas are not seen by the camera
+    std::vector<Light> lights;  // ambient terms are ignored; area lights are not visible to camera rays
     Environment environment;
-    std::vector<std::shared_ptr<const RayPrimitive>> primitives;  // not seen by the camera itself
+    std::vector<std::shared_ptr<const RayPrimitive>> primitives;  // not visible to camera rays
 
     [[nodiscard]] bool surrounds(int material) const { return material >= first_surrounding_material; }
     [[nodiscard]] bool has_surroundings() const { return surrounds(static_cast<int>(materials.size()) - 1); }

@@ -24,13 +24,13 @@ constexpr std::uint64_t kMaxRecipe_bytes = 16 << 20;
 
 bool is_lit(const Scene& scene) {
     return !scene.environment.pixels.empty() || !scene.lights.empty() ||
-           // Lights painted on the object (pilot lamps, screens) light no scene.
+           // Small emissive details of the object (pilot lamps, screens) do not light a scene.
            std::ranges::any_of(scene.materials, [](const Material& m) {
                return m.emission != glm::vec3(0.0F) && m.emission_texture < 0;
            });
 }
 
-// One texture for all materials of a mesh file.
+// Sets one texture for all materials of a mesh file.
 void apply_texture(const JsonValue& texture, const std::filesystem::path& recipe, Scene& scene) {
     for (const Mesh& mesh : scene.meshes) {
         if (!mesh.uvs.empty()) continue;
@@ -102,12 +102,12 @@ void read_look(JsonObject& top, SceneFile& file) {
     read_toon(JsonObject(style), *file.toon);
 }
 
-// What is to stand around the object.
+// Surroundings of the object.
 struct Room {
     Scene scene;
-    glm::vec3 at{0.0F};  // of it, where the object's axis meets the ground that it stands on
+    glm::vec3 at{0.0F};  // room coordinates of the object's axis at ground level
     double turn_deg = 0;
-    double radius = 0;  // of the object, in its units
+    double radius = 0;  // object radius in the room's units
 
     [[nodiscard]] glm::dmat4 object_from_room(double ground_height) const {
         glm::dmat4 matrix = glm::translate(glm::dmat4(1), {0, ground_height, 0});
@@ -136,7 +136,7 @@ Result<SceneFile> finish_scene(SceneFile file, const std::filesystem::path& path
                                std::optional<Room> room = {}) {
     if (!is_lit(file.scene) && !(room && is_lit(room->scene)))
         file.scene.environment = make_studio_environment(default_studio());
-    // First the check: normalisation relies on valid indices.
+    // Normalisation requires valid indices.
     if (Status checked = check_scene(file.scene); !checked)
         return Error{path.string() + ": " + checked.error().message};
     Result<double> radius = normalise_meshes(file.scene, centre);

@@ -1,5 +1,5 @@
 #pragma once
-// SCENE arguments: a mesh file, or a recipe (.json) that gives object, materials, camera, lights, environment, room.
+// Reads SCENE arguments: a mesh file, or a recipe (.json) with object, materials, camera, lights, environment, room.
 // The recipe's schema is in capture/README.md.
 
 #include "capture/tracer/scene/recipe_parts.hpp"
@@ -21,16 +21,17 @@ struct SceneFile {
     double object_radius = 1;  // the largest distance of a vertex from the Y axis
     double ground_height = 0;  // Y of the lowest vertex
     CameraRecipe camera;
-    std::optional<ToonStyle> toon;  // it is drawn as a cartoon
+    std::optional<ToonStyle> toon;  // set for toon rendering
     std::uint64_t seed = 1;
 };
 
-// Makes the procedural object `name`. Who calls load_scene_file brings it; its errors need not name the recipe.
+// Generates the procedural object `name`. Errors need not name the recipe.
 using Generator =
     std::function<Result<Scene>(const std::string& name, const nlohmann::json& parameters, std::uint64_t seed)>;
 
-// A mesh file gets the default studio and camera. A recipe replaces the lights and the environment that its generator
-// set, where it names any; an object without either gets the default studio. Errors name the file and the key.
+/// Loads a scene. A mesh file gets the default studio and camera. Lights and environment of a recipe replace those of
+/// the generator; a scene without either gets the default studio.
+/// \return an error with the file and the key
 Result<SceneFile> load_scene_file(const std::filesystem::path& path, const Generator& generator);
 
 }  // namespace rs::capture

@@ -9,15 +9,15 @@ namespace rs::capture {
 
 namespace {
 
-constexpr int kHeight_px = 256;  // 0.7 degrees a pixel: softer than the softest edge that is used
+constexpr int kHeight_px = 256;  // 0.7 degrees a pixel
 
 float smooth_step(float t) {
     const float c = std::clamp(t, 0.0F, 1.0F);
     return c * c * (3.0F - 2.0F * c);
 }
 
-// How much of the softbox's radiance a direction sees, 0..1. The box is flat in the azimuth and elevation of a sphere
-// whose equator runs through its middle, so that boxes near the zenith keep their shape.
+// Share of the softbox's radiance in a direction, 0..1. The box is a rectangle in azimuth and elevation of a sphere
+// whose equator passes through its centre, so that boxes near the zenith keep their shape.
 float softbox_coverage(const Softbox& box, const glm::dvec3& direction) {
     const double azimuth = radians(static_cast<double>(box.azimuth_deg));
     const double elevation = radians(static_cast<double>(box.elevation_deg));
@@ -51,7 +51,7 @@ Environment make_studio_environment(const Studio& studio) {
     for (int y = 0; y < kHeight_px; ++y) {
         const double polar = kPi * (y + 0.5) / kHeight_px;
         const double height = std::cos(polar);
-        // Floor and ceiling meet in a band of 20 degrees: a paper backdrop has no corner.
+        // Floor and ceiling blend over 20 degrees like a seamless paper backdrop.
         const float above = smooth_step(static_cast<float>(height) * 2.9F + 0.5F);
         const glm::vec3 ceiling = glm::mix(studio.horizon, studio.zenith, std::max(0.0F, static_cast<float>(height)));
         const glm::vec3 gradient = glm::mix(studio.floor, ceiling, above);

@@ -1,5 +1,5 @@
 #pragma once
-// A photographer's studio as an environment: a soft gradient from floor to ceiling, and softboxes.
+// Photo studio as an environment map: a soft gradient from floor to ceiling, and softboxes.
 
 #include "capture/tracer/scene/scene.hpp"
 
@@ -7,9 +7,9 @@
 
 namespace rs::capture {
 
-// A bright rounded rectangle on the sky. Its edge falls off smoothly over `edge_deg`, inwards.
+// Bright rounded rectangle. Its radiance falls off smoothly over `edge_deg` inside the edge.
 struct Softbox {
-    float azimuth_deg = 0.0F;  // of its middle, from +Z towards +X
+    float azimuth_deg = 0.0F;  // of the centre, from +Z towards +X
     float elevation_deg = 45.0F;
     float width_deg = 50.0F;  // along the horizon, as seen from the object
     float height_deg = 40.0F;
@@ -24,7 +24,7 @@ struct Studio {
     std::vector<Softbox> softboxes;
 };
 
-// Key light at the front left, a fill light at the right, a strip behind: neutral, nowhere black.
+// Key light at the front left, fill light at the right, strip light behind; neutral colour, no black regions.
 Studio default_studio();
 
 Environment make_studio_environment(const Studio& studio);

@@ -1,5 +1,5 @@
 #pragma once
-// A room around an object that is captured: images show the object alone, as the room's light and walls make it look.
+// Surroundings of a captured object: images show the object alone, lit by the room's lights and walls.
 
 #include "capture/tracer/scene/scene.hpp"
 
@@ -7,8 +7,8 @@
 
 namespace rs::capture {
 
-// Puts the meshes of `room` around the object; of the rest of it, materials and textures are taken along. The matrix is
-// affine and has an inverse. There must be no surroundings yet.
+/// Adds the meshes, materials and textures of `room` as surroundings of an object without surroundings.
+/// \param object_from_room affine and invertible
 void surround(Scene& object, Scene room, const glm::dmat4& object_from_room);
 
 }  // namespace rs::capture

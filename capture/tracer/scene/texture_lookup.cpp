@@ -7,14 +7,14 @@ namespace rs::capture {
 
 namespace {
 
-// The fraction of `coordinate` in [0, 1); coordinates so large that they have no fraction, and NaN, become 0.
+// Fraction of `coordinate` in [0, 1); 0 for NaN and for values too large to have a fraction.
 float repeat(float coordinate) {
     const float fraction = coordinate - std::floor(coordinate);
     return fraction >= 0.0F && fraction < 1.0F ? fraction : 0.0F;
 }
 
-// Of an image whose border goes on, half a pixel from its edge at the farthest.
-float place_of(float coordinate, bool repeats, int size) {
+// Repeats a coordinate, or clamps it to the centres of the border pixels.
+float wrap_coordinate(float coordinate, bool repeats, int size) {
     if (repeats) return repeat(coordinate);
     const float half_px = 0.5F / static_cast<float>(size);
     return coordinate > half_px ? std::min(coordinate, 1.0F - half_px) : half_px;
@@ -24,9 +24,9 @@ float place_of(float coordinate, bool repeats, int size) {
 
 RgbaF sample_texture(const Texture& texture, const glm::vec2& uv) {
     const Image<RgbaF>& pixels = texture.pixels;
-    const float x = place_of(uv.x, texture.repeat_u, pixels.width()) * static_cast<float>(pixels.width()) - 0.5F;
+    const float x = wrap_coordinate(uv.x, texture.repeat_u, pixels.width()) * static_cast<float>(pixels.width()) - 0.5F;
     const float y =
-        (1.0F - place_of(uv.y, texture.repeat_v, pixels.height())) * static_cast<float>(pixels.height()) - 0.5F;
+        (1.0F - wrap_coordinate(uv.y, texture.repeat_v, pixels.height())) * static_cast<float>(pixels.height()) - 0.5F;
     const float left = std::floor(x);
     const float top = std::floor(y);
     const float fx = x - left;
@@ -47,8 +47,8 @@ RgbaF sample_texture(const Texture& texture, const glm::vec2& uv) {
 float sample_texture_alpha(const Texture& texture, const glm::vec2& uv) {
     const Image<RgbaF>& pixels = texture.pixels;
     const int x =
-        static_cast<int>(place_of(uv.x, texture.repeat_u, pixels.width()) * static_cast<float>(pixels.width()));
-    const int y = static_cast<int>((1.0F - place_of(uv.y, texture.repeat_v, pixels.height())) *
+        static_cast<int>(wrap_coordinate(uv.x, texture.repeat_u, pixels.width()) * static_cast<float>(pixels.width()));
+    const int y = static_cast<int>((1.0F - wrap_coordinate(uv.y, texture.repeat_v, pixels.height())) *
                                    static_cast<float>(pixels.height()));
     return pixels(std::min(x, pixels.width() - 1), std::min(y, pixels.height() - 1)).a;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// How a scene looks when it is drawn as a cartoon: in few tones, with lines along its edges. Source: N. Burnett and T.
-// Piazza, "Toon Shading Using Distributed Raytracing"; how it is drawn stands in integrator/toon.hpp.
+// Style of toon shading: tones and edge lines. Source: N. Burnett and T. Piazza, "Toon Shading Using Distributed
+// Raytracing"; implemented in integrator/toon.hpp.
 
 #include <glm/glm.hpp>
 
@@ -12,22 +12,22 @@ namespace rs::capture {
 struct ToonStyle {
     static constexpr std::size_t kMostTones = 16;
 
-    // An intensity of thresholds[i] or more, but less than thresholds[i - 1], has the tone values[i]; less than all of
-    // them, the last. Thresholds fall from 1 to 0; there is one value more than there are thresholds.
+    // Intensities in [thresholds[i], thresholds[i - 1]) have the tone values[i], intensities below all thresholds the
+    // last value. Thresholds descend within 1..0; there is one more value than thresholds.
     std::vector<float> thresholds{0.95F, 0.5F, 0.3F, 0.05F};
     std::vector<float> values{1.0F, 0.8F, 0.5F, 0.3F, 0.1F};  // factors on the surface's colour, 0..1
 
     // Lengths are in the scene's units.
-    float edge_radius = 0.008F;       // how far from an edge its line reaches; 0 = no lines
-    float edge_depth = 0.0F;          // jumps of the depth that are edges; 0 = twice the radius
-    float edge_angle_rad = 0.52360F;  // turns of the surface within the radius that are edges: 30 degrees
+    float edge_radius = 0.008F;       // width of the line beside an edge; 0 = no lines
+    float edge_depth = 0.0F;          // depth discontinuity that is an edge; 0 = twice the radius
+    float edge_angle_rad = 0.52360F;  // change of the normal within the radius that is an edge: 30 degrees
     glm::vec3 edge_colour{0.0F};      // linear
 
-    // Areas, and surfaces that shine, light from as many places of theirs, so that their shadows have steps of their
-    // own; 0 = from their middle, and shadows are hard.
+    // Samples per area light and emissive surface, for soft shadows with tone steps; 0 = their centre, for hard
+    // shadows.
     int shadow_rays = 0;
 
-    // On all that is drawn: what a later exposure takes away again.
+    // Factor on the image, to compensate for a later exposure.
     float brightness = 1.0F;
 
     [[nodiscard]] float tone(float intensity) const {

@@ -25,7 +25,7 @@ float covered_share(const RayScene& scene, const RayImage& rays, int x, int y, i
     return static_cast<float>(hits) / static_cast<float>(count);
 }
 
-bool is_on_outline(const Image<float>& shares, int x, int y) {
+bool is_on_contour(const Image<float>& shares, int x, int y) {
     const float own = shares(x, y);
     if (own > 0 && own < 1) return true;
     for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, shares.height() - 1); ++ny) {
@@ -49,7 +49,7 @@ Image<float> trace_coverage(const RayScene& scene, const RayImage& rays, int thr
     for_each_index(rays.height, threads, [&](std::int64_t row) {
         const int y = static_cast<int>(row);
         for (int x = 0; x < rays.width; ++x) {
-            if (is_on_outline(first, x, y)) shares(x, y) = covered_share(scene, rays, x, y, kOutlineRays);
+            if (is_on_contour(first, x, y)) shares(x, y) = covered_share(scene, rays, x, y, kOutlineRays);
         }
     });
     return shares;

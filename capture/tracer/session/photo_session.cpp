@@ -72,8 +72,8 @@ nlohmann::json turntable_json(const SessionPlan& plan, const Turntable& turntabl
     return json;
 }
 
-// The truth of the turn. `dimming` is the factor on the scene's lights; `photo_of_view` names the photographs, relative
-// to the transforms.json. `places` is empty where photographs are as the still camera took them.
+// Ground-truth rig. `dimming` is the factor on the scene's lights; `photo_of_view` are the photos' paths relative to
+// transforms.json. `places` is empty without recentring.
 Rig truth_rig(const SessionPlan& plan, const Turntable& turntable, double object_radius, const PhotoOptions& options,
               double dimming, const std::vector<std::string>& photo_of_view, std::span<const ImagePlace> places) {
     Rig rig;
@@ -97,10 +97,10 @@ Rig truth_rig(const SessionPlan& plan, const Turntable& turntable, double object
 
 namespace fs = std::filesystem;
 
-// The outermost vertices at each height, as circles about the axis, and those of the disc.
+// Circles about the axis through the outermost vertices at each height, and the disc's.
 std::vector<AxisCircle> shown_circles(const Scene& object, const Turntable& turntable) {
     constexpr double kBands_per_unit = 100;
-    std::map<int, AxisCircle> widest;  // by height
+    std::map<int, AxisCircle> widest;  // [height band]
     for (const Mesh& mesh : object.meshes) {
         for (const glm::vec3& p : mesh.positions) {
             const auto y = static_cast<double>(p.y);
@@ -125,11 +125,10 @@ Result<Image<RgbaF>> make_backdrop(const PhotoOptions& options, const SessionPla
     return image_backdrop(lens, std::move(image));
 }
 
-// What the lights must be dimmed by so that bright parts of object and disc are not clipped: a photographer's meter,
-// on a small first view.
+// Factor on the lights that avoids clipping of bright parts of object and disc, metered in a small first view.
 double metered_dimming(const Tracer& tracer, const SessionPlan& plan, const PhotoOptions& options) {
     constexpr int kCoarse = 8;
-    constexpr float kBright = 0.85F;  // linear; what one pixel in a hundred may exceed
+    constexpr float kBright = 0.85F;  // linear; limit for 99 % of the pixels
     RayImage rays = lens_rays_of(plan, 0);
     rays.width = std::max(1, rays.width / kCoarse);
     rays.height = std::max(1, rays.height / kCoarse);
@@ -149,7 +148,7 @@ double metered_dimming(const Tracer& tracer, const SessionPlan& plan, const Phot
     return *at > kBright ? static_cast<double>(kBright / *at) : 1.0;
 }
 
-// The front's light is multiplied by `dimming`.
+// Composites `front`, multiplied by `dimming`, over the backdrop.
 Image<RgbaF> over(const Image<RgbaF>& front, double dimming, const Image<RgbaF>& backdrop) {
     const auto factor = static_cast<float>(dimming);
     Image<RgbaF> result(front.width(), front.height());
@@ -187,14 +186,14 @@ bool touches_edge(const Image<float>& shares) {
     return false;
 }
 
-// Everything that the views have in common.
+// Data shared by all views.
 struct Session {
     SessionPlan plan;
     Turntable turntable;
     Image<RgbaF> backdrop;
-    Tracer tracer;      // of object, disc and board
-    RayScene outlines;  // of the object alone
-    double dimming;     // of the scene's lights
+    Tracer tracer;         // of object, disc and board
+    RayScene silhouettes;  // of the object alone
+    double dimming;        // of the scene's lights
 };
 
 struct View {
@@ -207,7 +206,7 @@ View take_photo(Session& session, std::size_t view, const PhotoOptions& options,
     RayImage rays = lens_rays_of(session.plan, view);
     ImagePlace place;
     if (options.recentred) {
-        place = recentred_place(trace_coverage(session.outlines, rays, options.threads));
+        place = recentred_place(trace_coverage(session.silhouettes, rays, options.threads));
         rays = rays_at(std::move(rays), place);
     }
     RenderOptions render;
@@ -221,7 +220,7 @@ View take_photo(Session& session, std::size_t view, const PhotoOptions& options,
                         mix_bits(options.session.seed) + static_cast<std::uint64_t>(view)};
     const Image<RgbaF> light =
         over(traced.image, session.dimming, options.recentred ? image_at(session.backdrop, place) : session.backdrop);
-    return {expose(light, sensor), trace_coverage(session.outlines, rays, options.threads), place};
+    return {expose(light, sensor), trace_coverage(session.silhouettes, rays, options.threads), place};
 }
 
 Status make_folder(const fs::path& folder) {
@@ -233,7 +232,7 @@ Status make_folder(const fs::path& folder) {
 
 }  // namespace
 
-bool is_made_backdrop(const std::string& name) {
+bool is_procedural_backdrop(const std::string& name) {
     return name == "wall" || name == "blue" || name == "white";
 }
 
@@ -252,10 +251,10 @@ Result<CaptureSetSummary> write_photo_session(const Scene& object, double object
     Scene whole = object;
     add_turntable(whole, turntable);
     RS_ASSIGN_OR_RETURN(Tracer tracer, Tracer::create(std::move(whole)));
-    RS_ASSIGN_OR_RETURN(RayScene outlines, RayScene::create(object));
+    RS_ASSIGN_OR_RETURN(RayScene silhouettes, RayScene::create(object));
     const double dimming = metered_dimming(tracer, plan, options);
-    Session session{std::move(plan),   std::move(turntable), std::move(backdrop),
-                    std::move(tracer), std::move(outlines),  dimming};
+    Session session{std::move(plan),   std::move(turntable),   std::move(backdrop),
+                    std::move(tracer), std::move(silhouettes), dimming};
 
     const auto views = session.plan.model.angles_rad.size();
     if (progress != nullptr) {

@@ -1,22 +1,23 @@
 #pragma once
-// Photographs of an object on a turntable, with exactly known truth: for measuring calibration and matting.
+// Synthetic photos of an object on a turntable with exact ground truth, for evaluating calibration and segmentation.
 //
-//     scene -> plan (session_plan) -> disc -> per view: turn the lights, trace through the lens, lay over the still
-//     backdrop, expose (sensor), write            -> FOLDER/photos/000.jpg ...   what a photographer would have
+//     scene -> plan (session_plan) -> disc -> per view: rotate the lights, trace through the lens, composite over the
+//     static backdrop, expose (sensor), write     -> FOLDER/photos/000.jpg ...   input of the capture pipeline
 //              coverage of the object alone       -> FOLDER/truth/alpha/000.png  grey, alpha as 8-bit codes
 //                                                 -> FOLDER/truth/transforms.json
 //
-// The camera and the lights stand still in the room; the object turns, with the disc and the board on it. Lights that
-// would clip bright parts of object or disc are dimmed, all by one factor, which the truth states. Everything is traced
-// in the object's frame, where the camera and the lights go around.
+// The camera and the lights are static; the object rotates with the disc and the board on it. If bright parts of object
+// or disc would clip, all lights are dimmed by one factor, which is part of the truth. Tracing takes place in the
+// object's frame, in which the camera and the lights rotate.
 //
-// transforms.json holds every view's pinhole camera in the object's frame, which is the scene's
-// (rayspace/geometry/rig.hpp); the photographs it names are distorted by the lens, which only "turntable" states: f_px,
+// transforms.json contains every view's pinhole camera in the object's frame, which is the scene's
+// (rayspace/geometry/rig.hpp); the photos it names have lens distortion, given by "turntable" only: f_px,
 // cx, cy, k1, k2, pan_rad, tilt_rad, roll_rad and angles_rad as in capture/calibration/model/turntable_model.hpp;
 // "distance" and "camera_height" of the camera's centre from axis and origin, in the scene's unit; exposures; dimming
-// (of the lights); "plate", the turntable's disc; the board's corners in the object's frame; the options; and, of
-// recentred photographs, "places": for every view scale and shift_px as in
-// capture/calibration/model/image_placement.hpp. The cameras are the still one's.
+// (of the lights); "plate", the turntable's disc; the board's corners in the object's frame; the options; and, for
+// recentred photos, "places": for every view scale and shift_px as in
+// capture/calibration/model/image_placement.hpp.
+// The cameras are those before recentring.
 
 #include "capture/tracer/scene/scene.hpp"
 #include "capture/tracer/session/capture_set.hpp"
@@ -40,17 +41,18 @@ struct PhotoOptions {
     DiscSurface disc = DiscSurface::rings;
     std::filesystem::path board;    // an image; empty = none
     double board_width = 1.2;       // object radii
-    bool recentred = false;         // each image by itself, as shops do (recentring.hpp)
+    bool recentred = false;         // shift and scale each photo to its object, like web shops do (recentring.hpp)
     std::string backdrop = "wall";  // "wall", "blue", "white", or the name of an image
 };
 
-// True for the names of backdrops that no file is needed for.
-bool is_made_backdrop(const std::string& name);
+/// Returns true for the names of procedural backdrops.
+bool is_procedural_backdrop(const std::string& name);
 
-// `object` stands as it is on a disc under its lowest vertex; `object_radius` is its largest distance from the axis.
-// The folder appears when all is written, and replaces one that this function wrote (file_output.hpp). The same
-// options give the same bytes, whatever the number of threads. Fails where an image cannot be read, where the lens or
-// the camera are impossible (session_plan.hpp), and where no view shows the object. `progress` counts all views.
+/// Renders and writes a session. The disc lies under the object's lowest vertex. The folder is created atomically and
+/// replaces only one written by this function (file_output.hpp). The same options give the same bytes with any number
+/// of threads. \param object_radius largest distance of the object from the axis \param progress covers all views; may
+/// be null \return an error if an image cannot be read, if lens or camera are infeasible (session_plan.hpp), or if no
+/// view shows the object
 Result<CaptureSetSummary> write_photo_session(const Scene& object, double object_radius, const PhotoOptions& options,
                                               const std::filesystem::path& folder, Progress* progress = nullptr);
 

@@ -1,6 +1,5 @@
 #pragma once
-// Photographs as shops show them: each moved and scaled by itself, so that the object fills the frame and is in its
-// middle.
+// Recentring of photos as in web shops: each one is shifted and scaled so that the object fills and centres the frame.
 
 #include "capture/calibration/model/image_placement.hpp"
 #include "capture/tracer/image/ray_image.hpp"
@@ -8,16 +7,15 @@
 
 namespace rs::capture {
 
-inline constexpr double kRecentredFill = 0.88;  // of the frame's side that the object reaches first
+inline constexpr double kRecentredFill = 0.88;  // size of the object over the frame's size, along the limiting axis
 
-// The place at which what `coverage` (shares 0..1, of the frame's size) shows stands as described; none is changed
-// where it shows nothing.
+/// Placement that recentres the object in `coverage` (0..1, of the frame's size); the identity if it is empty.
 ImagePlace recentred_place(const Image<float>& coverage);
 
-// `rays` at `place`, as if the sensor itself had been moved: nothing is resampled.
+/// Applies a placement to rays, as if the sensor had moved: without resampling.
 RayImage rays_at(RayImage rays, const ImagePlace& place);
 
-// `image` at `place`, bilinear; what lies beyond its border is continued.
+/// Resamples an image bilinearly at a placement; the border is extended.
 Image<RgbaF> image_at(const Image<RgbaF>& image, const ImagePlace& place);
 
 }  // namespace rs::capture

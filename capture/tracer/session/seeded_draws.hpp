@@ -1,6 +1,6 @@
 #pragma once
-// Random numbers of one purpose, from a seed: different purposes of one seed are independent, so that one more draw for
-// the board does not change the angles. A value: one per thread.
+// Random number stream for one purpose, derived from a seed. Streams of different purposes are independent, so that an
+// additional draw for the board does not change the angles. Not thread-safe.
 
 #include "capture/tracer/integrator/sampler.hpp"
 #include "rayspace/base/conventions.hpp"

@@ -12,12 +12,12 @@ namespace rs::capture {
 
 namespace {
 
-constexpr double kMargin = 0.03;  // of the image's height, free around all that it should show
+constexpr double kMargin = 0.03;  // free border around the circles, in image heights
 constexpr double kFarthest = 1000;
 
 enum SessionPurpose : std::uint64_t { kAim = 1, kAngles, kExposure };
 
-// Steps with independent errors, the last of which leads back to the first view.
+// View angles with independent step errors whose mean is 0, so that the steps sum up to a full turn.
 std::vector<double> draw_angles(const SessionOptions& options) {
     SeededDraws draws(options.seed, kAngles);
     const auto views = static_cast<std::size_t>(options.views);
@@ -71,8 +71,8 @@ bool shows(const SessionPlan& plan, const std::vector<AxisCircle>& circles) {
 Status check_lens(const Lens& lens) {
     for (const glm::dvec2& corner : {glm::dvec2(0, 0), glm::dvec2(lens.width, lens.height)}) {
         if (undistorted(lens, corner)) continue;
-        return Error{"the lens: k1 = " + std::to_string(lens.k1) + ", k2 = " + std::to_string(lens.k2) +
-                     " fold the image's corners back; use smaller ones or a longer focal length"};
+        return Error{"lens: k1 = " + std::to_string(lens.k1) + ", k2 = " + std::to_string(lens.k2) +
+                     " fold the image's corners back; use smaller values or a longer focal length"};
     }
     return {};
 }
@@ -103,7 +103,7 @@ Result<SessionPlan> plan_session(const SessionOptions& options, const std::vecto
     double near = 0, far = kFarthest;
     place_camera(plan, options, far);
     if (!shows(plan, shown)) {
-        return Error{"the camera: no distance up to 1000 shows the whole turntable; use a shorter focal length"};
+        return Error{"camera: no distance up to 1000 shows the whole turntable; use a shorter focal length"};
     }
     for (int i = 0; i < 60; ++i) {
         const double middle = (near + far) / 2;
@@ -122,7 +122,7 @@ RayImage lens_rays_of(const SessionPlan& plan, std::size_t view) {
     const Camera camera = pinhole_of(plan, view);
     return {camera.width, camera.height, camera.centre(), camera.forward(),
             [lens = plan.model.lens, camera](double x, double y) {
-                // plan_session() has seen that the corners can be undone, and so everything within them.
+                // plan_session() has checked that the distortion is invertible at the corners, hence everywhere.
                 const auto direction = undistorted(lens, {x, y});
                 return direction ? camera.forward() + camera.right() * direction->x - camera.up() * direction->y
                                  : camera.ray(x, y);

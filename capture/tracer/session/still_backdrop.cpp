@@ -12,7 +12,7 @@ namespace rs::capture {
 
 namespace {
 
-// Streams of the seed.
+// Random streams of the seed.
 enum BackdropPurpose : std::uint64_t { kGrain = 20, kMarks = 21, kPlaster = 30 };
 
 double lattice_value(std::int64_t x, std::int64_t y, std::uint64_t seed) {
@@ -43,9 +43,9 @@ struct Mark {
     glm::dvec3 tint;
 };
 
-// Wall and table meet in a line parallel to the image at depth `edge_z` (negative: behind the axis).
+// Wall and table intersect in a line parallel to the image plane at depth `edge_z` (negative: behind the axis).
 struct StillRoom {
-    double unit;  // length of the scene that a feature of 1 spans
+    double unit;  // scene units per noise feature
     double edge_z;
     double table_y;
     double disc_radius;
@@ -131,7 +131,7 @@ Image<RgbaF> even_backdrop(const Lens& lens, const glm::vec3& colour) {
 
 Image<RgbaF> image_backdrop(const Lens& lens, Image<RgbaF> image) {
     const Texture texture{"backdrop", std::move(image)};
-    constexpr int kSide = 4;  // look-ups along a pixel's side
+    constexpr int kSide = 4;  // samples along a pixel's side
     Image<RgbaF> result(lens.width, lens.height);
     for (int y = 0; y < lens.height; ++y) {
         for (int x = 0; x < lens.width; ++x) {

@@ -1,5 +1,5 @@
 #pragma once
-// What stands still behind a turntable, as one image in linear light.
+// Static background behind a turntable, as an image in linear light.
 
 #include "capture/tracer/session/session_plan.hpp"
 #include "capture/tracer/session/turntable.hpp"
@@ -10,21 +10,19 @@
 
 namespace rs::capture {
 
-// An edge that is as wide as a pixel is, for what is drawn point by point.
-
-// 0 below -1 .. 1 above 1.
+// Smooth step from 0 below -1 to 1 above 1, for antialiased edges in procedural images.
 inline double soft_step(double t) {
     const double c = std::clamp(0.5 + 0.5 * t, 0.0, 1.0);
     return c * c * (3 - 2 * c);
 }
 
-// A table top that the disc stands on, with its shadow, and a wall behind: low contrast, out of focus, a few marks.
+/// Out-of-focus table top with the disc's shadow, and a wall with a few marks behind it; low contrast.
 Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Turntable& turntable, std::uint64_t seed);
 
-// An even backdrop of this colour that falls off by a seventh towards the corners.
+/// Uniform backdrop with vignetting of one seventh at the corners.
 Image<RgbaF> even_backdrop(const Lens& lens, const glm::vec3& colour);
 
-// `image` over the whole frame, stretched where its shape differs.
+/// Stretches `image` to the frame.
 Image<RgbaF> image_backdrop(const Lens& lens, Image<RgbaF> image);
 
 }  // namespace rs::capture

@@ -14,7 +14,7 @@ namespace rs::capture {
 
 namespace {
 
-constexpr double kHair = 1e-4;  // against coinciding surfaces; a fortieth of a pixel in usual images
+constexpr double kHair = 1e-4;  // gap between coinciding surfaces; a fortieth of a pixel in usual images
 constexpr int kSegments = 256;  // the disc's rim is true to 1e-4 of its radius
 constexpr int kTextureSide_px = 1024;
 
@@ -39,7 +39,7 @@ RgbaF grey(double value) {
     return {v, v, v, 1};
 }
 
-// `value(r)` of the distance r from the middle, 1 at the rim.
+// Texture with grey value(r); r is the distance from the centre, 1 at the rim.
 template <class Value>
 Image<RgbaF> round_texture(const Value& value) {
     Image<RgbaF> pixels(kTextureSide_px, kTextureSide_px);
@@ -155,7 +155,7 @@ void lay_board(Turntable& turntable, Image<RgbaF> image, double width) {
     const double turn = draws.uniform(0, 2 * kPi);
     const double height = width * image.height() / image.width();
     const glm::dvec3 right(std::cos(turn), 0, -std::sin(turn));
-    const glm::dvec3 down(std::sin(turn), 0, std::cos(turn));  // of the image: towards +Z where it is not turned
+    const glm::dvec3 down(std::sin(turn), 0, std::cos(turn));  // of the image: +Z without rotation
     const glm::dvec3 middle(distance * std::sin(way), turntable.top, distance * std::cos(way));
     turntable.top -= kHair;  // between object and disc
     Board board;

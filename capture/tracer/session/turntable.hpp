@@ -1,8 +1,8 @@
 #pragma once
-// What a photographed object stands on: a turntable's disc that turns with it, and an image laid on the disc.
+// Turntable under a photographed object: a rotating disc, and a board (an image) on the disc.
 //
-// Lengths are the scene's, the frame is the object's: the disc's axis is Y, its top lies a hair below the object's
-// lowest vertex, so that the object stands on it and no two surfaces coincide.
+// Lengths are in scene units, the frame is the object's: the disc's axis is Y, its top lies slightly below the object's
+// lowest vertex, so that no two surfaces coincide.
 
 #include "capture/tracer/scene/scene.hpp"
 
@@ -13,16 +13,16 @@
 namespace rs::capture {
 
 enum class DiscSurface {
-    none,      // no disc; a board lies in the air
-    plain,     // even grey
-    rings,     // circles about the axis: looks the same however it is turned
-    speckled,  // dots, which turn
+    none,      // no disc; a board floats
+    plain,     // uniform grey
+    rings,     // circles about the axis: invariant under rotation
+    speckled,  // dots: rotation is visible
 };
 
-// An image lying face up; its corners as they stand at angle 0.
+// An image lying face up; corners at angle 0.
 struct Board {
-    Image<RgbaF> image;  // linear light, taken as opaque
-    // Top left, top right, bottom right, bottom left of the image.
+    Image<RgbaF> image;  // linear light, opaque
+    // Of the image: top left, top right, bottom right, bottom left.
     std::array<glm::dvec3, 4> corners{};
 };
 
@@ -34,20 +34,21 @@ struct Turntable {
     std::uint64_t seed = 1;
     std::optional<Board> board;
 
-    // Height of what the disc stands on.
+    // Height of the disc's lower side.
     [[nodiscard]] double bottom() const { return surface == DiscSurface::none ? top : top - thickness; }
-    // The largest distance from the axis of disc and board.
+    // Largest distance of disc and board from the axis.
     [[nodiscard]] double reach() const;
 };
 
-// A disc that fits under `object`, whose vertices reach `object_radius` from the axis.
+/// Makes a disc under `object`.
+/// \param object_radius largest distance of the object from the axis
 Turntable fit_turntable(const Scene& object, double object_radius, DiscSurface surface, std::uint64_t seed);
 
-// Lays `image` on the disc, `width` wide, a little off the axis and turned by any angle, both drawn from the
-// turntable's seed. The height follows from the image, whose pixels are square.
+/// Places a board on the disc, with a small offset from the axis and a rotation drawn from the turntable's seed. The
+/// aspect ratio is the image's.
 void lay_board(Turntable& turntable, Image<RgbaF> image, double width);
 
-// Adds the meshes, materials and textures of disc and board.
+/// Adds the meshes, materials and textures of disc and board to a scene.
 void add_turntable(Scene& scene, const Turntable& turntable);
 
 }  // namespace rs::capture

@@ -13,10 +13,10 @@
 namespace rs::compositor {
 namespace {
 
-constexpr std::uint64_t kMostListBytes = 4U << 20U;
-constexpr std::size_t kMostLights = 4096;
-constexpr double kMostTurned_deg = 36000;
-constexpr std::uint32_t kMostScope = 1U << 20U;
+constexpr std::uint64_t kMaxLightList_bytes = 4U << 20U;
+constexpr std::size_t kMaxLights = 4096;
+constexpr double kMaxLightTurn_deg = 36000;
+constexpr std::uint32_t kMaxScope = 1U << 20U;
 
 class ListReader {
 public:
@@ -37,7 +37,7 @@ public:
         if (words.has_file) read_file(object, entry);
         if (object.has("ambient")) entry.ambient = object.take("ambient").triple(0, kStrongest);
         if (object.has("scope")) {
-            entry.scope = static_cast<std::uint32_t>(object.take("scope").whole_number(0, kMostScope));
+            entry.scope = static_cast<std::uint32_t>(object.take("scope").whole_number(0, kMaxScope));
         }
         if (object.has("name")) entry.name = object.take("name").text();
         object.expect_all_taken();
@@ -74,12 +74,12 @@ private:
 
     static glm::dvec3 aim_of(JsonObject& object) {
         const JsonValue aim = object.take("aim");
-        static_cast<void>(aim.direction());  // refuses what is none
+        static_cast<void>(aim.direction());  // throws if not a direction
         return aim.triple(-kMostDistant, kMostDistant);
     }
 
     static double turn_of(JsonObject& object) {
-        return object.has("turn_deg") ? object.take("turn_deg").number(-kMostTurned_deg, kMostTurned_deg) : 0;
+        return object.has("turn_deg") ? object.take("turn_deg").number(-kMaxLightTurn_deg, kMaxLightTurn_deg) : 0;
     }
 
     static void read_size(JsonObject& object, const LightWords& words, LightEntry& entry) {
@@ -109,7 +109,7 @@ private:
         if (entry.attenuation == glm::dvec3(0)) throw attenuation.wrong("is nowhere above 0; give [1, 0, 0]");
     }
 
-    // Those that may be left out take the ones that they must not be above.
+    // Optional numbers default to their upper limit, which is another number of the light.
     static void read_numbers(JsonObject& object, const LightWords& words, LightEntry& entry) {
         for (const LightNumber& number : words.numbers) {
             if (number.at_most != nullptr) continue;
@@ -158,7 +158,7 @@ Result<LightList> light_list_from_json(const std::string& text, const std::files
         ListReader reader(path.parent_path());
         top.read("headlight", list.headlight);
         const JsonValue lights = top.take("lights");
-        const std::size_t count = lights.list_size(0, kMostLights);
+        const std::size_t count = lights.list_size(0, kMaxLights);
         for (std::size_t i = 0; i < count; ++i) {
             list.entries.push_back(reader.read(JsonObject(lights.item(i))));
             list.lights.push_back(light_of(list.entries.back()));
@@ -172,7 +172,7 @@ Result<LightList> light_list_from_json(const std::string& text, const std::files
 }
 
 Result<LightList> read_light_list(const std::filesystem::path& path) {
-    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMostListBytes));
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMaxLightList_bytes));
     return light_list_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 

@@ -12,14 +12,14 @@ namespace {
 
 constexpr double kReflectance = 0.5;
 
-// Radiant. Of VRML97's lights 0, for their ambient part is their own; of the sun 0, for it shines from outside.
+// Radiant flux. 0 for VRML97 lights, which have an ambient part, and for the sun, which is outside of the room.
 glm::dvec3 flux_of(const Light& light) {
     const LightModel& model = model_of(light);
     if (model.words.falls_off && !is_inverse_square(light)) return glm::dvec3(0);
     return model.flux(light, 1);
 }
 
-// Radiance, over all directions.
+// Mean radiance over all directions.
 glm::vec3 mean_of(const EnvironmentLight& light) {
     const Image<RgbaF>& pixels = *light.pixels;
     glm::dvec3 sum(0);
@@ -43,7 +43,7 @@ Light ambient_light(const char* name, const glm::vec3& radiance) {
     return light;
 }
 
-// punctual_of() searches a luminaire's beam in steps of a hundredth of a degree: once for all lights of its file.
+// Caches punctual_of() per luminaire, which samples the beam in steps of 0.01 degrees.
 class PunctualLights {
 public:
     Light of(const Light& light) {
@@ -73,7 +73,7 @@ glm::vec3 reflected_light(const Scene& scene) {
     if (box.empty() || !(glm::length(flux) > 0)) return glm::vec3(0);
     const glm::dvec3 size = box.highest - box.lowest;
     const double surface = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
-    // Irradiance over pi is what a white surface shows whose material reflects ambient light in full.
+    // Radiance of a white surface that reflects ambient light in full: irradiance / pi.
     return glm::vec3(flux * kReflectance / ((1 - kReflectance) * std::max(surface, 1e-6) * kPi));
 }
 

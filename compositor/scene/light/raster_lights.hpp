@@ -1,5 +1,5 @@
 #pragma once
-// A scene's lights as OpenGL draws by them.
+// Conversion of a scene's lights for rasterisation.
 
 #include "compositor/scene/scene.hpp"
 
@@ -7,13 +7,14 @@
 
 namespace rs::compositor {
 
-// What walls reflect of areas, luminaires, and points and spots of so many candelas, which bring no ambient part along:
-// as in a closed sphere of the surface of the geometry's box and reflectance 1/2, whose walls get
-// flux * r / (surface * (1 - r)) beyond the direct light. What a white surface shows of it.
+/// Estimated interreflection of area lights, luminaires, and points and spots in candela, which have no ambient part:
+/// that of a closed sphere with the surface of the geometry's box and reflectance r = 1/2, whose walls receive flux * r
+/// / (surface * (1 - r)) in addition to direct light.
+/// \return radiance of a white surface.
 glm::vec3 reflected_light(const Scene& scene);
 
-// Punctual ones (rayspace/light/light.hpp), as many and in the order of Scene::lights, 2^exposure_ev times as bright.
-// One light more stands for reflected_light(), one for the environment, as its mean.
+/// Punctual lights (rayspace/light/light.hpp), in number and order of Scene::lights, scaled by 2^exposure_ev; then one
+/// for reflected_light() and one for the mean of the environment.
 std::vector<Light> raster_lights(const Scene& scene, double exposure_ev);
 
 }  // namespace rs::compositor

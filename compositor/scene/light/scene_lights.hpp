@@ -1,5 +1,5 @@
 #pragma once
-// A scene's lights as a list, and a list's lights in a scene. Pure; thread-safe.
+// Conversion between a scene's lights and light lists. Pure; thread-safe.
 
 #include "compositor/scene/light/lights_file.hpp"
 #include "compositor/scene/scene.hpp"
@@ -7,12 +7,13 @@
 
 namespace rs::compositor {
 
-// All lights in force, as a list that replaces them: put into the scene's file again, it gives the same light. What
-// came from lists keeps its words. Lights that are not finite are left out.
+/// All current lights as a list with "replace", which reproduces the scene's lighting when loaded. Lights from lists
+/// keep their entries. Lights that are not finite are omitted.
 LightList lights_in_force(const Scene& scene);
 
-// Lights the scene by a list: beside its own lights or in their place. Refuses, with the scene as it was, a "scope"
-// that the scene does not have; `from` names the list.
+/// Adds a list's lights to the scene, or replaces its own. Fails, with the scene unchanged, if a "scope" does not exist
+/// in the scene.
+/// \param from name of the list for errors.
 Status add_lights(Scene& scene, LightList list, const std::string& from);
 
 }  // namespace rs::compositor

@@ -23,9 +23,9 @@ using nlohmann::json;
 
 constexpr int kMaxHeight = 500;
 constexpr std::size_t kMaxNodes = 100'000;
-constexpr double kFarthestNode = 1e9;
+constexpr double kMaxNodePosition = 1e9;
 
-// The JSON of a .glb (glTF 2.0, 4.4): a header of 12 bytes, then the chunk with its length and type.
+// JSON of a .glb (glTF 2.0, 4.4): a header of 12 bytes, then the chunk's length and type.
 std::string json_text(std::span<const std::byte> bytes, const std::string& file) {
     std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (!text.starts_with("glTF")) return text;
@@ -60,7 +60,7 @@ private:
 
     [[nodiscard]] static double number(const json& parent, const char* key, double otherwise) {
         if (!parent.is_object() || !parent.contains(key) || !parent[key].is_number()) return otherwise;
-        return std::clamp(parent[key].get<double>(), -kFarthestNode, kFarthestNode);
+        return std::clamp(parent[key].get<double>(), -kMaxNodePosition, kMaxNodePosition);
     }
 
     template <std::size_t count>
@@ -68,16 +68,17 @@ private:
                                                            std::array<double, count> values) {
         const json& given = list(parent, key);
         for (std::size_t i = 0; given.size() == count && i < count; ++i) {
-            if (given[i].is_number()) values[i] = std::clamp(given[i].get<double>(), -kFarthestNode, kFarthestNode);
+            if (given[i].is_number())
+                values[i] = std::clamp(given[i].get<double>(), -kMaxNodePosition, kMaxNodePosition);
         }
         return values;
     }
 
-    [[nodiscard]] MalformedJson wrong(const std::string& place, const std::string& what) const {
+    [[nodiscard]] MalformedJson error(const std::string& place, const std::string& what) const {
         return {path_.string() + ": " + place + ": " + what};
     }
 
-    // A node's move, turn and scale; of a matrix the nearest. `even` is false where that is not the same.
+    // Translation, rotation and uniform scale of a node; for a matrix the nearest one. `even` is false if it differs.
     static NodeTransform transform_of(const json& node, glm::dmat4& matrix, bool& even) {
         const auto t = numbers<3>(node, "translation", {0, 0, 0});
         const auto r = numbers<4>(node, "rotation", {0, 0, 0, 1});
@@ -110,12 +111,13 @@ private:
     void walk(const json& index, const glm::dmat4& world_from_parent, TransformChain chain, int height) {
         const json& nodes = list(top_, "nodes");
         if (!index.is_number_unsigned() || index.get<std::size_t>() >= nodes.size()) {
-            throw wrong("nodes", "a node names another that is not there; export the file again");
+            throw error("nodes", "a child index does not exist; export the file again");
         }
         const std::size_t i = index.get<std::size_t>();
         const json& node = nodes[i];
         if (height > kMaxHeight || ++visited_ > kMaxNodes) {
-            throw wrong("nodes[" + std::to_string(i) + "]", "its nodes stand too deep or in a ring; flatten them");
+            throw error("nodes[" + std::to_string(i) + "]",
+                        "its nodes are nested too deep or in a cycle; flatten them");
         }
         const std::optional<std::size_t> outer_room = room_;
         bool even = true;
@@ -141,7 +143,7 @@ private:
         JsonObject fields(JsonValue(extras["RaySpace"], path_.string(), place));
         RaySpaceNode object;
         const auto file = local_path(fields.take("url").text(), path_.parent_path());
-        if (!file) throw wrong(place, "url is no file on this machine");
+        if (!file) throw error(place, "url is not a local file");
         object.file = *file;
         object.room = room_;
         NodeTransform size;
@@ -156,19 +158,19 @@ private:
         object.chain = std::move(chain);
         if (!even_) {
             scene_.warnings.push_back(
-                printable(path_.string() + ": " + place + ": is stretched more along one axis; shown without"));
+                printable(path_.string() + ": " + place + ": is stretched more along one axis; drawn without"));
         }
         scene_.objects.push_back(std::move(object));
     }
 
-    // What stands below the node belongs to the room.
+    // Assigns the content of the node to the room.
     void begin_room(const json& node, std::size_t i, const glm::dmat4& world_from_node) {
         const json& extras = node["extras"];
         if (!extras.is_object() || !extras.contains("RaySpaceRoom")) return;
         const std::string place = "nodes[" + std::to_string(i) + "].extras.RaySpaceRoom";
         JsonObject fields(JsonValue(extras["RaySpaceRoom"], path_.string(), place));
-        const glm::dvec3 centre = fields.take("centre").triple(-kFarthestNode, kFarthestNode);
-        const glm::dvec3 half = fields.take("size").triple(0, kFarthestNode) * 0.5;
+        const glm::dvec3 centre = fields.take("centre").triple(-kMaxNodePosition, kMaxNodePosition);
+        const glm::dvec3 half = fields.take("size").triple(0, kMaxNodePosition) * 0.5;
         Room room;
         if (fields.has("description")) room.description = fields.take("description").text();
         fields.expect_all_taken();
@@ -216,14 +218,14 @@ private:
         const std::string type = given.is_object() ? given.value("type", "") : "";
         Light light;
         light.kind = type == "point" ? LightKind::kPoint : type == "spot" ? LightKind::kSpot : LightKind::kDirectional;
-        // A perfectly white surface sends 1 / pi of the light that falls on it to every side.
+        // A white diffuse surface reflects 1 / pi of the incident light in every direction.
         const auto colour = numbers<3>(given, "color", {1, 1, 1});
         light.colour = glm::vec3(glm::dvec3(colour[0], colour[1], colour[2]) * number(given, "intensity", 1) / kPi);
         light.location = glm::dvec3(world_from_node[3]);
         const glm::dvec3 towards = -glm::dvec3(world_from_node[2]);
         if (glm::length(towards) > 0) light.towards = glm::normalize(towards);
         light.attenuation = {0, 0, 1};
-        light.radius = number(given, "range", kFarthestNode);
+        light.radius = number(given, "range", kMaxNodePosition);
         if (light.kind == LightKind::kSpot && given.contains("spot")) {
             light.beam_width_rad = number(given["spot"], "innerConeAngle", 0);
             light.cut_off_rad = std::clamp(number(given["spot"], "outerConeAngle", kPi / 4), 0.0, kPi / 2);
@@ -250,7 +252,7 @@ Result<GltfContents> read_gltf_nodes(std::span<const std::byte> bytes, const std
     } catch (const MalformedJson& malformed) {
         return Error{malformed.message};
     } catch (const json::exception&) {
-        return Error{path.string() + ": a value of its JSON is of another type than glTF 2.0 says; export it again"};
+        return Error{path.string() + ": a value of its JSON is of another type than in glTF 2.0; export it again"};
     }
 }
 

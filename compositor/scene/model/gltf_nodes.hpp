@@ -1,6 +1,6 @@
 #pragma once
-// What Assimp does not carry over from the nodes of a glTF 2.0 file: `extras` that stand for objects made of images,
-// cameras, and lights (KHR_lights_punctual). Pure; thread-safe.
+// Contents of glTF 2.0 nodes that Assimp drops: `extras` for image-based objects, cameras, and lights
+// (KHR_lights_punctual). Pure; thread-safe.
 
 #include "compositor/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
@@ -14,8 +14,9 @@ namespace rs::compositor::model {
 struct GltfContents {
     bool has_meshes = false;
 };
-// Appends objects, viewpoints and lights to the scene, and warnings. `bytes` are the .gltf's text or the .glb; `path`
-// names them in messages and its folder is where object files are. Errors name the place.
+/// Appends objects, viewpoints and lights to the scene, and warnings. Errors name the node.
+/// \param bytes text of the .gltf, or the .glb.
+/// \param path file name for messages; object files are relative to its folder.
 Result<GltfContents> read_gltf_nodes(std::span<const std::byte> bytes, const std::filesystem::path& path, Scene& scene);
 
 }  // namespace rs::compositor::model

@@ -48,7 +48,7 @@ std::shared_ptr<const Mesh> convert(const aiMesh& source, bool two_sided) {
         const aiFace& face = source.mFaces[f];
         if (face.mNumIndices != corners) continue;
         for (unsigned k = 0; k < corners; ++k) {
-            // Faces are whole or not at all.
+            // Faces must be complete.
             if (face.mIndices[k] >= source.mNumVertices) return std::make_shared<Mesh>();
             mesh->indices.push_back(face.mIndices[k]);
         }
@@ -61,10 +61,10 @@ public:
     ModelWalk(const aiScene& model, model::ModelMaterials& materials, ModelParts& parts)
         : model_(model), materials_(materials), scene_(parts.scene), names_(parts.nodes) {}
 
-    // False where there is too much.
+    // False if limits are exceeded.
     bool walk(const aiNode& node, const glm::dmat4& world_from_parent, int height) {
         if (height > kMaxHeight) return false;
-        const aiMatrix4x4& m = node.mTransformation;  // by rows
+        const aiMatrix4x4& m = node.mTransformation;  // row-major
         const glm::dmat4 local(m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4,
                                m.d4);
         const glm::dmat4 world_from_node = world_from_parent * local;
@@ -129,7 +129,7 @@ Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
         const ModelFiles& files = read_models_only(importer, kMaxModel_bytes);
         importer.ReadFile(path.string(), 0);
         if (!files.refusal().empty()) return Error{files.refusal()};
-        RS_ASSIGN_OR_RETURN(const const aiScene* read,
+        RS_ASSIGN_OR_RETURN(const aiScene* read,
                             post_processed(importer,
                                            aiProcess_Triangulate | aiProcess_GenSmoothNormals |
                                                aiProcess_JoinIdenticalVertices | aiProcess_SortByPType,
@@ -138,7 +138,7 @@ Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
         if (model == nullptr || model->mRootNode == nullptr) {
             const std::string message =
                 path.string() + ": cannot be read: " + shown_error(importer.GetErrorString()) + "; export it again";
-            // Objects alone make a scene, but Assimp does not take a file without meshes.
+            // Scenes of objects alone are valid, but Assimp rejects files without meshes.
             if (is_gltf && !scene.objects.empty() && !has_meshes) return parts;
             return Error{message};
         }

@@ -1,12 +1,12 @@
 #pragma once
-// Scenes from glTF 2.0 (.gltf, .glb) and OBJ files, through Assimp.
+// Reader of glTF 2.0 (.gltf, .glb) and OBJ files, through Assimp.
 //
-// A glTF node stands for an object made of images where its `extras` state it:
+// A glTF node represents an image-based object if its `extras` contain
 //
 //     "extras": {"RaySpace": {"url": "vase.rso", "size": 1, "standing": true, "description": "..."}}
 //
-// with the fields of VRML's RaySpace node (reader/vrml_file.hpp); all but `url` may be left out. Likewise a room, to
-// which the objects below the node belong:
+// with the fields of VRML's RaySpace node (reader/vrml_file.hpp); only `url` is required. Similarly a room, which
+// contains the objects below the node:
 //
 //     "extras": {"RaySpaceRoom": {"centre": [0, 1.5, 0], "size": [6, 3, 6], "description": "..."}}
 
@@ -17,21 +17,21 @@
 
 namespace rs::compositor {
 
-// Metallic and rough surfaces become diffuse and specular ones; embedded and separate images are read. A file without
-// lights gets a headlight. What cannot be shown becomes a warning of the scene. Files beyond 64 MiB are refused. May be
-// called from any thread.
+/// Metallic-roughness materials become diffuse and specular ones; embedded and external images are read. Files without
+/// lights get a headlight. Unsupported parts become warnings of the scene. Files beyond 64 MiB are rejected.
+/// Thread-safe.
 Result<Scene> read_model(const std::filesystem::path& path);
 
-// What a model's file calls its parts, for taking it apart.
+/// Model with the names of its parts.
 struct ModelParts {
     Scene scene;
-    // [geometry node of the scene]: of the node that it hangs on; in an OBJ its `o`, or `g` where that came after it.
+    /// [geometry node of the scene]: name of its node; in an OBJ its `o`, or the `g` after it.
     std::vector<std::string> nodes;
     struct Named {
         std::string name;
         Material material;
     };
-    std::vector<Named> materials;  // in the file's order, those of an OBJ's libraries behind one of Assimp's own
+    std::vector<Named> materials;  // in the file's order; those of an OBJ's libraries follow a default of Assimp
 };
 Result<ModelParts> read_model_parts(const std::filesystem::path& path);
 

@@ -18,7 +18,7 @@
 namespace rs::compositor::model {
 namespace {
 
-constexpr float kMostRelief = 1000;
+constexpr float kMaxBumpScale = 1000;
 
 template <class T>
 std::optional<T> property(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
@@ -37,7 +37,7 @@ bool repeats(const aiMaterial& source, aiTextureType type, bool along_s) {
     return mode.value_or(aiTextureMapMode_Wrap) != aiTextureMapMode_Clamp;
 }
 
-// Rough surfaces have wide highlights: a Phong lobe of exponent n is about as wide as roughness^4 = 2 / (n + 2).
+// Rough surfaces have wide highlights: the width of a Phong lobe of exponent n is about roughness^4 = 2 / (n + 2).
 float shininess_of(float roughness) {
     const float r = std::clamp(roughness, 0.2F, 1.0F);
     return std::clamp((2 / (r * r * r * r) - 2) / 128, 0.0F, 1.0F);
@@ -54,7 +54,7 @@ const ModelMaterial& ModelMaterials::at(unsigned index) {
     return converted_.emplace(index, convert(*model_.mMaterials[index])).first->second;
 }
 
-// Images inside of the file are written to a temporary one, which the image reader opens.
+// Embedded images are written to a temporary file for the image reader.
 std::shared_ptr<const SceneTexture> ModelMaterials::image(const std::string& name, bool repeat_s, bool repeat_t) {
     std::string fault;
     std::shared_ptr<const SceneTexture> read;
@@ -87,7 +87,7 @@ ModelMaterial ModelMaterials::convert(const aiMaterial& source) {
     if (const auto base = property<aiColor4D>(source, AI_MATKEY_BASE_COLOR)) {
         const float metallic = std::clamp(property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1), 0.0F, 1.0F);
         const glm::vec3 colour = vec({base->r, base->g, base->b});
-        // Without surroundings to mirror a metal would be black but for its highlights: half of it is kept as diffuse.
+        // Metals without reflections would be black except for highlights, so half of the colour stays diffuse.
         material.diffuse = colour * (1 - 0.5F * metallic);
         material.specular = glm::mix(glm::vec3(0.04F), colour, metallic);
         material.shininess = shininess_of(property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1));
@@ -122,7 +122,7 @@ ModelMaterial ModelMaterials::convert(const aiMaterial& source) {
     return result;
 }
 
-// glTF's normal texture, MTL's norm; else MTL's bump map. Where there are two, directions hold more than heights.
+// glTF's normal texture, MTL's norm, or MTL's bump map. Normals take precedence over heights.
 std::shared_ptr<const NormalMap> ModelMaterials::relief(const aiMaterial& source) {
     for (const aiTextureType type : {aiTextureType_NORMALS, aiTextureType_HEIGHT}) {
         aiString name;
@@ -131,7 +131,7 @@ std::shared_ptr<const NormalMap> ModelMaterials::relief(const aiMaterial& source
         if (!read) continue;
         float strength = property<float>(source, AI_MATKEY_GLTF_TEXTURE_SCALE(type, 0)).value_or(1);
         strength = property<float>(source, AI_MATKEY_OBJ_BUMPMULT(type, 0)).value_or(strength);
-        strength = std::isfinite(strength) ? std::clamp(strength, -kMostRelief, kMostRelief) : 1;
+        strength = std::isfinite(strength) ? std::clamp(strength, -kMaxBumpScale, kMaxBumpScale) : 1;
         return type == aiTextureType_HEIGHT ? normal_map_of_heights(*read, strength) : normal_map(*read, strength);
     }
     return nullptr;

@@ -1,5 +1,5 @@
 #pragma once
-// Assimp's materials -> ours. Private to the reader of models; not thread-safe.
+// Conversion of Assimp's materials. Private to the model reader; not thread-safe.
 
 #include "compositor/scene/normal_map.hpp"
 #include "compositor/scene/scene_images.hpp"
@@ -23,7 +23,7 @@ struct ModelMaterial {
 class ModelMaterials {
 public:
     ModelMaterials(const aiScene& model, std::filesystem::path file);
-    // Cached by index, which must be one of the model's.
+    /// \param index material of the model; results are cached.
     const ModelMaterial& at(unsigned index);
     std::vector<std::string> warnings;
 

@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::uint64_t kMaxScene_bytes = std::uint64_t{64} << 20;
 constexpr std::size_t kMaxNodes = 4096;
-constexpr double kFarthestCoordinate = 1e6;  // coordinates and lengths
-constexpr double kSmallest = 1e-6;           // what must be above 0
-constexpr double kBrightest = 100;
+constexpr double kMaxCoordinate = 1e6;  // coordinates and lengths
+constexpr double kMinPositive = 1e-6;   // lower limit of positive values
+constexpr double kMaxRadiance = 100;
 
 glm::dvec3 take_position(JsonObject& object, const char* key) {
-    return object.take(key).triple(-kFarthestCoordinate, kFarthestCoordinate);
+    return object.take(key).triple(-kMaxCoordinate, kMaxCoordinate);
 }
 
 glm::vec3 colour(const JsonValue& value) {
@@ -33,7 +33,7 @@ glm::vec3 colour(const JsonValue& value) {
 NodeTransform take_transform(JsonObject& node) {
     NodeTransform transform;
     if (node.has("translate")) transform.translation = take_position(node, "translate");
-    node.read("scale", transform.scale, kSmallest, kFarthestCoordinate);
+    node.read("scale", transform.scale, kMinPositive, kMaxCoordinate);
     if (node.has("rotate")) {
         JsonObject rotate(node.take("rotate"));
         if (rotate.has("axis")) transform.axis = rotate.take("axis").direction();
@@ -43,7 +43,7 @@ NodeTransform take_transform(JsonObject& node) {
     return transform;
 }
 
-// Walks the graph, keeping the chain of transforms on the way down.
+// Traverses the node tree and accumulates the chain of transforms.
 class NodeReader {
 public:
     NodeReader(Scene& scene, std::filesystem::path folder) : scene_(scene), folder_(std::move(folder)) {}
@@ -55,8 +55,7 @@ public:
 
 private:
     void read_node(JsonObject node) {
-        if (++nodes_ > kMaxNodes)
-            throw node.wrong("is one node too many; a scene may have " + std::to_string(kMaxNodes));
+        if (++nodes_ > kMaxNodes) throw node.wrong("too many nodes; a scene may have " + std::to_string(kMaxNodes));
         const bool is_object = node.has("object");
         const bool is_box = node.has("box");
         const bool is_group = node.has("group");
@@ -96,14 +95,14 @@ private:
         }
         JsonObject bounds(node.take("bounds"));
         const glm::dvec3 centre = take_position(bounds, "centre");
-        const glm::dvec3 half = bounds.take("size").triple(kSmallest, kFarthestCoordinate) * 0.5;
+        const glm::dvec3 half = bounds.take("size").triple(kMinPositive, kMaxCoordinate) * 0.5;
         bounds.expect_all_taken();
         scene_.rooms[room].box = BoundingBox{centre - half, centre + half}.moved(world_from_node(chain_).matrix());
     }
 
     void read_box(JsonObject& node) {
         GeometryNode box;
-        box.mesh = std::make_shared<const Mesh>(box_mesh(node.take("box").triple(kSmallest, kFarthestCoordinate)));
+        box.mesh = std::make_shared<const Mesh>(box_mesh(node.take("box").triple(kMinPositive, kMaxCoordinate)));
         box.material.diffuse = node.has("colour") ? colour(node.take("colour")) : glm::vec3(0.5F);
         box.material.ambient = 1;
         box.world_from_node = world_from_node(chain_).matrix();
@@ -124,9 +123,9 @@ std::string lower_case(std::string text) {
 
 Floor read_floor(JsonObject object) {
     Floor floor;
-    object.read("height", floor.height, -kFarthestCoordinate, kFarthestCoordinate);
-    object.read("radius", floor.radius, kSmallest, kFarthestCoordinate);
-    object.read("square", floor.square, kSmallest, kFarthestCoordinate);
+    object.read("height", floor.height, -kMaxCoordinate, kMaxCoordinate);
+    object.read("radius", floor.radius, kMinPositive, kMaxCoordinate);
+    object.read("square", floor.square, kMinPositive, kMaxCoordinate);
     if (object.has("colours")) {
         const JsonValue colours = object.take("colours");
         colours.list_size(2, 2);
@@ -137,17 +136,17 @@ Floor read_floor(JsonObject object) {
     return floor;
 }
 
-// One directional light, which brings the ambient light along.
+// Directional light with the scene's ambient light.
 void read_lights(JsonObject object, Light& light) {
     if (object.has("towards")) light.towards = object.take("towards").direction();
-    if (object.has("directional")) light.colour = glm::vec3(object.take("directional").triple(0, kBrightest));
-    if (object.has("ambient")) light.ambient = glm::vec3(object.take("ambient").triple(0, kBrightest));
+    if (object.has("directional")) light.colour = glm::vec3(object.take("directional").triple(0, kMaxRadiance));
+    if (object.has("ambient")) light.ambient = glm::vec3(object.take("ambient").triple(0, kMaxRadiance));
     object.expect_all_taken();
 }
 
 CameraPose take_pose(JsonObject& object) {
     const CameraPose pose{take_position(object, "eye"), take_position(object, "at")};
-    if (glm::distance(pose.eye, pose.at) < kSmallest) throw object.wrong("eye and at are the same point; move one");
+    if (glm::distance(pose.eye, pose.at) < kMinPositive) throw object.wrong("eye and at are the same point; move one");
     return pose;
 }
 
@@ -195,7 +194,7 @@ Result<Scene> read_scene(const std::filesystem::path& path) {
     if (is_one_of({".gltf", ".glb", ".obj"})) return read_model(path);
     if (!is_one_of({".json"})) {
         return Error{path.string() +
-                     ": is no scene by its name; give a .wrl, .wrl.gz, .x3d, .x3dv, .gltf, .glb, .obj or .json"};
+                     ": has no extension of a scene; give a .wrl, .wrl.gz, .x3d, .x3dv, .gltf, .glb, .obj or .json"};
     }
     RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(path, kMaxScene_bytes));
     return scene_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);

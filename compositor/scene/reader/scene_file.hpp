@@ -1,6 +1,5 @@
 #pragma once
-// Scenes from files: JSON (compositor/README.md), VRML and X3D (vrml_file.hpp), glTF 2.0 and OBJ
-// (model/model_file.hpp).
+// Scene reader: JSON (compositor/README.md), VRML and X3D (vrml_file.hpp), glTF 2.0 and OBJ (model/model_file.hpp).
 
 #include "compositor/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
@@ -10,12 +9,13 @@
 
 namespace rs::compositor {
 
-// By the file's name: .wrl, .wrl.gz, .wrz, .vrml, .x3d, .x3dz, .x3dv, ...; .gltf, .glb, .obj; .json. Files that the
-// scene names are looked for beside it; no .rso is opened here. Errors name the file and the line or key. Files beyond
-// 64 MiB are refused.
+/// Selects the format by extension: .wrl, .wrl.gz, .wrz, .vrml, .x3d, .x3dz, .x3dv, ...; .gltf, .glb, .obj; .json.
+/// Referenced files are relative to the scene file; .rso files are not opened. Errors name the file and the line or
+/// key. Files beyond 64 MiB are rejected.
 Result<Scene> read_scene(const std::filesystem::path& path);
 
-// The text of a JSON scene; `path` names it in errors, and its folder is where object files are.
+/// Reads a JSON scene from text.
+/// \param path file name for errors; object files are relative to its folder.
 Result<Scene> scene_from_json(const std::string& text, const std::filesystem::path& path);
 
 }  // namespace rs::compositor

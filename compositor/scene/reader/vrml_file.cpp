@@ -22,7 +22,7 @@
 namespace rs::compositor {
 namespace {
 
-// gzip (RFC 1952) in memory. Pure; thread-safe.
+// In-memory gzip (RFC 1952) decompression. Pure; thread-safe.
 struct Inflater {
     z_stream stream{};
     bool ready = false;
@@ -72,7 +72,7 @@ Result<std::string> read_world_text(const std::filesystem::path& path) {
     return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-// Whatever its form, by how it begins.
+// Selects the parser by the beginning of the text.
 Result<vrml::Graph> graph_of(std::string_view text, const std::string& file) {
     if (text.starts_with(vrml1::kHeader)) return vrml1::read_graph(text, file);
     if (!x3d::is_xml(text)) return vrml::read_graph(text, file);
@@ -95,7 +95,7 @@ public:
         for (const std::string& url : urls) {
             const auto path = local_path(url, folder);
             if (!path) {
-                fault = {"'" + url.substr(0, 80) + "' is no file on this machine"};
+                fault = {"'" + url.substr(0, 80) + "' is not a local file"};
                 continue;
             }
             auto known = loaded_.find(*path);
@@ -124,7 +124,7 @@ private:
 }  // namespace
 
 Result<Scene> scene_from_vrml(std::string_view text, const std::filesystem::path& path) {
-    // As the paths of included files are written, so that a file that includes itself is known.
+    // Normalised like the paths of included files, to detect files that include themselves.
     RS_ASSIGN_OR_RETURN(const auto file, load_text(text, path.lexically_normal()));
     Scene scene;
     scene.lights.clear();

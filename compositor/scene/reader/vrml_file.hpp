@@ -1,14 +1,14 @@
 #pragma once
-// Scenes from VRML and X3D files, plain or gzip, whatever their names are: VRML97, X3D in its XML and its classic
-// encoding (scene/vrml/graph.hpp states what is read and what is left out), VRML 1.0 (scene/vrml1/graph.hpp).
+// Reader of VRML and X3D files, plain or gzip, independent of their extension: VRML97, X3D in XML and classic encoding
+// (scene/vrml/graph.hpp lists the supported parts), VRML 1.0 (scene/vrml1/graph.hpp).
 //
-// Besides the nodes of VRML97 there are one for objects made of images and one for rooms, whose objects are in memory
-// while a visitor is in them or near (viewer/residency/load_priority.hpp):
+// In addition to VRML97's nodes there is one for image-based objects and one for rooms, whose objects are in memory
+// while a visitor is inside or near (viewer/residency/load_priority.hpp):
 //
 //     RaySpace {
 //         exposedField MFString url          []     # the .rso file; the first counts
-//         exposedField SFFloat  size         1      # the object's radius in the units of the node, above 0
-//         exposedField SFBool   standing     TRUE   # its foot stands at the origin; else the middle of its capture
+//         exposedField SFFloat  size         1      # object radius in node units, > 0
+//         exposedField SFBool   standing     TRUE   # foot at the origin; else the centre of its capture
 //         exposedField SFString description  ""
 //     }
 //     RaySpaceRoom {
@@ -26,12 +26,13 @@
 
 namespace rs::compositor {
 
-// Files that the world names (textures, Inline) are looked for beside the file that names them, on this machine only.
-// No .rso is opened. What cannot be shown becomes a warning of the scene; what cannot be read is an error, with its
-// line. Worlds beyond 64 MiB, all included files together beyond 256 MiB, are refused. Thread-safe.
+/// Referenced files (textures, Inline) are relative to the file that refers to them; only local files are read. .rso
+/// files are not opened. Unsupported parts become warnings of the scene; syntax errors are errors with their line.
+/// Worlds beyond 64 MiB, or 256 MiB with all included files, are rejected. Thread-safe.
 Result<Scene> read_vrml(const std::filesystem::path& path);
 
-// The text of a world without gzip; `path` names it in messages, and its folder is where it looks for files.
+/// Reads a world from uncompressed text.
+/// \param path file name for messages; referenced files are relative to its folder.
 Result<Scene> scene_from_vrml(std::string_view text, const std::filesystem::path& path);
 
 }  // namespace rs::compositor

@@ -13,7 +13,7 @@ float fraction(double number) {
     return static_cast<float>(std::clamp(number, 0.0, 1.0));
 }
 
-// The bytes of a PixelTexture, whose first row is the lowest.
+// Image of a PixelTexture, whose first row is the bottom.
 std::shared_ptr<const SceneTexture> pixel_texture(const Node& node) {
     const std::vector<double>& numbers = node.field("image").numbers;
     const int width = static_cast<int>(numbers.at(0));
@@ -84,7 +84,7 @@ Material material_of(const Node* appearance, const Mesh& mesh, const std::filesy
         material.diffuse = glm::vec3(1);
     }
     if (mesh.topology != Topology::kTriangles) {
-        // Lines and points have no surface: they show the emissive colour, or their own.
+        // Lines and points are unlit: they have the emissive colour, or vertex colours.
         if (given) material.diffuse = material.emissive;
         material.lit = false;
         return material;

@@ -13,7 +13,8 @@ namespace rs::compositor::vrml {
 
 glm::vec3 linear_colour(const glm::dvec3& srgb);
 
-// `appearance` may be null. `fault` states why a texture is left out; empty where none is.
+/// \param appearance may be null.
+/// \param fault reason why a texture is omitted; empty if none is.
 Material material_of(const Node* appearance, const Mesh& mesh, const std::filesystem::path& folder, SceneImages& images,
                      std::string& fault);
 

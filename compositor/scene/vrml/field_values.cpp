@@ -5,7 +5,7 @@
 namespace rs::compositor::vrml {
 namespace {
 
-constexpr long kMaxSide = 8192;  // of an image, px
+constexpr long kMaxSide = 8192;  // image side, px
 constexpr long kMaxPixels = 1L << 24;
 constexpr std::size_t kMaxString_bytes = 1 << 16;
 
@@ -30,14 +30,14 @@ public:
 
     Value read() {
         const Token first = lexer_.peek();
-        if (!spec_.many && first.kind == TokenKind::open_list) throw wrong_type();
+        if (!spec_.many && first.kind == TokenKind::open_list) throw type_error();
         if (!spec_.many || !lexer_.take_kind(TokenKind::open_list)) {
             read_single();
             return std::move(value_);
         }
         while (!lexer_.take_kind(TokenKind::close_list)) {
             if (lexer_.peek().kind == TokenKind::end) {
-                throw lexer_.wrong(first.line, "the list of " + field_ + " is not closed; add a ]");
+                throw lexer_.error(first.line, "the list of " + field_ + " is not closed; add a ]");
             }
             read_single();
         }
@@ -45,8 +45,8 @@ public:
     }
 
 private:
-    [[nodiscard]] MalformedVrml wrong_type() const {
-        return lexer_.wrong(field_ + " takes " + field_type_name(spec_) + ", not " + shown(lexer_.peek()) +
+    [[nodiscard]] MalformedVrml type_error() const {
+        return lexer_.error(field_ + " takes " + field_type_name(spec_) + ", not " + quote(lexer_.peek()) +
                             "; correct it");
     }
 
@@ -68,37 +68,37 @@ private:
 
     void read_bool() {
         const bool yes = lexer_.peek().text == "TRUE";
-        if (lexer_.peek().kind != TokenKind::word || (!yes && lexer_.peek().text != "FALSE")) throw wrong_type();
+        if (lexer_.peek().kind != TokenKind::word || (!yes && lexer_.peek().text != "FALSE")) throw type_error();
         lexer_.take();
         value_.numbers.push_back(yes ? 1 : 0);
     }
 
     void read_text() {
-        if (lexer_.peek().kind != TokenKind::text) throw wrong_type();
+        if (lexer_.peek().kind != TokenKind::text) throw type_error();
         const Token token = lexer_.take();
         if (token.text.size() > kMaxString_bytes) {
-            throw lexer_.wrong(token.line, "a text of " + std::to_string(token.text.size()) + " bytes; shorten it");
+            throw lexer_.error(token.line, "a text of " + std::to_string(token.text.size()) + " bytes; shorten it");
         }
-        value_.texts.push_back(unescaped(token.text));
+        value_.texts.push_back(unescape(token.text));
     }
 
     long take_integer() {
         long value = 0;
-        if (lexer_.peek().kind != TokenKind::number || !parse_integer(lexer_.peek().text, value)) throw wrong_type();
+        if (lexer_.peek().kind != TokenKind::number || !parse_integer(lexer_.peek().text, value)) throw type_error();
         lexer_.take();
         return value;
     }
 
     void read_integer() {
-        // Hexadecimal numbers may use the sign's bit.
+        // Hexadecimal numbers may use the sign bit.
         value_.numbers.push_back(static_cast<int>(static_cast<unsigned>(take_integer())));
     }
 
     void read_number() {
         float value = 0;
-        if (lexer_.peek().kind != TokenKind::number) throw wrong_type();
+        if (lexer_.peek().kind != TokenKind::number) throw type_error();
         if (!parse_float(lexer_.peek().text, value)) {
-            throw lexer_.wrong(field_ + ": " + shown(lexer_.peek()) + " is no number that fits; correct it");
+            throw lexer_.error(field_ + ": " + quote(lexer_.peek()) + " is not a number in range; correct it");
         }
         lexer_.take();
         value_.numbers.push_back(static_cast<double>(value));
@@ -119,7 +119,7 @@ std::vector<double> read_image(Lexer& lexer, const std::string& field, const std
     const long components = take_integer();
     if (width < 0 || height < 0 || width > kMaxSide || height > kMaxSide || components < 0 || components > 4 ||
         (width > 0 && height > kMaxPixels / width)) {
-        throw lexer.wrong(line, field + ": an image of " + std::to_string(width) + "x" + std::to_string(height) +
+        throw lexer.error(line, field + ": an image of " + std::to_string(width) + "x" + std::to_string(height) +
                                     " with " + std::to_string(components) + " components; it cannot be read");
     }
     std::vector<double> numbers;
@@ -145,7 +145,7 @@ void skip_to_close(Lexer& lexer, int opened_at_line) {
                 --open;
                 break;
             case TokenKind::end:
-                throw lexer.wrong(opened_at_line, "what is opened here is not closed; add a } or ]");
+                throw lexer.error(opened_at_line, "the bracket opened here is not closed; add a } or ]");
             default:
                 break;
         }

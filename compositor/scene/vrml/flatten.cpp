@@ -14,23 +14,23 @@
 namespace rs::compositor::vrml {
 namespace {
 
-constexpr int kMaxInlines = 16;  // files in files
+constexpr int kMaxInlines = 16;  // nesting depth of Inline
 constexpr std::size_t kMaxDraws = 100'000;
-constexpr double kMaxWork = 1e9;  // of all shapes (ShapeCheck::work): about 10 s
+constexpr double kMaxWork = 1e9;  // sum of ShapeCheck::work over all shapes: about 10 s
 
-struct TooMuch {};
+struct LimitExceeded {};
 
 class Flattener {
 public:
     Flattener(const Loader& load, Scene& scene) : load_(load), scene_(scene) {}
 
-    void walk_file(const std::shared_ptr<const LoadedFile>& file, const Place& place) {
+    void walk_file(const std::shared_ptr<const LoadedFile>& file, const TraversalState& state) {
         open_files_.push_back(file);
         kept_files_.insert(file);
         if (warned_files_.insert(file.get()).second) {
             for (const std::string& warning : file->graph.warnings) warn(warning);
         }
-        walk_children(file->graph.roots, place);
+        walk_children(file->graph.roots, state);
         open_files_.pop_back();
     }
 
@@ -56,49 +56,49 @@ private:
         warn(path().string() + ": line " + std::to_string(node.line) + ": " + node.type + ": " + what);
     }
 
-    // A directional light shines on its siblings and what is below them.
-    void walk_children(const std::vector<NodePointer>& children, Place place) {
+    // Directional lights apply to their siblings and everything below these.
+    void walk_children(const std::vector<NodePointer>& children, TraversalState state) {
         for (const NodePointer& child : children) {
             if (child->type != "DirectionalLight" || !child->flag("on")) continue;
-            place.lights.push_back(static_cast<std::uint32_t>(scene_.lights.size()));
-            scene_.lights.push_back(light_of(*child, place));
+            state.lights.push_back(static_cast<std::uint32_t>(scene_.lights.size()));
+            scene_.lights.push_back(light_of(*child, state));
         }
-        for (const NodePointer& child : children) walk(*child, place);
+        for (const NodePointer& child : children) walk(*child, state);
     }
 
-    void walk(const Node& node, const Place& above) {
-        if (++visits_ > kMaxVisits || scene_.geometry.size() > kMaxDraws) throw TooMuch{};
-        Place place = above;
-        if (++place.height > kMaxHeight) throw TooMuch{};
+    void walk(const Node& node, const TraversalState& above) {
+        if (++visits_ > kMaxVisits || scene_.geometry.size() > kMaxDraws) throw LimitExceeded{};
+        TraversalState state = above;
+        if (++state.height > kMaxHeight) throw LimitExceeded{};
         const std::string& type = node.type;
-        if (type == "Shape") return add_shape(node, place);
+        if (type == "Shape") return add_shape(node, state);
         if (type == "Transform") {
-            if (descend(node, place)) walk_children(node.field("children").nodes, place);
+            if (descend(node, state)) walk_children(node.field("children").nodes, state);
         } else if (type == "Switch") {
             const std::vector<NodePointer>& choice = node.field("choice").nodes;
             const double which = node.number("whichChoice");
             if (which >= 0 && which < static_cast<double>(choice.size())) {
-                walk_children({choice[static_cast<std::size_t>(which)]}, place);
+                walk_children({choice[static_cast<std::size_t>(which)]}, state);
             }
         } else if (type == "LOD") {
-            // The finest.
-            if (!node.field("level").nodes.empty()) walk_children({node.field("level").nodes.front()}, place);
+            // Finest level.
+            if (!node.field("level").nodes.empty()) walk_children({node.field("level").nodes.front()}, state);
         } else if (type == "Inline" || type == "InlineLoadControl") {
-            if (node.flag("load")) include(node, place);
+            if (node.flag("load")) include(node, state);
         } else if (type == "RaySpace") {
-            add_object(node, place);
+            add_object(node, state);
         } else if (type == "RaySpaceRoom") {
-            walk_room(node, place);
+            walk_room(node, state);
         } else if (type == "PointLight" || type == "SpotLight") {
-            if (node.flag("on")) scene_.lights.push_back(light_of(node, place));
+            if (node.flag("on")) scene_.lights.push_back(light_of(node, state));
         } else if (node.has("children")) {
-            walk_children(node.field("children").nodes, place);
+            walk_children(node.field("children").nodes, state);
         } else {
-            add_bindable(node, place);
+            add_bindable(node, state);
         }
     }
 
-    void add_shape(const Node& shape, const Place& place) {
+    void add_shape(const Node& shape, const TraversalState& state) {
         const NodePointer geometry = shape.node("geometry");
         const std::shared_ptr<const Mesh> mesh = geometry ? mesh_of(*geometry) : nullptr;
         if (!mesh) return;
@@ -111,20 +111,20 @@ private:
             if (!fault.empty()) warn(*appearance->node("texture"), fault + "; drawn without");
             known = materials_.emplace(key, material).first;
         }
-        scene_.geometry.push_back({mesh, known->second, place.world_from_node, place.lights});
+        scene_.geometry.push_back({mesh, known->second, state.world_from_node, state.lights});
     }
 
-    // Null where there is nothing to draw.
+    // Null if there is nothing to draw.
     std::shared_ptr<const Mesh> mesh_of(const Node& given) {
         const auto [entry, is_new] = meshes_.emplace(&given, nullptr);
         if (!is_new) return entry->second;
-        const NodePointer converted = as_vrml97(given);
+        const NodePointer converted = to_vrml97(given);
         const Node& geometry = converted ? *converted : given;
         const ShapeCheck check = check_shape(geometry);
         if (!check.fault.empty()) {
             warn(geometry, check.fault + "; left out");
         } else if (work_ + check.work > kMaxWork) {
-            warn(geometry, "cutting it into triangles would take too long; left out");
+            warn(geometry, "its triangulation would take too long; left out");
         } else if (!check.empty) {
             work_ += check.work;
             for (const std::string& field : check.unusable) warn(geometry, field + " does not fit the shape; left out");
@@ -133,63 +133,63 @@ private:
         return entry->second;
     }
 
-    void add_object(const Node& node, const Place& place) {
+    void add_object(const Node& node, const TraversalState& state) {
         RaySpaceNode object;
         const std::vector<std::string>& urls = node.field("url").texts;
         const auto file = urls.empty() ? std::nullopt : local_path(urls.front(), folder());
-        if (!file) return warn(node, "names no file on this machine; left out");
+        if (!file) return warn(node, "is not a local file; left out");
         if (!(node.number("size") > 0)) return warn(node, "its size must be above 0; left out");
-        if (!place.unlike.empty()) warn(node, place.unlike + "; shown without");
+        if (!state.deviation.empty()) warn(node, state.deviation + "; drawn without");
         object.file = *file;
-        object.chain = place.chain;
+        object.chain = state.chain;
         NodeTransform size;
         size.scale = node.number("size");
         object.chain.push_back(size);
         object.standing = node.flag("standing");
-        object.room = place.room;
+        object.room = state.room;
         object.description = node.text("description").empty() ? node.name : node.text("description");
         scene_.objects.push_back(std::move(object));
     }
 
-    void walk_room(const Node& node, Place place) {
+    void walk_room(const Node& node, TraversalState state) {
         const std::size_t room = scene_.rooms.size();
         const std::size_t geometry = scene_.geometry.size();
         const std::size_t objects = scene_.objects.size();
         scene_.rooms.push_back({node.text("description").empty() ? node.name : node.text("description"), {}});
-        place.room = room;
-        walk_children(node.field("children").nodes, place);
+        state.room = room;
+        walk_children(node.field("children").nodes, state);
         const glm::dvec3 size = node.triple("bboxSize");
         const glm::dvec3 centre = node.triple("bboxCenter");
         const bool has_size = size.x >= 0 && size.y >= 0 && size.z >= 0;
         scene_.rooms[room].box =
-            has_size ? BoundingBox{centre - size * 0.5, centre + size * 0.5}.moved(place.world_from_node)
+            has_size ? BoundingBox{centre - size * 0.5, centre + size * 0.5}.moved(state.world_from_node)
                      : bounds_from(scene_, geometry, objects);
     }
 
-    void add_bindable(const Node& node, const Place& place) {
+    void add_bindable(const Node& node, const TraversalState& state) {
         if (node.type == "Viewpoint") {
-            (place.inlined ? inlined_viewpoints_ : scene_.viewpoints).push_back(viewpoint_of(node, place));
+            (state.inlined ? inlined_viewpoints_ : scene_.viewpoints).push_back(viewpoint_of(node, state));
             return;
         }
-        if (place.inlined || bound_.contains(node.type)) return;
-        if (node.type == "NavigationInfo") scene_.navigation = navigation_of(node, place);
-        if (node.type == "Fog" && node.number("visibilityRange") > 0) scene_.fog = fog_of(node, place);
+        if (state.inlined || bound_.contains(node.type)) return;
+        if (node.type == "NavigationInfo") scene_.navigation = navigation_of(node, state);
+        if (node.type == "Fog" && node.number("visibilityRange") > 0) scene_.fog = fog_of(node, state);
         if (node.type == "Background") {
             std::string fault;
-            scene_.background = background_of(node, place, folder(), images_, fault);
+            scene_.background = background_of(node, state, folder(), images_, fault);
             if (!fault.empty()) warn(node, fault + "; drawn without");
         }
         bound_.insert(node.type);
     }
 
-    void include(const Node& node, const Place& place) {
+    void include(const Node& node, const TraversalState& state) {
         if (open_files_.size() > kMaxInlines) return warn(node, "files include each other too deep; left out");
         const auto file = load_(node.field("url").texts, folder());
         if (!file) return warn(node, file.error().message + "; left out");
         for (const auto& open : open_files_) {
             if (open->path == (*file)->path) return warn(node, "the file includes itself; left out");
         }
-        Place inside = place;
+        TraversalState inside = state;
         inside.inlined = true;
         walk_file(*file, inside);
     }
@@ -201,7 +201,7 @@ private:
     std::vector<std::shared_ptr<const LoadedFile>> open_files_;
     std::map<const Node*, std::shared_ptr<const Mesh>> meshes_;
     double work_ = 0;
-    std::set<std::shared_ptr<const LoadedFile>> kept_files_;  // the keys of materials_ and meshes_ point into them
+    std::set<std::shared_ptr<const LoadedFile>> kept_files_;  // keep the keys of materials_ and meshes_ valid
     std::set<const LoadedFile*> warned_files_;
     std::set<std::string> warned_;
     std::set<std::string> bound_;
@@ -216,8 +216,8 @@ Status flatten(const std::shared_ptr<const LoadedFile>& file, const Loader& load
     Flattener flattener(load, scene);
     try {
         flattener.walk_file(file, {});
-    } catch (const TooMuch&) {
-        return Error{file->path.string() + ": USE, PROTO and Inline unfold to too much to be shown; use them less"};
+    } catch (const LimitExceeded&) {
+        return Error{file->path.string() + ": USE, PROTO and Inline expand to too many nodes; use them less"};
     }
     flattener.finish();
     return {};

@@ -41,15 +41,14 @@ namespace {
 
 constexpr std::string_view kHeader = "#VRML V2.0 utf8";
 
-// The names that a piece of text has defined so far. The body of a PROTO has names of its own, but knows the PROTOs
-// around it.
+// Names defined so far. PROTO bodies have their own node names, and see the PROTOs of enclosing scopes.
 struct Scope {
     struct Named {
         NodePointer node;
-        bool open = true;  // its body is not closed yet: a USE would make the graph a ring
+        bool open = true;  // still being parsed: a USE would create a cycle
     };
     const Scope* outer = nullptr;
-    const Prototype* inside = nullptr;  // whose body this is
+    const Prototype* inside = nullptr;  // PROTO of this body
     std::map<std::string, Named, std::less<>> nodes;
     std::map<std::string, const Prototype*, std::less<>> prototypes;
 
@@ -69,10 +68,10 @@ public:
         if (text.starts_with(kHeader) || text.starts_with("#X3D V3") || text.starts_with("#X3D V4")) return;
         const std::string_view start = text.substr(0, text.find_first_of("\r\n"));
         if (start.starts_with("#VRML V1") || start.starts_with("#Inventor") || start.starts_with("#X3D")) {
-            throw lexer_.wrong(1, "is " + shown({TokenKind::word, start, 1}) +
+            throw lexer_.error(1, "is " + quote({TokenKind::word, start, 1}) +
                                       ", not VRML97, VRML 1.0 ascii or X3D; convert it to VRML97");
         }
-        throw lexer_.wrong(1, "does not begin with '" + std::string(kHeader) + "'; is it VRML97?");
+        throw lexer_.error(1, "does not begin with '" + std::string(kHeader) + "'; is it VRML97?");
     }
 
     Graph read() {
@@ -89,7 +88,7 @@ public:
     }
 
 private:
-    // X3D's own statements: profile, component, meta.
+    // X3D statements: profile, component, meta.
     bool take_x3d_statement() {
         if (lexer_.take_word("PROFILE") || lexer_.take_word("COMPONENT")) {
             lexer_.expect(TokenKind::word, "a name");
@@ -107,13 +106,13 @@ private:
         return true;
     }
 
-    // Takes a statement that is no node: PROTO, EXTERNPROTO, ROUTE.
+    // Parses a statement that is not a node: PROTO, EXTERNPROTO, ROUTE.
     bool take_statement() {
         const int line = lexer_.peek().line;
         if (take_x3d_statement()) return true;
         if (lexer_.take_word("ROUTE")) {
             lexer_.expect(TokenKind::word, "NODE.event");
-            if (!lexer_.take_word("TO")) throw lexer_.wrong("TO should stand here, not " + shown(lexer_.peek()));
+            if (!lexer_.take_word("TO")) throw lexer_.error("expected TO, not " + quote(lexer_.peek()));
             lexer_.expect(TokenKind::word, "NODE.event");
             return true;
         }
@@ -126,7 +125,7 @@ private:
         skip_to_close(lexer_, lexer_.expect(TokenKind::open_list, "[").line);
         skip_value(lexer_);
         if (find_node(name.text) == nullptr)
-            builder_.warn(line, "EXTERNPROTO " + shown(name) + " is not fetched; left out");
+            builder_.warn(line, "EXTERNPROTO " + quote(name) + " is not fetched; left out");
         return true;
     }
 
@@ -134,7 +133,7 @@ private:
         return slot.empty() || slot == node.spec->slot;
     }
 
-    // A node, DEF, USE or NULL; null where nothing of it is to be drawn.
+    // Parses a node, DEF, USE or NULL; null if nothing is to be drawn.
     NodePointer take_node(const std::string& slot) {
         const Token first = lexer_.expect(TokenKind::word, "a node");
         if (first.text == "NULL") return nullptr;
@@ -149,32 +148,32 @@ private:
         const auto found = scope_->nodes.find(name.text);
         std::string fault;
         if (found == scope_->nodes.end()) {
-            fault = ": no node of this name was shown before";
+            fault = ": this name is not defined before";
         } else if (found->second.open) {
-            fault = " stands inside of that node itself";
+            fault = " is inside of that node itself";
         } else if (found->second.node && !fits(slot, *found->second.node)) {
             fault = ": is no " + slot + " node";
         } else {
             return found->second.node;
         }
-        builder_.warn(name.line, "USE " + shown(name) + fault + "; left out");
+        builder_.warn(name.line, "USE " + quote(name) + fault + "; left out");
         return nullptr;
     }
 
     NodePointer take_body(const Token& type, const std::string& name, const std::string& slot) {
-        const int opened = lexer_.expect(TokenKind::open_body, "{").line;
+        const int open_line = lexer_.expect(TokenKind::open_body, "{").line;
         if (is_behaviour(type.text)) {
-            skip_to_close(lexer_, opened);
+            skip_to_close(lexer_, open_line);
             return nullptr;
         }
-        const Level level(lexer_, nesting_, kMaxNesting, type.line);
+        const NestingGuard guard(lexer_, nesting_, kMaxNesting, type.line);
         std::string shown_type(type.text);
         const NodeSpec* spec = find_node(type.text);
         const Prototype* prototype = spec == nullptr ? scope_->find_prototype(type.text) : nullptr;
         const bool known = spec != nullptr || prototype != nullptr;
         if (!known) {
-            builder_.warn(type.line, shown(type) + " is no known node; " +
-                                         (slot == "child" ? "only its children are shown" : "left out"));
+            builder_.warn(type.line, quote(type) + " is an unknown node; " +
+                                         (slot == "child" ? "only its children are drawn" : "left out"));
             shown_type = "Group";
         }
         if (!name.empty()) scope_->nodes[name] = {};
@@ -183,34 +182,34 @@ private:
         node->name = name;
         node->line = type.line;
         NodePointer made =
-            prototype != nullptr ? take_instance(*prototype, node, opened) : take_fields(node, opened, known);
+            prototype != nullptr ? take_instance(*prototype, node, open_line) : take_fields(node, open_line, known);
         if (!name.empty()) scope_->nodes[name] = {made, false};
         if (!made || fits(slot, *made)) return made;
-        if (known) builder_.warn(type.line, shown(type) + " cannot stand as " + slot + "; left out");
+        if (known) builder_.warn(type.line, quote(type) + " is not allowed as " + slot + "; left out");
         return nullptr;
     }
 
-    // The name of the next field in a body, or of none at its end.
-    std::optional<Token> next_field(int opened) {
+    // Name of the next field in a body; nullopt at its end.
+    std::optional<Token> next_field(int open_line) {
         while (true) {
             if (lexer_.take_kind(TokenKind::close_body)) return std::nullopt;
-            if (lexer_.peek().kind == TokenKind::end) throw lexer_.wrong(opened, "the { is not closed; add a }");
+            if (lexer_.peek().kind == TokenKind::end) throw lexer_.error(open_line, "the { is not closed; add a }");
             if (!take_statement()) return lexer_.expect(TokenKind::word, "a field or }");
         }
     }
 
-    // The fields of `specs` up to the closing bracket. `ignores` decides whether others go without a warning.
+    // Parses fields of `specs` up to the closing bracket. `ignores` selects unknown fields that give no warning.
     template <class Ignores>
-    void take_given(const FieldSpecs& specs, int opened, Node& node, Pattern& pattern, const Ignores& ignores) {
-        while (const auto field = next_field(opened)) {
+    void take_given(const FieldSpecs& specs, int open_line, Node& node, Pattern& pattern, const Ignores& ignores) {
+        while (const auto field = next_field(open_line)) {
             auto found = specs.find(field->text);
-            // X3D has one name for what VRML97 calls by what it is for.
+            // X3D uses `children` for VRML97's level and choice.
             for (const char* older : {"level", "choice"}) {
                 if (found == specs.end() && field->text == "children") found = specs.find(older);
             }
             if (found == specs.end()) {
                 if (!ignores(*field)) {
-                    builder_.warn(field->line, node.type + " has no field " + shown(*field) + "; left out");
+                    builder_.warn(field->line, node.type + " has no field " + quote(*field) + "; left out");
                 }
                 skip_value(lexer_);
                 continue;
@@ -221,7 +220,7 @@ private:
             } else {
                 Value value = take_value(found->second, found->first);
                 Value& known = node.fields[found->first];
-                // X3D's XML has children one by one.
+                // X3D's XML lists children one by one.
                 if (!found->second.many || found->second.type != FieldType::kNode) known.nodes.clear();
                 value.nodes.insert(value.nodes.begin(), known.nodes.begin(), known.nodes.end());
                 known = std::move(value);
@@ -229,26 +228,26 @@ private:
         }
     }
 
-    NodePointer take_fields(const std::shared_ptr<Node>& node, int opened, bool known) {
+    NodePointer take_fields(const std::shared_ptr<Node>& node, int open_line, bool known) {
         node->spec = find_node(node->type);
         Pattern pattern;
-        take_given(node->spec->fields, opened, *node, pattern, [&](const Token&) {
+        take_given(node->spec->fields, open_line, *node, pattern, [&](const Token&) {
             return !known || (lexer_.peek().kind == TokenKind::word && lexer_.peek().text == "IS");
         });
-        return builder_.finished(node, std::move(pattern));
+        return builder_.finish_node(node, std::move(pattern));
     }
 
-    // Where the arguments depend on the PROTO around it, the instance is made with that one's.
-    NodePointer take_instance(const Prototype& prototype, const std::shared_ptr<Node>& node, int opened) {
+    // Instances whose arguments depend on the enclosing PROTO are created with that one's instances.
+    NodePointer take_instance(const Prototype& prototype, const std::shared_ptr<Node>& node, int open_line) {
         Pattern pattern;
-        take_given(prototype.fields, opened, *node, pattern,
+        take_given(prototype.fields, open_line, *node, pattern,
                    [&](const Token& field) { return prototype.events.contains(field.text); });
         if (!prototype.root) return nullptr;
-        if (pattern.is.empty() && !builder_.has_patterns(*node)) return builder_.instance(prototype, node->fields);
+        if (pattern.is.empty() && !builder_.has_patterns(*node)) return builder_.instantiate(prototype, node->fields);
         node->type = prototype.root->type;
         node->spec = prototype.root->spec;
         pattern.instance_of = &prototype;
-        return builder_.finished(node, std::move(pattern));
+        return builder_.finish_node(node, std::move(pattern));
     }
 
     Value take_value(const FieldSpec& spec, const std::string& name) {
@@ -269,7 +268,7 @@ private:
         while (!lexer_.take_kind(TokenKind::close_list)) {
             if (take_statement()) continue;
             if (lexer_.peek().kind == TokenKind::end) {
-                throw lexer_.wrong(line, "the list of " + name + " is not closed; add a ]");
+                throw lexer_.error(line, "the list of " + name + " is not closed; add a ]");
             }
             add();
         }
@@ -279,14 +278,14 @@ private:
     void take_is(const std::string& field, const FieldSpec& spec, int line, Pattern& pattern) {
         const Token name = lexer_.expect(TokenKind::word, "a name");
         const Prototype* prototype = scope_->inside;
-        if (prototype == nullptr) return builder_.warn(line, "IS stands outside of a PROTO; left out");
+        if (prototype == nullptr) return builder_.warn(line, "IS is outside of a PROTO; left out");
         if (prototype->events.contains(name.text)) return;
         const auto found = prototype->fields.find(name.text);
         if (found == prototype->fields.end()) {
-            return builder_.warn(line, "the PROTO has no field " + shown(name) + "; left out");
+            return builder_.warn(line, "the PROTO has no field " + quote(name) + "; left out");
         }
         if (!found->second.same_type(spec)) {
-            return builder_.warn(line, shown(name) + " is " + field_type_name(found->second) + " but should be " +
+            return builder_.warn(line, quote(name) + " is " + field_type_name(found->second) + " but should be " +
                                            field_type_name(spec) + "; left out");
         }
         pattern.is[field] = found->first;
@@ -294,7 +293,7 @@ private:
 
     void take_prototype(int line) {
         const Token name = lexer_.expect(TokenKind::word, "a name");
-        const Level level(lexer_, nesting_, kMaxNesting, line);
+        const NestingGuard guard(lexer_, nesting_, kMaxNesting, line);
         Prototype& made = prototypes_.emplace_back();
         Scope own{scope_, nullptr, {}, {}};
         Scope* const outer = std::exchange(scope_, &own);
@@ -302,43 +301,43 @@ private:
         own = {outer, &made, {}, {}};
         take_prototype_body(made, lexer_.expect(TokenKind::open_body, "{").line);
         scope_ = outer;
-        // Worlds may bring PROTO RaySpace for browsers that do not know the node.
+        // Worlds may define PROTO RaySpace for browsers without the node.
         if (find_node(name.text) != nullptr) return;
         if (!scope_->prototypes.emplace(std::string(name.text), &made).second) {
-            builder_.warn(line, "PROTO " + shown(name) + " is there already; the first one counts");
+            builder_.warn(line, "PROTO " + quote(name) + " is defined twice; the first one is used");
         }
     }
 
-    void take_interface(Prototype& prototype, int opened) {
+    void take_interface(Prototype& prototype, int open_line) {
         while (!lexer_.take_kind(TokenKind::close_list)) {
-            if (lexer_.peek().kind == TokenKind::end) throw lexer_.wrong(opened, "the [ is not closed; add a ]");
+            if (lexer_.peek().kind == TokenKind::end) throw lexer_.error(open_line, "the [ is not closed; add a ]");
             const Token kind = lexer_.expect(TokenKind::word, "field, exposedField, eventIn or eventOut");
             const bool is_event = kind.text == "eventIn" || kind.text == "eventOut" || kind.text == "inputOnly" ||
                                   kind.text == "outputOnly";
             if (!is_event && kind.text != "field" && kind.text != "exposedField" && kind.text != "initializeOnly" &&
                 kind.text != "inputOutput") {
-                throw lexer_.wrong(kind.line,
-                                   "field, exposedField, eventIn or eventOut should stand here, not " + shown(kind));
+                throw lexer_.error(kind.line, "expected field, exposedField, eventIn or eventOut, not " + quote(kind));
             }
             const Token type = lexer_.expect(TokenKind::word, "a type");
             const Token name = lexer_.expect(TokenKind::word, "a name");
             FieldSpec spec;
-            if (!parse_field_type(type.text, spec)) throw lexer_.wrong(type.line, shown(type) + " is no type");
+            if (!parse_field_type(type.text, spec))
+                throw lexer_.error(type.line, quote(type) + " is not a field type; correct it");
             if (is_event) {
                 prototype.events.emplace(name.text);
                 continue;
             }
             spec.initial = take_value(spec, std::string(name.text));
             if (!prototype.fields.emplace(std::string(name.text), std::move(spec)).second) {
-                throw lexer_.wrong(name.line, "the PROTO has two fields " + shown(name) + "; rename one");
+                throw lexer_.error(name.line, "the PROTO has two fields " + quote(name) + "; rename one");
             }
         }
     }
 
-    void take_prototype_body(Prototype& prototype, int opened) {
+    void take_prototype_body(Prototype& prototype, int open_line) {
         bool is_first = true;
         while (!lexer_.take_kind(TokenKind::close_body)) {
-            if (lexer_.peek().kind == TokenKind::end) throw lexer_.wrong(opened, "the { is not closed; add a }");
+            if (lexer_.peek().kind == TokenKind::end) throw lexer_.error(open_line, "the { is not closed; add a }");
             if (take_statement()) continue;
             const NodePointer node = take_node("");
             if (std::exchange(is_first, false)) prototype.root = node;

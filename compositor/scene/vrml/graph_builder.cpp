@@ -10,16 +10,16 @@ void GraphBuilder::warn(int line, const std::string& what) {
         ++more_warnings_;
         return;
     }
-    warnings_.push_back(lexer_.wrong(line, what).message);
+    warnings_.push_back(lexer_.error(line, what).message);
 }
 
 void GraphBuilder::check_extent(double visits, int height) const {
     if (height > kMaxHeight) {
-        throw lexer_.wrong("the nodes stand more than " + std::to_string(kMaxHeight) +
+        throw lexer_.error("the nodes nest more than " + std::to_string(kMaxHeight) +
                            " deep, PROTO and USE followed; flatten them");
     }
     if (visits > kMaxVisits || nodes_ > kMaxVisits || values_ > kMaxValues) {
-        throw lexer_.wrong("PROTO and USE unfold to too much to be shown; use them less");
+        throw lexer_.error("PROTO and USE expand to too many nodes; use them less");
     }
 }
 
@@ -39,7 +39,7 @@ bool GraphBuilder::has_patterns(const Node& node) const {
     });
 }
 
-NodePointer GraphBuilder::finished(const std::shared_ptr<Node>& node, Pattern pattern) {
+NodePointer GraphBuilder::finish_node(const std::shared_ptr<Node>& node, Pattern pattern) {
     for (const auto& [name, value] : node->fields) {
         for (const NodePointer& child : value.nodes) {
             node->height = std::max(node->height, child->height + 1);
@@ -55,8 +55,8 @@ NodePointer GraphBuilder::finished(const std::shared_ptr<Node>& node, Pattern pa
     return node;
 }
 
-// What one instance of a PROTO is made of.
-struct GraphBuilder::Copies {
+// State while a PROTO is instantiated.
+struct GraphBuilder::InstantiationState {
     const Prototype& prototype;
     const Fields& arguments;
     std::map<const Node*, NodePointer> made;
@@ -67,16 +67,16 @@ struct GraphBuilder::Copies {
     }
 };
 
-NodePointer GraphBuilder::instance(const Prototype& prototype, const Fields& arguments) {
-    Copies copies{prototype, arguments, {}};
-    return copied(prototype.root, copies);
+NodePointer GraphBuilder::instantiate(const Prototype& prototype, const Fields& arguments) {
+    InstantiationState copies{prototype, arguments, {}};
+    return copy_node(prototype.root, copies);
 }
 
-NodePointer GraphBuilder::copied(const NodePointer& from, Copies& copies) {
+NodePointer GraphBuilder::copy_node(const NodePointer& from, InstantiationState& copies) {
     const auto found = patterns_.find(from.get());
     if (found == patterns_.end()) return from;
     if (const auto known = copies.made.find(from.get()); known != copies.made.end()) return known->second;
-    const Level level(lexer_, unfolding_, kMaxHeight, from->line);
+    const NestingGuard guard(lexer_, unfolding_, kMaxHeight, from->line);
     const Pattern& pattern = found->second;
     auto node = std::make_shared<Node>();
     node->type = from->type;
@@ -88,7 +88,7 @@ NodePointer GraphBuilder::copied(const NodePointer& from, Copies& copies) {
         to.numbers = value.numbers;
         to.texts = value.texts;
         for (const NodePointer& child : value.nodes) {
-            if (NodePointer copy = copied(child, copies)) to.nodes.push_back(std::move(copy));
+            if (NodePointer copy = copy_node(child, copies)) to.nodes.push_back(std::move(copy));
         }
         count(to);
     }
@@ -99,12 +99,12 @@ NodePointer GraphBuilder::copied(const NodePointer& from, Copies& copies) {
         const std::string& slot = node->spec->fields.find(name)->second.slot;
         std::erase_if(to.nodes, [&](const NodePointer& child) {
             if (slot.empty() || slot == child->spec->slot) return false;
-            warn(node->line, node->type + ": " + child->type + " cannot stand as " + slot + "; left out");
+            warn(node->line, node->type + ": " + child->type + " is not allowed as " + slot + "; left out");
             return true;
         });
     }
     NodePointer made =
-        pattern.instance_of != nullptr ? instance(*pattern.instance_of, node->fields) : finished(node, {});
+        pattern.instance_of != nullptr ? instantiate(*pattern.instance_of, node->fields) : finish_node(node, {});
     copies.made[from.get()] = made;
     return made;
 }

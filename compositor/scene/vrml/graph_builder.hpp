@@ -1,5 +1,5 @@
 #pragma once
-// Finished nodes, counted, and those that a PROTO's instances are made of. Private to the VRML reader; not thread-safe.
+// Builds completed nodes, counts them, and instantiates PROTOs. Private to the VRML reader; not thread-safe.
 
 #include "compositor/scene/vrml/graph.hpp"
 #include "compositor/scene/vrml/lexer.hpp"
@@ -15,31 +15,31 @@ namespace rs::compositor::vrml {
 using Fields = std::map<std::string, Value, std::less<>>;
 
 struct Prototype {
-    NodePointer root;  // only the first node of a body is drawn; null where that is nothing
+    NodePointer root;  // only the first node of a body is drawn; may be null
     FieldSpecs fields;
-    std::set<std::string, std::less<>> events;  // eventIn, eventOut: nothing comes through them
+    std::set<std::string, std::less<>> events;  // eventIn, eventOut: ignored
 };
 
-// A node in the body of a PROTO that is not the same in all of its instances.
+/// Node in the body of a PROTO that depends on the instance's fields.
 struct Pattern {
     NodePointer node;
-    std::map<std::string, std::string> is;   // its fields -> those of the PROTO around it
-    const Prototype* instance_of = nullptr;  // then the node's fields are arguments for this one
+    std::map<std::string, std::string> is;   // its fields -> fields of the enclosing PROTO
+    const Prototype* instance_of = nullptr;  // for an instance: the node's fields are its arguments
 };
 
-// How deep the text, or the PROTOs that it unfolds, have been entered.
-class Level {
+/// Guards the nesting depth of the text or of PROTO expansion.
+class NestingGuard {
 public:
-    Level(const Lexer& lexer, int& depth, int limit, int line) : depth_(depth) {
+    NestingGuard(const Lexer& lexer, int& depth, int limit, int line) : depth_(depth) {
         if (depth >= limit) {
-            throw lexer.wrong(line,
+            throw lexer.error(line,
                               "nodes nest more than " + std::to_string(limit) + " deep, PROTO followed; flatten them");
         }
         ++depth_;
     }
-    Level(const Level&) = delete;
-    Level& operator=(const Level&) = delete;
-    ~Level() { --depth_; }
+    NestingGuard(const NestingGuard&) = delete;
+    NestingGuard& operator=(const NestingGuard&) = delete;
+    ~NestingGuard() { --depth_; }
 
 private:
     int& depth_;
@@ -47,18 +47,19 @@ private:
 
 class GraphBuilder {
 public:
-    // `lexer` gives the line of an error, and must outlive the builder.
+    /// \param lexer locates errors; must outlive the builder.
     explicit GraphBuilder(const Lexer& lexer) : lexer_(lexer) {}
 
-    // The node with all of its fields. Within a PROTO, `pattern` has those that depend on the PROTO's. Throws
-    // MalformedVrml where the graph goes beyond its limits (graph.hpp), as do the others.
-    NodePointer finished(const std::shared_ptr<Node>& node, Pattern pattern);
-    // Null where nothing is to be drawn.
-    NodePointer instance(const Prototype& prototype, const Fields& arguments);
-    // Whether a node in its fields depends on the PROTO around it.
+    /// Registers a node with all of its fields.
+    /// \param pattern within a PROTO: fields that depend on the PROTO's.
+    /// Throws MalformedVrml if limits (graph.hpp) are exceeded, as the other functions do.
+    NodePointer finish_node(const std::shared_ptr<Node>& node, Pattern pattern);
+    /// Instantiates a PROTO; null if nothing is to be drawn.
+    NodePointer instantiate(const Prototype& prototype, const Fields& arguments);
+    /// True if a node in its fields depends on the enclosing PROTO.
     [[nodiscard]] bool has_patterns(const Node& node) const;
 
-    // Counts what stands in the text.
+    /// Counts a value of the text against the limits.
     void count(const Value& value);
     void check_extent(double visits, int height) const;
 
@@ -66,8 +67,8 @@ public:
     std::vector<std::string> take_warnings();
 
 private:
-    struct Copies;
-    NodePointer copied(const NodePointer& from, Copies& copies);
+    struct InstantiationState;
+    NodePointer copy_node(const NodePointer& from, InstantiationState& copies);
 
     const Lexer& lexer_;
     std::map<const Node*, Pattern> patterns_;

@@ -25,7 +25,7 @@ bool begins_number(std::string_view word) {
 
 }  // namespace
 
-MalformedVrml Lexer::wrong(int line, const std::string& what) const {
+MalformedVrml Lexer::error(int line, const std::string& what) const {
     return {file_ + ": line " + std::to_string(line) + ": " + what};
 }
 
@@ -48,10 +48,10 @@ void Lexer::read_text() {
     const int first_line = line_;
     const std::size_t begin = ++position_;
     for (;; ++position_) {
-        if (position_ >= text_.size()) throw wrong(first_line, "the text that begins here has no end; add a \"");
+        if (position_ >= text_.size()) throw error(first_line, "the string that begins here is not closed; add a \"");
         const char c = text_[position_];
         if (c == '"') break;
-        if (c == '\0') throw wrong(line_, "a zero character in a text; remove it");
+        if (c == '\0') throw error(line_, "a zero character in a text; remove it");
         if (c == '\\') ++position_;
         if (position_ < text_.size() && text_[position_] == '\n') ++line_;
     }
@@ -105,19 +105,19 @@ bool Lexer::take_kind(TokenKind kind) {
 }
 
 Token Lexer::expect(TokenKind kind, const char* what) {
-    if (next_.kind != kind) throw wrong(std::string(what) + " should stand here, not " + shown(next_));
+    if (next_.kind != kind) throw error("expected " + std::string(what) + ", not " + quote(next_));
     return take();
 }
 
-std::string shown(const Token& token) {
+std::string quote(const Token& token) {
     if (token.kind == TokenKind::end) return "the end of the file";
-    constexpr std::size_t kMost = 40;
+    constexpr std::size_t kMaxQuoted = 40;
     std::string result = "'";
-    for (const char c : token.text.substr(0, kMost)) result += c >= ' ' && c < '\x7f' ? c : '?';
-    return result + (token.text.size() > kMost ? "...'" : "'");
+    for (const char c : token.text.substr(0, kMaxQuoted)) result += c >= ' ' && c < '\x7f' ? c : '?';
+    return result + (token.text.size() > kMaxQuoted ? "...'" : "'");
 }
 
-std::string unescaped(std::string_view text) {
+std::string unescape(std::string_view text) {
     std::string result;
     result.reserve(text.size());
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -149,7 +149,7 @@ bool parse_float(std::string_view text, float& value) {
     double number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (end != text.data() + text.size()) return false;
-    // What is too small for a double is 0.
+    // Numbers too small for a double are 0.
     if (error == std::errc::result_out_of_range && std::abs(number) < 1) number = 0;
     value = static_cast<float>(number);
     return std::isfinite(value) && (error == std::errc{} || number == 0);

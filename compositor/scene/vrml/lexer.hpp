@@ -1,6 +1,6 @@
 #pragma once
-// The tokens of VRML97 text (ISO/IEC 14772-1, annex A), with their lines. Private to the VRML reader; errors travel as
-// the exception MalformedVrml up to its one catch.
+// Tokens of VRML97 text (ISO/IEC 14772-1, annex A) with their lines. Private to the VRML reader. Errors are thrown as
+// MalformedVrml and caught in one place.
 
 #include <string>
 #include <string_view>
@@ -15,28 +15,29 @@ enum class TokenKind { word, number, text, open_list, close_list, open_body, clo
 
 struct Token {
     TokenKind kind = TokenKind::end;
-    std::string_view text;  // into the file's text; of a `text` without its quotes, escapes kept
+    std::string_view text;  // points into the file's text; strings without quotes, escapes kept
     int line = 1;
 };
 
-// Commas are white space and # begins a comment. A word is anything else that is no number: keywords, names, and
-// "NODE.event".
+/// Commas are white space, # begins a comment. Words are all tokens other than numbers, strings and brackets: keywords,
+/// names, "NODE.event".
 class Lexer {
 public:
-    // `text` must outlive the lexer and its tokens.
+    /// \param text must outlive the lexer and its tokens.
     Lexer(std::string_view text, std::string file) : text_(text), file_(std::move(file)) { advance(); }
 
     [[nodiscard]] const Token& peek() const { return next_; }
     Token take();
-    // Takes the next token if it is this word, or of this kind.
+    /// Consumes the next token if it is this word or of this kind.
     bool take_word(std::string_view word);
     bool take_kind(TokenKind kind);
-    // Takes a token that must be of this kind; `what` names it in the error.
+    /// Consumes a token of the given kind, or throws.
+    /// \param what name of the token in the error.
     Token expect(TokenKind kind, const char* what);
 
-    [[nodiscard]] MalformedVrml wrong(int line, const std::string& what) const;
-    // Wrong at the next token.
-    [[nodiscard]] MalformedVrml wrong(const std::string& what) const { return wrong(next_.line, what); }
+    [[nodiscard]] MalformedVrml error(int line, const std::string& what) const;
+    /// Error at the next token.
+    [[nodiscard]] MalformedVrml error(const std::string& what) const { return error(next_.line, what); }
     [[nodiscard]] const std::string& file() const { return file_; }
 
 private:
@@ -51,15 +52,15 @@ private:
     Token next_;
 };
 
-// A token as it may be quoted in a message: short, printable.
-std::string shown(const Token& token);
+/// Token for messages: quoted, shortened, printable.
+std::string quote(const Token& token);
 
-// The characters that a `text` stands for.
-std::string unescaped(std::string_view text);
+/// Characters of a string token without escapes.
+std::string unescape(std::string_view text);
 
-// False where the text is no whole number (decimal or 0x...) that fits. Hexadecimal ones may use all 32 bits.
+/// \return false unless the text is an integer (decimal or 0x...) in range. Hexadecimal numbers may use all 32 bits.
 bool parse_integer(std::string_view text, long& value);
-// False where it is no number, or not finite as a 32-bit float.
+/// \return false unless the text is a number that is finite as a 32-bit float.
 bool parse_float(std::string_view text, float& value);
 
 }  // namespace rs::compositor::vrml

@@ -11,7 +11,7 @@
 namespace rs::compositor::vrml {
 namespace {
 
-// Type, group, then fields: name, type, and the value of a node without it; for nodes the group they must be of.
+// Type, group, then per field: name, type, default value; for node fields the required group.
 constexpr const char* kNodes[] = {
     "Group child children MFNode child bboxCenter SFVec3f 0 0 0 bboxSize SFVec3f -1 -1 -1",
     "Transform child children MFNode child center SFVec3f 0 0 0 rotation SFRotation 0 0 1 0 scale SFVec3f 1 1 1 "
@@ -86,7 +86,7 @@ constexpr const char* kNodes[] = {
     "WorldInfo child info MFString [ ] title SFString \"\"",
 };
 
-// X3D's sets of faces differ in one field, which states which points make a face.
+// X3D's face sets differ in one field, which groups points into faces.
 constexpr const char* kFaceSets[] = {
     "IndexedTriangleSet index",      "TriangleSet",
     "IndexedTriangleFanSet index",   "TriangleFanSet fanCount",
@@ -97,7 +97,7 @@ constexpr const char* kFaceSetFields =
     "geometry color SFNode color coord SFNode coord normal SFNode normal texCoord SFNode texCoord ccw SFBool TRUE "
     "colorPerVertex SFBool TRUE normalPerVertex SFBool TRUE solid SFBool TRUE";
 
-// The first name is the one that messages use; the others are X3D's.
+// The first name of a type is used in messages; the others are X3D's.
 constexpr std::array<std::pair<const char*, FieldType>, 16> kTypes = {{
     {"Bool", FieldType::kBool},
     {"Int32", FieldType::kInt32},
@@ -117,7 +117,7 @@ constexpr std::array<std::pair<const char*, FieldType>, 16> kTypes = {{
     {"Vec4f", FieldType::kRotation},
 }};
 
-std::map<std::string, NodeSpec, std::less<>> parsed_table() {
+std::map<std::string, NodeSpec, std::less<>> parse_table() {
     std::map<std::string, NodeSpec, std::less<>> table;
     std::vector<std::string> rows(std::begin(kNodes), std::end(kNodes));
     for (const std::string set : kFaceSets) {
@@ -146,7 +146,7 @@ std::map<std::string, NodeSpec, std::less<>> parsed_table() {
 }  // namespace
 
 const NodeSpec* find_node(std::string_view type) {
-    static const std::map<std::string, NodeSpec, std::less<>> kTable = parsed_table();
+    static const std::map<std::string, NodeSpec, std::less<>> kTable = parse_table();
     const auto found = kTable.find(type);
     return found == kTable.end() ? nullptr : &found->second;
 }
@@ -199,7 +199,7 @@ bool parse_field_type(std::string_view name, FieldSpec& spec) {
     if (found == kTypes.end()) return false;
     spec.type = found->second;
     spec.many = name[0] == 'M';
-    // These have no other form in VRML97.
+    // VRML97 has no MFBool and MFImage.
     return !(spec.many && (spec.type == FieldType::kBool || spec.type == FieldType::kImage));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// The nodes and fields of VRML97 that are read, and those of ray space. Pure; thread-safe.
+// Supported nodes and fields of VRML97, and those of ray space. Pure; thread-safe.
 
 #include <map>
 #include <memory>
@@ -12,12 +12,12 @@ namespace rs::compositor::vrml {
 struct Node;
 using NodePointer = std::shared_ptr<const Node>;
 
-// The value of a field; one of the lists is used. A vector, colour or rotation takes as many numbers as it has parts,
-// TRUE and FALSE are 1 and 0, an image is its width, height and components and then a number for each pixel.
+/// Field value in one of the lists. Vectors, colours and rotations take one number per component, TRUE and FALSE are 1
+/// and 0, an image is width, height, components, then one number per pixel.
 struct Value {
     std::vector<double> numbers;
     std::vector<std::string> texts;
-    std::vector<NodePointer> nodes;  // none of them null
+    std::vector<NodePointer> nodes;  // not null
 };
 
 enum class FieldType {
@@ -37,24 +37,24 @@ enum class FieldType {
 struct FieldSpec {
     FieldType type = FieldType::kFloat;
     bool many = false;  // MF...
-    std::string slot;   // of node fields: the group of nodes that may stand here; empty: any
-    Value initial;      // where a node does not give it
+    std::string slot;   // node fields: required group of nodes; empty: any
+    Value initial;      // default value
 
     [[nodiscard]] bool same_type(const FieldSpec& other) const { return type == other.type && many == other.many; }
 };
 using FieldSpecs = std::map<std::string, FieldSpec, std::less<>>;
 
 struct NodeSpec {
-    std::string slot;  // the group that this node belongs to
+    std::string slot;  // group of this node
     FieldSpecs fields;
 };
 
-// Null where the node is not known. Nodes that only matter when time passes (sensors, interpolators, scripts, sound)
-// are not here but in is_behaviour().
+/// Null for unknown nodes. Nodes without effect in static scenes (sensors, interpolators, scripts, sound) are only in
+/// is_behaviour().
 const NodeSpec* find_node(std::string_view type);
 bool is_behaviour(std::string_view type);
 
-// Of a name such as "MFVec3f"; false where there is none.
+/// Parses a type name such as "MFVec3f"; false if there is none.
 bool parse_field_type(std::string_view name, FieldSpec& spec);
 std::string field_type_name(const FieldSpec& spec);
 

@@ -8,16 +8,15 @@ namespace rs::compositor::vrml {
 namespace {
 
 constexpr double kMaxGridPoints = 1 << 20;
-constexpr std::size_t kMaxCorners = 4096;      // of one face, or of an extrusion's section
-constexpr std::size_t kMaxText_bytes = 20000;  // of one Text
+constexpr std::size_t kMaxCorners = 4096;      // of one face, or of an extrusion's cross-section
+constexpr std::size_t kMaxText_bytes = 20000;  // per Text
 
-// Measured, in units of 10 ns: a corner; two corners of a face that may be concave; two faces at a point where normals
-// are smoothed; a point of a grid and of an
-// extrusion; a byte of text.
+// Measured costs in units of 10 ns: per corner; per pair of corners of a possibly concave face; per pair of faces at a
+// point with smoothed normals; per grid and extrusion point; per byte of text.
 constexpr double kCornerWork = 100;
 constexpr double kConcaveWork = 0.7;
 constexpr double kSmoothWork = 1;
-constexpr double kGridWork = 4000;  // a point
+constexpr double kGridWork = 4000;
 constexpr double kExtrusionWork = 8000;
 constexpr double kTextWork = 8500;
 
@@ -25,10 +24,10 @@ std::size_t count_in(const NodePointer& node, std::string_view field, std::size_
     return node ? node->field(field).numbers.size() / numbers_each : 0;
 }
 
-// Follows a list of indices face by face.
-class ListFitter {
+// Processes index lists face by face.
+class ListValidator {
 public:
-    ListFitter(const Node& shape, std::size_t least_corners)
+    ListValidator(const Node& shape, std::size_t least_corners)
         : shape_(shape), indices_(shape.field("coordIndex").numbers), least_(least_corners) {}
 
     ShapeCheck fit() {
@@ -66,7 +65,7 @@ public:
     }
 
 private:
-    // Concave faces cost as the square of their corners, smoothing as the square of the faces that meet at a point.
+    // Cost is quadratic in the corners of concave faces, and in the number of faces at a smoothed point.
     [[nodiscard]] double face_work(std::size_t points) const {
         double work = kCornerWork * static_cast<double>(indices_.size());
         for (const Face& face : faces_) {
@@ -87,7 +86,7 @@ private:
     };
     [[nodiscard]] bool drawn(const Face& face) const { return face.end - face.begin >= least_; }
 
-    // One entry for each corner of the faces that are drawn, -1 after each face.
+    // One entry per corner of the drawn faces, -1 after each face.
     template <class EntryAt>
     std::vector<std::int32_t> spread(const EntryAt& entry_at) const {
         std::vector<std::int32_t> list;
@@ -147,7 +146,7 @@ ShapeCheck check_grid(const Node& grid) {
     }
     if (columns * rows > kMaxGridPoints || !all_above_0(grid, {"xSpacing", "zSpacing"}) ||
         static_cast<double>(grid.field("height").numbers.size()) < columns * rows) {
-        check.fault = "the grid has less heights than points, too many points or no spacing";
+        check.fault = "the grid has fewer heights than points, too many points, or no spacing";
         return check;
     }
     const auto require = [&](const char* field, const char* list, std::size_t numbers, bool per_vertex) {
@@ -162,7 +161,7 @@ ShapeCheck check_grid(const Node& grid) {
     return check;
 }
 
-// The sum of the squares of how often each point of a list occurs.
+// Sum over distinct points of the squared number of occurrences.
 double repetitions(const std::vector<double>& numbers, std::size_t numbers_each) {
     std::map<std::vector<double>, double> times;
     for (std::size_t i = 0; i + numbers_each <= numbers.size(); i += numbers_each) {
@@ -189,7 +188,7 @@ ShapeCheck check_extrusion(const Node& extrusion) {
     }
     const auto corners = static_cast<double>(section);
     check.work = kExtrusionWork * corners * static_cast<double>(spine) + 2 * kConcaveWork * corners * corners;
-    // Where points fall together all of their faces meet.
+    // All faces of coincident points meet there.
     const std::vector<double>& scale = extrusion.field("scale").numbers;
     const bool collapses = std::find(scale.begin(), scale.end(), 0.0) != scale.end();
     check.work += 36 * kSmoothWork * repetitions(extrusion.field("spine").numbers, 3) *
@@ -219,8 +218,8 @@ ShapeCheck check_shape(const Node& geometry) {
     const auto require_above_0 = [&](std::initializer_list<const char*> fields) {
         if (!all_above_0(geometry, fields)) check.fault = "its sizes must be above 0";
     };
-    if (type == "IndexedFaceSet") return ListFitter(geometry, 3).fit();
-    if (type == "IndexedLineSet") return ListFitter(geometry, 2).fit();
+    if (type == "IndexedFaceSet") return ListValidator(geometry, 3).fit();
+    if (type == "IndexedLineSet") return ListValidator(geometry, 2).fit();
     if (type == "ElevationGrid") return check_grid(geometry);
     if (type == "Extrusion") return check_extrusion(geometry);
     if (type == "Text") return check_text(geometry);

@@ -1,6 +1,6 @@
 #pragma once
-// The lists of a geometry node, made to fit each other before Coin, which trusts them, cuts the shape into triangles:
-// every index in range, every corner or face with its own colour, normal and texture coordinate. Pure; thread-safe.
+// Validates and completes the lists of a geometry node before triangulation by Coin, which does not check them: every
+// index in range, colours, normals and texture coordinates for every corner or face. Pure; thread-safe.
 
 #include "compositor/scene/vrml/graph.hpp"
 
@@ -10,20 +10,21 @@
 
 namespace rs::compositor::vrml {
 
-// Of an IndexedFaceSet or IndexedLineSet. Faces of less than 3 corners and lines of less than 2 points are gone.
+/// Lists of an IndexedFaceSet or IndexedLineSet. Faces of less than 3 corners and lines of less than 2 points are
+/// removed.
 struct IndexedLists {
     std::vector<std::int32_t> coord;  // each face ends with -1
-    // As `coord`, or one entry for each face; empty where the node gives none that fits.
+    /// Same layout as `coord`, or one entry per face; empty if the node has no matching list.
     std::vector<std::int32_t> color;
     std::vector<std::int32_t> normal;
     std::vector<std::int32_t> texture;
 };
 
 struct ShapeCheck {
-    std::string fault;                  // not empty where the shape cannot be drawn: why
-    std::vector<std::string> unusable;  // fields (color, normal, texCoord) that do not fit; drawn without them
-    double work = 0;                    // an estimate of what cutting it costs, about 10 ns each
-    bool empty = false;                 // nothing is to be drawn, and that is no fault
+    std::string fault;                  // reason if the shape cannot be drawn; else empty
+    std::vector<std::string> unusable;  // fields (color, normal, texCoord) with mismatching sizes, which are ignored
+    double work = 0;                    // estimated cost of triangulation in units of about 10 ns
+    bool empty = false;                 // valid, but nothing is to be drawn
     IndexedLists lists;
 };
 ShapeCheck check_shape(const Node& geometry);

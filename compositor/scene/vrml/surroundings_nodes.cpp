@@ -9,9 +9,9 @@
 namespace rs::compositor::vrml {
 namespace {
 
-constexpr std::size_t kMaxColours = 16;  // of sky or ground
+constexpr std::size_t kMaxColours = 16;  // per gradient
 
-// Colours with the angles between them, as many as fit together.
+// Colours and angles, as many as match.
 void take_gradient(const Node& node, const char* colour_field, const char* angle_field, std::vector<glm::vec3>& colours,
                    std::vector<double>& angles_rad) {
     const std::vector<double>& numbers = node.field(colour_field).numbers;
@@ -30,13 +30,13 @@ void take_gradient(const Node& node, const char* colour_field, const char* angle
 
 }  // namespace
 
-Light light_of(const Node& node, const Place& place) {
+Light light_of(const Node& node, const TraversalState& state) {
     Light light;
     const glm::vec3 colour = linear_colour(node.triple("color"));
     light.colour = colour * static_cast<float>(std::clamp(node.number("intensity"), 0.0, 1.0));
     light.ambient = colour * static_cast<float>(std::clamp(node.number("ambientIntensity"), 0.0, 1.0));
     if (node.type != "PointLight") {
-        const glm::dvec3 towards = glm::dmat3(place.world_from_node) * node.triple("direction");
+        const glm::dvec3 towards = glm::dmat3(state.world_from_node) * node.triple("direction");
         if (glm::length(towards) > 0) light.towards = glm::normalize(towards);
     }
     if (node.type == "DirectionalLight") {
@@ -44,8 +44,8 @@ Light light_of(const Node& node, const Place& place) {
         return light;
     }
     light.kind = node.type == "PointLight" ? LightKind::kPoint : LightKind::kSpot;
-    light.location = place.point(node.triple("location"));
-    const double scale = place.scale();
+    light.location = state.point(node.triple("location"));
+    const double scale = state.scale();
     light.radius = std::max(node.number("radius"), 0.0) * scale;
     const glm::dvec3 attenuation = glm::max(node.triple("attenuation"), glm::dvec3(0));
     light.attenuation = glm::vec3(attenuation / glm::dvec3(1, scale, scale * scale));
@@ -56,18 +56,18 @@ Light light_of(const Node& node, const Place& place) {
     return light;
 }
 
-Viewpoint viewpoint_of(const Node& node, const Place& place) {
+Viewpoint viewpoint_of(const Node& node, const TraversalState& state) {
     Viewpoint viewpoint;
     viewpoint.description = node.text("description");
-    viewpoint.world_from_camera = glm::dmat4(place.rotation()) * rotation_matrix(node.quadruple("orientation"));
-    viewpoint.world_from_camera[3] = glm::dvec4(place.point(node.triple("position")), 1);
+    viewpoint.world_from_camera = glm::dmat4(state.rotation()) * rotation_matrix(node.quadruple("orientation"));
+    viewpoint.world_from_camera[3] = glm::dvec4(state.point(node.triple("position")), 1);
     viewpoint.field_of_view_rad = std::clamp(node.number("fieldOfView"), radians(1), radians(170));
     return viewpoint;
 }
 
-Navigation navigation_of(const Node& node, const Place& place) {
+Navigation navigation_of(const Node& node, const TraversalState& state) {
     Navigation navigation;
-    const double scale = place.scale();
+    const double scale = state.scale();
     navigation.headlight = node.flag("headlight");
     if (!node.field("type").texts.empty()) navigation.types = node.field("type").texts;
     navigation.speed = std::max(node.number("speed"), 0.0) * scale;
@@ -80,21 +80,21 @@ Navigation navigation_of(const Node& node, const Place& place) {
     return navigation;
 }
 
-Fog fog_of(const Node& node, const Place& place) {
+Fog fog_of(const Node& node, const TraversalState& state) {
     Fog fog;
     fog.kind = node.text("fogType") == "EXPONENTIAL" ? FogKind::kExponential : FogKind::kLinear;
     fog.colour = linear_colour(node.triple("color"));
-    fog.visibility = std::max(node.number("visibilityRange"), 0.0) * place.scale();
+    fog.visibility = std::max(node.number("visibilityRange"), 0.0) * state.scale();
     return fog;
 }
 
-Background background_of(const Node& node, const Place& place, const std::filesystem::path& folder, SceneImages& images,
-                         std::string& fault) {
+Background background_of(const Node& node, const TraversalState& state, const std::filesystem::path& folder,
+                         SceneImages& images, std::string& fault) {
     Background background;
     background.sky = {glm::vec3(0)};
     take_gradient(node, "skyColor", "skyAngle", background.sky, background.sky_angles_rad);
     take_gradient(node, "groundColor", "groundAngle", background.ground, background.ground_angles_rad);
-    background.world_from_background = place.rotation();
+    background.world_from_background = state.rotation();
     constexpr const char* kFields[] = {"frontUrl", "backUrl", "leftUrl", "rightUrl", "topUrl", "bottomUrl"};
     for (std::size_t i = 0; i < background.images.size(); ++i) {
         const std::vector<std::string>& urls = node.field(kFields[i]).texts;

@@ -1,21 +1,21 @@
 #pragma once
-// VRML97's lights, viewpoints, navigation, fog and background nodes. Private to the VRML reader.
+// Conversion of VRML97's lights, viewpoints, navigation, fog and background nodes. Private to the VRML reader.
 
 #include "compositor/scene/scene_images.hpp"
 #include "compositor/scene/surroundings.hpp"
-#include "compositor/scene/vrml/place.hpp"
+#include "compositor/scene/vrml/traversal_state.hpp"
 
 #include <filesystem>
 #include <string>
 
 namespace rs::compositor::vrml {
 
-Light light_of(const Node& node, const Place& place);
-Viewpoint viewpoint_of(const Node& node, const Place& place);
-Navigation navigation_of(const Node& node, const Place& place);
-Fog fog_of(const Node& node, const Place& place);
-// `fault` states why an image is left out; empty where none is.
-Background background_of(const Node& node, const Place& place, const std::filesystem::path& folder, SceneImages& images,
-                         std::string& fault);
+Light light_of(const Node& node, const TraversalState& state);
+Viewpoint viewpoint_of(const Node& node, const TraversalState& state);
+Navigation navigation_of(const Node& node, const TraversalState& state);
+Fog fog_of(const Node& node, const TraversalState& state);
+/// \param fault reason why an image is omitted; empty if none is.
+Background background_of(const Node& node, const TraversalState& state, const std::filesystem::path& folder,
+                         SceneImages& images, std::string& fault);
 
 }  // namespace rs::compositor::vrml

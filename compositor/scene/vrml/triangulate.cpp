@@ -24,7 +24,7 @@
 namespace rs::compositor::vrml {
 namespace {
 
-// Coin's state is one for the whole process: it is started once and used by one thread at a time.
+// Coin has global state: it is initialised once and used by one thread at a time.
 std::unique_lock<std::mutex> coin_session() {
     static std::mutex lock;
     static const bool started = [] {
@@ -49,10 +49,10 @@ private:
     SoSeparator* node_;
 };
 
-// Coin's measure of how finely spheres, cylinders and cones are cut, 0..1.
+// Coin's tessellation quality of spheres, cylinders and cones, 0..1.
 constexpr float kRoundness = 0.8F;
 
-// Collects what Coin cuts a shape into. Corners that agree in everything become one vertex.
+// Collects Coin's primitives. Corners with equal attributes become one vertex.
 class MeshCollector {
 public:
     explicit MeshCollector(bool clockwise) : clockwise_(clockwise) {}
@@ -85,7 +85,7 @@ private:
     void add(Topology topology, SoCallbackAction* action, std::initializer_list<const SoPrimitiveVertex*> corners) {
         mesh_.topology = topology;
         for (const SoPrimitiveVertex* corner : corners) mesh_.indices.push_back(vertex_of(*corner, *action));
-        // VRML's ccw FALSE: the other side is the front.
+        // VRML's ccw FALSE: front and back are swapped.
         if (clockwise_ && topology == Topology::kTriangles) std::swap(mesh_.indices.end()[-1], mesh_.indices.end()[-2]);
     }
 
@@ -133,7 +133,7 @@ Field* as(SoField& field) {
     return field.getTypeId() == Field::getClassTypeId() ? static_cast<Field*>(&field) : nullptr;
 }
 
-// Sets what a geometry node can have, nodes excepted.
+// Sets fields of a geometry node other than node fields.
 void set_field(SoField& field, const Value& value) {
     // Some lists are not empty by default.
     if (auto* list = dynamic_cast<SoMField*>(&field)) list->setNum(0);
@@ -167,7 +167,7 @@ void set_field(SoField& field, const Value& value) {
 
 class CoinShape {
 public:
-    CoinShape(const Node& geometry, const ShapeCheck& check) : check_(check), node_(fresh(geometry)) {
+    CoinShape(const Node& geometry, const ShapeCheck& check) : check_(check), node_(new_coin_node(geometry)) {
         const IndexedLists& lists = check.lists;
         if (geometry.type != "IndexedFaceSet" && geometry.type != "IndexedLineSet") return;
         set_list("coordIndex", lists.coord);
@@ -179,7 +179,7 @@ public:
     [[nodiscard]] SoNode* get() const { return node_; }
 
 private:
-    SoNode* fresh(const Node& from) const {
+    SoNode* new_coin_node(const Node& from) const {
         auto* node = static_cast<SoNode*>(SoType::fromName(("VRML" + from.type).c_str()).createInstance());
         for (const auto& [name, spec] : from.spec->fields) {
             SoField* field = node->getField(name.c_str());
@@ -191,7 +191,7 @@ private:
                 set_field(*field, value);
                 continue;
             }
-            if (!value.nodes.empty()) static_cast<SoSFNode*>(field)->setValue(fresh(*value.nodes.front()));
+            if (!value.nodes.empty()) static_cast<SoSFNode*>(field)->setValue(new_coin_node(*value.nodes.front()));
         }
         return node;
     }
@@ -206,18 +206,18 @@ private:
     SoNode* node_;
 };
 
-// Whether only the front of the shape is to be seen.
+// True if only the front is visible.
 bool is_solid(const Node& node) {
     if (node.has("solid") && !node.flag("solid")) return false;
-    // Cones and cylinders are closed where nothing is taken off.
+    // Cones and cylinders are closed unless parts are removed.
     for (const char* part : {"side", "bottom", "top"}) {
         if (node.has(part) && !node.flag(part)) return false;
     }
     return node.type != "Text";
 }
 
-// Texture coordinates for faces without: s along the longest side of the box around them, t along the second, both in
-// the scale of the longest (ISO/IEC 14772-1, 6.23). Of equal sides X goes before Y before Z, where Coin takes Y first.
+// Default texture coordinates of face sets: s along the longest side of the bounding box, t along the second longest,
+// both scaled by the longest (ISO/IEC 14772-1, 6.23). For equal sides X precedes Y precedes Z, while Coin prefers Y.
 void map_by_box(Mesh& mesh) {
     const BoundingBox box = bounds_of(mesh);
     const glm::dvec3 size = box.highest - box.lowest;
@@ -240,7 +240,7 @@ std::shared_ptr<const Mesh> triangulate(const Node& geometry, const ShapeCheck& 
     auto* complexity = new SoComplexity;
     complexity->value = kRoundness;
     root->addChild(complexity);
-    // Coin leaves texture coordinates out where no image needs them.
+    // Coin omits texture coordinates without a texture.
     auto* image = new SoTexture2;
     constexpr unsigned char kTexel[] = {255};
     image->image.setValue(SbVec2s(1, 1), 1, kTexel);

@@ -1,5 +1,5 @@
 #pragma once
-// Geometry nodes -> triangles, lines, points. Private to the VRML reader.
+// Triangulation of geometry nodes into meshes. Private to the VRML reader.
 
 #include "compositor/scene/mesh.hpp"
 #include "compositor/scene/vrml/shape_lists.hpp"
@@ -8,8 +8,9 @@
 
 namespace rs::compositor::vrml {
 
-// The shape must have passed check_shape() without a fault. Null where there is nothing to draw. Thread-safe:
-// Coin works for one call at a time, others wait. Its source is the only one that knows Coin.
+/// \param check result of check_shape() without fault.
+/// \return null if there is nothing to draw.
+/// Thread-safe; calls are serialised, since Coin has global state. Coin is used in this source file only.
 std::shared_ptr<const Mesh> triangulate(const Node& geometry, const ShapeCheck& check);
 
 }  // namespace rs::compositor::vrml

@@ -24,8 +24,8 @@ Value value_of(Indices numbers) {
     return value;
 }
 
-// The colours of a geometry without their opacity; null where they have none.
-NodePointer plain_colours(const Node& geometry) {
+// Colours without alpha; null if there are none.
+NodePointer opaque_colours(const Node& geometry) {
     const NodePointer colours = geometry.has("color") ? geometry.node("color") : nullptr;
     if (!colours || colours->type != "ColorRGBA") return nullptr;
     auto plain = new_node("Color", colours->line);
@@ -36,7 +36,7 @@ NodePointer plain_colours(const Node& geometry) {
     return plain;
 }
 
-// 0, 1, ... for each point.
+// 0, 1, ... per point.
 Indices all_points(const Node& geometry) {
     const NodePointer points = geometry.node("coord");
     Indices indices(points ? points->field("point").numbers.size() / 3 : 0);
@@ -44,8 +44,8 @@ Indices all_points(const Node& geometry) {
     return indices;
 }
 
-// Runs of as many points as the list gives, one behind the other, -1 behind each.
-Indices runs(const Indices& points, const Indices& counts) {
+// Consecutive runs of the given lengths, each followed by -1.
+Indices make_runs(const Indices& points, const Indices& counts) {
     Indices made;
     std::size_t next = 0;
     for (const double count : counts) {
@@ -58,7 +58,7 @@ Indices runs(const Indices& points, const Indices& counts) {
     return made;
 }
 
-// Each `corners` indices are a face.
+// Faces of `corners` consecutive indices.
 Indices faces_of(const Indices& list, std::size_t corners) {
     Indices faces;
     for (std::size_t i = 0; i + corners <= list.size(); i += corners) {
@@ -76,7 +76,7 @@ Indices triangles_of(const Indices& list, bool fans) {
         std::size_t end = begin;
         while (end < list.size() && list[end] >= 0) ++end;
         for (std::size_t i = begin; i + 2 < end; ++i) {
-            // Every other triangle of a strip turns the other way.
+            // Every other triangle of a strip has the opposite orientation.
             const bool odd = (i - begin) % 2 != 0;
             const double a = fans ? list[begin] : list[odd ? i + 1 : i];
             const double b = fans ? list[i + 1] : list[odd ? i : i + 1];
@@ -95,7 +95,7 @@ Indices face_list(const Node& geometry) {
     if (type.ends_with("TriangleSet")) return faces_of(points, 3);
     const bool fans = type.ends_with("FanSet");
     if (indexed) return triangles_of(points, fans);
-    return triangles_of(runs(points, geometry.field(fans ? "fanCount" : "stripCount").numbers), fans);
+    return triangles_of(make_runs(points, geometry.field(fans ? "fanCount" : "stripCount").numbers), fans);
 }
 
 NodePointer rectangle(const Node& geometry) {
@@ -115,9 +115,9 @@ NodePointer rectangle(const Node& geometry) {
 
 }  // namespace
 
-NodePointer as_vrml97(const Node& geometry) {
+NodePointer to_vrml97(const Node& geometry) {
     if (geometry.type == "Rectangle2D") return rectangle(geometry);
-    const NodePointer colours = plain_colours(geometry);
+    const NodePointer colours = opaque_colours(geometry);
     const bool is_line_set = geometry.type == "LineSet";
     const bool is_faces = geometry.type.ends_with("TriangleSet") || geometry.type.ends_with("FanSet") ||
                           geometry.type.ends_with("StripSet") || geometry.type.ends_with("QuadSet");
@@ -126,12 +126,12 @@ NodePointer as_vrml97(const Node& geometry) {
     if (is_line_set) {
         made->type = "IndexedLineSet";
         made->fields.erase("vertexCount");
-        made->fields["coordIndex"] = value_of(runs(all_points(geometry), geometry.field("vertexCount").numbers));
+        made->fields["coordIndex"] = value_of(make_runs(all_points(geometry), geometry.field("vertexCount").numbers));
     } else if (is_faces) {
         made->type = "IndexedFaceSet";
         for (const char* field : {"index", "fanCount", "stripCount"}) made->fields.erase(field);
         made->fields["coordIndex"] = value_of(face_list(geometry));
-        // Corners that share a point share a normal; those of separate triangles share none.
+        // Shared points share a normal; separate triangles share none.
         const bool smooth =
             geometry.flag("normalPerVertex") && geometry.type != "TriangleSet" && geometry.type != "QuadSet";
         made->fields["creaseAngle"] = value_of({smooth ? kPi : 0});

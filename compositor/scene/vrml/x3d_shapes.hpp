@@ -1,12 +1,13 @@
 #pragma once
-// Shapes that X3D has beside those of VRML97, as those. Pure; private to the readers of VRML and X3D.
+// Conversion of X3D's additional shapes to those of VRML97. Pure; private to the VRML and X3D readers.
 
 #include "compositor/scene/vrml/graph.hpp"
 
 namespace rs::compositor::vrml {
 
-// Sets of triangles, strips, fans and quads, rectangles: an IndexedFaceSet. Line sets: an IndexedLineSet. Colours with
-// opacity: without. Null where the node is one of VRML97 already. The node must outlive nothing: lists are copied.
-NodePointer as_vrml97(const Node& geometry);
+/// Triangle sets, strips, fans, quads and rectangles become an IndexedFaceSet, line sets an IndexedLineSet; the alpha
+/// of colours is dropped.
+/// \return null if the node is a VRML97 one already; otherwise a copy.
+NodePointer to_vrml97(const Node& geometry);
 
 }  // namespace rs::compositor::vrml

@@ -16,16 +16,16 @@ using vrml::Fields;
 using vrml::MalformedVrml;
 using vrml::NodePointer;
 
-constexpr std::size_t kMostPlaced = 100'000;  // shapes, lights and cameras: as many as a scene draws at most
-constexpr double kFarRadius = 1e9;            // of lights, which shine as far as they like
+constexpr std::size_t kMaxPlacedNodes = 100'000;  // number of shapes, lights and cameras: the limit of a scene's draws
+constexpr double kUnlimitedRadius = 1e9;          // of lights with unlimited range
 
 vrml::Value triple_of(const glm::dvec3& v) {
     return numbers({v.x, v.y, v.z});
 }
 
-class GraphMaker {
+class GraphConverter {
 public:
-    GraphMaker(std::string_view text, const std::string& file) : lexer_(text, file) {}
+    GraphConverter(std::string_view text, const std::string& file) : lexer_(text, file) {}
 
     vrml::Graph make() {
         const std::vector<TreePointer> roots =
@@ -46,7 +46,7 @@ public:
 private:
     void emit(NodePointer node) { scopes_.back().push_back(std::move(node)); }
 
-    // A directional light shines on what comes behind it, until the separator around it ends: on its own group.
+    // A directional light applies to the nodes after it up to the end of its separator, which form a group.
     void open_scope(NodePointer light) {
         scopes_.emplace_back();
         emit(std::move(light));
@@ -56,14 +56,13 @@ private:
             std::vector<NodePointer> children = std::move(scopes_.back());
             scopes_.pop_back();
             const int line = children.front()->line;
-            emit(made_node(builder_, "Group", line, {{"children", nodes(std::move(children))}}));
+            emit(make_node(builder_, "Group", line, {{"children", nodes(std::move(children))}}));
         }
     }
 
     void walk(const TreePointer& node, State& state) {
-        if (++visits_ > vrml::kMaxVisits)
-            throw lexer_.wrong(node->line, "USE unfolds to too much to be shown; use it less");
-        const vrml::Level level(lexer_, depth_, vrml::kMaxHeight, node->line);
+        if (++visits_ > vrml::kMaxVisits) throw lexer_.error(node->line, "USE expands to too many nodes; use it less");
+        const vrml::NestingGuard guard(lexer_, depth_, vrml::kMaxHeight, node->line);
         if (state.take(node)) return;
         if (const auto matrix = matrix_of(*node)) {
             state.matrix = state.matrix * *matrix;
@@ -79,10 +78,10 @@ private:
             for (const TreePointer& child : node->children) walk(child, state);
             state.matrix = matrix;
         } else if (type == "LOD") {
-            if (!node->children.empty()) walk_apart({node->children.front()}, state);
+            if (!node->children.empty()) walk_separator({node->children.front()}, state);
         } else if (type == "WWWInline") {
             if (node->text("name").empty()) return;
-            place(*node, state, {made_node(builder_, "Inline", node->line, {{"url", words(node->text("name"))}})});
+            place(*node, state, {make_node(builder_, "Inline", node->line, {{"url", words(node->text("name"))}})});
         } else if (type == "Info") {
             walk_info(*node);
         } else if (type.ends_with("Camera")) {
@@ -90,13 +89,13 @@ private:
         } else if (type.ends_with("Light")) {
             add_light(*node, state);
         } else if (!node->children.empty()) {
-            walk_apart(node->children, state);  // Separator, WWWAnchor, and what is not known
+            walk_separator(node->children, state);  // Separator, WWWAnchor, and unknown nodes
         } else if (std::vector<NodePointer> shapes = shapes_.shapes_of(node, state); !shapes.empty()) {
             place(*node, state, std::move(shapes));
         }
     }
 
-    void walk_apart(const std::vector<TreePointer>& children, const State& state) {
+    void walk_separator(const std::vector<TreePointer>& children, const State& state) {
         State own = state;
         const std::size_t scopes = scopes_.size();
         for (const TreePointer& child : children) walk(child, own);
@@ -114,23 +113,23 @@ private:
         }
     }
 
-    // What has its place in the state's coordinates.
+    // Emits nodes in the coordinates of the state.
     void place(const Tree& node, const State& state, std::vector<NodePointer> children) {
         placed_ += children.size();
-        if (placed_ > kMostPlaced) throw lexer_.wrong(node.line, "USE unfolds to too much to be shown; use it less");
+        if (placed_ > kMaxPlacedNodes) throw lexer_.error(node.line, "USE expands to too many nodes; use it less");
         if (state.matrix == glm::dmat4(1.0)) {
             for (NodePointer& child : children) emit(std::move(child));
             return;
         }
         const std::optional<Placement> at = placement_of(state.matrix);
-        if (!at) return builder_.warn(node.line, node.type + ": stands below a scale of 0; left out");
+        if (!at) return builder_.warn(node.line, node.type + ": is below a scale of 0; left out");
         const auto quadruple = [](const glm::dvec4& v) { return numbers({v.x, v.y, v.z, v.w}); };
         Fields fields{{"translation", triple_of(at->translation)},
                       {"rotation", quadruple(at->rotation)},
                       {"scale", triple_of(at->scale)},
                       {"scaleOrientation", quadruple(at->scale_orientation)},
                       {"children", nodes(std::move(children))}};
-        emit(made_node(builder_, "Transform", node.line, std::move(fields)));
+        emit(make_node(builder_, "Transform", node.line, std::move(fields)));
     }
 
     void walk_info(const Tree& node) {
@@ -140,7 +139,7 @@ private:
         glm::dvec3 colour(0);
         if (!(text >> colour.r >> colour.g >> colour.b)) return;
         backgrounds_ = {
-            made_node(builder_, "Background", node.line, {{"skyColor", triple_of(glm::clamp(colour, 0.0, 1.0))}})};
+            make_node(builder_, "Background", node.line, {{"skyColor", triple_of(glm::clamp(colour, 0.0, 1.0))}})};
     }
 
     void add_camera(const Tree& node, const State& state) {
@@ -150,7 +149,7 @@ private:
             flat ? 2 * std::atan(node.number("height") / 2 / std::max(node.number("focalDistance"), 1e-6))
                  : node.number("heightAngle");
         place(node, state,
-              {made_node(builder_, "Viewpoint", node.line,
+              {make_node(builder_, "Viewpoint", node.line,
                          {{"position", node.field("position")},
                           {"orientation", node.field("orientation")},
                           {"fieldOfView", numbers({angle})},
@@ -164,27 +163,27 @@ private:
             const glm::dvec3 towards = glm::dmat3(state.matrix) * node.triple("direction");
             if (!(glm::length(towards) > 0) || !std::isfinite(glm::length(towards))) return;
             fields["direction"] = triple_of(glm::normalize(towards));
-            return open_scope(made_node(builder_, "DirectionalLight", node.line, std::move(fields)));
+            return open_scope(make_node(builder_, "DirectionalLight", node.line, std::move(fields)));
         }
         fields["location"] = node.field("location");
-        fields["radius"] = numbers({kFarRadius});
+        fields["radius"] = numbers({kUnlimitedRadius});
         if (node.type == "SpotLight") {
             const double cut_off = std::clamp(node.number("cutOffAngle"), 0.0, kPi / 2);
             const double drop_off = std::clamp(node.number("dropOffRate"), 0.0, 1.0);
-            // Inventor's cosine to the power of 128 times the rate: as bright as half where VRML97 begins to drop.
+            // Inventor's falloff is cos^(128 * rate): VRML97's beam width is set where it reaches one half.
             const double half = drop_off > 0 ? std::acos(std::pow(0.5, 1 / (128 * drop_off))) : cut_off;
             fields["direction"] = node.field("direction");
             fields["cutOffAngle"] = numbers({cut_off});
             fields["beamWidth"] = numbers({std::min(half, cut_off)});
         }
-        place(node, state, {made_node(builder_, node.type.c_str(), node.line, std::move(fields))});
+        place(node, state, {make_node(builder_, node.type.c_str(), node.line, std::move(fields))});
     }
 
     Lexer lexer_;
     vrml::GraphBuilder builder_{lexer_};
-    ShapeMaker shapes_{builder_};
-    std::vector<std::vector<NodePointer>> scopes_;  // what is made, by the directional light that shines on it
-    std::vector<NodePointer> backgrounds_;          // one, or none
+    ShapeBuilder shapes_{builder_};
+    std::vector<std::vector<NodePointer>> scopes_;  // results by the directional light that applies to them
+    std::vector<NodePointer> backgrounds_;          // at most one
     double visits_ = 0;
     std::size_t placed_ = 0;
     int depth_ = 0;
@@ -194,7 +193,7 @@ private:
 
 Result<vrml::Graph> read_graph(std::string_view text, const std::string& file) {
     try {
-        return GraphMaker(text, file).make();
+        return GraphConverter(text, file).make();
     } catch (const MalformedVrml& malformed) {
         return Error{malformed.message};
     }

@@ -1,6 +1,6 @@
 #include "compositor/scene/vrml1/placement.hpp"
 
-#include "compositor/scene/vrml/place.hpp"
+#include "compositor/scene/vrml/traversal_state.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -34,11 +34,11 @@ glm::dvec4 axis_and_angle(const glm::dmat3& rotation) {
     return {axis / sine, 2 * std::atan2(sine, q.w)};
 }
 
-// The rotation next to a matrix that has an inverse and no mirror: Newton's iteration.
+// Nearest rotation to an invertible matrix without mirroring: Newton's iteration.
 glm::dmat3 nearest_rotation(glm::dmat3 m) {
     for (int i = 0; i < 100; ++i) {
         const glm::dmat3 back = glm::transpose(glm::inverse(m));
-        // Scaled by the ratio of sizes, a few steps are enough whatever the matrix is.
+        // Scaling by the ratio of sizes makes it converge in a few steps.
         const double size = std::sqrt(std::cbrt(std::abs(glm::determinant(back) / glm::determinant(m))));
         const glm::dmat3 next = 0.5 * (size * m + back / size);
         double change = 0;
@@ -49,7 +49,7 @@ glm::dmat3 nearest_rotation(glm::dmat3 m) {
     return m;
 }
 
-// Axes of a symmetric matrix: Jacobi's rotations. `m` becomes diagonal.
+// Axes of a symmetric matrix by Jacobi rotations; `m` becomes diagonal.
 glm::dmat3 principal_axes(glm::dmat3& m) {
     glm::dmat3 axes(1.0);
     for (int sweep = 0; sweep < 30; ++sweep) {
@@ -74,7 +74,7 @@ std::optional<glm::dmat4> matrix_of(const Tree& node) {
     if (node.type == "Rotation") return turned(node, "rotation");
     if (node.type == "Scale") return scaled(node.triple("scaleFactor"));
     if (node.type == "MatrixTransform") {
-        // Its points are rows: row by row the text has what for columns stands column by column.
+        // VRML 1.0 transforms row vectors, so its rows are our columns.
         const std::vector<double>& n = node.field("matrix").numbers;
         glm::dmat4 m(1.0);
         for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = n.at(static_cast<std::size_t>(i));

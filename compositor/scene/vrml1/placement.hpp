@@ -1,5 +1,5 @@
 #pragma once
-// Transformations of VRML 1.0 as matrices, and matrices as the fields of VRML97's Transform. Pure; thread-safe.
+// VRML 1.0 transformations as matrices, and matrices as the fields of VRML97's Transform. Pure; thread-safe.
 
 #include "compositor/scene/vrml1/tree.hpp"
 
@@ -9,7 +9,7 @@
 
 namespace rs::compositor::vrml1 {
 
-// Of a Transform, Translation, Rotation, Scale or MatrixTransform; nothing for other nodes.
+/// Matrix of a Transform, Translation, Rotation, Scale or MatrixTransform; nullopt for other nodes.
 std::optional<glm::dmat4> matrix_of(const Tree& node);
 
 // matrix = translation * rotation * (scaleOrientation * scale * scaleOrientation^-1), rotations as axis and angle.
@@ -19,7 +19,7 @@ struct Placement {
     glm::dvec3 scale{1};
     glm::dvec4 scale_orientation{0, 0, 1, 0};
 };
-// Nothing where the matrix has no inverse.
+/// \return nullopt if the matrix is singular.
 std::optional<Placement> placement_of(const glm::dmat4& matrix);
 
 }  // namespace rs::compositor::vrml1

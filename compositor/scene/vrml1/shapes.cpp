@@ -1,4 +1,4 @@
-// Shapes of VRML 1.0 in their state: geometry. What they look like: looks.cpp.
+// Geometry of VRML 1.0 shapes in their state; materials are in appearances.cpp.
 
 #include "compositor/scene/vrml1/state.hpp"
 
@@ -22,24 +22,24 @@ std::string binding_of(const TreePointer& node) {
     return node ? node->text("value") : std::string("DEFAULT");
 }
 
-// -1 alone in a field for indices means that they are not given.
+// An index field that contains only -1 is not given.
 bool is_given(const std::vector<double>& indices) {
     return !indices.empty() && !(indices.size() == 1 && indices.front() == -1);
 }
 
-double hint_is(const TreePointer& hints, const char* field, const char* word) {
+double has_hint(const TreePointer& hints, const char* field, const char* word) {
     return hints && hints->text(field) == word ? 1 : 0;
 }
 
-// How many faces or lines the indices have, those without corners counted as the reader of VRML97 does.
+// Number of faces or lines, including those without corners, as the VRML97 reader counts them.
 std::size_t count_faces(const std::vector<double>& indices) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < indices.size(); ++i) count += indices[i] < 0 || i + 1 == indices.size() ? 1 : 0;
     return count;
 }
 
-// 0, 1, 2, ... for each corner, -1 where a face ends: for lists with one value for each corner in turn.
-std::vector<double> in_turn(const std::vector<double>& indices, std::size_t available) {
+// 0, 1, 2, ... per corner, -1 at the end of each face: for lists with one value per corner.
+std::vector<double> corner_indices(const std::vector<double>& indices, std::size_t available) {
     std::vector<double> made;
     std::size_t next = 0;
     for (const double index : indices) {
@@ -48,7 +48,7 @@ std::vector<double> in_turn(const std::vector<double>& indices, std::size_t avai
     return made;
 }
 
-std::vector<double> face_by_face(const std::vector<double>& indices, std::size_t available) {
+std::vector<double> face_indices(const std::vector<double>& indices, std::size_t available) {
     std::vector<double> made;
     for (std::size_t i = 0; i < count_faces(indices); ++i) {
         made.push_back(static_cast<double>(i % std::max<std::size_t>(available, 1)));
@@ -56,13 +56,13 @@ std::vector<double> face_by_face(const std::vector<double>& indices, std::size_t
     return made;
 }
 
-// The corners of a box with its faces, for boxes with a material a face: front, back, left, right, top, bottom.
+// Box corners by face, for boxes with one material per face: front, back, left, right, top, bottom.
 constexpr std::array<std::array<int, 4>, 6> kCubeFaces{
     {{0, 1, 3, 2}, {5, 4, 6, 7}, {4, 0, 2, 6}, {1, 5, 7, 3}, {2, 3, 7, 6}, {4, 5, 1, 0}}};
 
 }  // namespace
 
-ShapeMaker::Colours ShapeMaker::colours_of(const State& state) {
+ShapeBuilder::Colours ShapeBuilder::colours_of(const State& state) {
     const std::string binding = binding_of(state.material_binding);
     if (!state.material || binding == "DEFAULT" || binding == "OVERALL") return {};
     for (const char* field : {"diffuseColor", "emissiveColor"}) {
@@ -71,7 +71,7 @@ ShapeMaker::Colours ShapeMaker::colours_of(const State& state) {
     return {};
 }
 
-std::vector<NodePointer> ShapeMaker::shapes_of(const TreePointer& node, const State& state) {
+std::vector<NodePointer> ShapeBuilder::shapes_of(const TreePointer& node, const State& state) {
     const std::string& type = node->type;
     const Colours colours = colours_of(state);
     const auto one = [&](NodePointer geometry, bool lines, bool coloured) -> std::vector<NodePointer> {
@@ -82,26 +82,26 @@ std::vector<NodePointer> ShapeMaker::shapes_of(const TreePointer& node, const St
     if (type == "IndexedLineSet") return one(lines_of(node, state, colours), true, colours.field != nullptr);
     if (type == "PointSet") return one(points_of(node, state), true, false);
     if (type == "AsciiText") return one(text_of(node, state), false, false);
-    if (type == "Sphere" || type == "Cone" || type == "Cylinder" || type == "Cube") return parted_shapes(node, state);
+    if (type == "Sphere" || type == "Cone" || type == "Cylinder" || type == "Cube") return split_shapes(node, state);
     return {};
 }
 
-NodePointer ShapeMaker::shape(const Tree& node, NodePointer appearance, NodePointer geometry) {
+NodePointer ShapeBuilder::shape(const Tree& node, NodePointer appearance, NodePointer geometry) {
     Fields fields{{"geometry", nodes({std::move(geometry)})}};
     if (appearance) fields["appearance"] = nodes({std::move(appearance)});
-    return made_node(builder_, "Shape", node.line, std::move(fields), node.name);
+    return make_node(builder_, "Shape", node.line, std::move(fields), node.name);
 }
 
-NodePointer ShapeMaker::list_node(const TreePointer& from, const char* type, const char* field,
-                                  const char* from_field) {
+NodePointer ShapeBuilder::list_node(const TreePointer& from, const char* type, const char* field,
+                                    const char* from_field) {
     if (!from || from->field(from_field).numbers.empty()) return nullptr;
     NodePointer& known = lists_[{from, std::string(type) + from_field}];
-    if (!known) known = made_node(builder_, type, from->line, {{field, from->field(from_field)}});
+    if (!known) known = make_node(builder_, type, from->line, {{field, from->field(from_field)}});
     return known;
 }
 
-// Solids of several parts, each of which may have a material of its own. Both sides are seen: one may be inside.
-std::vector<NodePointer> ShapeMaker::parted_shapes(const TreePointer& node, const State& state) {
+// Solids with parts that may have a material each; two-sided, since they may be open.
+std::vector<NodePointer> ShapeBuilder::split_shapes(const TreePointer& node, const State& state) {
     const std::string& type = node->type;
     const std::string binding = binding_of(state.material_binding);
     const bool by_part = binding.starts_with("PER_PART") || binding.starts_with("PER_FACE");
@@ -110,7 +110,7 @@ std::vector<NodePointer> ShapeMaker::parted_shapes(const TreePointer& node, cons
     const auto cut = [&](const char* name, Fields fields, std::size_t material) {
         fields["solid"] = numbers({0});
         NodePointer geometry = apart ? nullptr : geometries_[{node}];
-        if (!geometry) geometry = made_node(builder_, name, node->line, std::move(fields));
+        if (!geometry) geometry = make_node(builder_, name, node->line, std::move(fields));
         if (!apart) geometries_[{node}] = geometry;
         return shape(*node, appearance_of(state, false, material, false), std::move(geometry));
     };
@@ -125,7 +125,7 @@ std::vector<NodePointer> ShapeMaker::parted_shapes(const TreePointer& node, cons
                                 (corner & 4) != 0 ? -0.5 : 0.5);
             for (int axis = 0; axis < 3; ++axis) points.push_back(at[axis] * size[axis]);
         }
-        const NodePointer coordinates = made_node(builder_, "Coordinate", node->line, {{"point", numbers(points)}});
+        const NodePointer coordinates = make_node(builder_, "Coordinate", node->line, {{"point", numbers(points)}});
         for (std::size_t face = 0; face < kCubeFaces.size(); ++face) {
             const auto& c = kCubeFaces[face];
             Fields fields{{"coord", nodes({coordinates})},
@@ -157,7 +157,7 @@ std::vector<NodePointer> ShapeMaker::parted_shapes(const TreePointer& node, cons
     return parts;
 }
 
-void ShapeMaker::add_colours(Fields& fields, const Tree& shape, const State& state, const Colours& colours) {
+void ShapeBuilder::add_colours(Fields& fields, const Tree& shape, const State& state, const Colours& colours) {
     if (colours.field == nullptr) return;
     const std::vector<double>& indices = shape.field("coordIndex").numbers;
     const std::vector<double>& given = shape.field("materialIndex").numbers;
@@ -170,11 +170,12 @@ void ShapeMaker::add_colours(Fields& fields, const Tree& shape, const State& sta
     if (indexed && is_given(given)) {
         fields["colorIndex"] = numbers(given);
     } else if (!indexed || !by_corner) {
-        fields["colorIndex"] = numbers(by_corner ? in_turn(indices, available) : face_by_face(indices, available));
+        fields["colorIndex"] =
+            numbers(by_corner ? corner_indices(indices, available) : face_indices(indices, available));
     }
 }
 
-void ShapeMaker::add_normals(Fields& fields, const Tree& shape, const State& state) {
+void ShapeBuilder::add_normals(Fields& fields, const Tree& shape, const State& state) {
     const NodePointer normals = list_node(state.normals, "Normal", "vector", "vector");
     if (!normals) return;
     const std::string binding = binding_of(state.normal_binding);
@@ -188,28 +189,28 @@ void ShapeMaker::add_normals(Fields& fields, const Tree& shape, const State& sta
     } else if (binding.starts_with("PER_FACE") || binding.starts_with("PER_PART")) {
         const bool indexed = binding.ends_with("_INDEXED") && is_given(given);
         fields["normalPerVertex"] = numbers({0});
-        fields["normalIndex"] = numbers(indexed ? given : face_by_face(indices, available));
+        fields["normalIndex"] = numbers(indexed ? given : face_indices(indices, available));
     } else if (binding == "PER_VERTEX") {
-        fields["normalIndex"] = numbers(in_turn(indices, available));
+        fields["normalIndex"] = numbers(corner_indices(indices, available));
     } else if (is_given(given)) {
         fields["normalIndex"] = numbers(given);
     }
 }
 
-NodePointer ShapeMaker::faces_of(const TreePointer& node, const State& state, const Colours& colours) {
+NodePointer ShapeBuilder::faces_of(const TreePointer& node, const State& state, const Colours& colours) {
     NodePointer& known = geometries_[{node, state.coordinates, state.normals, state.normal_binding,
                                       state.texture_coordinates, state.hints, state.texture,
                                       colours.field != nullptr ? state.material : nullptr, state.material_binding}];
     if (known) return known;
     const NodePointer coordinates = list_node(state.coordinates, "Coordinate", "point", "point");
     if (!coordinates) return nullptr;
-    const bool ordered = hint_is(state.hints, "vertexOrdering", "COUNTERCLOCKWISE") != 0 ||
-                         hint_is(state.hints, "vertexOrdering", "CLOCKWISE") != 0;
+    const bool ordered = has_hint(state.hints, "vertexOrdering", "COUNTERCLOCKWISE") != 0 ||
+                         has_hint(state.hints, "vertexOrdering", "CLOCKWISE") != 0;
     Fields fields{{"coord", nodes({coordinates})},
                   {"coordIndex", node->field("coordIndex")},
-                  {"solid", numbers({ordered ? hint_is(state.hints, "shapeType", "SOLID") : 0.0})},
-                  {"ccw", numbers({1 - hint_is(state.hints, "vertexOrdering", "CLOCKWISE")})},
-                  {"convex", numbers({1 - hint_is(state.hints, "faceType", "UNKNOWN_FACE_TYPE")})},
+                  {"solid", numbers({ordered ? has_hint(state.hints, "shapeType", "SOLID") : 0.0})},
+                  {"ccw", numbers({1 - has_hint(state.hints, "vertexOrdering", "CLOCKWISE")})},
+                  {"convex", numbers({1 - has_hint(state.hints, "faceType", "UNKNOWN_FACE_TYPE")})},
                   {"creaseAngle", numbers({state.hints ? state.hints->number("creaseAngle") : 0.5})}};
     add_colours(fields, *node, state, colours);
     add_normals(fields, *node, state);
@@ -220,11 +221,11 @@ NodePointer ShapeMaker::faces_of(const TreePointer& node, const State& state, co
             if (is_given(given)) fields["texCoordIndex"] = numbers(given);
         }
     }
-    known = made_node(builder_, "IndexedFaceSet", node->line, std::move(fields));
+    known = make_node(builder_, "IndexedFaceSet", node->line, std::move(fields));
     return known;
 }
 
-NodePointer ShapeMaker::lines_of(const TreePointer& node, const State& state, const Colours& colours) {
+NodePointer ShapeBuilder::lines_of(const TreePointer& node, const State& state, const Colours& colours) {
     const TreePointer material = colours.field != nullptr ? state.material : nullptr;
     NodePointer& known = geometries_[{node, state.coordinates, material, state.material_binding}];
     if (known) return known;
@@ -232,11 +233,11 @@ NodePointer ShapeMaker::lines_of(const TreePointer& node, const State& state, co
     if (!coordinates) return nullptr;
     Fields fields{{"coord", nodes({coordinates})}, {"coordIndex", node->field("coordIndex")}};
     add_colours(fields, *node, state, colours);
-    known = made_node(builder_, "IndexedLineSet", node->line, std::move(fields));
+    known = make_node(builder_, "IndexedLineSet", node->line, std::move(fields));
     return known;
 }
 
-NodePointer ShapeMaker::points_of(const TreePointer& node, const State& state) {
+NodePointer ShapeBuilder::points_of(const TreePointer& node, const State& state) {
     if (!state.coordinates) return nullptr;
     const std::vector<double>& all = state.coordinates->field("point").numbers;
     const std::size_t places = all.size() / 3;
@@ -245,16 +246,16 @@ NodePointer ShapeMaker::points_of(const TreePointer& node, const State& state) {
     const double given = node->number("numPoints");
     const double count = given < 0 ? total - begin : std::min(given, total - begin);
     const auto first = all.begin() + static_cast<std::ptrdiff_t>(3 * begin);
-    const NodePointer points = made_node(builder_, "Coordinate", node->line,
+    const NodePointer points = make_node(builder_, "Coordinate", node->line,
                                          {{"point", numbers({first, first + static_cast<std::ptrdiff_t>(3 * count)})}});
-    return made_node(builder_, "PointSet", node->line, {{"coord", nodes({points})}});
+    return make_node(builder_, "PointSet", node->line, {{"coord", nodes({points})}});
 }
 
-NodePointer ShapeMaker::text_of(const TreePointer& node, const State& state) {
+NodePointer ShapeBuilder::text_of(const TreePointer& node, const State& state) {
     NodePointer& known = geometries_[{node, state.font}];
     if (known) return known;
-    static const Tree kUsualFont{.type = "FontStyle", .kind = find_kind("FontStyle")};
-    const Tree& font = state.font ? *state.font : kUsualFont;
+    static const Tree kDefaultFont{.type = "FontStyle", .kind = find_kind("FontStyle")};
+    const Tree& font = state.font ? *state.font : kDefaultFont;
     const std::string& family = font.text("family");
     const std::string style =
         std::string(font.has_part("style", "BOLD") ? "BOLD" : "") + (font.has_part("style", "ITALIC") ? "ITALIC" : "");
@@ -266,11 +267,11 @@ NodePointer ShapeMaker::text_of(const TreePointer& node, const State& state) {
                        {"justify", words(justification == "CENTER"  ? "MIDDLE"
                                          : justification == "RIGHT" ? "END"
                                                                     : "BEGIN")}};
-    const NodePointer font_style = made_node(builder_, "FontStyle", node->line, std::move(font_fields));
+    const NodePointer font_style = make_node(builder_, "FontStyle", node->line, std::move(font_fields));
     Fields fields{{"string", node->field("string")}, {"fontStyle", nodes({font_style})}};
     std::vector<double> widths = node->field("width").numbers;
     if (std::any_of(widths.begin(), widths.end(), [](double w) { return w > 0; })) fields["length"] = numbers(widths);
-    known = made_node(builder_, "Text", node->line, std::move(fields));
+    known = make_node(builder_, "Text", node->line, std::move(fields));
     return known;
 }
 

@@ -25,7 +25,7 @@ bool State::take(const TreePointer& node) {
     return false;
 }
 
-vrml::NodePointer made_node(vrml::GraphBuilder& builder, const char* type, int line, vrml::Fields fields,
+vrml::NodePointer make_node(vrml::GraphBuilder& builder, const char* type, int line, vrml::Fields fields,
                             const std::string& name) {
     auto node = std::make_shared<vrml::Node>();
     node->type = type;
@@ -34,7 +34,7 @@ vrml::NodePointer made_node(vrml::GraphBuilder& builder, const char* type, int l
     node->line = line;
     node->fields = std::move(fields);
     for (const auto& [key, value] : node->fields) builder.count(value);
-    return builder.finished(node, {});
+    return builder.finish_node(node, {});
 }
 
 Value numbers(std::vector<double> values) {

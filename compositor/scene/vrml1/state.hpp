@@ -1,6 +1,6 @@
 #pragma once
-// The traversal state of VRML 1.0, and the nodes of VRML97 that a shape in it becomes. Private to the reader of VRML
-// 1.0; not thread-safe.
+// Traversal state of VRML 1.0, and the VRML97 nodes of a shape in that state. Private to the VRML 1.0 reader; not
+// thread-safe.
 
 #include "compositor/scene/vrml/graph_builder.hpp"
 #include "compositor/scene/vrml1/tree.hpp"
@@ -14,7 +14,7 @@
 
 namespace rs::compositor::vrml1 {
 
-// The last node of each sort that was met; null where none was.
+/// Last node of each kind in the traversal; null if none.
 struct State {
     glm::dmat4 matrix{1.0};
     TreePointer coordinates;
@@ -28,29 +28,30 @@ struct State {
     TreePointer texture;
     TreePointer texture_transform;
 
-    // True where the node is one of those that are kept here, and has been taken.
+    /// True if the node is one of these kinds; it is then stored.
     bool take(const TreePointer& node);
 };
 
-// A node of VRML97 with its fields, counted by the builder. Fields must be those of its type.
-vrml::NodePointer made_node(vrml::GraphBuilder& builder, const char* type, int line, vrml::Fields fields,
+/// Creates a VRML97 node with its fields, counted by the builder. Fields must match the type.
+vrml::NodePointer make_node(vrml::GraphBuilder& builder, const char* type, int line, vrml::Fields fields,
                             const std::string& name = {});
 vrml::Value numbers(std::vector<double> values);
 vrml::Value words(std::string word);
 vrml::Value nodes(std::vector<vrml::NodePointer> list);
 
-// Makes each node of VRML97 once for what it is made of: shapes that are used again are the same there, too.
-class ShapeMaker {
+/// Creates VRML97 nodes with caching, so that shared VRML 1.0 nodes stay shared.
+class ShapeBuilder {
 public:
-    explicit ShapeMaker(vrml::GraphBuilder& builder) : builder_(builder) {}
+    explicit ShapeBuilder(vrml::GraphBuilder& builder) : builder_(builder) {}
 
-    // The Shapes that a shape's node draws in this state; none for other nodes.
+    /// Shapes of a shape node in this state; empty for other nodes.
     std::vector<vrml::NodePointer> shapes_of(const TreePointer& node, const State& state);
 
 private:
-    // What of several materials is used: for each face or corner one colour, or only the first material.
+    // Use of several materials: one colour per face or corner, or only the first material.
     struct Colours {
-        const char* field = nullptr;  // of the Material node, "diffuseColor" or "emissiveColor"; null: the first counts
+        const char* field =
+            nullptr;  // of the Material node, "diffuseColor" or "emissiveColor"; null: first material only
         std::string binding;
     };
     [[nodiscard]] static Colours colours_of(const State& state);
@@ -62,7 +63,7 @@ private:
     vrml::NodePointer texture_transform_of(const Tree& from);
     vrml::NodePointer list_node(const TreePointer& from, const char* type, const char* field, const char* from_field);
 
-    std::vector<vrml::NodePointer> parted_shapes(const TreePointer& node, const State& state);
+    std::vector<vrml::NodePointer> split_shapes(const TreePointer& node, const State& state);
     vrml::NodePointer faces_of(const TreePointer& node, const State& state, const Colours& colours);
     vrml::NodePointer lines_of(const TreePointer& node, const State& state, const Colours& colours);
     vrml::NodePointer points_of(const TreePointer& node, const State& state);

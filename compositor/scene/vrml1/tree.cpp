@@ -10,7 +10,7 @@
 namespace rs::compositor::vrml1 {
 
 using vrml::MalformedVrml;
-using vrml::shown;
+using vrml::quote;
 using vrml::Token;
 using vrml::TokenKind;
 
@@ -35,7 +35,7 @@ public:
         }
         while (!lexer_.take_kind(TokenKind::close_list)) {
             if (lexer_.peek().kind == TokenKind::end) {
-                throw lexer_.wrong(line, "the list of " + name_ + " is not closed; add a ]");
+                throw lexer_.error(line, "the list of " + name_ + " is not closed; add a ]");
             }
             read_single();
         }
@@ -43,8 +43,8 @@ public:
     }
 
 private:
-    [[nodiscard]] MalformedVrml wrong_type(const char* what) const {
-        return lexer_.wrong(name_ + " takes " + what + ", not " + shown(lexer_.peek()) + "; correct it");
+    [[nodiscard]] MalformedVrml type_error(const char* what) const {
+        return lexer_.error(name_ + " takes " + what + ", not " + quote(lexer_.peek()) + "; correct it");
     }
 
     void read_single() {
@@ -69,25 +69,25 @@ private:
     void read_bool() {
         const std::string_view text = lexer_.peek().text;
         const bool yes = text == "TRUE" || text == "1";
-        if (!is_name(lexer_.peek()) || (!yes && text != "FALSE" && text != "0")) throw wrong_type("TRUE or FALSE");
+        if (!is_name(lexer_.peek()) || (!yes && text != "FALSE" && text != "0")) throw type_error("TRUE or FALSE");
         lexer_.take();
         value_.numbers.push_back(yes ? 1 : 0);
     }
 
     void read_text() {
-        if (lexer_.peek().kind != TokenKind::text && !is_name(lexer_.peek())) throw wrong_type("a text");
+        if (lexer_.peek().kind != TokenKind::text && !is_name(lexer_.peek())) throw type_error("a text");
         const Token token = lexer_.take();
         if (token.text.size() > kMaxString_bytes) {
-            throw lexer_.wrong(token.line, "a text of " + std::to_string(token.text.size()) + " bytes; shorten it");
+            throw lexer_.error(token.line, "a text of " + std::to_string(token.text.size()) + " bytes; shorten it");
         }
-        value_.texts.push_back(token.kind == TokenKind::text ? vrml::unescaped(token.text) : std::string(token.text));
+        value_.texts.push_back(token.kind == TokenKind::text ? vrml::unescape(token.text) : std::string(token.text));
     }
 
-    // (A | B), with spaces or without.
+    // (A | B), with or without spaces.
     void read_words() {
         bool open = false;
         do {
-            if (!is_name(lexer_.peek())) throw wrong_type("a word");
+            if (!is_name(lexer_.peek())) throw type_error("a word");
             std::string word;
             for (const char c : lexer_.take().text) {
                 if (c != '(' && c != ')' && c != '|') {
@@ -98,15 +98,15 @@ private:
                 if (!word.empty()) value_.texts.push_back(std::exchange(word, {}));
             }
             if (!word.empty()) value_.texts.push_back(word);
-            if (value_.texts.size() > 16) throw lexer_.wrong(name_ + " has too many words; correct it");
+            if (value_.texts.size() > 16) throw lexer_.error(name_ + " has too many words; correct it");
         } while (open);
-        if (value_.texts.empty()) throw wrong_type("a word");
+        if (value_.texts.empty()) throw type_error("a word");
     }
 
     long take_integer() {
         long value = 0;
         if (lexer_.peek().kind != TokenKind::number || !vrml::parse_integer(lexer_.peek().text, value)) {
-            throw wrong_type("whole numbers");
+            throw type_error("whole numbers");
         }
         lexer_.take();
         return value;
@@ -115,7 +115,7 @@ private:
     void read_number() {
         float value = 0;
         if (lexer_.peek().kind != TokenKind::number || !vrml::parse_float(lexer_.peek().text, value)) {
-            throw wrong_type("numbers");
+            throw type_error("numbers");
         }
         lexer_.take();
         value_.numbers.push_back(static_cast<double>(value));
@@ -142,11 +142,11 @@ public:
 private:
     Token take_name(const char* what) {
         if (!is_name(lexer_.peek()))
-            throw lexer_.wrong(std::string(what) + " should stand here, not " + shown(lexer_.peek()));
+            throw lexer_.error("expected " + std::string(what) + ", not " + quote(lexer_.peek()));
         return lexer_.take();
     }
 
-    // Null where a USE names nothing that was there.
+    // Null for a USE of an undefined name.
     TreePointer take_node() {
         Token type = take_name("a node");
         std::string name;
@@ -155,7 +155,7 @@ private:
             name = take_name("a name").text;
             type = take_name("a node");
         }
-        const vrml::Level level(lexer_, nesting_, vrml::kMaxNesting, type.line);
+        const vrml::NestingGuard guard(lexer_, nesting_, vrml::kMaxNesting, type.line);
         auto node = std::make_shared<Tree>();
         node->type = type.text;
         node->name = name;
@@ -163,7 +163,7 @@ private:
         node->kind = find_kind(type.text);
         static const NodeKind kUnknown{.known = false};
         if (node->kind == nullptr) {
-            warn_(type.line, shown(type) + " is no known node; only its children are shown");
+            warn_(type.line, quote(type) + " is an unknown node; only its children are drawn");
             node->kind = &kUnknown;
         }
         take_body(*node, lexer_.expect(TokenKind::open_body, "{").line);
@@ -175,16 +175,16 @@ private:
         const Token name = take_name("a name");
         const auto found = named_.find(std::string(name.text));
         if (found != named_.end()) return found->second;
-        warn_(name.line, "USE " + shown(name) + ": no node of this name was shown before; left out");
+        warn_(name.line, "USE " + quote(name) + ": this name is not defined before; left out");
         return nullptr;
     }
 
-    // Fields, and nodes below this one, which look alike: a field of this node's kind, or a node.
-    void take_body(Tree& node, int opened) {
+    // Fields and child nodes: a word is a field if this node's kind has it, otherwise a node.
+    void take_body(Tree& node, int open_line) {
         while (!lexer_.take_kind(TokenKind::close_body)) {
             const Token next = lexer_.peek();
-            if (next.kind == TokenKind::end) throw lexer_.wrong(opened, "the { is not closed; add a }");
-            if (!is_name(next)) throw lexer_.wrong("a field, a node or } should stand here, not " + shown(next));
+            if (next.kind == TokenKind::end) throw lexer_.error(open_line, "the { is not closed; add a }");
+            if (!is_name(next)) throw lexer_.error("expected a field, a node or }, not " + quote(next));
             const auto known = node.kind->fields.find(next.text);
             if (known != node.kind->fields.end()) {
                 lexer_.take();
@@ -197,14 +197,14 @@ private:
         }
     }
 
-    // Nodes begin with a capital, fields do not.
+    // Node names begin with a capital, field names do not.
     static bool begins_node(const Token& token) { return token.text.front() >= 'A' && token.text.front() <= 'Z'; }
 
     void skip_field(const Tree& node) {
         const Token name = lexer_.take();
-        // Nodes may list their own fields, and unknown nodes may hold anything.
+        // Nodes may declare their own fields, and unknown nodes may contain anything.
         const bool of_itself = name.text == "fields" || name.text == "isA";
-        if (node.kind->known && !of_itself) warn_(name.line, node.type + " has no field " + shown(name) + "; left out");
+        if (node.kind->known && !of_itself) warn_(name.line, node.type + " has no field " + quote(name) + "; left out");
         if (lexer_.peek().kind != TokenKind::word || lexer_.peek().text.front() != '(') return vrml::skip_value(lexer_);
         while (is_name(lexer_.peek()) && lexer_.take().text.back() != ')') {
         }

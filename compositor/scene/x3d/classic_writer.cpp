@@ -29,7 +29,7 @@ bool is_reserved(std::string_view word) {
     return kWords.contains(word);
 }
 
-// A name that the classic encoding can have; the same for the same name.
+// Name that is valid in the classic encoding; equal names give equal results.
 std::string word_of(std::string_view name) {
     std::string word;
     for (const char c : name)
@@ -48,7 +48,7 @@ std::string in_quotes(std::string_view text) {
     return result + "\"";
 }
 
-// "a" "b", as the attribute has it; or, as many write it, one text without quotes.
+// Quoted strings of an attribute, or one string without quotes, which is common.
 std::string list_of_texts(std::string_view text) {
     std::size_t at = 0;
     const auto skip_space = [&] {
@@ -78,8 +78,8 @@ bool is_numeric(std::string_view text) {
     });
 }
 
-// What nodes hold that has no meaning for an image of a world that stands still.
-bool is_silent(std::string_view name) {
+// Attributes without effect on an image of a static world.
+bool is_ignored_attribute(std::string_view name) {
     static const std::set<std::string, std::less<>> kNames = {
         "DEF",     "USE",     "bboxDisplay", "centerOfRotation",    "class", "containerField", "description",
         "enabled", "id",      "metadata",    "retainUserOffsets",   "style", "transitionType", "transitionTime",
@@ -87,7 +87,7 @@ bool is_silent(std::string_view name) {
     return kNames.contains(name) || name.find(':') != std::string_view::npos;
 }
 
-// The field of a node that holds such nodes.
+// Field of a node that takes nodes of this group.
 std::string_view field_for(const NodeSpec& parent, std::string_view slot) {
     for (const auto& [name, field] : parent.fields) {
         if (field.type == FieldType::kNode && field.slot == slot && name != "proxy") return name;
@@ -113,7 +113,7 @@ void ClassicWriter::write_value(const FieldSpec& spec, std::string_view value) {
         if (value == "true" || value == "TRUE") return write("TRUE");
         if (value == "false" || value == "FALSE") return write("FALSE");
     }
-    if (!is_numeric(value)) return write(in_quotes(value));  // the reader reports what is wrong with it
+    if (!is_numeric(value)) return write(in_quotes(value));  // the reader reports the error
     write(spec.many ? "[ " + std::string(value) + " ]" : std::string(value));
 }
 
@@ -123,17 +123,17 @@ void ClassicWriter::write_attributes(const NodeSpec& spec, const Attributes& att
         if (known != spec.fields.end() && known->second.type != FieldType::kNode) {
             write(name);
             write_value(known->second, value);
-        } else if (known == spec.fields.end() && !is_silent(name) && !is_reserved(name)) {
-            write(std::string(name) + " 0");  // the reader reports that there is no such field
+        } else if (known == spec.fields.end() && !is_ignored_attribute(name) && !is_reserved(name)) {
+            write(std::string(name) + " 0");  // the reader reports the unknown field
         }
     }
 }
 
-// Which field of the node around it a node is for.
+// Writes the field of the parent node that takes this node.
 void ClassicWriter::begin_child(std::string_view type, const Attributes& attributes) {
     Frame& around = frames_.back();
     around.is_empty = false;
-    if (around.place != Place::kNode) return;
+    if (around.context != Context::kNode) return;
     const std::string_view requested = attribute(attributes, "containerField");
     const NodeSpec* own = vrml::find_node(type);
     if (around.spec == nullptr) return write("children");
@@ -156,7 +156,7 @@ ClassicWriter::Frame ClassicWriter::open_node(std::string_view name, const Attri
     }
     if (const std::string def = word_of(attribute(attributes, "DEF")); !def.empty()) write("DEF " + def);
     write(type + " {");
-    Frame frame{.place = is_instance ? Place::kInstance : Place::kNode, .closing = "}"};
+    Frame frame{.context = is_instance ? Context::kInstance : Context::kNode, .closing = "}"};
     if (is_instance) {
         if (const auto known = interfaces_.find(type); known != interfaces_.end()) frame.interface = &known->second;
     } else if (frame.spec = vrml::find_node(type); frame.spec != nullptr) {
@@ -170,14 +170,14 @@ ClassicWriter::Frame ClassicWriter::open_proto(const Attributes& attributes) {
     if (name.empty()) return {};
     write("PROTO " + name + " [");
     interfaces_[name] = {};
-    return {.place = Place::kProto, .proto = name};
+    return {.context = Context::kProto, .proto = name};
 }
 
-// A value in an attribute; or in nodes that stand inside.
+// Value given by an attribute, or by nodes inside.
 ClassicWriter::Frame ClassicWriter::open_value(const FieldSpec& spec, std::optional<std::string_view> value) {
     if (spec.type == FieldType::kNode) {
         if (spec.many) write("[");
-        return {.place = Place::kValue, .closing = spec.many ? "]" : ""};
+        return {.context = Context::kValue, .closing = spec.many ? "]" : ""};
     }
     if (value) {
         write_value(spec, *value);
@@ -236,47 +236,47 @@ ClassicWriter::Frame ClassicWriter::open_field_value(const Attributes& attribute
     const auto known = interface->find(name);
     write(name);
     if (known == interface->end()) {
-        write("0");  // the reader reports that there is no such field
+        write("0");  // the reader reports the unknown field
         return {};
     }
     return open_value(known->second, attribute(attributes, "value"));
 }
 
-ClassicWriter::Frame ClassicWriter::opened_in_proto(std::string_view name) {
+ClassicWriter::Frame ClassicWriter::open_element_of_proto(std::string_view name) {
     Frame& proto = frames_.back();
     if (name == "ProtoInterface" && !proto.has_interface && !proto.has_body) {
         proto.has_interface = true;
-        return {.place = Place::kInterface, .proto = proto.proto};
+        return {.context = Context::kInterface, .proto = proto.proto};
     }
     if (name != "ProtoBody" || proto.has_body) return {};
     proto.has_body = true;
     write("] {");
-    return {.place = Place::kStatements};
+    return {.context = Context::kStatements};
 }
 
-ClassicWriter::Frame ClassicWriter::opened(std::string_view name, const Attributes& attributes) {
+ClassicWriter::Frame ClassicWriter::open_element(std::string_view name, const Attributes& attributes) {
     if (frames_.empty()) {
         has_root_ = name == "X3D";
-        return {.place = has_root_ ? Place::kRoot : Place::kIgnored};
+        return {.context = has_root_ ? Context::kRoot : Context::kIgnored};
     }
-    const Place place = frames_.back().place;
-    if (place == Place::kIgnored) return {};
-    if (place == Place::kRoot) return {.place = name == "Scene" ? Place::kStatements : Place::kIgnored};
-    if (place == Place::kProto) return opened_in_proto(name);
-    if (place == Place::kInterface) return name == "field" ? open_field(attributes) : Frame{};
-    if (place == Place::kInstance) return name == "fieldValue" ? open_field_value(attributes) : Frame{};
-    if (place == Place::kConnections) {
+    const Context context = frames_.back().context;
+    if (context == Context::kIgnored) return {};
+    if (context == Context::kRoot) return {.context = name == "Scene" ? Context::kStatements : Context::kIgnored};
+    if (context == Context::kProto) return open_element_of_proto(name);
+    if (context == Context::kInterface) return name == "field" ? open_field(attributes) : Frame{};
+    if (context == Context::kInstance) return name == "fieldValue" ? open_field_value(attributes) : Frame{};
+    if (context == Context::kConnections) {
         const std::string from = word_of(attribute(attributes, "nodeField"));
         const std::string to = word_of(attribute(attributes, "protoField"));
         if (name == "connect" && !from.empty() && !to.empty()) write(from + " IS " + to);
         return {};
     }
-    if (name == "IS") return {.place = place == Place::kNode ? Place::kConnections : Place::kIgnored};
+    if (name == "IS") return {.context = context == Context::kNode ? Context::kConnections : Context::kIgnored};
     if (name == "ROUTE" || name == "field" || name == "fieldValue" || name == "connect" || name == "Scene") return {};
-    if (name == "ProtoDeclare") return place == Place::kValue ? Frame{} : open_proto(attributes);
+    if (name == "ProtoDeclare") return context == Context::kValue ? Frame{} : open_proto(attributes);
     if (name == "ExternProtoDeclare") {
         const std::string proto = word_of(attribute(attributes, "name"));
-        if (!proto.empty() && place != Place::kValue) write("EXTERNPROTO " + proto + " [ ] [ ]");
+        if (!proto.empty() && context != Context::kValue) write("EXTERNPROTO " + proto + " [ ] [ ]");
         return {};
     }
     return open_node(name, attributes);
@@ -284,16 +284,16 @@ ClassicWriter::Frame ClassicWriter::opened(std::string_view name, const Attribut
 
 void ClassicWriter::open(std::string_view name, const Attributes& attributes, int line) {
     move_to(line);
-    frames_.push_back(opened(name, attributes));
+    frames_.push_back(open_element(name, attributes));
 }
 
 void ClassicWriter::close(int line) {
     move_to(line);
     const Frame frame = std::move(frames_.back());
     frames_.pop_back();
-    if (frame.place == Place::kProto) {
+    if (frame.context == Context::kProto) {
         write(frame.has_body ? "}" : "] { }");
-    } else if (frame.place == Place::kValue && frame.closing.empty() && frame.is_empty) {
+    } else if (frame.context == Context::kValue && frame.closing.empty() && frame.is_empty) {
         write("NULL");
     } else if (!frame.closing.empty()) {
         write(frame.closing);

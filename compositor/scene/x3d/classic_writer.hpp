@@ -1,5 +1,5 @@
 #pragma once
-// Elements of X3D as they open and close -> the classic encoding. Private to the reader of X3D.
+// Writes X3D elements in the classic encoding as they open and close. Private to the X3D reader.
 
 #include "compositor/scene/vrml/node_table.hpp"
 
@@ -16,38 +16,39 @@ using Attributes = std::vector<std::pair<std::string_view, std::string_view>>;
 
 class ClassicWriter {
 public:
-    // In the order of the text, with its lines; each open() has its close().
+    /// Call in the order of the text, with its lines; each open() needs its close().
     void open(std::string_view name, const Attributes& attributes, int line);
     void close(int line);
 
-    [[nodiscard]] bool has_root() const { return has_root_; }  // an X3D element was there
+    [[nodiscard]] bool has_root() const { return has_root_; }  // an X3D element was found
     [[nodiscard]] std::string take() { return std::move(text_); }
 
 private:
-    enum class Place {
-        kIgnored,  // with all that is in it
+    enum class Context {
+        kIgnored,  // with its content
         kRoot,
-        kStatements,  // nodes stand one behind the other: a Scene, or the body of a PROTO
+        kStatements,  // sequence of nodes: a Scene, or the body of a PROTO
         kNode,
         kInstance,
         kProto,
         kInterface,
         kConnections,  // IS
-        kValue,        // a field that holds nodes
+        kValue,        // field that contains nodes
     };
     struct Frame {
-        Place place = Place::kIgnored;
-        const vrml::NodeSpec* spec = nullptr;  // of a node; null where it is not known
-        const std::map<std::string, vrml::FieldSpec, std::less<>>* interface = nullptr;  // of a PROTO, or its instance
-        std::string closing = {};    // what is written where it ends
-        std::string proto = {};      // of a PROTO: its name
-        bool has_interface = false;  // of a PROTO
+        Context context = Context::kIgnored;
+        const vrml::NodeSpec* spec = nullptr;  // of a node; null if unknown
+        const std::map<std::string, vrml::FieldSpec, std::less<>>* interface =
+            nullptr;                 // of a PROTO, or of the instance's
+        std::string closing = {};    // text written at the end
+        std::string proto = {};      // name of a PROTO
+        bool has_interface = false;  // PROTO has an interface
         bool has_body = false;
-        bool is_empty = true;  // of a value
+        bool is_empty = true;  // value without content
     };
 
-    Frame opened(std::string_view name, const Attributes& attributes);
-    Frame opened_in_proto(std::string_view name);
+    Frame open_element(std::string_view name, const Attributes& attributes);
+    Frame open_element_of_proto(std::string_view name);
     Frame open_proto(const Attributes& attributes);
     Frame open_field(const Attributes& attributes);
     Frame open_field_value(const Attributes& attributes);
@@ -62,7 +63,8 @@ private:
     std::string text_;
     int line_ = 1;
     std::vector<Frame> frames_;
-    std::map<std::string, std::map<std::string, vrml::FieldSpec, std::less<>>, std::less<>> interfaces_;  // by PROTO
+    std::map<std::string, std::map<std::string, vrml::FieldSpec, std::less<>>, std::less<>>
+        interfaces_;  // [PROTO name]
     bool has_root_ = false;
 };
 

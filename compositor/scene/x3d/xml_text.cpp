@@ -12,13 +12,13 @@
 namespace rs::compositor::x3d {
 namespace {
 
-constexpr int kMaxElements = 1000;  // one in another
+constexpr int kMaxElements = 1000;  // nesting depth
 
-struct Reading {
+struct ParserState {
     XML_Parser parser = nullptr;
     ClassicWriter writer;
     int depth = 0;
-    std::string fault;  // why it was stopped
+    std::string fault;  // reason for stopping
 
     [[nodiscard]] int line() const { return static_cast<int>(XML_GetCurrentLineNumber(parser)); }
     void stop(const std::string& why) {
@@ -27,43 +27,43 @@ struct Reading {
     }
 };
 
-// No exception may pass through Expat, which is C.
+// Exceptions must not pass through Expat, which is C.
 template <class Work>
 void guarded(void* user, const Work& work) noexcept {
-    auto& reading = *static_cast<Reading*>(user);
-    if (!reading.fault.empty()) return;
+    auto& state = *static_cast<ParserState*>(user);
+    if (!state.fault.empty()) return;
     try {
-        work(reading);
+        work(state);
     } catch (const std::bad_alloc&) {
-        reading.stop("it takes more memory than there is");
+        state.stop("not enough memory");
     }
 }
 
 void on_open(void* user, const XML_Char* name, const XML_Char** pairs) {
-    guarded(user, [&](Reading& reading) {
-        if (++reading.depth > kMaxElements) {
-            return reading.stop("elements nest more than " + std::to_string(kMaxElements) + " deep; flatten them");
+    guarded(user, [&](ParserState& state) {
+        if (++state.depth > kMaxElements) {
+            return state.stop("elements nest more than " + std::to_string(kMaxElements) + " deep; flatten them");
         }
         Attributes attributes;
         for (; *pairs != nullptr; pairs += 2) attributes.emplace_back(pairs[0], pairs[1]);
-        reading.writer.open(name, attributes, reading.line());
-        if (!reading.writer.has_root()) {
-            reading.stop("its root is '" + printable(std::string_view(name).substr(0, 40)) + "', not X3D");
+        state.writer.open(name, attributes, state.line());
+        if (!state.writer.has_root()) {
+            state.stop("its root is '" + printable(std::string_view(name).substr(0, 40)) + "', not X3D");
         }
     });
 }
 
 void on_close(void* user, const XML_Char* /*name*/) {
-    guarded(user, [&](Reading& reading) {
-        --reading.depth;
-        reading.writer.close(reading.line());
+    guarded(user, [&](ParserState& state) {
+        --state.depth;
+        state.writer.close(state.line());
     });
 }
 
 void on_entity(void* user, const XML_Char* /*name*/, int /*is_parameter*/, const XML_Char* /*value*/, int /*length*/,
                const XML_Char* /*base*/, const XML_Char* /*system*/, const XML_Char* /*public_id*/,
                const XML_Char* /*notation*/) {
-    guarded(user, [&](Reading& reading) { reading.stop("it declares entities; write what they stand for"); });
+    guarded(user, [&](ParserState& state) { state.stop("it declares entities; replace them by their text"); });
 }
 
 struct ParserCloser {
@@ -83,19 +83,19 @@ Result<std::string> classic_text(std::string_view xml, const std::string& file) 
     if (!parser || xml.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
         return Error{file + ": is too large to be read; make it smaller"};
     }
-    Reading reading;
-    reading.parser = parser.get();
-    XML_SetUserData(parser.get(), &reading);
+    ParserState state;
+    state.parser = parser.get();
+    XML_SetUserData(parser.get(), &state);
     XML_SetElementHandler(parser.get(), on_open, on_close);
     XML_SetEntityDeclHandler(parser.get(), on_entity);
     const XML_Status status = XML_Parse(parser.get(), xml.data(), static_cast<int>(xml.size()), XML_TRUE);
-    if (!reading.fault.empty() || status != XML_STATUS_OK) {
-        const std::string why = !reading.fault.empty() ? reading.fault
-                                                       : std::string("is no well-formed XML: ") +
-                                                             XML_ErrorString(XML_GetErrorCode(parser.get()));
-        return Error{file + ": line " + std::to_string(reading.line()) + ": " + why};
+    if (!state.fault.empty() || status != XML_STATUS_OK) {
+        const std::string why = !state.fault.empty() ? state.fault
+                                                     : std::string("is not well-formed XML: ") +
+                                                           XML_ErrorString(XML_GetErrorCode(parser.get()));
+        return Error{file + ": line " + std::to_string(state.line()) + ": " + why};
     }
-    return reading.writer.take();
+    return state.writer.take();
 }
 
 }  // namespace rs::compositor::x3d

@@ -12,7 +12,7 @@
 namespace rs::compositor {
 namespace {
 
-// Appends the colours that have an angle; the first one's is 0.
+// Appends the colours with their angles (the first is 0) and returns their number.
 int append_stops(const std::vector<glm::vec3>& colours, const std::vector<double>& angles_rad,
                  std::vector<glm::vec4>& stops) {
     const std::size_t count = std::min(colours.size(), angles_rad.size() + 1);
@@ -54,9 +54,9 @@ void BackgroundRenderer::draw(const Camera& camera, BackgroundArea area) const {
     const glm::dvec3 along_x = camera.right() / camera.fl_x;
     const glm::dvec3 along_y = -camera.up() / camera.fl_y;
     const glm::dmat3 world_from_pixel(along_x, along_y, camera.ray(0, 0));
-    // A plain one's shader does not depend on where it looks.
+    // The shader of a uniform background has no direction.
     if (!plain_) program_.set("direction_from_pixel", glm::mat3(background_from_world_ * world_from_pixel));
-    stops_->bind_table(3);
+    stops_->bind_storage(3);
     for (std::size_t i = 0; i < images_.size(); ++i) {
         if (images_[i]) images_[i]->bind(static_cast<unsigned>(i) + 1);
     }

@@ -1,5 +1,5 @@
 #pragma once
-// Draws a scene's background (background_shaders.hpp).
+// Background renderer: sky and ground gradients and a cube of images (background_shaders.hpp).
 
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/texture.hpp"
@@ -15,19 +15,19 @@ namespace rs::compositor {
 
 enum class BackgroundArea {
     kWholeFrame,
-    kBehindGeometry,  // where nothing has left its depth yet: indoors that is next to nothing
+    kBehindGeometry,  // pixels without geometry only; indoors these are few
 };
 
-// Needs a gl::Context that is current, and outlives it; one thread. Move-only.
+/// Requires a current gl::Context that outlives it; single-threaded, move-only.
 class BackgroundRenderer {
 public:
     static Result<BackgroundRenderer> create(const Background& background);
 
-    // One colour everywhere: clearing the frame with it is enough.
+    /// True if the background has one colour; clearing the frame draws it.
     [[nodiscard]] bool plain() const { return plain_; }
     [[nodiscard]] const glm::vec3& zenith() const { return zenith_; }
 
-    // Leaves depth alone.
+    /// Neither tests nor writes depth.
     void draw(const Camera& camera, BackgroundArea area) const;
 
 private:

@@ -1,5 +1,6 @@
 #pragma once
-// The GLSL of the background: colours by the angle from the zenith and the nadir, over them images on a cube.
+// GLSL of the background: colour gradients by the angles from the zenith and the nadir, covered by the images of a
+// cube.
 
 namespace rs::compositor::shaders {
 
@@ -8,7 +9,7 @@ void main() {
     gl_Position = vec4((gl_VertexID & 1) * 2 - 1, (gl_VertexID >> 1) * 2 - 1, 0.0, 1.0);
 })";
 
-// An image with straight alpha, pixel by pixel.
+// Copies an image with straight alpha, texel by texel.
 inline constexpr const char* kImageFragment = R"(#version 450 core
 layout(binding = 1) uniform sampler2D picture;
 out vec4 result;
@@ -17,8 +18,8 @@ void main() {
     result = vec4(texel.rgb * texel.a, texel.a);
 })";
 
-// Behind "#version" and the constants kSkyStops, kGroundStops and kShownImages (bit i: images[i]): a shader that
-// has no image takes a fraction of the time of one that might.
+// Preceded by "#version" and the constants kSkyStops, kGroundStops and kShownPictures (bit i: image i exists). The
+// constants remove the code of missing images, which makes the shader several times faster.
 inline constexpr const char* kBackgroundFragment = R"(
 layout(std430, binding = 3) readonly buffer Gradients { vec4 stops[]; };  // colour; w: angle; the sky's, then the ground's
 layout(binding = 1) uniform sampler2D pictures[6];
@@ -35,7 +36,7 @@ vec3 gradient(int first, int count, float angle) {
     return before.rgb;
 }
 
-// The faces are seen from inside, upright; the top and bottom as when looking up or down from the front.
+// Cube faces are viewed from inside, upright; top and bottom as seen when looking up or down from the front.
 vec4 texel(vec3 d) {
     vec3 a = abs(d);
     int face;

@@ -47,7 +47,7 @@ void FloorRenderer::draw(const FrameView& view) const {
     program_.set("height", static_cast<float>(floor_.height));
     program_.set("radius", static_cast<float>(floor_.radius));
     program_.set("square", static_cast<float>(floor_.square));
-    // Without shadows the light is in the colours.
+    // Without shadows the light is multiplied into the colours.
     const glm::vec3 light = shadows_.empty() ? light_ : glm::vec3(1);
     program_.set("colour_a", floor_.colour_a * light);
     program_.set("colour_b", floor_.colour_b * light);

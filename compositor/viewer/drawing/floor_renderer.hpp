@@ -1,5 +1,5 @@
 #pragma once
-// Draws a scene's floor, lit by its directional lights and shadowed by what stands on it.
+// Floor renderer: a checkered disc lit by the scene's directional lights, with shadows.
 
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/vertex_array.hpp"
@@ -15,10 +15,11 @@
 
 namespace rs::compositor {
 
-// Needs a gl::Context that is current, and outlives it; one thread. Move-only.
+/// Requires a current gl::Context that outlives it; single-threaded, move-only.
 class FloorRenderer {
 public:
-    // `scene` has a floor. Where lights have maps by `shadows`, these are bound (ShadowMaps::bind) when it is drawn.
+    /// \param scene must have a floor.
+    /// \param shadows if it contains maps, they must be bound (ShadowMaps::bind) for draw().
     static Result<FloorRenderer> create(const Scene& scene, const ShadowPlan& shadows);
     void draw(const FrameView& view) const;
 
@@ -27,8 +28,8 @@ private:
 
     gl::Program program_;
     Floor floor_;
-    glm::vec3 light_{0};       // that falls on it from above, whatever stands there
-    glm::vec3 background_{0};  // into which it fades
+    glm::vec3 light_{0};       // unshadowed irradiance from above
+    glm::vec3 background_{0};  // colour at the rim
     std::vector<glm::vec4> shadowed_;
     std::vector<ShadowRow> shadows_;
     gl::VertexArray square_;

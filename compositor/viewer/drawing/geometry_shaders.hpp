@@ -1,16 +1,16 @@
 #pragma once
-// The GLSL of the scene's geometry: VRML97's lighting (ISO/IEC 14772-1, 4.14.4) at every pixel, in linear light.
+// GLSL of the scene's geometry: VRML97 lighting (ISO/IEC 14772-1, 4.14.4) per pixel, in linear light.
 //
 //   colour = fog * (1 - f) + f * (emissive + sum over lights: attenuation * spot * (ambient + s * (diffuse +
 //   specular)))
 //
-// where s is how much of the light's shadow map is open there (shadow_shaders.hpp), 1 without.
+// where s is the visibility from the light by its shadow map (shadow_shaders.hpp), 1 without a map.
 //
-// or Phong's (Shading::kPhong), where the ambient term is the material's own.
+// Shading::kPhong replaces this by Phong's formula, whose ambient term belongs to the material.
 //
-// A shader for every kind of surface (surface_renderer.hpp): what kinds differ in are constants at its head, so that
-// loops over lights are unrolled and what a surface does not have costs nothing. Drawn on a CPU that is several times
-// faster than asking at every pixel.
+// One shader per surface kind (surface_renderer.hpp): kinds differ in constants at the head of the source, so that
+// light loops unroll and unused features cost nothing. In software rendering this is several times faster than
+// branches.
 
 namespace rs::compositor::shaders {
 
@@ -36,20 +36,20 @@ void main() {
     vertex_colour = colour;
 })";
 
-// Behind the constants of constants_of(SurfaceKind) and kShadowLookUp.
+// Preceded by the constants of constants_of(SurfaceKind) and kShadowLookUp.
 inline constexpr const char* kSurfaceFragment = R"(
 const int kLights = kDirectional + kPoints + kSpots;
-// Five for each light, directional ones first, then points, then spots:
-// colour; ambient, radius; location, cut-off angle; towards, beam width; attenuation, the least of it
+// Five rows per light, in the order directional, point, spot: colour; ambient, radius; location, cut-off angle;
+// towards, beam width; attenuation, its minimum.
 uniform vec4 lights[5 * (kCounted ? kMostCounted : max(kLights, 1))];
-uniform ivec4 light_counts;  // kCounted: directional ones, points, spots
-uniform ivec4 shadow_counts;  // of them those with maps: directional ones, points, narrow spots, wide ones
+uniform ivec4 light_counts;  // kCounted: directional, point and spot lights
+uniform ivec4 shadow_counts;  // lights with maps: directional, point, narrow spot, wide spot
 // diffuse, opacity; specular, exponent; emissive, ambient; ambient light of directional lights
 uniform vec4 material[4];
 layout(binding = 0) uniform sampler2D surface_picture;
 layout(binding = 4) uniform sampler2D relief_map;  // NormalMap
 uniform vec3 eye;
-uniform vec3 headlight;      // its direction of travel
+uniform vec3 headlight;  // direction of travel
 uniform vec3 cover_light;    // ambient light on snow
 uniform vec3 fog;
 uniform float fog_visibility;
@@ -59,12 +59,12 @@ in vec2 place_on_texture;
 in vec4 vertex_colour;
 out vec4 result;
 
-// What the surface reflects as a highlight: its material's, or the water's on it.
+// Specular term: the material's, or that of the water film on it.
 vec3 specular = material[1].rgb;
 float exponent = material[1].w;
 
-// Directions towards the eye and the light have unit length: of the one halfway, (to_light + to_eye) / |to_light + to_eye|,
-// only what it has in common with the normal is needed.
+// to_eye and to_light are unit vectors; the half vector (to_light + to_eye) / |to_light + to_eye| enters only by its
+// dot product with the normal.
 vec3 reflected(vec3 diffuse, vec3 n, vec3 to_eye, float eye_facing, vec3 to_light, vec3 colour) {
     float facing = dot(n, to_light);
     vec3 sum = diffuse * max(facing, 0.0);
@@ -80,7 +80,7 @@ vec3 reflected(vec3 diffuse, vec3 n, vec3 to_eye, float eye_facing, vec3 to_ligh
     return sum * colour;
 }
 
-// The normal where the surface has relief: along the texture's axes as they lie on the triangle.
+// Normal perturbed by the normal map, in the tangent frame of the triangle's texture coordinates.
 vec3 in_relief(vec3 n) {
     vec3 direction = texture(relief_map, place_on_texture).xyz;
     vec3 px = dFdx(place_in_world), py = dFdy(place_in_world);
@@ -96,12 +96,12 @@ vec3 in_relief(vec3 n) {
     return flat_there || dot(sum, sum) < 1e-12 ? n : normalize(sum);
 }
 
-// Of lights. Where they are counted the constant shows only whether there may be any.
+// Light count: a constant, or with kCounted a uniform, for which the constant only states if such lights are possible.
 int number_of(int constant, int given) {
     return kCounted && constant > 0 ? given : constant;
 }
 
-// Of the light's map, the numbers of which begin at row `shadow`.
+// Visibility from the light; the rows of its map start at index `shadow`.
 float open_to_light(int first, bool is_spot, int shadow, int shape, vec3 n) {
     if (kShadowedDirectional > 0 && shape == 1) return parallel_shadow(4 * shadow, place_in_world, n, lights[first + 3].xyz);
     if (kNarrowSpots > 0 && shape == 2) return cone_shadow(4 * shadow, place_in_world, n, lights[first + 3].xyz);
@@ -117,7 +117,7 @@ vec3 from_light(int first, bool has_place, bool is_spot, int shadow, int shape, 
         vec3 way = lights[first + 2].xyz - place_in_world;
         float d = length(way);
         to_light = d > 0.0 ? way / d : n;
-        // Selected, not returned from: branches cost more than what they save.
+        // Computed without branches: branches cost more than they save.
         strength = d > lights[first + 1].w ? 0.0 : 1.0;
         if (kFading) strength /= max(dot(lights[first + 4].xyz, vec3(1.0, d, d * d)), lights[first + 4].w);
         if (is_spot) {
@@ -134,7 +134,7 @@ vec3 from_light(int first, bool has_place, bool is_spot, int shadow, int shape, 
     return strength * (ambient + direct);
 }
 
-// `even`: the normal without relief.
+// `even`: interpolated normal without the normal map.
 vec3 lit(vec3 diffuse, vec3 ambient, vec3 n, vec3 even, vec3 to_eye) {
     vec3 sum = material[2].rgb + ambient;
     float eye_facing = dot(n, to_eye);
@@ -142,7 +142,7 @@ vec3 lit(vec3 diffuse, vec3 ambient, vec3 n, vec3 even, vec3 to_eye) {
     int directional = number_of(kDirectional, light_counts.x);
     int points = number_of(kPoints, light_counts.y);
     int spots = number_of(kSpots, light_counts.z);
-    // Directional ones with a map, points, spots with a single map, spots with a cube of them.
+    // Directional lights with a map, point lights, spots with one map, spots with a cube map.
     ivec4 mapped = ivec4(number_of(kShadowedDirectional, shadow_counts.x), number_of(kShadowedPoints, shadow_counts.y),
                          number_of(kNarrowSpots, shadow_counts.z), number_of(kWideSpots, shadow_counts.w));
     for (int i = 0; i < directional; ++i) {
@@ -162,7 +162,7 @@ vec3 lit(vec3 diffuse, vec3 ambient, vec3 n, vec3 even, vec3 to_eye) {
 void main() {
     vec3 diffuse = kColours ? vertex_colour.rgb : material[0].rgb;
     float opacity = material[0].w;
-    vec3 shade = vec3(1.0);  // of the picture
+    vec3 shade = vec3(1.0);  // texture colour in the ambient term
     if (kPicture != 0) {
         vec4 texel = texture(surface_picture, place_on_texture);
         diffuse = kPicture == 2 ? diffuse * texel.rgb : texel.rgb;
@@ -177,7 +177,7 @@ void main() {
         vec3 even = normalize(normal_in_world) * side;
         vec3 n = kRelief ? in_relief(even * side) * side : even;
         vec3 ambient = kPhong ? material[3].rgb * shade : material[3].rgb * diffuse * material[2].w;
-        if (kCover == 1) {  // wet: darker, and it mirrors lights
+        if (kCover == 1) {  // wet: darker, with a sharp highlight
             float up = smoothstep(0.6, 0.95, even.y);
             diffuse *= 1.0 - 0.45 * up;
             ambient *= 1.0 - 0.45 * up;

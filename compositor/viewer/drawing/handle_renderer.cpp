@@ -12,12 +12,12 @@ namespace {
 
 constexpr float kRim_px = 1.5F;
 constexpr float kHiddenStrength = 0.35F;
-constexpr double kBefore = 1.004;  // strokes that lie on a surface are before it
+constexpr double kDepthBias = 1.004;  // depth scale that brings strokes on a surface in front of it
 
 constexpr const char* kStrokeVertex = R"(#version 450 core
-layout(location = 0) in vec3 corner;  // pixels, and depth
+layout(location = 0) in vec3 corner;  // x, y in pixels; depth
 layout(location = 1) in vec4 ends;    // pixels
-layout(location = 2) in vec4 look;    // colour; half the width in pixels
+layout(location = 2) in vec4 look;  // colour; half width in pixels
 uniform vec2 screen;
 flat out vec4 stroke;
 flat out vec4 appearance;
@@ -52,10 +52,10 @@ static_assert(sizeof(StrokeVertex) == 44);
 
 struct StrokeEnd {
     glm::dvec2 px;
-    double depth;  // in the buffer
+    double depth;  // depth buffer value
 };
 
-// Both ends of what of a stroke is before the near plane; nothing where nothing is.
+// End points of the part of a stroke in front of the near plane; nullopt if there is none.
 std::optional<std::array<StrokeEnd, 2>> ends_of(const HandleStroke& stroke, const Camera& camera) {
     constexpr double kNearest = 2 * kNear;
     const auto depth = [&](const glm::dvec3& p) { return glm::dot(p - camera.centre(), camera.forward()); };
@@ -68,7 +68,7 @@ std::optional<std::array<StrokeEnd, 2>> ends_of(const HandleStroke& stroke, cons
     if (zb < kNearest) b = glm::mix(a, b, (za - kNearest) / (za - zb));
     const auto end = [&](const glm::dvec3& p) {
         const glm::dvec3 seen = camera.project(p);
-        return StrokeEnd{glm::dvec2(seen), std::min(kBefore * kNear / seen.z, 1.0)};
+        return StrokeEnd{glm::dvec2(seen), std::min(kDepthBias * kNear / seen.z, 1.0)};
     };
     return std::array{end(a), end(b)};
 }

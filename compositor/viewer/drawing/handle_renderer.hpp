@@ -1,6 +1,6 @@
 #pragma once
-// Draws handles (lighting/light_handles.hpp) over a copy of a frame, so that the frame itself, and what is written of
-// it, stays without them: anti-aliased, with a dark rim, and faint where they are hidden by what the frame shows.
+// Draws light handles (lighting/light_handles.hpp) over a copy of a frame: anti-aliased, with a dark rim, dimmed where
+// geometry occludes them. The frame itself is unchanged, so saved images contain no handles.
 
 #include "compositor/gl/framebuffer.hpp"
 #include "compositor/gl/program.hpp"
@@ -12,15 +12,17 @@
 
 namespace rs::compositor {
 
-// Needs a gl::Context that is current, and outlives it; one thread. Move-only.
+/// Requires a current gl::Context that outlives it; single-threaded, move-only.
 class HandleRenderer {
 public:
     static Result<HandleRenderer> create();
 
-    // `image` has one sample; `depths` is of the same size and may have several. The camera is that of the frame.
+    /// \param image has one sample per pixel.
+    /// \param depths has the same size; may be multisampled.
+    /// \param camera camera of the frame.
     Status draw(const std::vector<HandleStroke>& strokes, const Camera& camera, const gl::Framebuffer& image,
                 const gl::Framebuffer& depths);
-    // The copy with the handles; there must have been a draw().
+    /// Copy of the frame with the handles; requires an earlier draw().
     [[nodiscard]] const gl::Framebuffer& shown() const { return *copy_; }
 
 private:

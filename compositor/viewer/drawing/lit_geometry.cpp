@@ -5,7 +5,7 @@
 namespace rs::compositor {
 namespace {
 
-// With the objects that are there, also where the scene does not name them.
+// Caster bounds of the scene and of all displayed objects.
 BoundingBox bounds_with_objects(const Scene& scene, const ShownNodes& nodes) {
     BoundingBox all = compositor::bounds_of_casters(scene);
     for (const ShownNode& node : nodes) {
@@ -18,8 +18,8 @@ BoundingBox bounds_with_objects(const Scene& scene, const ShownNodes& nodes) {
     return all;
 }
 
-// Nothing without shadows.
-Result<std::optional<ShadowMaps>> make_maps(const Scene& scene, const ShownNodes& nodes, bool shadows) {
+// nullopt without shadows.
+Result<std::optional<ShadowMaps>> create_maps(const Scene& scene, const ShownNodes& nodes, bool shadows) {
     if (!shadows) return std::optional<ShadowMaps>();
     RS_ASSIGN_OR_RETURN(auto made, ShadowMaps::create(plan_shadows(scene, bounds_with_objects(scene, nodes))));
     return std::optional<ShadowMaps>(std::move(made));
@@ -32,46 +32,46 @@ ShadowPlan plan_of(const std::optional<ShadowMaps>& maps) {
 }  // namespace
 
 Result<LitGeometry> LitGeometry::create(const Scene& scene, const ShownNodes& nodes, bool shadows) {
-    RS_ASSIGN_OR_RETURN(auto maps, make_maps(scene, nodes, shadows));
+    RS_ASSIGN_OR_RETURN(auto maps, create_maps(scene, nodes, shadows));
     RS_ASSIGN_OR_RETURN(auto surfaces, SurfaceRenderer::create(scene, plan_of(maps)));
     LitGeometry lit(scene, std::move(surfaces));
-    RS_TRY(lit.make_floor(plan_of(maps)));
+    RS_TRY(lit.create_floor(plan_of(maps)));
     lit.shadows_ = std::move(maps);
     return lit;
 }
 
-Status LitGeometry::make_floor(const ShadowPlan& plan) {
+Status LitGeometry::create_floor(const ShadowPlan& plan) {
     if (!scene_.floor) return {};
     RS_ASSIGN_OR_RETURN(auto floor, FloorRenderer::create(scene_, plan));
     floor_.emplace(std::move(floor));
     return {};
 }
 
-// As scene_ has it, with or without shadows.
-Status LitGeometry::light_anew(bool shadows, const ShownNodes& nodes) {
-    RS_ASSIGN_OR_RETURN(auto maps, make_maps(scene_, nodes, shadows));
+// Rebuilds maps, surface tables and floor from scene_.
+Status LitGeometry::rebuild_lighting(bool shadows, const ShownNodes& nodes) {
+    RS_ASSIGN_OR_RETURN(auto maps, create_maps(scene_, nodes, shadows));
     const ShadowPlan plan = plan_of(maps);
-    if (Status status = surfaces_.set_lights(scene_, plan); !status) return status;
-    if (Status status = make_floor(plan); !status) return status;
-    if (maps && shadows_) maps->take_shells(*shadows_);
+    RS_TRY(surfaces_.set_lights(scene_, plan));
+    RS_TRY(create_floor(plan));
+    if (maps && shadows_) maps->reuse_shells(*shadows_);
     shadows_ = std::move(maps);
     return {};
 }
 
 Status LitGeometry::set_lights(const Scene& scene, const ShownNodes& nodes) {
     take_lights(scene, scene_);
-    return light_anew(shadows(), nodes);
+    return rebuild_lighting(shadows(), nodes);
 }
 
 Status LitGeometry::set_shadows(bool shadows, const ShownNodes& nodes) {
-    return shadows == this->shadows() ? Status() : light_anew(shadows, nodes);
+    return shadows == this->shadows() ? Status() : rebuild_lighting(shadows, nodes);
 }
 
 Status LitGeometry::move(std::size_t node, const std::optional<glm::dmat4>& world_from_node) {
-    if (surfaces_.stands(node, world_from_node)) return {};
-    if (shadows_) shadows_->touch(surfaces_.caster_bounds(node));
-    if (Status status = surfaces_.move(node, world_from_node); !status) return status;
-    if (shadows_) shadows_->touch(surfaces_.caster_bounds(node));
+    if (surfaces_.is_at(node, world_from_node)) return {};
+    if (shadows_) shadows_->invalidate(surfaces_.caster_bounds(node));
+    RS_TRY(surfaces_.move(node, world_from_node));
+    if (shadows_) shadows_->invalidate(surfaces_.caster_bounds(node));
     return {};
 }
 

@@ -1,8 +1,8 @@
 #include "compositor/viewer/drawing/object_renderer.hpp"
 
 #include "compositor/gl/draw.hpp"
+#include "compositor/viewer/drawing/image_coverage.hpp"
 #include "compositor/viewer/drawing/shaders.hpp"
-#include "compositor/viewer/drawing/shown_parts.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
 
 #include <algorithm>
@@ -15,10 +15,10 @@ namespace rs::compositor {
 
 namespace {
 
-constexpr float kHidingAlpha = 0.5F;  // alpha from which a pixel hides what is behind it
+constexpr float kDepthWriteAlpha = 0.5F;  // pixels of at least this alpha write depth
 
-// A texture that holds at least width x height texels.
-gl::Texture& large_enough(std::optional<gl::Texture>& texture, int width, int height, gl::TexelKind kind) {
+// Returns the texture, reallocated if smaller than width x height.
+gl::Texture& ensure_size(std::optional<gl::Texture>& texture, int width, int height, gl::TexelKind kind) {
     if (!texture || texture->width() < width || texture->height() < height) {
         texture.emplace(std::max(texture ? texture->width() : 0, width),
                         std::max(texture ? texture->height() : 0, height), kind);
@@ -26,7 +26,8 @@ gl::Texture& large_enough(std::optional<gl::Texture>& texture, int width, int he
     return *texture;
 }
 
-// How far from its place a pixel of the screen, or one that touches it, reads the image.
+// Largest distance, in image pixels, from the projection of a screen pixel at which it or a neighbour samples the
+// image.
 int margin_of(const ObjectView& view) {
     const auto place = [&](double x, double y) {
         const glm::dvec3 p = view.image_from_screen * glm::dvec3(x, y, 1);
@@ -42,8 +43,8 @@ int margin_of(const ObjectView& view) {
         }
     }
     constexpr double kBetweenTexels = 1.5;
-    constexpr double kMost = 64;
-    return static_cast<int>(std::ceil(std::min(farthest, kMost) + kBetweenTexels));
+    constexpr double kMaxMargin = 64;
+    return static_cast<int>(std::ceil(std::min(farthest, kMaxMargin) + kBetweenTexels));
 }
 
 std::optional<gl::VertexArray> triangles(const std::vector<glm::vec3>& corners,
@@ -78,16 +79,17 @@ ObjectRenderer::ObjectRenderer(Programs programs, std::size_t nodes, ObjectDepth
 void ObjectRenderer::upload(std::size_t node, const ObjectView& view, ConstImageView<Rgba8> image,
                             ConstImageView<float> depths) {
     Textures& textures = textures_[node];
-    const ShownMesh shown = shown_mesh(shown_bands(image, margin_of(view)), glm::inverse(view.image_from_screen));
+    const CoverageMesh shown =
+        coverage_mesh(coverage_bands(image, margin_of(view)), glm::inverse(view.image_from_screen));
     textures.opaque = triangles(shown.corners, shown.opaque);
     textures.blended = triangles(shown.corners, shown.blended);
     textures.filled_last ^= 1;
     const int width = image.width();
     const int height = image.height();
-    large_enough(textures.in_turns[textures.filled_last], width, height, gl::TexelKind::kColour).upload(image);
+    ensure_size(textures.in_turns[textures.filled_last], width, height, gl::TexelKind::kColour).upload(image);
     if (depth_ != ObjectDepth::kPixel) return;
     RS_CHECK(depths.width() == width && depths.height() == height);
-    large_enough(textures.depths[textures.filled_last], width, height, gl::TexelKind::kFloat).upload(depths);
+    ensure_size(textures.depths[textures.filled_last], width, height, gl::TexelKind::kFloat).upload(depths);
 }
 
 const gl::Program& ObjectRenderer::set_up(const std::vector<gl::Program>& programs, const ObjectView& view,
@@ -110,7 +112,7 @@ void ObjectRenderer::draw(std::size_t node, const ObjectView& view, const Appear
     const Textures& textures = textures_[node];
     textures.in_turns[textures.filled_last]->bind(0);
     if (depth_ == ObjectDepth::kPixel) textures.depths[textures.filled_last]->bind(1);
-    const bool there = appearance.opacity >= 1;  // what is still fading in hides nothing
+    const bool there = appearance.opacity >= 1;  // objects that fade in write no depth
     if (textures.opaque) {
         gl::draw(set_up(programs_.opaque, view, appearance), *textures.opaque,
                  {.depth_write = there && depth_ == ObjectDepth::kPixel,
@@ -130,8 +132,8 @@ void ObjectRenderer::draw_blended_parts(const gl::VertexArray& parts, const gl::
     };
     constexpr float kMoreThanAll = 2;
     if (depth_ == ObjectDepth::kPlane) return draw_alphas(0, kMoreThanAll, false);
-    draw_alphas(kHidingAlpha, kMoreThanAll, there);
-    draw_alphas(0, kHidingAlpha, false);
+    draw_alphas(kDepthWriteAlpha, kMoreThanAll, there);
+    draw_alphas(0, kDepthWriteAlpha, false);
 }
 
 void ObjectRenderer::release(std::size_t node) {

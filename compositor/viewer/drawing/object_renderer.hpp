@@ -1,10 +1,9 @@
 #pragma once
-// Draws the images of ray-space nodes into a frame: what they show (shown_parts.hpp), at the depth of the node's
-// reference plane (object_view.hpp), tested against the geometry and blended over.
+// Draws the images of ray-space nodes into a frame: the covered parts of each image (image_coverage.hpp), depth-tested
+// at the node's reference plane (object_view.hpp) and blended.
 //
-// With a depth for every pixel, objects, and objects and geometry, reach into each other as their surfaces do. Then
-// pixels that are at least half covered also hide what is drawn later and lies behind them; the others, rims, do not,
-// for they would cut holes.
+// With per-pixel depth, objects intersect each other and the geometry along their surfaces. Pixels with alpha of at
+// least 0.5 then also write depth; edge pixels below do not, which would leave holes behind them.
 
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/texture.hpp"
@@ -23,36 +22,38 @@
 namespace rs::compositor {
 
 enum class ObjectDepth {
-    kPlane,  // one for all of an object
-    kPixel,  // the engine's, of every pixel
+    kPlane,  // one reference plane per object
+    kPixel,  // per-pixel depth of the engine
 };
 
-// Needs a gl::Context that is current, and outlives it; one thread. Move-only.
+/// Requires a current gl::Context that outlives it; single-threaded, move-only.
 class ObjectRenderer {
 public:
-    // For nodes 0 .. nodes - 1.
+    /// Renders nodes 0 .. nodes - 1.
     static Result<ObjectRenderer> create(std::size_t nodes, ObjectDepth depth = ObjectDepth::kPlane);
 
-    // Gives the image of a node to the GPU, at least one pixel; that of the view, which is drawn next. A node has two
-    // textures, taken in turns, so that one may still be drawn from while the other is filled. Of kPixel, `depths` has
-    // the image's size and holds axial depths in the units of the object's rig (engine::depth_image).
+    /// UploadCache the image of a node for the next draw(). Each node has two textures used in turn, so that one can be
+    /// filled while the GPU reads the other.
+    /// \param image at least 1 x 1 px, rendered for `view`.
+    /// \param depths for ObjectDepth::kPixel: axial depths of the image's size, in the units of the object's rig
+    /// (engine::depth_image).
     void upload(std::size_t node, const ObjectView& view, ConstImageView<Rgba8> image,
                 ConstImageView<float> depths = {});
 
     struct Appearance {
-        glm::ivec2 screen_px{0};  // size of the frame
-        glm::vec3 fog{0};         // its colour, linear light
-        float own_light = 1;      // what fog leaves of the object's, 0 .. 1
-        float opacity = 1;        // 0 .. 1, times that of the image
+        glm::ivec2 screen_px{0};  // frame size
+        glm::vec3 fog{0};         // fog colour, linear light
+        float own_light = 1;      // fraction of the object's light that passes the fog, 0 .. 1
+        float opacity = 1;        // 0 .. 1, multiplies the image's alpha
     };
-    // Draws what was uploaded last, an image of the view.
+    /// Draws the last uploaded image of the node.
     void draw(std::size_t node, const ObjectView& view, const Appearance& appearance) const;
 
-    // Gives the textures of a node back.
+    /// Releases the textures of a node.
     void release(std::size_t node);
 
 private:
-    // Smooth, then [samples across - 1].
+    // Element 0 interpolates bilinearly; element n takes n samples across.
     struct Programs {
         std::vector<gl::Program> opaque;
         std::vector<gl::Program> blended;

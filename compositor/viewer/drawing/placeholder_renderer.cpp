@@ -7,9 +7,9 @@
 namespace rs::compositor {
 namespace {
 
-constexpr double kWidth = 0.55;  // half the shape's width, of the object's radius
+constexpr double kWidth = 0.55;  // half width, in object radii
 
-// An upright rectangle through the object's axis that faces the viewer.
+// Upright rectangle through the object's axis that faces the viewer.
 constexpr const char* kVertex = R"(#version 450 core
 uniform mat4 clip_from_world;
 uniform vec4 corners[4];
@@ -24,7 +24,7 @@ uniform float opacity;
 uniform float progress;
 out vec4 result;
 void main() {
-    // A capsule, as soft as it is thick.
+    // Capsule whose opacity grows with its thickness.
     float beyond = max(abs(place.y - 0.5) - 0.3, 0.0) / 0.2;
     float alpha = 1.0 - smoothstep(0.1, 1.0, length(vec2(place.x, beyond)));
     float filled = 1.0 - smoothstep(progress - 0.04, progress + 0.04, place.y);
@@ -45,7 +45,7 @@ void PlaceholderRenderer::draw(const Placeholder& placeholder, const FrameView& 
     const glm::dvec3 bottom = place.point({0, placeholder.bottom, 0});
     const glm::dvec3 top = place.point({0, placeholder.top, 0});
     const glm::dvec3 aside = glm::cross(top - bottom, view.camera.centre() - bottom);
-    if (!(glm::length(aside) > 0)) return;  // seen along its axis
+    if (!(glm::length(aside) > 0)) return;  // viewed along the axis
     const glm::dvec3 half = glm::normalize(aside) * (kWidth * place.scale);
     const std::array corners = {glm::vec4(bottom - half, 1), glm::vec4(bottom + half, 1), glm::vec4(top - half, 1),
                                 glm::vec4(top + half, 1)};

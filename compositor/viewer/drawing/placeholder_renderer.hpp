@@ -1,21 +1,21 @@
 #pragma once
-// Draws what stands where an object is still being read: a soft, half-transparent upright shape, fuller from its foot
-// up as reading goes on.
+// Placeholder of an object that is being loaded: a soft, translucent upright shape, filled from its foot up by the load
+// progress.
 
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/vertex_array.hpp"
-#include "compositor/viewer/drawing/shown_parts.hpp"
+#include "compositor/viewer/drawing/displayed_nodes.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
 #include "rayspace/base/result.hpp"
 
 namespace rs::compositor {
 
-// Needs a gl::Context that is current, and outlives it; one thread. Move-only.
+/// Requires a current gl::Context that outlives it; single-threaded, move-only.
 class PlaceholderRenderer {
 public:
     static Result<PlaceholderRenderer> create();
 
-    // Blended over what is there, behind what is nearer.
+    /// Blended over the frame, depth-tested.
     void draw(const Placeholder& placeholder, const FrameView& view) const;
 
 private:
@@ -24,7 +24,7 @@ private:
     gl::VertexArray rectangle_;
 };
 
-// Of the placeholder, in scene coordinates.
+/// Bounding box in scene coordinates.
 BoundingBox bounds_of(const Placeholder& placeholder);
 
 }  // namespace rs::compositor

@@ -1,11 +1,11 @@
 #pragma once
-// The GLSL of floors and of objects made of images. Colours are linear light; the framebuffer encodes sRGB.
+// GLSL of floors and image-based objects. Colours are linear light; the framebuffer encodes sRGB.
 
 #include <string>
 
 namespace rs::compositor::shaders {
 
-// Constants at the head of a shader's text, behind its "#version".
+// Constants for the head of a shader source, after its "#version".
 
 inline std::string shader_constant(const std::string& name, int value) {
     return "const int " + name + " = " + std::to_string(value) + ";\n";
@@ -15,8 +15,8 @@ inline std::string shader_constant(const std::string& name, bool value) {
     return "const bool " + name + (value ? " = true;\n" : " = false;\n");
 }
 
-// The floor's square; a disc of it is kept. The checker is averaged over the pixel's footprint, so that it fades to an
-// even tone in the distance instead of flickering.
+// Floor: a square cut to a disc. The checker is box-filtered over the pixel's footprint, so that it fades to its mean
+// colour in the distance instead of aliasing.
 inline constexpr const char* kFloorVertex = R"(#version 450 core
 uniform mat4 clip_from_world;
 uniform float height;
@@ -26,7 +26,7 @@ void main() {
     on_floor = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID >> 1) * 2 - 1) * radius;
     gl_Position = clip_from_world * vec4(on_floor.x, height, on_floor.y, 1.0);
 })";
-// Behind the constant kShadows (of directional lights) and kShadowLookUp.
+// Preceded by the constant kShadows (number of directional lights with maps) and kShadowLookUp.
 inline constexpr const char* kFloorFragment = R"(
 in vec2 on_floor;
 uniform float height;
@@ -35,8 +35,8 @@ uniform float square;
 uniform vec3 colour_a;
 uniform vec3 colour_b;
 uniform vec3 background;
-uniform vec3 unshadowed;                       // light that always arrives
-uniform vec4 shadowed[2 * max(kShadows, 1)];  // of each light: what arrives where it is not shadowed; its direction
+uniform vec3 unshadowed;  // irradiance that shadows do not affect
+uniform vec4 shadowed[2 * max(kShadows, 1)];  // per light: unshadowed irradiance; direction
 out vec4 result;
 void main() {
     float away = length(on_floor) / radius;
@@ -58,31 +58,31 @@ void main() {
     result = vec4(mix(checker, background, smoothstep(0.15, 1.0, away)), 1.0);
 })";
 
-// A ray-space node: the parts of the screen that show it (shown_parts.hpp), each pixel the mean of samples_across *
-// samples_across samples of the image, at the depth of its two planes or of its pixels (object_view.hpp).
+// Ray-space node: the covered parts of its image (image_coverage.hpp). Each pixel is the mean of samples_across *
+// samples_across samples, at the depth of the two planes or of its pixels (object_view.hpp).
 inline constexpr const char* kObjectVertex = R"(#version 450 core
 layout(location = 0) in vec3 corner;  // homogeneous, in pixels
 uniform vec2 screen;                  // width, height in pixels
 void main() {
     gl_Position = vec4(corner.x / screen.x * 2.0 - corner.z, corner.z - corner.y / screen.y * 2.0, 0.0, corner.z);
 })";
-// Behind "#version" and the constants kPixelDepth, kOpaque (all texels that are read are), kSamplesAcross and kSmooth
-// (a sample lies between the nearest four texels): drawn on a CPU, loops that are unrolled cost half.
+// Preceded by "#version" and the constants kPixelDepth, kOpaque (all texels that are read are opaque), kSamplesAcross
+// and kSmooth (bilinear samples); unrolled loops halve the cost in software rendering.
 inline constexpr const char* kObjectFragment = R"(
 layout(binding = 0) uniform sampler2D picture;
-layout(binding = 1) uniform sampler2D depths;  // where kPixelDepth: axial, 0 where there is nothing
-uniform ivec2 picture_size;  // the rest of the texture is of other pictures
+layout(binding = 1) uniform sampler2D depths;  // kPixelDepth: axial depth, 0 if none
+uniform ivec2 picture_size;  // used part of the texture
 uniform mat3 picture_from_screen;
 uniform vec3 facing_depth;   // value in the depth buffer = dot(_, (x, y, 1))
 uniform vec3 foot_depth;
 uniform int from_above;
 uniform float near_of_depths;  // value in the depth buffer = near_of_depths / depth
-uniform vec2 alphas;         // only pixels of at least the first and less than the second are drawn
-uniform vec4 fog;            // colour; w: how much of the object's own light is left
-uniform float opacity;       // times that of the picture
+uniform vec2 alphas;  // draws pixels with alpha in [x, y)
+uniform vec4 fog;  // colour; w: transmittance
+uniform float opacity;  // multiplies the image's alpha
 out vec4 result;
 vec4 sum = vec4(0.0);      // premultiplied
-float nearness = 0.0;      // 1 / depth, weighed as sum.a
+float nearness = 0.0;  // 1 / depth, weighted like sum.a
 void add(ivec2 at, float weight, float depth_of_picture) {
     ivec2 inside = kOpaque ? at : clamp(at, ivec2(0), picture_size - 1);
     vec4 straight = texelFetch(picture, inside, 0);

@@ -55,7 +55,7 @@ std::string constants_of(const SurfaceKind& kind) {
            shaders::shader_constant("kShadowedPoints", kind.shadowed_points) +
            shaders::shader_constant("kNarrowSpots", kind.narrow_spots) +
            shaders::shader_constant("kWideSpots", kind.wide_spots) +
-           shaders::shader_constant("kShadows", kind.counted && shadows > 0 ? kMostCountedLights : shadows) +
+           shaders::shader_constant("kShadows", kind.counted && shadows > 0 ? kMaxCountedLights : shadows) +
            "const float kNear = " + std::to_string(kNear) + ";\n" + shaders::shader_constant("kFading", kind.fading) +
            shaders::shader_constant("kHeadlight", kind.headlight) + shaders::shader_constant("kLit", kind.lit) +
            shaders::shader_constant("kShiny", kind.shiny) + shaders::shader_constant("kPicture", kind.image) +
@@ -63,8 +63,8 @@ std::string constants_of(const SurfaceKind& kind) {
            shaders::shader_constant("kColours", kind.colours) + shaders::shader_constant("kRelief", kind.relief) +
            shaders::shader_constant("kFog", kind.fog) + shaders::shader_constant("kPhong", kind.phong) +
            shaders::shader_constant("kCover", static_cast<int>(kind.cover)) +
-           shaders::shader_constant("kVeil", kind.veil) + shaders::shader_constant("kCounted", kind.counted) +
-           shaders::shader_constant("kMostCounted", kMostCountedLights);
+           shaders::shader_constant("kVeil", kind.fog_only) + shaders::shader_constant("kCounted", kind.counted) +
+           shaders::shader_constant("kMostCounted", kMaxCountedLights);
 }
 
 }  // namespace rs::compositor

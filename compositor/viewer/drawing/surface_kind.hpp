@@ -1,5 +1,5 @@
 #pragma once
-// The kinds of surfaces that have a shader each. Pure; thread-safe.
+// Surface kinds; each has a shader of its own. Pure; thread-safe.
 
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/shadows/shadow_plan.hpp"
@@ -11,45 +11,45 @@
 
 namespace rs::compositor {
 
-// What the shader of a surface has to do: surfaces of a kind share one (geometry_shaders.hpp).
+/// Features of a surface that select its shader (geometry_shaders.hpp).
 struct SurfaceKind {
-    int directional = 0;  // lights that reach it
+    int directional = 0;  // number of lights that reach the surface
     int points = 0;
     int spots = 0;
-    int shadowed_directional = 0;  // the first so many of them throw shadows
+    int shadowed_directional = 0;  // the first lights of each type cast shadows
     int shadowed_points = 0;
-    int narrow_spots = 0;  // the first so many, with a single map; then those with a cube of them
+    int narrow_spots = 0;  // spots with one map; spots with a cube map follow
     int wide_spots = 0;
-    bool fading = false;  // some of these lights are weaker farther away
+    bool fading = false;  // some lights attenuate with distance
     bool headlight = false;
     bool lit = false;
     bool shiny = false;
-    int image = 0;  // 0 none, 1 in place of the material's colour, 2 times it
+    int image = 0;  // texture: 0 none, 1 replaces the diffuse colour, 2 multiplies it
     AlphaUse image_alpha = AlphaUse::kNone;
-    bool colours = false;  // of its own at the corners
+    bool colours = false;  // vertex colours
     bool relief = false;   // NormalMap
     int fog = 0;           // 0 none, 1 linear, 2 exponential
-    bool phong = false;    // by Phong's formula
+    bool phong = false;    // Phong's formula
     Cover cover = Cover::kNone;
-    // How many lights there are are numbers that it is given, not constants: slower to draw, but a street at night
-    // would have dozens of kinds else, and making a shader takes as long as many frames. The numbers above show only
-    // whether there may be any (1) or not (0): what cannot be is not tested.
+    /// Light counts are uniforms instead of constants. Slower to draw, but night scenes would otherwise need dozens of
+    /// kinds, and compiling one takes as long as many frames. The counts above are then 1 (possible) or 0 (never), so
+    /// that impossible lights are not tested.
     bool counted = false;
-    bool veil = false;  // nothing but the fog before it
+    bool fog_only = false;  // draws only the fog in front of the surface
     auto operator<=>(const SurfaceKind&) const = default;
 };
 
-// The numbers of `lights`, in any order, and whether they fade.
+/// Adds the counts of `lights`, in any order, and `fading`.
 void add_lights(const Scene& scene, const ShadowPlan& shadows, const std::vector<std::uint32_t>& lights,
                 SurfaceKind& kind);
 
-// `lights`: those that reach it, in any order.
+/// \param lights indices of the lights that reach the node, in any order.
 SurfaceKind kind_of(const Scene& scene, const ShadowPlan& shadows, const GeometryNode& node, AlphaUse alpha,
                     const std::vector<std::uint32_t>& lights);
 
-inline constexpr int kMostCountedLights = 48;  // that a `counted` kind has room for
+inline constexpr int kMaxCountedLights = 48;  // capacity of a `counted` kind
 
-// The head of its fragment shader.
+/// Head of the fragment shader source: its version and constants.
 std::string constants_of(const SurfaceKind& kind);
 
 }  // namespace rs::compositor

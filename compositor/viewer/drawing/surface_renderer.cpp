@@ -36,8 +36,8 @@ std::shared_ptr<const gl::VertexArray> upload(const Mesh& mesh) {
                                                    mesh.indices, primitive_of(mesh.topology));
 }
 
-// Everything that several nodes share is uploaded once.
-class Uploads {
+// Cache of uploads: meshes and images shared by several nodes are uploaded once.
+class UploadCache {
 public:
     std::shared_ptr<const gl::VertexArray> mesh(const std::shared_ptr<const Mesh>& mesh) {
         auto& uploaded = meshes_[mesh.get()];
@@ -89,14 +89,14 @@ Result<std::shared_ptr<const gl::Program>> SurfaceRenderer::program(const Surfac
     return programs_.emplace(kind, std::make_shared<const gl::Program>(std::move(made))).first->second;
 }
 
-// Of lights with a place, which are others from piece to piece and from frame to frame.
+// Replaces the light counts of the kind by uniforms, for counts that differ between nodes or frames.
 void SurfaceRenderer::count_lights(SurfaceKind& kind, Item& item) const {
-    const auto room = static_cast<std::size_t>(kMostCountedLights);
+    const auto room = static_cast<std::size_t>(kMaxCountedLights);
     glm::ivec4& counts = item.light_counts;
     glm::ivec4& mapped = item.shadow_counts;
     counts = {kind.directional, kind.points, kind.spots, 0};
     mapped = {kind.shadowed_directional, kind.shadowed_points, kind.narrow_spots, kind.wide_spots};
-    while (item.lights.size() > room) {  // more than anybody sees apart
+    while (item.lights.size() > room) {  // over capacity: drops the last lights
         item.lights.pop_back();
         --(counts.z > 0 ? counts.z : counts.y > 0 ? counts.y : counts.x);
     }
@@ -106,50 +106,50 @@ void SurfaceRenderer::count_lights(SurfaceKind& kind, Item& item) const {
     mapped.w = std::min(mapped.w, counts.z - mapped.z);
     item.shadows.resize(static_cast<std::size_t>(mapped.x + mapped.y + mapped.z + mapped.w));
     const bool shadowed = !item.shadows.empty();
-    kind.directional = some_lights_.directional;
-    kind.points = some_lights_.points;
-    kind.spots = some_lights_.spots;
-    kind.shadowed_directional = shadowed ? some_lights_.shadowed_directional : 0;
-    kind.shadowed_points = shadowed ? some_lights_.shadowed_points : 0;
-    kind.narrow_spots = shadowed ? some_lights_.narrow_spots : 0;
-    kind.wide_spots = shadowed ? some_lights_.wide_spots : 0;
+    kind.directional = available_lights_.directional;
+    kind.points = available_lights_.points;
+    kind.spots = available_lights_.spots;
+    kind.shadowed_directional = shadowed ? available_lights_.shadowed_directional : 0;
+    kind.shadowed_points = shadowed ? available_lights_.shadowed_points : 0;
+    kind.narrow_spots = shadowed ? available_lights_.narrow_spots : 0;
+    kind.wide_spots = shadowed ? available_lights_.wide_spots : 0;
     kind.fading = kind.counted = true;
 }
 
-// Bounds, lights and the shader for where the node is now.
-Status SurfaceRenderer::put(Item& item) {
+// Updates bounds, lights and shader for the node's transform.
+Status SurfaceRenderer::update_item(Item& item) {
     const GeometryNode& node = scene_.geometry[item.node];
     item.bounds = item.bounds_in_node.moved(item.world_from_node);
     const SurfaceLights lights =
         node.moving ? lights_near(scene_, node, item.bounds) : lights_of(scene_, node, item.bounds);
     SurfaceKind kind = kind_of(scene_, shadows_, node, item.alpha, lights.lights);
-    const std::vector<std::uint32_t> ordered = in_shader_order(scene_, shadows_, lights.lights);
+    const std::vector<std::uint32_t> ordered = sort_for_shader(scene_, shadows_, lights.lights);
     item.lights = rows_of(scene_, ordered);
     item.shadows = rows_of(shadows_, ordered);
     if ((kind.phong || node.moving) && kind.points + kind.spots > 0) count_lights(kind, item);
     RS_ASSIGN_OR_RETURN(auto made, program(kind));
     item.program = std::move(made);
-    SurfaceKind veil{.fog = kind.fog, .veil = true};
+    SurfaceKind fog_kind{.fog = kind.fog, .fog_only = true};
     if (kind.image_alpha == AlphaUse::kMask) {
-        veil.image = kind.image;
-        veil.image_alpha = kind.image_alpha;
+        fog_kind.image = kind.image;
+        fog_kind.image_alpha = kind.image_alpha;
     }
-    RS_ASSIGN_OR_RETURN(auto veiled, program(veil));
-    item.veil = std::move(veiled);
+    RS_ASSIGN_OR_RETURN(auto fog_program, program(fog_kind));
+    item.fog_program = std::move(fog_program);
     const glm::vec3 reflected = kind.phong ? phong_terms(node.material).ambient * lights.ambient : lights.ambient;
     item.material.ambient_light = glm::vec4(reflected, 0);
     item.mirrored = glm::determinant(glm::dmat3(item.world_from_node)) < 0;
     return {};
 }
 
-void SurfaceRenderer::survey_lights() {
-    some_lights_ = {};
+void SurfaceRenderer::summarize_lights() {
+    available_lights_ = {};
     std::vector<std::uint32_t> all(scene_.lights.size());
     std::iota(all.begin(), all.end(), 0U);
-    add_lights(scene_, shadows_, all, some_lights_);
-    for (int* number :
-         {&some_lights_.directional, &some_lights_.points, &some_lights_.spots, &some_lights_.shadowed_directional,
-          &some_lights_.shadowed_points, &some_lights_.narrow_spots, &some_lights_.wide_spots}) {
+    add_lights(scene_, shadows_, all, available_lights_);
+    for (int* number : {&available_lights_.directional, &available_lights_.points, &available_lights_.spots,
+                        &available_lights_.shadowed_directional, &available_lights_.shadowed_points,
+                        &available_lights_.narrow_spots, &available_lights_.wide_spots}) {
         *number = std::min(*number, 1);
     }
     ambient_light_ = glm::vec3(0);
@@ -158,7 +158,7 @@ void SurfaceRenderer::survey_lights() {
     }
 }
 
-Status SurfaceRenderer::make_casters() {
+Status SurfaceRenderer::create_caster_programs() {
     if (shadows_.faces.empty() || caster_) return {};
     RS_ASSIGN_OR_RETURN(auto caster, gl::Program::create("shadow", shaders::kCasterVertex, shaders::kCasterFragment));
     RS_ASSIGN_OR_RETURN(
@@ -170,9 +170,9 @@ Status SurfaceRenderer::make_casters() {
 
 Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const ShadowPlan& shadows) {
     SurfaceRenderer renderer(scene, shadows);
-    RS_TRY(renderer.make_casters());
-    renderer.survey_lights();
-    Uploads uploads;
+    RS_TRY(renderer.create_caster_programs());
+    renderer.summarize_lights();
+    UploadCache uploads;
     renderer.item_of_node_.resize(scene.geometry.size());
     for (std::size_t i = 0; i < scene.geometry.size(); ++i) {
         const GeometryNode& node = scene.geometry[i];
@@ -187,9 +187,9 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const Shadow
             item.alpha = uploads.alpha(*node.material.texture);
         }
         if (node.material.lit && node.material.normals) item.relief = uploads.relief(*node.material.normals);
-        item.throws_shadows = throws_shadows(node);
+        item.casts_shadows = casts_shadows(node);
         item.material = row_of(node.material, scene.shading);
-        RS_TRY(renderer.put(item));
+        RS_TRY(renderer.update_item(item));
         item.texture_transform = node.material.texture_transform;
         item.transparent = node.material.opacity < 1 || item.alpha == AlphaUse::kBlend;
         item.two_sided = node.mesh->two_sided;
@@ -207,21 +207,21 @@ Status SurfaceRenderer::move(std::size_t node, const std::optional<glm::dmat4>& 
     item.hidden = !world_from_node;
     if (item.hidden || *world_from_node == item.world_from_node) return {};
     item.world_from_node = *world_from_node;
-    return put(item);
+    return update_item(item);
 }
 
 Status SurfaceRenderer::set_lights(const Scene& scene, const ShadowPlan& shadows) {
     take_lights(scene, scene_);
     shadows_ = shadows;
-    if (Status status = make_casters(); !status) return status;
-    survey_lights();
+    RS_TRY(create_caster_programs());
+    summarize_lights();
     for (Item& item : items_) {
-        if (Status status = put(item); !status) return status;
+        RS_TRY(update_item(item));
     }
     return {};
 }
 
-bool SurfaceRenderer::stands(std::size_t node, const std::optional<glm::dmat4>& world_from_node) const {
+bool SurfaceRenderer::is_at(std::size_t node, const std::optional<glm::dmat4>& world_from_node) const {
     if (!item_of_node_[node]) return true;
     const Item& item = items_[*item_of_node_[node]];
     return world_from_node ? !item.hidden && *world_from_node == item.world_from_node : item.hidden;
@@ -234,31 +234,31 @@ bool SurfaceRenderer::has_transparent() const {
 BoundingBox SurfaceRenderer::caster_bounds(std::size_t node) const {
     if (!item_of_node_[node]) return {};
     const Item& item = items_[*item_of_node_[node]];
-    return item.hidden || !item.throws_shadows ? BoundingBox{} : item.bounds;
+    return item.hidden || !item.casts_shadows ? BoundingBox{} : item.bounds;
 }
 
 void SurfaceRenderer::set_frame(const FrameView& view) const {
     const auto& fog = scene_.fog;
     for (const auto& [kind, program] : programs_) {
-        if (program->uses("eye")) program->set("eye", glm::vec3(view.camera.centre()));
-        if (program->uses("headlight")) program->set("headlight", glm::vec3(view.camera.forward()));
-        if (program->uses("cover_light")) program->set("cover_light", ambient_light_);
+        if (program->has_uniform("eye")) program->set("eye", glm::vec3(view.camera.centre()));
+        if (program->has_uniform("headlight")) program->set("headlight", glm::vec3(view.camera.forward()));
+        if (program->has_uniform("cover_light")) program->set("cover_light", ambient_light_);
         if (!fog) continue;
-        if (program->uses("fog")) program->set("fog", fog->colour);
-        if (program->uses("fog_visibility")) program->set("fog_visibility", static_cast<float>(fog->visibility));
+        if (program->has_uniform("fog")) program->set("fog", fog->colour);
+        if (program->has_uniform("fog_visibility")) program->set("fog_visibility", static_cast<float>(fog->visibility));
     }
 }
 
 void SurfaceRenderer::draw(const Item& item, const gl::Program& program, const FrameView& view,
                            gl::DrawState state) const {
     const auto set = [&](const char* name, const auto& value) {
-        if (program.uses(name)) program.set(name, value);
+        if (program.has_uniform(name)) program.set(name, value);
     };
     program.set("clip_from_node", glm::mat4(view.clip_from_world * item.world_from_node));
     set("world_from_node", glm::mat4(item.world_from_node));
     set("world_normal_from_node", glm::mat3(glm::transpose(glm::inverse(glm::dmat3(item.world_from_node)))));
     set("texture_transform", item.texture_transform);
-    // Rows of vec4 without gaps: surface_tables.cpp asserts their sizes.
+    // Rows of vec4 without padding; surface_tables.cpp asserts their sizes.
     set("material", std::span(&item.material.diffuse_opacity, 4));
     if (!item.lights.empty()) set("lights", std::span(&item.lights.front().colour, 5 * item.lights.size()));
     if (!item.shadows.empty()) set("shadows", std::span(&item.shadows.front().u, 4 * item.shadows.size()));
@@ -270,8 +270,8 @@ void SurfaceRenderer::draw(const Item& item, const gl::Program& program, const F
     gl::draw(program, *item.mesh, state);
 }
 
-SurfaceRenderer::InView SurfaceRenderer::in_view(const FrameView& view) {
-    InView seen;
+SurfaceRenderer::VisibleItems SurfaceRenderer::collect_visible(const FrameView& view) {
+    VisibleItems seen;
     for (std::size_t i = 0; i < items_.size(); ++i) {
         const Item& item = items_[i];
         if (item.hidden || !may_be_seen(item.bounds, view.clip_from_world)) continue;
@@ -282,8 +282,8 @@ SurfaceRenderer::InView SurfaceRenderer::in_view(const FrameView& view) {
         }
     }
     nodes_in_view_ = static_cast<int>(seen.transparent.size() + seen.opaque.size());
-    // What hides first, so that what is hidden is not lit: by the farthest corner, for the floor and walls of a room
-    // are also near, but behind all that stands in it.
+    // Front to back by the farthest corner, to shade few hidden pixels: floor and walls of a room are near as well, but
+    // behind everything in it.
     const auto distance = [&](std::size_t i) {
         const BoundingBox& box = items_[i].bounds;
         const glm::dvec3& eye = view.camera.centre();
@@ -297,11 +297,11 @@ SurfaceRenderer::InView SurfaceRenderer::in_view(const FrameView& view) {
 std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const FrameView& view, bool wire_frame,
                                                                        OpaquePass pass) {
     set_frame(view);
-    InView seen = in_view(view);
+    VisibleItems seen = collect_visible(view);
     if (pass == OpaquePass::kNone) seen.opaque.clear();
     for (const std::size_t i : seen.opaque) {
         const Item& item = items_[i];
-        draw(item, pass == OpaquePass::kDepthOnly ? *item.veil : *item.program, view,
+        draw(item, pass == OpaquePass::kDepthOnly ? *item.fog_program : *item.program, view,
              {.culling = item.two_sided || wire_frame ? gl::Culling::kNone : gl::Culling::kBack,
               .wire_frame = wire_frame});
     }
@@ -312,7 +312,7 @@ void SurfaceRenderer::draw_fog(const FrameView& view) const {
     if (!scene_.fog) return;
     for (const Item& item : items_) {
         if (item.hidden || item.transparent || !may_be_seen(item.bounds, view.clip_from_world)) continue;
-        draw(item, *item.veil, view,
+        draw(item, *item.fog_program, view,
              {.depth_write = false,
               .blending = gl::Blending::kOverPremultiplied,
               .culling = item.two_sided ? gl::Culling::kNone : gl::Culling::kBack});
@@ -322,10 +322,10 @@ void SurfaceRenderer::draw_fog(const FrameView& view) const {
 void SurfaceRenderer::draw_casters(const ShadowPass& pass) const {
     const ShadowFace& face = pass.face;
     for (const Item& item : items_) {
-        if (!item.throws_shadows || item.hidden || !may_be_seen(item.bounds, pass.area_from_world, face.perspective))
+        if (!item.casts_shadows || item.hidden || !may_be_seen(item.bounds, pass.area_from_world, face.perspective))
             continue;
         const bool moving = scene_.geometry[item.node].moving.has_value();
-        if (pass.casters == (moving ? Casters::kStill : Casters::kMoving)) continue;
+        if (pass.casters == (moving ? Casters::kStatic : Casters::kMoving)) continue;
         const std::vector<std::uint32_t>& own_lights = scene_.geometry[item.node].lights;
         if (!scene_.lights[face.light].everywhere && std::ranges::find(own_lights, face.light) == own_lights.end()) {
             continue;
@@ -346,7 +346,7 @@ void SurfaceRenderer::draw_transparent(const Transparent& transparent, const Fra
     const Item& item = items_[transparent.index];
     gl::DrawState state{.depth_write = false, .blending = gl::Blending::kOverPremultiplied, .wire_frame = wire_frame};
     set_frame(view);
-    // The inner sides lie behind the outer ones.
+    // Back faces lie behind front faces.
     if (item.two_sided) {
         state.culling = gl::Culling::kFront;
         draw(item, *item.program, view, state);

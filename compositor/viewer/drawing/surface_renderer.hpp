@@ -1,7 +1,6 @@
 #pragma once
-// Draws the geometry of a scene: lit (geometry_shaders.hpp), textured, in fog, culled by the frustum. Meshes and
-// images are on the GPU from the beginning on, and every kind of surface has its shader. The nearest is drawn
-// first, so that light is computed for little that is hidden.
+// Draws scene geometry: lit (geometry_shaders.hpp), textured, with fog, frustum-culled. Meshes and images are uploaded
+// at creation; each surface kind has a shader. Surfaces are drawn front to back, so that few hidden pixels are shaded.
 
 #include "compositor/gl/draw.hpp"
 #include "compositor/gl/program.hpp"
@@ -25,52 +24,51 @@ namespace rs::compositor {
 
 enum class OpaquePass {
     kLit,
-    kDepthOnly,  // the same depths, and colours that mean nothing: quick
-    kNone,       // the frame holds their depths already
+    kDepthOnly,  // same depths with undefined colours; fast
+    kNone,       // the framebuffer already contains the depths
 };
 
-// Needs a gl::Context that is current, and outlives it; one thread. Move-only.
+/// Requires a current gl::Context that outlives it; single-threaded, move-only.
 class SurfaceRenderer {
 public:
-    // Those lights throw shadows that have maps by `shadows`; where there are any, they are bound (ShadowMaps::bind)
-    // when surfaces are drawn.
+    /// \param shadows lights with maps; these must be bound (ShadowMaps::bind) when surfaces are drawn.
     static Result<SurfaceRenderer> create(const Scene& scene, const ShadowPlan& shadows = {});
 
-    // The lights, environment and headlight of `scene`, whose geometry is that of the scene that this was made of, and
-    // which of them throw shadows. Fails where the driver refuses a shader.
+    /// Copies lights, environment and headlight from `scene`, which must have the same geometry as the scene passed to
+    /// create(), and sets its shadow-casting lights. Fails if the driver rejects a shader.
     Status set_lights(const Scene& scene, const ShadowPlan& shadows);
 
     struct Transparent {
         std::size_t index;
-        double distance;  // from the viewpoint to the middle of what is drawn, scene units
+        double distance;  // from the viewpoint to the centre of the surface, scene units
     };
-    // Draws what is opaque and returns what is not but may be in the image, to be drawn from the farthest on.
+    /// Draws opaque surfaces.
+    /// \return visible transparent surfaces, to be drawn in order of decreasing distance.
     std::vector<Transparent> draw_opaque(const FrameView& view, bool wire_frame, OpaquePass pass = OpaquePass::kLit);
-    // The fog before what is opaque, over an image of it that has none. Nothing where there is no fog.
+    /// Draws the fog in front of opaque surfaces over an image without fog. Does nothing if the scene has no fog.
     void draw_fog(const FrameView& view) const;
     void draw_transparent(const Transparent& item, const FrameView& view, bool wire_frame) const;
 
-    // From the next frame on a geometry node that may be moved stands elsewhere, or nowhere. Only its numbers change,
-    // unless lights reach it in a number for which there is no shader yet.
+    /// Moves a movable geometry node, or hides it (nullopt). Compiles a shader only if the new number of lights needs
+    /// one.
     Status move(std::size_t node, const std::optional<glm::dmat4>& world_from_node);
-    // Whether it stands there, or nowhere, already.
-    [[nodiscard]] bool stands(std::size_t node, const std::optional<glm::dmat4>& world_from_node) const;
+    /// True if the node already has this transform, or is hidden.
+    [[nodiscard]] bool is_at(std::size_t node, const std::optional<glm::dmat4>& world_from_node) const;
 
-    // Whether something is blended, wherever it stands.
+    /// True if the scene has blended surfaces, visible or not.
     [[nodiscard]] bool has_transparent() const;
 
-    // From where a node throws shadows, in scene coordinates; empty where it throws none.
+    /// Bounds of the shadow casters of a node in scene coordinates; empty if it casts none.
     [[nodiscard]] BoundingBox caster_bounds(std::size_t node) const;
 
-    // Meshes and images that were given to the driver since create() began, and shaders.
+    /// Number of meshes and images uploaded since create().
     [[nodiscard]] int uploads() const { return uploads_; }
-    [[nodiscard]] int shaders_made() const { return static_cast<int>(programs_.size()); }
+    [[nodiscard]] int shader_count() const { return static_cast<int>(programs_.size()); }
 
-    // What throws shadows on a map that has begun: opaque surfaces, with the holes of their images, from the sides
-    // from which they are seen.
+    /// Draws the shadow casters into the current map: opaque surfaces with their alpha masks, culled as in the image.
     void draw_casters(const ShadowPass& pass) const;
 
-    // Of the last draw_opaque(): geometry nodes that the frustum let pass.
+    /// Number of geometry nodes in the frustum in the last draw_opaque().
     [[nodiscard]] int nodes_in_view() const { return nodes_in_view_; }
 
 private:
@@ -80,46 +78,46 @@ private:
         std::shared_ptr<const gl::Texture> relief;
         glm::dmat4 world_from_node;
         BoundingBox bounds_in_node;
-        BoundingBox bounds;                          // in scene coordinates
-        std::size_t node = 0;                        // of Scene::geometry
-        AlphaUse alpha = AlphaUse::kNone;            // of its image
-        std::shared_ptr<const gl::Program> program;  // of its kind
-        std::shared_ptr<const gl::Program> veil;     // the fog before it alone
+        BoundingBox bounds;                              // scene coordinates
+        std::size_t node = 0;                            // index into Scene::geometry
+        AlphaUse alpha = AlphaUse::kNone;                // of its texture
+        std::shared_ptr<const gl::Program> program;      // shader of its kind
+        std::shared_ptr<const gl::Program> fog_program;  // shader of its fog alone
         MaterialRow material;
         std::vector<LightRow> lights;
         std::vector<ShadowRow> shadows;
-        bool throws_shadows = false;
-        glm::ivec4 light_counts{0};   // directional ones, points, spots
-        glm::ivec4 shadow_counts{0};  // of them those with maps: directional ones, points, narrow spots, wide ones
+        bool casts_shadows = false;
+        glm::ivec4 light_counts{0};   // directional, point and spot lights
+        glm::ivec4 shadow_counts{0};  // those with maps: directional, point, narrow spot, wide spot
         glm::mat3 texture_transform{1};
         bool transparent = false;
         bool two_sided = true;
-        bool mirrored = false;  // by its matrix
+        bool mirrored = false;  // by its transform
         bool hidden = false;
     };
     SurfaceRenderer(const Scene& scene, const ShadowPlan& shadows) : scene_(scene), shadows_(shadows) {}
-    Status make_casters();
+    Status create_caster_programs();
     Result<std::shared_ptr<const gl::Program>> program(const SurfaceKind& kind);
     void count_lights(SurfaceKind& kind, Item& item) const;
-    Status put(Item& item);
-    void survey_lights();
+    Status update_item(Item& item);
+    void summarize_lights();
     void set_frame(const FrameView& view) const;
-    struct InView {
-        std::vector<std::size_t> opaque;  // of items_, what hides others first
+    struct VisibleItems {
+        std::vector<std::size_t> opaque;  // indices into items_, front to back
         std::vector<Transparent> transparent;
     };
-    InView in_view(const FrameView& view);
+    VisibleItems collect_visible(const FrameView& view);
     void draw(const Item& item, const gl::Program& program, const FrameView& view, gl::DrawState state) const;
 
     Scene scene_;
     ShadowPlan shadows_;
     std::optional<gl::Program> caster_;
     std::optional<gl::Program> masked_caster_;
-    std::map<SurfaceKind, std::shared_ptr<const gl::Program>> programs_;  // one for each kind of surface that there is
+    std::map<SurfaceKind, std::shared_ptr<const gl::Program>> programs_;  // one per existing surface kind
     std::vector<Item> items_;
     std::vector<std::optional<std::size_t>> item_of_node_;
-    SurfaceKind some_lights_;     // of all the scene's: 1 where there are any, 0 where there are none
-    glm::vec3 ambient_light_{0};  // of all directional lights that shine everywhere
+    SurfaceKind available_lights_;  // scene-wide: 1 if the scene has such lights, else 0
+    glm::vec3 ambient_light_{0};    // sum over directional lights without scope
     int uploads_ = 0;
     int nodes_in_view_ = 0;
 };

@@ -10,7 +10,7 @@ static_assert(sizeof(LightRow) == 80 && sizeof(MaterialRow) == 64 && sizeof(Shad
 
 namespace {
 
-// Of a spot: false only where its light ends beside all of the box, by the ball around it. Others shine everywhere.
+// False only if the cone of a spot misses the box's bounding sphere. True for other lights.
 bool cone_may_meet(const Light& light, const BoundingBox& box) {
     constexpr double kMargin_rad = 1e-3;
     const double cut_off = light.cut_off_rad + kMargin_rad;
@@ -18,14 +18,14 @@ bool cone_may_meet(const Light& light, const BoundingBox& box) {
     const glm::dvec3 way = box.middle() - light.location;
     const double along = glm::dot(way, light.towards);
     const double across = std::sqrt(std::max(glm::dot(way, way) - along * along, 0.0));
-    const double beside = across * std::cos(cut_off) - along * std::sin(cut_off);  // from the cone's side
+    const double beside = across * std::cos(cut_off) - along * std::sin(cut_off);  // distance from the cone's surface
     return beside <= 0.5 * glm::distance(box.lowest, box.highest);
 }
 
-// The corners of a node's triangles as its shader lights them.
-class SurfaceInWorld {
+// Triangle corners and normals of a node in world coordinates, as in its shader.
+class WorldSurface {
 public:
-    explicit SurfaceInWorld(const GeometryNode& node) : mesh_(*node.mesh) {
+    explicit WorldSurface(const GeometryNode& node) : mesh_(*node.mesh) {
         const glm::dmat3 turn = glm::transpose(glm::inverse(glm::dmat3(node.world_from_node)));
         for (const MeshVertex& vertex : mesh_.vertices) {
             places_.emplace_back(node.world_from_node * glm::dvec4(vertex.position, 1));
@@ -35,8 +35,8 @@ public:
         }
     }
 
-    // Whether the light can be reflected somewhere on a triangle. Neither place nor normal leave the hull of its
-    // corners', and normal . (light - place) is linear in both.
+    // True if the light may be reflected at some point of a triangle. Positions and normals are convex combinations of
+    // those of the corners, and normal . (light - position) is linear in each of them.
     [[nodiscard]] bool may_reflect(const Light& light) const {
         if (mesh_.topology != Topology::kTriangles) return true;
         if (light.kind == LightKind::kDirectional) {
@@ -52,7 +52,7 @@ public:
     }
 
 private:
-    static constexpr double kGrazing = 1e-4;  // the shader computes in single precision
+    static constexpr double kGrazing = 1e-4;  // tolerance for the shader's single precision
 
     [[nodiscard]] bool may_face(const Light& light, std::size_t first) const {
         if (mesh_.two_sided) return true;
@@ -72,7 +72,7 @@ private:
 
     const Mesh& mesh_;
     std::vector<glm::dvec3> places_;
-    std::vector<glm::dvec3> normals_;  // of unit length, or 0
+    std::vector<glm::dvec3> normals_;  // unit length, or 0
 };
 
 }  // namespace
@@ -127,7 +127,7 @@ SurfaceLights lights_near(const Scene& scene, const GeometryNode& node, const Bo
 
 SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world) {
     SurfaceLights found;
-    const SurfaceInWorld surface(node);
+    const WorldSurface surface(node);
     for (const std::uint32_t i : lights_that_reach(scene, node, box_in_world)) {
         const Light& light = scene.lights[i];
         const bool directional = light.kind == LightKind::kDirectional;
@@ -139,7 +139,7 @@ SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const Boun
     return found;
 }
 
-std::vector<std::uint32_t> in_shader_order(const Scene& scene, const ShadowPlan& shadows,
+std::vector<std::uint32_t> sort_for_shader(const Scene& scene, const ShadowPlan& shadows,
                                            std::vector<std::uint32_t> lights) {
     const auto place = [&](std::uint32_t i) {
         const LightKind kind = scene.lights[i].kind;

@@ -1,6 +1,5 @@
 #pragma once
-// The numbers that the geometry's shaders read, laid out as they declare them (geometry_shaders.hpp). Pure;
-// thread-safe.
+// Uniform tables of the geometry shaders, in the layout that geometry_shaders.hpp declares. Pure; thread-safe.
 
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/shadows/shadow_plan.hpp"
@@ -25,34 +24,35 @@ struct MaterialRow {
     glm::vec4 diffuse_opacity;
     glm::vec4 specular_exponent;
     glm::vec4 emissive_ambient;
-    // Of all directional lights that reach it; in Phong's formula what is reflected of it. w unused.
+    // Sum over the directional lights that reach the surface; with Phong's formula, its reflected part. w unused.
     glm::vec4 ambient_light{0};
 };
 MaterialRow row_of(const Material& material, Shading shading);
 
 struct SurfaceLights {
-    std::vector<std::uint32_t> lights;  // of Scene::lights, that may be reflected somewhere on the surface
-    glm::vec3 ambient{0};               // of all directional lights, also of those that are not reflected
+    std::vector<std::uint32_t>
+        lights;            // indices into Scene::lights; lights that may be reflected somewhere on the surface
+    glm::vec3 ambient{0};  // sum over all directional lights, including those not reflected
 };
-// The lights that reach a node: those of `node.lights`, and of those everywhere all that are near enough to the node's
-// box, and spots whose cone may meet it. Of a surface that is seen from its front only, lights that shine on its back
-// everywhere are left out: a wall has few lights, and a shader evaluates each of them at every pixel.
+/// Lights that reach a node: those of `node.lights`, and unscoped lights whose range and spot cone intersect the node's
+/// box. Lights behind one-sided surfaces are omitted: a wall then has few lights, each of which costs time at every
+/// pixel.
 SurfaceLights lights_of(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world);
 
-// Of a node that moves: as lights_of(), but no light is left out for shining on its back.
+/// Same for a movable node: lights behind one-sided surfaces are included.
 SurfaceLights lights_near(const Scene& scene, const GeometryNode& node, const BoundingBox& box_in_world);
 
-// As the shaders take them: directional ones first, then points, then spots; of each kind those with shadows first, of
-// spots the narrow ones.
-std::vector<std::uint32_t> in_shader_order(const Scene& scene, const ShadowPlan& shadows,
+/// Sorts lights into the shader's order: directional, point, spot; within each type shadow casters first, narrow spots
+/// before wide ones.
+std::vector<std::uint32_t> sort_for_shader(const Scene& scene, const ShadowPlan& shadows,
                                            std::vector<std::uint32_t> lights);
-// In the order of `lights`.
+/// Rows in the order of `lights`.
 std::vector<LightRow> rows_of(const Scene& scene, const std::vector<std::uint32_t>& lights);
 
 struct ShadowRow {
     glm::vec4 u, v, depth, layer_texel;  // LightShadow
 };
-// Of those of `lights` that throw shadows, in their order.
+/// Rows of the shadow casters among `lights`, in their order.
 std::vector<ShadowRow> rows_of(const ShadowPlan& shadows, const std::vector<std::uint32_t>& lights);
 
 }  // namespace rs::compositor

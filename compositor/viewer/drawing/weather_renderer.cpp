@@ -11,24 +11,24 @@
 namespace rs::compositor {
 namespace {
 
-constexpr std::size_t kMostLamps = 16;  // as the shader has room for
-constexpr double kLampsAhead_m = 8;     // those nearest to a place so far ahead count
+constexpr std::size_t kMaxLamps = 16;  // capacity of the shader's array
+constexpr double kLampsAhead_m = 8;    // lamps nearest to the point at this distance ahead are used
 
-struct Falling {
+struct ParticleStyle {
     int count = 0;
-    double side_m = 0;  // of the box about the eye
+    double side_m = 0;  // of the box around the eye
     glm::dvec3 velocity{0};
     double shutter_s = 0;
     double width_m = 0;
     double sway_m = 0;
     double opacity = 0;
-    double reflectance = 0;  // of light from all around
+    double reflectance = 0;  // of ambient light
     bool round = false;
 };
-constexpr Falling kDrops{14000, 36, {0, -8.5, 0}, 0.03, 0.005, 0, 0.5, 0.55, false};
-constexpr Falling kFlakes{16000, 30, {0, -1.3, 0}, 0.008, 0.03, 0.25, 0.9, 0.9, true};
+constexpr ParticleStyle kDrops{14000, 36, {0, -8.5, 0}, 0.03, 0.005, 0, 0.5, 0.55, false};
+constexpr ParticleStyle kFlakes{16000, 30, {0, -1.3, 0}, 0.008, 0.03, 0.25, 0.9, 0.9, true};
 
-// Attenuation as the shader has it: 1 / max(1, _ * d * d).
+// Quadratic attenuation coefficient k of the shader: 1 / max(1, k * d * d).
 float fading(const Light& light) {
     return light.attenuation.z / std::max(light.least_attenuation, 1e-6F);
 }
@@ -45,12 +45,12 @@ Result<WeatherRenderer> WeatherRenderer::create(const Scene& scene) {
     for (const Light& light : scene.lights) {
         if (!light.everywhere) continue;
         if (light.kind == LightKind::kDirectional) {
-            renderer.sky_light_ += light.ambient + light.colour * 0.25F;  // from the whole sphere
+            renderer.sky_light_ += light.ambient + light.colour * 0.25F;  // averaged over the sphere
         } else {
             renderer.lamps_.push_back(light);
         }
     }
-    // Half of what comes from the sky goes through.
+    // Particles scatter a part of the sky's light.
     renderer.sky_light_ += 0.35F * background_colour(scene.background, {0, 1, 0});
     return renderer;
 }
@@ -58,7 +58,7 @@ Result<WeatherRenderer> WeatherRenderer::create(const Scene& scene) {
 void WeatherRenderer::draw(const Weather& weather, double seconds, const FrameView& view, double nearest,
                            double beyond) const {
     if (!weather.rain && !weather.snow) return;
-    const Falling& falling = weather.rain ? kDrops : kFlakes;
+    const ParticleStyle& falling = weather.rain ? kDrops : kFlakes;
     if (nearest >= falling.side_m) return;
     const glm::dvec3 eye = view.camera.centre();
     const glm::dvec3 middle = eye + kLampsAhead_m * view.camera.forward();
@@ -69,8 +69,8 @@ void WeatherRenderer::draw(const Weather& weather, double seconds, const FrameVi
     std::stable_sort(near.begin(), near.end(), [&](const Light* a, const Light* b) {
         return glm::distance(a->location, middle) < glm::distance(b->location, middle);
     });
-    near.resize(std::min(near.size(), kMostLamps));
-    std::array<glm::vec4, 3 * kMostLamps> rows{};
+    near.resize(std::min(near.size(), kMaxLamps));
+    std::array<glm::vec4, 3 * kMaxLamps> rows{};
     for (std::size_t i = 0; i < near.size(); ++i) {
         const Light& lamp = *near[i];
         const double cut_off = lamp.kind == LightKind::kSpot ? lamp.cut_off_rad : kPi;

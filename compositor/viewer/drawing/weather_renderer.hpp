@@ -1,6 +1,6 @@
 #pragma once
-// Draws rain and snow (weather_shaders.hpp): tested against the depth of what is drawn already, blended over it, lit by
-// the sky and the lamps near by. The same seed, time and camera give the same image.
+// Draws rain and snow (weather_shaders.hpp): depth-tested, blended, lit by the sky and nearby lamps. Deterministic in
+// seed, time and camera.
 
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/vertex_array.hpp"
@@ -12,13 +12,13 @@
 
 namespace rs::compositor {
 
-// Needs a gl::Context that is current, and outlives it; one thread. Move-only.
+/// Requires a current gl::Context that outlives it; single-threaded, move-only.
 class WeatherRenderer {
 public:
-    // By the lights of the scene, which are punctual.
+    /// \param scene its lights must be punctual.
     static Result<WeatherRenderer> create(const Scene& scene);
 
-    // What is at distances [nearest, beyond) from the eye. Nothing in fog alone.
+    /// Draws particles at distances [nearest, beyond) from the eye. Draws nothing if the weather is fog alone.
     void draw(const Weather& weather, double seconds, const FrameView& view, double nearest, double beyond) const;
 
 private:
@@ -28,7 +28,7 @@ private:
     gl::VertexArray drops_;
     gl::VertexArray flakes_;
     glm::vec3 sky_light_{0};
-    std::vector<Light> lamps_;  // points and spots
+    std::vector<Light> lamps_;  // point and spot lights
 };
 
 }  // namespace rs::compositor

@@ -1,7 +1,7 @@
 #pragma once
-// The GLSL of rain and snow: drops and flakes that fall through a box about the eye. A particle that leaves the box on
-// one side comes in on the other, so that it stands in the world, not before the camera; where it begins follows from
-// its number and the seed alone. Each is a strip of two triangles along its way while the shutter is open.
+// GLSL of rain and snow: particles that fall through a box centred on the eye. Particles wrap around at the sides of
+// the box, so that they are fixed to the world instead of the camera; their start positions depend on their index and
+// the seed alone. Each particle is a strip of two triangles along its path during the exposure.
 
 namespace rs::compositor::shaders {
 
@@ -12,13 +12,13 @@ uniform vec2 screen_px;
 uniform float focal_px;
 uniform int seed;
 uniform float seconds;
-uniform vec3 velocity;    // m/s, of the mean particle
-uniform vec4 particle;    // shutter s, width m, sway m, opacity
-uniform float side;       // of the box
-uniform vec2 range;       // distances from the eye that are drawn, [nearest, beyond)
+uniform vec3 velocity;  // m/s, mean
+uniform vec4 particle;  // shutter s, width m, sway m, opacity
+uniform float side;  // of the box
+uniform vec2 range;  // drawn distances from the eye, [nearest, beyond)
 uniform vec3 sky_light;
 uniform int lamp_count;
-uniform vec4 lamps[3 * 16];  // location, radius; colour, fading with the square; towards, cosine of the cut-off angle
+uniform vec4 lamps[3 * 16];  // location, radius; colour, quadratic attenuation; towards, cosine of the cut-off angle
 out vec2 place;           // across, along: -1 .. 1
 out vec4 tint;
 
@@ -53,7 +53,7 @@ void main() {
     vec4 tail = clip_from_world * vec4(p - way * particle.x, 1.0);
     place = vec2(0.0);
     tint = vec4(0.0);
-    gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // nowhere
+    gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // clipped
     const float kNearest = 0.5;
     if (min(head.w, tail.w) < kNearest || d < range.x || d >= range.y) return;
     vec2 along = (head.xy / head.w - tail.xy / tail.w) * screen_px;
@@ -67,7 +67,7 @@ void main() {
     gl_Position = end;
     gl_Position.xy += shift_px * 2.0 / screen_px * end.w;
     float faded = 1.0 - smoothstep(0.35 * side, 0.5 * side, d);
-    // What is thinner than what is drawn lets more of what is behind through.
+    // Particles thinner than the minimum width are drawn more transparent.
     tint = vec4(light_at(p), particle.w * faded * clamp(seen_px / drawn_px, 0.25, 1.0));
 })";
 

@@ -6,20 +6,20 @@
 namespace rs::compositor {
 namespace {
 
-constexpr double kFarther = 1.25;  // times as far: clearly farther
+constexpr double kClearlyFarther = 1.25;  // ratio of distances from which one is clearly farther
 
 }  // namespace
 
-bool gives_way(const LoadPriority& held, const LoadPriority& next) {
+bool is_evictable_for(const LoadPriority& held, const LoadPriority& next) {
     if (held.room < next.room) return false;
-    if (held.room == next.room) return held.distance > kFarther * next.distance + next.door;
-    // A room that was left a moment ago is still near, wherever the visitor is bound for.
-    return std::min(std::max(held.room, 0.0), held.room_now) > kFarther * std::max(next.room, 0.0) + next.door;
+    if (held.room == next.room) return held.distance > kClearlyFarther * next.distance + next.door;
+    // A room left a moment ago is still near, whatever the predicted position.
+    return std::min(std::max(held.room, 0.0), held.room_now) > kClearlyFarther * std::max(next.room, 0.0) + next.door;
 }
 
 namespace {
 
-// Of a room's longest side: what makes no difference to which is next.
+// LoadPriority::door as a fraction of the room's longest side.
 constexpr double kDoorOfRoom = 0.05;
 
 double distance_to(const BoundingBox& box, const glm::dvec3& point) {
@@ -47,7 +47,7 @@ RoomPlan::RoomPlan(const Scene& scene) {
     }
 }
 
-std::vector<LoadPriority> RoomPlan::priorities(const VisitorPlace& visitor) const {
+std::vector<LoadPriority> RoomPlan::priorities(const VisitorPosition& visitor) const {
     std::vector<LoadPriority> priorities(files_.size());
     std::vector<bool> has_priority(files_.size());
     for (const Node& node : nodes_) {
@@ -55,7 +55,7 @@ std::vector<LoadPriority> RoomPlan::priorities(const VisitorPlace& visitor) cons
         priority.distance = glm::distance(node.middle, visitor.eye);
         priority.door = door_;
         if (node.room && !rooms_[*node.room].box.empty()) {
-            const Place& room = rooms_[*node.room];
+            const RoomEntry& room = rooms_[*node.room];
             priority.door = room.door;
             priority.room_now = distance_to(room.box, visitor.eye);
             priority.room = priority.room_now > 0 ? distance_to(room.box, visitor.soon) : LoadPriority::kHere;

@@ -1,5 +1,5 @@
 #pragma once
-// The load priority of objects. Pure; thread-safe.
+// Load priorities of objects. Pure; thread-safe.
 
 #include "compositor/scene/scene.hpp"
 
@@ -14,41 +14,41 @@
 
 namespace rs::compositor {
 
-// What comes first into memory: the lesser value. First its room counts, then its own distance; scene units.
+/// Load priority; lesser values load first. Compares the room, then the object's own distance. Scene units.
 struct LoadPriority {
-    static constexpr double kAlways = -2;  // belongs to no room
-    static constexpr double kHere = -1;    // the visitor is in its room
-    double room = kAlways;                 // one of these, or how far its room is from where the visitor will be soon
+    static constexpr double kAlways = -2;  // not in any room
+    static constexpr double kHere = -1;    // in the visitor's room
+    double room = kAlways;                 // one of these, or distance from the room to the predicted eye position
     double distance = 0;
-    double door = 0.5;  // what does not count as a difference of distances: a step or so
-    double room_now = std::numeric_limits<double>::infinity();  // how far its room is from where the visitor is
+    double door = 0.5;                                          // tolerance when distances are compared: about a step
+    double room_now = std::numeric_limits<double>::infinity();  // distance from the room to the current eye position
     auto operator<=>(const LoadPriority&) const = default;
 };
-// Whether something that is in memory has to make room for something that is not: only where its priority is clearly
-// lower, so that a visitor at a door does not make two rooms take turns.
-bool gives_way(const LoadPriority& held, const LoadPriority& next);
+/// True if an object in memory may be evicted for one that is not: its priority must be clearly lower, so that a
+/// visitor at a door does not make two rooms alternate.
+bool is_evictable_for(const LoadPriority& held, const LoadPriority& next);
 
-// From a scene's rooms and the place of its visitor to load priorities. Pure; thread-safe.
+// Load priorities from the scene's rooms and the visitor's position. Pure; thread-safe.
 //
-// First the objects of no room, then those of the room that the visitor is in, then room by room, the nearest to where
-// the visitor will be soon first: so walking towards a door has the room behind it read before it is entered. In a room
-// the nearest objects come first.
+// Objects outside of all rooms come first, then those of the visitor's room, then room by room by distance from the
+// predicted position: the room behind a door is loaded while the visitor walks towards it. Within a room, nearer
+// objects come first.
 
-struct VisitorPlace {
+struct VisitorPosition {
     glm::dvec3 eye{0};
-    glm::dvec3 soon{0};  // where the eye will be in a moment
+    glm::dvec3 soon{0};  // predicted eye position
 };
 
 class RoomPlan {
 public:
     explicit RoomPlan(const Scene& scene);
 
-    // Each file of the scene's objects once.
+    /// Distinct files of the scene's objects.
     [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
     [[nodiscard]] std::size_t file_of_node(std::size_t node) const { return nodes_[node].file; }
 
-    // [file]
-    [[nodiscard]] std::vector<LoadPriority> priorities(const VisitorPlace& visitor) const;
+    /// Priorities by file index.
+    [[nodiscard]] std::vector<LoadPriority> priorities(const VisitorPosition& visitor) const;
 
 private:
     struct Node {
@@ -56,14 +56,14 @@ private:
         std::optional<std::size_t> room;
         glm::dvec3 middle{0};
     };
-    struct Place {
+    struct RoomEntry {
         BoundingBox box;
         double door = 0;  // LoadPriority::door
     };
     std::vector<std::filesystem::path> files_;
     std::vector<Node> nodes_;
-    std::vector<Place> rooms_;
-    double door_ = 0;  // of objects without a room
+    std::vector<RoomEntry> rooms_;
+    double door_ = 0;  // LoadPriority::door of objects without a room
 };
 
 }  // namespace rs::compositor

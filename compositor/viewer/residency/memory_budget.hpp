@@ -1,6 +1,6 @@
 #pragma once
-// A budget of memory that cannot be exceeded: whoever needs memory takes a lease first, and it is back when the lease
-// dies. Thread-safe.
+// Memory budget with leases: memory is reserved before it is allocated and returned when the lease is destroyed.
+// Thread-safe.
 
 #include <cstdint>
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace rs::compositor {
 
-// Bytes taken from a budget until it is destroyed. Move-only; empty after a move.
+/// Reserved bytes, returned on destruction. Move-only; empty after a move.
 class MemoryLease {
 public:
     MemoryLease() = default;
@@ -17,7 +17,7 @@ public:
     ~MemoryLease();
 
     [[nodiscard]] std::int64_t bytes() const { return bytes_; }
-    // Gives back what is above `bytes`, 0 .. bytes().
+    /// Returns the excess over `bytes`, 0 .. bytes().
     void shrink(std::int64_t bytes);
 
 private:
@@ -28,17 +28,17 @@ private:
     std::int64_t bytes_ = 0;
 };
 
-// Leases may outlive it.
+/// Leases may outlive the budget.
 class MemoryBudget {
 public:
     explicit MemoryBudget(std::int64_t budget_bytes);
 
-    // Nothing where the budget would be exceeded.
+    /// \return nullopt if the budget would be exceeded.
     [[nodiscard]] std::optional<MemoryLease> reserve(std::int64_t bytes);
 
     [[nodiscard]] std::int64_t budget_bytes() const { return budget_bytes_; }
     [[nodiscard]] std::int64_t used_bytes() const;
-    [[nodiscard]] std::int64_t peak_bytes() const;  // most that was used at a time
+    [[nodiscard]] std::int64_t peak_bytes() const;  // maximum of used_bytes() so far
 
 private:
     std::int64_t budget_bytes_;

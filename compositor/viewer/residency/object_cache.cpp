@@ -14,14 +14,14 @@
 namespace rs::compositor {
 namespace {
 
-// Until others who still use an object have let it go.
-constexpr std::chrono::milliseconds kPatience(5);
+// Polling interval while other owners still use an evicted object.
+constexpr std::chrono::milliseconds kRetryInterval(5);
 
 std::string mebibytes(std::int64_t bytes) {
     return std::to_string((bytes + (1 << 20) - 1) >> 20) + " MiB";
 }
 
-// An object with the memory that it takes; that is given back when the last who uses the object is done with it.
+// Object and its memory lease, which is returned with the last reference to the object.
 struct StoredObject {
     MemoryLease lease;
     ViewableObject object;
@@ -32,15 +32,15 @@ enum class Stage {
     kAway,
     kLoading,
     kHere,
-    kLeaving,  // its user has been told to let it go
+    kEvicting,  // eviction was requested
     kFailed,
 };
 
 struct File {
     std::filesystem::path path;
     Stage stage = Stage::kUnmeasured;
-    std::int64_t most_bytes = 0;                 // while it is read
-    std::shared_ptr<const StoredObject> object;  // while it is here
+    std::int64_t most_bytes = 0;                 // while loading
+    std::shared_ptr<const StoredObject> object;  // while loaded
     double load_s = 0;
     std::atomic<float> progress = 0;
 };
@@ -54,17 +54,17 @@ struct ObjectCache::State {
     }
 
     std::vector<File> files;
-    std::unique_ptr<ObjectSource> source;  // of the cache's thread
+    std::unique_ptr<ObjectSource> source;  // used by the cache's thread
     MemoryBudget memory;
 
-    mutable std::mutex mutex;  // of what follows and the files, progress excepted
+    mutable std::mutex mutex;  // protects the following members and `files`, except progress
     std::condition_variable for_thread;
     std::condition_variable for_user;
-    std::vector<LoadPriority> priorities;  // [file]; empty before the first
+    std::vector<LoadPriority> priorities;  // [file]; empty before the first call
     std::vector<CacheEvent> events;
-    std::vector<std::shared_ptr<const ViewableObject>> given_back;
+    std::vector<std::shared_ptr<const ViewableObject>> released_objects;
     StoreStatistics statistics;
-    bool idle = false;  // the thread has nothing to do until somebody calls
+    bool idle = false;  // the thread waits for calls
     bool stopping = false;
     std::thread thread;
 
@@ -83,7 +83,7 @@ struct ObjectCache::State {
         for_user.notify_all();
     }
 
-    // The files in a stage, by their load priority.
+    // Files of a stage, ordered by load priority.
     [[nodiscard]] std::vector<std::size_t> by_priority(Stage stage) const {
         std::vector<std::size_t> found;
         for (std::size_t i = 0; i < files.size(); ++i) {
@@ -124,7 +124,7 @@ struct ObjectCache::State {
                 lease.shrink(bytes);
                 object = std::make_shared<const StoredObject>(StoredObject{std::move(lease), std::move(*read)});
             } else {
-                why = file.path.string() + ": takes more memory than was foreseen; encode it anew";
+                why = file.path.string() + ": needs more memory than estimated; encode it again";
             }
         } else {
             why = read.error().message;
@@ -138,22 +138,23 @@ struct ObjectCache::State {
         ++statistics.loads;
         statistics.load_s += seconds;
         statistics.longest_load_s = std::max(statistics.longest_load_s, seconds);
-        events.push_back({CacheEvent::Kind::kArrived, number, {object, &object->object}, {}});
+        events.push_back({CacheEvent::Kind::kLoaded, number, {object, &object->object}, {}});
         for_user.notify_all();
     }
 
-    // Has those of least priority let go, until there will be `bytes`; nothing happens where that cannot be reached
-    // with those that give way. True where somebody is leaving.
-    bool make_room(std::size_t next, std::int64_t bytes) {
+    // Requests evictions, lowest priority first, until `bytes` will be free; does nothing if evictable objects do not
+    // suffice.
+    // True if an eviction is pending.
+    bool request_evictions(std::size_t next, std::int64_t bytes) {
         std::int64_t free = memory.budget_bytes() - memory.used_bytes();
         std::vector<std::size_t> held;
         bool leaving = false;
         for (std::size_t i = 0; i < files.size(); ++i) {
-            if (files[i].stage == Stage::kLeaving) {
+            if (files[i].stage == Stage::kEvicting) {
                 leaving = true;
                 if (files[i].object) free += files[i].object->lease.bytes();
             }
-            if (files[i].stage == Stage::kHere && gives_way(priorities[i], priorities[next])) held.push_back(i);
+            if (files[i].stage == Stage::kHere && is_evictable_for(priorities[i], priorities[next])) held.push_back(i);
         }
         if (leaving && free >= bytes) return true;
         std::stable_sort(held.begin(), held.end(), [&](auto a, auto b) { return priorities[a] > priorities[b]; });
@@ -162,35 +163,35 @@ struct ObjectCache::State {
         if (free < bytes) return leaving;
         for (std::size_t n = 0; n < count; ++n) {
             File& file = files[held[n]];
-            file.stage = Stage::kLeaving;
+            file.stage = Stage::kEvicting;
             ++statistics.evictions;
-            // An arrival that nobody has seen is no news any more.
+            // A load event that was not fetched yet is withdrawn.
             const auto unseen = std::find_if(events.begin(), events.end(), [&](const CacheEvent& event) {
-                return event.file == held[n] && event.kind == CacheEvent::Kind::kArrived;
+                return event.file == held[n] && event.kind == CacheEvent::Kind::kLoaded;
             });
             const std::shared_ptr<const ViewableObject> object(file.object, &file.object->object);
             if (unseen != events.end()) {
                 events.erase(unseen);
-                given_back.push_back(object);
+                released_objects.push_back(object);
             } else {
-                events.push_back({CacheEvent::Kind::kLeaves, held[n], object, {}});
+                events.push_back({CacheEvent::Kind::kEvicting, held[n], object, {}});
             }
         }
         for_user.notify_all();
         return true;
     }
 
-    // Frees what was given back: unmapping large memory takes a while, and no frame is to wait for it.
-    void free_given_back(std::unique_lock<std::mutex>& lock) {
-        std::vector<std::shared_ptr<const ViewableObject>> gone = std::move(given_back);
-        given_back.clear();
+    // Frees returned objects on this thread: unmapping large memory is slow and must not delay a frame.
+    void free_released_objects(std::unique_lock<std::mutex>& lock) {
+        std::vector<std::shared_ptr<const ViewableObject>> gone = std::move(released_objects);
+        released_objects.clear();
         std::vector<std::shared_ptr<const StoredObject>> stored;
         for (File& file : files) {
             const bool back = std::any_of(gone.begin(), gone.end(), [&](const auto& object) {
                 return file.object && object.get() == &file.object->object;
             });
             if (!back) continue;
-            RS_CHECK(file.stage == Stage::kLeaving);
+            RS_CHECK(file.stage == Stage::kEvicting);
             file.stage = Stage::kAway;
             file.progress = 0;
             stored.push_back(std::move(file.object));
@@ -202,10 +203,10 @@ struct ObjectCache::State {
         lock.lock();
     }
 
-    // One step towards what the priorities require. False where there is nothing to do.
+    // One step towards the priorities. False if there is nothing to do.
     bool advance(std::unique_lock<std::mutex>& lock) {
-        if (!given_back.empty()) {
-            free_given_back(lock);
+        if (!released_objects.empty()) {
+            free_released_objects(lock);
             return true;
         }
         if (priorities.empty()) return false;
@@ -220,10 +221,10 @@ struct ObjectCache::State {
                 load(lock, next, std::move(*lease));
                 return true;
             }
-            waits = make_room(next, bytes) || somebody_still_uses_memory();
+            waits = request_evictions(next, bytes) || has_pending_owners();
             if (waits) break;
         }
-        if (waits && given_back.empty()) for_thread.wait_for(lock, kPatience);
+        if (waits && released_objects.empty()) for_thread.wait_for(lock, kRetryInterval);
         return waits;
     }
 
@@ -237,8 +238,8 @@ struct ObjectCache::State {
         }
     }
 
-    // More than the objects here take: what left is still used by a cycle that is being drawn.
-    [[nodiscard]] bool somebody_still_uses_memory() const {
+    // True if more memory is reserved than loaded objects take: a running cycle still uses an evicted object.
+    [[nodiscard]] bool has_pending_owners() const {
         std::int64_t held = 0;
         for (const File& file : files) held += file.object ? file.object->lease.bytes() : 0;
         return memory.used_bytes() > held;
@@ -281,7 +282,7 @@ std::vector<CacheEvent> ObjectCache::events() {
 
 void ObjectCache::give_back(std::shared_ptr<const ViewableObject> object) {
     const std::lock_guard lock(state_->mutex);
-    state_->given_back.push_back(std::move(object));
+    state_->released_objects.push_back(std::move(object));
     state_->idle = false;
     state_->for_thread.notify_all();
 }

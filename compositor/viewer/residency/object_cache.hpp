@@ -1,12 +1,13 @@
 #pragma once
-// Which of a scene's objects are in memory. A thread of the cache reads them by load priority, and never more
-// than the budget holds: before it reads an object it takes what that needs at most from the budget, and where that is
-// not free it first has those of least priority let go.
+// Cache of a scene's objects within a memory budget. A background thread loads files by load priority: it reserves the
+// peak memory of an object before it reads the file, and first evicts objects of the lowest priority if the budget is
+// exhausted.
 //
-// An object that is there leaves only for one of clearly higher priority (load_priority.hpp). One whose memory cannot
-// be had is passed over, for as long as that is so.
+// An object in memory is evicted only for one of clearly higher priority (load_priority.hpp). Files that do not fit at
+// the moment are skipped until memory is free.
 //
-// Thread-safety: everything is called from one thread, the frames', and never waits for a file, but wait_for_events().
+// Thread-safety: all functions are called from the rendering thread and never wait for file I/O, except
+// wait_for_events().
 
 #include "compositor/viewer/residency/load_priority.hpp"
 #include "compositor/viewer/residency/memory_budget.hpp"
@@ -23,11 +24,11 @@ namespace rs::compositor {
 
 struct CacheEvent {
     enum class Kind {
-        kArrived,  // `object` may be shown
-        kLeaves,   // stop showing it, and give it back: its memory is needed
-        kFailed,   // `why`; it will not come
+        kLoaded,    // `object` may be displayed
+        kEvicting,  // stop displaying it and call give_back()
+        kFailed,    // `why` states the reason; the file is not retried
     };
-    Kind kind = Kind::kArrived;
+    Kind kind = Kind::kLoaded;
     std::size_t file = 0;
     std::shared_ptr<const ViewableObject> object;
     std::string why;
@@ -41,36 +42,35 @@ struct StoreStatistics {
     std::int64_t used_bytes = 0;
     std::int64_t peak_bytes = 0;
     double longest_load_s = 0;
-    double load_s = 0;  // of all
+    double load_s = 0;  // sum over all loads
 };
 
 class ObjectCache {
 public:
     ObjectCache(std::vector<std::filesystem::path> files, std::unique_ptr<ObjectSource> source,
                 std::int64_t budget_bytes);
-    ~ObjectCache();  // waits for the file that is being read
+    ~ObjectCache();  // waits for the current read
     ObjectCache(const ObjectCache&) = delete;
     ObjectCache& operator=(const ObjectCache&) = delete;
 
-    // [file], from now on. Nothing is read before the first call.
+    /// Priorities by file index. Loading starts with the first call.
     void set_priorities(std::vector<LoadPriority> priorities);
-    // The same for a frame, which is not to wait even for the blink of an eye that the cache's thread, of low priority,
-    // may be held up in: false, and nothing is changed, where it is busy. To be set again with the next frame.
+    /// Same, without blocking on the cache's mutex, which its low-priority thread may hold for a while.
+    /// \return false, with nothing changed, if the mutex was locked; retry in the next frame.
     bool try_set_priorities(std::vector<LoadPriority> priorities);
 
-    // What has happened since the last call; may come with a later one while the cache is busy.
+    /// Events since the last call. May be delayed to a later call while the mutex is locked.
     std::vector<CacheEvent> events();
-    // The answer to kLeaves: nobody uses the object any more.
+    /// Response to kEvicting: releases the last reference of the caller.
     void give_back(std::shared_ptr<const ViewableObject> object);
 
-    // How far reading has come, 0 .. 1.
+    /// Load progress, 0 .. 1.
     [[nodiscard]] float progress(std::size_t file) const;
-    // Seconds that the last reading of the file took; 0 before.
+    /// Duration of the file's last load in seconds; 0 before the first.
     [[nodiscard]] double load_seconds(std::size_t file) const;
-    // True where nothing more will happen under the present priorities: what has the highest priority is there, and
-    // events are fetched.
+    /// True if no more events will occur under the current priorities and all events were fetched.
     [[nodiscard]] bool settled() const;
-    // Waits until there are events or it has settled.
+    /// Blocks until there are events or the cache is settled.
     void wait_for_events();
 
     [[nodiscard]] StoreStatistics statistics() const;

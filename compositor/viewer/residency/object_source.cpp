@@ -16,52 +16,54 @@
 namespace rs::compositor {
 namespace {
 
-constexpr int kLowPriority = 5;  // "nice"
+constexpr int kLowPriority = 5;  // "nice" value
 
-// How far reading has come at its steps, about as long as they take.
+// Progress at the steps of loading, about proportional to their time.
 constexpr float kBegun = 0.05F;
 constexpr float kRead = 0.7F;
 
-class ObjectFiles final : public ObjectSource {
+class FileObjectSource final : public ObjectSource {
 public:
-    ObjectFiles(std::shared_ptr<const engine::RenderSession> engine, bool background)
+    FileObjectSource(std::shared_ptr<const engine::RenderSession> engine, bool background)
         : engine_(std::move(engine)), background_(background), arena_(background ? 1 : tbb::task_arena::automatic) {}
 
     Result<std::int64_t> most_bytes(const std::filesystem::path& file) override {
         RS_ASSIGN_OR_RETURN(const auto container, ContainerReader::open(file));
         RS_ASSIGN_OR_RETURN(const ReadingMemory reading, memory_to_read(container));
         const std::int64_t texels = engine::TexelStore::bytes_of_images(reading.width, reading.height, reading.images);
-        // A board that takes it gets a copy of its own, made of what may be a changed one.
+        // A board gets a copy of its own, made from a possibly modified object.
         const int copies = engine_->has_board() ? 3 : 1;
         return std::max(reading.most_bytes, copies * reading.object_bytes + texels);
     }
 
-    Result<ViewableObject> read(const std::filesystem::path& file, std::int64_t most_bytes, const Tell& tell) override {
-        if (background_ && !slowed_) {  // the thread that reads is always the same
+    Result<ViewableObject> read(const std::filesystem::path& file, std::int64_t most_bytes,
+                                const ProgressCallback& on_progress) override {
+        if (background_ && !slowed_) {  // always called on the same thread
             slowed_ = true;
             static_cast<void>(setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kLowPriority));
         }
         try {
-            return arena_.execute([&]() -> Result<ViewableObject> { return read_in_arena(file, most_bytes, tell); });
+            return arena_.execute(
+                [&]() -> Result<ViewableObject> { return read_in_arena(file, most_bytes, on_progress); });
         } catch (const std::bad_alloc&) {
-            return Error{file.string() + ": there is no memory for it; lower the budget (--memory)"};
+            return Error{file.string() + ": not enough memory; lower the budget (--memory)"};
         }
     }
 
 private:
     Result<ViewableObject> read_in_arena(const std::filesystem::path& file, std::int64_t most_bytes,
-                                         const Tell& tell) const {
-        tell(kBegun);
+                                         const ProgressCallback& on_progress) const {
+        on_progress(kBegun);
         RS_ASSIGN_OR_RETURN(const auto container, ContainerReader::open(file));
-        // The file may have changed since it was measured.
+        // The file may have changed since peak_bytes() was computed.
         RS_ASSIGN_OR_RETURN(RaySpaceObject object,
                             read_object(container, {.memory_cap_bytes = static_cast<std::uint64_t>(most_bytes)}));
-        tell(kRead);
+        on_progress(kRead);
         std::shared_ptr<const RaySpaceObject> for_board = engine_->as_board_draws(object);
-        object.coded.reset();  // unpacked by now
+        object.coded.reset();  // already unpacked
         RS_ASSIGN_OR_RETURN(ViewableObject viewable, make_viewable(std::move(object)));
         viewable.for_board = std::move(for_board);
-        tell(1);
+        on_progress(1);
         return viewable;
     }
 
@@ -74,7 +76,7 @@ private:
 }  // namespace
 
 std::unique_ptr<ObjectSource> object_files(std::shared_ptr<const engine::RenderSession> engine, bool background) {
-    return std::make_unique<ObjectFiles>(std::move(engine), background);
+    return std::make_unique<FileObjectSource>(std::move(engine), background);
 }
 
 }  // namespace rs::compositor

@@ -1,5 +1,5 @@
 #pragma once
-// Where the objects of a scene come from: files, or what a test makes.
+// Interface of object sources: files, or generated objects in tests.
 
 #include "compositor/viewer/residency/placed_object.hpp"
 #include "engine/driver/render_session.hpp"
@@ -19,18 +19,18 @@ public:
     ObjectSource& operator=(const ObjectSource&) = delete;
     virtual ~ObjectSource() = default;
 
-    // The most memory that read() of the file takes at any moment, and so an upper bound of what it leaves.
+    /// Upper bound of the memory that read() of this file uses at any moment, and so of its result.
     virtual Result<std::int64_t> most_bytes(const std::filesystem::path& file) = 0;
 
-    // Tells how far reading has come, 0 .. 1, not decreasing.
-    using Tell = std::function<void(float)>;
-    // Never takes more than `most_bytes`; fails where it would.
+    /// Progress callback, 0 .. 1, non-decreasing.
+    using ProgressCallback = std::function<void(float)>;
+    /// Fails if it would need more memory than `most_bytes`.
     virtual Result<ViewableObject> read(const std::filesystem::path& file, std::int64_t most_bytes,
-                                        const Tell& tell) = 0;
+                                        const ProgressCallback& on_progress) = 0;
 };
 
-// .rso files, made ready for the engine, which outlives the source. In the `background` one thread reads, at low
-// priority, else all do.
+/// Source of .rso files, prepared for `engine`.
+/// \param background one low-priority reader thread; otherwise all threads are used.
 std::unique_ptr<ObjectSource> object_files(std::shared_ptr<const engine::RenderSession> engine, bool background);
 
 }  // namespace rs::compositor

@@ -13,11 +13,11 @@
 namespace rs::compositor {
 namespace {
 
-constexpr std::uint8_t kSolid = 128;  // alpha from which a pixel counts as the object rather than its fringe
+constexpr std::uint8_t kSolid = 128;  // alpha of object pixels; lower values are the soft edge
 
 struct RowRange {
     int begin = 0;
-    int end = 0;  // begin == end: the image is empty
+    int end = 0;  // begin == end: empty image
 };
 
 RowRange occupied_rows(const Image<std::uint8_t>& alpha, std::uint8_t least) {
@@ -30,8 +30,8 @@ RowRange occupied_rows(const Image<std::uint8_t>& alpha, std::uint8_t least) {
     return rows;
 }
 
-// The widest of the rows, in pixels from its first solid one to its last.
-int widest(const Image<std::uint8_t>& alpha, RowRange rows) {
+// Largest width of the rows in pixels, from the first to the last solid pixel.
+int max_width(const Image<std::uint8_t>& alpha, RowRange rows) {
     int width = 0;
     for (int y = rows.begin; y < rows.end; ++y) {
         int first = 0;
@@ -43,10 +43,10 @@ int widest(const Image<std::uint8_t>& alpha, RowRange rows) {
     return width;
 }
 
-// A CapturedView in floating point.
+// CapturedView in floating point.
 struct ImageScale {
     explicit ImageScale(const CapturedView& view)
-        : axis_depth(std::ldexp(view.lines.front().l0_q20, -20)),  // where x = 0, on every plane
+        : axis_depth(std::ldexp(view.lines.front().l0_q20, -20)),  // x = 0 on every plane
           focal_px(std::ldexp(view.fl_y_q16, -16)),
           principal_row(std::ldexp(view.cy_q16, -16)),
           height(std::ldexp(view.height_q20, -20)) {}
@@ -64,72 +64,73 @@ struct ImageScale {
     double height;
 };
 
-// One image that shows something.
-struct Outline {
+// Measurements of one non-empty image.
+struct SilhouetteMeasure {
     std::size_t view;
-    RowRange rows;  // solid ones
+    RowRange rows;  // solid rows
     double azimuth_rad;
-    double left;  // how far the foot reaches to either side of the axis, object radii
+    double left;  // extent of the foot to either side of the axis, object radii
     double right;
 };
 
-// From which side the camera looks at the axis: 0 is +Z, growing towards +X.
+// Azimuth of the camera about the axis: 0 at +Z, increasing towards +X.
 double azimuth_of(const CapturedView& view) {
     const double step = 2 * kPi / static_cast<double>(view.lines.size());
-    const double x = std::ldexp(view.lines[0].l1_q30, -30);  // forward . tangent of planes 0 and 1
+    const double x =
+        std::ldexp(view.lines[0].l1_q30, -30);  // dot product of forward and the tangents of planes 0 and 1
     const double along_next = std::ldexp(view.lines[1].l1_q30, -30);
     const double z = (x * std::cos(step) - along_next) / std::sin(step);
     return std::atan2(-x, -z);
 }
 
-// The outlines of the ring whose cameras are nearest to the height of the foot: they see it most nearly from the side.
-std::vector<Outline> outlines_of_lowest_ring(const RaySpaceObject& object) {
+// Silhouette measurements of the ring whose elevation is closest to horizontal, which shows the foot from the side.
+std::vector<SilhouetteMeasure> silhouettes_of_lowest_ring(const RaySpaceObject& object) {
     const auto lowest = std::min_element(object.rings.begin(), object.rings.end(), [](const Ring& a, const Ring& b) {
         return std::abs(a.elevation_udeg) < std::abs(b.elevation_udeg);
     });
-    std::vector<Outline> outlines;
+    std::vector<SilhouetteMeasure> silhouettes;
     for (const std::uint16_t view : lowest->views) {
         if (object.images[view].empty()) continue;
         const RowRange rows = occupied_rows(object.images[view].a, kSolid);
-        if (rows.begin < rows.end) outlines.push_back({view, rows, azimuth_of(object.views[view]), 0, 0});
+        if (rows.begin < rows.end) silhouettes.push_back({view, rows, azimuth_of(object.views[view]), 0, 0});
     }
-    return outlines;
+    return silhouettes;
 }
 
-// Measures how far the object reaches to either side where a foot at this height would be seen, and below.
-void measure_sides(const RaySpaceObject& object, double foot, Outline& outline) {
-    const Image<std::uint8_t>& alpha = object.images[outline.view].a;
-    const CapturedView& view = object.views[outline.view];
+// Measures the object's extent to either side at the image rows of this foot height and below.
+void measure_sides(const RaySpaceObject& object, double foot, SilhouetteMeasure& silhouette) {
+    const Image<std::uint8_t>& alpha = object.images[silhouette.view].a;
+    const CapturedView& view = object.views[silhouette.view];
     const ImageScale scale(view);
     const double axis_column = std::ldexp(view.cx_q16, -16) + std::ldexp(view.lines[0].q0_q16, -16) / scale.axis_depth;
-    const int some = std::max((outline.rows.end - outline.rows.begin) / 24, 1);
+    const int some = std::max((silhouette.rows.end - silhouette.rows.begin) / 24, 1);
     const auto begin = static_cast<int>(std::clamp(scale.row_of(foot, scale.axis_depth) - some,
-                                                   static_cast<double>(outline.rows.begin),
-                                                   static_cast<double>(outline.rows.end - some)));
+                                                   static_cast<double>(silhouette.rows.begin),
+                                                   static_cast<double>(silhouette.rows.end - some)));
     double first = axis_column;
     double last = axis_column;
-    for (int y = begin; y < outline.rows.end; ++y) {
+    for (int y = begin; y < silhouette.rows.end; ++y) {
         for (int x = 0; x < alpha.width(); ++x) {
             if (alpha(x, y) < kSolid) continue;
             first = std::min(first, static_cast<double>(x));
             last = std::max(last, x + 1.0);
         }
     }
-    outline.left = std::min((axis_column - first) * scale.axis_depth / scale.focal_px, 1.0);
-    outline.right = std::min((last - axis_column) * scale.axis_depth / scale.focal_px, 1.0);
+    silhouette.left = std::min((axis_column - first) * scale.axis_depth / scale.focal_px, 1.0);
+    silhouette.right = std::min((last - axis_column) * scale.axis_depth / scale.focal_px, 1.0);
 }
 
-// How far the foot reaches towards the camera of an outline: what the outlines seen from a quarter turn to either side
-// say, or half its own width where there are none.
-double reach_towards(const std::vector<Outline>& outlines, const Outline& outline) {
+// Extent of the foot towards the camera of a silhouette: measured in the silhouettes a quarter turn to either side;
+// half its own width without such.
+double reach_towards(const std::vector<SilhouetteMeasure>& silhouettes, const SilhouetteMeasure& silhouette) {
     constexpr double kNearlyAQuarter_rad = kPi / 12;
     double sum = 0;
     int count = 0;
     for (const double side : {-1.0, 1.0}) {
-        const Outline* nearest = nullptr;
+        const SilhouetteMeasure* nearest = nullptr;
         double nearest_error = kNearlyAQuarter_rad;
-        for (const Outline& other : outlines) {
-            const double turn = other.azimuth_rad - outline.azimuth_rad - side * kPi / 2;
+        for (const SilhouetteMeasure& other : silhouettes) {
+            const double turn = other.azimuth_rad - silhouette.azimuth_rad - side * kPi / 2;
             const double error = std::abs(std::remainder(turn, 2 * kPi));
             if (error >= nearest_error) continue;
             nearest = &other;
@@ -139,22 +140,23 @@ double reach_towards(const std::vector<Outline>& outlines, const Outline& outlin
         sum += side < 0 ? nearest->right : nearest->left;
         ++count;
     }
-    return count > 0 ? sum / count : (outline.left + outline.right) / 2;
+    return count > 0 ? sum / count : (silhouette.left + silhouette.right) / 2;
 }
 
-// Where the foot is, begun at a first guess: its height shows where in the images its sides are, and these how far
-// before the axis the lowest point of each image is.
+// Refines the foot height from an initial value: the height determines the rows at which the foot's extent is measured,
+// and the extent determines how far the lowest point of each image is in front of the axis.
 double foot_of(const RaySpaceObject& object, double foot) {
-    std::vector<Outline> outlines = outlines_of_lowest_ring(object);
-    if (outlines.empty()) return foot;
+    std::vector<SilhouetteMeasure> silhouettes = silhouettes_of_lowest_ring(object);
+    if (silhouettes.empty()) return foot;
     for (int i = 0; i < 3; ++i) {
-        for (Outline& outline : outlines) measure_sides(object, foot, outline);
+        for (SilhouetteMeasure& silhouette : silhouettes) measure_sides(object, foot, silhouette);
         std::vector<double> heights;
-        for (const Outline& outline : outlines) {
-            const ImageScale scale(object.views[outline.view]);
-            const bool beyond_horizon = outline.rows.end < scale.principal_row;
-            const double reach = reach_towards(outlines, outline);
-            heights.push_back(scale.height_at(outline.rows.end, scale.axis_depth + (beyond_horizon ? reach : -reach)));
+        for (const SilhouetteMeasure& silhouette : silhouettes) {
+            const ImageScale scale(object.views[silhouette.view]);
+            const bool beyond_horizon = silhouette.rows.end < scale.principal_row;
+            const double reach = reach_towards(silhouettes, silhouette);
+            heights.push_back(
+                scale.height_at(silhouette.rows.end, scale.axis_depth + (beyond_horizon ? reach : -reach)));
         }
         foot = median(std::move(heights));
     }
@@ -193,10 +195,10 @@ UprightExtent estimated_extent(const RaySpaceObject& object) {
         const RowRange rows = occupied_rows(alpha, kSolid);
         if (rows.begin == rows.end) continue;
         const ImageScale scale(object.views[i]);
-        // The rim that reaches farthest away from the horizon is the near one; where an end of the object lies beyond
-        // the horizon (a foot above the camera) it is the far one.
+        // The rim farthest from the horizon is the near one, or the far one if an end of the object lies beyond the
+        // horizon (e.g. a foot above the camera).
         const auto height_of_end = [&](int row, RowRange end_rows, bool beyond_horizon) {
-            const double radius_px = widest(alpha, end_rows) / 2.0;
+            const double radius_px = max_width(alpha, end_rows) / 2.0;
             const double radius = std::min(radius_px / scale.focal_px * scale.axis_depth, 1.0);
             return scale.height_at(row, scale.axis_depth + (beyond_horizon ? radius : -radius));
         };

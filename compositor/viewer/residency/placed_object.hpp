@@ -1,5 +1,5 @@
 #pragma once
-// Ray-space objects in memory, and where a scene puts them.
+// Ray-space objects in memory and their placement in a scene.
 
 #include "compositor/scene/scene.hpp"
 #include "engine/core/fast/renderer.hpp"
@@ -11,9 +11,9 @@
 
 namespace rs::compositor {
 
-// How much room an object takes, computed from its captured images. Pure; thread-safe.
+// Object bounds, computed from the captured images. Pure; thread-safe.
 
-// An upright cylinder about the object's axis, in object radii.
+/// Upright cylinder about the object's axis, in object radii.
 struct BoundingCylinder {
     double radius = 0;
     double bottom = 0;
@@ -21,32 +21,31 @@ struct BoundingCylinder {
     [[nodiscard]] bool empty() const { return bottom >= top; }
 };
 
-// Holds every point at which the engine can show something of the object: for each image the heights that its
-// occupied rows take over all plane points the RS map covers (RECONSTRUCTION.md, section 3, solved for Y). Larger than
-// the object itself. Empty where no image shows anything. Looks at every pixel; the images must be loaded.
+/// Bound of all points at which the engine can render the object: for each image the heights of its occupied rows over
+/// all plane points that the RS map covers (RECONSTRUCTION.md, section 3, solved for Y). Larger than the object itself;
+/// empty if all images are. Reads every pixel; images must be loaded.
 BoundingCylinder bounding_cylinder(const RaySpaceObject& object);
 
-// An estimate of where the object itself begins and ends on its axis, in object radii: `bottom` is what would touch a
-// floor that it stands on, which the object itself may state (RaySpaceObject::foot_q20). Else each image's lowest row
-// is taken for the rim of the foot that is nearest to the camera. How far that is before the axis is seen from the
-// side, in the images a quarter turn away. Of all images the median counts. The top is found likewise, but with the
-// object's width for its depth. Both 0 where no image shows anything.
+/// Estimated vertical extent of the object itself on its axis, in object radii. `bottom` is the height of the floor
+/// contact: RaySpaceObject::foot_q20 if given; otherwise each image's lowest row is taken as the near rim of the foot,
+/// whose distance from the axis is measured in the images a quarter turn away. The median over the images is used.
+/// `top` is found in the same way from the object's width. Both are 0 if all images are empty.
 struct UprightExtent {
     double bottom = 0;
     double top = 0;
 };
 UprightExtent estimated_extent(const RaySpaceObject& object);
 
-// What is measured on the images is kept beside the renderer, which converts and releases them.
+/// Renderer and measurements. Measurements are taken first, since the renderer converts and releases the images.
 struct ViewableObject {
     engine::Renderer renderer;
     BoundingCylinder bounds;
     UprightExtent extent;
-    std::shared_ptr<const RaySpaceObject> for_board = nullptr;  // as engine::PreparedObject
+    std::shared_ptr<const RaySpaceObject> for_board = nullptr;  // see engine::PreparedObject
 
     [[nodiscard]] std::int64_t memory_bytes() const;
 };
-// The object has passed validate_object (as read_object's have).
+/// \param object must have passed validate_object (as the results of read_object have).
 Result<ViewableObject> make_viewable(RaySpaceObject object);
 
 struct PlacedObject {

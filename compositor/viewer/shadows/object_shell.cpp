@@ -15,25 +15,25 @@
 namespace rs::compositor {
 namespace {
 
-constexpr int kAround = 12;             // views of each elevation
+constexpr int kAround = 12;             // views per elevation
 constexpr std::size_t kElevations = 3;  // at most
 constexpr double kSteepest_rad = kPi / 3;
-constexpr double kDistance = 6;            // of the viewpoint from the axis, object radii
-constexpr double kAcross_px = 64;          // the bound's larger side
-constexpr int kFrame_px = 2048;            // more than any view takes
-constexpr std::uint8_t kSolidAlpha = 128;  // alpha
-constexpr double kJump_px = 8;             // between neighbours of one surface, lengths of a pixel there
+constexpr double kDistance = 6;    // of the viewpoint from the axis, object radii
+constexpr double kAcross_px = 64;  // larger side of the bounds in the image
+constexpr int kFrame_px = 2048;    // larger than any view
+constexpr std::uint8_t kSolidAlpha = 128;
+constexpr double kJump_px = 8;  // depth step between neighbours that separates surfaces, in pixel footprints
 
 struct ShellView {
     Camera camera;  // object radii
     Image<Rgba8> image;
-    Image<float> depths;  // object radii, 0 where there is nothing
+    Image<float> depths;  // object radii; 0 if none
 
     [[nodiscard]] bool solid(int x, int y) const { return image(x, y).a >= kSolidAlpha && depths(x, y) > 0; }
     [[nodiscard]] glm::dvec3 point(double x, double y, double depth) const {
         return camera.centre() + depth * camera.ray(x, y);
     }
-    // Whether something is shown where the point is seen, or beside.
+    // True if the view shows the object at the point's projection or at a neighbouring pixel.
     [[nodiscard]] bool may_hold(const glm::dvec3& p) const {
         const glm::dvec3 at = camera.project(p);
         if (!(at.z > 0)) return false;
@@ -48,7 +48,7 @@ struct ShellView {
     }
 };
 
-// Level, so that the engine draws it column by column; the object is where it falls on the image.
+// Level camera, so that the engine renders it by columns; the object may be off the image centre.
 std::optional<ShellView> view_from(const ViewableObject& object, double azimuth_rad, double elevation_rad) {
     const BoundingCylinder& bounds = object.bounds;
     const double side = std::max({2 * bounds.radius, bounds.top - bounds.bottom, 1e-6});
@@ -83,7 +83,7 @@ std::optional<ShellView> view_from(const ViewableObject& object, double azimuth_
     return view;
 }
 
-// The capture's, at most kElevations of them: the lowest, the highest and between.
+// Elevations of the capture rings, at most kElevations: the lowest, the highest and those between.
 std::vector<double> elevations_of(const RaySpaceObject& object) {
     std::vector<double> all;
     for (const Ring& ring : object.rings) {
@@ -94,9 +94,9 @@ std::vector<double> elevations_of(const RaySpaceObject& object) {
     return {all.front(), all[all.size() / 2], all.back()};
 }
 
-class ShellMaker {
+class ShellBuilder {
 public:
-    explicit ShellMaker(std::vector<ShellView> views) : views_(std::move(views)) {}
+    explicit ShellBuilder(std::vector<ShellView> views) : views_(std::move(views)) {}
 
     ObjectShell make() {
         for (const ShellView& view : views_) add(view);
@@ -129,7 +129,7 @@ private:
                 if (in_hull(p)) corners(x, y) = add_corner(p);
             }
         }
-        Image<std::uint8_t> squares(width, height, 0);  // of one surface about each pixel
+        Image<std::uint8_t> squares(width, height, 0);  // number of squares of one surface around each pixel
         for (int y = 0; y + 1 < height; ++y) {
             for (int x = 0; x + 1 < width; ++x) {
                 const std::array<glm::ivec2, 4> at{{{x, y}, {x + 1, y}, {x + 1, y + 1}, {x, y + 1}}};
@@ -143,7 +143,7 @@ private:
                 add_triangles({first, corners(x + 1, y), opposite, first, opposite, corners(x, y + 1)});
             }
         }
-        // Rims, and what is thin.
+        // Edges and thin features.
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
                 if (corners(x, y) != kNone && squares(x, y) < 4) add_square(view, x, y);
@@ -179,7 +179,7 @@ ObjectShell object_shell(const ViewableObject& object) {
     for (std::optional<ShellView>& view : made) {
         if (view) views.push_back(std::move(*view));
     }
-    return ShellMaker(std::move(views)).make();
+    return ShellBuilder(std::move(views)).make();
 }
 
 }  // namespace rs::compositor

@@ -1,7 +1,7 @@
 #pragma once
-// The surface of an object made of images, as far as its shadow needs it: what the engine shows of it, with depth,
-// from places all around at the elevations that its capture holds, put together. Any light may shine on that, also from
-// straight above, where no image was taken and the engine has no answer.
+// Approximate surface mesh of an image-based object for shadow casting, merged from engine views with depth around the
+// object at the elevations of its capture. Lights can then come from any direction, including from above, where no
+// image was taken and the engine has no view.
 
 #include "compositor/viewer/residency/placed_object.hpp"
 
@@ -13,12 +13,12 @@
 namespace rs::compositor {
 
 struct ObjectShell {
-    std::vector<glm::vec3> corners;  // object radii
+    std::vector<glm::vec3> corners;  // in object radii
     std::vector<std::uint32_t> triangles;
 };
 
-// Points that some view does not show (a wrong depth) lie outside of the visual hull and are left out; where depth
-// jumps the surface is open, and what is one pixel thin is a square. Pure; thread-safe. Some ten milliseconds.
+/// Points that another view does not cover (wrong depths) are outside the visual hull and are dropped. The surface is
+/// open at depth discontinuities; features one pixel wide become squares. Pure; thread-safe. Takes about 10 ms.
 ObjectShell object_shell(const ViewableObject& object);
 
 }  // namespace rs::compositor

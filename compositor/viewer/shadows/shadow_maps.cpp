@@ -13,7 +13,7 @@
 namespace rs::compositor {
 namespace {
 
-constexpr unsigned kPlaneUnit = 2;  // as shadow_shaders.hpp has them
+constexpr unsigned kPlaneUnit = 2;  // texture units in shadow_shaders.hpp
 constexpr unsigned kCubeUnit = 3;
 
 std::shared_ptr<const gl::VertexArray> upload(const ObjectShell& shell) {
@@ -30,16 +30,16 @@ BoundingBox box_of(const PlacedObject& placed) {
     return box.moved(placed.world_from_object.matrix());
 }
 
-bool holds(const BoundingBox& box, const glm::dvec3& p) {
+bool box_contains(const BoundingBox& box, const glm::dvec3& p) {
     return glm::clamp(p, box.lowest, box.highest) == p;
 }
 
-bool throws_on(const BoundingBox& box, const ShadowFace& face) {
+bool affects_map(const BoundingBox& box, const ShadowFace& face) {
     return may_be_seen(box, face.clip_from_world, face.perspective) &&
-           (face.scope.empty() || holds(face.scope, box.middle()));
+           (face.scope.empty() || box_contains(face.scope, box.middle()));
 }
 
-// The texels that a box may cover on a map: all of them where it reaches behind the light's place.
+// Texels that a box may cover in a map: the whole map if the box extends behind the light.
 gl::TexelArea area_of(const BoundingBox& box, const ShadowFace& face, int side) {
     glm::dvec2 lowest(1);
     glm::dvec2 highest(-1);
@@ -49,11 +49,11 @@ gl::TexelArea area_of(const BoundingBox& box, const ShadowFace& face, int side) 
                            (corner & 4) != 0 ? box.highest.z : box.lowest.z);
         const glm::dvec4 clip = face.clip_from_world * glm::dvec4(p, 1);
         if (clip.w < kNear && face.perspective) return {0, 0, side, side};
-        const glm::dvec2 on_map = glm::clamp(glm::dvec2(clip.x, -clip.y) / clip.w, -1.0, 1.0);  // rows go down
+        const glm::dvec2 on_map = glm::clamp(glm::dvec2(clip.x, -clip.y) / clip.w, -1.0, 1.0);  // rows run downwards
         lowest = glm::min(lowest, on_map);
         highest = glm::max(highest, on_map);
     }
-    constexpr int kRim = 1;  // for what rasterisation rounds
+    constexpr int kRim = 1;  // for rasterisation rounding
     const auto first = [&](double at) { return std::max(static_cast<int>((at + 1) / 2 * side) - kRim, 0); };
     const auto end = [&](double at) { return std::min(static_cast<int>((at + 1) / 2 * side) + 1 + kRim, side); };
     const int x = first(lowest.x);
@@ -65,24 +65,24 @@ bool overlap(const gl::TexelArea& a, const gl::TexelArea& b) {
     return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 }
 
-gl::TexelArea around(const gl::TexelArea& a, const gl::TexelArea& b) {
+gl::TexelArea bounding_area(const gl::TexelArea& a, const gl::TexelArea& b) {
     const int x = std::min(a.x, b.x);
     const int y = std::min(a.y, b.y);
     return {x, y, std::max(a.x + a.width, b.x + b.width) - x, std::max(a.y + a.height, b.y + b.height) - y};
 }
 
-// Adds an area; those that overlap become one, so that no texel is in two.
+// Adds an area; overlapping areas are merged, so that no texel belongs to two.
 void add_area(gl::TexelArea area, std::vector<gl::TexelArea>& areas) {
     for (;;) {
         const auto other = std::ranges::find_if(areas, [&](const gl::TexelArea& a) { return overlap(a, area); });
         if (other == areas.end()) break;
-        area = around(area, *other);
+        area = bounding_area(area, *other);
         areas.erase(other);
     }
     areas.push_back(area);
 }
 
-// The projection whose image is that area of the face's map.
+// Projection onto this area of the face's map.
 glm::dmat4 area_from_world(const ShadowFace& face, const gl::TexelArea& area, int side) {
     const glm::dvec2 size(area.width, area.height);
     const glm::dvec2 middle = (glm::dvec2(area.x, area.y) + 0.5 * size) * (2.0 / side) - 1.0;
@@ -107,28 +107,28 @@ Result<ShadowMaps> ShadowMaps::create(ShadowPlan plan) {
         RS_ASSIGN_OR_RETURN(auto made, gl::DepthArray::create(side, layers));
         array->emplace(std::move(made));
     }
-    maps.still_drawn_.resize(planned.faces.size());
+    maps.static_cached_.resize(planned.faces.size());
     return maps;
 }
 
-ShadowMaps::Thrown ShadowMaps::thrown_by(const std::optional<PlacedObject>& placed) const {
+ShadowMaps::CasterState ShadowMaps::caster_state(const std::optional<PlacedObject>& placed) const {
     if (!placed) return {};
-    Thrown thrown{true, placed->object, placed->world_from_object.matrix(), box_of(*placed), nullptr};
+    CasterState state{true, placed->object, placed->world_from_object.matrix(), box_of(*placed), nullptr};
     const auto known = std::ranges::find_if(
-        objects_, [&](const Thrown& before) { return before.there && before.object.lock() == placed->object; });
-    thrown.shell = known != objects_.end() ? known->shell : upload(object_shell(*placed->object));
-    return thrown;
+        objects_, [&](const CasterState& before) { return before.there && before.object.lock() == placed->object; });
+    state.shell = known != objects_.end() ? known->shell : upload(object_shell(*placed->object));
+    return state;
 }
 
 int ShadowMaps::update(const std::vector<std::optional<PlacedObject>>& objects, const DrawGeometry& draw_geometry) {
     objects_.resize(objects.size());
-    std::vector<BoundingBox> changed = std::exchange(touched_, {});  // what was or is there
+    std::vector<BoundingBox> changed = std::exchange(invalid_boxes_, {});  // previous and current caster boxes
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const bool same = objects[i] ? objects_[i].there && objects_[i].object.lock() == objects[i]->object &&
                                            objects_[i].world_from_object == objects[i]->world_from_object.matrix()
                                      : !objects_[i].there;
         if (same) continue;
-        Thrown now = thrown_by(objects[i]);
+        CasterState now = caster_state(objects[i]);
         if (objects_[i].there) changed.push_back(objects_[i].box);
         if (now.there) changed.push_back(now.box);
         objects_[i] = std::move(now);
@@ -137,19 +137,19 @@ int ShadowMaps::update(const std::vector<std::optional<PlacedObject>>& objects, 
     for (std::size_t i = 0; i < plan_.faces.size(); ++i) {
         const ShadowFace& face = plan_.faces[i];
         if (!drawn_) {
-            draw_whole(face, draw_geometry);
+            redraw_map(face, draw_geometry);
             ++count;
             continue;
         }
         std::vector<gl::TexelArea> areas;
         for (const BoundingBox& box : changed) {
-            if (throws_on(box, face)) add_area(area_of(box, face, side_of(face)), areas);
+            if (affects_map(box, face)) add_area(area_of(box, face, side_of(face)), areas);
         }
         if (areas.empty()) continue;
-        if (keep_still(i, draw_geometry)) {
+        if (cache_static_geometry(i, draw_geometry)) {
             draw_areas(face, areas, draw_geometry);
         } else {
-            draw_whole(face, draw_geometry);
+            redraw_map(face, draw_geometry);
         }
         ++count;
     }
@@ -157,53 +157,53 @@ int ShadowMaps::update(const std::vector<std::optional<PlacedObject>>& objects, 
     return count;
 }
 
-void ShadowMaps::touch(const BoundingBox& box) {
-    constexpr std::size_t kMostTouched = 4096;  // maps may stay undrawn for long, as under traced images
+void ShadowMaps::invalidate(const BoundingBox& box) {
+    constexpr std::size_t kMaxInvalidBoxes = 4096;  // maps may stay outdated for long, e.g. under traced images
     if (!drawn_ || box.empty()) return;
-    touched_.push_back(box);
-    if (touched_.size() < kMostTouched) return;
-    touched_.clear();
+    invalid_boxes_.push_back(box);
+    if (invalid_boxes_.size() < kMaxInvalidBoxes) return;
+    invalid_boxes_.clear();
     drawn_ = false;
 }
 
 void ShadowMaps::draw_objects(const ShadowPass& pass) const {
-    for (const Thrown& thrown : objects_) {
-        if (!thrown.shell || !throws_on(thrown.box, pass.face) ||
-            !may_be_seen(thrown.box, pass.area_from_world, pass.face.perspective)) {
+    for (const CasterState& state : objects_) {
+        if (!state.shell || !affects_map(state.box, pass.face) ||
+            !may_be_seen(state.box, pass.area_from_world, pass.face.perspective)) {
             continue;
         }
-        program_.set("clip_from_node", glm::mat4(pass.face.clip_from_world * thrown.world_from_object));
-        gl::draw(program_, *thrown.shell, {});
+        program_.set("clip_from_node", glm::mat4(pass.face.clip_from_world * state.world_from_object));
+        gl::draw(program_, *state.shell, {});
     }
 }
 
-void ShadowMaps::draw_whole(const ShadowFace& face, const DrawGeometry& draw_geometry) const {
+void ShadowMaps::redraw_map(const ShadowFace& face, const DrawGeometry& draw_geometry) const {
     const ShadowPass pass{face, Casters::kAll, face.clip_from_world};
     maps_of(face).all->begin(face.layer);
     draw_geometry(pass);
     draw_objects(pass);
 }
 
-// False where the driver has no room for it.
-bool ShadowMaps::keep_still(std::size_t index, const DrawGeometry& draw_geometry) {
-    if (still_drawn_[index]) return true;
+// Draws the static casters of a map into its cache. False if the driver has no memory for the cache.
+bool ShadowMaps::cache_static_geometry(std::size_t index, const DrawGeometry& draw_geometry) {
+    if (static_cached_[index]) return true;
     const ShadowFace& face = plan_.faces[index];
     Maps& maps = maps_of(face);
-    if (!maps.still) {
+    if (!maps.static_geometry) {
         auto made = gl::DepthArray::create(maps.all->side(), maps.all->layers());
         if (!made) return false;
-        maps.still.emplace(std::move(*made));
+        maps.static_geometry.emplace(std::move(*made));
     }
-    maps.still->begin(face.layer);
-    draw_geometry({face, Casters::kStill, face.clip_from_world});
-    still_drawn_[index] = true;
+    maps.static_geometry->begin(face.layer);
+    draw_geometry({face, Casters::kStatic, face.clip_from_world});
+    static_cached_[index] = true;
     return true;
 }
 
 void ShadowMaps::draw_areas(const ShadowFace& face, const std::vector<gl::TexelArea>& areas,
                             const DrawGeometry& draw_geometry) const {
     const Maps& maps = maps_of(face);
-    for (const gl::TexelArea& area : areas) maps.all->copy(*maps.still, face.layer, area);
+    for (const gl::TexelArea& area : areas) maps.all->copy(*maps.static_geometry, face.layer, area);
     maps.all->resume(face.layer);
     for (const gl::TexelArea& area : areas) {
         const gl::Scissor scissor(area);

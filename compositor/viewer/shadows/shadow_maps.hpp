@@ -1,6 +1,6 @@
 #pragma once
-// The shadow maps of a scene on the GPU. They are drawn once, and again only where something has changed: what never
-// moves is kept in maps of its own from the first change on, and copied.
+// Shadow maps of a scene on the GPU, redrawn only where casters changed: from the first change on, static geometry is
+// cached in separate maps and copied.
 
 #include "compositor/gl/depth_array.hpp"
 #include "compositor/gl/program.hpp"
@@ -19,19 +19,19 @@ namespace rs::compositor {
 
 enum class Casters {
     kAll,
-    kStill,   // geometry that stands where it is for good
-    kMoving,  // geometry that may be moved
+    kStatic,  // geometry without GeometryNode::moving
+    kMoving,  // geometry with GeometryNode::moving
 };
 
-// Geometry to be drawn on a map.
+/// Geometry pass of one map.
 struct ShadowPass {
     ShadowFace face;
     Casters casters = Casters::kAll;
-    // What lies outside of this projection's image need not be drawn.
+    // Geometry outside this projection's image may be skipped.
     glm::dmat4 area_from_world{1.0};
 };
 
-// Needs a gl::Context that is current, and outlives it; one thread. Move-only.
+/// Requires a current gl::Context that outlives it; single-threaded, move-only.
 class ShadowMaps {
 public:
     using DrawGeometry = std::function<void(const ShadowPass&)>;
@@ -39,36 +39,37 @@ public:
     static Result<ShadowMaps> create(ShadowPlan plan);
     [[nodiscard]] const ShadowPlan& plan() const { return plan_; }
 
-    // Before what reads the maps is drawn; other drawing must begin its framebuffer anew. `objects` are those that
-    // throw shadows now, [node of the scene] where there is one; the shell of one that was not there before is made,
-    // some ten milliseconds. `draw_geometry` draws that of the pass into the framebuffer that has begun, depths only.
-    // Returns how many maps were drawn on.
+    /// Redraws outdated maps; call it before drawing what reads them, and begin() the framebuffer again afterwards.
+    /// \param objects [node of the scene] current shadow casters; nullopt for none. The shell of a new object is built
+    /// here, in about 10 ms.
+    /// \param draw_geometry draws the casters of a pass into the current framebuffer, depth only.
+    /// \return number of redrawn maps.
     int update(const std::vector<std::optional<PlacedObject>>& objects, const DrawGeometry& draw_geometry);
-    // The shells of objects that another plan's maps have made already.
-    void take_shells(const ShadowMaps& from) { objects_ = from.objects_; }
-    // Geometry that may be moved has come, moved or gone in this box, scene coordinates: what it may cover on the maps
-    // is drawn anew by the next update().
-    void touch(const BoundingBox& box);
-    // For shaders with shadow_shaders.hpp.
+    /// Reuses the object shells of another instance.
+    void reuse_shells(const ShadowMaps& from) { objects_ = from.objects_; }
+    /// Marks a box (scene coordinates) in which movable geometry appeared, moved or vanished; the next update() redraws
+    /// the map areas that it covers.
+    void invalidate(const BoundingBox& box);
+    /// Binds the maps for shaders with shadow_shaders.hpp.
     void bind() const;
 
-    // Of a face, for tests.
+    /// Reads back one map; for tests.
     [[nodiscard]] Image<float> read(const ShadowFace& face) const;
 
 private:
-    // What a node showed when the maps were drawn last.
-    struct Thrown {
+    // Caster of a node when the maps were last drawn.
+    struct CasterState {
         bool there = false;
-        std::weak_ptr<const ViewableObject> object;  // not held: who walks on frees its memory
+        std::weak_ptr<const ViewableObject> object;  // weak: evicted objects free their memory
         glm::dmat4 world_from_object{1.0};
         BoundingBox box{};
-        std::shared_ptr<const gl::VertexArray> shell;  // null: it is empty
+        std::shared_ptr<const gl::VertexArray> shell;  // null if empty
     };
     ShadowMaps(ShadowPlan plan, gl::Program program) : plan_(std::move(plan)), program_(std::move(program)) {}
-    [[nodiscard]] Thrown thrown_by(const std::optional<PlacedObject>& placed) const;
+    [[nodiscard]] CasterState caster_state(const std::optional<PlacedObject>& placed) const;
     struct Maps {
-        std::optional<gl::DepthArray> all;    // nothing where the plan has none of this kind
-        std::optional<gl::DepthArray> still;  // what never moves, from the first change on
+        std::optional<gl::DepthArray> all;              // empty if the plan has no such maps
+        std::optional<gl::DepthArray> static_geometry;  // static geometry, from the first change on
     };
     [[nodiscard]] int side_of(const ShadowFace& face) const {
         return face.of_cube ? plan_.cube_side : plan_.plane_side;
@@ -76,8 +77,8 @@ private:
     [[nodiscard]] Maps& maps_of(const ShadowFace& face) { return face.of_cube ? cubes_ : planes_; }
     [[nodiscard]] const Maps& maps_of(const ShadowFace& face) const { return face.of_cube ? cubes_ : planes_; }
     void draw_objects(const ShadowPass& pass) const;
-    void draw_whole(const ShadowFace& face, const DrawGeometry& draw_geometry) const;
-    bool keep_still(std::size_t face, const DrawGeometry& draw_geometry);
+    void redraw_map(const ShadowFace& face, const DrawGeometry& draw_geometry) const;
+    bool cache_static_geometry(std::size_t face, const DrawGeometry& draw_geometry);
     void draw_areas(const ShadowFace& face, const std::vector<gl::TexelArea>& areas,
                     const DrawGeometry& draw_geometry) const;
 
@@ -85,10 +86,10 @@ private:
     gl::Program program_;
     Maps planes_;
     Maps cubes_;
-    std::vector<bool> still_drawn_;  // [face of the plan]
-    std::vector<Thrown> objects_;
-    std::vector<BoundingBox> touched_;  // since the last update
-    bool drawn_ = false;                // else all of them are drawn by the next update
+    std::vector<bool> static_cached_;  // [face of the plan]
+    std::vector<CasterState> objects_;
+    std::vector<BoundingBox> invalid_boxes_;  // since the last update
+    bool drawn_ = false;                      // false: the next update() draws all maps
 };
 
 }  // namespace rs::compositor

@@ -10,9 +10,9 @@ namespace rs::compositor {
 namespace {
 
 constexpr double kWidestCone_rad = kPi / 3;
-constexpr double kMargin_texels = 2;  // that maps reach beyond their edge, for those between texels
-constexpr int kSideStep = 64;
-constexpr int kSmallestSide = 64;
+constexpr double kMargin_texels = 2;  // border of the maps for interpolation between texels
+constexpr int kMapSideStep = 64;
+constexpr int kMinMapSide = 64;
 
 ShadowShape shape_of_light(const Light& light) {
     if (!(std::max({light.colour.r, light.colour.g, light.colour.b}) > 0)) return ShadowShape::kNone;
@@ -21,7 +21,7 @@ ShadowShape shape_of_light(const Light& light) {
     return narrow ? ShadowShape::kCone : ShadowShape::kCube;
 }
 
-// How bright a surface of the scene may become by the light.
+// Luminance that the light may give a surface: at its radius, but at most a quarter of the scene's size away.
 double brightness_of(const Light& light, double scene_size) {
     const double luminance = glm::dot(glm::dvec3(light.colour), glm::dvec3(0.2126, 0.7152, 0.0722));
     if (light.kind == LightKind::kDirectional) return luminance;
@@ -30,7 +30,7 @@ double brightness_of(const Light& light, double scene_size) {
     return luminance / std::max({attenuation, static_cast<double>(light.least_attenuation), 1e-9});
 }
 
-// The first axis is level.
+// Basis along z whose first axis is horizontal.
 glm::dmat3 axes_along(const glm::dvec3& z) {
     const glm::dvec3 level(z.z, 0, -z.x);
     const double length = glm::length(level);
@@ -40,11 +40,11 @@ glm::dmat3 axes_along(const glm::dvec3& z) {
 
 int side_for(int maps, int largest) {
     if (maps == 0) return 0;
-    const double side = std::sqrt(static_cast<double>(kMostShadowTexels) / maps);
-    return std::clamp(static_cast<int>(side) / kSideStep * kSideStep, kSmallestSide, largest);
+    const double side = std::sqrt(static_cast<double>(kMaxShadowTexels) / maps);
+    return std::clamp(static_cast<int>(side) / kMapSideStep * kMapSideStep, kMinMapSide, largest);
 }
 
-// Rows of a matrix: x, y and w of the clip coordinates are `right`, `up` and `axial` of the place from `eye`.
+// Projection whose clip x, y and w are right, up and axial coordinates relative to `eye`.
 glm::dmat4 seen_from(const glm::dvec3& eye, const glm::dvec3& right, const glm::dvec3& up, const glm::dvec3& forward,
                      double half_width) {
     const auto row = [&](const glm::dvec3& along) { return glm::dvec4(along, -glm::dot(along, eye)); };
@@ -52,7 +52,7 @@ glm::dmat4 seen_from(const glm::dvec3& eye, const glm::dvec3& right, const glm::
         glm::dmat4(row(right / half_width), row(up / half_width), glm::dvec4(0, 0, 0, kNear), row(forward)));
 }
 
-// Of clip coordinates -1 .. 1 to 0 .. 1 on the map, whose first row is its top.
+// Rows that map clip coordinates -1 .. 1 to 0 .. 1 in the map; the first row is its top.
 void set_rows(const glm::dmat4& clip_from_world, int depth_row, LightShadow& shadow) {
     const glm::dmat4 rows = glm::transpose(clip_from_world);
     shadow.row_u = 0.5 * rows[3] + 0.5 * rows[0];
@@ -76,12 +76,12 @@ public:
 
     ShadowPlan plan() {
         plan_.of_light.resize(scene_.lights.size());
-        const std::vector<std::uint32_t> planes = brightest(false, kMostPlaneShadows);
-        const std::vector<std::uint32_t> cubes = brightest(true, kMostCubeShadows);
+        const std::vector<std::uint32_t> planes = brightest(false, kMaxPlaneShadows);
+        const std::vector<std::uint32_t> cubes = brightest(true, kMaxCubeShadows);
         plan_.plane_layers = static_cast<int>(planes.size());
         for (const std::uint32_t i : cubes) plan_.cube_layers += faces_of_cube(scene_.lights[i]);
-        plan_.plane_side = side_for(plan_.plane_layers, kLargestPlaneSide);
-        plan_.cube_side = side_for(plan_.cube_layers, kLargestCubeSide);
+        plan_.plane_side = side_for(plan_.plane_layers, kMaxPlaneSide);
+        plan_.cube_side = side_for(plan_.cube_layers, kMaxCubeSide);
         int layer = 0;
         for (const std::uint32_t i : planes) add_plane(i, layer++);
         layer = 0;
@@ -149,13 +149,13 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             rows[axis] = glm::dvec4(axes[axis], -box.middle()[axis]) / half[axis];
         }
-        // What is farther back along the light is nearer to it, and has the greater depth.
+        // Positions farther back along the light direction are nearer to the light and get greater depths.
         rows[2] = 0.5 * rows[2] + glm::dvec4(0, 0, 0, 0.5);
         rows[3] = glm::dvec4(0, 0, 0, 1);
         return glm::transpose(rows);
     }
 
-    // The layer behind it.
+    // Returns the next free layer.
     int add_cube(std::uint32_t index, int layer) {
         const Light& light = scene_.lights[index];
         LightShadow& shadow = plan_.of_light[index];
@@ -165,7 +165,7 @@ private:
         const glm::dvec3 x = axes[0];
         const glm::dvec3 y = axes[1];
         const glm::dvec3 z = axes[2];
-        // Right, up, forward of each face; the shader chooses among them in this order.
+        // Right, up, forward of each face; cube_shadow() selects by this order.
         const std::array<std::array<glm::dvec3, 3>, 6> faces{
             {{-x, y, z}, {z, y, x}, {-z, y, -x}, {x, z, y}, {x, -z, -y}, {x, y, -z}}};
         const double half_width = 1 + 2 * kMargin_texels / plan_.cube_side;
@@ -188,13 +188,13 @@ private:
 
     const Scene& scene_;
     BoundingBox casters_;
-    std::vector<bool> is_key_;  // [light]: the brightest directional one of those that shine on some node only
+    std::vector<bool> is_key_;  // [light]: brightest directional light among the scoped ones of some node
     ShadowPlan plan_;
 };
 
 }  // namespace
 
-bool throws_shadows(const GeometryNode& node) {
+bool casts_shadows(const GeometryNode& node) {
     return node.mesh->topology == Topology::kTriangles && !node.mesh->indices.empty() && !is_blended(node.material);
 }
 
@@ -206,10 +206,10 @@ BoundingBox bounds_of_casters(const Scene& scene) {
         all.include(box.highest);
     };
     for (const GeometryNode& node : scene.geometry) {
-        if (throws_shadows(node)) include(bounds_of(*node.mesh).moved(node.world_from_node));
+        if (casts_shadows(node)) include(bounds_of(*node.mesh).moved(node.world_from_node));
     }
     for (const RaySpaceNode& object : scene.objects) {
-        constexpr double kAbove = 2.2;  // one that stands; radii
+        constexpr double kAbove = 2.2;  // height above the foot, radii
         const BoundingBox box{{-1.1, object.standing ? 0 : -1.1, -1.1}, {1.1, object.standing ? kAbove : 1.1, 1.1}};
         include(box.moved(world_from_node(object.chain).matrix()));
     }

@@ -1,14 +1,13 @@
 #pragma once
-// Which lights throw shadows in raster, and from where their maps are seen. Pure; thread-safe.
+// Selects the lights with shadow maps in raster rendering and the projections of the maps. Pure; thread-safe.
 //
-//   directional        of those that shine on some nodes only, the brightest on each: the others stand for light that
-//                      walls reflect, which throws none. One parallel map that just holds what throws shadows: beyond
-//                      it all is lit
-//   narrow spots       one map seen from the light, as wide as its cone
-//   points, wide spots the faces of a cube about the light; spots leave out the face behind them
+//     directional        of scoped ones only the brightest per node: the others model light reflected by walls,
+//                        which casts no shadows. One orthographic map fitted to the casters; lit outside of it
+//     narrow spots       one perspective map that covers the cone
+//     points, wide spots the faces of a cube map about the light; spots omit the face behind them
 //
-// Maps hold reversed depth (gl/context.hpp): kNear over the axial depth where they are seen from a place, and a line
-// from 1 at the nearest to 0 at the farthest where they are parallel.
+// Maps contain reversed depth (gl/context.hpp): kNear / axial depth in perspective maps; in orthographic maps linear
+// from 1 (nearest) to 0 (farthest).
 
 #include "compositor/scene/scene.hpp"
 
@@ -21,34 +20,34 @@ namespace rs::compositor {
 
 enum class ShadowShape { kNone, kParallel, kCone, kCube };
 
-// One map.
+/// One map.
 struct ShadowFace {
-    std::uint32_t light = 0;  // of Scene::lights
-    bool of_cube = false;     // which of the two arrays of maps it is in: cubes have smaller ones
-    int layer = 0;            // of that array
+    std::uint32_t light = 0;  // index into Scene::lights
+    bool of_cube = false;     // selects the map array: cube maps are smaller
+    int layer = 0;            // in that array
     glm::dmat4 clip_from_world{1.0};
-    // Where it is seen from a place; else the direction it looks along counts alone.
+    // Perspective map; else orthographic, only the view direction matters.
     bool perspective = false;
-    // Of a light that shines on some nodes only: where they are; of others empty. Only these nodes, and objects among
-    // them, throw its shadows: rooms that light their own things through walls stay as light as they were.
+    // Bounds of the nodes of a scoped light; else empty. Only these nodes, and objects among them, cast its shadows:
+    // rooms whose lights pass through walls keep their brightness.
     BoundingBox scope{};
 };
 
-// A light with maps. Rows are laid out as shadow_shaders.hpp declares them.
+/// Light with maps; rows in the layout of shadow_shaders.hpp.
 struct LightShadow {
     ShadowShape shape = ShadowShape::kNone;
-    glm::vec4 row_u{0};        // parallel, cone: place in the world to u on the map; cube: its axis X
-    glm::vec4 row_v{0};        // v; axis Y
-    glm::vec4 row_depth{0};    // depth in the map; axial depth; axis Z
-    glm::vec4 layer_texel{0};  // first layer; a texel's width in scene units, seen from a place: at axial depth 1
+    glm::vec4 row_u{0};        // orthographic, cone: world position to u in the map; cube: its X axis
+    glm::vec4 row_v{0};        // v; Y axis
+    glm::vec4 row_depth{0};    // depth in the map; axial depth; Z axis
+    glm::vec4 layer_texel{0};  // first layer; texel width in scene units, in perspective maps at axial depth 1
 };
 
 struct ShadowPlan {
-    std::vector<LightShadow> of_light;  // [light of Scene::lights]; empty without shadows
+    std::vector<LightShadow> of_light;  // [index into Scene::lights]; empty without shadows
     std::vector<ShadowFace> faces;
-    int plane_side = 0;  // texels of parallel maps and cones; 0 where there are none
+    int plane_side = 0;  // texels, orthographic maps and cones; 0 if none
     int plane_layers = 0;
-    int cube_side = 0;  // of cubes' faces
+    int cube_side = 0;  // texels of a cube face
     int cube_layers = 0;
 
     [[nodiscard]] ShadowShape shape_of(std::uint32_t light) const {
@@ -56,22 +55,21 @@ struct ShadowPlan {
     }
 };
 
-// At most so many lights have maps, the brightest first; the others shine through everything.
-inline constexpr int kMostPlaneShadows = 16;  // directional lights and narrow spots
-inline constexpr int kMostCubeShadows = 48;   // points and wide spots
-// Maps are as fine as so many texels of each of the two arrays allow (64 MiB each, and as much again once something
-// has moved), up to the sides below.
-inline constexpr int kMostShadowTexels = 1 << 24;
-inline constexpr int kLargestPlaneSide = 2048;
-inline constexpr int kLargestCubeSide = 1024;
+// Limits; the brightest lights get maps first, the others cast no shadows.
+inline constexpr int kMaxPlaneShadows = 16;  // directional lights and narrow spots
+inline constexpr int kMaxCubeShadows = 48;   // points and wide spots
+// Texel budget of each of the two arrays (64 MiB each, doubled after the first movement); limits the sides below.
+inline constexpr int kMaxShadowTexels = 1 << 24;
+inline constexpr int kMaxPlaneSide = 2048;
+inline constexpr int kMaxCubeSide = 1024;
 
-// What is opaque: blended surfaces, lines and points throw none.
-bool throws_shadows(const GeometryNode& node);
-// What may throw shadows, in scene coordinates: objects with as much room about their place as they may need.
+/// True for opaque triangle meshes; blended surfaces, lines and points cast no shadows.
+bool casts_shadows(const GeometryNode& node);
+/// Bounds of all possible casters in scene coordinates; objects with an upper bound of their size.
 BoundingBox bounds_of_casters(const Scene& scene);
 
-// `scene.lights` as raster has them (raster_lights.hpp). `casters` holds all that may throw a shadow, in scene
-// coordinates; empty: nothing does.
+/// \param scene contains raster lights (raster_lights.hpp).
+/// \param casters bounds of all shadow casters in scene coordinates; empty if there are none.
 ShadowPlan plan_shadows(const Scene& scene, const BoundingBox& casters);
 
 }  // namespace rs::compositor

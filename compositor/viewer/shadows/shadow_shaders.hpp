@@ -1,15 +1,15 @@
 #pragma once
-// The GLSL of shadow maps: of what throws shadows, and of looking them up.
+// GLSL of shadow maps: casters and lookups.
 //
-// The look-up is percentage-closer filtering (W. Reeves and others 1987) of the nearest four texels by their weights: a
-// kernel two texels wide. (Four such taps look smoother still, and drawn on a CPU cost a third of a frame for each
-// light.) The place is moved off its surface, along the normal, by just as much as the surface may rise towards the
-// light within the kernel: so many texels times the sine of the angle between the surface and the map. Then lit
-// surfaces do not shade themselves at any angle, and what touches a surface still shades it where they touch.
+// The lookup is percentage-closer filtering (W. Reeves and others 1987) with bilinear weights of the nearest four
+// texels, a kernel two texels wide. (Four such taps are smoother, but cost a third of a frame per light in software
+// rendering.) The position is offset along the surface normal by the amount that the surface may rise towards the light
+// within the kernel: kernel size in texels times the sine of the angle between the surface and the map. This avoids
+// self-shadowing at any angle and keeps contact shadows.
 
 namespace rs::compositor::shaders {
 
-// Of geometry and objects' shells.
+// Geometry and object shells.
 inline constexpr const char* kCasterVertex = R"(#version 450 core
 layout(location = 0) in vec3 position;
 layout(location = 2) in vec2 texture_place;
@@ -23,7 +23,7 @@ void main() {
 })";
 inline constexpr const char* kCasterFragment = R"(#version 450 core
 void main() {})";
-// With holes where the image has some.
+// With the alpha mask of the texture.
 inline constexpr const char* kMaskedCasterFragment = R"(#version 450 core
 layout(binding = 0) uniform sampler2D surface_picture;
 in vec2 place_on_texture;
@@ -31,19 +31,19 @@ void main() {
     if (texture(surface_picture, place_on_texture).a < 0.5) discard;
 })";
 
-// Behind the constant kShadows: of how many lights there are rows, four each (LightShadow).
+// Preceded by the constant kShadows: number of lights with rows, four rows each (LightShadow).
 inline constexpr const char* kShadowLookUp = R"(
 layout(binding = 2) uniform sampler2DArrayShadow plane_maps;
 layout(binding = 3) uniform sampler2DArrayShadow cube_maps;
 uniform vec4 shadows[4 * max(kShadows, 1)];
-const float kReach = 1.42;  // of the kernel, texels: 1 both ways
-const float kLeast = 0.2;   // texels; for what the maps' numbers round
+const float kReach = 1.42;  // kernel radius in texels: 1 along both axes
+const float kLeast = 0.2;  // texels; covers the rounding of the maps
 
 float off_surface(float along) {
     return kLeast + kReach * sqrt(max(1.0 - along * along, 0.0));
 }
 
-// How much of the light of a parallel map arrives.
+// Visibility by an orthographic map.
 float parallel_shadow(int first, vec3 place, vec3 n, vec3 towards) {
     vec4 at = shadows[first + 3];  // layer, texel
     vec4 p = vec4(place + n * (at.y * off_surface(dot(n, towards))), 1.0);
@@ -53,7 +53,7 @@ float parallel_shadow(int first, vec3 place, vec3 n, vec3 towards) {
 }
 )"
                                              R"(
-// Of a spot's single map; kNear is the numerator of depths.
+// Visibility by the single map of a spot; kNear is the numerator of depths.
 float cone_shadow(int first, vec3 place, vec3 n, vec3 towards) {
     vec4 at = shadows[first + 3];
     float axial = max(dot(shadows[first + 2], vec4(place, 1.0)), 0.0);
@@ -64,9 +64,9 @@ float cone_shadow(int first, vec3 place, vec3 n, vec3 towards) {
     return texture(plane_maps, vec4(uv, at.x, depth));
 }
 
-// Of the faces of a cube: +Z, +X, -X, +Y, -Y, -Z of its axes, which are the scene's unless it is `turned`.
+// Visibility by a cube map: faces +Z, +X, -X, +Y, -Y, -Z of its axes, which are the scene's unless `turned`.
 float cube_shadow(int first, bool turned, vec3 place, vec3 n, vec3 location) {
-    vec4 at = shadows[first + 3];  // layer, texel at depth 1, half over the width of a face at depth 1
+    vec4 at = shadows[first + 3];  // layer, texel at depth 1, half the reciprocal width of a face at depth 1
     vec3 l = place - location;
     vec3 m = n;
     if (turned) {

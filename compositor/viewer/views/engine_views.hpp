@@ -1,6 +1,6 @@
 #pragma once
-// The views of one frame on their way through the engine: in as many rendering cycles as they need, of which as many
-// are under way at a time as the data module takes.
+// Renders the views of one frame through a render session, in as many cycles as they need; several cycles are in flight
+// at a time.
 
 #include "engine/driver/render_session.hpp"
 #include "rayspace/base/result.hpp"
@@ -10,17 +10,17 @@
 
 namespace rs::compositor {
 
-// One thread; nobody else submits to the module meanwhile, which outlives this.
+/// Single-threaded; nothing else may submit to the session, which must outlive this.
 class EngineViews {
 public:
     explicit EngineViews(engine::RenderSession& engine) : engine_(engine) {}
     EngineViews(const EngineViews&) = delete;
     EngineViews& operator=(const EngineViews&) = delete;
-    ~EngineViews();  // waits for what is under way
+    ~EngineViews();  // waits for the cycles in flight
 
-    // Begins to draw; once. Fails where a view is refused, naming the object.
+    /// Starts rendering; call it once. Fails if a view is rejected; the error names the object.
     Status submit(std::vector<engine::ViewRequest> views);
-    // Waits for all of them, in the order of submit().
+    /// Waits for all views; results are in the order of submit().
     Result<std::vector<engine::DrawnView>> retrieve();
 
 private:
@@ -29,7 +29,7 @@ private:
     engine::RenderSession& engine_;
     std::vector<engine::ViewRequest> views_;
     std::size_t submitted_ = 0;
-    std::deque<engine::CycleHandle> under_way_;
+    std::deque<engine::CycleHandle> in_flight_;
 };
 
 }  // namespace rs::compositor

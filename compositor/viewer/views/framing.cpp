@@ -6,13 +6,13 @@
 namespace rs::compositor {
 namespace {
 
-// Around what the object is estimated to fill, in the scene.
-struct Ball {
+// Bounding sphere of the object's estimated extent in the scene.
+struct Sphere {
     glm::dvec3 middle;
     double radius;
 };
 
-Ball ball_around(const PlacedObject& placed) {
+Sphere bounding_sphere(const PlacedObject& placed) {
     const UprightExtent& extent = placed.object->extent;
     return {placed.world_from_object.point({0, (extent.bottom + extent.top) / 2, 0}),
             placed.world_from_object.scale * std::hypot(1.0, (extent.top - extent.bottom) / 2)};
@@ -30,7 +30,7 @@ CameraPose framing_pose(const std::vector<PlacedObject>& objects, double fov_x_r
     glm::dvec3 middle(0);
     double elevation_rad = 0;
     for (const PlacedObject& placed : objects) {
-        middle += ball_around(placed).middle / static_cast<double>(objects.size());
+        middle += bounding_sphere(placed).middle / static_cast<double>(objects.size());
         elevation_rad += captured_elevation_rad(placed) / static_cast<double>(objects.size());
     }
     const glm::dvec3 back(0, std::sin(elevation_rad), std::cos(elevation_rad));
@@ -38,14 +38,15 @@ CameraPose framing_pose(const std::vector<PlacedObject>& objects, double fov_x_r
     const double half_y_rad = std::atan(std::tan(half_x_rad) / aspect);
     double distance = 0;
     for (const PlacedObject& placed : objects) {
-        const Ball ball = ball_around(placed);
-        // A ball stays inside of a wedge of half angle h where offset * cos h + radius <= depth * sin h.
-        const glm::dvec3 offset = ball.middle - middle;
+        const Sphere sphere = bounding_sphere(placed);
+        // A sphere is inside a wedge of half angle h if offset * cos h + radius <= depth * sin h.
+        const glm::dvec3 offset = sphere.middle - middle;
         const double towards = glm::dot(offset, back);
         const double aside_x = std::abs(offset.x);
         const double aside_y = std::abs(glm::dot(offset, glm::dvec3(0, back.z, -back.y)));
-        distance = std::max({distance, towards + (aside_x * std::cos(half_x_rad) + ball.radius) / std::sin(half_x_rad),
-                             towards + (aside_y * std::cos(half_y_rad) + ball.radius) / std::sin(half_y_rad)});
+        distance =
+            std::max({distance, towards + (aside_x * std::cos(half_x_rad) + sphere.radius) / std::sin(half_x_rad),
+                      towards + (aside_y * std::cos(half_y_rad) + sphere.radius) / std::sin(half_y_rad)});
     }
     return {middle + back * distance, middle};
 }
@@ -54,7 +55,7 @@ CameraPose framing_pose(const BoundingBox& bounds, double fov_x_rad, double aspe
     const glm::dvec3 half = (bounds.highest - bounds.lowest) * 0.5;
     const double half_x_rad = fov_x_rad / 2;
     const double half_y_rad = std::atan(std::tan(half_x_rad) / aspect);
-    // The nearest side of the box is the one that has to fit.
+    // The front face of the box must fit.
     const double distance =
         half.z + std::max({half.x / std::tan(half_x_rad), half.y / std::tan(half_y_rad), 1e-3 + half.z * 0.1}) * 1.05;
     return {bounds.middle() + glm::dvec3(0, 0, distance), bounds.middle()};

@@ -1,6 +1,5 @@
 #pragma once
-// Cameras for a scene: at one of its viewpoints, or where all is seen, for when no place to look from is given. Pure;
-// thread-safe.
+// Cameras for a scene: at a viewpoint, or framing everything if no viewpoint is given. Pure; thread-safe.
 
 #include "compositor/scene/camera_path.hpp"
 #include "compositor/scene/mesh.hpp"
@@ -11,19 +10,20 @@
 
 namespace rs::compositor {
 
-// Looks at the middle of the objects from the +Z side, from so far that each of them fits into the image (width over
-// height = `aspect`), and at the mean elevation of their first rings, where their images were taken. `fov_x_rad` is
-// the full horizontal angle.
+/// Looks at the centre of the objects from the +Z side, at the mean elevation of their first capture rings, from a
+/// distance at which every object fits into the image.
+/// \param fov_x_rad full horizontal angle.
+/// \param aspect width / height.
 CameraPose framing_pose(const std::vector<PlacedObject>& objects, double fov_x_rad, double aspect);
 
-// Looks at the middle of the box, which is not empty, from the +Z side, from so far that all of it fits.
+/// Looks at the centre of the box from the +Z side, from a distance at which it fits. The box must not be empty.
 CameraPose framing_pose(const BoundingBox& bounds, double fov_x_rad, double aspect);
 
-// An image of width x height px with square pixels. The viewpoint's field of view is that of the shorter side, as
-// VRML97 requires.
+/// Camera of width x height px with square pixels. The viewpoint's field of view applies to the shorter side, as VRML97
+/// requires.
 Camera camera_at(const Viewpoint& viewpoint, int width, int height);
 
-// The viewpoint's eye, and the point straight ahead at the distance of the middle of the box.
+/// Eye of the viewpoint, and the point straight ahead at the distance of the box's centre.
 CameraPose pose_at(const Viewpoint& viewpoint, const BoundingBox& bounds);
 
 }  // namespace rs::compositor

@@ -8,10 +8,10 @@
 namespace rs::compositor {
 namespace {
 
-constexpr double kLongestSpan_s = 0.25;
-constexpr double kWheelStep = 0.12;     // of the pivot's distance, a notch
-constexpr double kWheelSeconds = 0.25;  // of walking, a notch
-constexpr double kLeastPivot = 1e-3;
+constexpr double kMaxSpan_s = 0.25;
+constexpr double kWheelStep = 0.12;     // fraction of the pivot's distance per notch
+constexpr double kWheelSeconds = 0.25;  // seconds of walking per notch
+constexpr double kMinPivotDistance = 1e-3;
 
 glm::dvec3 ahead_of(double heading_rad) {
     return {-std::sin(heading_rad), 0, -std::cos(heading_rad)};
@@ -21,24 +21,25 @@ glm::dvec3 right_of(double heading_rad) {
     return {std::cos(heading_rad), 0, -std::sin(heading_rad)};
 }
 
-double clamped_pitch(double pitch_rad) {
-    return std::clamp(pitch_rad, -kMostPitch_rad, kMostPitch_rad);
+double clamp_pitch(double pitch_rad) {
+    return std::clamp(pitch_rad, -kMaxPitch_rad, kMaxPitch_rad);
 }
 
-// The same direction within -pi .. pi.
-double wrapped(double angle_rad) {
+// Equivalent angle in -pi .. pi.
+double wrap_angle(double angle_rad) {
     return std::remainder(angle_rad, 2 * kPi);
 }
 
-Visitor examined(Visitor visitor, const NavigationInput& input, const NavigationSettings& settings, double seconds,
-                 double pace) {
+Visitor orbit(Visitor visitor, const NavigationInput& input, const NavigationSettings& settings, double seconds,
+              double pace) {
     const glm::dvec3 pivot = visitor.pivot();
-    visitor.heading_rad = wrapped(visitor.heading_rad - settings.radians_per_px * input.look_px.x +
-                                  settings.turn_rad_per_s * seconds * (input.turn_left + input.right));
-    visitor.pitch_rad = clamped_pitch(visitor.pitch_rad - settings.radians_per_px * input.look_px.y -
-                                      settings.turn_rad_per_s * seconds * input.up);
-    visitor.pivot_distance = std::max(
-        kLeastPivot, visitor.pivot_distance * std::pow(1 - kWheelStep, input.wheel) - pace * seconds * input.forward);
+    visitor.heading_rad = wrap_angle(visitor.heading_rad - settings.radians_per_px * input.look_px.x +
+                                     settings.turn_rad_per_s * seconds * (input.turn_left + input.right));
+    visitor.pitch_rad = clamp_pitch(visitor.pitch_rad - settings.radians_per_px * input.look_px.y -
+                                    settings.turn_rad_per_s * seconds * input.up);
+    visitor.pivot_distance =
+        std::max(kMinPivotDistance,
+                 visitor.pivot_distance * std::pow(1 - kWheelStep, input.wheel) - pace * seconds * input.forward);
     visitor.eye = pivot - visitor.pivot_distance * visitor.sight();
     return visitor;
 }
@@ -71,19 +72,19 @@ glm::dvec3 Visitor::sight() const {
 
 Visitor moved(const Visitor& visitor, NavigationMode mode, const NavigationInput& input,
               const NavigationSettings& settings) {
-    const double seconds = std::clamp(input.seconds, 0.0, kLongestSpan_s);
+    const double seconds = std::clamp(input.seconds, 0.0, kMaxSpan_s);
     const double pace = settings.speed * (input.fast ? settings.fast : 1);
     Visitor next = visitor;
     const double pan = settings.pan_per_px * visitor.pivot_distance;
     next.eye += -pan * input.pan_px.x * right_of(visitor.heading_rad) + glm::dvec3(0, pan * input.pan_px.y, 0);
-    if (mode == NavigationMode::kExamine) return examined(next, input, settings, seconds, pace);
+    if (mode == NavigationMode::kExamine) return orbit(next, input, settings, seconds, pace);
 
-    next.heading_rad = wrapped(visitor.heading_rad - settings.radians_per_px * input.look_px.x +
-                               settings.turn_rad_per_s * seconds * input.turn_left);
-    next.pitch_rad = clamped_pitch(visitor.pitch_rad - settings.radians_per_px * input.look_px.y);
+    next.heading_rad = wrap_angle(visitor.heading_rad - settings.radians_per_px * input.look_px.x +
+                                  settings.turn_rad_per_s * seconds * input.turn_left);
+    next.pitch_rad = clamp_pitch(visitor.pitch_rad - settings.radians_per_px * input.look_px.y);
     const glm::dvec3 ahead = mode == NavigationMode::kFly ? next.sight() : ahead_of(next.heading_rad);
     glm::dvec3 way = input.forward * ahead + input.right * right_of(next.heading_rad) + glm::dvec3(0, input.up, 0);
-    if (const double length = glm::length(way); length > 1) way /= length;  // not faster across
+    if (const double length = glm::length(way); length > 1) way /= length;  // diagonal movement is not faster
     next.eye += pace * (seconds * way + kWheelSeconds * input.wheel * ahead);
     return next;
 }
@@ -92,12 +93,12 @@ Visitor visitor_at(const Viewpoint& viewpoint, const glm::dvec3& pivot) {
     Visitor visitor;
     visitor.eye = glm::dvec3(viewpoint.world_from_camera[3]);
     const glm::dvec3 sight = -glm::normalize(glm::dvec3(viewpoint.world_from_camera[2]));
-    visitor.pitch_rad = clamped_pitch(std::asin(std::clamp(sight.y, -1.0, 1.0)));
-    // Straight up or down, what is up in the image shows where the visitor would walk.
+    visitor.pitch_rad = clamp_pitch(std::asin(std::clamp(sight.y, -1.0, 1.0)));
+    // Looking straight up or down, the image's up vector gives the heading.
     const glm::dvec3 level =
         std::abs(sight.y) < 0.9999 ? sight : glm::dvec3(viewpoint.world_from_camera[1]) * (sight.y < 0 ? 1.0 : -1.0);
     visitor.heading_rad = std::atan2(-level.x, -level.z);
-    visitor.pivot_distance = std::max(kLeastPivot, glm::length(pivot - visitor.eye));
+    visitor.pivot_distance = std::max(kMinPivotDistance, glm::length(pivot - visitor.eye));
     return visitor;
 }
 
@@ -115,7 +116,7 @@ Visitor between(const Visitor& from, const Visitor& to, double t) {
     const double eased = s * s * (3 - 2 * s);
     Visitor visitor;
     visitor.eye = from.eye + eased * (to.eye - from.eye);
-    visitor.heading_rad = wrapped(from.heading_rad + eased * wrapped(to.heading_rad - from.heading_rad));
+    visitor.heading_rad = wrap_angle(from.heading_rad + eased * wrap_angle(to.heading_rad - from.heading_rad));
     visitor.pitch_rad = from.pitch_rad + eased * (to.pitch_rad - from.pitch_rad);
     visitor.pivot_distance = from.pivot_distance + eased * (to.pivot_distance - from.pivot_distance);
     return visitor;

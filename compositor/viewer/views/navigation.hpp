@@ -1,10 +1,10 @@
 #pragma once
-// How a visitor moves through a scene: pure functions of what is pressed and for how long, as VRML browsers and games
-// have taught people. No window is known here.
+// Navigation of a visitor through a scene: pure functions of the input and its duration, with the controls of VRML
+// browsers and games. Independent of windows.
 //
-// Walk: keys move along the ground, whatever the pitch; the eyes stay at their height. Fly: keys move along the line of
-// sight. Examine: the visitor circles about a pivot and looks at it. Dragging looks around (walk, fly) or turns the
-// scene under the hand (examine); the wheel goes forward or nearer.
+// Walk: keys move along the ground, independent of pitch, at constant eye height. Fly: keys move along the line of
+// sight. Examine: orbits around a pivot. Dragging looks around (walk, fly) or rotates the scene (examine); the wheel
+// moves forward, or towards the pivot.
 
 #include "compositor/scene/surroundings.hpp"
 
@@ -16,52 +16,53 @@ namespace rs::compositor {
 
 enum class NavigationMode { kWalk, kFly, kExamine };
 
-// The first of a scene's navigation types that is known here; kWalk where none is.
+/// First supported navigation type of the scene; kWalk if none is.
 NavigationMode mode_of(const Navigation& navigation);
 const char* name_of(NavigationMode mode);
 
-// Heading 0 looks along -Z, growing to the left (about +Y); pitch is up. No roll.
+/// Heading 0 is -Z, increasing to the left (about +Y); pitch is positive upwards. No roll.
 struct Visitor {
     glm::dvec3 eye{0};
     double heading_rad = 0;
-    double pitch_rad = 0;       // +-kMostPitch_rad
-    double pivot_distance = 3;  // of the point that examine circles about, along the line of sight, > 0
+    double pitch_rad = 0;       // +-kMaxPitch_rad
+    double pivot_distance = 3;  // distance of the orbit centre of examine along the line of sight, > 0
 
     [[nodiscard]] glm::dvec3 sight() const;  // unit vector
     [[nodiscard]] glm::dvec3 pivot() const { return eye + pivot_distance * sight(); }
 };
-inline constexpr double kMostPitch_rad = 1.5;
+inline constexpr double kMaxPitch_rad = 1.5;
 
-// What was done in a span of time.
+/// Input during a time span.
 struct NavigationInput {
-    double seconds = 0;  // 0 .. 0.25; longer ones count as that, so that a stutter is no leap
-    double forward = 0;  // -1 .. 1: keys held
+    double seconds = 0;  // 0 .. 0.25; longer spans are clamped, so that a stall causes no jump
+    double forward = 0;  // -1 .. 1, from held keys
     double right = 0;
     double up = 0;
     double turn_left = 0;
     bool fast = false;
-    glm::dvec2 look_px{0};  // dragged, right and down
-    glm::dvec2 pan_px{0};   // dragged with the other button
-    double wheel = 0;       // notches, forward
+    glm::dvec2 look_px{0};  // drag, right and down
+    glm::dvec2 pan_px{0};   // drag with the other button
+    double wheel = 0;       // notches, positive forward
 };
 
 struct NavigationSettings {
-    double speed = 1;  // scene units a second, > 0
+    double speed = 1;  // scene units per second, > 0
     double turn_rad_per_s = 1.4;
     double radians_per_px = 0.004;
-    double pan_per_px = 0.002;  // of the pivot's distance
-    double fast = 4;            // times the speed
+    double pan_per_px = 0.002;  // as a fraction of the pivot's distance
+    double fast = 4;            // factor on the speed
 };
 
 [[nodiscard]] Visitor moved(const Visitor& visitor, NavigationMode mode, const NavigationInput& input,
                             const NavigationSettings& settings);
 
-// Roll is dropped; `pivot` is brought onto the line of sight by its distance.
+/// Drops roll. `pivot` only sets the pivot distance along the line of sight.
 [[nodiscard]] Visitor visitor_at(const Viewpoint& viewpoint, const glm::dvec3& pivot);
-// The viewpoint of a visitor with the field of view of `like`.
+/// Viewpoint of the visitor with the field of view of `like`.
 [[nodiscard]] Viewpoint viewpoint_of(const Visitor& visitor, const Viewpoint& like);
 
-// A visitor on the way from one place to another, `t` 0 .. 1, smooth at both ends; turns the shorter way.
+/// Interpolates between visitors with ease-in and ease-out, turning the shorter way.
+/// \param t 0 .. 1.
 [[nodiscard]] Visitor between(const Visitor& from, const Visitor& to, double t);
 
 }  // namespace rs::compositor

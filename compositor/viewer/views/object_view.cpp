@@ -10,38 +10,37 @@
 namespace rs::compositor {
 namespace {
 
-// The foot's depth is taken this much above it (object radii), to be on the right side of the
-// ground that it stands on.
+// The foot's depth is evaluated this much above the foot (object radii), so that it is in front of the floor.
 constexpr double kAboveGround = 0.01;
 
-// The reciprocal depth, as a linear form of (x, y, 1), of the plane { p : dot(p - eye, normal) = distance }.
+// Reciprocal depth of the plane { p : dot(p - eye, normal) = distance } as a linear form of (x, y, 1).
 glm::dvec3 inverse_depth_of_plane(const Camera& camera, const glm::dvec3& normal, double distance) {
-    // eye + depth * ray(x, y) lies on the plane where depth * dot(normal, ray) = distance.
+    // eye + depth * ray(x, y) is on the plane if depth * dot(normal, ray) = distance.
     return glm::dvec3(glm::dot(normal, camera.right()) / camera.fl_x, -glm::dot(normal, camera.up()) / camera.fl_y,
                       glm::dot(normal, camera.ray(0, 0))) /
            distance;
 }
 
-// How many pixels of a captured image are as wide as one of the camera's, where the object's axis is.
-double captured_pixels(const RaySpaceObject& object, const Camera& camera, double distance) {
+// Captured pixels per camera pixel at the object's axis.
+double captured_pixels_per_pixel(const RaySpaceObject& object, const Camera& camera, double distance) {
     const CapturedView& captured = object.views.front();
     const double radius_px = std::ldexp(captured.fl_y_q16, -16) / std::ldexp(captured.lines.front().l0_q20, -20);
     return radius_px / (camera.fl_x / distance);
 }
 
 struct ObjectImage {
-    Camera camera;  // in object radii
+    Camera camera;  // object radii
     glm::dmat3 image_from_screen{1.0};
 };
 
-// The rectangle as the camera sees it, with so many pixels for one of its own.
+// Image of the camera's rectangle with `samples_across` pixels per screen pixel.
 ObjectImage direct_image(const Camera& camera, const ScreenRectangle& area, int samples_across, bool mirrored) {
     ObjectImage made{camera, glm::dmat3(1.0)};
     made.camera.cx -= area.x;
     made.camera.cy -= area.y;
     double right = samples_across;
     double left_edge = area.x;
-    if (mirrored) {  // left-handed, which engines do not take: its mirror image shows the mirror image
+    if (mirrored) {  // engines require right-handed cameras: render the mirrored image of the mirrored scene
         made.camera.world_from_camera[0] = -made.camera.world_from_camera[0];
         made.camera.cx = area.width - made.camera.cx;
         right = -right;
@@ -82,10 +81,10 @@ std::optional<ObjectView> view_of_object(const PlacedObject& placed, const Camer
     const double scale = placed.world_from_object.scale;
     ObjectView view;
     view.rectangle = *rectangle;
-    const int most = std::min({options.most_samples_across, kMostSamplesAcross,
+    const int most = std::min({options.max_samples_across, kMostSamplesAcross,
                                kMaxImageSide_px / std::max(rectangle->width, rectangle->height)});
     const double samples =
-        std::clamp(captured_pixels(object, camera, glm::length(eye)), 1.0, std::max<double>(most, 1));
+        std::clamp(captured_pixels_per_pixel(object, camera, glm::length(eye)), 1.0, std::max<double>(most, 1));
     view.samples_across = static_cast<int>(std::lround(samples));
     std::optional<UprightImage> upright;
     if (options.upright && !is_upright(camera)) {
@@ -98,7 +97,7 @@ std::optional<ObjectView> view_of_object(const PlacedObject& placed, const Camer
     view.camera = image.camera;
     view.image_from_screen = image.image_from_screen;
     view.camera.world_from_camera[3] = glm::dvec4(eye * object.units_per_radius, 1);
-    // A window much wider than high shows things so far aside that no engine draws them.
+    // In very wide images objects may be too far off axis for the engine.
     if (!engine::prepare_view(object, view.camera)) return std::nullopt;
     view.units_per_rig_unit = scale / object.units_per_radius;
     view.plane_distance = distance * scale;

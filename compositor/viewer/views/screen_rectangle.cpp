@@ -11,9 +11,9 @@ namespace rs::compositor {
 namespace {
 
 constexpr int kSides = 16;
-constexpr double kCutOff = 1e-3;  // axial depth, object radii: what is nearer is cut off
+constexpr double kCutOff = 1e-3;  // near plane: axial depth, object radii
 
-// The corners of a prism around the cylinder, in camera coordinates with depth as z.
+// Corners of a prism around the cylinder in camera coordinates, z = depth.
 std::array<glm::dvec3, 2 * kSides> prism_corners(const BoundingCylinder& bound, const Camera& camera) {
     std::array<glm::dvec3, 2 * kSides> corners;
     const double radius = bound.radius / std::cos(kPi / kSides);
@@ -49,8 +49,8 @@ std::optional<ScreenRectangle> covering_rectangle(const BoundingCylinder& bound,
             include(p);
             continue;
         }
-        // The prism is convex: cutting it at the near plane leaves the corners in front and points between a corner in
-        // front and one behind. All such pairs are taken; those that are no edges lie inside and do no harm.
+        // Clips the convex prism at the near plane: corners in front, and intersections of all segments between a
+        // corner in front and one behind. Segments that are not edges lie inside and do not matter.
         for (const glm::dvec3& q : corners) {
             if (q.z > kCutOff) include(p + (q - p) * ((kCutOff - p.z) / (q.z - p.z)));
         }
@@ -65,7 +65,7 @@ std::optional<ScreenRectangle> covering_rectangle(const BoundingCylinder& bound,
 }
 
 FrameView view_of_frame(const Camera& camera) {
-    // Points have camera coordinates: right, up, back.
+    // Points are in camera coordinates: right, up, back.
     glm::dmat4 m(0.0);
     m[0][0] = 2 * camera.fl_x / camera.width;
     m[1][1] = 2 * camera.fl_y / camera.height;
@@ -78,7 +78,7 @@ FrameView view_of_frame(const Camera& camera) {
 
 bool may_be_seen(const BoundingBox& box, const glm::dmat4& clip_from_world, bool perspective) {
     if (box.empty()) return false;
-    // A box is outside where all corners are on the wrong side of one plane.
+    // A box is outside if all of its corners are outside of the same plane.
     int outside = 0x1f;
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 p((corner & 1) != 0 ? box.highest.x : box.lowest.x,

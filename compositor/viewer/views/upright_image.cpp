@@ -7,20 +7,21 @@
 namespace rs::compositor {
 namespace {
 
-constexpr double kLeastLevel = 0.35;     // of the middle ray's direction: 70 degrees above or below the horizon
-constexpr double kLeastForward = 0.05;   // of every ray along the upright camera's forward
-constexpr double kMostStretch = 2.5;     // of the image's middle, in one direction against the other
-constexpr double kMostPixelsMore = 3.5;  // pixels of the upright image for those of the area
-constexpr int kSideLimit_px = 8192;      // RECONSTRUCTION.md, section 1
+constexpr double kMinHorizontal =
+    0.35;  // horizontal part of the central ray's direction: 70 degrees above or below the horizon
+constexpr double kMinForward = 0.05;    // component of every ray along the upright camera's forward
+constexpr double kMaxStretch = 2.5;     // anisotropy of the mapping at the image centre
+constexpr double kMaxPixelRatio = 3.5;  // pixels of the upright image per pixel of the area
+constexpr int kSideLimit_px = 8192;     // RECONSTRUCTION.md, section 1
 
-// The singular values of a 2x2 matrix, the larger one first.
+// Singular values of a 2x2 matrix, in descending order.
 std::array<double, 2> singular_values(const glm::dmat2& m) {
     const double sum = std::hypot(m[0][0] + m[1][1], m[0][1] - m[1][0]);
     const double difference = std::hypot(m[0][0] - m[1][1], m[0][1] + m[1][0]);
     return {(sum + difference) / 2, std::abs(sum - difference) / 2};
 }
 
-// (x, y, 1) of an image to coordinates along the axes of the upright camera: right, down, forward.
+// Maps (x, y, 1) of an image to coordinates along the axes of the upright camera: right, down, forward.
 glm::dmat3 rays_along(const glm::dmat3& axes, const Camera& camera) {
     const glm::dmat3 ray_from_screen(camera.right() / camera.fl_x, -camera.up() / camera.fl_y, camera.ray(0, 0));
     return glm::transpose(axes) * ray_from_screen;
@@ -33,13 +34,13 @@ std::optional<UprightImage> upright_image(const Camera& camera, const ScreenRect
     const glm::dvec2 middle(area.x + area.width / 2.0, area.y + area.height / 2.0);
     const glm::dvec3 ray = glm::normalize(camera.ray(middle.x, middle.y));
     const double level = std::hypot(ray.x, ray.z);
-    if (level < kLeastLevel) return std::nullopt;
+    if (level < kMinHorizontal) return std::nullopt;
     const glm::dvec3 forward(ray.x / level, 0, ray.z / level);
     const glm::dvec3 up(0, 1, 0);
     const glm::dvec3 right = glm::cross(forward, up);
 
     const glm::dmat3 along = rays_along(glm::dmat3(right, -up, forward), camera);
-    const auto on_image = [&](const glm::dvec2& p) {  // of focal length 1; z: forward
+    const auto on_image = [&](const glm::dvec2& p) {  // at focal length 1; z: forward
         const glm::dvec3 q = along * glm::dvec3(p, 1);
         return glm::dvec3(q.x / q.z, q.y / q.z, q.z);
     };
@@ -51,7 +52,7 @@ std::optional<UprightImage> upright_image(const Camera& camera, const ScreenRect
     glm::dvec2 highest(-INFINITY);
     for (const glm::dvec2& corner : corners) {
         const glm::dvec3 p = on_image(corner);
-        if (p.z < kLeastForward * glm::length(camera.ray(corner.x, corner.y))) return std::nullopt;
+        if (p.z < kMinForward * glm::length(camera.ray(corner.x, corner.y))) return std::nullopt;
         lowest = glm::min(lowest, glm::dvec2(p));
         highest = glm::max(highest, glm::dvec2(p));
     }
@@ -60,7 +61,7 @@ std::optional<UprightImage> upright_image(const Camera& camera, const ScreenRect
         glm::dvec2(on_image(middle + glm::dvec2(0.5, 0))) - glm::dvec2(on_image(middle - glm::dvec2(0.5, 0))),
         glm::dvec2(on_image(middle + glm::dvec2(0, 0.5))) - glm::dvec2(on_image(middle - glm::dvec2(0, 0.5))));
     const auto [largest, smallest] = singular_values(per_pixel);
-    if (!(largest <= kMostStretch * smallest)) return std::nullopt;
+    if (!(largest <= kMaxStretch * smallest)) return std::nullopt;
     const double focal_px = samples_across / smallest;
 
     UprightImage made;
@@ -82,7 +83,7 @@ std::optional<UprightImage> upright_image(const Camera& camera, const ScreenRect
     made.camera.cy -= covered->y;
     const double pixels = static_cast<double>(covered->width) * covered->height;
     const double direct = samples_across * samples_across * area.width * area.height;
-    if (pixels > kMostPixelsMore * direct) return std::nullopt;
+    if (pixels > kMaxPixelRatio * direct) return std::nullopt;
     const glm::dmat3 image_from_rays(glm::dvec3(focal_px, 0, 0), glm::dvec3(0, focal_px, 0),
                                      glm::dvec3(made.camera.cx, made.camera.cy, 1));
     made.image_from_screen = image_from_rays * along;

@@ -41,14 +41,14 @@ void for_mixed_quarters(const std::vector<SourceImage>& sources, const Work& wor
 
 }  // namespace
 
-unsigned AlphaBook::nearest(const SourceImage& source, int x, int y) const {
+unsigned AlphaCodebook::nearest(const SourceImage& source, int x, int y) const {
     std::int16_t values[kAlphaSamples];
     std::int16_t weights[kAlphaSamples];
     alpha_vector(source, alpha_bits, x, y, {values, weights});
-    return static_cast<unsigned>(nearest_entry(book, values, weights).index);
+    return static_cast<unsigned>(find_nearest_entry(book, values, weights).index);
 }
 
-AlphaBook train_alpha(const std::vector<SourceImage>& sources, int alpha_bits) {
+AlphaCodebook train_alpha(const std::vector<SourceImage>& sources, int alpha_bits) {
     std::size_t count = 0;
     for_mixed_quarters(sources, [&](const SourceImage&, int, int) { ++count; });
     const std::size_t stride = std::max<std::size_t>(1, (count + kTrainingQuarters - 1) / kTrainingQuarters);
@@ -58,9 +58,9 @@ AlphaBook train_alpha(const std::vector<SourceImage>& sources, int alpha_bits) {
     for_mixed_quarters(sources, [&](const SourceImage& source, int x, int y) {
         if (number++ % stride == 0) alpha_vector(source, alpha_bits, x, y, vectors.add());
     });
-    AlphaBook alpha;
+    AlphaCodebook alpha;
     alpha.alpha_bits = alpha_bits;
-    alpha.book = train_book(vectors, codec::kBookEntries);
+    alpha.book = train_codebook(vectors, codec::kBookEntries);
     alpha.samples.resize(alpha.book.entries.size());
     for (std::size_t i = 0; i < alpha.samples.size(); ++i) {
         int sample = std::clamp(alpha.book.entries[i] + 128, 0, 255);

@@ -38,17 +38,18 @@ std::int64_t BlockResidual::error() const {
     for (std::size_t plane = 0; plane < 3; ++plane) {
         int of_plane = 0;
         for (const std::int16_t l : left[plane]) of_plane += l * l;
-        sum += std::int64_t{kWholePlaneWeights[plane]} * of_plane;
+        sum += std::int64_t{kIntegerPlaneWeights[plane]} * of_plane;
     }
     return sum;
 }
 
-BlockResidual residual_of_flat(const SourceImage& source, int x, int y, const std::array<std::uint8_t, 3>& colour) {
+BlockResidual compute_flat_residual(const SourceImage& source, int x, int y,
+                                    const std::array<std::uint8_t, 3>& colour) {
     return residual_of(source, x, y, [&](std::size_t plane, std::size_t) { return int{colour[plane]}; });
 }
 
-BlockResidual residual_of_predicted(const SourceImage& source, int x, int y, const codec::ConstPlaneViews& reference,
-                                    int from_x, int from_y) {
+BlockResidual compute_prediction_residual(const SourceImage& source, int x, int y,
+                                          const codec::ConstPlaneViews& reference, int from_x, int from_y) {
     return residual_of(source, x, y, [&](std::size_t plane, std::size_t i) {
         const ConstImageView<std::uint8_t>& from = reference[plane];
         return int{from(std::clamp(from_x + static_cast<int>(i % 8), 0, from.width() - 1),
@@ -77,7 +78,7 @@ std::array<std::uint8_t, 3> mean_colour(const SourceImage& source, int x, int y)
 void block_vector(const BlockResidual& residual, const WeightedVectors::Place& out) {
     for (std::size_t i = 0; i < 64; ++i) {
         out.values[i] = residual.left[0][i];
-        out.weights[i] = static_cast<std::int16_t>(kWholePlaneWeights[0] * residual.valid[i]);
+        out.weights[i] = static_cast<std::int16_t>(kIntegerPlaneWeights[0] * residual.valid[i]);
     }
     for (std::size_t plane = 1; plane < 3; ++plane) {
         for (std::size_t pair = 0; pair < 16; ++pair) {
@@ -89,7 +90,7 @@ void block_vector(const BlockResidual& residual, const WeightedVectors::Place& o
             }
             const std::size_t d = 48 + 16 * plane + pair;
             out.values[d] = static_cast<std::int16_t>(count == 0 ? 0 : (sum + (sum < 0 ? -count : count) / 2) / count);
-            out.weights[d] = static_cast<std::int16_t>(kWholePlaneWeights[plane] * count);
+            out.weights[d] = static_cast<std::int16_t>(kIntegerPlaneWeights[plane] * count);
         }
     }
 }
@@ -99,7 +100,8 @@ void quarter_vector(const BlockResidual& residual, int quarter, const WeightedVe
         for (std::size_t i = 0; i < 16; ++i) {
             const std::size_t pixel = pixel_of(static_cast<std::size_t>(quarter), i);
             out.values[16 * plane + i] = residual.left[plane][pixel];
-            out.weights[16 * plane + i] = static_cast<std::int16_t>(kWholePlaneWeights[plane] * residual.valid[pixel]);
+            out.weights[16 * plane + i] =
+                static_cast<std::int16_t>(kIntegerPlaneWeights[plane] * residual.valid[pixel]);
         }
     }
 }

@@ -2,9 +2,7 @@
 
 #include "encode/codec/board/board_alpha.hpp"
 #include "encode/codec/board/board_block.hpp"
-#include "encode/codec/board/board_classes.hpp"
 #include "encode/codec/board/board_stages.hpp"
-#include "encode/codec/fidelity.hpp"
 #include "encode/codec/motion_search.hpp"
 #include "encode/codec/ring_references.hpp"
 #include "rayspace/base/parallel_loop.hpp"
@@ -22,7 +20,26 @@ namespace {
 using codec::BoardMotion;
 using codec::RecordClass;
 
-constexpr std::size_t kTrainingBlocks = 24000;  // of one kind, at most
+// Record classes, [0] being the empty block; chosen by experiments on captured objects. They are written into the file;
+// decoders accept any classes. Members: predicted, alpha, block stages, quarter stages
+constexpr std::array<codec::RecordClass, codec::kBoardClasses> kFlatClasses = {{{},
+                                                                                {false, false, 1, 0},
+                                                                                {false, false, 1, 1},
+                                                                                {false, false, 1, 2},
+                                                                                {false, false, 1, 4},
+                                                                                {false, true, 1, 1},
+                                                                                {false, true, 1, 2},
+                                                                                {false, true, 1, 4}}};
+constexpr std::array<codec::RecordClass, codec::kBoardClasses> kPredictedClasses = {{{},
+                                                                                     {true, false, 2, 0},
+                                                                                     {true, false, 2, 1},
+                                                                                     {true, false, 2, 2},
+                                                                                     {true, false, 2, 3},
+                                                                                     {true, true, 2, 1},
+                                                                                     {true, true, 2, 2},
+                                                                                     {false, true, 1, 1}}};
+
+constexpr std::size_t kTrainingBlocks = 24000;  // per kind, at most
 constexpr int kReachDown_px = 6;
 
 enum class Cover : std::uint8_t { kEmpty, kMixed, kFull };
@@ -52,9 +69,9 @@ public:
         coded_.board.classes = {kFlatClasses, kPredictedClasses};
         coded_.levels.assign(object.views.size(), 0);
         coded_.images.resize(object.views.size());
-        lambda_ = settings.lambda_factor * kWholePlaneWeights[0] * settings.step * settings.step * 8;
+        lambda_ = settings.lambda_factor * kIntegerPlaneWeights[0] * settings.step * settings.step * 8;
         plan();
-        for_images([](std::size_t) { return true; }, [&](std::size_t v) { look_at_blocks(v); });
+        for_images([](std::size_t) { return true; }, [&](std::size_t v) { classify_blocks(v); });
     }
 
     EncodedImages encode() {
@@ -62,14 +79,14 @@ public:
         coded_.board.alpha = alpha_.samples;
         const auto is_reference = [&](std::size_t v) { return coded_.images[v].head.references() == 0; };
         const auto is_predicted = [&](std::size_t v) { return !is_reference(v); };
-        if (progress_ != nullptr) {  // predicted ones twice: for their motion, and for their records
+        if (progress_ != nullptr) {  // two steps per predicted image: motion and records
             const auto head_is = [](const codec::CodedImage& image) { return image.head.references() == 0; };
             const auto references = std::count_if(coded_.images.begin(), coded_.images.end(), head_is);
             progress_->start("encoding", 2 * static_cast<std::int64_t>(work_.size()) - references);
         }
 
         books_[0] = train(is_reference, false, 1, 4);
-        coded_.board.books[0] = stored_books(books_[0]);
+        coded_.board.books[0] = pack_codebooks(books_[0]);
         for_images(is_reference, [&](std::size_t v) { encode_image(v); });
 
         for_images(is_predicted, [&](std::size_t v) {
@@ -77,12 +94,12 @@ public:
             advance();
         });
         books_[1] = train(is_predicted, true, 2, 3);
-        coded_.board.books[1] = stored_books(books_[1]);
+        coded_.board.books[1] = pack_codebooks(books_[1]);
         for_images(is_predicted, [&](std::size_t v) { encode_image(v); });
         if (progress_ != nullptr) progress_->finish();
-        const double psnr_db =
-            coded_psnr(sources_, object_.width, object_.height, settings_.alpha_bits,
-                       [&](std::size_t v) { return codec::views_of(std::as_const(work_[v].reconstruction)); });
+        const double psnr_db = measure_coded_psnr(
+            sources_, object_.width, object_.height, settings_.alpha_bits,
+            [&](std::size_t v) { return codec::plane_views(std::as_const(work_[v].reconstruction)); });
         return {std::move(coded_), psnr_db};
     }
 
@@ -97,7 +114,7 @@ private:
         if (progress_ != nullptr) progress_->advance();
     }
 
-    // Levels and references.
+    // Assigns progressive levels and references.
     void plan() {
         for (const Ring& ring : object_.rings) {
             const int count = static_cast<int>(ring.views.size());
@@ -126,7 +143,7 @@ private:
             .blocks[static_cast<std::size_t>(y / codec::kBoardBlock * block_columns() + x / codec::kBoardBlock)];
     }
 
-    void look_at_blocks(std::size_t v) {
+    void classify_blocks(std::size_t v) {
         for (auto& plane : work_[v].reconstruction) {
             plane = Image<std::uint8_t>(coded_.coded_width(), coded_.coded_height());
         }
@@ -158,7 +175,7 @@ private:
         }
     }
 
-    // The classes, as a set of bits, that a block may have.
+    // The classes allowed for a block, as a bit set.
     [[nodiscard]] unsigned allowed(std::size_t v, const Block& block, bool predicted) const {
         const auto& classes = classes_of(v);
         unsigned may = 0;
@@ -173,18 +190,18 @@ private:
 
     [[nodiscard]] BlockResidual residual_of(std::size_t v, int x, int y, const Block& block, bool predicted) const {
         const SourceImage& source = sources_[v];
-        if (!predicted) return residual_of_flat(source, x, y, mean_colour(source, x, y));
-        return residual_of_predicted(source, x, y, reference_of(v, block.motion.reference), x + block.motion.x,
-                                     y + block.motion.y);
+        if (!predicted) return compute_flat_residual(source, x, y, mean_colour(source, x, y));
+        return compute_prediction_residual(source, x, y, reference_of(v, block.motion.reference), x + block.motion.x,
+                                           y + block.motion.y);
     }
     [[nodiscard]] codec::ConstPlaneViews reference_of(std::size_t v, int reference) const {
-        return codec::views_of(
+        return codec::plane_views(
             std::as_const(work_[coded_.images[v].head.reference[static_cast<std::size_t>(reference)]].reconstruction));
     }
 
-    // On blocks spread evenly over the wanted images.
+    // Trains on blocks spread evenly over the images for which `wanted` is true.
     template <class Wanted>
-    StageBooks train(const Wanted& wanted, bool predicted, int block_stages, int quarter_stages) {
+    StageCodebooks train(const Wanted& wanted, bool predicted, int block_stages, int quarter_stages) {
         std::size_t count = 0;
         for (std::size_t v = 0; v < work_.size(); ++v) {
             if (wanted(v)) for_blocks(v, [&](int, int, const Block&) { ++count; });
@@ -218,7 +235,7 @@ private:
                 search.reach_y = kReachDown_px;
                 search.fractions = false;
                 const codec::MotionVector none;
-                const FoundMotion found = find_motion(search, {&none, 1}, none);
+                const MotionMatch found = search_motion(search, {&none, 1}, none);
                 Block tried = block;
                 tried.motion = {r, found.vector.x >> 2, found.vector.y >> 2};
                 const std::int64_t error = residual_of(v, x, y, tried, true).error();
@@ -231,7 +248,7 @@ private:
     }
 
     struct Chosen {
-        int number = 0;  // of the class
+        int number = 0;  // class number
         double cost = 0;
         StagedBlock staged;
     };
@@ -241,13 +258,14 @@ private:
         for (const bool predicted : {false, true}) {
             const unsigned may = allowed(v, block, predicted);
             if (may == 0 || (predicted && !block.has_motion)) continue;
-            const StageBooks& books = books_[predicted ? 1 : 0];
+            const StageCodebooks& books = books_[predicted ? 1 : 0];
             Chosen chosen;
-            chosen.staged = walk_stages(books, residual_of(v, x, y, block, predicted));
-            chosen.number = cheapest_class(chosen.staged, classes_of(v), may, lambda_);
+            chosen.staged = quantise_stages(books, residual_of(v, x, y, block, predicted));
+            chosen.number = select_class(chosen.staged, classes_of(v), may, lambda_);
             const RecordClass& record_class = classes_of(v)[static_cast<std::size_t>(chosen.number)];
-            chosen.cost = static_cast<double>(chosen.staged.error[static_cast<std::size_t>(stages_of(record_class))]) +
-                          lambda_ * record_class.bytes();
+            chosen.cost =
+                static_cast<double>(chosen.staged.error[static_cast<std::size_t>(count_stages(record_class))]) +
+                lambda_ * record_class.bytes();
             if (best.number == 0 || chosen.cost < best.cost) best = chosen;
         }
         return best;
@@ -305,7 +323,7 @@ private:
             std::array<codec::ConstPlaneViews, 2> references;
             for (int r = 0; r < image.head.references(); ++r)
                 references[static_cast<std::size_t>(r)] = reference_of(v, r);
-            codec::decode_tile(coded_, v, t, references, nullptr, codec::views_of(work_[v].reconstruction));
+            codec::decode_tile(coded_, v, t, references, nullptr, codec::plane_views(work_[v].reconstruction));
         }
         advance();
     }
@@ -316,9 +334,9 @@ private:
     Progress* progress_;
     codec::CodedImages coded_;
     std::vector<BoardWorkImage> work_;
-    double lambda_ = 0;                // what a byte is worth in squared errors
-    std::array<StageBooks, 2> books_;  // [of flat blocks, of predicted ones]
-    AlphaBook alpha_;
+    double lambda_ = 0;                    // squared error equivalent to one byte
+    std::array<StageCodebooks, 2> books_;  // [of flat blocks, of predicted ones]
+    AlphaCodebook alpha_;
 };
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
-// The encoder of the `board` profile: one image in nine is a reference, made of flat blocks plus entries of
-// codebooks; blocks of the others are predicted from the references next to them on the ring. Codebooks are trained on
-// the object; every block chooses its class of record by rate and distortion.
+// Encoder of the `board` profile. One image in nine is a reference, made of flat blocks plus codebook entries; blocks
+// of the others are predicted from the adjacent references on the ring. Codebooks are trained on the object; every
+// block chooses its record class by rate and distortion.
 
 #include "encode/codec/encoded_images.hpp"
 #include "encode/codec/source_image.hpp"
@@ -14,13 +14,13 @@
 namespace rs::encode {
 
 struct BoardSettings {
-    double step = 12;  // fidelity: what an error is worth beside a byte; 1 .. 200, as a quantiser's step
+    double step = 12;  // trade-off of errors against bytes, 1 .. 200, comparable to a quantiser step
     int alpha_bits = 2;
     int views_per_reference = 9;
     double lambda_factor = 0.12;
 };
 
-// As encode_dense(). Memory: 8 bytes a sample of the coded size, and some 30 MB.
+/// As encode_dense(). Memory: 8 bytes per sample of the coded size, and about 30 MB.
 EncodedImages encode_board(const RaySpaceObject& object, const std::vector<SourceImage>& sources,
                            const BoardSettings& settings, Progress* progress = nullptr);
 

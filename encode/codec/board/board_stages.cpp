@@ -12,7 +12,7 @@ using codec::kQuarterDimensions;
 
 constexpr int kTrainingRounds = 2;
 constexpr int kRoundsPerStage = 5;
-constexpr double kPackedByte = 0.55;  // of a codebook's byte, in the file
+constexpr double kPackedByte = 0.55;  // bytes in the file per byte of a codebook
 
 struct Vector {
     std::array<std::int16_t, kBlockDimensions> values = {};
@@ -20,18 +20,18 @@ struct Vector {
     WeightedVectors::Place place() { return {values.data(), weights.data()}; }
 };
 
-std::uint8_t code_block(const TrainedBook& book, BlockResidual& residual) {
+std::uint8_t code_block(const Codebook& book, BlockResidual& residual) {
     Vector vector;
     block_vector(residual, vector.place());
-    const std::size_t index = nearest_entry(book, vector.values.data(), vector.weights.data()).index;
+    const std::size_t index = find_nearest_entry(book, vector.values.data(), vector.weights.data()).index;
     subtract_block(residual, &book.entries[index * kBlockDimensions]);
     return static_cast<std::uint8_t>(index);
 }
 
-std::uint8_t code_quarter(const TrainedBook& book, int quarter, BlockResidual& residual) {
+std::uint8_t code_quarter(const Codebook& book, int quarter, BlockResidual& residual) {
     Vector vector;
     quarter_vector(residual, quarter, vector.place());
-    const std::size_t index = nearest_entry(book, vector.values.data(), vector.weights.data()).index;
+    const std::size_t index = find_nearest_entry(book, vector.values.data(), vector.weights.data()).index;
     subtract_quarter(residual, quarter, &book.entries[index * kQuarterDimensions]);
     return static_cast<std::uint8_t>(index);
 }
@@ -50,7 +50,7 @@ WeightedVectors vectors_of(std::span<const BlockResidual> residuals, const std::
     return vectors;
 }
 
-codec::Book stored(const TrainedBook& book) {
+codec::Book stored(const Codebook& book) {
     codec::Book bytes(book.entries.size());
     std::transform(book.entries.begin(), book.entries.end(), bytes.begin(),
                    [](std::int16_t v) { return static_cast<std::int8_t>(v); });
@@ -59,7 +59,7 @@ codec::Book stored(const TrainedBook& book) {
 
 }  // namespace
 
-StagedBlock walk_stages(const StageBooks& books, BlockResidual residual) {
+StagedBlock quantise_stages(const StageCodebooks& books, BlockResidual residual) {
     StagedBlock staged;
     std::size_t stage = 0;
     staged.error[stage++] = residual.error();
@@ -76,18 +76,18 @@ StagedBlock walk_stages(const StageBooks& books, BlockResidual residual) {
     return staged;
 }
 
-int stages_of(const codec::RecordClass& record_class) {
+int count_stages(const codec::RecordClass& record_class) {
     return record_class.block_stages + record_class.quarter_stages;
 }
 
-int cheapest_class(const StagedBlock& staged, const std::array<codec::RecordClass, codec::kBoardClasses>& classes,
-                   unsigned may, double lambda) {
+int select_class(const StagedBlock& staged, const std::array<codec::RecordClass, codec::kBoardClasses>& classes,
+                 unsigned may, double lambda) {
     int best = 0;
     double best_cost = std::numeric_limits<double>::max();
     for (int c = 1; c < codec::kBoardClasses; ++c) {
         if ((may >> static_cast<unsigned>(c) & 1U) == 0) continue;
         const codec::RecordClass& record_class = classes[static_cast<std::size_t>(c)];
-        const double cost = static_cast<double>(staged.error[static_cast<std::size_t>(stages_of(record_class))]) +
+        const double cost = static_cast<double>(staged.error[static_cast<std::size_t>(count_stages(record_class))]) +
                             lambda * record_class.bytes();
         if (cost < best_cost) {
             best = c;
@@ -97,18 +97,18 @@ int cheapest_class(const StagedBlock& staged, const std::array<codec::RecordClas
     return best;
 }
 
-StageBooks train_stages(std::span<const TrainingBlock> blocks,
-                        const std::array<codec::RecordClass, codec::kBoardClasses>& classes, int block_stages,
-                        int quarter_stages, double lambda, double share) {
-    StageBooks books;
+StageCodebooks train_stages(std::span<const TrainingBlock> blocks,
+                            const std::array<codec::RecordClass, codec::kBoardClasses>& classes, int block_stages,
+                            int quarter_stages, double lambda, double share) {
+    StageCodebooks books;
     const int stages = block_stages + quarter_stages;
     std::vector<int> used(blocks.size(), stages);  // stages of each block
     for (int round = 0; round <= kTrainingRounds; ++round) {
         if (round > 0) {
             for_each_index(blocks.size(), [&](std::size_t b) {
-                const StagedBlock staged = walk_stages(books, blocks[b].residual);
-                const int c = cheapest_class(staged, classes, blocks[b].may, lambda);
-                used[b] = stages_of(classes[static_cast<std::size_t>(c)]);
+                const StagedBlock staged = quantise_stages(books, blocks[b].residual);
+                const int c = select_class(staged, classes, blocks[b].may, lambda);
+                used[b] = count_stages(classes[static_cast<std::size_t>(c)]);
             });
         }
         std::vector<BlockResidual> residuals;
@@ -119,17 +119,17 @@ StageBooks train_stages(std::span<const TrainingBlock> blocks,
             std::vector<bool> wanted(blocks.size());
             for (std::size_t b = 0; b < blocks.size(); ++b) wanted[b] = used[b] > stage;
             const WeightedVectors vectors = vectors_of(residuals, wanted, quarters);
-            std::vector<TrainedBook>& group = quarters ? books.quarter : books.block;
+            std::vector<Codebook>& group = quarters ? books.quarter : books.block;
             const auto at = static_cast<std::size_t>(quarters ? stage - block_stages : stage);
             if (round == 0) {
-                group.push_back(train_book(vectors, codec::kBookEntries));
+                group.push_back(train_codebook(vectors, codec::kBookEntries));
             } else {
-                refine_book(group[at], vectors, kRoundsPerStage);
+                refine_codebook(group[at], vectors, kRoundsPerStage);
             }
             if (round == kTrainingRounds) {
-                prune_book(group[at], vectors, share * lambda * kPackedByte * vectors.dimensions);
+                prune_codebook(group[at], vectors, share * lambda * kPackedByte * vectors.dimensions);
             }
-            const TrainedBook& book = group[at];
+            const Codebook& book = group[at];
             for_each_index(residuals.size(), [&](std::size_t b) {
                 if (used[b] <= stage) return;
                 if (!quarters) {
@@ -143,7 +143,7 @@ StageBooks train_stages(std::span<const TrainingBlock> blocks,
     return books;
 }
 
-codec::Books stored_books(const StageBooks& books) {
+codec::Books pack_codebooks(const StageCodebooks& books) {
     codec::Books all;
     for (std::size_t s = 0; s < books.block.size(); ++s) all.block[s] = stored(books.block[s]);
     for (std::size_t s = 0; s < books.quarter.size(); ++s) all.quarter[s] = stored(books.quarter[s]);

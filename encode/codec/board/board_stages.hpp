@@ -1,8 +1,8 @@
 #pragma once
-// The chain of codebooks that the records of one kind (flat or predicted) go through, and how they are trained.
+// Chain of codebooks that records of one kind (flat or predicted) go through, and its training.
 //
-// The encoder uses classes that nest: a block stage or several, then quarter stages, each class a beginning of that
-// chain. So one walk along it prices all of them.
+// The encoder's classes nest: a class has one or more block stages, then quarter stages, and is a prefix of the chain.
+// A single walk along the chain therefore prices all classes.
 
 #include "encode/codec/board/board_block.hpp"
 #include "encode/codec/board/vector_quantiser.hpp"
@@ -17,39 +17,39 @@ namespace rs::encode {
 
 inline constexpr int kMaxStages = codec::kMaxBlockStages + codec::kMaxQuarterStages;
 
-struct StageBooks {
-    std::vector<TrainedBook> block;
-    std::vector<TrainedBook> quarter;
+struct StageCodebooks {
+    std::vector<Codebook> block;
+    std::vector<Codebook> quarter;
     [[nodiscard]] int count() const { return static_cast<int>(block.size() + quarter.size()); }
 };
 
 struct StagedBlock {
-    std::array<std::int64_t, kMaxStages + 1> error = {};                             // after so many stages
+    std::array<std::int64_t, kMaxStages + 1> error = {};                             // [number of stages applied]
     std::array<std::uint8_t, codec::kMaxBlockStages> block = {};                     // indices
     std::array<std::array<std::uint8_t, 4>, codec::kMaxQuarterStages> quarter = {};  // [stage][quarter]
 };
 
-// Takes the nearest entry of each stage in turn.
-StagedBlock walk_stages(const StageBooks& books, BlockResidual residual);
+/// Quantises a block with the nearest entry of each stage in turn.
+StagedBlock quantise_stages(const StageCodebooks& books, BlockResidual residual);
 
-// What a block costs with class c: error + lambda * bytes, of the classes that `may` holds (bit c). `stages_of`: the
-// number of stages of the chain.
-int stages_of(const codec::RecordClass& record_class);
-int cheapest_class(const StagedBlock& staged, const std::array<codec::RecordClass, codec::kBoardClasses>& classes,
-                   unsigned may, double lambda);
+/// The number of stages of a class.
+int count_stages(const codec::RecordClass& record_class);
+/// The class of the lowest cost, error + lambda * bytes, among those with bit c set in `may`.
+int select_class(const StagedBlock& staged, const std::array<codec::RecordClass, codec::kBoardClasses>& classes,
+                 unsigned may, double lambda);
 
 struct TrainingBlock {
     BlockResidual residual;
-    unsigned may = 0;  // classes that it may have
+    unsigned may = 0;  // allowed classes, bit c for class c
 };
 
-// Books for blocks that will be of the given classes, `block_stages` and `quarter_stages` of them. Later rounds train
-// each stage on the blocks that are worth it. `share`: of all blocks, those that `blocks` holds; entries that do not
-// save lambda for each byte that they take are left out.
-StageBooks train_stages(std::span<const TrainingBlock> blocks,
-                        const std::array<codec::RecordClass, codec::kBoardClasses>& classes, int block_stages,
-                        int quarter_stages, double lambda, double share);
+/// Trains `block_stages` and `quarter_stages` codebooks for blocks of the given classes. Later rounds train each stage
+/// on the blocks that use it. Entries that do not save lambda for each byte they take are removed.
+/// \param share  number of `blocks` relative to all blocks of the kind.
+StageCodebooks train_stages(std::span<const TrainingBlock> blocks,
+                            const std::array<codec::RecordClass, codec::kBoardClasses>& classes, int block_stages,
+                            int quarter_stages, double lambda, double share);
 
-codec::Books stored_books(const StageBooks& books);
+codec::Books pack_codebooks(const StageCodebooks& books);
 
 }  // namespace rs::encode

@@ -21,12 +21,12 @@ struct BlockSums {
     std::vector<std::int64_t> errors;  // [entry]
 };
 
-// What the vectors of each entry's cell add up to.
-BlockSums sum_cells(const TrainedBook& book, const WeightedVectors& vectors) {
+// Sums over the vectors in each entry's cell.
+BlockSums sum_cells(const Codebook& book, const WeightedVectors& vectors) {
     std::vector<Nearest> nearest(vectors.count());
     const auto dimensions = static_cast<std::size_t>(book.dimensions);
     for_each_index(nearest.size(), [&](std::size_t i) {
-        nearest[i] = nearest_entry(book, &vectors.values[i * dimensions], &vectors.weights[i * dimensions]);
+        nearest[i] = find_nearest_entry(book, &vectors.values[i * dimensions], &vectors.weights[i * dimensions]);
     });
     BlockSums sums;
     sums.values.resize(book.entries.size());
@@ -44,9 +44,9 @@ BlockSums sum_cells(const TrainedBook& book, const WeightedVectors& vectors) {
     return sums;
 }
 
-// Moves every entry but the first to the middle of its cell; an entry without vectors goes beside the one with the
-// largest error.
-void move_entries(TrainedBook& book, const BlockSums& sums) {
+// Moves every entry but the first to the centroid of its cell; an entry without vectors moves next to the entry with
+// the largest error.
+void move_entries(Codebook& book, const BlockSums& sums) {
     const auto dimensions = static_cast<std::size_t>(book.dimensions);
     std::vector<std::int64_t> errors = sums.errors;
     for (std::size_t entry = 1; entry < book.count(); ++entry) {
@@ -60,7 +60,7 @@ void move_entries(TrainedBook& book, const BlockSums& sums) {
         }
         if (used > 0) continue;
         const auto worst = static_cast<std::size_t>(std::max_element(errors.begin(), errors.end()) - errors.begin());
-        if (errors[worst] == 0) {  // nothing is left to be made better
+        if (errors[worst] == 0) {  // no error left
             std::fill_n(book.entries.begin() + static_cast<std::ptrdiff_t>(entry * dimensions), dimensions,
                         std::int16_t{0});
             continue;
@@ -73,8 +73,8 @@ void move_entries(TrainedBook& book, const BlockSums& sums) {
     }
 }
 
-// Twice the entries, each beside the one it comes from.
-void split(TrainedBook& book) {
+// Doubles the entries; each new entry starts near its parent.
+void split(Codebook& book) {
     const std::size_t before = book.entries.size();
     book.entries.resize(2 * before);
     for (std::size_t i = 0; i < before; ++i) {
@@ -109,7 +109,7 @@ std::int64_t weighted_distance(const std::int16_t* values, const std::int16_t* w
     return distance;
 }
 
-Nearest nearest_entry(const TrainedBook& book, const std::int16_t* values, const std::int16_t* weights) {
+Nearest find_nearest_entry(const Codebook& book, const std::int16_t* values, const std::int16_t* weights) {
     Nearest best{0, std::numeric_limits<std::int64_t>::max()};
     const std::int16_t* entry = book.entries.data();
     for (std::size_t e = 0; e < book.count(); ++e, entry += book.dimensions) {
@@ -119,12 +119,12 @@ Nearest nearest_entry(const TrainedBook& book, const std::int16_t* values, const
     return best;
 }
 
-void refine_book(TrainedBook& book, const WeightedVectors& vectors, int rounds) {
+void refine_codebook(Codebook& book, const WeightedVectors& vectors, int rounds) {
     if (vectors.count() == 0) return;
     for (int round = 0; round < rounds; ++round) move_entries(book, sum_cells(book, vectors));
 }
 
-std::size_t prune_book(TrainedBook& book, const WeightedVectors& vectors, double cost) {
+std::size_t prune_codebook(Codebook& book, const WeightedVectors& vectors, double cost) {
     struct Gain {
         std::size_t entry = 0;
         std::int64_t gain = 0;
@@ -162,15 +162,15 @@ std::size_t prune_book(TrainedBook& book, const WeightedVectors& vectors, double
     return left;
 }
 
-TrainedBook train_book(const WeightedVectors& vectors, std::size_t entries) {
-    TrainedBook book;
+Codebook train_codebook(const WeightedVectors& vectors, std::size_t entries) {
+    Codebook book;
     book.dimensions = vectors.dimensions;
     book.entries.assign(static_cast<std::size_t>(vectors.dimensions), 0);
     while (book.count() < entries) {
         split(book);
-        refine_book(book, vectors, kRoundsPerSplit);
+        refine_codebook(book, vectors, kRoundsPerSplit);
     }
-    refine_book(book, vectors, kLastRounds);
+    refine_codebook(book, vectors, kLastRounds);
     return book;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // Restores large parts that single masks lack, such as a black part before a black background that neighboring photos
-// show. Points that photos agree about (silhouette_repair.hpp) give the part's outline and depth; colours come from the
+// show. Points that photos agree about (silhouette_repair.hpp) give the part's contour and depth; colours come from the
 // nearest photos that show it.
 
 #include "encode/raymap/silhouettes/work_view.hpp"
@@ -20,7 +20,7 @@ namespace rs::encode {
 /// missing (at least half of them) or object, with at least half of its border at the object, and with its gaps closed.
 /// kNoDepth elsewhere. Narrow strips along an edge come from an inaccurate rig; separate components do not belong to
 /// the object.
-Image<float> lost_part(const WorkView& view, const Image<float>& missing);
+Image<float> select_lost_part(const WorkView& view, const Image<float>& missing);
 
 /// The area of a part relative to the object's area in the view.
 double share_of(const Image<float>& part, const WorkView& view);
@@ -49,18 +49,18 @@ public:
 
 private:
     // A pixel to paint, and its surface point.
-    struct Spot {
+    struct PaintPixel {
         int x = 0, y = 0;
         double cover = 0;  // alpha, 0..1
         glm::dvec2 place{0, 0};
         double height = 0;
     };
 
-    [[nodiscard]] std::optional<glm::dvec3> seen_by(const Painter& from, const Spot& spot, bool hidden) const;
+    [[nodiscard]] std::optional<glm::dvec3> seen_by(const Painter& from, const PaintPixel& spot, bool hidden) const;
 
     Image<Rgba8> image_;
     int scale_;
-    std::vector<Spot> left_;
+    std::vector<PaintPixel> left_;
     std::size_t all_ = 0;  // number of pixels to paint at the start
 };
 

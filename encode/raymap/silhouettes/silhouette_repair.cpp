@@ -7,14 +7,14 @@
 namespace rs::encode {
 namespace {
 
-bool rules_out(const SampledHull& hull, const PlaceInSpace& point) {
+bool rules_out(const SampledHull& hull, const SpacePoint& point) {
     return std::ranges::none_of(hull.heights_above(point.place), [&](const Interval& heights) {
         return heights.low <= point.y && point.y <= heights.high;
     });
 }
 
-bool shows(const DepthView& image, const PlaceInSpace& point, double tolerance) {
-    const std::optional<SeenPoint> at = image.view.see(point.place, point.y);
+bool shows(const DepthView& image, const SpacePoint& point, double tolerance) {
+    const std::optional<ProjectedPoint> at = image.view.see(point.place, point.y);
     if (!at) return false;
     const double depth = image.view.ray_of(at->whole_column() + 0.5).depth_of(point.place);
     const auto there = static_cast<double>(image.depth(at->whole_row(), at->whole_column()));
@@ -22,8 +22,8 @@ bool shows(const DepthView& image, const PlaceInSpace& point, double tolerance) 
 }
 
 // nullopt where the point may be part of the object: points outside of the frame may be.
-std::optional<glm::ivec2> pixel_beside(const WorkView& view, const PlaceInSpace& point) {
-    const std::optional<SeenPoint> at = view.see(point.place, point.y);
+std::optional<glm::ivec2> pixel_beside(const WorkView& view, const SpacePoint& point) {
+    const std::optional<ProjectedPoint> at = view.see(point.place, point.y);
     if (!at) return std::nullopt;
     const glm::ivec2 pixel(at->whole_column(), at->whole_row());
     if (pixel.x == 0 || pixel.y == 0 || pixel.x == view.width - 1 || pixel.y == view.height - 1) return std::nullopt;
@@ -35,8 +35,8 @@ std::optional<glm::ivec2> pixel_beside(const WorkView& view, const PlaceInSpace&
 
 }  // namespace
 
-std::vector<RuledOutPoint> ruled_out(const DepthView& image, std::span<const DepthView* const> beside, double tolerance,
-                                     const SampledHull& searched, const SampledHull& hull) {
+std::vector<RuledOutPoint> find_ruled_out(const DepthView& image, std::span<const DepthView* const> beside,
+                                          double tolerance, const SampledHull& searched, const SampledHull& hull) {
     std::vector<RuledOutPoint> points;
     const WorkView& view = image.view;
     for (int column = 0; column < view.width; ++column) {
@@ -45,7 +45,7 @@ std::vector<RuledOutPoint> ruled_out(const DepthView& image, std::span<const Dep
             const auto depth = static_cast<double>(image.depth(row, column));
             if (std::isnan(depth) || view.at(column, row).a < kOpaque) continue;
             const auto at = [&](double d) {
-                return PlaceInSpace{ray.place_at(d), view.height_of(row + 0.5, ray.axial_at(d))};
+                return SpacePoint{ray.place_at(d), view.height_of(row + 0.5, ray.axial_at(d))};
             };
             const RuledOutPoint point{at(depth - tolerance), at(depth), at(depth + tolerance)};
             if (!rules_out(hull, point.found) || !rules_out(hull, point.nearest) || !rules_out(hull, point.farthest)) {

@@ -14,21 +14,21 @@
 
 namespace rs::encode {
 
-struct PlaceInSpace {
+struct SpacePoint {
     glm::dvec2 place{0, 0};  // x and z, object radii
     double y = 0;
 };
 
 /// A point of a photo's depth map, and the points one tolerance nearer and farther.
 struct RuledOutPoint {
-    PlaceInSpace nearest, found, farthest;
+    SpacePoint nearest, found, farthest;
 };
 
 /// The points of a photo's opaque pixels that each photo of `beside` confirms but `hull` rules out, also `tolerance`
 /// object radii nearer and farther.
 /// \param searched  the hull in which the depths were estimated; points outside of it are ignored.
-std::vector<RuledOutPoint> ruled_out(const DepthView& image, std::span<const DepthView* const> beside, double tolerance,
-                                     const SampledHull& searched, const SampledHull& hull);
+std::vector<RuledOutPoint> find_ruled_out(const DepthView& image, std::span<const DepthView* const> beside,
+                                          double tolerance, const SampledHull& searched, const SampledHull& hull);
 
 /// Projects the points of several photos into a view: the nearest depth (as DepthView::depth) in each pixel with a
 /// point that in all three places projects to a pixel neither of the object nor next to it; kNoDepth elsewhere, and

@@ -9,7 +9,7 @@
 namespace rs::encode {
 namespace {
 
-const double kReach = kDeepest * std::sqrt(2.0);  // radius that a sampled hull covers
+const double kReach = kMaxDepth * std::sqrt(2.0);  // radius that a sampled hull covers
 
 // Sets near_object[row] where the object is at most `margin` columns away.
 void widen_column(const WorkView& view, int column, int margin, std::vector<std::uint8_t>& near_object) {
@@ -119,7 +119,7 @@ void VisualHull::heights_above(const glm::dvec2& place, std::vector<Interval>& h
     }
     heights.assign(1, within);
     for (const Silhouette& silhouette : silhouettes_) {
-        const SeenColumn seen = silhouette.view->see(place);
+        const ProjectedColumn seen = silhouette.view->see(place);
         if (seen.axial <= 0 || seen.column < 0 || seen.column >= silhouette.view->width) continue;
         std::size_t first = 0;
         for (const Interval& slopes : silhouette.forbidden_slopes(static_cast<int>(seen.column))) {
@@ -137,7 +137,7 @@ void VisualHull::tolerant_heights(const glm::dvec2& place, std::vector<Interval>
     };
     std::vector<Event> events;
     for (const Silhouette& silhouette : silhouettes_) {
-        const SeenColumn seen = silhouette.view->see(place);
+        const ProjectedColumn seen = silhouette.view->see(place);
         if (seen.axial <= 0 || seen.column < 0 || seen.column >= silhouette.view->width) continue;
         for (const Interval& slopes : silhouette.forbidden_slopes(static_cast<int>(seen.column))) {
             const Interval forbidden = silhouette.forbidden_heights(slopes, seen.axial);
@@ -185,7 +185,7 @@ void SampledHull::sample(int t) const {
     });
 }
 
-double contradicted_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range) {
+double inconsistent_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range) {
     constexpr int kEveryColumn = 8;
     std::vector<std::int64_t> pixels(views.size(), 0);
     std::vector<std::int64_t> contradicted(views.size(), 0);

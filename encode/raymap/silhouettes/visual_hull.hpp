@@ -64,7 +64,7 @@ private:
 /// place. Thread-safe.
 class SampledHull {
 public:
-    /// Covers all places up to kDeepest along every ray that passes the axis within kDeepest. `spacing` in object
+    /// Covers all places up to kMaxDepth along every ray that passes the axis within kMaxDepth. `spacing` in object
     /// radii.
     SampledHull(VisualHull hull, double spacing);
 
@@ -105,6 +105,6 @@ private:
 
 /// The share of object pixels (0..1, sampled) whose rays miss the hull: a measure of the silhouettes' inconsistency.
 /// `range` covers the object.
-double contradicted_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range);
+double inconsistent_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range);
 
 }  // namespace rs::encode

@@ -59,7 +59,7 @@ WorkView make_work_view(const Camera& camera, ConstImageView<Rgba8> image, int r
     return view;
 }
 
-WorkView halved(const WorkView& view) {
+WorkView halve(const WorkView& view) {
     WorkView half = view;
     half.width = view.width / 2;
     half.height = view.height / 2;
@@ -77,13 +77,13 @@ Image<std::uint8_t> soft_pixels(const WorkView& view) {
     constexpr int kRadius_px = 2;
     Image<std::uint8_t> alpha(view.columns.width(), view.columns.height());
     std::ranges::transform(view.columns.pixels(), alpha.pixels().begin(), &Rgba8::a);
-    Image<std::uint8_t> soft = soft_patches(alpha, kRadius_px);
+    Image<std::uint8_t> soft = find_soft_patches(alpha, kRadius_px);
     std::ranges::transform(soft.pixels(), alpha.pixels(), soft.pixels().begin(),
                            [](std::uint8_t patch, int a) { return a < kInside ? patch : std::uint8_t{0}; });
     return soft;
 }
 
-void cover_soft(WorkView& view, const Image<std::uint8_t>& soft) {
+void make_soft_opaque(WorkView& view, const Image<std::uint8_t>& soft) {
     const auto before_white = [](int value, int alpha) {
         return static_cast<std::uint8_t>((value * alpha + 255 * (255 - alpha) + 127) / 255);
     };
@@ -138,7 +138,7 @@ Image<std::uint8_t> measure_texture(const WorkView& view) {
     return texture;
 }
 
-void weaken_shading(WorkView& view) {
+void attenuate_shading(WorkView& view) {
     constexpr int kRadius_px = 4;
     constexpr int kGrey = 128;
     constexpr int kReduction = 4;  // of the mean's distance from grey

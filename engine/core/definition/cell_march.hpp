@@ -4,7 +4,7 @@
 #include "engine/core/definition/fixed_point.hpp"
 #include "engine/core/definition/shape_cells.hpp"
 #include "engine/core/definition/shape_setup.hpp"
-#include "rayspace/object/shape_map.hpp"
+#include "rayspace/api/types/shape_map.hpp"
 
 #include <algorithm>
 #include <cstdint>

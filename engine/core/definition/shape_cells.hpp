@@ -3,7 +3,7 @@
 // between them is continuous where they lie on one, and steps where they do not. First between the two lines beside a
 // ray, which serves a whole column of an upright view; then between two cells along p and two along height.
 
-#include "rayspace/object/shape_map.hpp"
+#include "rayspace/api/types/shape_map.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // The software core as an executor: it takes every object and every view. It makes a Renderer of what it loads, and
 // shares those that others have made.
 
-#include "engine/core/definition/executor.hpp"
+#include "rayspace/api/types/executor.hpp"
 #include "engine/core/fast/renderer.hpp"
 
 #include <map>

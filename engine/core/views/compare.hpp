@@ -5,6 +5,7 @@
 #include "engine/core/fast/renderer.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
+#include "rayspace/output/view_output.hpp"
 
 #include <filesystem>
 #include <string>
@@ -25,6 +26,9 @@ struct Comparison {
     double mean_ssim = 0;
 };
 
+// `render` is called from several threads at once.
+Result<Comparison> compare_with_set(const RenderView& render, const std::filesystem::path& set,
+                                    Progress* progress = nullptr);
 // `set` is in the units and the frame of the object's rig, as a second set traced of the same scene is.
 Result<Comparison> compare_with_set(const Renderer& renderer, const std::filesystem::path& set,
                                     Progress* progress = nullptr);

@@ -214,7 +214,7 @@ public:
         footprint.alpha_bytes = images * ((area(object.width, object.height) * kAlphaBits + 7) / 8);
         return footprint;
     }
-    [[nodiscard]] RaySpaceObject as_drawn(RaySpaceObject object) const override {
+    [[nodiscard]] RaySpaceObject as_rendered(RaySpaceObject object) const override {
         return with_board_alpha(std::move(object));
     }
 

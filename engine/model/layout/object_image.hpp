@@ -64,7 +64,7 @@ public:
     // shape map, or its images are not loaded, or not of the board's kind.
     [[nodiscard]] virtual Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const = 0;
     // The object that is really drawn. Bit equality is with this one.
-    [[nodiscard]] virtual RaySpaceObject as_drawn(RaySpaceObject object) const { return object; }
+    [[nodiscard]] virtual RaySpaceObject as_rendered(RaySpaceObject object) const { return object; }
     // Of a drawable object: words per region that it takes, and what stands in them.
     [[nodiscard]] virtual std::array<std::uint64_t, kObjectRegions> words(const RaySpaceObject& object) const = 0;
     [[nodiscard]] virtual ObjectImage image(const RaySpaceObject& object, const Placement& placement) const = 0;

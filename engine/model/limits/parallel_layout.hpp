@@ -16,7 +16,7 @@
 //                      lies beyond the image is 0
 //     coded images   coded_layout.hpp
 
-#include "rayspace/object/shape_map.hpp"
+#include "rayspace/api/types/shape_map.hpp"
 
 #include <cstdint>
 

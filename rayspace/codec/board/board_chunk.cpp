@@ -31,7 +31,7 @@ void for_classes(const BoardCode& code, const Work& work) {
     }
 }
 
-// All codebooks in the order of the file, each with the size that the classes need.
+// Visits all codebooks in file order, with the size required by the classes.
 template <class Code, class Work>  // work(book, bytes)
 void for_books(Code& code, const Work& work) {
     for (std::size_t kind = 0; kind < code.books.size(); ++kind) {
@@ -70,7 +70,7 @@ void put_board_code(const BoardCode& code, ByteWriter& out) {
     for_books(code, [&](const auto& book, std::size_t) {
         for (const auto number : book) bytes.push_back(static_cast<std::uint8_t>(number));
     });
-    out.put(zstd_frame(bytes));
+    out.put(compress_zstd(bytes));
 }
 
 Status take_board_code(ByteReader& in, BoardCode& code) {
@@ -89,7 +89,7 @@ Status take_board_code(ByteReader& in, BoardCode& code) {
     if (!in.ok()) return Error{"is too short"};
     std::size_t size = 0;
     for_books(code, [&](const auto&, std::size_t bytes) { size += bytes; });
-    RS_ASSIGN_OR_RETURN(const std::vector<std::uint8_t> bytes, zstd_content(in.take(in.left()), size, kBooksName));
+    RS_ASSIGN_OR_RETURN(const std::vector<std::uint8_t> bytes, decompress_zstd(in.take(in.left()), size, kBooksName));
     code.books = {};
     code.alpha.clear();
     auto next = bytes.begin();

@@ -1,5 +1,5 @@
 #pragma once
-// The part of chunk CODE that is the board profile's: record classes and codebooks. encode/FORMAT.md, section "CODE".
+// Board profile part of chunk CODE: record classes and codebooks. encode/FORMAT.md, section "CODE".
 
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/base/result.hpp"
@@ -7,13 +7,13 @@
 
 namespace rs::codec {
 
-// The books must have the sizes that the classes need.
+/// Writes the code. The books must have the sizes required by the classes.
 void put_board_code(const BoardCode& code, ByteWriter& out);
 
-// To the end of the payload. Memory: at most 270 KB, whatever the bytes are.
+/// Reads to the end of the payload. Memory: at most 270 KB for any input.
 Status take_board_code(ByteReader& in, BoardCode& code);
 
-// How many block and quarter stages the records of a kind (0: flat, 1: predicted) use at most, of all classes.
+/// The largest number of block and quarter stages of any record class of a kind (0: flat, 1: predicted).
 struct StageCounts {
     int block = 0;
     int quarter = 0;

@@ -1,6 +1,6 @@
 #pragma once
-// The images of an object as its file holds them: a part that all share, and per image a head and tiles. A tile can
-// be decoded without the others of its image; encode/FORMAT.md, section "Coded images".
+// Coded images of an object as stored in its file: shared data, and for each image a head and tiles. Each tile can be
+// decoded without the other tiles of its image; encode/FORMAT.md, section "Coded images".
 
 #include "rayspace/codec/code/board_code.hpp"
 #include "rayspace/codec/code/dense_code.hpp"
@@ -13,14 +13,14 @@
 namespace rs::codec {
 
 enum class Profile : std::uint8_t {
-    kDense = 1,  // best rate; entropy-coded tiles
-    kBoard = 2,  // records of fixed sizes and look-ups, for hardware
+    kDense = 1,  // entropy-coded tiles, for the best compression
+    kBoard = 2,  // fixed-size records and table look-ups, for hardware
 };
 constexpr const char* name_of(Profile profile) {
     return profile == Profile::kBoard ? "board" : "dense";
 }
 
-// Where a tile's bytes stand among its image's. A tile that is not present shows nothing.
+/// Range of a tile's bytes within its image. A tile that is not present is transparent.
 struct TileSpan {
     std::uint32_t begin = 0;
     std::uint32_t size = 0;
@@ -29,8 +29,8 @@ struct TileSpan {
 
 struct CodedImage {
     ImageHead head;
-    std::vector<TileSpan> tiles;   // row by row; empty where the image is not loaded
-    std::vector<std::byte> bytes;  // of all tiles
+    std::vector<TileSpan> tiles;   // row by row; empty if the image is not loaded
+    std::vector<std::byte> bytes;  // all tiles
 
     [[nodiscard]] bool loaded() const { return !tiles.empty(); }
     [[nodiscard]] std::span<const std::byte> tile_bytes(std::size_t tile) const {
@@ -40,13 +40,13 @@ struct CodedImage {
 
 struct CodedImages {
     Profile profile = Profile::kDense;
-    int width = 0;  // of the images
+    int width = 0;  // px, of the images
     int height = 0;
     int tile_width_log2 = 5;   // kMinTileLog2 .. kMaxTileLog2
-    int tile_height_log2 = 5;  // the same
-    DenseCode dense;           // one of the two, by `profile`
+    int tile_height_log2 = 5;  // kMinTileLog2 .. kMaxTileLog2
+    DenseCode dense;           // `profile` selects `dense` or `board`
     BoardCode board;
-    std::vector<std::uint8_t> levels;  // [view]: progressive level, 0 .. 3; an image is predicted from lower ones
+    std::vector<std::uint8_t> levels;  // [view]: progressive level, 0 .. 3; references have lower levels
     std::vector<CodedImage> images;    // [view]
 
     [[nodiscard]] int coded_width() const { return (width + kMacroblock - 1) / kMacroblock * kMacroblock; }

@@ -1,10 +1,10 @@
 #pragma once
-// Where the probability of each binary decision of a dense image stands in the object's table: encode/FORMAT.md,
-// section "Contexts". A context is a number 0 .. kCount - 1.
+// Context indices of the binary decisions of a dense image, 0 .. kCount - 1, into the object's probability table:
+// encode/FORMAT.md, section "Contexts".
 
 namespace rs::codec::context {
 
-// The kinds of coefficient blocks: plane (Y, or U and V) * 4 + size (8x8, 16x16) * 2 + (is predicted from images).
+/// Kinds of coefficient blocks: plane (Y, or U and V) * 4 + size (8x8, 16x16) * 2 + (is inter-predicted).
 inline constexpr int kBlockKinds = 8;
 inline constexpr int kBands = 4;
 inline constexpr int kNearSums = 5;
@@ -35,11 +35,11 @@ inline constexpr int kAlphaFull = kAlphaZero + 4 * 81;                         /
 inline constexpr int kAlphaBetween = kAlphaFull + 4 * 81;                      // [mean of W and N 3][node 16]
 inline constexpr int kLevelsCount = kAlphaBetween + 3 * 16;
 
-// Objects whose alpha is a mask have these in place of the three above.
+/// Objects whose alpha is a mask use these instead of the three above.
 inline constexpr int kMaskFroms = 8;
 inline constexpr int kMask = kAlphaZero;                // [predicted 8][samples coded before 64]
 inline constexpr int kInner = kMask + kMaskFroms * 64;  // [neighbours 3][predicted 3][mask 2][sum of mask 17]
-// Of more than two bits; beside: whether the mask changes around the sample.
+/// Masks of more than two bits; beside: whether the mask changes around the sample.
 inline constexpr int kDepthOff = kInner + 3 * 3 * 2 * 17;  // [predicted 3][beside 2][activity 6]
 inline constexpr int kDepthBelow = kDepthOff + 3 * 2 * 6;  // [beside 2][activity 6]
 inline constexpr int kDepthClass = kDepthBelow + 2 * 6;    // [beside 2][place 8]

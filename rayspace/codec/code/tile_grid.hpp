@@ -1,5 +1,6 @@
 #pragma once
-// What is known of the 8x8 blocks of a tile while it is read or written: the decisions that come after depend on it.
+// State of the 8x8 blocks of a tile while it is read or written, from which the contexts of later decisions are
+// derived.
 
 #include "rayspace/codec/kernels/prediction.hpp"
 
@@ -14,9 +15,9 @@ inline constexpr int kMacroblock = 16;
 inline constexpr int kMinTileLog2 = 4;
 inline constexpr int kMaxTileLog2 = 6;
 
-enum class AlphaClass : std::uint8_t { kOutside, kEmpty, kOpaque, kMixed };  // kOutside: of the tile or the image
+enum class AlphaClass : std::uint8_t { kOutside, kEmpty, kOpaque, kMixed };  // kOutside: beyond the tile or the image
 
-enum class Source : std::uint8_t { kNone, kIntra, kFirst, kSecond, kBoth };  // kNone: nothing is there
+enum class Source : std::uint8_t { kNone, kIntra, kFirst, kSecond, kBoth };  // kNone: not coded
 constexpr bool is_inter(Source source) {
     return source >= Source::kFirst;
 }
@@ -29,11 +30,11 @@ struct BlockInfo {
     Source source = Source::kNone;
     bool split = false;             // belongs to a macroblock in four units
     bool coded = false;             // its unit has coefficients
-    bool small_transforms = false;  // its unit is a macroblock with those of 8x8
+    bool small_transforms = false;  // its unit is a macroblock with 8x8 transforms
     std::array<MotionVector, 2> motion;
 };
 
-// Blocks (-1 .. n - 1, -1 .. n - 1) of a tile, counted from its first; those beside and above it are kOutside.
+/// Blocks (-1 .. n - 1, -1 .. n - 1) of a tile; those to the left of it and above it are kOutside.
 class TileGrid {
 public:
     BlockInfo& at(int bx, int by) { return blocks_[static_cast<std::size_t>((by + 1) * kSide + bx + 1)]; }
@@ -47,7 +48,7 @@ private:
     std::array<BlockInfo, static_cast<std::size_t>(kSide* kSide)> blocks_;
 };
 
-// A unit: a macroblock (size 16) or one of its four blocks (8). bx, by: its first block in the tile.
+/// A unit: a macroblock (size 16) or one of its four blocks (8). bx, by: its first block in the tile.
 struct PredictionUnit {
     int bx = 0;
     int by = 0;
@@ -55,9 +56,10 @@ struct PredictionUnit {
     [[nodiscard]] int blocks() const { return size / kBlock; }
 };
 
-// The median of what the blocks to the left and above use, and `global`.
-inline MotionVector predicted_motion(const TileGrid& grid, const PredictionUnit& unit, int reference,
-                                     MotionVector global) {
+/// Predicts a vector: the median of the vectors of the left and upper blocks and `global`; the vector of the only one
+/// of both blocks that uses the reference; `global` if neither does.
+inline MotionVector predict_motion(const TileGrid& grid, const PredictionUnit& unit, int reference,
+                                   MotionVector global) {
     const BlockInfo& left = grid.at(unit.bx - 1, unit.by);
     const BlockInfo& above = grid.at(unit.bx, unit.by - 1);
     const bool of_left = uses(left.source, reference);

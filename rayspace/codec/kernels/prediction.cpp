@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 
-// Plain loops of fixed lengths: the compiler makes vectors of them, as long as each target has.
+// Loops of fixed lengths, vectorised by the compiler for each target.
 HWY_BEFORE_NAMESPACE();
 namespace rs::codec::HWY_NAMESPACE {
 
@@ -25,8 +25,8 @@ HWY_INLINE std::uint8_t sample_of(int value) {
     return static_cast<std::uint8_t>(std::clamp(value, 0, 255));
 }
 
-// The filter along one line of positions that are `step` samples apart, `in` being its first tap: sums of 64ths. They
-// fit 16 bits: the magnitudes of a filter's taps add up to 112.
+// Filters a line of positions that are `step` samples apart, `in` being the first tap: sums in 64ths. They fit in 16
+// bits, since the magnitudes of a filter's taps add up to 112.
 template <int kSize>
 void sum_of_taps(const std::uint8_t* in, std::ptrdiff_t step, const std::int16_t* taps, std::int16_t* sums) {
     for (int x = 0; x < kSize; ++x) {
@@ -36,7 +36,8 @@ void sum_of_taps(const std::uint8_t* in, std::ptrdiff_t step, const std::int16_t
     }
 }
 
-// One pass only, along rows (step 1) or columns (step: the stride): rounding 64ths of 64ths gives the same.
+// A single pass along rows (step 1) or columns (step: the stride); equal to two passes, since rounding 64ths of 64ths
+// gives the same.
 template <int kSize>
 void filter_once(const std::uint8_t* in, std::ptrdiff_t in_stride, std::ptrdiff_t step, const std::int16_t* taps,
                  std::uint8_t* out, std::ptrdiff_t stride) {
@@ -49,8 +50,8 @@ void filter_once(const std::uint8_t* in, std::ptrdiff_t in_stride, std::ptrdiff_
     }
 }
 
-// The filter along rows of `in` (its first sample kTapsBefore left of and above the first result) and then along
-// columns. `in` has kTaps - 1 more rows and columns than the result.
+// Filters rows of `in` (whose first sample is kTapsBefore to the left of and above the first result), then columns.
+// `in` has kTaps - 1 more rows and columns than the result.
 template <int kSize>
 void filter(const std::uint8_t* in, std::ptrdiff_t in_stride, int fx, int fy, std::uint8_t* out,
             std::ptrdiff_t stride) {
@@ -154,7 +155,7 @@ void predict_from_neighbours(std::uint8_t* samples, std::ptrdiff_t stride, int s
     for (int i = 0; i < size; ++i) mean += edge[size + 1 + i] + edge[size - 1 - i];
     mean = (mean + size) >> (shift + 1);
 
-    // Samples along the edge in halves, 0 at the corner: between two of them their mean.
+    // Samples along the edge at half positions, 0 at the corner; odd positions are the mean of two samples.
     const auto along = [&](int halves) {
         const int at = size + (halves >> 1);
         return (halves & 1) != 0 ? (edge[at] + edge[at + 1] + 1) >> 1 : edge[at];

@@ -32,9 +32,9 @@ std::int16_t clamped(int value) {
     return static_cast<std::int16_t>(std::clamp(value, -32768, 32767));
 }
 
-// The pass along columns: out[i][x] = sum over k < used of matrix[k][i] * in[k][x], for the first kWidth columns; rows
-// of `in` and `out` are kSize apart. Even rows of the matrix are symmetric and odd ones antisymmetric, so that results
-// i and kSize - 1 - i share their products. The sums stay below 2^31: 16 * 90 * 2^15.
+// Column pass: out[i][x] = sum over k < used of matrix[k][i] * in[k][x], for the first kWidth columns; rows of `in` and
+// `out` are kSize apart. Even rows of the matrix are symmetric and odd ones antisymmetric, so that results i and kSize
+// - 1 - i share their products. The sums stay below 2^31: 16 * 90 * 2^15.
 template <int kSize, int kWidth>
 void pass(const std::int16_t* in, int used, int shift, std::int16_t* out) {
     constexpr int kRowStep = kLargestTransform / kSize;
@@ -62,7 +62,7 @@ template <int kSize, int kWidth>
 void inverse(const std::int16_t* coefficients, int used, std::int16_t* residual) {
     std::int16_t columns[kSize * kSize];
     pass<kSize, kWidth>(coefficients, used, kFirstShift, columns);
-    // The pass along rows adds up whole rows of the matrix, so that nothing need be turned.
+    // The row pass adds up whole rows of the matrix, so that no transposition is needed.
     for (int y = 0; y < kSize; ++y) {
         std::int32_t sums[kSize];
         std::fill_n(sums, kSize, 1 << (kSecondShift - 1));
@@ -79,7 +79,7 @@ void inverse(const std::int16_t* coefficients, int used, std::int16_t* residual)
 
 void inverse_transform(const std::int16_t* coefficients, int size, int used, std::int16_t* residual) {
     if (used == 1) {
-        // Both passes of the mean alone.
+        // Both passes for the DC coefficient only.
         const std::int16_t first = clamped((64 * coefficients[0] + (1 << (kFirstShift - 1))) >> kFirstShift);
         const std::int16_t mean = clamped((64 * first + (1 << (kSecondShift - 1))) >> kSecondShift);
         std::fill_n(residual, size * size, mean);
@@ -92,8 +92,8 @@ void inverse_transform(const std::int16_t* coefficients, int size, int used, std
     }
 }
 
-std::int16_t dequantised(int level, int step, int size) {
-    // step_q4 / 16 * 16 for size 8; half of that, rounded to even numbers' side, for 16.
+std::int16_t dequantise(int level, int step, int size) {
+    // step_q4 / 16 * 16 for size 8; half of that, with halves rounded up, for size 16.
     const int product = std::clamp(level, -32767, 32767) * step_q4(step);
     return clamped(size == 8 ? product : (product + 1) >> 1);
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Where the bytes of coded images went: in dense ones every decision is charged with its information content.
+// Breakdown of the bytes of coded images by syntax element. In dense images every decision counts with its information
+// content.
 
 #include "rayspace/codec/code/coded_images.hpp"
 
@@ -13,8 +14,8 @@ struct AccountEntry {
     double bytes = 0;
 };
 
-// All images of `coded` must be loaded. The entries add up to the images' chunks but for their rounding to whole
-// bytes, which is an entry too. Decodes dense images once, on the threads of the calling tbb arena.
+/// Computes the breakdown. All images of `coded` must be loaded. The entries add up to the images' chunks; rounding to
+/// whole bytes is an entry of its own. Decodes dense images once, on the threads of the calling tbb arena.
 std::vector<AccountEntry> account_bytes(const CodedImages& coded);
 
 }  // namespace rs::codec

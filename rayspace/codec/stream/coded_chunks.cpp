@@ -11,10 +11,10 @@
 namespace rs::codec {
 namespace {
 
-constexpr std::uint16_t kEven = 2048;  // the probability of contexts that are not listed
-constexpr int kProbabilityUnit = 16;   // of those that are
+constexpr std::uint16_t kEven = 2048;  // probability of contexts that are not listed
+constexpr int kProbabilityUnit = 16;   // unit of listed probabilities
 
-// Bits, the lowest of each byte first.
+// Writes bits, the lowest of each byte first.
 void put_bits(ByteWriter& out, const std::vector<bool>& bits) {
     for (std::size_t begin = 0; begin < bits.size(); begin += 8) {
         unsigned byte = 0;
@@ -24,7 +24,7 @@ void put_bits(ByteWriter& out, const std::vector<bool>& bits) {
     }
 }
 
-// False where there are too few bytes, or bits behind the last one that are not zero.
+// Reads bits. Returns false if there are too few bytes, or padding bits that are not zero.
 bool take_bits(ByteReader& in, std::vector<bool>& bits) {
     const auto bytes = in.take((bits.size() + 7) / 8);
     if (!in.ok()) return false;
@@ -47,7 +47,7 @@ void put_size(ByteWriter& out, std::uint32_t size) {
     out.put(static_cast<std::uint8_t>(size));
 }
 
-// Above kMaxTile_bytes where it is no size, or not the shortest form of one.
+// Reads a size; a value above kMaxTile_bytes if it is invalid or not in its shortest form.
 std::uint32_t take_size(ByteReader& in) {
     constexpr std::uint32_t kWrong = kMaxTile_bytes + 1;
     std::uint32_t size = 0;
@@ -79,7 +79,7 @@ Status check_references(const CodedImages& coded, std::size_t view, const ImageH
     return {};
 }
 
-// What a dense object makes use of: bits of the byte `features`.
+// Features of a dense object: bits of the byte `features`.
 constexpr unsigned kDeblocking = 1;
 constexpr unsigned kAdaptation = 2;
 constexpr unsigned kSignDataHiding = 4;
@@ -90,7 +90,7 @@ std::uint8_t features_of(const DenseCode& dense) {
                                      (dense.sign_data_hiding ? kSignDataHiding : 0U));
 }
 
-// What follows in the chunk CODE of dense images, to its end.
+// Reads the dense part of chunk CODE, to its end.
 Status take_dense_code(ByteReader& in, DenseCode& dense) {
     if (dense.has_edge_alpha()) {
         for (std::uint8_t& off : dense.edge_alpha) off = in.get<std::uint8_t>();
@@ -165,7 +165,7 @@ Status parse_code(std::span<const std::byte> payload, std::size_t views, int wid
     }
     const int most_codings = board ? 0 : static_cast<int>(AlphaCoding::kDepths);
     if (alpha_coding > most_codings) return out_of_range("the coding of alpha", alpha_coding, 0, most_codings);
-    constexpr int kBits[][2] = {{1, kMaxAlphaLevelBits}, {1, 2}, {3, kMaxAlphaBits}};  // of each coding
+    constexpr int kBits[][2] = {{1, kMaxAlphaLevelBits}, {1, 2}, {3, kMaxAlphaBits}};  // [coding]
     const int fewest_bits = board ? 0 : kBits[alpha_coding][0];
     const int most_bits = board ? 0 : kBits[alpha_coding][1];
     if (alpha_bits < fewest_bits || alpha_bits > most_bits) {
@@ -242,7 +242,7 @@ Status parse_coded_image(std::span<const std::byte> payload, std::size_t view, C
     const bool board = coded.profile == Profile::kBoard;
     const int largest_step = board ? 0 : kMaxStep;
     if (image.head.step > largest_step) return out_of_range("its quantiser step", image.head.step, 0, largest_step);
-    if (Status status = check_references(coded, view, image.head); !status) return status;
+    RS_TRY(check_references(coded, view, image.head));
     for (const MotionVector motion : image.head.global_motion) {
         for (const int component : {int{motion.x}, int{motion.y}}) {
             const int largest = board ? 0 : kMaxMotion_q2;

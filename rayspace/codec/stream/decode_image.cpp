@@ -40,9 +40,9 @@ std::vector<Planes> decode_planes(const CodedImages& coded, const DecodeTile& de
             for (auto& plane : decoded[v]) plane = Image<std::uint8_t>(coded.coded_width(), coded.coded_height());
             std::array<ConstPlaneViews, 2> references;
             for (std::size_t r = 0; r < static_cast<std::size_t>(image.head.references()); ++r) {
-                references[r] = views_of(std::as_const(decoded[image.head.reference[r]]));
+                references[r] = plane_views(std::as_const(decoded[image.head.reference[r]]));
             }
-            for (std::size_t t = 0; t < image.tiles.size(); ++t) decode(v, t, references, views_of(decoded[v]));
+            for (std::size_t t = 0; t < image.tiles.size(); ++t) decode(v, t, references, plane_views(decoded[v]));
         });
     }
     return decoded;

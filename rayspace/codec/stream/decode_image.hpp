@@ -1,5 +1,5 @@
 #pragma once
-// Tiles and whole images.
+// Decodes tiles and whole images.
 
 #include "rayspace/codec/code/coded_images.hpp"
 #include "rayspace/codec/dense_tile.hpp"
@@ -12,23 +12,24 @@
 
 namespace rs::codec {
 
-// Tile number `tile` (row by row) of every image.
+/// The rectangle of tile number `tile` (row by row) of every image.
 TilePlace place_of_tile(const CodedImages& coded, std::size_t tile);
 
-// Decodes a tile of image `view`, which must be loaded. references[r]: the samples of the image
-// coded.images[view].head.reference[r], decoded at least where `listener` (may be null) is informed that they are
-// needed. Writes only the tile's samples of `out`; may be called from several threads at once.
+/// Decodes a tile of image `view`, which must be loaded, and writes only the tile's samples of `out`. Thread-safe.
+/// \param references  samples of the images coded.images[view].head.reference, decoded at least in the rectangles
+///     announced to `listener`.
+/// \param listener    may be null.
 void decode_tile(const CodedImages& coded, std::size_t view, std::size_t tile,
                  const std::array<ConstPlaneViews, 2>& references, ReferenceListener* listener, const PlaneViews& out);
 
-// The samples of every loaded image, by decode(view, tile, references, out) for each of its tiles; an image after
-// those that it is predicted from, else on the threads of the calling tbb arena in any order.
+/// Decodes every loaded image by decode(view, tile, references, out) for each of its tiles: each image after its
+/// references, otherwise on the threads of the calling tbb arena in any order.
 using DecodeTile = std::function<void(std::size_t view, std::size_t tile,
                                       const std::array<ConstPlaneViews, 2>& references, const PlaneViews& out)>;
 std::vector<Planes> decode_planes(const CodedImages& coded, const DecodeTile& decode);
 
-// Unpacks every loaded image: object.images (with chroma at full size) from *object.coded, on the threads of the
-// calling tbb arena. Memory: 4 bytes a pixel. Images are loaded with what they are predicted from (object_file.hpp).
+/// Decodes every loaded image of *object.coded into object.images (with chroma at full size), on the threads of the
+/// calling tbb arena. Memory: 4 bytes per pixel. Images are loaded together with their references (object_file.hpp).
 void decode_images(RaySpaceObject& object);
 
 }  // namespace rs::codec

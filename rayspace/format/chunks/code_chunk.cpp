@@ -1,4 +1,4 @@
-// CODE: what the coded images of an object share; rayspace/codec/stream/coded_chunks.hpp has the payload.
+// Chunk CODE: data shared by the coded images of an object; payload in rayspace/codec/stream/coded_chunks.hpp.
 #include "rayspace/codec/stream/coded_chunks.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
 
@@ -9,11 +9,11 @@ Payload shared_payload(const RaySpaceObject& object, std::uint32_t) {
     return codec::code_payload(*object.coded);
 }
 
-Status parse_shared(Bytes payload, UnreadObject& unread, std::uint32_t) {
-    RaySpaceObject& object = unread.object;
-    unread.coded = std::make_shared<codec::CodedImages>();
-    object.coded = unread.coded;
-    return codec::parse_code(payload, object.views.size(), object.width, object.height, *unread.coded);
+Status parse_shared(Bytes payload, PartialObject& partial, std::uint32_t) {
+    RaySpaceObject& object = partial.object;
+    partial.coded = std::make_shared<codec::CodedImages>();
+    object.coded = partial.coded;
+    return codec::parse_code(payload, object.views.size(), object.width, object.height, *partial.coded);
 }
 
 Status check_coded(const RaySpaceObject& object, std::uint32_t) {
@@ -28,24 +28,25 @@ Status check_coded(const RaySpaceObject& object, std::uint32_t) {
 std::int64_t held_by_coded(const RaySpaceObject& object, std::uint32_t) {
     if (!object.coded) return 0;
     const codec::CodedImages& coded = *object.coded;
-    std::int64_t bytes = sizeof(codec::CodedImages) + held_by(coded.levels) + held_by(coded.images);
-    for (const codec::CodedImage& image : coded.images) bytes += held_by(image.tiles) + held_by(image.bytes);
+    std::int64_t bytes = sizeof(codec::CodedImages) + heap_bytes_of(coded.levels) + heap_bytes_of(coded.images);
+    for (const codec::CodedImage& image : coded.images)
+        bytes += heap_bytes_of(image.tiles) + heap_bytes_of(image.bytes);
     for (const codec::Books& books : coded.board.books) {
-        for (const codec::Book& book : books.block) bytes += held_by(book);
-        for (const codec::Book& book : books.quarter) bytes += held_by(book);
+        for (const codec::Book& book : books.block) bytes += heap_bytes_of(book);
+        for (const codec::Book& book : books.quarter) bytes += heap_bytes_of(book);
     }
-    return bytes + held_by(coded.board.alpha);
+    return bytes + heap_bytes_of(coded.board.alpha);
 }
 
 }  // namespace
 
 ChunkKind code_chunk() {
     return {.name = kCode,
-            .is_there = [](const RaySpaceObject& object, std::uint32_t) { return object.coded != nullptr; },
+            .is_present = [](const RaySpaceObject& object, std::uint32_t) { return object.coded != nullptr; },
             .payload = shared_payload,
             .parse = parse_shared,
             .validate = check_coded,
-            .held_bytes = held_by_coded};
+            .heap_bytes = held_by_coded};
 }
 
 }  // namespace rs::object_chunks

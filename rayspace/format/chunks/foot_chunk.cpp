@@ -1,4 +1,4 @@
-// foot: object.foot_q20, if it is known.
+// Chunk foot: object.foot_q20, if it is known.
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
 #include "rayspace/format/object_ranges.hpp"
@@ -12,9 +12,9 @@ Payload foot_payload(const RaySpaceObject& object, std::uint32_t) {
     return out.bytes();
 }
 
-Status parse_foot(Bytes payload, UnreadObject& unread, std::uint32_t) {
+Status parse_foot(Bytes payload, PartialObject& partial, std::uint32_t) {
     if (payload.size() != sizeof(std::int32_t)) return wrong_size(payload.size(), sizeof(std::int32_t));
-    unread.object.foot_q20 = ByteReader(payload).get<std::int32_t>();
+    partial.object.foot_q20 = ByteReader(payload).get<std::int32_t>();
     return {};
 }
 
@@ -30,7 +30,7 @@ Status check_foot(const RaySpaceObject& object, std::uint32_t) {
 
 ChunkKind foot_chunk() {
     return {.name = kFoot,
-            .is_there = [](const RaySpaceObject& object, std::uint32_t) { return object.foot_q20.has_value(); },
+            .is_present = [](const RaySpaceObject& object, std::uint32_t) { return object.foot_q20.has_value(); },
             .payload = foot_payload,
             .parse = parse_foot,
             .validate = check_foot};

@@ -1,4 +1,4 @@
-// HEAD: object.name, units_per_radius, width and height; as many (empty) views and rings as there will be.
+// Chunk HEAD: object.name, units_per_radius, width, height, and the numbers of views and rings, which it creates empty.
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
@@ -25,8 +25,8 @@ Payload head_payload(const RaySpaceObject& object, std::uint32_t) {
     return out.bytes();
 }
 
-Status parse_head(Bytes payload, UnreadObject& unread, std::uint32_t) {
-    RaySpaceObject& object = unread.object;
+Status parse_head(Bytes payload, PartialObject& partial, std::uint32_t) {
+    RaySpaceObject& object = partial.object;
     ByteReader in(payload);
     const auto width = in.get<std::uint32_t>();
     const auto height = in.get<std::uint32_t>();
@@ -57,7 +57,7 @@ bool is_printable_utf8(const std::string& text) {
     const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
     if (std::any_of(text.begin(), text.end(), is_control)) return false;
     try {
-        (void)nlohmann::json(text).dump();  // throws on what is no UTF-8
+        (void)nlohmann::json(text).dump();  // throws if it is not UTF-8
         return true;
     } catch (const nlohmann::json::exception&) {
         return false;
@@ -87,7 +87,7 @@ Status check_head(const RaySpaceObject& object, std::uint32_t) {
 }
 
 std::int64_t held_by_head(const RaySpaceObject& object, std::uint32_t) {
-    return held_by(object.views) + held_by(object.rings) + held_by(object.images);
+    return heap_bytes_of(object.views) + heap_bytes_of(object.rings) + heap_bytes_of(object.images);
 }
 
 }  // namespace
@@ -97,7 +97,7 @@ ChunkKind head_chunk() {
             .payload = head_payload,
             .parse = parse_head,
             .validate = check_head,
-            .held_bytes = held_by_head};
+            .heap_bytes = held_by_head};
 }
 
 }  // namespace rs::object_chunks

@@ -1,4 +1,4 @@
-// PICT v: an image, coded if the object's are (rayspace/codec/stream/coded_chunks.hpp), else as its planes are.
+// Chunk PICT v: an image, coded (rayspace/codec/stream/coded_chunks.hpp) or as raw planes.
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/codec/stream/coded_chunks.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
@@ -45,9 +45,9 @@ Payload image_payload(const RaySpaceObject& object, std::uint32_t view) {
     return object.coded ? codec::coded_image_payload(*object.coded, view) : raw_payload(object.images[view]);
 }
 
-Status parse_image(Bytes payload, UnreadObject& unread, std::uint32_t view) {
-    if (unread.coded) return codec::parse_coded_image(payload, view, *unread.coded);
-    RaySpaceObject& object = unread.object;
+Status parse_image(Bytes payload, PartialObject& partial, std::uint32_t view) {
+    if (partial.coded) return codec::parse_coded_image(payload, view, *partial.coded);
+    RaySpaceObject& object = partial.object;
     return parse_raw(payload, object.width, object.height, object.images[view]);
 }
 
@@ -85,12 +85,12 @@ std::uint64_t raw_image_bytes(int width, int height) {
 
 ChunkKind image_chunk() {
     return {.name = kImage,
-            .each = OneFor::view,
+            .each = ChunkScope::view,
             .stage = ReadStage::images,
             .payload = image_payload,
             .parse = parse_image,
             .validate = check_image,
-            .held_bytes = held_by_image};
+            .heap_bytes = held_by_image};
 }
 
 }  // namespace rs::object_chunks

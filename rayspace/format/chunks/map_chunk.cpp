@@ -1,4 +1,4 @@
-// RMAP r: the cells of object.rings[r] as runs along u; the ring has its sizes from RING.
+// Chunk RMAP r: the cells of object.rings[r] as runs along u; the ring has its sizes from RING.
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/zstd_frame.hpp"
@@ -16,15 +16,16 @@ using namespace object_ranges;
 
 namespace {
 
-// The numbers of a map's frame and the runs that they are stand in memory at once.
+// Content of a map's frame and its runs are in memory at the same time.
 constexpr std::uint64_t kRunsOverContent = 2;
 
-// A few bytes may hold many runs: content_bytes is held against the memory cap before they are expanded.
+// Head of a coded map. A few bytes may contain many runs, so that content_bytes is checked against the memory limit
+// before decompression.
 struct CodedMap {
     std::size_t rows = 0;
     std::size_t runs = 0;
-    std::uint64_t content_bytes = 0;  // of the frame, while it is expanded
-    Bytes frame;                      // of the payload
+    std::uint64_t content_bytes = 0;  // decompressed size of the frame
+    Bytes frame;                      // part of the payload
 };
 
 Result<CodedMap> parse_map_head(Bytes payload, const Ring& ring) {
@@ -43,21 +44,22 @@ Result<CodedMap> parse_map_head(Bytes payload, const Ring& ring) {
     return coded;
 }
 
-Result<ChunkMemory> map_memory(Bytes payload, UnreadObject& unread, std::uint32_t index) {
-    RS_ASSIGN_OR_RETURN(const auto coded, parse_map_head(payload, unread.object.rings[index]));
-    return ChunkMemory{.passing_bytes = kRunsOverContent * coded.content_bytes};
+Result<ChunkMemory> map_memory(Bytes payload, PartialObject& partial, std::uint32_t index) {
+    RS_ASSIGN_OR_RETURN(const auto coded, parse_map_head(payload, partial.object.rings[index]));
+    return ChunkMemory{.temporary_bytes = kRunsOverContent * coded.content_bytes};
 }
 
-Status parse_map(Bytes payload, UnreadObject& unread, std::uint32_t index) {
-    Ring& ring = unread.object.rings[index];
+Status parse_map(Bytes payload, PartialObject& partial, std::uint32_t index) {
+    Ring& ring = partial.object.rings[index];
     RS_ASSIGN_OR_RETURN(const auto coded, parse_map_head(payload, ring));
     std::vector<std::uint8_t> plane;
-    if (Status s = expand_zstd_frame(coded.frame, coded.content_bytes, "its runs", plane); !s) return s;
+    RS_TRY(decompress_zstd_frame(coded.frame, coded.content_bytes, "its runs", plane));
     ring.cells.resize(coded.rows * static_cast<std::size_t>(ring.u_cells));
-    return map_coding::put_runs(map_coding::runs_of_residuals(plane, coded.rows, coded.runs), ring.u_cells, ring.cells);
+    return map_coding::decode_runs(map_coding::decode_run_residuals(plane, coded.rows, coded.runs), ring.u_cells,
+                                   ring.cells);
 }
 
-// Depth of `line` at the ends of column xi of the map, the larger of the two, q50.
+// The larger depth of `line` at both ends of column xi of the map, q50.
 std::int64_t larger_depth_q50(const CapturedLine& line, const Ring& ring, int xi) {
     const auto depth_at = [&](int column) {
         const std::int64_t x_q20 = 2 * std::int64_t{ring.x_half_q20} * column / ring.x_cells - ring.x_half_q20;
@@ -66,8 +68,8 @@ std::int64_t larger_depth_q50(const CapturedLine& line, const Ring& ring, int xi
     return std::max(depth_at(xi), depth_at(xi + 1));
 }
 
-// Every cell is empty or names a view of the ring that has some of the cell before it. (Where a point comes closer to
-// the camera than the arithmetic can express, the renderer itself takes the ray for empty.)
+// Checks that every cell is empty or names a view of the ring with a part of the cell in front of it. (The renderer
+// treats rays as empty if the point is closer to the camera than its arithmetic can express.)
 Status check_cells(const RaySpaceObject& object, std::uint32_t index) {
     const Ring& ring = object.rings[index];
     constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
@@ -97,13 +99,13 @@ Status check_cells(const RaySpaceObject& object, std::uint32_t index) {
 }
 
 std::int64_t held_by_map(const RaySpaceObject& object, std::uint32_t index) {
-    return held_by(object.rings[index].cells);
+    return heap_bytes_of(object.rings[index].cells);
 }
 
 }  // namespace
 
 Payload map_payload(const map_coding::Runs& runs) {
-    const std::vector<std::byte> frame = zstd_frame(map_coding::residual_plane(runs));
+    const std::vector<std::byte> frame = compress_zstd(map_coding::encode_residuals(runs));
     ByteWriter out;
     out.reserve(sizeof(std::uint32_t) + frame.size());
     out.put(static_cast<std::uint32_t>(runs.views.size()));
@@ -112,18 +114,18 @@ Payload map_payload(const map_coding::Runs& runs) {
 }
 
 Payload map_payload(const Ring& ring) {
-    return map_payload(map_coding::runs_of(ring.cells, ring.u_cells));
+    return map_payload(map_coding::encode_runs(ring.cells, ring.u_cells));
 }
 
 ChunkKind map_chunk() {
     return {.name = kMap,
-            .each = OneFor::ring,
+            .each = ChunkScope::ring,
             .stage = ReadStage::maps,
             .payload = [](const RaySpaceObject& object, std::uint32_t r) { return map_payload(object.rings[r]); },
             .memory = map_memory,
             .parse = parse_map,
             .validate = check_cells,
-            .held_bytes = held_by_map};
+            .heap_bytes = held_by_map};
 }
 
 }  // namespace rs::object_chunks

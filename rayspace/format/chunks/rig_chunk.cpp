@@ -1,4 +1,4 @@
-// RIGJ: object.rig_json in a Zstandard frame; read as it is, too.
+// Chunk RIGJ: object.rig_json in a Zstandard frame; uncompressed text is read, too.
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/zstd_frame.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
@@ -12,23 +12,23 @@ namespace {
 constexpr std::uint64_t kMaxRigJson_bytes = std::uint64_t{16} << 20;
 
 Payload rig_payload(const RaySpaceObject& object, std::uint32_t) {
-    return zstd_frame({reinterpret_cast<const std::uint8_t*>(object.rig_json.data()), object.rig_json.size()});
+    return compress_zstd({reinterpret_cast<const std::uint8_t*>(object.rig_json.data()), object.rig_json.size()});
 }
 
-Status parse_rig_text(Bytes payload, UnreadObject& unread, std::uint32_t) {
+Status parse_rig_text(Bytes payload, PartialObject& partial, std::uint32_t) {
     if (payload.size() > kMaxRigJson_bytes)
         return out_of_range("the rig's length", payload.size(), 0, kMaxRigJson_bytes);
-    const std::optional<std::uint64_t> expanded_bytes = stated_zstd_bytes(payload);
-    if (!expanded_bytes) {  // as it is
-        unread.object.rig_json.assign(reinterpret_cast<const char*>(payload.data()), payload.size());
+    const std::optional<std::uint64_t> expanded_bytes = read_zstd_content_size(payload);
+    if (!expanded_bytes) {  // uncompressed
+        partial.object.rig_json.assign(reinterpret_cast<const char*>(payload.data()), payload.size());
         return {};
     }
     if (*expanded_bytes > kMaxRigJson_bytes) {
         return out_of_range("the rig's length, expanded,", *expanded_bytes, 0, kMaxRigJson_bytes);
     }
     RS_ASSIGN_OR_RETURN(const std::vector<std::uint8_t> text,
-                        zstd_content(payload, *expanded_bytes, "the words of its rig"));
-    unread.object.rig_json.assign(text.begin(), text.end());
+                        decompress_zstd(payload, *expanded_bytes, "the words of its rig"));
+    partial.object.rig_json.assign(text.begin(), text.end());
     return {};
 }
 
@@ -51,7 +51,7 @@ ChunkKind rig_chunk() {
             .payload = rig_payload,
             .parse = parse_rig_text,
             .validate = check_rig,
-            .held_bytes = held_by_rig};
+            .heap_bytes = held_by_rig};
 }
 
 }  // namespace rs::object_chunks

@@ -1,5 +1,5 @@
-// RING r: everything of object.rings[r] but its cells and its shape map, and the lines of the ring's views. A view that
-// another ring has already is refused.
+// Chunk RING r: all of object.rings[r] except its cells and its shape map, and the lines of the ring's views. Views of
+// other rings are rejected.
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/zstd_frame.hpp"
@@ -35,7 +35,7 @@ CapturedLine get_line(ByteReader& in) {
     return line;
 }
 
-// The lines in what is left of a RING payload.
+// Parses the lines from the rest of a RING payload.
 Result<std::vector<CapturedLine>> parse_lines(ByteReader& in, std::size_t views, int planes, std::uint8_t coding) {
     std::vector<CapturedLine> lines(views * static_cast<std::size_t>(planes));
     const std::size_t plain_bytes = lines.size() * line_coding::kBytesPerLine;
@@ -51,8 +51,8 @@ Result<std::vector<CapturedLine>> parse_lines(ByteReader& in, std::size_t views,
         return Error{"has line coding " + std::to_string(coding) + ", which is not known here; update these tools"};
     }
     RS_ASSIGN_OR_RETURN(const std::vector<std::uint8_t> plane,
-                        zstd_content(in.take(in.left()), plain_bytes, "its lines"));
-    line_coding::put_residuals(plane, planes, lines);
+                        decompress_zstd(in.take(in.left()), plain_bytes, "its lines"));
+    line_coding::decode_residuals(plane, planes, lines);
     return lines;
 }
 
@@ -83,9 +83,9 @@ Status check_ring_geometry(const Ring& ring) {
 
 Status check_ring(const RaySpaceObject& object, std::uint32_t index) {
     const Ring& ring = object.rings[index];
-    if (Status status = check_ring_geometry(ring); !status) return status;
+    RS_TRY(check_ring_geometry(ring));
     if (ring.views.empty()) return Error{"it has no views"};
-    std::vector<bool> is_taken = is_in_ring(object, index);
+    std::vector<bool> is_taken = ring_membership(object, index);
     for (const std::uint16_t view : ring.views) {
         if (view >= object.views.size()) return Error{"view " + std::to_string(view) + " does not exist"};
         if (is_taken[view]) return Error{"view " + std::to_string(view) + " is in a ring already"};
@@ -98,7 +98,7 @@ Status check_ring(const RaySpaceObject& object, std::uint32_t index) {
 }
 
 std::int64_t held_by_ring(const RaySpaceObject& object, std::uint32_t index) {
-    return held_by(object.rings[index].views);
+    return heap_bytes_of(object.rings[index].views);
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ Payload ring_payload(const RaySpaceObject& object, std::size_t index, LineCoding
     if (coding == LineCoding::kPlain) {
         for (const CapturedLine& line : lines) put_line(line, out);
     } else {
-        out.put(std::span<const std::byte>(zstd_frame(line_coding::residual_plane(lines, ring.planes))));
+        out.put(std::span<const std::byte>(compress_zstd(line_coding::encode_residuals(lines, ring.planes))));
     }
     return out.bytes();
 }
@@ -176,12 +176,12 @@ Status parse_ring(std::span<const std::byte> payload, RaySpaceObject& object, st
 
 ChunkKind ring_chunk() {
     return {.name = kRing,
-            .each = OneFor::ring,
+            .each = ChunkScope::ring,
             .payload = [](const RaySpaceObject& object, std::uint32_t index) { return ring_payload(object, index); },
-            .parse = [](Bytes payload, UnreadObject& unread,
-                        std::uint32_t index) { return parse_ring(payload, unread.object, index); },
+            .parse = [](Bytes payload, PartialObject& partial,
+                        std::uint32_t index) { return parse_ring(payload, partial.object, index); },
             .validate = check_ring,
-            .held_bytes = held_by_ring};
+            .heap_bytes = held_by_ring};
 }
 
 }  // namespace rs::object_chunks

@@ -17,7 +17,7 @@ using namespace object_ranges;
 
 namespace {
 
-constexpr std::uint8_t kCoding = 2;  // those before were of files up to 2.2
+constexpr std::uint8_t kCoding = 2;  // format 2.3; lower codings are of files up to 2.2
 constexpr std::size_t kReserved_bytes = 1;
 constexpr std::size_t kFixed_bytes = 48;
 constexpr std::size_t kNormalLine_bytes = 16;
@@ -53,7 +53,7 @@ void get_numbers(ByteReader& in, ShapeMap& shape) {
     shape.depth_step_q24 = in.get<std::int32_t>();
 }
 
-// Gaps and how many lines they have together.
+// Reads the gaps; returns their total number of lines.
 Result<std::uint64_t> get_gaps(ByteReader& in, ShapeMap& shape) {
     std::uint32_t lines = 0;  // at most kMaxViews * kMaxGapLines
     for (ShapeGap& gap : shape.gaps) {
@@ -118,7 +118,7 @@ Status check_numbers(const ShapeMap& shape) {
 }
 
 Status check_normal_line(const NormalLine& line) {
-    // |l2| <= 1: it is the cosine of an angle.
+    // |l2| <= 1, since it is the cosine of an angle.
     if (!below(line.l2_q30, kOne_q30 + 1)) return Error{"the depth of one of its normal lines is out of range"};
     if (!below(line.q2_q16, kMaxPixels_q16)) return Error{"the columns of one of its normal lines are out of range"};
     if (!below(line.a_q20, kMaxDistance_q20) || !below(line.c_q20, kMaxDistance_q20)) {
@@ -150,21 +150,21 @@ Status check_gaps(const Ring& ring) {
     return {};
 }
 
-// What does not exist is 0, so that equal maps are equal in memory and the file need not hold it.
+// Unused values are 0, so that equal maps are equal in memory and the file need not store them.
 Status check_cell(const ShapeCell& cell) {
     if (!cell.has_surface() && cell.depth != 0) return Error{"has a depth and no surface"};
     if (cell.shown > ShapeCell::kByBoth) return Error{"is shown by images that its gap does not have"};
     return {};
 }
 
-Result<ChunkMemory> shape_memory(Bytes payload, UnreadObject& unread, std::uint32_t index) {
-    RS_ASSIGN_OR_RETURN(const auto coded, parse_shape_head(payload, unread.object.rings[index]));
+Result<ChunkMemory> shape_memory(Bytes payload, PartialObject& partial, std::uint32_t index) {
+    RS_ASSIGN_OR_RETURN(const auto coded, parse_shape_head(payload, partial.object.rings[index]));
     return ChunkMemory{.kept_bytes = coded.cells * sizeof(ShapeCell)};
 }
 
-Status parse_shape(Bytes payload, UnreadObject& unread, std::uint32_t index) {
-    const auto coded = parse_shape_head(payload, unread.object.rings[index]);
-    return coded ? parse_shape_cells(*coded, unread.object.rings[index].shape) : coded.error();
+Status parse_shape(Bytes payload, PartialObject& partial, std::uint32_t index) {
+    const auto coded = parse_shape_head(payload, partial.object.rings[index]);
+    return coded ? parse_shape_cells(*coded, partial.object.rings[index].shape) : coded.error();
 }
 
 Status check_shape_of_ring(const RaySpaceObject& object, std::uint32_t index) {
@@ -174,7 +174,7 @@ Status check_shape_of_ring(const RaySpaceObject& object, std::uint32_t index) {
 
 std::int64_t held_by_shape(const RaySpaceObject& object, std::uint32_t index) {
     const ShapeMap& shape = object.rings[index].shape;
-    return held_by(shape.gaps) + held_by(shape.normal_lines) + held_by(shape.cells);
+    return heap_bytes_of(shape.gaps) + heap_bytes_of(shape.normal_lines) + heap_bytes_of(shape.cells);
 }
 
 }  // namespace
@@ -182,7 +182,7 @@ std::int64_t held_by_shape(const RaySpaceObject& object, std::uint32_t index) {
 Payload shape_payload(const Ring& ring) {
     const ShapeMap& shape = ring.shape;
     RS_CHECK(!shape.empty());
-    const Payload cells = shape_coding::coded_cells(shape);
+    const Payload cells = shape_coding::encode_cells(shape);
     ByteWriter out;
     out.put(kCoding);
     out.put(static_cast<std::uint8_t>(shape.jump));
@@ -251,7 +251,7 @@ Result<CodedShapeCells> parse_shape_head(std::span<const std::byte> payload, Rin
 
 Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape) {
     shape.cells.assign(static_cast<std::size_t>(coded.cells), ShapeCell{});
-    shape_coding::put_cells(coded.bytes, shape);
+    shape_coding::decode_cells(coded.bytes, shape);
     const std::uint64_t found = surfaces_of(shape);
     if (found != coded.surfaces) {
         return Error{"claims " + std::to_string(coded.surfaces) + " cells with a surface, but has " +
@@ -263,13 +263,13 @@ Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape) {
 Status check_shape(const Ring& ring) {
     const ShapeMap& shape = ring.shape;
     if (shape.empty()) return shape == ShapeMap{} ? Status{} : Status{Error{"it has no gaps and yet numbers or cells"}};
-    if (Status status = check_numbers(shape); !status) return status;
-    if (Status status = check_gaps(ring); !status) return status;
+    RS_TRY(check_numbers(shape));
+    RS_TRY(check_gaps(ring));
     if (shape.normal_lines.size() != ring.views.size() * static_cast<std::size_t>(ring.planes)) {
         return Error{"it does not have one normal line per view and plane"};
     }
     for (const NormalLine& line : shape.normal_lines) {
-        if (Status status = check_normal_line(line); !status) return status;
+        RS_TRY(check_normal_line(line));
     }
     for (std::size_t i = 0; i < shape.cells.size(); ++i) {
         if (const Status status = check_cell(shape.cells[i]); !status) {
@@ -281,14 +281,14 @@ Status check_shape(const Ring& ring) {
 
 ChunkKind shape_chunk() {
     return {.name = kShape,
-            .each = OneFor::ring,
+            .each = ChunkScope::ring,
             .stage = ReadStage::maps,
-            .is_there = [](const RaySpaceObject& object, std::uint32_t r) { return !object.rings[r].shape.empty(); },
+            .is_present = [](const RaySpaceObject& object, std::uint32_t r) { return !object.rings[r].shape.empty(); },
             .payload = [](const RaySpaceObject& object, std::uint32_t r) { return shape_payload(object.rings[r]); },
             .memory = shape_memory,
             .parse = parse_shape,
             .validate = check_shape_of_ring,
-            .held_bytes = held_by_shape};
+            .heap_bytes = held_by_shape};
 }
 
 }  // namespace rs::object_chunks

@@ -1,4 +1,4 @@
-// VIEW: what a view is without its lines. object.views has its size from HEAD.
+// Chunk VIEW: views without their lines. object.views has its size from HEAD.
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
 #include "rayspace/format/object_ranges.hpp"
@@ -23,8 +23,8 @@ Payload views_payload(const RaySpaceObject& object, std::uint32_t) {
     return out.bytes();
 }
 
-Status parse_views(Bytes payload, UnreadObject& unread, std::uint32_t) {
-    std::vector<CapturedView>& views = unread.object.views;
+Status parse_views(Bytes payload, PartialObject& partial, std::uint32_t) {
+    std::vector<CapturedView>& views = partial.object.views;
     if (payload.size() != views.size() * kView_bytes) {
         return wrong_size(payload.size(), views.size() * kView_bytes);
     }
@@ -47,7 +47,7 @@ Status check_view(const CapturedView& view) {
     }
     if (!below(view.height_q20, kMaxDistance_q20)) return Error{"its height is 256 object radii or more"};
     for (const CapturedLine& line : view.lines) {
-        // |l1| <= 1: it is the cosine of an angle.
+        // |l1| <= 1, since it is the cosine of an angle.
         if (!below(line.l0_q20, kMaxDistance_q20) || !below(line.l1_q30, kOne_q30 + 1)) {
             return Error{"the depth of one of its lines is out of range"};
         }
@@ -68,7 +68,7 @@ Status check_views(const RaySpaceObject& object, std::uint32_t) {
 
 std::int64_t held_by_views(const RaySpaceObject& object, std::uint32_t) {
     std::int64_t bytes = 0;
-    for (const CapturedView& view : object.views) bytes += held_by(view.lines);
+    for (const CapturedView& view : object.views) bytes += heap_bytes_of(view.lines);
     return bytes;
 }
 
@@ -79,7 +79,7 @@ ChunkKind views_chunk() {
             .payload = views_payload,
             .parse = parse_views,
             .validate = check_views,
-            .held_bytes = held_by_views};
+            .heap_bytes = held_by_views};
 }
 
 }  // namespace rs::object_chunks

@@ -1,5 +1,5 @@
 #pragma once
-// A file's bytes in small pieces, for what is looked at before OpenImageIO sees a file.
+// Sequential reader for file headers, which are checked before OpenImageIO opens a file.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,12 +16,12 @@ class ByteSource {
 public:
     explicit ByteSource(const std::string& path) : stream_(path, std::ios::binary) {}
 
-    // False where the file ends before.
+    /// Reads `count` bytes; false if the file ends before.
     bool take(unsigned char* to, std::size_t count) {
         stream_.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(count));
         return static_cast<bool>(stream_);
     }
-    // How many there were, up to `count`.
+    /// Reads up to `count` bytes; returns their number.
     std::size_t take_some(unsigned char* to, std::size_t count) {
         take(to, count);
         return static_cast<std::size_t>(stream_.gcount());

@@ -17,7 +17,7 @@ struct CloseProfile {
 };
 using Profile = std::unique_ptr<std::remove_pointer_t<cmsHPROFILE>, CloseProfile>;
 
-// lcms takes counts of 32 bits.
+// Splits the pixels, since lcms counts in 32 bits.
 template <class Pixel>
 void transform(void* by, std::span<Pixel> pixels) {
     constexpr std::size_t kAtATime = 1 << 24;
@@ -29,7 +29,7 @@ void transform(void* by, std::span<Pixel> pixels) {
 
 }  // namespace
 
-std::optional<ColourProfile> ColourProfile::unlike_srgb(std::span<const std::byte> icc) {
+std::optional<ColourProfile> ColourProfile::create_unless_srgb(std::span<const std::byte> icc) {
     constexpr std::size_t kLargest_bytes = 16 << 20;
     if (icc.empty() || icc.size() > kLargest_bytes) return std::nullopt;
     const Profile file(cmsOpenProfileFromMem(icc.data(), static_cast<cmsUInt32Number>(icc.size())));

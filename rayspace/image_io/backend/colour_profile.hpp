@@ -1,6 +1,6 @@
 #pragma once
-// Colours of a file that carries an ICC profile, as sRGB: phones take photographs in Display P3, cameras in Adobe RGB,
-// which look dull where their numbers are taken for sRGB's.
+// Converts the colours of files with an ICC profile to sRGB. Phones write Display P3 and cameras Adobe RGB, which look
+// dull if interpreted as sRGB.
 
 #include "rayspace/image/image.hpp"
 
@@ -11,19 +11,20 @@
 
 namespace rs::image_io {
 
-// For one thread. Little CMS, with relative colorimetric intent: what sRGB cannot show becomes its nearest edge.
+/// Little CMS transform with relative colorimetric intent: colours outside of sRGB are clipped to its gamut. Not
+/// thread-safe.
 class ColourProfile {
 public:
-    // None where the bytes are no profile of RGB images, and where it gives all colours within two 8-bit codes of
-    // what sRGB does: those stay as they are.
-    static std::optional<ColourProfile> unlike_srgb(std::span<const std::byte> icc);
+    /// Creates the transform; nullopt if the bytes are not a profile of RGB images, or if all colours are within two
+    /// 8-bit codes of sRGB.
+    static std::optional<ColourProfile> create_unless_srgb(std::span<const std::byte> icc);
 
     ColourProfile(ColourProfile&& other) noexcept
         : of_codes_(std::exchange(other.of_codes_, nullptr)), of_floats_(std::exchange(other.of_floats_, nullptr)) {}
     ColourProfile& operator=(ColourProfile&&) = delete;
     ~ColourProfile();
 
-    // Alpha stays. Of floats, 0..1 is the range of the codes.
+    /// Converts colours; alpha is unchanged. Floats of 0..1 span the range of the codes.
     void to_srgb(std::span<Rgba8> pixels) const;
     void to_srgb(std::span<RgbaF> pixels) const;
 

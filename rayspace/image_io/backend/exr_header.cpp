@@ -1,4 +1,4 @@
-#include "rayspace/image_io/backend/exr_header.hpp"
+#include "rayspace/image_io/backend/file_checks.hpp"
 
 #include "rayspace/base/conventions.hpp"
 
@@ -10,7 +10,7 @@ namespace rs::image_io {
 namespace {
 
 constexpr std::uint32_t kMagic = 20000630;
-constexpr std::uint32_t kMultiPart = 0x1000;  // of the version field
+constexpr std::uint32_t kMultiPart = 0x1000;  // bit of the version field
 constexpr std::size_t kLongestName = 255;
 
 class HeaderReader {
@@ -30,7 +30,7 @@ public:
             bool any = false;
             for (std::string name = text(); !name.empty(); name = text()) {
                 any = true;
-                if (Status status = attribute(); !status) return status;
+                RS_TRY(attribute());
             }
             if (!stream_) return cut_short();
             if (!any) break;  // the end of all parts' headers
@@ -52,7 +52,7 @@ private:
         return value;
     }
 
-    // Ends with a zero byte; empty at the end of the file, too. A longer one than there may be is OpenEXR's to refuse.
+    // Reads a zero-terminated text; empty at the end of the file, too. OpenEXR rejects texts that are too long.
     std::string text() {
         std::string read;
         for (char c = 0; read.size() <= kLongestName && stream_.get(c) && c != 0;) read += c;
@@ -78,7 +78,7 @@ private:
                 return cut_short();
             }
         } else if (type == "box2i" && size == 16) {
-            std::array<std::int64_t, 4> corner{};  // least x, y, most x, y
+            std::array<std::int64_t, 4> corner{};  // x min, y min, x max, y max
             for (std::int64_t& c : corner) c = static_cast<std::int32_t>(number());
             const std::int64_t width = corner[2] - corner[0] + 1;
             const std::int64_t height = corner[3] - corner[1] + 1;

@@ -1,12 +1,10 @@
-// The images' half of librayspace_image_io.so: OpenImageIO. See image_io.hpp for what the functions promise.
+// Image part of librayspace_image_io.so, with OpenImageIO. See image_io.hpp for the contracts.
 #include "rayspace/image_io/image_backend.hpp"
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "rayspace/image_io/backend/colour_profile.hpp"
-#include "rayspace/image_io/backend/exr_header.hpp"
-#include "rayspace/image_io/backend/png_integrity.hpp"
-#include "rayspace/image_io/backend/profile_integrity.hpp"
+#include "rayspace/image_io/backend/file_checks.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -24,7 +22,7 @@
 namespace rs::image_io {
 namespace {
 
-// Libraries' messages run over several lines and repeat the file's name.
+// Joins a library's message, which may have several lines and repeat the file's name.
 std::string one_line(std::string message) {
     while (!message.empty() && (message.back() == '\n' || message.back() == ' ')) message.pop_back();
     std::replace_if(
@@ -33,7 +31,7 @@ std::string one_line(std::string message) {
 }
 
 template <class Function>
-auto guarded(const std::string& shown, Function&& function) -> decltype(function()) {
+auto catch_exceptions(const std::string& shown, Function&& function) -> decltype(function()) {
     try {
         return function();
     } catch (const std::bad_alloc&) {
@@ -45,7 +43,7 @@ auto guarded(const std::string& shown, Function&& function) -> decltype(function
 
 struct OpenedImage {
     std::unique_ptr<OIIO::ImageInput> input;
-    int width = 0;  // of the display window: what is to be seen of the file
+    int width = 0;  // display window: the visible part of the image
     int height = 0;
 };
 
@@ -61,8 +59,8 @@ Result<OpenedImage> open_image(const std::string& path, Need need, int max_side_
     RS_TRY(check_exr_header(path, max_side_px));
     RS_TRY(check_profile_integrity(path));
     OIIO::ImageSpec hints;
-    hints.attribute("oiio:UnassociatedAlpha", 1);  // colours under alpha 0 must survive
-    // What OpenImageIO 2.4 takes out of a profile passes through tables of its own that grow without a lock.
+    hints.attribute("oiio:UnassociatedAlpha", 1);  // keeps colours under alpha 0
+    // OpenImageIO 2.4 stores profile data in global tables without a lock.
     static std::mutex opening;
     auto input = [&] {
         const std::lock_guard lock(opening);
@@ -80,15 +78,15 @@ Result<OpenedImage> open_image(const std::string& path, Need need, int max_side_
     if (spec.deep || spec.depth > 1 || spec.nchannels < 1) {
         return Error{path + ": holds deep or volume data; convert it to an ordinary image"};
     }
-    input->threads(1);  // callers read many images at a time
+    input->threads(1);  // callers read images in parallel
     return OpenedImage{std::move(input), width, height};
 }
 
-// Which of the file's channels make a colour image.
+// The file's channels that make up a colour image.
 struct Channels {
     int count = 0;       // the first `count` channels are read
     int colours = 0;     // 1 or 3
-    bool alpha = false;  // right behind the colours
+    bool alpha = false;  // follows the colours
     bool straight = true;
 };
 
@@ -101,41 +99,41 @@ Channels choose_channels(const OIIO::ImageSpec& spec) {
     return chosen;
 }
 
-// The data window's first `channels` channels, interleaved.
+// Reads the data window's first `channels` channels, interleaved.
 template <class T>
-Result<std::vector<T>> read_samples(OpenedImage& image, const std::string& path, int first, int channels) {
-    const OIIO::ImageSpec spec = image.input->spec();
+Result<std::vector<T>> read_samples(OpenedImage& opened, const std::string& path, int first, int channels) {
+    const OIIO::ImageSpec spec = opened.input->spec();
     std::vector<T> samples(static_cast<std::size_t>(spec.width) * static_cast<std::size_t>(spec.height) *
                            static_cast<std::size_t>(channels));
     const OIIO::TypeDesc type = OIIO::BaseTypeFromC<T>::value;
-    if (!image.input->read_image(0, 0, first, first + channels, type, samples.data())) {
-        return Error{path + ": is damaged or cut short: " + one_line(image.input->geterror())};
+    if (!opened.input->read_image(0, 0, first, first + channels, type, samples.data())) {
+        return Error{path + ": is damaged or cut short: " + one_line(opened.input->geterror())};
     }
-    // Some readers go on after damage and only leave a note.
-    if (image.input->has_error()) {
-        return Error{path + ": is damaged or cut short: " + one_line(image.input->geterror())};
+    // Some readers continue after damage and only record an error.
+    if (opened.input->has_error()) {
+        return Error{path + ": is damaged or cut short: " + one_line(opened.input->geterror())};
     }
     return samples;
 }
 
-// Calls set(x, y, sample pointer) for the part of the data window that lies inside the display window.
+// Calls set(x, y, sample pointer) for the part of the data window inside the display window.
 template <class T, class Set>
-void for_each_visible(const OpenedImage& image, const std::vector<T>& samples, int channels, Set&& set) {
-    const OIIO::ImageSpec& spec = image.input->spec();
+void for_each_visible(const OpenedImage& opened, const std::vector<T>& samples, int channels, Set&& set) {
+    const OIIO::ImageSpec& spec = opened.input->spec();
     for (int y = 0; y < spec.height; ++y) {
         const std::int64_t shown_y = std::int64_t{y} + spec.y - spec.full_y;
-        if (shown_y < 0 || shown_y >= image.height) continue;
+        if (shown_y < 0 || shown_y >= opened.height) continue;
         const T* sample = samples.data() + static_cast<std::ptrdiff_t>(y) * spec.width * channels;
         for (int x = 0; x < spec.width; ++x, sample += channels) {
             const std::int64_t shown_x = std::int64_t{x} + spec.x - spec.full_x;
-            if (shown_x < 0 || shown_x >= image.width) continue;
+            if (shown_x < 0 || shown_x >= opened.width) continue;
             set(static_cast<int>(shown_x), static_cast<int>(shown_y), sample);
         }
     }
 }
 
 std::uint8_t byte_from_unit(float v) {
-    // The comparison's form sends NaN to 0.
+    // The comparison maps NaN to 0.
     return v > 0 ? static_cast<std::uint8_t>(std::lround(std::min(v, 1.0F) * 255.0F)) : std::uint8_t{0};
 }
 
@@ -153,19 +151,19 @@ RgbaF pixel_of(const T* sample, const Channels& channels) {
     return pixel;
 }
 
-std::optional<ColourProfile> profile_of(const OpenedImage& image) {
-    const OIIO::ParamValue* const icc = image.input->spec().find_attribute("ICCProfile");
+std::optional<ColourProfile> profile_of(const OpenedImage& opened) {
+    const OIIO::ParamValue* const icc = opened.input->spec().find_attribute("ICCProfile");
     if (icc == nullptr || icc->type().basetype != OIIO::TypeDesc::UINT8) return std::nullopt;
-    return ColourProfile::unlike_srgb({static_cast<const std::byte*>(icc->data()), icc->type().size()});
+    return ColourProfile::create_unless_srgb({static_cast<const std::byte*>(icc->data()), icc->type().size()});
 }
 
 Result<ImageInfo> read_info(const std::string& path, int max_side_px) {
-    return guarded(path, [&]() -> Result<ImageInfo> {
-        RS_ASSIGN_OR_RETURN(const auto image, open_image(path, Need::kHeader, max_side_px));
-        const OIIO::ImageSpec& spec = image.input->spec();
+    return catch_exceptions(path, [&]() -> Result<ImageInfo> {
+        RS_ASSIGN_OR_RETURN(const auto opened, open_image(path, Need::kHeader, max_side_px));
+        const OIIO::ImageSpec& spec = opened.input->spec();
         const int orientation = spec.get_int_attribute("Orientation", 1);
-        return ImageInfo{image.width,
-                         image.height,
+        return ImageInfo{opened.width,
+                         opened.height,
                          spec.nchannels,
                          choose_channels(spec).alpha,
                          orientation >= 1 && orientation <= 8 ? orientation : 1,
@@ -173,13 +171,13 @@ Result<ImageInfo> read_info(const std::string& path, int max_side_px) {
     });
 }
 
-// 8-bit files with straight alpha: nothing is computed, every value comes through as it is.
-Result<Image<Rgba8>> read_bytes(OpenedImage& image, const std::string& path, const Channels& channels) {
-    RS_ASSIGN_OR_RETURN(const auto samples, read_samples<std::uint8_t>(image, path, 0, channels.count));
-    Image<Rgba8> image(image.width, image.height);
+// Reads 8-bit files with straight alpha; all values are unchanged.
+Result<Image<Rgba8>> read_bytes(OpenedImage& opened, const std::string& path, const Channels& channels) {
+    RS_ASSIGN_OR_RETURN(const auto samples, read_samples<std::uint8_t>(opened, path, 0, channels.count));
+    Image<Rgba8> image(opened.width, opened.height);
     const int green = channels.colours == 3 ? 1 : 0;
     const int blue = channels.colours == 3 ? 2 : 0;
-    for_each_visible(image, samples, channels.count, [&](int x, int y, const std::uint8_t* s) {
+    for_each_visible(opened, samples, channels.count, [&](int x, int y, const std::uint8_t* s) {
         const std::uint8_t alpha = channels.alpha ? s[channels.colours] : std::uint8_t{255};
         image(x, y) = {s[0], s[green], s[blue], alpha};
     });
@@ -187,23 +185,23 @@ Result<Image<Rgba8>> read_bytes(OpenedImage& image, const std::string& path, con
 }
 
 Result<Image<Rgba8>> read_image(const std::string& path, int max_side_px) {
-    return guarded(path, [&]() -> Result<Image<Rgba8>> {
-        RS_ASSIGN_OR_RETURN(auto image, open_image(path, Need::kWholeFile, max_side_px));
-        const Channels channels = choose_channels(image.input->spec());
-        const bool is_float = image.input->spec().format.is_floating_point();
-        const std::optional<ColourProfile> profile = profile_of(image);
-        if (image.input->spec().format == OIIO::TypeUInt8 && (channels.straight || !channels.alpha)) {
-            Result<Image<Rgba8>> image = read_bytes(image, path, channels);
+    return catch_exceptions(path, [&]() -> Result<Image<Rgba8>> {
+        RS_ASSIGN_OR_RETURN(auto opened, open_image(path, Need::kWholeFile, max_side_px));
+        const Channels channels = choose_channels(opened.input->spec());
+        const bool is_float = opened.input->spec().format.is_floating_point();
+        const std::optional<ColourProfile> profile = profile_of(opened);
+        if (opened.input->spec().format == OIIO::TypeUInt8 && (channels.straight || !channels.alpha)) {
+            Result<Image<Rgba8>> image = read_bytes(opened, path, channels);
             if (image && profile) profile->to_srgb(std::span(image->pixels()));
             return image;
         }
-        Image<Rgba8> image(image.width, image.height);
+        Image<Rgba8> image(opened.width, opened.height);
         const auto store = [&](int x, int y, RgbaF p) {
             if (is_float) p = {srgb_from_linear(p.r), srgb_from_linear(p.g), srgb_from_linear(p.b), p.a};
             image(x, y) = {byte_from_unit(p.r), byte_from_unit(p.g), byte_from_unit(p.b), byte_from_unit(p.a)};
         };
-        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(image, path, 0, channels.count));
-        for_each_visible(image, samples, channels.count,
+        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(opened, path, 0, channels.count));
+        for_each_visible(opened, samples, channels.count,
                          [&](int x, int y, const float* s) { store(x, y, pixel_of(s, channels)); });
         if (profile && !is_float) profile->to_srgb(std::span(image.pixels()));
         return image;
@@ -211,16 +209,16 @@ Result<Image<Rgba8>> read_image(const std::string& path, int max_side_px) {
 }
 
 Result<Image<RgbaF>> read_image_linear(const std::string& path) {
-    return guarded(path, [&]() -> Result<Image<RgbaF>> {
-        RS_ASSIGN_OR_RETURN(auto image, open_image(path, Need::kWholeFile));
-        const Channels channels = choose_channels(image.input->spec());
-        const bool is_float = image.input->spec().format.is_floating_point();
-        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(image, path, 0, channels.count));
-        Image<RgbaF> image(image.width, image.height);
-        for_each_visible(image, samples, channels.count,
+    return catch_exceptions(path, [&]() -> Result<Image<RgbaF>> {
+        RS_ASSIGN_OR_RETURN(auto opened, open_image(path, Need::kWholeFile));
+        const Channels channels = choose_channels(opened.input->spec());
+        const bool is_float = opened.input->spec().format.is_floating_point();
+        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(opened, path, 0, channels.count));
+        Image<RgbaF> image(opened.width, opened.height);
+        for_each_visible(opened, samples, channels.count,
                          [&](int x, int y, const float* s) { image(x, y) = pixel_of(s, channels); });
         if (is_float) return image;
-        if (const auto profile = profile_of(image)) profile->to_srgb(std::span(image.pixels()));
+        if (const auto profile = profile_of(opened)) profile->to_srgb(std::span(image.pixels()));
         for (RgbaF& p : image.pixels()) {
             p = {linear_from_srgb(p.r), linear_from_srgb(p.g), linear_from_srgb(p.b), p.a};
         }
@@ -229,14 +227,14 @@ Result<Image<RgbaF>> read_image_linear(const std::string& path) {
 }
 
 Result<Image<float>> read_channel(const std::string& path) {
-    return guarded(path, [&]() -> Result<Image<float>> {
-        RS_ASSIGN_OR_RETURN(auto image, open_image(path, Need::kWholeFile));
-        const std::vector<std::string>& names = image.input->spec().channelnames;
+    return catch_exceptions(path, [&]() -> Result<Image<float>> {
+        RS_ASSIGN_OR_RETURN(auto opened, open_image(path, Need::kWholeFile));
+        const std::vector<std::string>& names = opened.input->spec().channelnames;
         const auto z = std::find(names.begin(), names.end(), "Z");
         const int channel = z == names.end() ? 0 : static_cast<int>(z - names.begin());
-        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(image, path, channel, 1));
-        Image<float> image(image.width, image.height);
-        for_each_visible(image, samples, 1, [&](int x, int y, const float* s) { image(x, y) = *s; });
+        RS_ASSIGN_OR_RETURN(const auto samples, read_samples<float>(opened, path, channel, 1));
+        Image<float> image(opened.width, opened.height);
+        for_each_visible(opened, samples, 1, [&](int x, int y, const float* s) { image(x, y) = *s; });
         return image;
     });
 }
@@ -245,12 +243,12 @@ Result<Image<float>> read_channel(const std::string& path) {
 Result<std::vector<std::byte>> encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
                                       const void* pixels, std::ptrdiff_t pixel_bytes, std::ptrdiff_t row_bytes,
                                       const std::string& shown) {
-    return guarded(shown, [&]() -> Result<std::vector<std::byte>> {
+    return catch_exceptions(shown, [&]() -> Result<std::vector<std::byte>> {
         auto output = OIIO::ImageOutput::create(format);
         if (!output) return Error{shown + ": cannot be encoded: " + one_line(OIIO::geterror())};
         OIIO::Filesystem::IOVecOutput memory;
         output->threads(1);
-        // A format writes nothing to the disk when it is given a proxy; the name only serves its messages.
+        // With a proxy nothing is written to the disk; the name only appears in messages.
         if (!output->set_ioproxy(&memory) || !output->open(shown, spec) ||
             !output->write_image(type, pixels, pixel_bytes, row_bytes) || !output->close()) {
             return Error{shown + ": cannot be encoded: " + one_line(output->geterror())};
@@ -264,8 +262,8 @@ Result<std::vector<std::byte>> encode_png(ConstImageView<Rgba8> image, const std
     OIIO::ImageSpec spec(image.width(), image.height(), 4, OIIO::TypeUInt8);
     spec.attribute("oiio:UnassociatedAlpha", 1);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    // Half of the time of the default level with a filter chosen for each row, and up to a tenth more of size.
-    constexpr int kFilterUp = 0x20;  // as libpng has it
+    // Takes half of the time of the default level with a filter chosen per row, for up to a tenth more bytes.
+    constexpr int kFilterUp = 0x20;  // PNG_FILTER_UP of libpng
     spec.attribute("png:compressionLevel", 4);
     spec.attribute("png:filter", kFilterUp);
     return encode("png", spec, OIIO::TypeUInt8, image.data(), sizeof(Rgba8),
@@ -305,7 +303,7 @@ Result<std::vector<std::byte>> encode_exr_channel(ConstImageView<float> channel,
 
 const Backend& table() {
     static const Backend backend = [] {
-        // Callers work on many images at a time; the libraries' own thread pools would only fight over the cores.
+        // Callers process images in parallel; the libraries' own thread pools would compete for the cores.
         OIIO::attribute("threads", 1);
         OIIO::attribute("exr_threads", -1);
         Backend made;

@@ -1,4 +1,4 @@
-// The video half of librayspace_image_io.so: FFmpeg's libraries. See image_io.hpp for what it promises.
+// Video writer of librayspace_image_io.so, with FFmpeg's libraries. See image_io.hpp for the contracts.
 #include "rayspace/image_io/image_backend.hpp"
 
 extern "C" {
@@ -17,9 +17,9 @@ extern "C" {
 namespace rs::image_io {
 namespace {
 
-// x264's rate factor at which a frame differs from its still only where both are seen side by side.
+// Rate factor of x264 at which compression is visible only in a side-by-side comparison.
 constexpr const char* kRateFactor = "15";
-// An orbit's frames took longer to code than to render with x264's own choice; this one costs .4 dB of 38 and 1 % of
+// With x264's default preset, coding an orbit takes longer than rendering it; this preset costs 0.4 dB of 38 and 1 % of
 // bits.
 constexpr const char* kPreset = "veryfast";
 
@@ -53,10 +53,10 @@ public:
     Status open(const std::string& path) {
         AVFormatContext* format = nullptr;
         if (avformat_alloc_output_context2(&format, nullptr, nullptr, path.c_str()) < 0) {
-            return Error{shown_ + ": no kind of video has this extension; use .mp4"};
+            return Error{shown_ + ": is not a video extension; use .mp4"};
         }
         format_.reset(format);
-        // H.264 plays everywhere; where FFmpeg was built without an encoder for it, MPEG-4 still does.
+        // H.264 plays everywhere; MPEG-4 is the fallback if FFmpeg was built without an H.264 encoder.
         const AVCodec* codec = avcodec_find_encoder_by_name("libx264");
         if (codec == nullptr) codec = avcodec_find_encoder(AV_CODEC_ID_MPEG4);
         stream_ = codec != nullptr ? avformat_new_stream(format, nullptr) : nullptr;
@@ -70,7 +70,7 @@ public:
             return failed(failure);
         }
         stream_->time_base = codec_->time_base;
-        if (Status status = make_frame(); !status) return status;
+        RS_TRY(make_frame());
         if (const int failure = avio_open(&format->pb, path.c_str(), AVIO_FLAG_WRITE); failure < 0) {
             return failed(failure);
         }
@@ -96,9 +96,9 @@ public:
 
     Status finish() override {
         if (frames_ == 0) return Error{shown_ + ": a video needs at least one frame"};
-        if (Status status = encode(nullptr); !status) return status;
+        RS_TRY(encode(nullptr));
         if (const int failure = av_write_trailer(format_.get()); failure < 0) return failed(failure);
-        const int failure = avio_closep(&format_->pb);  // what was kept until now reaches the disk
+        const int failure = avio_closep(&format_->pb);  // flushes buffered data to the disk
         return failure < 0 ? failed(failure) : Status();
     }
 
@@ -110,7 +110,7 @@ private:
         codec_->height = options_.height;
         codec_->framerate = av_d2q(options_.frames_per_second, 1'000'000);
         codec_->time_base = av_inv_q(codec_->framerate);
-        codec_->pix_fmt = AV_PIX_FMT_YUV420P;  // what every player takes
+        codec_->pix_fmt = AV_PIX_FMT_YUV420P;  // supported by every player
         codec_->color_range = AVCOL_RANGE_MPEG;
         codec_->colorspace = AVCOL_SPC_BT709;
         codec_->color_primaries = AVCOL_PRI_BT709;
@@ -142,7 +142,7 @@ private:
         return {};
     }
 
-    // Null: no frame follows.
+    // Encodes a frame; null flushes the encoder.
     Status encode(const AVFrame* frame) {
         if (const int failure = avcodec_send_frame(codec_.get(), frame); failure < 0) return failed(failure);
         for (;;) {
@@ -166,7 +166,7 @@ private:
     Owned<AVFrame> frame_;
     Owned<AVPacket> packet_;
     Owned<SwsContext> scaler_;
-    AVStream* stream_ = nullptr;  // the format's
+    AVStream* stream_ = nullptr;  // owned by the format context
     std::int64_t frames_ = 0;
 };
 
@@ -174,7 +174,7 @@ private:
 
 Result<std::unique_ptr<VideoEncoder>> open_video(const std::string& path, const std::string& shown,
                                                  const VideoOptions& options) {
-    // Errors are reported once, by us: FFmpeg shall not write to stderr on its own.
+    // Errors are returned; FFmpeg must not write them to stderr as well.
     av_log_set_level(AV_LOG_QUIET);
     auto encoder = std::make_unique<LibavEncoder>(shown, options);
     RS_TRY(encoder->open(path));

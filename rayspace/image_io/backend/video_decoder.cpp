@@ -39,7 +39,7 @@ struct DecoderDeleter {
 template <class T>
 using DecoderOwned = std::unique_ptr<T, DecoderDeleter>;
 
-std::string error_text(int failure) {
+std::string describe_error(int failure) {
     char text[AV_ERROR_MAX_STRING_SIZE];
     av_make_error_string(text, sizeof text, failure);
     return text;
@@ -80,16 +80,17 @@ public:
     explicit LibavDecoder(std::string path) : path_(std::move(path)) {}
 
     Status open() {
-        if (Status status = open_container(); !status) return status;
+        RS_TRY(open_container());
         const AVCodec* codec = nullptr;
         const int index = av_find_best_stream(format_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
         if (index == AVERROR_DECODER_NOT_FOUND) return Error{path_ + missing_decoder_message()};
-        if (index < 0) return Error{path_ + ": has no video; give a film of the turning object, or a folder of photos"};
+        if (index < 0)
+            return Error{path_ + ": has no video stream; use a video of the turning object, or a folder of photos"};
         stream_ = format_->streams[index];
         for (unsigned i = 0; i < format_->nb_streams; ++i) {
             if (static_cast<int>(i) != index) format_->streams[i]->discard = AVDISCARD_ALL;
         }
-        if (Status status = read_stream_info(); !status) return status;
+        RS_TRY(read_stream_info());
         return open_codec(*codec);
     }
 
@@ -133,7 +134,7 @@ private:
         return ": the installed FFmpeg has no decoder for " + codec + "; convert the film to H.264";
     }
     [[nodiscard]] std::string damage_message() const {
-        return ": is damaged (" + std::to_string(damaged_) + " frames cannot be decoded); copy the film again";
+        return ": is damaged (" + std::to_string(damaged_) + " frames cannot be decoded); copy the video again";
     }
 
     Status open_container() {
@@ -145,12 +146,12 @@ private:
         // Frees the context on failure.
         const int failure = avformat_open_input(&format, ("file:" + path_).c_str(), nullptr, nullptr);
         if (failure < 0) {
-            return Error{path_ + ": cannot be read as a film (" + error_text(failure) +
-                         "); give a video file that is complete, or a folder of photos"};
+            return Error{path_ + ": cannot be read as a film (" + describe_error(failure) +
+                         "); use a complete video file, or a folder of photos"};
         }
         format_.reset(format);
         if (const int found = avformat_find_stream_info(format, nullptr); found < 0) {
-            return Error{path_ + ": is damaged or cut short (" + error_text(found) + "); copy the film again"};
+            return Error{path_ + ": is damaged or cut short (" + describe_error(found) + "); copy the film again"};
         }
         return {};
     }
@@ -196,13 +197,13 @@ private:
         packet_.reset(av_packet_alloc());
         if (!codec_ || !frame_ || !packet_) return Error{path_ + ": not enough memory to decode a film"};
         if (const int failure = avcodec_parameters_to_context(codec_.get(), stream_->codecpar); failure < 0) {
-            return Error{path_ + ": cannot be decoded (" + error_text(failure) + ")"};
+            return Error{path_ + ": cannot be decoded (" + describe_error(failure) + ")"};
         }
         codec_->thread_count = kThreads;
         codec_->max_pixels = std::int64_t{kMaxImageSide_px} * kMaxImageSide_px;
         codec_->pkt_timebase = stream_->time_base;
         if (const int failure = avcodec_open2(codec_.get(), &codec, nullptr); failure < 0) {
-            return Error{path_ + ": cannot be decoded (" + error_text(failure) + "); convert the film to H.264"};
+            return Error{path_ + ": cannot be decoded (" + describe_error(failure) + "); convert the film to H.264"};
         }
         return {};
     }
@@ -249,7 +250,7 @@ private:
         const double end_s = static_cast<double>(last_pts_ - start) * av_q2d(stream_->time_base);
         if (duration_s - end_s <= std::max(1.0, 0.1 * duration_s)) return {};
         return Error{path_ + ": is cut short (" + std::to_string(std::llround(end_s)) + " of " +
-                     std::to_string(std::llround(duration_s)) + " seconds are there); copy the film again"};
+                     std::to_string(std::llround(duration_s)) + " seconds are present); copy the video again"};
     }
 
     Status convert(Image<Rgba8>& to) {
@@ -257,7 +258,7 @@ private:
         if (frame_->width != stream_->codecpar->width || frame_->height != stream_->codecpar->height) {
             return Error{path_ + ": frame " + std::to_string(decoded_) + " is " + std::to_string(frame_->width) + "x" +
                          std::to_string(frame_->height) + ", others are " + std::to_string(stream_->codecpar->width) +
-                         "x" + std::to_string(stream_->codecpar->height) + "; cut the film there"};
+                         "x" + std::to_string(stream_->codecpar->height) + "; cut the video there"};
         }
         scaler_.reset(sws_getCachedContext(
             scaler_.release(), frame_->width, frame_->height, format, info_.width, info_.height, AV_PIX_FMT_RGBA,

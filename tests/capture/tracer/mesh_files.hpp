@@ -1,5 +1,5 @@
 #pragma once
-// Files that the tests of mesh formats write and read.
+// Test files of mesh formats.
 
 #include "capture/tracer/scene/mesh_file.hpp"
 #include "rayspace/image_io/image_io.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Shapes, cameras and averages that the tracer's tests share.
+// Shapes, cameras and averages shared by the tracer's tests.
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "capture/tracer/scene/scene.hpp"
@@ -56,7 +56,8 @@ inline Mesh make_sphere(int splits, bool smooth = true) {
     return mesh;
 }
 
-// The parallelogram corner + s u + t v; its outer side is where cross(u, v) points. Texture coordinates are (s, t).
+// The parallelogram corner + s u + t v; its outer side is in the direction of cross(u, v). Texture coordinates are (s,
+// t).
 inline Mesh make_quad(glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
     Mesh mesh;
     mesh.name = "quad";
@@ -66,7 +67,7 @@ inline Mesh make_quad(glm::vec3 corner, glm::vec3 u, glm::vec3 v) {
     return mesh;
 }
 
-// The plane y = 0, as far as light in a test reaches.
+// A large quad in the plane y = 0.
 inline Mesh floor_quad() {
     return make_quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -100});
 }
@@ -99,7 +100,7 @@ inline Rendering render(Scene scene, const Camera& camera, const RenderOptions& 
     return tracer->render(camera, options);
 }
 
-// The mean colour of what is covered, weighted by coverage.
+// Mean colour weighted by coverage.
 inline glm::dvec3 mean_radiance(const Image<RgbaF>& image) {
     glm::dvec3 sum(0);
     double weight = 0;

@@ -28,7 +28,7 @@ TEST(HeadDatagram, IsCentimetresAndDegrees) {
 }
 
 TEST(HeadDatagram, HasTheBytesOfTheProtocol) {
-    // 1.5 and -2 as IEEE 754 has them, the lowest byte first.
+    // 1.5 and -2 in IEEE 754, little-endian.
     std::array<std::uint8_t, 48> bytes{};
     bytes[6] = 0xF8;
     bytes[7] = 0x3F;
@@ -51,8 +51,8 @@ TEST(HeadDatagram, WhatIsNoHeadIsNamed) {
     EXPECT_FALSE(head_from_datagram(longer).ok());
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     constexpr double kEndless = std::numeric_limits<double>::infinity();
-    EXPECT_THAT(fault_of({0, kNone, 0, 0, 0, 0}), HasSubstr("y that is no finite number"));
-    EXPECT_THAT(fault_of({0, 0, 0, 0, 0, -kEndless}), HasSubstr("roll that is no finite number"));
+    EXPECT_THAT(fault_of({0, kNone, 0, 0, 0, 0}), HasSubstr("y that is not finite"));
+    EXPECT_THAT(fault_of({0, 0, 0, 0, 0, -kEndless}), HasSubstr("roll that is not finite"));
     EXPECT_THAT(fault_of({10000.1, 0, 0, 0, 0, 0}), HasSubstr("x beyond 100 m"));
     EXPECT_EQ(fault_of({10000, 0, 0, 0, 0, 0}), "");
     EXPECT_THAT(fault_of({0, 0, 0, 0, 36001, 0}), HasSubstr("pitch beyond a hundred turns"));
@@ -65,7 +65,7 @@ TEST(HeadDatagram, TheTrackersZeroIsAPlaceInTheRoom) {
     EXPECT_DOUBLE_EQ(there.heading_rad, kPi / 2);
     EXPECT_EQ(there.pitch_rad, 0.1);
     EXPECT_EQ(there.roll_rad, 0.2);
-    // Who faces -X has his right at -Z, lower when he leans there, and goes to +X when he steps back.
+    // A head that faces -X has its right at -Z, lower when it rolls there, and moves to +X when it steps back.
     EXPECT_NEAR(glm::distance(there.right(), glm::dvec3(0, -0.2, -0.98)), 0, 0.03);
     const Head moved = tracked_in_room({.position = {0.2, 0.1, 0.3}, .heading_rad = 0.5}, zero);
     EXPECT_NEAR(glm::distance(moved.position, glm::dvec3(1.3, 1.6, 1.8)), 0, 1e-12);

@@ -1,4 +1,4 @@
-// Datagrams over the loopback, to ports that the system gives.
+// Datagrams over the loopback interface, at ports chosen by the system.
 
 #include "compositor/displays/head_receiver.hpp"
 
@@ -50,7 +50,7 @@ TEST(HeadReceiver, TheNewestHeadCounts) {
     ASSERT_TRUE(head.has_value());
     EXPECT_DOUBLE_EQ(head->position.x, 0.3);
     EXPECT_EQ(receiver.received(), 3);
-    // It is told once.
+    // Each head is returned once.
     EXPECT_FALSE(receiver.newest().has_value());
 }
 
@@ -80,7 +80,7 @@ TEST(HeadReceiver, WaitsNoLongerThanItIsTold) {
     EXPECT_FALSE(receiver.wait_for_newest(0.2).has_value());
     EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(200));
     EXPECT_EQ(receiver.dropped(), 1);
-    // And one that comes meanwhile ends it.
+    // A datagram that arrives during the wait ends it.
     std::thread later([&] {
         std::this_thread::sleep_for(std::chrono::milliseconds(100));
         tracker.send({0, 0, 5, 0, 0, 0});

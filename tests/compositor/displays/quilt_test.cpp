@@ -29,12 +29,12 @@ TEST(Quilt, ViewsShareThePlaneOfFocus) {
         for (const Camera& camera : cameras) {
             EXPECT_NEAR(camera.project(in_focus).x, at.x, 1e-9);
             EXPECT_NEAR(camera.project(in_focus).y, at.y, 1e-9);
-            // What is behind goes with the eye, to the right.
+            // Points behind the focal plane move with the eye, to the right.
             EXPECT_GT(camera.project(behind).x, before);
             before = camera.project(behind).x;
         }
     }
-    // The cone is that between the outermost eyes, from the point in focus.
+    // The cone is the angle between the outermost eyes as seen from the focal point.
     const glm::dvec3 target = middle.centre() + focus * middle.forward();
     const glm::dvec3 to_first = glm::normalize(cameras.front().centre() - target);
     const glm::dvec3 to_last = glm::normalize(cameras.back().centre() - target);

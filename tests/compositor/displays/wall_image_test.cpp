@@ -1,4 +1,4 @@
-// Walls and quilts as they are drawn. Skipped where no OpenGL context can be had.
+// Rendered walls and quilts. Skipped without OpenGL.
 
 #include "compositor/displays/quilt.hpp"
 #include "compositor/displays/walls_file.hpp"
@@ -53,8 +53,8 @@ Scene boxes(int count = 12) {
     return scene;
 }
 
-// A wall whose principal point lies on whole pixels, and the camera that looks straight ahead with an image so large
-// that the wall's is a part of it.
+// Wall with an integer principal point, and the camera that looks straight ahead with a larger image that contains the
+// wall's.
 struct WallAndCrop {
     Camera wall;
     Camera oversized;
@@ -63,7 +63,7 @@ struct WallAndCrop {
 };
 WallAndCrop wall_and_crop() {
     const Wall wall{"front", {-1.5, 0, -1.5}, {1.5, 0, -1.5}, {-1.5, 3, -1.5}, kWallSide_px, kWallSide_px};
-    // 3 m are 128 pixels: 24 pixels to the left of the middle, 8 above it.
+    // 3 m are 128 pixels: 24 pixels left of the centre, 8 above it.
     const glm::dvec3 eye(-24 * 3.0 / kWallSide_px, 1.5 + 8 * 3.0 / kWallSide_px, 0.2);
     WallAndCrop made;
     made.wall = *wall_camera(wall, eye, {.heading_rad = 0.2});
@@ -106,8 +106,8 @@ TEST_F(WallImage, IsTheCropOfAnOversizedOneBitForBit) {
     EXPECT_GE(psnr(compose(scene, objects, wall_and_crop().wall, 4), crop_of_oversized(scene, objects, 4)), 50);
 }
 
-// The checker of the floor fades with the distance, a float that is interpolated over the image: here and there it is
-// rounded to the next of 255 steps.
+// The floor's checker fades with the distance, a float interpolated over the image, which may be rounded to the next of
+// 255 steps.
 TEST_F(WallImage, IsTheCropOfAnOversizedOneWithAFloor) {
     const Image<Rgba8> wall = compose(boxes(), {}, wall_and_crop().wall, 1);
     const Image<Rgba8> crop = crop_of_oversized(boxes(), {}, 1);
@@ -121,9 +121,9 @@ TEST_F(WallImage, IsTracedAsTheCropOfAnOversizedOne) {
     const WallAndCrop cameras = wall_and_crop();
     auto tracer = TracedRenderer::create(boxes(), {}, {.method = TracedMethod::kWhitted});
     ASSERT_TRUE(tracer.ok()) << tracer.error().message;
-    // Over black, as it is seen: the colour of a pixel that a single ray of many met says nothing.
+    // Over black: the colour of a pixel that only one of many rays hits is undefined.
     const auto traced = [&](const Camera& camera) {
-        tracer->look(camera);
+        tracer->begin_image(camera);
         for (int pass = 0; pass < 64; ++pass) tracer->add_pass();
         Image<Rgba8> image = tracer->image();
         for (Rgba8& pixel : image.pixels()) pixel = over(pixel, {0, 0, 0, 255});
@@ -135,7 +135,7 @@ TEST_F(WallImage, IsTracedAsTheCropOfAnOversizedOne) {
     EXPECT_LT(psnr(wall, Image<Rgba8>(kWallSide_px, kWallSide_px, {0, 0, 0, 255})), 40);
 }
 
-// A small bright square: where its middle is drawn for each eye.
+// A small bright square and its image position for each eye.
 TEST_F(WallImage, ShowsAPointToEachEyeWhereTheFormulaSays) {
     Scene scene;
     scene.background.sky = {glm::vec3(0)};

@@ -1,4 +1,4 @@
-// Walls as windows: what an eye sees through them, by projection.
+// Projection of walls as windows.
 
 #include "compositor/displays/wall.hpp"
 
@@ -48,7 +48,7 @@ TEST(Wall, ItsCornersAreTheImagesCorners) {
     }
 }
 
-// Whatever stands behind the common edge of two walls, both show it at the same height of the edge.
+// Adjacent walls show a point behind their common edge at the same height of the edge.
 TEST(Wall, TwoWallsMeetAtTheirSeam) {
     const WallDisplay cave = *preset_display("cave");
     const auto wall = [&](const char* name) {
@@ -66,7 +66,7 @@ TEST(Wall, TwoWallsMeetAtTheirSeam) {
         const Camera ahead = camera_of(wall("front"), eye);
         const Camera floor = camera_of(wall("floor"), eye);
         const double along = (number(random) + 1.2) / 2.4;
-        const double beyond = 1 + 20 * std::abs(number(random));  // as far as the wall, and behind it
+        const double beyond = 1 + 20 * std::abs(number(random));  // distance behind the wall
         const auto seen = [&](const glm::dvec3& on_wall) { return kPlace.in_scene(eye + beyond * (on_wall - eye)); };
 
         const glm::dvec3 upright = seen({-1.5, 3 * along, -1.5});
@@ -80,7 +80,7 @@ TEST(Wall, TwoWallsMeetAtTheirSeam) {
     }
 }
 
-// The parallax on a wall at distance d of a point z behind the eyes' plane: e (1 - d/z).
+// Parallax on a wall at distance d of a point at distance z from the eyes: e (1 - d/z).
 TEST(Wall, BothEyesSeeAPointWhereTheFormulaSays) {
     const Wall wall = front_wall();
     const Head head{.position = {0.3, 1.6, 0.2}};
@@ -134,7 +134,7 @@ TEST(Wall, CornersMustMakeARectangle) {
     EXPECT_THAT(check_wall(wall).error().message, HasSubstr("1 mm"));
 }
 
-// The room comes to where a camera is: straight ahead in the room is ahead in the scene.
+// The room is placed at the camera: straight ahead in the room is ahead in the scene.
 TEST(Wall, TheRoomStandsAroundTheVisitor) {
     const Head head{.position = {0.2, 1.7, 0.5}, .heading_rad = 0.3};
     const Camera visitor = look_at_camera({4, 2, -1}, {-3, 1, 5}, 1, 64, 48);
@@ -152,7 +152,7 @@ TEST(Wall, ASceneIsPutOnTheTable) {
     box.lowest = {-5, 1, -2};
     box.highest = {11, 9, 6};
     const RoomPlace place = fitted_place(table, box);
-    // The middle of the table is the middle of the box' lower side.
+    // The centre of the table is the centre of the box's bottom side.
     EXPECT_LT(glm::distance(place.in_scene({0, table.lower_left.y, 0}), glm::dvec3(3, 1, 2)), 1e-9);
     EXPECT_NEAR(place.units_per_metre, 16 / (0.8 * 0.8), 1e-9);
 }

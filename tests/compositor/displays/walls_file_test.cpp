@@ -64,7 +64,7 @@ TEST(WallsFile, PresetsAreWalls) {
         ASSERT_TRUE(display.has_value()) << name;
         for (const Wall& wall : display->walls) {
             EXPECT_TRUE(check_wall(wall).ok());
-            // The head as given sees all of them.
+            // The preset's head is in front of all walls.
             EXPECT_TRUE(wall_camera(wall, display->head.position, {}).ok()) << name << " " << wall.name;
         }
     }

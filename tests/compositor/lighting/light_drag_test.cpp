@@ -1,4 +1,4 @@
-// Handles are found where they are drawn, and drags move lights by what the pointer says.
+// Handles are hit where they are drawn, and drags move lights with the pointer.
 
 #include "compositor/lighting/light_drag.hpp"
 
@@ -9,7 +9,7 @@
 namespace rs::compositor {
 namespace {
 
-// Neither level nor straight ahead.
+// A camera in general position.
 Camera some_camera() {
     return look_at_camera({3, 2.5, 6}, {0.2, 1, -0.4}, radians(55), 640, 480);
 }
@@ -20,7 +20,7 @@ glm::dvec2 seen_at(const Camera& camera, const glm::dvec3& place) {
 
 const SurfaceAt kNothing = [](const glm::dvec2&) { return std::nullopt; };
 
-// A plane, seen from any camera.
+// Depths of a plane for any camera.
 SurfaceAt plane(const Camera& camera, const glm::dvec3& through, const glm::dvec3& normal) {
     return [=](const glm::dvec2& at) -> std::optional<SurfacePoint> {
         const glm::dvec3 ray = camera.ray(at.x, at.y);
@@ -37,7 +37,8 @@ TEST(LightDrag, AlongAnAxisTheLightGoesAsFarAsThePointer) {
         const glm::dvec3 grasped = glm::mix(light.location, axis_end(light, axis, camera), 0.7);
         const LightDrag drag(light, axis, camera, seen_at(camera, grasped), 0.001);
         for (const double far : {-0.8, 0.0, 0.25, 1.5}) {
-            const LightEntry moved = drag.to(seen_at(camera, grasped + far * direction_of(axis)), camera, kNothing);
+            const LightEntry moved =
+                drag.drag_to(seen_at(camera, grasped + far * direction_of(axis)), camera, kNothing);
             EXPECT_LT(glm::distance(moved.location, light.location + far * direction_of(axis)), 1e-9);
             EXPECT_EQ(moved.aim, light.aim);
         }
@@ -48,7 +49,7 @@ TEST(LightDrag, AnAxisSeenFromItsEndMovesNothing) {
     const Camera camera = look_at_camera({0, 1, 5}, {0, 1, 0}, radians(50), 640, 480);
     const LightEntry light{.location = {0, 1, 0}};
     const LightDrag drag(light, HandlePart::kAxisZ, camera, {320, 240}, 0.001);
-    EXPECT_EQ(drag.to({322, 240}, camera, kNothing).location, light.location);
+    EXPECT_EQ(drag.drag_to({322, 240}, camera, kNothing).location, light.location);
 }
 
 TEST(LightDrag, OverSurfacesItSnapsAndTurns) {
@@ -58,17 +59,17 @@ TEST(LightDrag, OverSurfacesItSnapsAndTurns) {
     spot.location = {0.5, 1.2, 0};
     const glm::dvec3 normal = glm::normalize(glm::dvec3(0.1, 1, 0.2));
     const SurfaceAt floor = plane(camera, {0, 0, 0}, normal);
-    // It is grasped a little beside its middle, and stays so.
+    // A grab offset from the handle's centre is preserved.
     const LightDrag drag(spot, HandlePart::kBody, camera, seen_at(camera, spot.location) + glm::dvec2(3, -4), 0.01);
     const glm::dvec2 there = seen_at(camera, {0, 0, 0});
-    const LightEntry moved = drag.to(there + glm::dvec2(3, -4), camera, floor);
+    const LightEntry moved = drag.drag_to(there + glm::dvec2(3, -4), camera, floor);
     EXPECT_LT(glm::distance(moved.location, 0.01 * normal), 1e-9);
     EXPECT_LT(glm::distance(moved.aim, normal), 1e-12);
-    // Points have no aim to turn.
+    // Point lights have no aim.
     const LightEntry point{.location = spot.location};
     const LightDrag of_point(point, HandlePart::kBody, camera, seen_at(camera, point.location), 0.01);
     EXPECT_EQ(of_point.to(there, camera, floor).aim, point.aim);
-    // Where nothing is seen, it goes on as far away as it was.
+    // Over the background the light keeps its depth.
     const LightEntry lost = of_point.to({100, 90}, camera, kNothing);
     EXPECT_LT(glm::distance(seen_at(camera, lost.location), glm::dvec2(100, 90)), 1e-9);
     EXPECT_NEAR(camera.project(lost.location).z, camera.project(point.location).z, 1e-9);
@@ -79,11 +80,11 @@ TEST(LightDrag, AimsAtWhatIsUnderThePointer) {
     LightEntry spot;
     spot.kind = LightKind::kSpot;
     spot.location = {0.5, 2, 0};
-    const auto grasped = aim_place(spot, camera);
+    const auto grasped = aim_position(spot, camera);
     ASSERT_TRUE(grasped);
     const LightDrag drag(spot, HandlePart::kAim, camera, seen_at(camera, *grasped), 0.01);
     const glm::dvec3 target(-1, 0, 0.5);
-    const LightEntry aimed = drag.to(seen_at(camera, target), camera, plane(camera, {0, 0, 0}, {0, 1, 0}));
+    const LightEntry aimed = drag.drag_to(seen_at(camera, target), camera, plane(camera, {0, 0, 0}, {0, 1, 0}));
     EXPECT_LT(glm::distance(aimed.aim, glm::normalize(target - spot.location)), 1e-9);
     EXPECT_EQ(aimed.location, spot.location);
 }
@@ -95,13 +96,13 @@ TEST(LightDrag, DirectionalLightsTurnAboutTheDome) {
         LightEntry sun;
         sun.kind = LightKind::kDirectional;
         sun.aim = aim;
-        const LightDrag drag(sun, HandlePart::kBody, camera, seen_at(camera, handle_place(sun, camera)), 0.01);
-        const LightEntry still = drag.to(seen_at(camera, handle_place(sun, camera)), camera, kNothing);
+        const LightDrag drag(sun, HandlePart::kBody, camera, seen_at(camera, handle_position(sun, camera)), 0.01);
+        const LightEntry still = drag.drag_to(seen_at(camera, handle_position(sun, camera)), camera, kNothing);
         EXPECT_LT(glm::distance(still.aim, glm::normalize(aim)), 1e-6);
         const glm::dvec3 out = glm::normalize(glm::dvec3(0.2, 1, 0.1) * 0.5 - aim / glm::length(aim));
-        const LightEntry turned = drag.to(seen_at(camera, dome.middle + dome.radius * out), camera, kNothing);
+        const LightEntry turned = drag.drag_to(seen_at(camera, dome.centre + dome.radius * out), camera, kNothing);
         EXPECT_LT(glm::distance(turned.aim, -out), 1e-6);
-        const LightEntry beside = drag.to({2, 470}, camera, kNothing);
+        const LightEntry beside = drag.drag_to({2, 470}, camera, kNothing);
         EXPECT_NEAR(glm::length(beside.aim), 1, 1e-9);
     }
 }
@@ -115,7 +116,7 @@ TEST(LightHandles, AreFoundWhereTheyAreDrawn) {
         state.entries.back().aim = {0.2, -1, 0.1};
     }
     for (std::size_t i = 0; i < state.entries.size(); ++i) {
-        const glm::dvec2 at = seen_at(camera, handle_place(state.entries[i], camera));
+        const glm::dvec2 at = seen_at(camera, handle_position(state.entries[i], camera));
         EXPECT_EQ(handle_at(state, std::nullopt, camera, at + glm::dvec2(3, 2)), (HandleHit{i, HandlePart::kBody}));
         // Once selected, its axes and aim are there, too, and come before others.
         const auto strokes = light_strokes(state, i, std::nullopt, camera);
@@ -126,15 +127,15 @@ TEST(LightHandles, AreFoundWhereTheyAreDrawn) {
             const glm::dvec2 end = seen_at(camera, axis_end(state.entries[i], axis, camera));
             EXPECT_EQ(handle_at(state, i, camera, end), (HandleHit{i, axis}));
         }
-        if (const auto aim = aim_place(state.entries[i], camera)) {
+        if (const auto aim = aim_position(state.entries[i], camera)) {
             EXPECT_EQ(handle_at(state, i, camera, seen_at(camera, *aim)), (HandleHit{i, HandlePart::kAim}));
         }
     }
     EXPECT_FALSE(handle_at(state, std::nullopt, camera, {5, 470}));
-    // A large panel is grasped by its edge as well.
+    // A large panel can also be grabbed by its edge.
     state.entries[2].size = {2, 1};
     const LightEntry& panel = state.entries[2];
-    const AimedAxes axes = axes_of(unit_of(panel.aim), 0);
+    const AimedAxes axes = aimed_axes(unit_vector(panel.aim), 0);
     const glm::dvec3 edge = panel.location + axes.across + 0.3 * axes.along;
     EXPECT_EQ(handle_at(state, std::nullopt, camera, seen_at(camera, edge)), (HandleHit{2, HandlePart::kBody}));
 }

@@ -1,4 +1,4 @@
-// Edits of light and the way back; numbers by steps; lights of which nothing is seen.
+// Lighting edits and undo; number steps; warnings.
 
 #include "compositor/lighting/light_edits.hpp"
 #include "compositor/lighting/light_warnings.hpp"
@@ -51,7 +51,7 @@ TEST(LightEdits, EveryStepIsUndoneAndDoneAgain) {
         EXPECT_EQ(edits.state(), states[i]) << i;
     }
     EXPECT_FALSE(edits.redo());
-    // A new step forgets what was undone.
+    // A new step clears the redo history.
     ASSERT_TRUE(edits.undo());
     edits.add(new_light(LightKind::kSpot, {0, 1, 0}));
     EXPECT_FALSE(edits.can_redo());
@@ -162,13 +162,13 @@ TEST(LightWarnings, NameLightsThatNobodySees) {
     scene.lights = {lamp, buried, dark, sun};
     const auto warnings = light_warnings(scene);
     ASSERT_EQ(warnings.size(), 2U);
-    EXPECT_NE(warnings[0].find("light 2 'buried' stands inside of a solid"), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[0].find("light 2 'buried' is inside a solid"), std::string::npos) << warnings[0];
     EXPECT_NE(warnings[1].find("light 3 'lamp' has no power"), std::string::npos) << warnings[1];
     EXPECT_EQ(light_warning(scene, 0), "");
-    // A mirrored box is as solid.
+    // A mirrored box is solid, too.
     scene.geometry[1].world_from_node[0] = {-1, 0, 0, 0};
     EXPECT_EQ(light_warnings(scene).size(), 2U);
-    // Seen from both sides, it may be a lampshade.
+    // A two-sided box may be a lampshade.
     Mesh shade = *scene.geometry[1].mesh;
     shade.two_sided = true;
     scene.geometry[1].mesh = std::make_shared<const Mesh>(std::move(shade));

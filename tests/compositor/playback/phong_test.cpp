@@ -1,4 +1,4 @@
-// Phong's formula, spots and fog as the driver draws them, against the same computed in double precision.
+// Phong's formula, spots and fog as rendered by the driver, against double precision.
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "tests/compositor/gl_test.hpp"
@@ -15,7 +15,7 @@ using glm::dvec3;
 
 constexpr double kSide = 20;  // of the plane y = 0
 
-// A plane whose normals lean outwards, so that they are interpolated and not of unit length between the corners.
+// Plane whose normals diverge, so that interpolated normals are not of unit length.
 std::shared_ptr<const Mesh> plane() {
     auto mesh = std::make_shared<Mesh>();
     for (const glm::vec2 corner : {glm::vec2(-1, 1), {1, 1}, {1, -1}, {-1, -1}}) {
@@ -28,7 +28,7 @@ std::shared_ptr<const Mesh> plane() {
     return mesh;
 }
 
-// As the driver interpolates: linearly in each of the two triangles.
+// Interpolates like the driver: linearly in each of the two triangles.
 dvec3 normal_at(const dvec3& p) {
     const dvec3 a = glm::normalize(dvec3(-0.5, 1, 0.5));
     const dvec3 b = glm::normalize(dvec3(0.5, 1, 0.5));
@@ -55,8 +55,8 @@ Scene scene_of_lights() {
     point.kind = LightKind::kPoint;
     point.location = {-3, 2, 1};
     point.colour = {0.6F, 0.2F, 0.1F};
-    point.ambient = {9, 9, 9};                // no term of the formula
-    point.attenuation = {0.2F, 0.05F, 0.1F};  // above 1 near by, where it is cut
+    point.ambient = {9, 9, 9};                // not used by the formula
+    point.attenuation = {0.2F, 0.05F, 0.1F};  // above 1 nearby, where it is clamped
     scene.lights.push_back(point);
     Light spot;
     spot.kind = LightKind::kSpot;
@@ -77,7 +77,7 @@ Scene scene_of_lights() {
     return scene;
 }
 
-// Formula by formula; I towards the light, Os the viewer reflected.
+// Formulas term by term; I is the direction towards the light, Os the reflected view direction.
 dvec3 expected_at(const Scene& scene, const dvec3& p, const dvec3& eye) {
     const Material& material = scene.geometry[0].material;
     const dvec3 n = normal_at(p);
@@ -109,7 +109,7 @@ dvec3 expected_at(const Scene& scene, const dvec3& p, const dvec3& eye) {
     return sum + dvec3(material.phong->ambient) * ambient;
 }
 
-// The greatest difference of a channel over all pixels, in steps of 1/255.
+// Largest difference of a channel over all pixels, in steps of 1/255.
 int difference(const Scene& scene) {
     const Camera camera = look_at_camera({2, 5, 11}, {0, 0, 0}, radians(60), 320, 200);
     auto compositor =
@@ -160,7 +160,7 @@ TEST_F(PhongTest, FogIsTheFormulas) {
     EXPECT_LE(difference(scene), 1);
 }
 
-// The comparison sees what it is for: VRML97's half vector is something else.
+// The comparison is sensitive: VRML97's half vector gives other values.
 TEST_F(PhongTest, TheHalfVectorIsAnotherFormula) {
     Scene scene = scene_of_lights();
     scene.shading = Shading::kVrml;

@@ -13,7 +13,7 @@ using PlayerTest = test::GlTest;
 
 constexpr FrameOptions kSmall{.width = 160, .height = 96, .samples = 1};
 
-// A ground with a wall, and boxes that are elsewhere in each frame; the last is hidden in the second.
+// Ground with a wall, and boxes that move in every frame; the last is hidden in the second.
 std::shared_ptr<const Sequence> boxes(int count, int frames) {
     auto sequence = std::make_shared<Sequence>();
     Scene& scene = sequence->scene;
@@ -93,7 +93,7 @@ TEST_F(PlayerTest, AFrameIsTheSameHoweverItIsComeByAndNothingIsUploadedAgain) {
     ASSERT_TRUE(fresh);
     EXPECT_TRUE(same(frame_of(*fresh, 1), second));
 
-    // And as a scene that stands still, whose lights are chosen otherwise.
+    // Same frame as a static scene, whose lights are selected differently.
     Scene still = scene_at(*sequence, 1);
     for (GeometryNode& node : still.geometry) node.moving.reset();
     auto compositor = FrameCompositor::create(still, std::vector<PlacedObject>{}, kSmall);
@@ -125,7 +125,7 @@ TEST_F(PlayerTest, WeatherIsRepeatableByItsSeed) {
     }
 }
 
-// What falls behind a wall is not seen: with the wall half a metre before the eye, nothing of it is.
+// Particles behind a wall are hidden: half a metre behind the wall all of them are.
 TEST_F(PlayerTest, WhatFallsIsHiddenByWhatIsBefore) {
     Scene scene;
     GeometryNode wall;
@@ -158,7 +158,7 @@ TEST_F(PlayerTest, TracedFramesMoveThingsWithoutNewTreesAndStandInFog) {
     auto fresh = SequencePlayer::create(sequence, options);
     ASSERT_TRUE(fresh);
     EXPECT_TRUE(same(frame_of(*fresh, 1), second));
-    // In fog that ends before everything, nothing but fog.
+    // Fog that ends before all geometry.
     options.weather = *parse_weather("fog");
     options.weather->visibility = 1.5;
     auto foggy = SequencePlayer::create(sequence, options);

@@ -1,4 +1,4 @@
-// Worlds that others made: all load, and show something where there is something.
+// Third-party worlds: all load, and are not empty.
 
 #include "compositor/gl/context.hpp"
 #include "compositor/scene/reader/scene_file.hpp"

@@ -20,7 +20,7 @@ TEST(CameraPath, AClosedPathComesBack) {
     const auto poses = poses_along({.keys = kKeys, .frames = 300, .closed = true});
     ASSERT_EQ(poses.size(), 300U);
     EXPECT_LT(glm::distance(poses[100].eye, kKeys[1].eye), 1e-12);
-    // No jump anywhere, the step from the last frame to the first included.
+    // No jumps, including the step from the last frame to the first.
     for (std::size_t i = 0; i < poses.size(); ++i) {
         EXPECT_LT(glm::distance(poses[i].eye, poses[(i + 1) % poses.size()].eye), 0.15) << i;
     }

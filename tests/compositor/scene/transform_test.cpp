@@ -10,7 +10,7 @@
 namespace rs::compositor {
 namespace {
 
-// One node's matrix, written with glm's own transforms.
+// Matrix of one node, from glm's transforms.
 glm::dmat4 explicit_matrix(const NodeTransform& node) {
     const glm::dmat4 moved = glm::translate(glm::dmat4(1.0), node.translation);
     return glm::scale(glm::rotate(moved, node.angle_rad, node.axis), glm::dvec3(node.scale));

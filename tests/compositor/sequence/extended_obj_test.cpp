@@ -14,7 +14,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// The simple example of the format, with texture coordinates that are numbered but not written.
+// Basic example of the format, with texture indices but no texture coordinates.
 constexpr const char* kCube = R"(mtllib res1.mtl
 o Cube
 v 2.448335 2.024842 -5.542307
@@ -56,26 +56,26 @@ TEST(ExtendedObj, DamagedLinesAreRefusedWithFileAndLine) {
         {"instance 0 1 2 3 0 0 0 1 1 1", "11 values, not 10"},
         {"instance 0 1 2 3 0 0 0 1 1 1 0 0", "11 values, not 12"},
         {"instance 0 1 2 three 0 0 0 1 1 1 0", "'three' is no number"},
-        {"instance 0 1 2 3 0 0 0 1 0 1 0", "leaves nothing"},
-        {"instance 0 1 2 nan 0 0 0 1 1 1 0", "no number"},
-        {"instance 0 1 2 inf 0 0 0 1 1 1 0", "no number"},
-        {"instance 0 1 2 3ff 0 0 0 1 1 1 0", "no number"},
+        {"instance 0 1 2 3 0 0 0 1 0 1 0", "is 0; give a non-zero scale"},
+        {"instance 0 1 2 nan 0 0 0 1 1 1 0", "not a number"},
+        {"instance 0 1 2 inf 0 0 0 1 1 1 0", "not a number"},
+        {"instance 0 1 2 3ff 0 0 0 1 1 1 0", "not a number"},
         {"instance 0 1 2 1e9 0 0 0 1 1 1 0", "out of range"},
-        {"instnace 0 1 2 3 0 0 0 1 1 1 0", "begins no line"},
+        {"instnace 0 1 2 3 0 0 0 1 1 1 0", "is not a statement"},
         {"camera 0 0 0 1 1 1", "7 values"},
         {"camera 0 0 0 0 0 0 60", "same"},
         {"camera 0 0 0 1 1 1 0", "out of range"},
         {"camera 0 0 0 1 1 1 170", "out of range"},
         {"v 1 2", "numbers"},
-        {"v 1 2 x", "no number"},
-        {"v 1.0f 2 3", "no number"},
+        {"v 1 2 x", "not a number"},
+        {"v 1.0f 2 3", "not a number"},
         {"vn 1 2 3 4", "numbers"},
         {"f 1 2", "corners"},
         {"f 1 2 9", "asks for one of 8 vertices"},
         {"f 1 2 -9", "asks for one of 8 vertices"},
-        {"f 1//1 2//1 3//3", "asks for one of 2 normals"},
-        {"f 1 2 0", "no index"},
-        {"f 1 2 3/", "no index"},
+        {"f 1//1 2//1 3//3", "exceeds the 2 normals"},
+        {"f 1 2 0", "not an index"},
+        {"f 1 2 3/", "not an index"},
         {"f 1 2 3/1/1/1", "too many parts"},
         {"usemtl", "no name"},
         {"o", "no name"},
@@ -83,7 +83,7 @@ TEST(ExtendedObj, DamagedLinesAreRefusedWithFileAndLine) {
     for (const auto& [line, what] : damaged) {
         SCOPED_TRACE(line);
         const auto read = parse(std::string("# a comment\n") + line + "\n");
-        if (std::string(line) == "f 1 2 3/") {  // an empty part is nothing
+        if (std::string(line) == "f 1 2 3/") {  // an empty part is allowed
             EXPECT_TRUE(read);
             continue;
         }
@@ -121,7 +121,7 @@ TEST(ExtendedObj, LinesMayGoOnBehindABackslash) {
     EXPECT_THAT(read.error().message, StartsWith("scene.obj:20: "));
 }
 
-// Against matrices put together step by step by glm: out of the middle, scale, turns, to the place.
+// Against glm: from the centre, scale, rotations, translation.
 TEST(ExtendedObj, MatricesScaleThenTurnThenMoveAboutTheMiddle) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> number(-50, 50);
@@ -140,7 +140,7 @@ TEST(ExtendedObj, MatricesScaleThenTurnThenMoveAboutTheMiddle) {
             for (int row = 0; row < 4; ++row) EXPECT_NEAR(matrix[column][row], expected[column][row], 1e-6);
         }
     }
-    // A quarter about X, then one about Y: Z goes to -Y, which stays; X goes to -Z.
+    // A quarter turn about X, then about Y: Z goes to -Y, which stays; X goes to -Z.
     const glm::dmat3 turned = turn_matrix({90, 90, 0});
     EXPECT_LT(glm::distance(turned * glm::dvec3(0, 0, 1), glm::dvec3(0, -1, 0)), 1e-12);
     EXPECT_LT(glm::distance(turned * glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1)), 1e-12);

@@ -69,7 +69,7 @@ TEST_F(SequenceFiles, StaticPartsStandAndInstancesTakeSlots) {
     EXPECT_EQ(sequence->slots[0].middle, glm::dvec3(5, 0.5, 0));
     std::size_t still = 0;
     for (const GeometryNode& node : sequence->scene.geometry) still += node.moving ? 0 : 1;
-    EXPECT_EQ(still, 2U);  // the ground, and the post, which is an instance only
+    EXPECT_EQ(still, 2U);  // the ground, and the post, which only occurs as an instance
 
     const MovedSlots first = moved_slots(*sequence, 0);
     ASSERT_TRUE(first.geometry[0] && first.geometry[1]);
@@ -80,7 +80,7 @@ TEST_F(SequenceFiles, StaticPartsStandAndInstancesTakeSlots) {
     EXPECT_FALSE(moved_slots(*sequence, 2).geometry[0]);
     EXPECT_THAT(scene_at(*sequence, 2).geometry, SizeIs(2));  // the default scene
 
-    EXPECT_EQ(camera_of(*sequence, 0)->pose.eye, glm::dvec3(0, 2, 9));  // the base's
+    EXPECT_EQ(camera_of(*sequence, 0)->pose.eye, glm::dvec3(0, 2, 9));  // of the base
     EXPECT_EQ(camera_of(*sequence, 1)->pose.eye, glm::dvec3(1, 1, 1));
 }
 
@@ -92,10 +92,11 @@ TEST_F(SequenceFiles, ObjectsAndMaterialsAreNamedOrCounted) {
     const auto diffuse = [&](std::size_t slot, std::size_t part) {
         return sequence->scene.geometry[sequence->slots[slot].geometry.at(part)].material.diffuse;
     };
-    EXPECT_EQ(diffuse(0, 0), glm::vec3(0.5F));  // the van, made grey
+    EXPECT_EQ(diffuse(0, 0), glm::vec3(0.5F));  // the van with a grey material
     EXPECT_EQ(diffuse(1, 0), glm::vec3(0.8F, 0, 0));
     EXPECT_EQ(diffuse(1, 1), glm::vec3(0.8F, 0, 0));
-    EXPECT_EQ(sequence->slots[2].geometry.size(), 1U);  // behind the models' two the base's first, the ground
+    EXPECT_EQ(sequence->slots[2].geometry.size(),
+              1U);  // index 2 follows the two models: the base's first object, the ground
     const Material& red = sequence->scene.geometry[sequence->slots[1].geometry[0]].material;
     ASSERT_TRUE(red.phong);
     EXPECT_FLOAT_EQ(red.phong->exponent, 32);
@@ -148,17 +149,17 @@ TEST_F(SequenceFiles, MapsAreFound) {
     EXPECT_TRUE(find_sequence(folder_.path()));
     EXPECT_TRUE(find_sequence(out() / "frames.json"));
     EXPECT_TRUE(find_sequence(folder_ / "models" / "base.obj"));
-    EXPECT_THAT(find_sequence(folder_ / "models").error().message, HasSubstr("holds no frames.json"));
+    EXPECT_THAT(find_sequence(folder_ / "models").error().message, HasSubstr("has no frames.json"));
     write(folder_ / "maps" / "city" / "anim" / "out" / "frames.json", "{}");
     EXPECT_THAT(find_sequence(folder_.path()).error().message, HasSubstr("several maps"));
 }
 
 TEST(Converter, WordsAreTakenWithoutAShell) {
-    const auto words = converter_words(R"(my 'one word' "it's" {in}.x a$HOME;b {out})", "in dir", "out");
+    const auto words = parse_converter_command(R"(my 'one word' "it's" {in}.x a$HOME;b {out})", "in dir", "out");
     ASSERT_TRUE(words);
     EXPECT_THAT(*words, ElementsAre("my", "one word", "it's", "in dir.x", "a$HOME;b", "out"));
-    EXPECT_FALSE(converter_words("my {in}", "a", "b"));
-    EXPECT_FALSE(converter_words("my '{in} {out}", "a", "b"));
+    EXPECT_FALSE(parse_converter_command("my {in}", "a", "b"));
+    EXPECT_FALSE(parse_converter_command("my '{in} {out}", "a", "b"));
 }
 
 TEST_F(SequenceFiles, ConvertersAreChecked) {

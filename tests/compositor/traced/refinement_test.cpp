@@ -13,7 +13,7 @@
 namespace rs::compositor {
 namespace {
 
-// Images come from coarse to fine, whatever the time they take, and begin() drops the old view.
+// Images get finer whatever time they take, and begin() cancels the previous view.
 TEST(Refinement, GoesFromCoarseToFineAndBeginsAnew) {
     Refinement refinement([] { return renderer_of(small_room()); });
     const auto wait_for = [&](int passes) {
@@ -53,10 +53,10 @@ TEST(Refinement, WaitsWhileTheFirstImageIsDrawn) {
         return step;
     };
     ASSERT_TRUE(next());
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // it is drawn
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // time to draw it
     EXPECT_FALSE(refinement.take());
     EXPECT_TRUE(next());
-    // Another view, and the end, need not wait for that.
+    // Another view, and the end, do not wait for that.
     refinement.begin(looking_from({0, 5, 0.1}, {0, 0, 0}, 20));
     ASSERT_TRUE(next());
     refinement.begin(looking_from({0, 5, 0.1}, {0, 0, 0}, 30));
@@ -78,7 +78,7 @@ TEST(Refinement, ChangesItsLightWithoutANewTracer) {
             const auto step = refinement.take();
             if (step && step->passes == 1) first = step->image;
             if (first) return *first;
-            // The first pass may have been overtaken.
+            // The first pass may have been skipped.
             if (step && step->passes > 1) refinement.begin(camera);
             std::this_thread::yield();
         }
@@ -98,7 +98,7 @@ TEST(Refinement, ChangesItsLightWithoutANewTracer) {
     EXPECT_EQ(made, 1);
 }
 
-// Begun anew all the time, it still shows something now and then.
+// Continuous restarts still produce images.
 TEST(Refinement, FinishesTheFirstImageOfEachView) {
     Refinement refinement([] { return renderer_of(small_room()); });
     const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);

@@ -1,5 +1,5 @@
 #pragma once
-// A room of a few boxes, for tests of traced light.
+// Room with a few boxes, for tests of the tracer.
 
 #include "compositor/traced/traced_renderer.hpp"
 
@@ -18,7 +18,7 @@ inline GeometryNode box_node(const glm::dvec3& size, const glm::dvec3& at, const
     return node;
 }
 
-// A white floor, a red block on it, a lamp above.
+// White floor, red block on it, lamp above.
 inline Scene small_room() {
     Scene scene;
     scene.lights = {point_light({1, 3, 1}, glm::vec3(9))};

@@ -1,6 +1,6 @@
-// Rooms by traced light, against formulas and against themselves.
+// Traced rooms, against formulas and for consistency.
 
-#include "compositor/traced/traced_room.hpp"
+#include "compositor/traced/tracer_scene.hpp"
 #include "tests/compositor/traced/small_room.hpp"
 
 #include <gtest/gtest.h>
@@ -12,12 +12,12 @@
 namespace rs::compositor {
 namespace {
 
-TEST(TracedRoom, LightsShineAsTheRasterFormulaHasThem) {
-    // A white matte surface shows colour * attenuation * cos of each punctual light, and what walls reflect besides:
-    // here a single wall, which reflects nothing onto itself.
+TEST(TracerScene, LightsShineAsTheRasterFormulaHasThem) {
+    // A white diffuse surface has radiance colour * attenuation * cos per punctual light, plus interreflection, which a
+    // single wall does not have.
     Scene scene;
     scene.geometry = {box_node({40, 0.2, 40}, {0, -0.1, 0}, glm::vec3(0.5F))};
-    Light vrml;  // as VRML97 has it
+    Light vrml;  // attenuation of VRML97
     vrml.kind = LightKind::kPoint;
     vrml.location = {0, 2, 0};
     vrml.colour = {0.8F, 0.4F, 0.2F};
@@ -26,7 +26,7 @@ TEST(TracedRoom, LightsShineAsTheRasterFormulaHasThem) {
         scene.lights = {vrml};
         auto renderer = renderer_of(scene);
         ASSERT_TRUE(renderer) << renderer.error().message;
-        renderer->look(looking_from({out, 1, 0}, {out, 0, 0}, 3));
+        renderer->begin_image(looking_from({out, 1, 0}, {out, 0, 0}, 3));
         for (int pass = 0; pass < 4; ++pass) ASSERT_TRUE(renderer->add_pass());
         const double d = std::sqrt(4 + out * out);
         const double expected = 0.5 / std::max(0.5 * d + 0.25 * d * d, 1.0) * 2 / d;
@@ -36,7 +36,7 @@ TEST(TracedRoom, LightsShineAsTheRasterFormulaHasThem) {
     }
 }
 
-TEST(TracedRoom, TakesWhatItCanAndCountsTheRest) {
+TEST(TracerScene, TakesWhatItCanAndCountsTheRest) {
     Scene scene = small_room();
     scene.geometry[1].material.opacity = 0.5F;
     scene.geometry.push_back(scene.geometry[0]);
@@ -46,9 +46,9 @@ TEST(TracedRoom, TakesWhatItCanAndCountsTheRest) {
     scene.lights.push_back(scene.lights[0]);
     scene.lights.back().everywhere = false;
     scene.floor = Floor{};
-    const TracedRoom room = traced_room(scene);
-    EXPECT_EQ(room.left_to_raster, 2);
-    EXPECT_EQ(room.without_own_lights, 1);
+    const TracerScene room = make_tracer_scene(scene);
+    EXPECT_EQ(room.raster_only_nodes, 2);
+    EXPECT_EQ(room.unsupported_lights, 1);
     EXPECT_EQ(room.scene.lights.size(), 1U);
     ASSERT_EQ(room.scene.meshes.size(), 2U);  // the white box and the floor
     const capture::Mesh& floor = room.scene.meshes[1];
@@ -57,12 +57,12 @@ TEST(TracedRoom, TakesWhatItCanAndCountsTheRest) {
               0);
 }
 
-TEST(TracedRoom, MaterialsBecomeSurfaces) {
+TEST(TracerScene, MaterialsBecomeSurfaces) {
     Scene scene = small_room();
     scene.geometry[0].material.lit = false;
     scene.geometry[1].material.specular = glm::vec3(0.5F);
     scene.geometry[1].material.shininess = 0.5F;
-    const TracedRoom room = traced_room(scene);
+    const TracerScene room = make_tracer_scene(scene);
     EXPECT_EQ(room.scene.materials[0].emission, glm::vec3(0.6F));
     EXPECT_EQ(room.scene.materials[0].colour, glm::vec3(0));
     EXPECT_EQ(room.scene.materials[1].kind, capture::SurfaceKind::glossy);
@@ -75,10 +75,10 @@ TEST(TracedRenderer, AreasAreSeenFromTheSideTheyShineTo) {
     ASSERT_LT(glm::cross(scene.lights[0].half_u, scene.lights[0].half_v).y, 0);
     auto renderer = renderer_of(scene);
     ASSERT_TRUE(renderer);
-    renderer->look(looking_from({0, 2, 0}, {0, 5, 0}, 5));
+    renderer->begin_image(looking_from({0, 2, 0}, {0, 5, 0}, 5));
     ASSERT_TRUE(renderer->add_pass());
     EXPECT_EQ(renderer->radiance()(2, 2), (RgbaF{3, 3, 3, 1}));
-    renderer->look(looking_from({0, 7, 0.01}, {0, 4, 0}, 5));  // the floor's light passes
+    renderer->begin_image(looking_from({0, 7, 0.01}, {0, 4, 0}, 5));  // the floor's light is not blocked
     ASSERT_TRUE(renderer->add_pass());
     EXPECT_LT(renderer->radiance()(2, 2).r, 1.5F);
 }
@@ -96,9 +96,9 @@ TEST(TracedRenderer, AnEvenEnvironmentLightsEverySideAlike) {
         auto renderer = renderer_of(scene);
         ASSERT_TRUE(renderer);
         for (const glm::dvec3& eye : {glm::dvec3(0, 0, 1.2), glm::dvec3(0, 1.2, 0), glm::dvec3(-0.62, -0.62, 0.2)}) {
-            renderer->look(looking_from(eye, {0, 0, 0}, 9));
+            renderer->begin_image(looking_from(eye, {0, 0, 0}, 9));
             for (int pass = 0; pass < 64; ++pass) ASSERT_TRUE(renderer->add_pass());
-            const Image<RgbaF> shown_pixels = renderer->radiance();  // all of them of the box
+            const Image<RgbaF> shown_pixels = renderer->radiance();  // all pixels show the box
             RgbaF shown{};
             for (const RgbaF& p : shown_pixels.pixels()) {
                 ASSERT_EQ(p.a, 1);
@@ -108,7 +108,7 @@ TEST(TracedRenderer, AnEvenEnvironmentLightsEverySideAlike) {
             EXPECT_NEAR(shown.g, 0.5, 0.005 * 0.5);
             EXPECT_NEAR(shown.b, 0.2, 0.005 * 0.2);
         }
-        renderer->look(looking_from({0, 0, 3}, {0, 0, 9}, 3));
+        renderer->begin_image(looking_from({0, 0, 3}, {0, 0, 9}, 3));
         ASSERT_TRUE(renderer->add_pass());
         EXPECT_EQ(renderer->radiance()(1, 1), (seen ? RgbaF{0.5F, 1, 2, 1} : RgbaF{0, 0, 0, 0}));
     }
@@ -120,14 +120,14 @@ TEST(TracedRenderer, PassesGiveTheSameBitsInAnyNumberOfThreads) {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
         auto renderer = renderer_of(small_room());
         EXPECT_TRUE(renderer);
-        renderer->look(camera);
+        renderer->begin_image(camera);
         for (int pass = 0; pass < 7; ++pass) EXPECT_TRUE(renderer->add_pass());
         return renderer->radiance();
     };
     const Image<RgbaF> one = traced(1);
     const Image<RgbaF> four = traced(4);
-    // And as one image of seven samples.
-    TracedRoom room = traced_room(small_room());
+    // Same as one image of seven samples.
+    TracerScene room = make_tracer_scene(small_room());
     auto tracer = capture::Tracer::create(std::move(room.scene));
     ASSERT_TRUE(tracer);
     capture::RenderOptions options;
@@ -163,7 +163,7 @@ TEST(TracedRenderer, PartsHaveTheBytesOfTheWhole) {
         const auto traced = [&](const capture::PixelRectangle& part) {
             renderer->set_method(named.method);
             renderer->set_part(part);
-            renderer->look(camera);
+            renderer->begin_image(camera);
             for (int pass = 0; pass < 2; ++pass) EXPECT_TRUE(renderer->add_pass());
             return renderer->image();
         };
@@ -177,11 +177,11 @@ TEST(TracedRenderer, PartsHaveTheBytesOfTheWhole) {
     }
 }
 
-TEST(TracedRoom, WhatMayMoveIsAPartThatNodesShare) {
+TEST(TracerScene, WhatMayMoveIsAPartThatNodesShare) {
     Scene scene = moving_room();
     scene.geometry.push_back(scene.geometry[3]);
-    scene.geometry.back().material.diffuse = glm::vec3(0.5F);  // looks otherwise
-    const TracedRoom room = traced_room(scene);
+    scene.geometry.back().material.diffuse = glm::vec3(0.5F);  // a different material
+    const TracerScene room = make_tracer_scene(scene);
     EXPECT_EQ(room.scene.meshes.size(), 1U);
     EXPECT_EQ(room.scene.parts.size(), 2U);
     ASSERT_EQ(room.scene.instances.size(), 4U);
@@ -189,11 +189,11 @@ TEST(TracedRoom, WhatMayMoveIsAPartThatNodesShare) {
     EXPECT_EQ(room.scene.instances[1].part, room.scene.instances[2].part);
 }
 
-// What moves looks as what was read at its new place.
+// Moved nodes equal nodes read at the new position.
 TEST(TracedRenderer, MovedNodesLookAsReadThere) {
     const Camera camera = looking_from({3, 3, 5}, {0, 0.4, 0}, 64);
     const auto image_of = [&](TracedRenderer& renderer) {
-        renderer.look(camera);
+        renderer.begin_image(camera);
         EXPECT_TRUE(renderer.add_pass());
         return renderer.radiance();
     };
@@ -224,7 +224,7 @@ TEST(TracedRenderer, MovedNodesLookAsReadThere) {
     }
     EXPECT_GT(other, 200);
     EXPECT_LT(wrong, 10);
-    // While the shutter is open a shadow's edge goes on: images become grey there.
+    // The edge of a shadow moves while the shutter is open: images become grey there.
     ASSERT_TRUE(moved->move(7, way, glm::translate(way, {0.5, 0, 0})));
     const Image<RgbaF> blurred = image_of(*moved);
     EXPECT_NE(blurred, after);
@@ -236,7 +236,7 @@ TEST(TracedRenderer, ExposureCountsInStops) {
     auto brighter = renderer_of(small_room(), -1);
     ASSERT_TRUE(plain && brighter);
     for (TracedRenderer* renderer : {&*plain, &*brighter}) {
-        renderer->look(camera);
+        renderer->begin_image(camera);
         ASSERT_TRUE(renderer->add_pass());
     }
     EXPECT_EQ(plain->radiance()(1, 1), brighter->radiance()(1, 1));
@@ -244,7 +244,7 @@ TEST(TracedRenderer, ExposureCountsInStops) {
     EXPECT_NEAR(linear(brighter->image()(1, 1).g) / linear(plain->image()(1, 1).g), 2, 0.1);
 }
 
-// Whatever is changed of the light, and back again, the bits are those of a renderer that began with it.
+// After changes of the lights and back, the bits equal those of a new renderer.
 TEST(TracedRenderer, EditedLightGivesTheImagesOfASceneThatHasIt) {
     const Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 33);
     Scene first = small_room();
@@ -266,7 +266,7 @@ TEST(TracedRenderer, EditedLightGivesTheImagesOfASceneThatHasIt) {
     dark.lights.clear();
     dark.navigation.headlight = true;
     const auto image = [&](TracedRenderer& renderer) {
-        renderer.look(camera);
+        renderer.begin_image(camera);
         for (int pass = 0; pass < 2; ++pass) EXPECT_TRUE(renderer.add_pass());
         return std::pair(renderer.radiance(), renderer.image());
     };
@@ -294,7 +294,7 @@ TEST(TracedRenderer, TheHeadlightIsCarriedWhereNothingElseShines) {
     const auto brightness = [&] {
         auto renderer = renderer_of(scene);
         EXPECT_TRUE(renderer);
-        renderer->look(camera);
+        renderer->begin_image(camera);
         EXPECT_TRUE(renderer->add_pass());
         return renderer->radiance()(0, 0).g;
     };

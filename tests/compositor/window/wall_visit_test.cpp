@@ -1,4 +1,4 @@
-// A visit with a window for each wall, on a virtual display. Skipped where there is no Xvfb.
+// Visit with a window per wall on a virtual display. Skipped without Xvfb.
 
 #include "compositor/window/wall_visit.hpp"
 
@@ -87,7 +87,7 @@ protected:
     static inline std::unique_ptr<test::VirtualDisplay> display_;
     test::TemporaryFolder work_;
     WallVisitOptions options_;
-    std::vector<std::string> left_;  // of OpenGL, when the windows were gone
+    std::vector<std::string> left_;  // errors and objects of OpenGL after the windows were destroyed
     std::unique_ptr<WallVisit> visit_;
 };
 
@@ -111,8 +111,8 @@ TEST_F(WallWindows, KeysDriveTheRoomAndMoveTheHead) {
     ASSERT_TRUE(step(0.2));
     EXPECT_GT(visit_->head().position.x, 0.01);
     EXPECT_EQ(visit_->place().position, glm::dvec3(0));
-    EXPECT_GT(red_middle(1), 60);  // what is behind the wall goes with the head
-    // Through no wall.
+    EXPECT_GT(red_middle(1), 60);  // objects behind the wall move with the head
+    // Walls block the head.
     visit_->windows()[0].inject(KeyEvent{Key::kRight, false});
     visit_->windows()[0].inject(KeyEvent{Key::kForward, true});
     for (int i = 0; i < 60; ++i) ASSERT_TRUE(step(0.2));
@@ -130,17 +130,17 @@ TEST_F(WallWindows, FollowATrackedHeadButThroughNoWall) {
     ASSERT_TRUE(step());
     EXPECT_EQ(visit_->head().position, glm::dvec3(0.5, 1.5, 0.2));
     EXPECT_EQ(visit_->head().heading_rad, 0.4);
-    EXPECT_GT(red_middle(1), before + 2);  // what is behind the wall goes with the head
-    // The room stays where it is.
+    EXPECT_GT(red_middle(1), before + 2);  // objects behind the wall move with the head
+    // The room does not move.
     EXPECT_NEAR(glm::distance(visit_->place().position, place.position), 0, 1e-12);
     EXPECT_NEAR(visit_->place().heading_rad, place.heading_rad, 1e-12);
-    // Behind the front wall, and in the left one's plane: the last good head stays.
+    // Behind the front wall, and in the plane of the left one: the last valid head is kept.
     for (const glm::dvec3& behind : {glm::dvec3(0, 1.5, -1.6), glm::dvec3(-1.5, 1.5, 0)}) {
         tracked = Head{.position = behind};
         ASSERT_TRUE(step());
         EXPECT_EQ(visit_->head().position, glm::dvec3(0.5, 1.5, 0.2));
     }
-    // Nothing new: it stays as well.
+    // Nothing new: it is kept, too.
     ASSERT_TRUE(step());
     EXPECT_EQ(visit_->head().position, glm::dvec3(0.5, 1.5, 0.2));
 }

@@ -1,4 +1,4 @@
-// Objects with coded images in files: the chunks, what is refused, and what damage does.
+// Files with coded images: chunks, rejected payloads, and damage.
 
 #include "rayspace/codec/stream/coded_chunks.hpp"
 #include "rayspace/codec/stream/decode_image.hpp"
@@ -64,7 +64,7 @@ TEST_F(CodedFile, MemoryIsCapped) {
     EXPECT_NE(read.error().message.find("memory"), std::string::npos) << read.error().message;
 }
 
-// What CODE must not say. Offsets as in encode/FORMAT.md.
+// Invalid payloads of CODE. Offsets as in encode/FORMAT.md.
 TEST_F(CodedFile, EveryFieldOfTheSharedPartIsChecked) {
     const std::vector<std::byte> sound = code_payload(*object_.coded);
     const auto parse = [&](const std::vector<std::byte>& payload) {
@@ -93,7 +93,7 @@ TEST_F(CodedFile, EveryFieldOfTheSharedPartIsChecked) {
 }
 
 TEST_F(CodedFile, EveryFieldOfAImageIsChecked) {
-    constexpr std::size_t kView = 1;  // of level 3, with two references
+    constexpr std::size_t kView = 1;  // a view of level 3, with two references
     ASSERT_EQ(object_.coded->images[kView].head.references(), 2);
     const std::vector<std::byte> sound = coded_image_payload(*object_.coded, kView);
     const auto parse = [&](const std::vector<std::byte>& payload) {
@@ -138,8 +138,8 @@ TEST_F(CodedFile, EveryFieldOfAImageIsChecked) {
     EXPECT_FALSE(parse(longer));
 }
 
-// Nothing in a tile's bytes can be wrong: any bytes, probabilities, steps and vectors decode to some samples. The
-// sanitizers' builds look at what is touched on the way.
+// Any bytes, probabilities, steps and vectors of a tile decode to some samples. Sanitizer builds check the memory
+// accesses.
 TEST_F(CodedFile, AnyBytesDecode) {
     std::mt19937 random(2024);
     for (int round = 0; round < 60; ++round) {

@@ -1,4 +1,4 @@
-// Images through the dense encoder and the decoder.
+// Round trips through the dense encoder and the decoder.
 
 #include "encode/codec/dense_encoder.hpp"
 #include "encode/codec/quantise.hpp"
@@ -60,7 +60,7 @@ TEST(BoolCoder, ReadsBackWhatWasWritten) {
         const int count = static_cast<int>(random() % 400);
         for (int i = 0; i < count; ++i) {
             const auto probability = static_cast<std::uint32_t>(round % 3 == 0 ? 4095 : 1 + random() % 4095);
-            // Likely bits mostly, so that long runs of carries happen.
+            // Mostly likely bits, so that long carry chains occur.
             const int bit = random() % 4096 >= probability || random() % 50 == 0 ? 1 : 0;
             bits.emplace_back(bit, probability);
             encoder.bit(bit, probability);
@@ -79,7 +79,7 @@ TEST(BoolCoder, LikelyBitsCostLittle) {
     EXPECT_LE(encoder.finish().size(), 8000 * 0.0057 / 8 + 2);
 }
 
-// But for rounding, and for rows that are orthonormal to 0.1 % only.
+// Up to rounding, and to rows that are orthonormal to 0.1 % only.
 TEST(Transform, TheInverseUndoesTheForward) {
     std::mt19937 random(5);
     for (const int size : {8, 16}) {
@@ -128,7 +128,7 @@ TEST(DenseEncoder, TheDecoderShowsWhatTheEncoderMeasured) {
         EncodedImages encoded = encode_dense(object, sources, settings);
         object.coded = std::make_shared<codec::CodedImages>(std::move(encoded.coded));
         codec::decode_images(object);
-        // The encoder measures against its own Y, U, V, rounded once, and where its own alpha is 128 or more.
+        // The encoder compares with its own Y, U, V, rounded once, where its own alpha is 128 or more.
         EXPECT_NEAR(psnr_over_object(images, object), encoded.psnr_db, 0.5) << step;
         for (std::size_t v = 0; v < images.size(); ++v) {
             for (int y = 0; y < object.height; ++y) {
@@ -183,7 +183,7 @@ TEST(DenseEncoder, FinerStepsAreBetterAndLarger) {
 }
 
 TEST(DenseEncoder, PredictionFromOtherImagesPays) {
-    // The same image in every view: all but the references cost next to nothing.
+    // The same image in every view: all images except references take almost no bytes.
     const RaySpaceObject object = test::small_object(kSmallDense);
     const std::vector<Image<Rgba8>> still(object.views.size(), test::drawn_images(object)[0]);
     const codec::CodedImages coded = test::code_images(object, still, {});
@@ -234,7 +234,7 @@ TEST(ByteAccount, AddsUpToTheChunks) {
         for (const auto& tile : object.coded->images[v].tiles) tiles += tile.present ? 1 : 0;
     }
     EXPECT_NEAR(sum, chunks, 1e-6);
-    // Information content and bytes agree to about a byte a tile.
+    // Information content and bytes agree to about one byte per tile.
     EXPECT_LT(std::abs(rounding), 1.5 * tiles);
 }
 
@@ -283,7 +283,7 @@ TEST_F(Goals, FineColoursHaveFineEdges) {
     EXPECT_EQ(asked->coded.dense.alpha_bits, 1);
 }
 
-// The drawn object over something that covers less and less to both sides.
+// The drawn object over a background whose alpha decreases to both sides.
 Image<Rgba8> drawn_over_shadow(const Camera& camera) {
     Image<Rgba8> image = test::drawn_image(camera);
     for (int y = 60; y < 78; ++y) {
@@ -316,8 +316,8 @@ TEST_F(Goals, SizeIsKeptAndUsed) {
     goal.images_bytes = 4000;
     const auto encoded = encode(goal);
     ASSERT_TRUE(encoded.ok()) << encoded.error().message;
-    EXPECT_LE(coded_bytes(encoded->coded), 4000U);
-    EXPECT_GE(coded_bytes(encoded->coded), 3000U);
+    EXPECT_LE(count_coded_bytes(encoded->coded), 4000U);
+    EXPECT_GE(count_coded_bytes(encoded->coded), 3000U);
 }
 
 TEST_F(Goals, WhatCannotBeReachedIsSaid) {

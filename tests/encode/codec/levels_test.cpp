@@ -1,4 +1,4 @@
-// What a tile teaches its contexts, and levels with hidden signs from quantising to reading.
+// Context adaptation in a tile, and levels with hidden signs from quantisation to decoding.
 
 #include "encode/codec/quantise.hpp"
 #include "rayspace/codec/bool_decoder.hpp"
@@ -33,7 +33,7 @@ TEST(ContextStates, StayWithinWhatADecoderTakesAndFollowWhatIsSaid) {
                 EXPECT_EQ(states.probability(context), 16U * static_cast<unsigned>(listed));
                 for (int i = 0; i < 5000; ++i) states.adapt(context, bit);
                 EXPECT_EQ(states.probability(context + 1), 16U * static_cast<unsigned>(listed));
-                // A shift by 7 stops 127 / 65536 before the end.
+                // A shift by 7 converges to 127 / 65536 before the end.
                 EXPECT_EQ(states.probability(context), bit == 0 ? 4088U : 8U);
             }
         }
@@ -74,7 +74,7 @@ TEST(ContextStates, DoNotMoveWithoutAdaptation) {
     }
 }
 
-// A coder that writes, and one that reads, with even chances.
+// A writing and a reading coder with even probabilities.
 struct Writer {
     codec::BoolEncoder& bits;
     int bit(int /*context*/, int value) {
@@ -107,7 +107,7 @@ Quantised quantised(const std::vector<std::int32_t>& coefficients, int size, int
     return result;
 }
 
-// What is written, read again, and how many raw bits it has.
+// The levels after writing and reading, and the number of their raw bits.
 std::pair<codec::Levels, int> read_back(const Quantised& quantised, int size, bool sign_data_hiding) {
     codec::BoolEncoder encoder;
     Writer writer{encoder};
@@ -153,7 +153,7 @@ TEST(SignDataHiding, AreReadBackFromFewerBits) {
     EXPECT_GT(saved, 4000);
 }
 
-// No group is changed at more than one place, and there by one.
+// At most one level per group is changed, by one.
 TEST(SignDataHiding, ChangeOneLevelOfAGroupByOne) {
     std::mt19937 random(8);
     int changed_groups = 0;

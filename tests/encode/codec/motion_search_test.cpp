@@ -1,4 +1,4 @@
-// The search of motion vectors against all vectors in reach.
+// Compares the motion search with an exhaustive search.
 
 #include "encode/codec/motion_search.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 
 using codec::MotionVector;
 
-// Smooth waves with noise; a part is transparent.
+// Smooth waves with noise; partly transparent.
 Image<Rgba8> waves(double phase, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     Image<Rgba8> image(64, 48);
@@ -41,7 +41,7 @@ float bits_of(MotionVector vector, MotionVector from) {
     return bits;
 }
 
-// Of one vector: prediction by the codec, valid samples, the mean with `other` where there is one.
+// Cost of one vector: prediction by the codec over valid samples, averaged with `other` if given.
 float cost_of(const MotionSearch& search, MotionVector vector, MotionVector from, const std::uint8_t* other) {
     std::vector<std::uint8_t> samples(static_cast<std::size_t>(search.size) * static_cast<std::size_t>(search.size));
     codec::predict_from_image(search.reference, search.x, search.y, vector, search.size, samples.data(), search.size);
@@ -80,13 +80,13 @@ TEST_P(MotionSearchTest, NoWholeVectorInReachIsBetter) {
     const MotionVector from{5, -3};
     for (const std::uint8_t* mixed : {static_cast<const std::uint8_t*>(nullptr), other.data()}) {
         for (const MotionVector start : {MotionVector{0, 0}, MotionVector{9, -6}, MotionVector{-64, 0}}) {
-            const FoundMotion found = find_motion(search_, std::vector{start}, from, mixed);
+            const MotionMatch found = search_motion(search_, std::vector{start}, from, mixed);
             float least = std::numeric_limits<float>::infinity();
             const int x0 = (start.x + 2) >> 2;
             const int y0 = (start.y + 2) >> 2;
             for (int y = y0 - search_.reach_y; y <= y0 + search_.reach_y; ++y) {
                 for (int x = x0 - search_.reach_x; x <= x0 + search_.reach_x; ++x) {
-                    // Wholly inside of the image.
+                    // Only positions inside of the image.
                     if (search_.x + x < 0 || search_.y + y < 0 ||
                         search_.x + x + search_.size > search_.reference.width() ||
                         search_.y + y + search_.size > search_.reference.height()) {
@@ -111,7 +111,7 @@ TEST_P(MotionSearchTest, AQuarterOfASampleIsFound) {
         Image<std::uint8_t>& y_plane = moved.planes[0];
         codec::predict_from_image(search_.reference, search_.x, search_.y, truth, search_.size,
                                   y_plane.row(search_.y) + search_.x, y_plane.view().stride());
-        const FoundMotion found = find_motion(search_, std::vector{MotionVector{0, 0}}, {0, 0});
+        const MotionMatch found = search_motion(search_, std::vector{MotionVector{0, 0}}, {0, 0});
         EXPECT_EQ(found.vector, truth);
         EXPECT_EQ(found.cost, 0);
     }

@@ -1,4 +1,4 @@
-// The encoder's sums over samples against formulas written out, and what efforts do.
+// Compares the encoder's search kernels with plain formulas; compares effort levels.
 
 #include "encode/codec/search_kernels.hpp"
 
@@ -35,7 +35,7 @@ struct Samples {
             mask[i] = random() % 4 == 0 ? 0 : 255;
         }
     }
-    [[nodiscard]] MaskedSamples target(int size) const { return {wanted.data(), mask.data(), kStride, size}; }
+    [[nodiscard]] SampleBlock target(int size) const { return {wanted.data(), mask.data(), kStride, size}; }
     [[nodiscard]] int off(int x, int y) const {
         const auto at = static_cast<std::size_t>(y * kStride + x);
         return mask[at] != 0 ? wanted[at] - reconstruction[at] : 0;
@@ -60,7 +60,7 @@ TEST(SearchKernels, SumsAreThoseOfTheFormulas) {
                     of_mean += samples.mask[at] != 0 ? std::abs(samples.wanted[at] - mean) : 0;
                 }
             }
-            const MaskedSamples target = samples.target(size);
+            const SampleBlock target = samples.target(size);
             ASSERT_EQ(absolute_differences(target, samples.reconstruction.data(), kStride), absolute);
             ASSERT_EQ(squared_differences(target, samples.reconstruction.data(), kStride), squared);
             ASSERT_EQ(
@@ -70,7 +70,7 @@ TEST(SearchKernels, SumsAreThoseOfTheFormulas) {
     }
 }
 
-// Entry (v, u) of a block is the sum over its samples times (-1)^(bits that v and y, u and x have in common).
+// Entry (v, u) of a block is the sum over its samples times (-1)^(number of common bits of v and y, and of u and x).
 TEST(SearchKernels, HadamardTransformsAreThoseOfTheFormula) {
     std::mt19937 random(2);
     for (int round = 0; round < 40; ++round) {
@@ -138,24 +138,24 @@ TEST(CostTable, LevelsCostWhatTheirDecisionsDo) {
         const int near = static_cast<int>(random() % 5);
         const bool must_be = random() % 2 == 0;
         const int level = static_cast<int>(random() % 40) + (must_be ? 1 : 0);
-        Estimator bits(costs);
+        CostEstimator bits(costs);
         codec::syntax::magnitude(bits, kind, band, near, must_be, level);
         ASSERT_NEAR(costs.level(kind, band, near, must_be, level), bits.bits() + (level != 0 ? 1.0F : 0.0F), 1e-4);
         const int size = (kind & 2) != 0 ? 16 : 8;
         const int place = static_cast<int>(random() % static_cast<unsigned>(size * size));
-        Estimator of_place(costs);
+        CostEstimator of_place(costs);
         codec::syntax::last_place(of_place, kind, size, place);
         ASSERT_NEAR(costs.last_place(kind, place), of_place.bits(), 1e-4);
     }
 }
 
-// On drawn images, which have little to choose from.
+// Uses drawn images, whose modes differ little.
 TEST(SearchEffort, MoreOfItGivesABetterBargain) {
     RaySpaceObject object = test::small_object({.views_per_ring = 12, .width = 160, .height = 96});
     const std::vector<Image<Rgba8>> images = test::drawn_images(object);
     std::vector<SourceImage> sources;
     for (const auto& image : images) sources.push_back(source_image(image, 2));
-    // Bytes, and the error as bytes of the same worth: a decibel is about a seventh of them.
+    // Bytes, plus the error as equivalent bytes: a decibel is about a seventh of the bytes.
     const auto price = [&](int effort) {
         DenseSettings settings;
         settings.step = 8;
@@ -165,9 +165,9 @@ TEST(SearchEffort, MoreOfItGivesABetterBargain) {
         for (const auto& image : encoded.coded.images) bytes += static_cast<double>(image.bytes.size());
         return bytes * std::pow(10.0, -encoded.psnr_db / 16);
     };
-    const double most = price(kMostEffort);
+    const double most = price(kMaxEffort);
     EXPECT_LT(most, price(kLeastEffort));
-    EXPECT_LT(price(kUsualEffort), 1.1 * most);
+    EXPECT_LT(price(kDefaultEffort), 1.1 * most);
     EXPECT_LT(price(kLeastEffort), 1.3 * most);
 }
 

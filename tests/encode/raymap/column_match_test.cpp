@@ -1,4 +1,4 @@
-// The loops along columns of the search for depth against the same written out.
+// Compares the column kernels of depth estimation with plain implementations.
 
 #include "encode/raymap/column_match.hpp"
 
@@ -52,7 +52,7 @@ TEST(ColumnMatch, CostsAreMeansOfDifferences) {
                 const auto between = [&](int one, int other) { return one * (32 - match.part) + other * match.part; };
                 const int sum = std::abs(32 * mine.r - between(a.r, b.r)) + std::abs(32 * mine.g - between(a.g, b.g)) +
                                 std::abs(32 * mine.b - between(a.b, b.b));
-                wanted = between(a.a, b.a) < 128 * 32 ? kOutsideMatch : std::min(sum / 96, kMostCost);
+                wanted = between(a.a, b.a) < 128 * 32 ? kOutsideMatch : std::min(sum / 96, kMaxCost);
             }
             ASSERT_EQ(costs[static_cast<std::size_t>(n)], wanted) << round << ", " << n;
         }
@@ -85,7 +85,7 @@ TEST(ColumnMatch, DepthsCostWhatTheyAreAway) {
             int wanted = before[at];
             if (row >= 0 && row < height && !std::isnan(depths[static_cast<std::size_t>(row)])) {
                 const float away = std::abs(depths[static_cast<std::size_t>(row)] - found.depth) * found.cost_per_unit;
-                wanted = std::min(wanted, std::min(static_cast<int>(away), kMostCost));
+                wanted = std::min(wanted, std::min(static_cast<int>(away), kMaxCost));
             }
             nearer += wanted < before[at] ? 1 : 0;
             ASSERT_EQ(after[at], wanted) << round << ", " << n;
@@ -94,7 +94,7 @@ TEST(ColumnMatch, DepthsCostWhatTheyAreAway) {
     EXPECT_GT(nearer, 1000);
 }
 
-// What one kind of neighbours says; nothing: -1, outside: -2.
+// Merged cost of one kind of neighbours; none: -1, outside: -2.
 int of_kind(const std::vector<int>& costs) {
     std::vector<int> known;
     bool outside = false;
@@ -121,7 +121,7 @@ TEST(ColumnMatch, MergesWhatNeighboursSay) {
             const unsigned kind = random() % 8;
             cost = static_cast<std::uint8_t>(kind == 0   ? kUnknownMatch
                                              : kind == 1 ? kOutsideMatch
-                                                         : random() % (kMostCost + 1));
+                                                         : random() % (kMaxCost + 1));
         }
         std::vector<std::uint8_t> merged(static_cast<std::size_t>(rows));
         merge_matches(costs.data(), rows, beside, across, merged.data());
@@ -133,7 +133,7 @@ TEST(ColumnMatch, MergesWhatNeighboursSay) {
             const int a = of_kind(kinds[0]);
             const int b = of_kind(kinds[1]);
             const int wanted = a == -2 || b == -2   ? kOutsideCost
-                               : a == -1 && b == -1 ? kMostCost / 2
+                               : a == -1 && b == -1 ? kMaxCost / 2
                                : a == -1            ? b
                                : b == -1            ? a
                                                     : (a + b) / 2;

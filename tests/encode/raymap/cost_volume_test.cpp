@@ -1,4 +1,4 @@
-// Which depths pixels may have, and what they cost.
+// Allowed depths of pixels and their costs.
 
 #include "encode/raymap/cost_volume.hpp"
 
@@ -16,9 +16,9 @@ namespace {
 
 const DepthRange kRange{-1.03, 2.06 / 127, 128};
 
-// Of all levels, since nothing rules any out.
+// All levels are allowed, since the hull excludes none.
 CostVolume every_level(const WorkView& view) {
-    return levels_within(SampledHull(VisualHull({}, 1), 0.05), view, kRange);
+    return create_volume(SampledHull(VisualHull({}, 1), 0.05), view, kRange);
 }
 
 std::vector<DepthView> without_depths(const std::vector<WorkView>& views) {
@@ -31,9 +31,9 @@ TEST(CostVolume, HasTheLevelsThatTheHullAllows) {
     const std::vector<WorkView> views = drawn_views(drawn_ring(12, 3));
     const SampledHull hull(VisualHull(pointers(views), 1), 0.004);
     WorkView view = views[0];
-    // A corner of the image that no silhouette knows of.
+    // A corner of the image outside of every silhouette.
     for (int row = 0; row < 4; ++row) view.columns(row, 0) = {1, 2, 3, 255};
-    const CostVolume volume = levels_within(hull, view, kRange);
+    const CostVolume volume = create_volume(hull, view, kRange);
     int between = 0;
     std::size_t levels = 0;
     for (int column = volume.box.left; column < volume.box.right; ++column) {
@@ -74,8 +74,8 @@ TEST(CostVolume, OfAMaskOnlyItsPixelsAreSearched) {
     for (int row = 0; row < view.height / 2; ++row) {
         for (int column = 0; column < view.width; column += 3) only(row, column) = 255;
     }
-    const CostVolume all = levels_within(hull, view, kRange);
-    const CostVolume some = levels_within(hull, view, kRange, &only);
+    const CostVolume all = create_volume(hull, view, kRange);
+    const CostVolume some = create_volume(hull, view, kRange, &only);
     int searched = 0;
     for (int column = all.box.left; column < all.box.right; ++column) {
         for (int row = all.box.top; row < all.box.bottom; ++row) {
@@ -96,15 +96,16 @@ TEST(CostVolume, ColoursFindTheDepthOfTheBalls) {
     const std::vector<WorkView> views = drawn_views(drawn_ring(60));
     const std::vector<DepthView> all = without_depths(views);
     const SampledHull hull(VisualHull(pointers(views), 1), 0.005);
-    CostVolume costs = levels_within(hull, views[0], kRange);
+    CostVolume costs = create_volume(hull, views[0], kRange);
     match_colours(costs, views[0], {{&all[1], &all[59]}, {}}, kRange);
     const Image<float> levels = semi_global_levels(views[0], costs, {});
-    // The balls' shading turns with the viewer, so colours agree where the big ball's middle is: on the axis.
+    // The balls' shading rotates with the viewer, so that colours agree at the middle of the big ball, which is on the
+    // axis.
     EXPECT_NEAR(kRange.at(static_cast<double>(levels(50, 64))), 0, 0.08);
     EXPECT_TRUE(std::isnan(levels(0, 0)));
 }
 
-// One view of the striped ball, level.
+// A horizontal view of the striped ball.
 DepthView striped_view(double azimuth_deg, double elevation_deg) {
     Camera camera = drawn_ring(1, azimuth_deg, 3.5 * std::cos(radians(elevation_deg))).views[0].camera;
     camera.world_from_camera[3].y = 3.5 * std::sin(radians(elevation_deg));
@@ -126,7 +127,7 @@ TEST(CostVolume, LevelStripesHaveADepthOnlyAcrossRings) {
     const DepthView below = striped_view(1, 4);
     const DepthView above = striped_view(-2, 16);
     constexpr int kColumn = 64;
-    // How far from the ball's surface the farthest depth lies whose colour agrees nearly as well as any does.
+    // The largest distance from the ball's surface of a depth whose cost is close to the minimum.
     const auto doubt = [&](const Neighbours& neighbours, int row) {
         CostVolume volume = every_level(view);
         match_colours(volume, view, neighbours, kRange);
@@ -146,12 +147,12 @@ TEST(CostVolume, LevelStripesHaveADepthOnlyAcrossRings) {
     }
 }
 
-// Stripes that all images show alike say nothing about depth; what the neighbours were found to show does.
+// Stripes that look equal in all images do not determine depth; the neighbours' depth maps do.
 TEST(CostVolume, WhatNeighboursShowTellsTheDepth) {
     const WorkView view = striped_view(0, 10).view;
     const DepthView left = striped_view(-6, 10);
     DepthView right = striped_view(6, 10);
-    // One of them is wrong.
+    // One neighbour's depth is wrong.
     for (float& depth : right.depth.pixels()) depth += 0.5F;
     DepthView blind = left;
     for (float& depth : blind.depth.pixels()) depth = kNoDepth;
@@ -168,11 +169,11 @@ TEST(CostVolume, WhatNeighboursShowTellsTheDepth) {
         const std::vector<int> of_left = costs({{&left}, {}});
         const auto least = std::min_element(of_left.begin(), of_left.end()) - of_left.begin();
         EXPECT_NEAR(static_cast<double>(least), truth, 2) << row;
-        EXPECT_EQ(of_left[at_truth + 30], kMostCost) << row;
-        EXPECT_EQ(of_left[at_truth - 15], kMostCost) << row;
+        EXPECT_EQ(of_left[at_truth + 30], kMaxCost) << row;
+        EXPECT_EQ(of_left[at_truth - 15], kMaxCost) << row;
         for (const Neighbours& both : {Neighbours{{&left, &right}, {}}, Neighbours{{&right}, {&left}}}) {
             EXPECT_LT(costs(both)[at_truth], 10) << row;
-            EXPECT_EQ(costs(both).front(), kMostCost) << row;
+            EXPECT_EQ(costs(both).front(), kMaxCost) << row;
         }
         EXPECT_GT(costs({{&right}, {}})[at_truth], 50) << row;
         for (const int cost : costs({{&blind}, {}})) EXPECT_EQ(cost, 0);

@@ -1,5 +1,5 @@
 #pragma once
-// Working images of the drawn balls, and the plain twin of the visual hull.
+// Working views of the drawn balls, and a plain implementation of the visual hull.
 
 #include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -39,10 +39,10 @@ inline std::vector<const WorkView*> pointers(const std::vector<WorkView>& views)
     return found;
 }
 
-// The plain twin of heights_above: ask every silhouette about one point.
+/// Plain version of heights_above: tests one point against every silhouette.
 inline bool is_allowed(const std::vector<WorkView>& views, const glm::dvec2& place, double y, int margin) {
     for (const WorkView& view : views) {
-        const SeenColumn seen = view.see(place);
+        const ProjectedColumn seen = view.see(place);
         if (seen.axial <= 0 || seen.column < 0 || seen.column >= view.width) continue;
         const double row = view.row_of(y, seen.axial);
         if (row < 0 || row >= view.height) continue;

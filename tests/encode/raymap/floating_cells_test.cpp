@@ -50,7 +50,7 @@ TEST(FloatingCells, IslandsBelowTheShareAreDroppedAndOthersStay) {
     line.put({55, 5, 3, 3});    // 9: just below a hundredth
     line.put({2, 36, 6, 2});    // 12: just above
     line.put({50, 30, 1, 1});   // touches the body's corner only
-    line.put({49, 30, 1, 10});  // a thread that hangs from the body
+    line.put({49, 30, 1, 10});  // a thread connected to the body
     remove_small_components(line.grid, 0.01, line.cells.data());
     EXPECT_FALSE(line.has(56, 6));
     EXPECT_TRUE(line.has(2, 36));
@@ -97,7 +97,7 @@ TEST(FloatingCells, BesideTheHullMeansAllNeighboursToo) {
     for (int p = 20; p < 25; ++p) {
         for (int h = 10; h < 18; ++h) meets[static_cast<std::size_t>(p * line.grid.bands + h)] = 1;
     }
-    remove_outside_hull(line.grid, meets, line.cells.data());
+    remove_cells_outside_hull(line.grid, meets, line.cells.data());
     EXPECT_TRUE(line.has(24, 12));
     EXPECT_TRUE(line.has(25, 12)) << "beside a ray that meets the hull";
     EXPECT_FALSE(line.has(26, 12));

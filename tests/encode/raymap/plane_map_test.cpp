@@ -57,7 +57,7 @@ TEST(CapturedView, RefusesWhatTheFormatCannotHold) {
     EXPECT_NE(captured_view(camera, 12).error().message.find("focal length"), std::string::npos);
 }
 
-// For a cell, the image whose ray through the same plane point deviates least in angle.
+// The image whose ray through the cell's plane point deviates least in angle.
 TEST(PlaneMap, HoldsTheNearestRayOfEveryCell) {
     const test::RingObjectOptions ring_options{.views = 17, .width = 64, .height = 48, .fl_px = 70};
     const Rig rig = test::ring_rig(ring_options);
@@ -91,7 +91,7 @@ TEST(PlaneMap, HoldsTheNearestRayOfEveryCell) {
                 ASSERT_NE(cell, kNoImage);
                 const glm::dvec3 centre = rig.views[cell].camera.centre();
                 const double angle = std::atan(viewpoint_line(centre, plane).u_at(x));
-                // Near the border of two images the favoured one may be up to a quarter of their distance farther.
+                // Near the border of two images the preferred one may be up to a quarter of their distance farther.
                 const double off = std::abs(angle - std::atan(u));
                 EXPECT_GE(off, best - 1e-9);
                 EXPECT_LE(off, best * 5 / 3 + 1e-9);

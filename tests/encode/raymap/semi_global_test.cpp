@@ -1,4 +1,4 @@
-// Semi-global matching against the paper's recursion, written out pixel by pixel and path by path.
+// Compares semi-global matching with the paper's recursion, implemented per pixel and path.
 
 #include "encode/raymap/semi_global.hpp"
 
@@ -21,8 +21,7 @@ struct Pixels {
     CostVolume volume;
 };
 
-// An object with holes in it, edges of colour, and random costs of the levels that each pixel happens to have: all, one
-// or some.
+// An object with holes, colour edges, and random costs of random levels of each pixel: all, one or some.
 Pixels random_pixels(int width, int height, int levels, std::mt19937_64& random) {
     Pixels made;
     made.view.width = width;
@@ -44,17 +43,17 @@ Pixels random_pixels(int width, int height, int levels, std::mt19937_64& random)
             pixel = {static_cast<std::uint32_t>(made.volume.costs.size()), static_cast<std::uint16_t>(first),
                      static_cast<std::uint16_t>(count)};
             for (int n = 0; n < count; ++n) {
-                made.volume.costs.push_back(static_cast<std::uint8_t>(random() % kMostCost));
+                made.volume.costs.push_back(static_cast<std::uint8_t>(random() % kMaxCost));
             }
         }
     }
     return made;
 }
 
-constexpr int kNever = 1'000'000;  // what a level costs that the pixel does not have
+constexpr int kNever = 1'000'000;  // cost of levels that the pixel does not have
 
-// L(p, n) = C(p, n) + min(L(q, n), L(q, n +- 1) + P1, min L(q) + P2) - min L(q), q the pixel before p on the path; the
-// path begins where q is not of the object. (Hirschmüller 2008, equation 13.)
+// L(p, n) = C(p, n) + min(L(q, n), L(q, n +- 1) + P1, min L(q) + P2) - min L(q), where q is the pixel before p on the
+// path; the path begins where q is outside of the object. (Hirschmüller 2008, equation 13.)
 class Path {
 public:
     Path(const Pixels& pixels, const SmoothnessOptions& options, int dx, int dy)

@@ -1,4 +1,4 @@
-// Shape maps found from images: whole objects of ordinary and odd sets.
+// Shape maps estimated from images, for regular and unusual sets.
 
 #include "encode/raymap/shape_map.hpp"
 
@@ -46,7 +46,7 @@ double psnr_of(const BuiltObject& built, const std::filesystem::path& truth) {
     return comparison->mean_psnr_db;
 }
 
-// `count` cameras that look at it from above, the first at an azimuth.
+// `count` cameras above the object, the first at an azimuth.
 Rig ring_above(int count, double first_deg, double elevation_deg) {
     return make_ring({.count = count,
                       .distance = 3.5,
@@ -94,7 +94,7 @@ TEST(ShapeMap, ARingThatContradictsIsLeftOut) {
     Rig turned_wrong = ring_above(16, 0, 10);
     for (RigView& view : turned_wrong.views) view.camera.cx += 12;
     two.views.insert(two.views.end(), turned_wrong.views.begin(), turned_wrong.views.end());
-    // Images of the right cameras, and then the wrong numbers for those of the second ring.
+    // Images are drawn with the correct cameras; the second ring then gets wrong parameters.
     Rig right = two;
     for (RigView& view : right.views) view.camera.cx = one.views[0].camera.cx;
     test::write_drawn_set(folder / "one", one, striped_ball);
@@ -122,11 +122,11 @@ TEST(ShapeMap, APartThatOneCutOutLacksIsNotLostSeenFromElsewhere) {
         for (int x = 52; x < 76; ++x) (*image)(x, y) = {};
     }
     ASSERT_TRUE(write_png(lacking, *image).ok());
-    EXPECT_GT(psnr_of(build(folder / "set"), folder / "halfway"), whole_db - 0.02);  // .06 less where it is lost
+    EXPECT_GT(psnr_of(build(folder / "set"), folder / "halfway"), whole_db - 0.02);  // 0.06 less if it is lost
 }
 
-// Makes everything transparent in a square of an image of a set.
-void cut_away(const std::filesystem::path& image_file, int left, int top, int side) {
+// Makes a square of an image of a set transparent.
+void make_transparent(const std::filesystem::path& image_file, int left, int top, int side) {
     Result<Image<Rgba8>> image = read_image(image_file);
     ASSERT_TRUE(image.ok());
     for (int y = top; y < top + side; ++y) {
@@ -139,12 +139,12 @@ TEST(ShapeMap, ALargePartThatFewCutOutsLackIsPaintedFromThoseBeside) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", drawn_ring(24), mottled_ball);
     test::write_drawn_set(folder / "whole", drawn_ring(24), mottled_ball);
-    for (const char* const lacking : {"7.png", "15.png"}) cut_away(folder / "set" / lacking, 48, 40, 32);
+    for (const char* const lacking : {"7.png", "15.png"}) make_transparent(folder / "set" / lacking, 48, 40, 32);
     const BuiltObject built = build(folder / "set");
     std::vector<int> completed;
     for (const auto& [view, image] : built.completed) completed.push_back(view);
     EXPECT_EQ(completed, (std::vector<int>{7, 15}));
-    EXPECT_THAT(built.warnings, Contains(HasSubstr("2 cut-outs lack a large part")));
+    EXPECT_THAT(built.warnings, Contains(HasSubstr("2 masks lack a large part")));
     EXPECT_GT(psnr_of(built, folder / "whole"), psnr_of(built, folder / "set"));
     const Result<CaptureSet> whole = open_capture_set(folder / "whole");
     ASSERT_TRUE(whole.ok());
@@ -163,7 +163,7 @@ TEST(ShapeMap, ALargePartThatFewCutOutsLackIsPaintedFromThoseBeside) {
 }
 
 TEST(ShapeMap, ExactSilhouettesAreNotSearchedForWhatTheyLack) {
-    class Labels final : public Progress {
+    class LabelRecorder final : public Progress {
     public:
         void start(const std::string& label, std::int64_t) override { labels.push_back(label); }
         void advance(std::int64_t) override {}
@@ -172,14 +172,14 @@ TEST(ShapeMap, ExactSilhouettesAreNotSearchedForWhatTheyLack) {
     };
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", drawn_ring(24), mottled_ball);
-    Labels whole, lacking;
+    LabelRecorder whole, lacking;
     build(folder / "set", MapKind::kShape, &whole);
     EXPECT_THAT(whole.labels, Contains("depth"));
     EXPECT_THAT(whole.labels, Not(Contains("depth at half size")));
-    cut_away(folder / "set" / "7.png", 20, 56, 32);
+    make_transparent(folder / "set" / "7.png", 20, 56, 32);
     build(folder / "set", MapKind::kShape, &lacking);
     EXPECT_THAT(lacking.labels, Contains("depth at half size"));
-    // Cameras that are off: the silhouettes agree within some pixels only, and are not exact.
+    // Inaccurate cameras: the silhouettes agree within some pixels only.
     Rig off = drawn_ring(24);
     for (std::size_t i = 0; i < off.views.size(); ++i) {
         off.views[i].camera.cx += i % 2 == 0 ? 2 : -2;
@@ -187,7 +187,7 @@ TEST(ShapeMap, ExactSilhouettesAreNotSearchedForWhatTheyLack) {
     }
     test::write_drawn_set(folder / "off", drawn_ring(24), mottled_ball);
     ASSERT_TRUE(write_rig(folder / "off" / kRigFileName, off).ok());
-    Labels wide;
+    LabelRecorder wide;
     build(folder / "off", MapKind::kShape, &wide);
     EXPECT_THAT(wide.labels, Contains("depth at half size"));
 }
@@ -195,7 +195,7 @@ TEST(ShapeMap, ExactSilhouettesAreNotSearchedForWhatTheyLack) {
 TEST(ShapeMap, WhereManyCutOutsSeemToLackAPartTheRigIsAtFault) {
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", drawn_ring(24), mottled_ball);
-    const auto cut = [&](int view) { cut_away(folder / "set" / (std::to_string(view) + ".png"), 40, 32, 48); };
+    const auto cut = [&](int view) { make_transparent(folder / "set" / (std::to_string(view) + ".png"), 40, 32, 48); };
     for (const int view : {0, 5, 10, 14}) cut(view);
     EXPECT_EQ(build(folder / "set").completed.size(), 4U);
     cut(19);
@@ -211,7 +211,7 @@ TEST(ShapeMap, IsTheSameEveryTime) {
 TEST(ShapeMap, LevelsAndLinesFollowUnequalSteps) {
     const test::TemporaryFolder folder;
     Rig rig = drawn_ring(36);
-    // 10-degree steps, but for some that are left out: 20, 30 degrees.
+    // 10-degree steps with gaps of 20 and 30 degrees.
     rig.views.erase(rig.views.begin() + 7);
     rig.views.erase(rig.views.begin() + 20, rig.views.begin() + 22);
     test::write_drawn_set(folder / "set", rig);
@@ -219,7 +219,7 @@ TEST(ShapeMap, LevelsAndLinesFollowUnequalSteps) {
     const BuiltObject shape = build(folder / "set");
     EXPECT_THAT(shape.warnings, IsEmpty());
     const auto& gaps = shape.object.rings[0].shape.gaps;
-    EXPECT_EQ(gaps[0].lines, 4);  // 2 degrees apart, and as far from the captured images
+    EXPECT_EQ(gaps[0].lines, 4);  // 2 degrees apart, also from the captured images
     EXPECT_EQ(gaps[6].lines, 9);
     EXPECT_EQ(gaps[19].lines, 14);
     EXPECT_GT(psnr_of(shape, folder / "halfway"),

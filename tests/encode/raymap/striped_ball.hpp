@@ -1,5 +1,5 @@
 #pragma once
-// Balls about the origin: one whose colour depends on height alone, and one without stripes.
+// Balls about the origin: one whose colour depends only on height, and one without stripes.
 
 #include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -12,7 +12,7 @@ namespace rs::encode {
 
 inline constexpr double kBallRadius = 0.8;
 
-// Opaque, in the colour of the place that a ray meets; transparent beside it.
+/// Draws a ball: opaque, coloured by the hit point; transparent beside it.
 template <class Colour>
 Image<Rgba8> drawn_ball(const Camera& camera, const Colour& colour) {
     Image<Rgba8> image(camera.width, camera.height);
@@ -36,7 +36,7 @@ inline Image<Rgba8> striped_ball(const Camera& camera) {
         camera, [](const glm::dvec3& place) { return glm::dvec3(std::sin(35 * place.y), std::cos(35 * place.y), 0); });
 }
 
-// Whose colour is another one everywhere.
+/// A ball with a different colour everywhere.
 inline Image<Rgba8> mottled_ball(const Camera& camera) {
     return drawn_ball(camera, [](const glm::dvec3& place) {
         return glm::dvec3(std::sin(21 * place.x + 5 * place.y), std::sin(19 * place.y - 4 * place.z),
@@ -44,7 +44,7 @@ inline Image<Rgba8> mottled_ball(const Camera& camera) {
     });
 }
 
-// Where the ray of a pixel meets it, as DepthView::depth has it; NaN where it does not.
+/// Depth of the ball at a pixel, as in DepthView::depth; NaN if the ray misses it.
 inline double ball_depth(const WorkView& view, int column, int row) {
     const HorizontalRay ray = view.ray_of(column + 0.5);
     const double rise = (view.height_of(row + 0.5, 1) - view.centre_y) / ray.horizontal_per_axial;

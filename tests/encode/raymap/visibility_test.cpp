@@ -1,4 +1,4 @@
-// Which photos show a surface: a wall with a plate in front of it, seen by two cameras.
+// Visibility of a surface: a wall with a plate in front of it, seen by two cameras.
 
 #include "encode/raymap/visibility.hpp"
 
@@ -92,7 +92,8 @@ protected:
         }
     }
 
-    // How far inside of the plate's outline (below 0: outside) the plate is met on the way from a photo to a point.
+    // The distance inside of the plate's contour (below 0: outside) at which the segment from a photo to a point
+    // crosses the plate.
     static double margin_in(const DepthView& photo, const glm::dvec2& place, double y) {
         const double part = (kPlateZ - place.y) / (photo.view.centre.y - place.y);
         const double x = place.x + part * (photo.view.centre.x - place.x);
@@ -141,7 +142,7 @@ TEST_F(Visibility, APlainSurfaceDoesNotOcclude) {
 
 TEST_F(Visibility, ADepthThatNoPhotoConfirmsDoesNotOcclude) {
     draw_both(Paint::kTextured);
-    // The first photo's plate stands 0.15 radii in front of the second one's.
+    // The first photo's plate is 0.15 radii in front of the second one's.
     for (int column = 0; column < first_.view.width; ++column) {
         for (int row = 0; row < first_.view.height; ++row) {
             const PlaneHit hit = meet_plane(first_.view, column, row, kPlateZ);

@@ -1,5 +1,5 @@
-// The page of a build: well-formed whatever texts it is given, plots whose points stand where their numbers say,
-// images that are what went in.
+// Build report: well-formed for any text, plots with points at the positions of their values, embedded images equal to
+// the input.
 
 #include "encode/report/build_report.hpp"
 #include "encode/report/ring_plan.hpp"
@@ -23,8 +23,8 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-// Every tag is closed by its own kind, in order; the name of the first that is not, else "".
-std::string unbalanced_tag(const std::string& markup) {
+// Checks that tags are balanced; returns the name of the first one that is not, else "".
+std::string find_unbalanced_tag(const std::string& markup) {
     static const std::regex kTag(R"(<(/?)([a-zA-Z0-9]+)((?:[^<>"]|"[^"<>]*")*?)(/?)>)");
     std::vector<std::string> open;
     for (std::sregex_iterator tag(markup.begin(), markup.end(), kTag), end; tag != end; ++tag) {
@@ -82,29 +82,29 @@ TEST(HtmlPage, IsWellFormedAndHoldsWhatWasAdded) {
     page.drawing(svg_of(LinePlot{"<t>", "x&", "y\"", {{"</svg>", {0, 1}, {2, 3}}}}));
     page.end_details();
     const std::string text = page.text();
-    EXPECT_EQ(unbalanced_tag(text), "") << text;
+    EXPECT_EQ(find_unbalanced_tag(text), "") << text;
     EXPECT_THAT(text, HasSubstr("<title>a &lt; b &amp; &quot;c&quot;</title>"));
     EXPECT_THAT(text, HasSubstr("&lt;/h2&gt;&lt;script&gt;"));
     EXPECT_THAT(text, Not(HasSubstr("<script")));
     EXPECT_THAT(text, HasSubstr("<td>&lt;td&gt;</td><td class=\"number\">12.5</td>"));
     EXPECT_THAT(text, HasSubstr("<summary>more &amp; more</summary>"));
     EXPECT_EQ(occurrences(text, "</svg>"), 1U);
-    EXPECT_EQ(unbalanced_tag("<p><b></p></b>"), "p") << "the check itself must be able to fail";
+    EXPECT_EQ(find_unbalanced_tag("<p><b></p></b>"), "p") << "the check itself must be able to fail";
 }
 
 TEST(HtmlPage, AImageInsideIsTheImageScaledDown) {
     Image<Rgba8> image(600, 300, {200, 100, 50, 255});
     const std::vector<CaptionedImage> row{{image, "wide \"one\""}, {Image<Rgba8>(20, 40, {1, 2, 3, 255}), "small"}};
-    HtmlPage page("pictures");
+    HtmlPage page("images");
     ASSERT_TRUE(page.images(row, 150).ok());
     const std::string text = page.text();
-    EXPECT_EQ(unbalanced_tag(text), "");
+    EXPECT_EQ(find_unbalanced_tag(text), "");
     EXPECT_THAT(text, HasSubstr("alt=\"wide &quot;one&quot;\" width=\"150\" height=\"75\""));
     EXPECT_THAT(text, HasSubstr("width=\"20\" height=\"40\""));
     const auto bytes = encode_png(scaled_down(image, 150), "wide");
     ASSERT_TRUE(bytes.ok());
     EXPECT_THAT(text, HasSubstr("src=\"data:image/png;base64," + base64(*bytes) + "\""));
-    // The bytes are a file that can be read.
+    // The bytes are a readable file.
     const test::TemporaryFolder folder;
     std::ofstream(folder / "p.png", std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes->data()), static_cast<std::streamsize>(bytes->size()));
@@ -124,10 +124,10 @@ TEST(ScaledDown, AveragesInLinearLightAndByAlpha) {
     const Image<Rgba8> small = scaled_down(image, 2);
     ASSERT_EQ(small.width(), 2);
     ASSERT_EQ(small.height(), 1);
-    EXPECT_EQ(small(0, 0), (Rgba8{188, 188, 188, 255}));  // half of white's light
-    EXPECT_EQ(small(1, 0), (Rgba8{90, 60, 30, 128}));     // the transparent half gives no colour
+    EXPECT_EQ(small(0, 0), (Rgba8{188, 188, 188, 255}));  // half of the light of white
+    EXPECT_EQ(small(1, 0), (Rgba8{90, 60, 30, 128}));     // the transparent half does not contribute
     EXPECT_EQ(scaled_down(image, 4), image);
-    // Sizes that do not divide: a constant stays what it is, to the last pixel.
+    // Sizes without a common factor: a constant image stays constant up to the last pixel.
     const Image<Rgba8> odd(101, 67, {77, 88, 99, 255});
     EXPECT_EQ(scaled_down(odd, 40), Image<Rgba8>(40, 27, {77, 88, 99, 255}));
 }
@@ -189,7 +189,7 @@ TEST(LinePlot, PointsStandWhereTheirNumbersSay) {
     EXPECT_NEAR(frame.x_px(50), (frame.left + frame.right) / 2, 1e-9);
 
     const std::string svg = svg_of(plot);
-    EXPECT_EQ(unbalanced_tag(svg), "") << svg;
+    EXPECT_EQ(find_unbalanced_tag(svg), "") << svg;
     const auto circle = [&](double x, double y) {
         return "<circle cx=\"" + two_decimals(frame.x_px(x)) + "\" cy=\"" + two_decimals(frame.y_px(y)) + "\"";
     };
@@ -203,7 +203,7 @@ TEST(LinePlot, PointsStandWhereTheirNumbersSay) {
     const std::string first = svg.substr(path, svg.find('>', path) - path);
     EXPECT_EQ(occurrences(first, "M"), 2U) << first;
     EXPECT_EQ(occurrences(first, "L"), 0U) << first;
-    EXPECT_EQ(unbalanced_tag(svg_of({})), "") << "a plot of nothing is still a plot";
+    EXPECT_EQ(find_unbalanced_tag(svg_of({})), "") << "a plot of nothing is still a plot";
 }
 
 TEST(LinePlot, LongNamesGetRoom) {
@@ -217,32 +217,32 @@ TEST(LinePlot, LongNamesGetRoom) {
 TEST(RingPlan, AMissingImageOfAnEvenTurnIsSeen) {
     std::vector<double> azimuths;
     for (int n = 0; n < 36; ++n) azimuths.push_back(radians(10.0 * n));
-    EXPECT_TRUE(missing_sectors(azimuths).empty());
+    EXPECT_TRUE(find_missing_sectors(azimuths).empty());
     azimuths.erase(azimuths.begin() + 5);
-    const auto one = missing_sectors(azimuths);
+    const auto one = find_missing_sectors(azimuths);
     ASSERT_EQ(one.size(), 1U);
     EXPECT_NEAR(degrees(one[0].from_rad), 40, 1e-9);
     EXPECT_NEAR(degrees(one[0].to_rad), 60, 1e-9);
     azimuths.resize(20);  // up to 200 degrees: the rest of the turn is missing, across +Z
-    const auto two = missing_sectors(azimuths);
+    const auto two = find_missing_sectors(azimuths);
     ASSERT_EQ(two.size(), 2U);
     EXPECT_NEAR(degrees(two[1].from_rad), 200, 1e-9);
     EXPECT_NEAR(degrees(two[1].to_rad), 360, 1e-9);
-    EXPECT_TRUE(missing_sectors({0, 1}).empty());
+    EXPECT_TRUE(find_missing_sectors({0, 1}).empty());
 }
 
 TEST(RingPlan, ShowsEveryCameraWhereItStands) {
     Rig rig = make_ring({.count = 12, .distance = 3.5, .fl_px = 60, .width = 48, .height = 40});
     rig.object_radius = 1;
-    std::string svg = svg_of_rings(rig);
-    EXPECT_EQ(unbalanced_tag(svg), "") << svg;
+    std::string svg = draw_ring_plan(rig);
+    EXPECT_EQ(find_unbalanced_tag(svg), "") << svg;
     EXPECT_EQ(occurrences(svg, "<path"), 12U);
     // 340 px with a margin of 26: the first camera, on +Z, is at the bottom, the fourth, on +X, to the right.
     EXPECT_THAT(svg, HasSubstr("<path d=\"M170.00 314.00L"));
     EXPECT_THAT(svg, HasSubstr("<path d=\"M314.00 170.00L"));
     EXPECT_TRUE(describe_missing_sectors(rig).empty());
     rig.views.erase(rig.views.begin() + 3);
-    EXPECT_EQ(occurrences(svg_of_rings(rig), "var(--bad)"), 2U);
+    EXPECT_EQ(occurrences(draw_ring_plan(rig), "var(--bad)"), 2U);
     ASSERT_EQ(describe_missing_sectors(rig).size(), 1U);
     EXPECT_EQ(describe_missing_sectors(rig)[0], "from 60.00 to 120.00 degrees (ring 1)");
 }
@@ -250,7 +250,7 @@ TEST(RingPlan, ShowsEveryCameraWhereItStands) {
 BuildReport small_report() {
     BuildReport report;
     report.name = "vase <1>";
-    report.facts = {{"pictures", "12 of 48x40"}};
+    report.facts = {{"images", "12 of 48x40"}};
     report.stages = {{"RS map", 0.25}};
     report.chunks = {{"PICT", 12, 3000}, {"RMAP", 1, 1000}};
     report.rig = make_ring({.count = 12, .fl_px = 60, .width = 48, .height = 40});
@@ -261,10 +261,10 @@ BuildReport small_report() {
 TEST(BuildReport, WhatIsEmptyIsNotShown) {
     const auto page = build_report_page(small_report());
     ASSERT_TRUE(page.ok());
-    EXPECT_EQ(unbalanced_tag(*page), "");
+    EXPECT_EQ(find_unbalanced_tag(*page), "");
     EXPECT_THAT(*page, HasSubstr("vase &lt;1&gt;"));
     EXPECT_THAT(*page, HasSubstr("75.00"));  // per cent of the bytes in images
-    for (const char* heading : {"Warnings", "Captured", "Visual hull", "Depth found", "Views held out"}) {
+    for (const char* heading : {"Warnings", "Captured", "Visual hull", "Estimated depth", "Held-out views"}) {
         EXPECT_THAT(*page, Not(HasSubstr(std::string("<h2>") + heading))) << heading;
     }
 }
@@ -282,9 +282,10 @@ TEST(BuildReport, ShowsScoresAndImages) {
     report.held_out = {{"view 1", {image, image, image}}};
     const auto page = build_report_page(report);
     ASSERT_TRUE(page.ok());
-    EXPECT_EQ(unbalanced_tag(*page), "");
+    EXPECT_EQ(find_unbalanced_tag(*page), "");
     EXPECT_EQ(occurrences(*page, "<img "), 7U);
-    for (const char* text : {"a gap &amp; a hole", "<h2>Visual hull", "<h2>Depth found", "27.25", "94.50", "<svg"}) {
+    for (const char* text :
+         {"a gap &amp; a hole", "<h2>Visual hull", "<h2>Estimated depth", "27.25", "94.50", "<svg"}) {
         EXPECT_THAT(*page, HasSubstr(text)) << text;
     }
     report.scores.clear();
@@ -296,7 +297,7 @@ TEST(BuildReport, ShowsScoresAndImages) {
 }
 
 TEST(StageClock, AddsUpTheTimesOfEachStage) {
-    class Silent final : public Progress {
+    class SilentProgress final : public Progress {
     public:
         void start(const std::string&, std::int64_t) override { ++started; }
         void advance(std::int64_t steps) override { advanced += steps; }

@@ -9,7 +9,7 @@
 namespace rs::encode {
 namespace {
 
-// Asks every patch that a sample may belong to.
+// Tests every patch that may contain a sample.
 bool is_in_patch(const Image<std::uint8_t>& alpha, int radius, int x, int y) {
     const int side = 2 * radius + 1;
     for (int top = y - side + 1; top <= y; ++top) {
@@ -18,7 +18,7 @@ bool is_in_patch(const Image<std::uint8_t>& alpha, int radius, int x, int y) {
             bool all = true;
             for (int i = 0; i < side * side; ++i) {
                 const int a = alpha(left + i % side, top + i / side);
-                all = all && a >= kFaintest && a <= 255 - kFaintest;
+                all = all && a >= kMinVisibleAlpha && a <= 255 - kMinVisibleAlpha;
             }
             if (all) return true;
         }
@@ -30,13 +30,14 @@ TEST(SoftCoverage, PatchesAreWhereAllSamplesAreSoft) {
     std::mt19937 random(1);
     for (const int radius : {1, 2, 4}) {
         Image<std::uint8_t> alpha(37, 29);
-        // Mostly soft, so that there are patches of all shapes.
+        // Mostly soft, so that patches of all shapes occur.
         for (std::uint8_t& a : alpha.pixels()) {
             const auto number = static_cast<int>(random() % 300);
-            a = number < 4 * radius ? static_cast<std::uint8_t>(random() % 2 * 255)
-                                    : static_cast<std::uint8_t>(kFaintest + number % (256 - 2 * kFaintest));
+            a = number < 4 * radius
+                    ? static_cast<std::uint8_t>(random() % 2 * 255)
+                    : static_cast<std::uint8_t>(kMinVisibleAlpha + number % (256 - 2 * kMinVisibleAlpha));
         }
-        const Image<std::uint8_t> patches = soft_patches(alpha, radius);
+        const Image<std::uint8_t> patches = find_soft_patches(alpha, radius);
         int inside = 0;
         for (int y = 0; y < alpha.height(); ++y) {
             for (int x = 0; x < alpha.width(); ++x) {
@@ -57,14 +58,14 @@ TEST(SoftCoverage, TheRimOfACutOutIsNone) {
             alpha(x, y) = static_cast<std::uint8_t>(std::clamp(128 + 64 * inside, 0.0, 255.0));  // 4 px wide
         }
     }
-    const Image<std::uint8_t> patches = soft_patches(alpha, 2);
+    const Image<std::uint8_t> patches = find_soft_patches(alpha, 2);
     EXPECT_EQ(std::ranges::count(patches.pixels(), 255), 0);
 }
 
 TEST(SoftCoverage, ImagesSmallerThanAPatchHaveNone) {
-    const Image<std::uint8_t> patches = soft_patches(Image<std::uint8_t>(8, 3, 100), 2);
+    const Image<std::uint8_t> patches = find_soft_patches(Image<std::uint8_t>(8, 3, 100), 2);
     EXPECT_EQ(patches, Image<std::uint8_t>(8, 3));
-    EXPECT_TRUE(soft_patches(Image<std::uint8_t>(), 2).empty());
+    EXPECT_TRUE(find_soft_patches(Image<std::uint8_t>(), 2).empty());
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include "engine/conformance/run_vectors.hpp"
 #include "engine/conformance/view_files.hpp"
-#include "engine/executors/software_executors.hpp"
+#include "rayspace/api/types/executor_table.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -14,6 +14,10 @@
 
 namespace rs::engine {
 namespace {
+
+std::unique_ptr<Executor> executor_named(const std::string& name) {
+    return std::move(ExecutorTable().create(name)).value();
+}
 
 namespace fs = std::filesystem;
 
@@ -35,7 +39,7 @@ TEST(ConformanceSet, DefinitionAndCoreAreAsTheHashesSay) {
     const VectorSet set = the_set();
     ASSERT_GE(set.cases.size(), 20U);
     const auto matrix =
-        run_vectors(set, {implementation_of(make_scalar_executor()), implementation_of(make_core_executor())});
+        run_vectors(set, {implementation_of(executor_named("scalar")), implementation_of(executor_named("core"))});
     ASSERT_TRUE(matrix.ok()) << matrix.error().message;
     EXPECT_TRUE(matrix->passed());
     for (std::size_t c = 0; c < set.cases.size(); ++c) {
@@ -63,9 +67,9 @@ TEST(ConformanceSet, CasesShowTheirObjects) {
 TEST(ConformanceSet, OneWrongBitIsFound) {
     const VectorSet set = small_set();
     for (const bool in_depth : {false, true}) {
-        Implementation wrong = implementation_of(make_scalar_executor());
+        Implementation wrong = implementation_of(executor_named("scalar"));
         wrong.open = [in_depth](const ConformanceCase& of_case, RaySpaceObject object) -> Result<ExecuteView> {
-            auto right = implementation_of(make_scalar_executor()).open(of_case, std::move(object));
+            auto right = implementation_of(executor_named("scalar")).open(of_case, std::move(object));
             return ExecuteView([right = *right, in_depth](std::size_t v) {
                 auto view = right(v);
                 if (v == 1 && in_depth) view->depth_q20(3, 3) ^= 1;
@@ -87,7 +91,7 @@ TEST(ConformanceSet, WhoDeclinesEverythingHasNotPassed) {
     const Implementation none{"none", [](const ConformanceCase&, const RaySpaceObject&) -> Result<ExecuteView> {
                                   return Error{"does nothing"};
                               }};
-    const auto matrix = run_vectors(small_set(), {implementation_of(make_scalar_executor()), none});
+    const auto matrix = run_vectors(small_set(), {implementation_of(executor_named("scalar")), none});
     ASSERT_TRUE(matrix.ok());
     EXPECT_FALSE(matrix->passed());
     EXPECT_EQ(matrix->results[0][1].declined, "does nothing");
@@ -96,7 +100,7 @@ TEST(ConformanceSet, WhoDeclinesEverythingHasNotPassed) {
 TEST(ConformanceFiles, GoOutAndComeBack) {
     const test::TemporaryFolder work;
     const VectorSet set = small_set();
-    ASSERT_TRUE(run_vectors(set, {implementation_of(make_core_executor())}, work / "out")->passed());
+    ASSERT_TRUE(run_vectors(set, {implementation_of(executor_named("core"))}, work / "out")->passed());
     const auto matrix = run_vectors(set, {implementation_in_files(work / "out")});
     ASSERT_TRUE(matrix.ok()) << matrix.error().message;
     EXPECT_TRUE(matrix->passed()) << matrix->results[0][0].first << matrix->results[0][0].declined;
@@ -161,7 +165,7 @@ TEST_F(VectorsFile, RegistersOutOfRangeAreRefused) {
     const auto refused = [&](const char* what, const std::function<void(ViewRegisters&)>& damage) {
         VectorSet set = sound;
         damage(set.cases[0].views[1].registers);
-        const auto matrix = run_vectors(set, {implementation_of(make_scalar_executor())});
+        const auto matrix = run_vectors(set, {implementation_of(executor_named("scalar"))});
         ASSERT_FALSE(matrix.ok()) << what;
         EXPECT_NE(matrix.error().message.find("view 1"), std::string::npos) << matrix.error().message;
     };

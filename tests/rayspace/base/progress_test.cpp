@@ -10,29 +10,29 @@ namespace {
 using namespace rs;
 using testing::HasSubstr;
 
-// stderr is captured into a file here, so this is how logs and pipes see it: a line at every tenth.
-std::string drawn_by(bool quiet, std::chrono::milliseconds silence) {
+// stderr is captured into a file, as for logs and pipes: one line per tenth.
+std::string capture_output(bool quiet, std::chrono::milliseconds silence) {
     testing::internal::CaptureStderr();
     {
         ProgressBar bar(quiet, silence);
         bar.start("working", 200);
         for (int i = 0; i < 200; ++i) bar.advance();
         bar.finish();
-        bar.advance();  // after the end: nothing
+        bar.advance();  // no effect after the end
     }
     return testing::internal::GetCapturedStderr();
 }
 
 TEST(ProgressBar, ShortWorkShowsNothing) {
-    EXPECT_EQ(drawn_by(false, std::chrono::hours(1)), "");
+    EXPECT_EQ(capture_output(false, std::chrono::hours(1)), "");
 }
 
 TEST(ProgressBar, QuietShowsNothing) {
-    EXPECT_EQ(drawn_by(true, std::chrono::milliseconds(0)), "");
+    EXPECT_EQ(capture_output(true, std::chrono::milliseconds(0)), "");
 }
 
 TEST(ProgressBar, LongWorkShowsEveryTenthOnce) {
-    const std::string text = drawn_by(false, std::chrono::milliseconds(0));
+    const std::string text = capture_output(false, std::chrono::milliseconds(0));
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 10) << text;
     EXPECT_THAT(text, HasSubstr("working: 10 %"));
     EXPECT_THAT(text, HasSubstr("working: 100 %"));

@@ -28,7 +28,7 @@ std::vector<std::byte> payload(std::size_t size, unsigned seed) {
     return bytes;
 }
 
-// Sizes on both sides of the alignment, and none at all.
+// Sizes on both sides of the alignment, and 0.
 const std::vector<std::size_t> kSizes = {5, 16, 0, 17, 33};
 
 std::vector<std::byte> sample_file() {
@@ -42,7 +42,7 @@ std::vector<std::byte> sample_file() {
     return std::move(read_file(folder / "a.rso", 1 << 20)).value();
 }
 
-// What "verify" does: open, and read every chunk.
+// Opens the container and reads every chunk, as "verify" does.
 Status verify(std::vector<std::byte> bytes) {
     const auto reader = ContainerReader::over(std::move(bytes), "F");
     if (!reader) return reader.error();
@@ -53,7 +53,7 @@ Status verify(std::vector<std::byte> bytes) {
     return {};
 }
 
-// Makes the checksums of header and table fit again, so that a test reaches the check behind them.
+// Corrects the checksums of header and table, so that a test reaches the check after them.
 void seal(std::vector<std::byte>& bytes) {
     std::uint32_t chunks = 0;
     std::memcpy(&chunks, bytes.data() + 12, sizeof chunks);
@@ -87,7 +87,7 @@ TEST(Container, ChunksComeBack) {
     EXPECT_EQ(reader->find({'Z', 'Z', 'Z', 'Z'}, 0), nullptr);
 }
 
-// The bytes of encode/FORMAT.md, spelled out: a change of the layout must change this test and the version.
+// The literal bytes of encode/FORMAT.md: a change of the layout must change this test and the version.
 TEST(Container, LayoutIsTheDocumentedOne) {
     const TemporaryFolder folder;
     auto writer = ContainerWriter::create(folder / "a.rso", 1);
@@ -177,7 +177,7 @@ TEST(Container, NewerMinorVersionsAreRead) {
     EXPECT_TRUE(verify(newer).ok());
 }
 
-// Whatever else such a file holds: its header is not looked at any further.
+// For any contents: the rest of the header is not read.
 TEST(Container, VersionOneIsRefused) {
     const std::string advice = ", which is read no more; encode its set anew with these tools (rs-encode build)";
     std::vector<std::byte> old = sample_file();
@@ -188,7 +188,7 @@ TEST(Container, VersionOneIsRefused) {
     EXPECT_EQ(verify(old).error().message, "F: is written in format 1.6" + advice);
     test::put_number(old, 10, 0, 2);
     EXPECT_EQ(verify(old).error().message, "F: is written in format 1.0" + advice);
-    // Its name is that of the file on the disk.
+    // Errors contain the file's name.
     const TemporaryFolder folder;
     std::ofstream(folder / "old.rso", std::ios::binary)
         .write(reinterpret_cast<const char*>(old.data()), static_cast<std::streamsize>(old.size()));
@@ -240,7 +240,7 @@ TEST(Container, FilesAreReadFromDiskByManyThreads) {
         }
     }
     EXPECT_EQ(good, 4 * 64);
-    // Of a copy, too: readers share the open file.
+    // Copies of a reader share the open file.
     const ContainerReader copy = *reader;
     EXPECT_TRUE(copy.read(copy.table()[0]).ok());
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The chunks of a file, to be changed and written again.
+// Reads the chunks of a file, to be changed and written again.
 
 #include "rayspace/format/container.hpp"
 

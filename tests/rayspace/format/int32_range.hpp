@@ -1,5 +1,5 @@
 #pragma once
-// What a field of 32 bits can hold.
+// Range of a 32-bit field.
 
 #include <cstdint>
 #include <limits>

@@ -20,7 +20,7 @@ using Lines = std::vector<CapturedLine>;
 std::int32_t CapturedLine::*const kFields[] = {&CapturedLine::l0_q20, &CapturedLine::l1_q30, &CapturedLine::q0_q16,
                                                &CapturedLine::q1_q16};
 
-// As encode/FORMAT.md tells it, "Coded lines", number by number; in arithmetic that cannot overflow.
+// Decodes by encode/FORMAT.md, "Coded lines", number by number, in arithmetic that cannot overflow.
 Lines decoded_from_the_document(const std::vector<std::uint8_t>& bytes, std::size_t views, int planes) {
     Lines lines(views * static_cast<std::size_t>(planes));
     const auto c = static_cast<__int128>(std::nearbyint(std::pow(2.0, 31) * std::cos(2 * kPi / planes)));
@@ -72,10 +72,10 @@ TEST(LineCoding, ComesBackAsTheDocumentSays) {
                 line.*field = random.whole(0, 4) == 0 ? kEnds[random.whole(0, 4)] : random.whole(kEnds[0], kEnds[4]);
             }
         }
-        const std::vector<std::uint8_t> plane = line_coding::residual_plane(lines, planes);
+        const std::vector<std::uint8_t> plane = line_coding::encode_residuals(lines, planes);
         ASSERT_EQ(plane.size(), lines.size() * line_coding::kBytesPerLine);
         Lines back(lines.size());
-        line_coding::put_residuals(plane, planes, back);
+        line_coding::decode_residuals(plane, planes, back);
         EXPECT_EQ(back, lines);
         EXPECT_EQ(decoded_from_the_document(plane, 5, planes), lines) << planes;
     }
@@ -87,19 +87,19 @@ TEST(LineCoding, AnyBytesAreLines) {
         std::vector<std::uint8_t> plane(static_cast<std::size_t>(planes) * 3 * line_coding::kBytesPerLine);
         for (std::uint8_t& byte : plane) byte = static_cast<std::uint8_t>(random.whole(0, 255));
         Lines lines(static_cast<std::size_t>(planes) * 3);
-        line_coding::put_residuals(plane, planes, lines);
+        line_coding::decode_residuals(plane, planes, lines);
         EXPECT_EQ(decoded_from_the_document(plane, 3, planes), lines);
-        EXPECT_EQ(line_coding::residual_plane(lines, planes), plane);
+        EXPECT_EQ(line_coding::encode_residuals(lines, planes), plane);
     }
 }
 
-// What it is for: the lines of cameras are sines, and take less than a third of their plain size.
+// Lines of real cameras are sinusoidal and take less than a third of their plain size.
 TEST(LineCoding, LinesOfCamerasTakeFewBytes) {
     test::SmallObjectOptions options;
     options.views_per_ring = 36;
     options.planes = 12;
     const RaySpaceObject object = test::small_object(options);
-    const std::vector<std::uint8_t> plane = line_coding::residual_plane(lines_of(object), 12);
+    const std::vector<std::uint8_t> plane = line_coding::encode_residuals(lines_of(object), 12);
     for (std::size_t field : {0U, 2U}) {  // constant over a view's planes
         for (std::size_t i = 0; i < 36 * 12; ++i) {
             if (i % 12 != 0) {

@@ -15,7 +15,7 @@ std::uint16_t number(const std::vector<std::uint8_t>& bytes, std::size_t n) {
     return static_cast<std::uint16_t>(bytes[2 * n] + 256 * bytes[2 * n + 1]);
 }
 
-// As encode/FORMAT.md tells it, "RMAP", number by number.
+// Decodes by encode/FORMAT.md, "RMAP", number by number.
 Runs decoded_from_the_document(const std::vector<std::uint8_t>& bytes, std::size_t rows, std::size_t runs) {
     Runs found;
     for (std::size_t row = 0; row < rows; ++row) found.counts.push_back(number(bytes, row));
@@ -51,18 +51,18 @@ TEST(MapCoding, RunsAreThoseOfTheDocument) {
             constexpr std::uint16_t kViews[] = {0, 1, 2, 3, 65534, 65535};
             cells.push_back(again ? cells.back() : kViews[random() % 6]);
         }
-        const Runs runs = map_coding::runs_of(cells, u_cells);
-        const std::vector<std::uint8_t> bytes = map_coding::residual_plane(runs);
+        const Runs runs = map_coding::encode_runs(cells, u_cells);
+        const std::vector<std::uint8_t> bytes = map_coding::encode_residuals(runs);
         ASSERT_EQ(bytes.size(), map_coding::residual_bytes(rows, runs.views.size()));
         ASSERT_TRUE(same(decoded_from_the_document(bytes, rows, runs.views.size()), runs)) << "trial " << trial;
-        ASSERT_TRUE(same(map_coding::runs_of_residuals(bytes, rows, runs.views.size()), runs)) << "trial " << trial;
+        ASSERT_TRUE(same(map_coding::decode_run_residuals(bytes, rows, runs.views.size()), runs)) << "trial " << trial;
         std::vector<std::uint16_t> again(cells.size());
-        ASSERT_TRUE(map_coding::put_runs(runs, u_cells, again).ok());
+        ASSERT_TRUE(map_coding::decode_runs(runs, u_cells, again).ok());
         ASSERT_EQ(again, cells);
     }
 }
 
-// Whatever the bytes are, they are runs; those that fill the rows are cells, the others are refused.
+// Any bytes decode to runs; those that fill the rows decode to cells, the others are rejected.
 TEST(MapCoding, AnyBytesAreRunsAndNeverWrittenBeyondTheCells) {
     std::mt19937 random(2);
     int accepted = 0, refused = 0;
@@ -72,14 +72,14 @@ TEST(MapCoding, AnyBytesAreRunsAndNeverWrittenBeyondTheCells) {
         std::vector<std::uint8_t> bytes(map_coding::residual_bytes(rows, runs));
         for (std::size_t i = 0; i < bytes.size(); ++i)
             bytes[i] = i % 2 == 0 ? static_cast<std::uint8_t>(random() % 3) : 0;
-        const Runs found = map_coding::runs_of_residuals(bytes, rows, runs);
+        const Runs found = map_coding::decode_run_residuals(bytes, rows, runs);
         std::size_t sum = 0;
         for (const std::uint16_t count : found.counts) sum += count;
-        // The document says nothing of counts that do not add up, but that they are refused.
+        // The document only states that counts that do not add up are rejected.
         ASSERT_TRUE(sum != runs || same(found, decoded_from_the_document(bytes, rows, runs))) << "trial " << trial;
         constexpr int kWidth = 3;
         std::vector<std::uint16_t> cells(rows * kWidth);
-        const bool ok = map_coding::put_runs(found, kWidth, cells).ok();
+        const bool ok = map_coding::decode_runs(found, kWidth, cells).ok();
         ++(ok ? accepted : refused);
         if (!ok) continue;
         ASSERT_EQ(sum, runs);

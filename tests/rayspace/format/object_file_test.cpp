@@ -51,7 +51,7 @@ void put_number(Chunk& chunk, std::size_t offset, std::uint64_t number, std::siz
     test::put_number(chunk.payload, offset, number, size);
 }
 
-// The error that comes of reading a small object's file after `change`.
+// The error from reading a small object's file after `change`.
 std::string error_after(const std::function<void(Chunks&)>& change, const ReadObjectOptions& options = {}) {
     const TemporaryFolder folder;
     EXPECT_TRUE(write_object(folder / "a.rso", small_object()).ok());
@@ -227,7 +227,7 @@ TEST(ObjectFile, NumbersAreCheckedBeforeTheyAllocate) {
     const auto map = [](const std::function<void(map_coding::Runs&)>& change) {
         return error_after([&](Chunks& chunks) {
             const Ring small = small_object().rings[0];
-            map_coding::Runs runs = map_coding::runs_of(small.cells, small.u_cells);
+            map_coding::Runs runs = map_coding::encode_runs(small.cells, small.u_cells);
             change(runs);
             find(chunks, "RMAP").payload = object_chunks::map_payload(runs);
         });
@@ -275,7 +275,7 @@ TEST(ObjectFile, RigsMayBeTextOrFrames) {
         });
     };
     const auto frame = [](const std::string& text) {
-        const auto bytes = zstd_frame({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+        const auto bytes = compress_zstd({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
         return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     };
     const std::string text = test::small_object().rig_json;
@@ -293,9 +293,9 @@ TEST(ObjectFile, RigsMayBeTextOrFrames) {
 TEST(ObjectFile, MemoryIsCapped) {
     ReadObjectOptions options;
     options.memory_cap_bytes = 2000;
-    // The map takes 2048 bytes, each image 300; the map's runs are there twice while it is expanded.
+    // The map takes 2048 bytes, each image 300; the map's runs are in memory twice during decompression.
     const Ring small = small_object().rings[0];
-    const std::uint64_t runs = map_coding::runs_of(small.cells, small.u_cells).views.size();
+    const std::uint64_t runs = map_coding::encode_runs(small.cells, small.u_cells).views.size();
     const std::uint64_t expanding = 2 * map_coding::residual_bytes(64, runs);
     EXPECT_THAT(error_after([](Chunks& chunks) { find(chunks, "RIGJ").payload.clear(); }, options),
                 HasSubstr("needs 1 MiB of memory, more than"));

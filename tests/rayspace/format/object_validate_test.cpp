@@ -155,7 +155,7 @@ TEST(ValidateObject, EveryViewIsInOneRing) {
     two.rings = 2;
     RaySpaceObject object = small_object(two);
     EXPECT_TRUE(validate_object(object, "O").ok());
-    object.rings[0].cells[0] = 8;  // of the other ring
+    object.rings[0].cells[0] = 8;  // a view of the other ring
     EXPECT_THAT(validate_object(object, "O").error().message,
                 HasSubstr("ring 0: plane 0, row 0 of its map names view 8"));
 }

@@ -31,7 +31,7 @@ Status parse(std::span<const std::byte> payload, Ring& ring) {
     return parse_shape_cells(*coded, ring.shape);
 }
 
-// What the payload says, checked as a reader checks it.
+// Parses the payload and validates it as a reader does.
 Result<ShapeMap> read_back(std::span<const std::byte> payload, Ring ring) {
     ring.shape = {};
     if (const Status status = parse(payload, ring); !status) return status.error();
@@ -83,7 +83,7 @@ TEST(ShapeChunk, RoundTrip) {
     }
 }
 
-// Depths without any order, all values.
+// Depths in random order, all values.
 TEST(ShapeChunk, AnyCellsComeBack) {
     Ring ring = small_object_with_shape().rings[0];
     for (const unsigned seed : {1U, 2U, 3U}) {
@@ -115,15 +115,14 @@ TEST(ShapeChunk, FieldsAreWhereTheFormatSays) {
     EXPECT_EQ(payload.size(), kGapsAt + 8 * 2 + 8 * 4 * 16 + number_at(payload, kCellBytesAt));
 }
 
-// A depth that is off by no more than the tolerance becomes what it is predicted to be, and the next ones are predicted
-// from that.
+// A depth that deviates by at most the tolerance is replaced by its prediction, which the next predictions use.
 TEST(ShapeChunk, DepthsSettleOnTheirPredictions) {
     const auto settled = [](int tolerance) {
         ShapeMap shape = small_object_with_shape({}, {.p_cells = 1, .bands = 6, .lines = {1, 0}}).rings[0].shape;
         std::fill(shape.cells.begin(), shape.cells.end(), ShapeCell{});
         constexpr int kDepths[] = {100, 101, 103, 102, 104};
         for (std::size_t i = 0; i < 5; ++i) shape.cells[i] = {static_cast<std::uint8_t>(kDepths[i]), 1};
-        shape_coding::settle_depths(shape, tolerance);
+        shape_coding::snap_depths(shape, tolerance);
         std::vector<int> depths;
         for (std::size_t i = 0; i < 6; ++i) depths.push_back(shape.cells[i].depth);
         return depths;
@@ -154,7 +153,7 @@ TEST(ShapeChunk, EveryTruncationIsRejected) {
     EXPECT_THAT(read_back(longer, ring).error().message, HasSubstr("bytes long instead of"));
 }
 
-// Behind the checksum: what is accepted is valid, and comes back from its own payload.
+// Without the checksum: accepted payloads are valid, and survive a round trip.
 TEST(ShapeChunk, EveryBitFlipIsRejectedOrGivesAValidMap) {
     const Ring ring = small_object_with_shape().rings[0];
     const Payload payload = shape_payload(ring);
@@ -204,7 +203,7 @@ TEST(ShapeChunk, FieldsAreCheckedBeforeTheyAllocate) {
     EXPECT_THAT(number(kGapsAt, 3, 2), HasSubstr("cells with a surface, but has"));
 }
 
-// Any bytes are those of some cells, whose number of surfaces alone tells that they are not the right ones.
+// Any bytes decode to some cells; only the number of surfaces shows that they are wrong.
 TEST(ShapeChunk, CellsMustBearOutTheCount) {
     const std::uint32_t count = number_at(shape_payload(small_object_with_shape().rings[0]), kSurfacesAt);
     EXPECT_EQ(error_after([&](Payload& payload) { test::put_number(payload, kSurfacesAt, count - 1, 4); }),

@@ -1,4 +1,4 @@
-// Objects with a shape map in files: the chunk's place, the memory cap, what is covered by checksums.
+// Files with a shape map: the chunk's position, the memory limit, and checksums.
 #include "rayspace/format/chunks/shape_chunk.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "tests/rayspace/format/file_chunks.hpp"
@@ -80,7 +80,7 @@ TEST(ShapeFile, ComesBackAtEveryLevel) {
     }
 }
 
-// A reader that does not know the chunk skips it; what it sees is whole.
+// Readers without support for the chunk skip it and read a complete object.
 TEST(ShapeFile, WithoutItTheObjectIsThePapers) {
     Chunks chunks = chunks_of(small_object_with_shape());
     chunks.erase(shape_in(chunks));
@@ -161,7 +161,7 @@ TEST(ShapeFile, MemoryIsCapped) {
     EXPECT_THAT(shape_error_after(without_rig, options), HasSubstr("of memory, more than"));
 }
 
-// Millions of cells in a payload of a few hundred bytes are refused before they are expanded.
+// Millions of cells in a payload of a few hundred bytes are rejected before decompression.
 TEST(ShapeFile, ASmallChunkCannotAskForMuchMemory) {
     RaySpaceObject object = small_object_with_shape();
     ShapeMap& shape = object.rings[0].shape;

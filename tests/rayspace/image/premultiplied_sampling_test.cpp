@@ -11,7 +11,7 @@ TEST(PremultipliedImage, SamplesAreThoseOfThePlainFunction) {
     std::minstd_rand random(11);
     std::uniform_int_distribution<int> code(0, 255);
     const auto any = [&] { return static_cast<std::uint8_t>(code(random)); };
-    // Covered everywhere; but for a rim; between two slopes, with bare rows below.
+    // Opaque everywhere; except for a rim; between two slopes, with transparent rows below.
     for (const int bare : {0, 1, 2}) {
         Image<Rgba8> image(23, 17);
         for (int y = 0; y < image.height(); ++y) {

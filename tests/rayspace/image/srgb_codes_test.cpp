@@ -19,7 +19,7 @@ TEST(SrgbCodes, CodesByTableAreThoseOfTheCurve) {
         const float linear = static_cast<float>(i) / 200'000.0F;
         ASSERT_EQ(srgb8_by_table(linear), by_curve(linear)) << linear;
     }
-    // Where codes change, and a few floats to either side.
+    // At the thresholds of codes, and a few floats to either side.
     for (int code = 1; code < 256; ++code) {
         float linear = linear_from_srgb((static_cast<float>(code) - 0.5F) / 255.0F);
         for (int i = 0; i < 20; ++i) linear = std::nextafter(linear, 0.0F);

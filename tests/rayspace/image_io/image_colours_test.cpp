@@ -1,4 +1,4 @@
-// Images whose numbers are not sRGB's.
+// Images with other colour spaces than sRGB.
 
 #include "rayspace/image/linear_light.hpp"
 #include "rayspace/image_io/image_io.hpp"
@@ -41,7 +41,7 @@ std::string icc_of(Primaries primaries) {
     return icc;
 }
 
-// What sRGB shows as these Display P3 codes do; SMPTE EG 432-1's primaries to IEC 61966-2-1's, both of white D65.
+// Converts Display P3 codes to sRGB: primaries of SMPTE EG 432-1 to those of IEC 61966-2-1, both with white D65.
 Rgba8 srgb_of_p3(const Rgba8& p3) {
     const glm::dmat3 columns(1.2249401, -0.0420569, -0.0196376,  //
                              -0.2249402, 1.0420571, -0.0786507,  //
@@ -60,7 +60,7 @@ void expect_near(const Rgba8& a, const Rgba8& b, int codes) {
 
 class ImageColours : public testing::Test {
 protected:
-    // 32 x 16 pixels of one colour, as the file with such a profile gives it.
+    // Reads 32 x 16 pixels of one colour from a file with this profile.
     Rgba8 read(const Rgba8& colour, const std::string& icc) {
         EXPECT_TRUE(write_jpeg(file_, Image<Rgba8>(32, 16, colour), 100).ok());
         if (!icc.empty()) test::add_profile(file_, icc);
@@ -83,7 +83,7 @@ TEST_F(ImageColours, OfDisplayP3BecomeSrgb) {
         EXPECT_NEAR((*light)(20, 8).r, linear_from_srgb8(shown.r), 0.01);
         EXPECT_NEAR((*light)(20, 8).b, linear_from_srgb8(shown.b), 0.01);
     }
-    expect_near(read({250, 10, 20, 255}, p3), {255, 0, 0, 255}, 12);  // beyond sRGB: its edge
+    expect_near(read({250, 10, 20, 255}, p3), {255, 0, 0, 255}, 12);  // outside of sRGB: clipped to its gamut
     expect_near(read({128, 128, 128, 255}, p3), {128, 128, 128, 255}, 1);
 }
 
@@ -102,7 +102,7 @@ TEST_F(ImageColours, StayWhereTheProfileIsNone) {
     }
 }
 
-// OpenImageIO 2.4 follows a profile's table of tags wherever it points to.
+// OpenImageIO 2.4 reads at any offset stated in a profile's tag table.
 TEST_F(ImageColours, OfADamagedProfileAreRefusedOrRead) {
     std::mt19937 random(5);
     const std::string p3 = icc_of(Primaries::display_p3);
@@ -127,7 +127,7 @@ TEST_F(ImageColours, OfADamagedProfileAreRefusedOrRead) {
     EXPECT_LT(refused, 390);
 }
 
-// A profile with one tag, of which `at` says where it is; sound at 144.
+// A profile with one tag at offset `at`, which is valid at 144.
 std::string profile_of_a_tag(unsigned char at) {
     std::string profile(164, '\0');
     profile[3] = static_cast<char>(164);
@@ -159,7 +159,7 @@ std::string deflated(const std::string& data) {
     return packed;
 }
 
-// Files that are nothing but a header and a profile.
+// Files that consist only of a header and a profile.
 std::map<std::string, std::string> files_with(const std::string& profile) {
     std::map<std::string, std::string> files;
     const std::string png =
@@ -203,7 +203,7 @@ TEST_F(ImageColours, OfDamagedProfilesAreFoundInEveryKindOfFile) {
     for (const auto& [name, file] : files_with(profile_of_a_tag(144))) EXPECT_FALSE(refuses(file)) << name;
     for (const auto& [name, file] : files_with(profile_of_a_tag(145))) EXPECT_TRUE(refuses(file)) << name;
     std::string other = files_with(profile_of_a_tag(144)).at("tiff");
-    other[12] = 3;  // libtiff would make bytes of two-byte numbers
+    other[12] = 3;  // libtiff would convert two-byte numbers to bytes
     EXPECT_TRUE(refuses(other));
     for (const std::string& kind : {std::string("\0\0\1\0icon", 8), std::string("8BPS")}) {
         std::ofstream(file_, std::ios::binary) << kind;

@@ -82,7 +82,7 @@ TEST(ImageIo, StridedViewsAreWritten) {
 
 TEST(ImageIo, PngIsWrittenUnderAnyName) {
     const TemporaryFolder folder;
-    // Whatever the name says: the caller asked for PNG.
+    // The function determines the format, not the extension.
     ASSERT_TRUE(write_png(folder / "a", noise(4, 4)).ok());
     EXPECT_TRUE(read_image(folder / "a").ok());
 }
@@ -112,7 +112,7 @@ TEST(ImageIo, ExrKeepsStraightColour) {
     EXPECT_EQ((*bytes)(1, 2), (Rgba8{188, 255, 3, 128}));
 }
 
-// OpenEXR reserves what a header claims before it reads on.
+// OpenEXR allocates the sizes stated in a header before it reads the data.
 TEST(ImageIo, ExrHeadersThatClaimMoreThanTheFileHasAreRefused) {
     const TemporaryFolder folder;
     ASSERT_TRUE(write_exr(folder / "sound.exr", Image<RgbaF>(5, 4)).ok());
@@ -124,7 +124,7 @@ TEST(ImageIo, ExrHeadersThatClaimMoreThanTheFileHasAreRefused) {
         for (int i = 0; i < 4; ++i) bytes += static_cast<char>(value >> (8 * i) & 255U);
         return bytes;
     };
-    // An attribute more, before all others.
+    // Inserts an attribute before all others.
     const auto with = [&](const std::string& type, std::uint32_t size, const std::string& value) {
         return file.substr(0, 8) + "remark" + '\0' + type + '\0' + number(size) + value + file.substr(8);
     };
@@ -175,7 +175,7 @@ TEST(ImageIo, GreySpreadsToRgb) {
 
 TEST(ImageIo, SixteenBitsAreRoundedToEight) {
     const TemporaryFolder folder;
-    // 16-bit samples stand high byte first: 257 * 100, 257 * 100 + 128, 257 * 100 + 129, 65535.
+    // 16-bit samples are big-endian: 257 * 100, 257 * 100 + 128, 257 * 100 + 129, 65535.
     put_bytes(folder / "a.ppm", std::string("P6\n2 1\n65535\n\x64\x64\x64\xE4\x64\xE5\xFF\xFF\x00\x00\x00\x81", 25));
     const auto image = read_image(folder / "a.ppm");
     ASSERT_TRUE(image.ok()) << image.error().message;

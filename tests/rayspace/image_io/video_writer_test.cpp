@@ -76,7 +76,7 @@ TEST(VideoWriter, AFullDiskIsAnErrorAndLeavesNothing) {
         std::mt19937 random(1);
         auto video = VideoWriter::open(folder / "a.mp4", 320, 240, 25);
         if (video.ok()) {
-            // The frame that does not fit any more, or the end, has the error.
+            // The error is reported by the frame that does not fit, or by finish().
             Status status;
             for (int i = 0; i < 60 && status; ++i) status = video->add(noise(320, 240, random));
             if (status) status = video->finish();

@@ -1,4 +1,4 @@
-// What every kind of light must be, whatever it is; a new kind is tested by its row.
+// Invariants of all kinds of light; a new kind needs only a row in the table.
 
 #include "rayspace/light/light_model.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kIes = "TILT=NONE\n1 -1 1 4 2 1 2 0 0 0 1 1 9\n0 45 70 80\n0 90\n179 150 40 0\n179 160 80 0\n";
 
-// By its power, or by its radiance, where there is that: then with what else comes with it.
+// Entries with power or, if supported, with radiance and its related fields.
 struct Example {
     LightKind kind;
     bool by_radiance;
@@ -38,7 +38,7 @@ std::vector<Example> all_examples() {
     return examples;
 }
 
-// One in general position.
+// A light in general position.
 LightEntry entry_of_example(const Example& example) {
     const LightModel& model = model_of(example.kind);
     LightEntry entry = model.example();
@@ -67,7 +67,7 @@ protected:
     const LightEntry entry_ = entry_of_example(GetParam());
     const Light light_ = light_of(entry_);
 
-    // Of a sphere, by u in [0, 1)^2.
+    // Uniform direction on the sphere; u in [0, 1)^2.
     static glm::dvec3 on_sphere(const glm::dvec2& u) {
         const double z = 1 - 2 * u.x;
         const double r = std::sqrt(1 - z * z);
@@ -96,7 +96,7 @@ TEST_P(EveryLight, EntriesComeBack) {
     EXPECT_EQ(same.radius, light_.radius);
     EXPECT_LT(glm::distance(same.colour, light_.colour), 1e-5F * glm::length(light_.colour));
     if (!model_.words.has_aim) return;
-    EXPECT_LT(glm::distance(model_.axis(light_), unit_of(entry_.aim)), 1e-12);
+    EXPECT_LT(glm::distance(model_.axis(light_), unit_vector(entry_.aim)), 1e-12);
     EXPECT_LT(glm::distance(model_.axis(same), model_.axis(light_)), 1e-9);
     EXPECT_NEAR(again.turn_deg, entry_.turn_deg, 1e-9);
     if (model_.words.turns) {
@@ -112,7 +112,7 @@ TEST_P(EveryLight, EntriesComeBack) {
     }
 }
 
-// One thing wrong at a time.
+// One invalid field at a time.
 TEST_P(EveryLight, RefusesWhatCannotBe) {
     const auto refuses = [&](const auto& change) {
         Light wrong = light_;
@@ -130,7 +130,7 @@ TEST_P(EveryLight, RefusesWhatCannotBe) {
 }
 
 TEST_P(EveryLight, TurnsAboutY) {
-    const Light turned = turned_about_y(light_, kPi / 2);
+    const Light turned = rotate_about_y(light_, kPi / 2);
     const auto expected = [](const glm::dvec3& v) { return glm::dvec3(v.z, v.y, -v.x); };
     EXPECT_LT(glm::distance(model_.axis(turned), expected(model_.axis(light_))), 1e-12);
     EXPECT_NEAR(model_.strength(turned), model_.strength(light_), 1e-12);
@@ -149,7 +149,7 @@ TEST_P(EveryLight, ForRasterIsPunctual) {
         EXPECT_EQ(punctual.radius, light_.radius);
         return;
     }
-    // As bright, far away on the axis.
+    // Equally bright at a large distance on the axis.
     const double far = 50;
     const glm::vec3 seen = irradiance_at(punctual, light_.location + far * model_.axis(light_));
     const double share = model_.form == LightForm::kDistant ? 1 : 1 / (far * far);
@@ -169,7 +169,7 @@ TEST_P(EveryLight, HasItsFlux) {
         EXPECT_NEAR(flux, radiosity * model_.strength(light_), 1e-5 * flux);
         return;
     }
-    // What arrives on a sphere, and what its directions bring there.
+    // Flux through a sphere against the mean of sampled directions.
     constexpr int kSteps = 400;
     double arrives = 0, sent = 0;
     for (int i = 0; i < kSteps * kSteps; ++i) {
@@ -198,7 +198,7 @@ TEST_P(EveryLight, GoesNoFartherThanItSays) {
                                         static_cast<double>(reach.least_attenuation));
         EXPECT_LE(arrives, most / falloff * (1 + 1e-6));
         const double cosine = glm::dot(direction, model_.axis(light_));
-        const bool outside = d > reach.radius || cosine < static_cast<double>(reach.least_cos);
+        const bool outside = d > reach.radius || cosine < static_cast<double>(reach.min_cos);
         EXPECT_TRUE(!outside || arrives == 0) << d << " " << cosine;
     }
 }
@@ -214,8 +214,8 @@ TEST_P(EveryLight, IsEvenWhereItSaysSo) {
         least = std::min(least, arrives);
         if (arrives > 0) widest = std::min(widest, glm::dot(direction, model_.axis(light_)));
     }
-    EXPECT_EQ(least > 0.99F * on_axis, model_.is_even());
-    EXPECT_NEAR(widest, static_cast<double>(model_.reach(light_).least_cos), 0.06) << "no wider than need be";
+    EXPECT_EQ(least > 0.99F * on_axis, model_.is_isotropic());
+    EXPECT_NEAR(widest, static_cast<double>(model_.reach(light_).min_cos), 0.06) << "no wider than need be";
 }
 
 TEST_P(EveryLight, CoversItsArea) {
@@ -240,13 +240,13 @@ TEST_P(EveryLight, CoversItsArea) {
     const double count = kSteps * kSteps;
     const double parallelogram = 4 * glm::length(glm::cross(light_.half_u, light_.half_v));
     EXPECT_NEAR(covered / count * parallelogram, model_.strength(light_), 2e-3 * model_.strength(light_));
-    // Points are drawn evenly over it, as far as two moments tell.
+    // Points are uniformly distributed, tested by two moments.
     EXPECT_LT(glm::distance(drawn_mean / count, mean / static_cast<double>(covered)), 1e-3);
     EXPECT_LT(glm::distance(drawn_squares / count, squares / static_cast<double>(covered)), 1e-3);
 }
 
 TEST_P(EveryLight, HasAnOutlineThatCanBeSeen) {
-    EXPECT_EQ(model_.outline(entry_).lines.empty(), model_.form == LightForm::kDistant || model_.is_even());
+    EXPECT_EQ(model_.outline(entry_).lines.empty(), model_.form == LightForm::kDistant || model_.is_isotropic());
     for (const std::vector<glm::dvec3>& line : model_.outline(entry_).lines) {
         EXPECT_GE(line.size(), 2U);
         for (const glm::dvec3& point : line) EXPECT_LT(glm::length(point), 2);

@@ -1,4 +1,4 @@
-// Photometric files: every edition and arrangement, against numbers that another program computed.
+// Photometric files of all editions and layouts against reference values of another program.
 
 #include "rayspace/light/luminaire.hpp"
 
@@ -108,18 +108,18 @@ TEST(IesFile, ErrorsNameTheLineAndWhatShouldStandThere) {
         const auto read = parse_ies(text, "a.ies");
         return read ? std::string("read") : read.error().message;
     };
-    EXPECT_EQ(message(""), "a.ies: no line begins with TILT=; this is no IES file (LM-63)");
+    EXPECT_EQ(message(""), "a.ies: no line begins with TILT=; use an IES file (LM-63)");
     EXPECT_EQ(message("IESNA91\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0 1 1\n60\n0 ninety\n"),
-              "a.ies: line 5: 'ninety' where vertical angle 2 should stand");
+              "a.ies: line 5: 'ninety' is not a number; expected vertical angle 2");
     EXPECT_EQ(message("IESNA91\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0 1 1 60\n0 90\n0\n5"),
-              "a.ies: line 6: the file ends where intensity 2 should stand; is it whole?");
+              "a.ies: line 6: the file ends before intensity 2; check that it is complete");
     EXPECT_NE(message("TILT=NONE\n1 -1 0 2 1 1 2 0 0 0 1 1 60\n0 90 0 1 1").find("line 2: the candela multiplier"),
               std::string::npos);
     EXPECT_NE(message("TILT=NONE\n1 -1 1 99999 1 1 2").find("line 2: the number of vertical angles"),
               std::string::npos);
     EXPECT_NE(message("TILT=NONE\n1 -1 1 4000 4000 1 2 0 0 0 1 1 60").find("too many"), std::string::npos);
     EXPECT_EQ(message("TILT=NONE\n1 -1 1 2 1 1 2 0 0 0 1 1 60\n0 90 0 0 0"),
-              "a.ies: gives no light, or more than can be computed");
+              "a.ies: has no light, or more than can be represented");
 }
 
 // Lines 1..26, a lamp set, ten ratios, angles, intensities.
@@ -148,7 +148,7 @@ TEST(EulumdatFile, IsReadByItsLinesAndMirroredByItsSymmetry) {
     const auto at = [](const Luminaire& lamp, double horizontal_deg) {
         return candela_in_plane(lamp.web, horizontal_deg, radians(45)) / 3;
     };
-    // Planes 270, 0 and 90; 180 is as 0.
+    // Planes 270, 0 and 90; 180 equals 0.
     const auto fore = parse_eulumdat(eulumdat(3, 4, lamps, "9 \n1\n0\n9\n2\n0\n9\n3\n0\n"), "a.ldt");
     ASSERT_TRUE(fore) << fore.error().message;
     EXPECT_NEAR(at(*fore, 270), 1, 1e-9);
@@ -165,7 +165,7 @@ TEST(EulumdatFile, IsReadByItsLinesAndMirroredByItsSymmetry) {
 
     const auto cut = parse_eulumdat(eulumdat(1, 4, lamps, "100\n50\n"), "a.ldt");
     ASSERT_FALSE(cut);
-    EXPECT_EQ(cut.error().message, "a.ldt: ends before line 52, an intensity; is it whole?");
+    EXPECT_EQ(cut.error().message, "a.ldt: ends before line 52, an intensity; check that it is complete");
     const auto odd = parse_eulumdat(eulumdat(4, 6, lamps, "1\n"), "a.ldt");
     ASSERT_FALSE(odd);
     EXPECT_NE(odd.error().message.find("a.ldt: line 4: 6 C planes cannot be mirrored"), std::string::npos);

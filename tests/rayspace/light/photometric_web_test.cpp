@@ -1,4 +1,4 @@
-// The web against integrals and symmetries that are known.
+// Photometric webs against analytic integrals and symmetries.
 
 #include "rayspace/light/photometric_web.hpp"
 
@@ -31,7 +31,7 @@ PhotometricTable table_of(Goniometer type, std::vector<double> vertical, std::ve
     return table;
 }
 
-// Written from the header's text, not from the code.
+// Independent reference implementation of the header's specification.
 glm::dvec3 type_c(double vertical_deg, double horizontal_deg) {
     const double v = radians(vertical_deg), h = radians(horizontal_deg);
     return {std::sin(v) * std::cos(h), -std::cos(v), -std::sin(v) * std::sin(h)};
@@ -85,7 +85,7 @@ TEST(PhotometricWeb, PlanesThatAreLeftOutAreMirrored) {
     EXPECT_NEAR(all->candela(type_c(30, 355)), 0.5 * (130 + 350) + 0.5 * 130, 1e-9);  // round to plane 0
 }
 
-// One plane for all, and the same plane many times beside one that differs: alike where that one is not near.
+// A web with one plane against the same plane repeated beside a different one: equal away from the latter.
 TEST(PhotometricWeb, OnePlaneForAllIsThatPlaneAllAround) {
     const auto plane = [](double v, double) { return 310 - v * (2 + v / 200); };
     const auto dented = [&](double v, double h) { return h == 180 ? plane(v, h) / 2 : plane(v, h); };
@@ -126,7 +126,7 @@ TEST(PhotometricWeb, TypesAAndBHaveTheirPolesWhereTheGoniometerHas) {
     }
 }
 
-// Cells of equal solid angle, counted: chi-squared with as many degrees of freedom as cells that can be hit, less one.
+// Chi-squared test over cells of equal solid angle; degrees of freedom: number of cells with flux minus one.
 TEST(PhotometricWebProperty, DirectionsAreDrawnAsTheWebShines) {
     const auto lobes = [](double v, double h) { return v > 130 ? 0.0 : 5 + v * (1 + std::cos(radians(2 * h))); };
     const std::vector<double> uneven = {0, 3, 10, 30, 31, 60, 90, 130, 131, 180};

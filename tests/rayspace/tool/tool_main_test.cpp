@@ -88,7 +88,7 @@ TEST(ToolMain, EscapedExceptionsAreErrors) {
     EXPECT_EQ(memory.err, "rs-test: error: out of memory\n");
 }
 
-// A child that stages a file and a folder, is interrupted by itself, and would otherwise wait for long.
+// A child process that stages a file and a folder, interrupts itself, and would otherwise wait for a long time.
 TEST(ToolMain, InterruptionLeavesNoPartialOutput) {
     for (const int signal : {SIGINT, SIGTERM}) {
         const test::TemporaryFolder folder;
@@ -143,7 +143,7 @@ TEST(ToolMain, NamesOfFilesToWriteEndAsTheyShould) {
     const auto page = ends_in({".html", ".htm"});
     EXPECT_EQ(page("a.html") + page("b/c.HTM") + page(".d.html"), "");
     for (const char* wrong : {"shoe.jpg", "noext", "html", "a.html/", ""}) {
-        EXPECT_THAT(page(wrong), HasSubstr(std::string(wrong) + ": a name that ends in .html")) << wrong;
+        EXPECT_THAT(page(wrong), HasSubstr(std::string(wrong) + ": must end in .html")) << wrong;
     }
 }
 

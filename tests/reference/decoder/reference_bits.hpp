@@ -1,5 +1,5 @@
 #pragma once
-// FORMAT.md, "Bits" and "Context adaptation": the binary arithmetic decoder of a tile's or a shape map's bytes.
+// FORMAT.md, "Bits" and "Context adaptation": the binary arithmetic decoder of a tile or a shape map.
 
 #include "tests/reference/decoder/reference_chunks.hpp"
 
@@ -12,11 +12,11 @@
 
 namespace rs::reference {
 
-// "Context adaptation": what a tile has taught one context so far.
+/// "Context adaptation": state of one context within a tile.
 class AdaptiveContext {
 public:
     AdaptiveContext() = default;
-    // "z = 256 p of its listed probability p (128 where it is not listed)"
+    /// "z = 256 p of its listed probability p (128 where it is not listed)"
     AdaptiveContext(int context, int listed_probability) : z_(256 * listed_probability), n_(first_count(context)) {}
 
     static AdaptiveContext of(int z, int n) {
@@ -26,11 +26,11 @@ public:
         return context;
     }
 
-    // "P = z >> 4, held within 8 .. 4088"
+    /// "P = z >> 4, held within 8 .. 4088"
     int probability() const { return std::clamp(z_ >> 4, 8, 4088); }
 
-    // "with s = floor(log2 n), z becomes z + ((65536 - z) >> s) if it is 0, z - (z >> s) if it is 1; and n grows by 1,
-    // to 255 at most": s is that of n before it grows.
+    /// "with s = floor(log2 n), z becomes z + ((65536 - z) >> s) if it is 0, z - (z >> s) if it is 1; and n grows by 1,
+    /// to 255 at most": s is that of n before it grows.
     void adapt(int bit) {
         const int s = static_cast<int>(std::bit_width(static_cast<unsigned>(n_))) - 1;
         z_ = bit == 0 ? z_ + ((65536 - z_) >> s) : z_ - (z_ >> s);
@@ -45,7 +45,7 @@ private:
     int n_ = 1;
 };
 
-// "it keeps range ... and value ...", and reads bits of probabilities that it is told.
+/// "it keeps range ... and value ...", and reads bits of given probabilities.
 class ArithmeticDecoder {
 public:
     explicit ArithmeticDecoder(Bytes bytes) : bytes_(bytes) {
@@ -81,7 +81,7 @@ private:
     std::uint16_t value_ = 0;
 };
 
-// One object reads one tile: "At the beginning of every tile" adaptation starts anew.
+/// Reads one tile: "At the beginning of every tile" adaptation starts anew.
 class Bits {
 public:
     Bits(Bytes bytes, const std::array<int, kContexts[1]>& probability, bool is_adaptive)
@@ -99,19 +99,19 @@ public:
         adaptive.adapt(result);
         return result;
     }
-    // "Raw bits teach nothing."
+    /// "Raw bits teach nothing."
     int raw() { return decoder_.decode(2048); }
 
-    // "n bits, the highest first; the bit after those that so far make the number m (of k bits) has context
-    // c + 2^k - 1 + m"
+    /// "n bits, the highest first; the bit after those that so far make the number m (of k bits) has context
+    /// c + 2^k - 1 + m"
     int tree(int c, int n) {
         int m = 0;
         for (int k = 0; k < n; ++k) m = 2 * m + bit(c + (1 << k) - 1 + m);
         return m;
     }
 
-    // "a length L in unary ... L = 0 and L = 1 are the numbers 0 and 1. Else the number has L bits: the highest is 1,
-    // the next has context t + L, the others are raw."
+    /// "a length L in unary ... L = 0 and L = 1 are the numbers 0 and 1. Else the number has L bits: the highest is 1,
+    /// the next has context t + L, the others are raw."
     int number(int c, int places, int t) {
         int length = 0;
         while (length < places && bit(c + length) == 1) ++length;
@@ -128,7 +128,7 @@ private:
     std::array<AdaptiveContext, kContexts[1]> adaptive_;
 };
 
-// Contexts by any name, which "begin with z = 32768 and n = 2".
+/// Contexts of any kind, which "begin with z = 32768 and n = 2".
 class AdaptingBits {
 public:
     using Name = std::array<int, 4>;

@@ -12,7 +12,7 @@ int signed_value(const Codebook& book, int at) {
     return value < 128 ? value : value - 256;
 }
 
-// The quarter of sample (x, y) of a block, and the sample's place in it.
+// The quarter of sample (x, y) of a block, and the sample's index in it.
 int quarter_of(int x, int y) {
     return 2 * (y / 4) + x / 4;
 }
@@ -22,8 +22,8 @@ int place_in_quarter(int x, int y) {
 
 }  // namespace
 
-BoardTileDecoder::BoardTileDecoder(const Code& code, std::array<const Image*, 2> references, int t, Bytes bytes,
-                                   Image& image)
+BoardTileDecoder::BoardTileDecoder(const Code& code, std::array<const DecodedImage*, 2> references, int t, Bytes bytes,
+                                   DecodedImage& image)
     : code_(code.board), references_(references), bytes_(bytes), image_(image) {
     const int columns = ceil_div(image.width, 32);
     tile_x_ = 32 * (t % columns);
@@ -86,7 +86,7 @@ void BoardTileDecoder::show(const Record& record) {
     }
 }
 
-// Of sample (x, y) of the block, before it is clamped.
+// The colour of sample (x, y) of the block, before clamping.
 int BoardTileDecoder::colour(const Record& record, int plane, int x, int y) const {
     int sum = record.kind.is_predicted ? nearest_sample(*record.reference, plane, record.x + x + record.motion.x,
                                                         record.y + y + record.motion.y)

@@ -12,8 +12,9 @@ namespace rs::reference {
 
 class BoardTileDecoder {
 public:
-    // As of TileDecoder.
-    BoardTileDecoder(const Code& code, std::array<const Image*, 2> references, int t, Bytes bytes, Image& image);
+    /// Parameters as in TileDecoder.
+    BoardTileDecoder(const Code& code, std::array<const DecodedImage*, 2> references, int t, Bytes bytes,
+                     DecodedImage& image);
 
     void decode();
 
@@ -22,8 +23,8 @@ private:
     struct Record {
         int x = 0, y = 0;
         BoardClass kind;
-        const Image* reference = nullptr;  // of a predicted one
-        Vector motion;                     // whole samples
+        const DecodedImage* reference = nullptr;  // predicted records only
+        Vector motion;                            // whole samples
         std::array<int, 3> flat = {0, 0, 0};
         std::vector<int> block_index;                   // [stage]
         std::vector<std::array<int, 4>> quarter_index;  // [stage][quarter]
@@ -38,9 +39,9 @@ private:
     int alpha(const Record& record, int x, int y) const;
 
     const BoardCode& code_;
-    std::array<const Image*, 2> references_;
+    std::array<const DecodedImage*, 2> references_;
     Bytes bytes_;
-    Image& image_;
+    DecodedImage& image_;
     std::size_t position_ = 0;
     int tile_x_ = 0, tile_y_ = 0;
 };

@@ -1,5 +1,5 @@
 #pragma once
-// FORMAT.md: numbers in bytes, and the frames that hold planes and codebooks.
+// FORMAT.md: numbers in bytes, and the frames of planes and codebooks.
 
 #include <zstd.h>
 
@@ -15,7 +15,7 @@ inline int u16_at(std::span<const std::uint8_t> bytes, std::size_t at) {
     return bytes[at] + 256 * bytes[at + 1];
 }
 
-// "One Zstandard frame that states its content size, without a dictionary"; of no bytes there is no frame.
+/// "One Zstandard frame that states its content size, without a dictionary"; no frame for no bytes.
 inline std::string expand(std::span<const std::uint8_t> frame, std::size_t size, std::vector<std::uint8_t>& content) {
     content.assign(size, 0);
     if (size == 0) return frame.empty() ? "" : "a frame of nothing";

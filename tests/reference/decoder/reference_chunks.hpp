@@ -31,28 +31,28 @@ struct Code {
     int alpha_bits = 0;
     int alpha_coding = 0;
     bool has_smooth_edges = false;      // features, bit 0
-    bool is_adaptive = false;           // bit 1
-    bool has_sign_data_hiding = false;  // bit 2
+    bool is_adaptive = false;           // features, bit 1
+    bool has_sign_data_hiding = false;  // features, bit 2
     std::array<int, 24> edge_alpha{};
     int u_offset = 0;
     int v_offset = 0;
     std::vector<int> level;                       // per view
-    std::array<int, kContexts[1]> probability{};  // of dense images: in 256ths, of a 0
-    BoardCode board;                              // of board images
+    std::array<int, kContexts[1]> probability{};  // dense images: probability of a 0 in 256ths
+    BoardCode board;                              // board images
 };
 
 struct Pict {
     int step = 0;
     std::array<int, 2> reference = {kNoView, kNoView};  // a, b
     std::array<Vector, 2> usual;
-    std::vector<std::optional<Bytes>> tiles;  // nothing: not present; points into the payload
+    std::vector<std::optional<Bytes>> tiles;  // nullopt: not present; points into the payload
 };
 
 inline int ceil_div(int a, int b) {
     return (a + b - 1) / b;
 }
 
-// Both return the rule that the payload breaks; "" where it breaks none.
+/// Both return the rule that the payload violates; "" if there is none.
 [[nodiscard]] std::string read_code(Bytes payload, int views, Code& code);
 [[nodiscard]] std::string read_pict(Bytes payload, int width, int height, int view, const Code& code, Pict& pict);
 

@@ -18,20 +18,20 @@ Images decode_reference(int width, int height, std::span<const std::uint8_t> cod
         if (!error.empty()) return {"view " + std::to_string(view) + ": " + error, {}};
     }
 
-    // A reference's level is lower, so whatever an image needs has been decoded when its level comes.
+    // References have lower levels, so that they have been decoded before.
     Images result;
     result.views.resize(picts.size());
     for (int level = 0; level <= 3; ++level) {
         for (std::size_t v = 0; v < picts.size(); ++v) {
             if (code.level[v] != level) continue;
-            Image& image = result.views[v];
+            DecodedImage& image = result.views[v];
             image.width = 16 * ceil_div(width, 16);
             image.height = 16 * ceil_div(height, 16);
             const std::size_t samples = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
             for (std::size_t plane = 0; plane < 4; ++plane) {
                 image.planes[plane].assign(samples, plane < 3 ? std::uint8_t{128} : std::uint8_t{0});
             }
-            std::array<const Image*, 2> references = {nullptr, nullptr};
+            std::array<const DecodedImage*, 2> references = {nullptr, nullptr};
             for (std::size_t r = 0; r < 2; ++r) {
                 const int reference = headers[v].reference[r];
                 if (reference != kNoView) references[r] = &result.views[static_cast<std::size_t>(reference)];

@@ -18,13 +18,13 @@ struct EdgeLine {
 
 using EdgeHalf = std::array<EdgeLine, 4>;
 
-std::uint8_t& across(Image& image, const Edge& edge, int line, int distance) {
+std::uint8_t& across(DecodedImage& image, const Edge& edge, int line, int distance) {
     const int x = edge.x + (edge.is_upright ? distance : line);
     const int y = edge.y + (edge.is_upright ? line : distance);
     return sample(image, edge.plane, x, y);
 }
 
-EdgeLine line_at(Image& image, const Edge& edge, int line) {
+EdgeLine line_at(DecodedImage& image, const Edge& edge, int line) {
     EdgeLine samples{};
     for (int i = 0; i < 4; ++i) {
         samples.p[static_cast<std::size_t>(i)] = across(image, edge, line, -1 - i);
@@ -34,7 +34,7 @@ EdgeLine line_at(Image& image, const Edge& edge, int line) {
 }
 
 // "all clamped to 0 .. 255"
-void put_line(const EdgeLine& samples, Image& image, const Edge& edge, int line) {
+void put_line(const EdgeLine& samples, DecodedImage& image, const Edge& edge, int line) {
     for (int i = 0; i < 4; ++i) {
         const std::size_t at = static_cast<std::size_t>(i);
         across(image, edge, line, -1 - i) = static_cast<std::uint8_t>(std::clamp(samples.p[at], 0, 255));
@@ -42,7 +42,7 @@ void put_line(const EdgeLine& samples, Image& image, const Edge& edge, int line)
     }
 }
 
-// "It is flat if for its first and for its last line": what is asked of each of the two.
+// "It is flat if for its first and for its last line": the condition for each of the two.
 bool is_flat(const EdgeLine& line, int t, int b) {
     const auto& [p, q] = line;
     return 2 * (line.bend_p() + line.bend_q()) < b >> 2 && std::abs(p[3] - p[0]) + std::abs(q[0] - q[3]) < b >> 3 &&
@@ -91,7 +91,7 @@ EdgeHalf smooth_half(const EdgeHalf& half, int t, int b) {
 
 }  // namespace
 
-void smooth_edge(Image& image, const Edge& edge) {
+void smooth_edge(DecodedImage& image, const Edge& edge) {
     const int t = (6 * edge.q + 512) >> 10;
     const int b = edge.q >> 4;
     if (t == 0) return;

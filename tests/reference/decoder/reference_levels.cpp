@@ -23,7 +23,7 @@ Square TileDecoder::read_coefficients(int n, int kind) {
     Square levels(n);
     const auto counted = [&](int u, int v) { return u < n && v < n ? std::min(std::abs(levels.at(u, v)), 3) : 0; };
 
-    std::vector<SignlessLevel> group;  // of 16 places; with hidden signs only
+    std::vector<SignlessLevel> group;  // of 16 positions; with hidden signs only
     const int last = bits_.number(kLastClass + 8 * kind, n == 8 ? 6 : 8, kLastTop + 9 * kind);
     for (int place = last; place >= 0; --place) {
         const auto [u, v] = order.at(static_cast<std::size_t>(place));
@@ -65,8 +65,8 @@ void TileDecoder::read_sign_data_hiding(const std::vector<SignlessLevel>& group)
     if (group.empty()) return;
     int sum = 0;
     for (const SignlessLevel& each : group) sum += *each.level;
-    // "If the first and the last of these lie 4 places or more apart, the last one has no such bit": the first has the
-    // highest place.
+    // "If the first and the last of these lie 4 places or more apart, the last one has no such bit": the first one is
+    // at the highest place.
     const bool is_last_hidden = group.front().place - group.back().place >= 4;
     for (std::size_t i = 0; i < group.size(); ++i) {
         const bool is_hidden = is_last_hidden && i + 1 == group.size();

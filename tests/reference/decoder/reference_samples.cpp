@@ -25,20 +25,20 @@ int clamp16(std::int64_t value) {
 int matrix(int n, int row, int column) {
     static constexpr std::array<int, 17> kCosines = {64, 90, 89, 87, 83, 80, 75, 70, 64, 57, 50, 43, 36, 25, 18, 9, 0};
     if (row == 0) return 64;
-    int angle = (2 * column + 1) * row * (16 / n) % 64;  // in 64ths of a turn
+    int angle = (2 * column + 1) * row * (16 / n) % 64;  // 64ths of a turn
     if (angle > 32) angle = 64 - angle;
     return angle <= 16 ? kCosines[static_cast<std::size_t>(angle)] : -kCosines[static_cast<std::size_t>(32 - angle)];
 }
 
 }  // namespace
 
-int nearest_sample(const Image& image, int plane, int x, int y) {
+int nearest_sample(const DecodedImage& image, int plane, int x, int y) {
     const int inside_x = std::clamp(x, 0, image.width - 1);
     const int inside_y = std::clamp(y, 0, image.height - 1);
     return image.planes[static_cast<std::size_t>(plane)][static_cast<std::size_t>(inside_y * image.width + inside_x)];
 }
 
-Square predict_from_reference(const Image& reference, int plane, int x, int y, int n, Vector vector) {
+Square predict_from_reference(const DecodedImage& reference, int plane, int x, int y, int n, Vector vector) {
     Square part(n);
     for (int py = 0; py < n; ++py) {
         for (int px = 0; px < n; ++px) {
@@ -56,7 +56,7 @@ Square predict_from_reference(const Image& reference, int plane, int x, int y, i
     return part;
 }
 
-Square predict_from_neighbours(const Image& image, int plane, int x, int y, int n, int mode, bool has_left,
+Square predict_from_neighbours(const DecodedImage& image, int plane, int x, int y, int n, int mode, bool has_left,
                                bool has_upper) {
     std::vector<int> l(static_cast<std::size_t>(n), 128);
     std::vector<int> t(static_cast<std::size_t>(n), 128);

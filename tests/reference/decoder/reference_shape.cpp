@@ -42,7 +42,7 @@ std::string check_numbers(const Shape& shape) {
     return "";
 }
 
-// "Cells": by which images each cell is shown, 0 where it is empty, and its depth.
+// "Cells": the images that show each cell, 0 if it is empty, and its depth.
 class Cells {
 public:
     Cells(Bytes bytes, std::size_t count, int p_cells, int bands)

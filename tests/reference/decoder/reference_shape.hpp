@@ -23,10 +23,10 @@ struct Shape {
     std::array<std::int32_t, 8> numbers{};              // p_half .. depth_step, in the order of the table
     std::vector<int> lines;                             // S_n
     std::vector<std::array<std::int32_t, 4>> normal;    // [n * K + k]: l2, q2, a, c
-    std::vector<std::optional<ShapeSurface>> surfaces;  // of the cells
+    std::vector<std::optional<ShapeSurface>> surfaces;  // [cell]
 };
 
-// The rule that the payload breaks; "" where it breaks none. Of a ring with so many views and planes.
+/// Returns the rule that the payload violates; "" if there is none. `views` and `planes` are those of the ring.
 [[nodiscard]] std::string read_shape(std::span<const std::uint8_t> payload, int views, int planes, Shape& shape);
 
 }  // namespace rs::reference

@@ -15,8 +15,8 @@ int median(int a, int b, int c) {
 }  // namespace
 
 // Samples, tiles, blocks
-TileDecoder::TileDecoder(const Code& code, const Pict& pict, std::array<const Image*, 2> references, int t, Bytes bytes,
-                         Image& image)
+TileDecoder::TileDecoder(const Code& code, const Pict& pict, std::array<const DecodedImage*, 2> references, int t,
+                         Bytes bytes, DecodedImage& image)
     : code_(code),
       pict_(pict),
       references_(references),

@@ -1,6 +1,6 @@
 #pragma once
-// FORMAT.md, "Macroblocks", "Parts", "Coefficients" and "Alpha": what the bits of a tile say; "Edges of blocks": which
-// of them are smoothed.
+// FORMAT.md, "Macroblocks", "Parts", "Coefficients" and "Alpha": reads the bits of a tile; "Edges of blocks": selects
+// the edges to be filtered.
 
 #include "tests/reference/decoder/reference_bits.hpp"
 #include "tests/reference/decoder/reference_chunks.hpp"
@@ -14,10 +14,10 @@ namespace rs::reference {
 
 class TileDecoder {
 public:
-    // `references` has null where the image has no reference; `image` holds the samples of empty blocks where it is
-    // not decoded yet. Tile t of the image has the bytes.
-    TileDecoder(const Code& code, const Pict& pict, std::array<const Image*, 2> references, int t, Bytes bytes,
-                Image& image);
+    /// `references` is null for missing references. Undecoded parts of `image` contain the samples of empty blocks.
+    /// `bytes` are those of tile t.
+    TileDecoder(const Code& code, const Pict& pict, std::array<const DecodedImage*, 2> references, int t, Bytes bytes,
+                DecodedImage& image);
 
     void decode();
 
@@ -34,7 +34,7 @@ private:
         bool has_small_transforms = false;
     };
 
-    // Positions are of samples, from the tile's upper left corner.
+    // Positions are in samples from the tile's upper left corner.
     struct Part {
         int x, y, n;
         const Block* left;  // null: not in the tile
@@ -43,13 +43,13 @@ private:
         int mode;
         std::array<Vector, 2> vector;
         bool is_coded;
-        bool has_small_transforms;  // always, of a coded block
+        bool has_small_transforms;  // also true for coded parts of 8x8
     };
 
-    // A level that is not zero, as long as its sign is not known.
+    // A non-zero level whose sign is not yet known.
     struct SignlessLevel {
         int place;
-        int* level;  // holds the magnitude
+        int* level;  // points to the magnitude
     };
 
     static bool uses(Source source, int reference);
@@ -58,7 +58,7 @@ private:
 
     Block& block_at(int x, int y);
     const Block* block_in_tile(int x, int y);  // null outside
-    int level_in_tile(int x, int y) const;     // of alpha; 0 outside
+    int level_in_tile(int x, int y) const;     // alpha level; 0 outside
     int kind(int level) const;
 
     AlphaClass read_class(int first_context, int x, int y);
@@ -89,13 +89,13 @@ private:
 
     const Code& code_;
     const Pict& pict_;
-    std::array<const Image*, 2> references_;
-    Image& image_;
+    std::array<const DecodedImage*, 2> references_;
+    DecodedImage& image_;
     Bits bits_;
     int tile_x_ = 0, tile_y_ = 0, width_ = 0, height_ = 0;
     int full_ = 0;
     std::vector<Block> blocks_;
-    std::vector<int> levels_;  // but for alpha_coding 0: masks
+    std::vector<int> levels_;  // alpha levels if alpha_coding is 0, else masks
     std::vector<int> depths_;
 };
 

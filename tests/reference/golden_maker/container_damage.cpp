@@ -17,7 +17,7 @@ void fit_header_checksum(Bytes& file) {
     set_number(file, 40, static_cast<std::int64_t>(XXH64(file.data(), 40, 0)), 8);
 }
 
-// A number of the header.
+// Changes a number of the header.
 Damage header_damage(const std::string& name, std::size_t offset, std::size_t size, std::int64_t value,
                      const std::string& words) {
     return {name, kBase, words, [=](Draft& draft) {
@@ -28,7 +28,7 @@ Damage header_damage(const std::string& name, std::size_t offset, std::size_t si
             }};
 }
 
-// A number of the first entry of the table.
+// Changes a number of the first table entry.
 Damage table_damage(const std::string& name, std::size_t offset, std::size_t size, std::int64_t value,
                     const std::string& words) {
     return {name, kBase, words, [=](Draft& draft) {
@@ -39,7 +39,7 @@ Damage table_damage(const std::string& name, std::size_t offset, std::size_t siz
             }};
 }
 
-// Anything, without new checksums.
+// Changes any bytes, without new checksums.
 Damage bytes_damage(const std::string& name, const std::string& words, const std::function<void(Bytes&)>& change) {
     return {name, kBase, words, [=](Draft& draft) { draft.afterwards = change; }};
 }
@@ -61,7 +61,7 @@ Damage swapped(const std::string& name, const std::string& base, Key a, Key b, c
             [=](Draft& d) { std::swap(d.chunks[d.place(a.name, a.index)], d.chunks[d.place(b.name, b.index)]); }};
 }
 
-// `chunk` moved to just before `before`.
+// Moves `chunk` to just before `before`.
 Damage moved(const std::string& name, const std::string& base, Key chunk, Key before, const std::string& words) {
     return {"order-" + name, base, words, [=](Draft& d) {
                 const auto from = d.chunks.begin() + static_cast<std::ptrdiff_t>(d.place(chunk.name, chunk.index));

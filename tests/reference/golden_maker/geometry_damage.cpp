@@ -38,7 +38,7 @@ map_coding::Runs runs_in(const Bytes& map, std::size_t rows) {
     constexpr std::size_t kFrame = 4;
     const Bytes content = content_of(Bytes(map.begin() + kFrame, map.end()));
     const std::span plane(reinterpret_cast<const std::uint8_t*>(content.data()), content.size());
-    return map_coding::runs_of_residuals(plane, rows, (plane.size() - 2 * rows) / 4);
+    return map_coding::decode_run_residuals(plane, rows, (plane.size() - 2 * rows) / 4);
 }
 Damage map(const std::string& name, const std::string& words, const std::function<void(map_coding::Runs&)>& change,
            const std::string& base = kBase) {
@@ -80,7 +80,7 @@ Damage longer(const std::string& name, ChunkName chunk, int bytes, const std::st
             }};
 }
 
-// The units per radius.
+// Changes the units per radius.
 Damage radius(const std::string& name, double value) {
     std::int64_t bits = 0;
     static_assert(sizeof bits == sizeof value);
@@ -161,8 +161,8 @@ std::vector<Damage> rules() {
         {"foot-short", kStanding, "chunk foot 0 | bytes long", [](Draft& d) { d.payload(kFoot).pop_back(); }},
         {"view-in-no-ring", kBase, "view 2 belongs to no ring",
          [](Draft& d) {
-             // A ring of the first two views. The third has no image, which would have no place in the order, and
-             // no cell of the map.
+             // A ring of the first two views. The third view has no image, which would have no position in the order,
+             // and no cell of the map.
              d.chunks.erase(d.chunks.begin() + static_cast<std::ptrdiff_t>(d.place(kImage, 2)));
              Bytes& ring = d.payload(kRing);
              ring.resize(kLines + 16 * kPlanes * 2);
@@ -206,7 +206,7 @@ std::vector<Damage> rules() {
             "raw-shape"),
         {"map-cell-behind-the-camera", kBase, "looks away",
          [](Draft& d) {
-             // Every line of the first row's view.
+             // All lines of the first row's view.
              const std::size_t named = runs_in(d.payload(kMap), kPlanes * 2).views[0];
              for (std::size_t k = 0; k < kPlanes; ++k) {
                  set_number(d.payload(kRing), kLines + 16 * (named * kPlanes + k), -(std::int64_t{1} << 27), 4);

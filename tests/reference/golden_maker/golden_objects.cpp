@@ -13,7 +13,7 @@ namespace {
 
 using reference::Profile;
 
-// 3 views a ring; maps of 2 x 3 cells: what geometry_damage.cpp and shape_damage.cpp rely on.
+// 3 views per ring; maps of 2 x 3 cells, as required by geometry_damage.cpp and shape_damage.cpp.
 test::SmallObjectOptions smallest(int rings) {
     test::SmallObjectOptions options;
     options.rings = rings;
@@ -74,9 +74,9 @@ RaySpaceObject board(const DrawnSize& size, double step) {
     return object;
 }
 
-// A stream with an image of two references, tiles that do not fill the last byte of their list, and all four levels,
-// that has no more bytes than this, and no less than half as many; of dense images with alpha so coded, and all
-// features if as masks, else none.
+// A random stream that has an image with two references, tiles that do not fill the last byte of their list, and all
+// four levels, and that has between half of `most_bytes` and `most_bytes` bytes; dense images have the given alpha
+// coding, with all features for masks and none otherwise.
 RaySpaceObject random_object(Profile profile, std::size_t most_bytes, bool has_masks = false) {
     for (std::uint64_t seed = 1; seed < 100000; ++seed) {
         const reference::Stream stream = reference::random_stream(seed, profile);

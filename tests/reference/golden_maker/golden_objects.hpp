@@ -1,6 +1,6 @@
 #pragma once
-// The valid objects of the golden files: raw, of the encoders, and of random streams, which reach more of the format
-// than an encoder does.
+// Valid objects of the golden files: raw, encoded, and random streams, which cover more of the format than the
+// encoders.
 
 #include "rayspace/object/ray_space_object.hpp"
 
@@ -10,7 +10,7 @@
 namespace rs::golden {
 
 struct GoldenObject {
-    std::string name;  // of the file, without its extension
+    std::string name;  // file name without extension
     RaySpaceObject object;
     bool has_plain_lines = false;
 };

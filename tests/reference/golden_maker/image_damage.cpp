@@ -15,7 +15,7 @@ Damage of_codec(Damage damage) {
     return damage;
 }
 
-// What follows the levels of CODE.
+// Offset of the fields after the levels in CODE.
 std::size_t rest_of_code(const Draft& draft) {
     std::size_t views = 0;
     for (const fuzz::SoupChunk& chunk : draft.chunks) views += chunk.name == kImage ? 1 : 0;
@@ -63,7 +63,7 @@ std::vector<Damage> dense_code_of_masks(const Draft& valid) {
     const std::string base = "dense-random-masks-small";
     const bool has_edge_alpha = valid.chunks[valid.place(kCode)].payload[3] == std::byte{1};
     const std::size_t listed = rest_of_code(valid) + (has_edge_alpha ? 24 : 0);
-    // Of the encoder's: 9 views.
+    // For encoded objects with 9 views.
     const auto with_edge_alpha = [](const std::string& name, const std::string& words, const auto& change) {
         return code("edge-alpha-" + name, "dense-16x16-alpha1", words, change);
     };
@@ -79,7 +79,7 @@ std::vector<Damage> board_code(const Draft& valid) {
     const std::string base = "board-random-small";
     const std::size_t classes = rest_of_code(valid);
     const std::size_t frame = classes + 14;
-    // The frame's content changed, or the frame anew of it.
+    // Replaces the frame by one of changed content, or by another frame of the same content.
     const auto reframe = [=](Bytes& payload, int more_bytes, bool has_checksum, bool states_size) {
         Bytes content = content_of(Bytes(payload.begin() + static_cast<std::ptrdiff_t>(frame), payload.end()));
         content.resize(static_cast<std::size_t>(static_cast<int>(content.size()) + more_bytes));
@@ -115,12 +115,12 @@ std::vector<Damage> board_code(const Draft& valid) {
     };
 }
 
-// Where the numbers of a PICT stand.
+// Offsets of the numbers of a PICT.
 struct ImageFields {
     std::uint32_t view = 0;
     int reference_a = 0;
     std::size_t tiles = 0;
-    std::size_t sizes = 0;  // of the first present tile's size
+    std::size_t sizes = 0;  // offset of the first present tile's size
     std::size_t size_bytes = 0;
 };
 
@@ -172,7 +172,7 @@ std::vector<Damage> image_damages(const std::string& base, const Draft& valid) {
         const std::uint32_t view = at.view;
         return of_codec({prefix + name, base, place + words, [=](Draft& d) { apply(d.payload(kImage, view)); }});
     };
-    // The first tile's size in another form.
+    // Stores the first tile's size in another form.
     const auto size_form = [&](const std::string& name, const std::function<Bytes(int)>& form_of) {
         return change(name, "in its shortest form", [=](Bytes& b) {
             int size = static_cast<int>(number_at(b, at.sizes, 1)) & 127;

@@ -1,5 +1,5 @@
-// Writes the golden files: `make_golden tests/reference/golden`. A golden file changes only with a written reason: run
-// it when the format changes, and say so in tests/reference/golden/README.md.
+// Writes the golden files: `make_golden tests/reference/golden`. A golden file changes only with a written reason:
+// after a format change, run it and update tests/reference/golden/README.md.
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "tests/reference/golden_maker/golden_damage.hpp"
@@ -37,7 +37,7 @@ Result<golden::Draft> draft_of(const ContainerReader& file) {
     return draft;
 }
 
-// What is there already, but for the coding of the lines, which write_object() does not leave to choose.
+// Rewrites the file with plain line coding, which write_object() cannot select.
 Status rewrite_with_plain_lines(const fs::path& path, const RaySpaceObject& object) {
     const auto file = ContainerReader::open(path);
     if (!file) return file.error();

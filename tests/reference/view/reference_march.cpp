@@ -7,7 +7,7 @@
 namespace rs::reference {
 namespace {
 
-// Nothing, or a depth in eighths of a step and a lean.
+// No surface, or a depth in eighths of a step and a lean.
 struct Surface {
     Whole depth = 0;
     Whole lean = 0;
@@ -19,7 +19,7 @@ struct Surfaces {
     Found surface;
     Found behind;
     Found farthest;
-    Whole deepest = 0;  // of none 0; but then surface(v) is nothing
+    Whole deepest = 0;  // 0 if there is no surface, as stated by surface(v)
 };
 
 struct Bands {
@@ -122,7 +122,7 @@ public:
     }
 
 private:
-    // Of the eight cells around that have a surface, in the bands hi and hi + 1.
+    // Those of the eight surrounding cells that have a surface, in the bands hi and hi + 1.
     struct Eight {
         int count = 0;
         Whole deepest = 0;

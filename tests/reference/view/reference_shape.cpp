@@ -40,7 +40,7 @@ Whole detail_of(const PlanarImage& image, Whole W, Whole H, Whole i, Whole j, Br
     return clamp(D, -128, 127);
 }
 
-// Section 7; nothing: outside.
+// Section 7; nullopt: outside.
 std::optional<Sum> sample(const RaySpaceObject& object, const engine::ViewRegisters& view, const ImageOfRay& image,
                           Whole d, Whole y, Branches& branches) {
     const CapturedView& captured = object.views[image.index];

@@ -1,7 +1,6 @@
 #pragma once
-// A second answer to every pixel: engine/RECONSTRUCTION.md written down once more from its text alone, in its order and
-// with its names, without a thought for speed. Whole numbers are 128 bits wide, and where the section "Ranges" bounds
-// one, the bound is checked.
+// Second implementation of engine/RECONSTRUCTION.md, written from its text only, in its order and with its names,
+// without regard to speed. Integers have 128 bits, and the bounds of the section "Ranges" are checked.
 
 #include "engine/core/definition/view_registers.hpp"
 #include "rayspace/object/ray_space_object.hpp"
@@ -13,7 +12,7 @@
 
 namespace rs::reference {
 
-// The branches of the text, counted as they are taken.
+/// Branches of the text, counted when taken.
 enum class Branch {
     plane_behind_or_edge_on,  // section 2
     misses_or_too_far,
@@ -117,7 +116,7 @@ struct ReferencePixel {
     bool operator==(const ReferencePixel&) const = default;
 };
 
-// Section 2: of a ray that is one.
+/// Section 2: a valid ray.
 struct PlaneRay {
     std::size_t k = 0;
     Whole n = 0, T = 0, u = 0, x = 0, lambda = 0;
@@ -126,13 +125,13 @@ struct PlaneRay {
 std::optional<PlaneRay> plane_ray(const RaySpaceObject& object, const engine::ViewRegisters& view, int i, int j,
                                   Branches& branches);
 
-// Section 4: of a stored pixel.
+/// Section 4: colour of a stored pixel.
 struct Colour {
     Whole R = 0, G = 0, B = 0, A = 0;
 };
 Colour stored_colour(const PlanarImage& image, Whole column, Whole row);
 
-// `object` has passed validate_object, all of its images are loaded, and `view` has passed check_registers.
+/// Renders pixel (i, j). `object` has passed validate_object and has all its images; `view` has passed check_registers.
 ReferencePixel reference_pixel(const RaySpaceObject& object, const engine::ViewRegisters& view, int i, int j,
                                Branches& branches);
 

@@ -1,6 +1,7 @@
-// The scalar definition of rendering against a second transcription of engine/RECONSTRUCTION.md (reference_view.hpp):
-// every pixel of random views of random objects, bit for bit, colour and depth. The transcription checks the bounds of
-// the section "Ranges" as it goes and counts the branches of the text, each of which must have been taken.
+// Compares the scalar definition of rendering with a second implementation of engine/RECONSTRUCTION.md
+// (reference_view.hpp): every pixel of random views of random objects, bit for bit, colour and depth. The second
+// implementation checks the bounds of the section "Ranges" and counts the branches of the text, each of which must be
+// taken.
 
 #include "tests/reference/view/reference_view.hpp"
 
@@ -24,14 +25,14 @@ namespace {
 using engine::ViewRegisters;
 using test::Random;
 
-struct Drawn {
+struct RandomScene {
     RaySpaceObject object;
-    double distance = 0;       // of the captures
-    double camera_height = 0;  // of the first ring
-    double fov_rad = 0;        // that holds the object from the captures' distance
+    double distance = 0;       // distance of the captured cameras
+    double camera_height = 0;  // height of the first ring
+    double fov_rad = 0;        // field of view that contains the object at `distance`
 };
 
-// Images whose U and V are as large as Y.
+// Expands U and V of the images to the size of Y.
 void enlarge_chroma(RaySpaceObject& object, Random& random) {
     for (PlanarImage& image : object.images) {
         image.chroma_shift = 0;
@@ -42,8 +43,8 @@ void enlarge_chroma(RaySpaceObject& object, Random& random) {
     }
 }
 
-// Images of whose columns some show next to nothing and some a part, as at rims.
-void thin_out(RaySpaceObject& object, Random& random) {
+// Makes some columns of the images nearly or partly transparent, as at silhouettes.
+void make_columns_transparent(RaySpaceObject& object, Random& random) {
     for (PlanarImage& image : object.images) {
         for (int column = 0; column < object.width; ++column) {
             const int kind = random.whole(0, 2);
@@ -55,7 +56,7 @@ void thin_out(RaySpaceObject& object, Random& random) {
     }
 }
 
-RaySpaceObject random_ring_object(Random& random, Drawn& drawn) {
+RaySpaceObject random_ring_object(Random& random, RandomScene& drawn) {
     test::RingObjectOptions options;
     options.views = random.whole(1, 14);
     options.width = random.whole(2, 40);
@@ -70,7 +71,7 @@ RaySpaceObject random_ring_object(Random& random, Drawn& drawn) {
     return test::ring_object(options);
 }
 
-RaySpaceObject random_small_object(Random& random, Drawn& drawn) {
+RaySpaceObject random_small_object(Random& random, RandomScene& drawn) {
     test::SmallObjectOptions options;
     options.rings = random.whole(1, 3);
     options.views_per_ring = random.whole(3, 12);
@@ -81,12 +82,12 @@ RaySpaceObject random_small_object(Random& random, Drawn& drawn) {
     return object;
 }
 
-Drawn draw(Random& random, bool with_shape) {
-    Drawn drawn;
+RandomScene draw(Random& random, bool with_shape) {
+    RandomScene drawn;
     drawn.object = random.whole(0, 2) == 0 ? random_small_object(random, drawn) : random_ring_object(random, drawn);
     drawn.fov_rad = 2 * std::atan(random.real(0.5, 1.3) / drawn.distance);
     if (random.whole(0, 4) == 0) enlarge_chroma(drawn.object, random);
-    if (random.whole(0, 3) == 0) thin_out(drawn.object, random);
+    if (random.whole(0, 3) == 0) make_columns_transparent(drawn.object, random);
     if (random.whole(0, 1) == 0) test::make_middle_opaque(drawn.object);
     const double empty_share = random.whole(0, 3) == 0 ? 0.9 : random.real(0, 0.5);
     for (std::size_t r = 0; with_shape && r < drawn.object.rings.size(); ++r) {
@@ -98,7 +99,7 @@ Drawn draw(Random& random, bool with_shape) {
 enum class Pose { captured, on_ring, nearer, farther, above, tilted };
 constexpr std::array kPoses = {Pose::captured, Pose::on_ring, Pose::nearer, Pose::farther, Pose::above, Pose::tilted};
 
-Camera camera_of(const Drawn& drawn, Random& random, Pose pose) {
+Camera camera_of(const RandomScene& drawn, Random& random, Pose pose) {
     const Rig rig = rig_from_json(drawn.object.rig_json, "drawn object").value();
     const int views = static_cast<int>(rig.views.size());
     if (pose == Pose::captured) return rig.views[static_cast<std::size_t>(random.whole(0, views - 1))].camera;
@@ -119,14 +120,14 @@ Camera camera_of(const Drawn& drawn, Random& random, Pose pose) {
     return camera;
 }
 
-struct Compared {
+struct ComparisonCounts {
     Branches branches;
     std::int64_t pixels = 0;
     std::int64_t shown = 0;
 };
 
-// False, with the pixel's place, at the first difference.
-bool equals_definition(const RaySpaceObject& object, const ViewRegisters& view, Compared& compared) {
+// Returns false, with the pixel's position, at the first difference.
+bool equals_definition(const RaySpaceObject& object, const ViewRegisters& view, ComparisonCounts& compared) {
     Image<Rgba8> colour(view.width, view.height);
     Image<std::int32_t> lambda(view.width, view.height);
     engine::reconstruct_scalar(object, view, colour, lambda);
@@ -149,11 +150,12 @@ bool equals_definition(const RaySpaceObject& object, const ViewRegisters& view, 
     return true;
 }
 
-bool equals_definition_from_everywhere(Compared& compared, bool with_shape, std::uint64_t first_seed, int objects) {
+bool equals_definition_from_everywhere(ComparisonCounts& compared, bool with_shape, std::uint64_t first_seed,
+                                       int objects) {
     for (std::uint64_t seed = first_seed; seed < first_seed + static_cast<std::uint64_t>(objects); ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Random random(seed);
-        const Drawn drawn = draw(random, with_shape);
+        const RandomScene drawn = draw(random, with_shape);
         const Status valid = validate_object(drawn.object, "drawn object");
         EXPECT_TRUE(valid.ok()) << valid.error().message;
         if (!valid) return false;
@@ -168,28 +170,28 @@ bool equals_definition_from_everywhere(Compared& compared, bool with_shape, std:
     return true;
 }
 
-void expect_taken(const Branches& branches, std::size_t from, std::size_t to) {
+void expect_branches_taken(const Branches& branches, std::size_t from, std::size_t to) {
     for (std::size_t n = from; n <= to; ++n) {
-        if (n == static_cast<std::size_t>(Branch::foot_too_far)) continue;  // from the ends of the ranges only
+        if (n == static_cast<std::size_t>(Branch::foot_too_far)) continue;  // taken only at the ends of the ranges
         EXPECT_GT(branches.taken[n], 0) << "number " << n << " of enum class Branch was never taken";
     }
 }
 
 TEST(ReferenceViewProperty, TheTextGivesTheDefinitionsPixelsAndEachOfItsBranchesIsTaken) {
-    Compared compared;
+    ComparisonCounts compared;
     ASSERT_TRUE(equals_definition_from_everywhere(compared, true, 1, 400));
     EXPECT_GT(compared.shown * 10, compared.pixels);
-    expect_taken(compared.branches, static_cast<std::size_t>(Branch::plane_behind_or_edge_on),
-                 static_cast<std::size_t>(Branch::no_image));
-    expect_taken(compared.branches, static_cast<std::size_t>(Branch::foot_too_far),
-                 static_cast<std::size_t>(Branch::count) - 1);
+    expect_branches_taken(compared.branches, static_cast<std::size_t>(Branch::plane_behind_or_edge_on),
+                          static_cast<std::size_t>(Branch::no_image));
+    expect_branches_taken(compared.branches, static_cast<std::size_t>(Branch::foot_too_far),
+                          static_cast<std::size_t>(Branch::count) - 1);
 }
 
 TEST(ReferenceViewProperty, TheTextGivesTheDefinitionsPixelsOfObjectsWithoutAShapeMap) {
-    Compared compared;
+    ComparisonCounts compared;
     ASSERT_TRUE(equals_definition_from_everywhere(compared, false, 1001, 100));
     EXPECT_GT(compared.shown * 10, compared.pixels);
-    expect_taken(compared.branches, 0, static_cast<std::size_t>(Branch::outside_on_plane));
+    expect_branches_taken(compared.branches, 0, static_cast<std::size_t>(Branch::outside_on_plane));
     EXPECT_GT(compared.branches.of(Branch::too_steep_on_plane), 0);
 }
 
@@ -221,7 +223,7 @@ void move_map_to_ends(ShapeMap& shape, Ends& ends) {
     if (ends.one_of(2)) shape.depth_step_q24 = ends.in(1, 1 << 18);
     shape.jump = ends.in(1, 255);
     if (ends.one_of(2)) shape.thickness = ends.in(0, 255);
-    const bool are_scattered = ends.one_of(3);  // so that the search for the gap strays
+    const bool are_scattered = ends.one_of(3);  // the search for the gap takes more steps
     for (NormalLine& line : shape.normal_lines) {
         if (are_scattered) line.a_q20 = ends.within(-k20, k20);
         if (are_scattered) line.c_q20 = ends.within(-2 * k20, 2 * k20);
@@ -253,13 +255,14 @@ void move_cameras_to_ends(RaySpaceObject& object, Ends& ends) {
     }
 }
 
-// Any place within 256 radii, at which a ray of the view's middle still passes the object.
+// Any position within 256 radii from which a ray of the view's middle passes the object.
 void move_viewpoint_to_ends(ViewRegisters& view, Random& random, Ends& ends) {
     view.b_q20 = ends.below(k28);
     const int i = view.width / 2, j = view.height / 2;
     for (engine::PlaneRegisters& plane : view.planes) {
         const auto n = static_cast<double>(-plane.along_normal.at(i, j));
-        // A third of the viewpoints are about 512 from the plane along the viewing axis, n / 2^32 being per unit.
+        // A third of the viewpoints are about 512 from the plane along the viewing axis; n / 2^32 is the scale per
+        // unit.
         plane.c_q20 =
             ends.one_of(3) ? static_cast<std::int32_t>(std::clamp(n / 8, 1.0 - k28, k28 - 1.0)) : ends.below(k28);
         const double a = -static_cast<double>(plane.along_tangent.at(i, j)) / n * plane.c_q20 + random.real(-k20, k20);
@@ -268,18 +271,18 @@ void move_viewpoint_to_ends(ViewRegisters& view, Random& random, Ends& ends) {
 }
 
 TEST(ReferenceViewProperty, NumbersAtTheEndsOfTheirRangesKeepTheBoundsOfTheTextAndGiveTheDefinitionsPixels) {
-    Compared compared;
+    ComparisonCounts compared;
     int moved_viewpoints = 0;
     for (std::uint64_t seed = 2001; seed < 2801; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Random random(seed);
         Ends ends(random);
-        Drawn drawn = draw(random, true);
+        RandomScene drawn = draw(random, true);
         for (Ring& ring : drawn.object.rings) move_map_to_ends(ring.shape, ends);
         if (ends.one_of(3)) move_cameras_to_ends(drawn.object, ends);
         const Status valid = validate_object(drawn.object, "drawn object");
         ASSERT_TRUE(valid.ok()) << valid.error().message;
-        // From nearly overhead rays have the least horizontal length.
+        // Nearly overhead, rays have the least horizontal length.
         const double beside = ends.one_of(2) ? 0.12 : 1;
         const glm::dvec3 eye(beside * random.real(0.4, 1.3), random.real(-2, 2), beside * random.real(0.1, 3));
         const double scale = ends.one_of(4) ? 90 : 1;
@@ -302,15 +305,15 @@ TEST(ReferenceViewProperty, NumbersAtTheEndsOfTheirRangesKeepTheBoundsOfTheTextA
     }
 }
 
-// Captured cameras that come too near to the plane, or enlarge it too much, for section 3. A row of the view that looks
-// along the horizontal keeps to the row cy of the image however large that is.
+// Captured cameras that are too close to the plane, or enlarge it too much, for section 3. A horizontal row of the view
+// stays at row cy of the image for any enlargement.
 TEST(ReferenceViewProperty, NumbersAtTheEndsOfTheirRangesGiveTheDefinitionsPixelsOfObjectsWithoutAShapeMap) {
-    Compared compared;
+    ComparisonCounts compared;
     for (std::uint64_t seed = 3001; seed < 3401; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Random random(seed);
         Ends ends(random);
-        Drawn drawn = draw(random, false);
+        RandomScene drawn = draw(random, false);
         for (CapturedView& view : drawn.object.views) {
             view.fl_y_q16 = ends.in(1, k30 - 1);
             for (CapturedLine& line : view.lines) {
@@ -320,7 +323,7 @@ TEST(ReferenceViewProperty, NumbersAtTheEndsOfTheirRangesGiveTheDefinitionsPixel
                 line.q1_q16 = ends.one_of(2) ? 0 : ends.below(k30);
             }
         }
-        if (!validate_object(drawn.object, "drawn object")) continue;  // a line may look away
+        if (!validate_object(drawn.object, "drawn object")) continue;  // a camera may face away from the plane
         Camera camera = camera_of(drawn, random, Pose::captured);
         camera.cy = random.whole(0, camera.height - 1) + 0.5;
         const Result<ViewRegisters> view = engine::prepare_view(drawn.object, camera);

@@ -1,4 +1,4 @@
-// What the filter takes away, what it leaves, and where it goes as samples are added.
+// Denoising filter: noise reduction, preservation of edges, convergence as samples are added.
 
 #include "capture/tracer/image/discontinuity_filter.hpp"
 #include "tests/support/random.hpp"
@@ -14,8 +14,8 @@ namespace {
 
 constexpr int kSide = 96;
 
-// A wall at z = 0, seen from a distance of 10, of what `surface` makes of it; each sample is `light` times its colour,
-// times a number between 0 and 2 where there is noise.
+// A wall at z = 0 at distance 10 with guides from `surface`; each sample is `light` times its colour, times a random
+// number between 0 and 2 if noisy.
 struct Wall {
     std::function<Guide(int x, int y)> surface;
     std::function<float(int x, int y)> light;
@@ -31,15 +31,15 @@ Accumulation samples_of(const Wall& wall, int count) {
     Accumulation result;
     result.sum = Image<RgbaF>(kSide, kSide);
     result.guides = Image<GuideSum>(kSide, kSide);
-    for (int sample = 0; sample < count; ++sample) {
+    for (int pass = 0; pass < count; ++pass) {
         for (int y = 0; y < kSide; ++y) {
             for (int x = 0; x < kSide; ++x) {
-                RadianceSample arrived;
-                arrived.met = arrived.guided = true;
-                arrived.guide = wall.surface(x, y);
+                RadianceSample sample;
+                sample.hit = sample.has_guide = true;
+                sample.guide = wall.surface(x, y);
                 const auto noise = static_cast<float>(wall.noisy ? random.real(0, 2) : 1);
-                arrived.radiance = wall.light(x, y) * noise * arrived.guide.colour;
-                result.add(x, y, arrived);
+                sample.radiance = wall.light(x, y) * noise * sample.guide.colour;
+                result.add(x, y, sample);
             }
         }
     }
@@ -47,7 +47,7 @@ Accumulation samples_of(const Wall& wall, int count) {
     return result;
 }
 
-// Root of the mean squared difference from what all samples together go to.
+// RMS difference from the expected value.
 double rms_error(const Image<RgbaF>& image, const Wall& wall) {
     double squares = 0;
     for (int y = 0; y < kSide; ++y) {
@@ -82,7 +82,7 @@ TEST(DiscontinuityFilter, KeepsEdgesOfPlacesNormalsAndColours) {
         };
     };
     for (const auto& change : std::vector<std::function<void(Guide&)>>{
-             [](Guide& guide) { guide.place.z = 0.7F; },
+             [](Guide& guide) { guide.position.z = 0.7F; },
              [](Guide& guide) {
                  guide.normal = {0.8F, 0, 0.6F};
              },
@@ -114,7 +114,7 @@ TEST(DiscontinuityFilter, GoesToTheMeanAsSamplesAreAdded) {
         EXPECT_LT(error, count == 1024 ? 0.5 * before : before) << count;
         before = error;
     }
-    // Of the pattern that groups of virtual lights would leave.
+    // Pattern of interleaved groups of virtual lights.
     const Wall pattern{plain, [](int x, int y) { return x % 4 == 1 && y % 4 == 2 ? 1.3F : 1.0F; }, false};
     EXPECT_LT(rms_error(filtered_mean(samples_of(pattern, 4)), pattern), 1e-5);
 }
@@ -137,7 +137,7 @@ TEST(DiscontinuityFilter, LeavesWhatHasNoSurfaceAndImagesWithoutGuides) {
 
 TEST(DiscontinuityFilter, TakesImagesOfAnySizeAndSamplesThatAreNoNumbers) {
     const Accumulation all = samples_of({plain, even}, 3);
-    const Image<RgbaF> narrow = filtered_mean(all.cut_out({20, 30, 27, 31}));
+    const Image<RgbaF> narrow = filtered_mean(all.crop({20, 30, 27, 31}));
     EXPECT_EQ(narrow.width(), 7);
     EXPECT_EQ(narrow.height(), 1);
     for (const RgbaF& p : narrow.pixels()) EXPECT_NEAR(p.g, 0.5F, 0.35F);
@@ -147,7 +147,7 @@ TEST(DiscontinuityFilter, TakesImagesOfAnySizeAndSamplesThatAreNoNumbers) {
     const Image<RgbaF> filtered = filtered_mean(broken);
     EXPECT_TRUE(std::isnan(filtered(40, 40).g));
     for (int x = 30; x < 50; ++x) EXPECT_NEAR(filtered(x, 41).g, 0.5F, 0.1F);
-    // A part is what it is in the whole.
+    // A part has the same result as in the whole image.
     const Image<RgbaF> whole = filtered_mean(all), part = filtered_mean(all, {60, 50, 90, 200});
     for (int y = 50; y < kSide; ++y) {
         for (int x = 60; x < 90; ++x) ASSERT_EQ(whole(x, y), part(x, y));
@@ -172,7 +172,7 @@ TEST(DiscontinuityFilter, LooksNoFartherThanItSaysAndNeedsNoThreads) {
     }
 }
 
-// Strip by strip, and no seams: each part has the bits that it has by itself.
+// Large images are filtered in strips without seams: each part is bit-identical to filtering it separately.
 TEST(DiscontinuityFilter, TakesLargeImagesAStripAtATime) {
     constexpr int kWidth = 1200, kHeight = 1000;
     rs::test::Random random(9);

@@ -1,4 +1,4 @@
-// What an image must hold besides light: coverage, depth, holes; and that its bytes depend on nothing but the request.
+// Coverage, depth and holes of rendered images, and reproducibility of their bytes.
 
 #include "tests/capture/tracer/test_shapes.hpp"
 
@@ -18,7 +18,7 @@ bool same_bytes(const Rendering& a, const Rendering& b) {
            std::memcmp(a.depth.data(), b.depth.data(), a.depth.pixels().size_bytes()) == 0;
 }
 
-// Many kinds of light and surface at once.
+// A scene with many kinds of light and surface.
 Scene busy_scene() {
     Scene scene = scene_of(make_sphere(3), material_of(SurfaceKind::glossy, {0.8F, 0.4F, 0.2F}));
     scene.materials.push_back(material_of(SurfaceKind::glass));
@@ -61,7 +61,7 @@ TEST(Image, SeedsAndCamerasHaveNoiseOfTheirOwn) {
     EXPECT_FALSE(same_bytes(first, second));
     EXPECT_EQ(first.depth, second.depth) << "depth has no noise";
 
-    // A sphere looks the same from everywhere; only its noise differs.
+    // Views of a sphere differ in their noise only.
     Scene sphere = scene_of(make_sphere(4), material_of(SurfaceKind::diffuse));
     sphere.environment = constant_environment(1.0F);
     sphere.lights.push_back(point_light({0, 3, 0}, glm::vec3(5.0F)));
@@ -105,7 +105,7 @@ TEST(Image, AlphaCoversTheDiscOfTheSphere) {
 }
 
 TEST(Image, BoxFilterGivesTheExactShareOfAnEdgePixel) {
-    // An edge through the middle of a column of pixels, and none of its neighbours touched.
+    // An edge through the centre of a column of pixels does not affect adjacent columns.
     const Camera camera = front_camera(1.0, 90.0, 8);  // 4 px per unit at the plane z = 0
     Scene scene =
         scene_of(make_quad({-10, -10, 0}, {10.0F + 0.375F, 0, 0}, {0, 20, 0}), material_of(SurfaceKind::diffuse));
@@ -150,10 +150,10 @@ TEST(Image, LightFallsThroughHoles) {
     scene.meshes.push_back(make_quad({-5, -5, -1}, {10, 0, 0}, {0, 10, 0}));  // a wall behind
     scene.meshes.back().material = 1;
     scene.lights.push_back(directional_light({0, 0, -1}, glm::vec3(3.0F)));
-    // From between screen and wall, where the screen hides nothing.
+    // Camera between screen and wall.
     const Camera camera = look_at_camera({0, 0, -0.2}, {0, 0, -1}, radians(60.0), 32, 32);
     RenderOptions options = with_depth(4);
-    options.max_bounces = 1;  // direct light only: the screen's back would brighten the shadow
+    options.max_bounces = 1;  // direct light only, since light from the screen's back would brighten the shadow
     const Rendering rendering = render(std::move(scene), camera, options);
     EXPECT_EQ(rendering.image(4, 16).g, 0.0F) << "in the shadow of the opaque half";
     EXPECT_NEAR(rendering.image(28, 16).g, 3.0F / 3.14159F, 1e-3F);
@@ -169,7 +169,7 @@ TEST(Image, TextureLiesTheRightWayUp) {
     scene.materials[0].texture = 0;
     scene.environment = constant_environment(1.0F);
     const Rendering rendering = render(std::move(scene), front_camera(2.0, 50.0, 32), with_depth(16));
-    // At the texels' centres, +-0.5.
+    // Texel centres at +-0.5.
     EXPECT_GT(rendering.image(7, 7).r, 0.9F);
     EXPECT_GT(rendering.image(24, 24).g, 0.9F);
     EXPECT_LT(rendering.image(24, 7).r + rendering.image(24, 7).g, 0.1F);

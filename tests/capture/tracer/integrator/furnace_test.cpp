@@ -1,4 +1,4 @@
-// The white furnace: where the same light comes from everywhere, a surface that absorbs nothing cannot be told from it.
+// White furnace test: in uniform illumination a surface without absorption is invisible.
 
 #include "capture/tracer/integrator/microfacet.hpp"
 #include "capture/tracer/scene/surroundings.hpp"
@@ -47,12 +47,12 @@ TEST(Furnace, CoarseSmoothSphereLosesLittle) {
 }
 
 TEST(Furnace, HalfReflectingSurfaceReflectsHalf) {
-    // Convex, so that nothing is reflected twice.
+    // Convex, so that there are no interreflections.
     EXPECT_NEAR(furnace_mean(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.5F))), 0.5, 0.0025);
     EXPECT_NEAR(furnace_mean(make_sphere(5), material_of(SurfaceKind::mirror, glm::vec3(0.5F))), 0.5, 0.0025);
 }
 
-// The camera stands outside of a room whose walls shine, and sees only what is within.
+// The camera is outside a room with emissive one-sided walls; only the interior is visible.
 TEST(Furnace, CamerasSeeThroughRooms) {
     Scene object, room;
     object.materials = {material_of(SurfaceKind::diffuse)};
@@ -95,8 +95,8 @@ TEST_P(RoughFurnace, WhiteMetalReflectsAll) {
 }
 
 TEST(AlbedoTable, SingleScatteringAloneWouldLoseEnergy) {
-    // What the compensation makes up for: a rough mirror loses more than half of the light in one scattering, a smooth
-    // one nothing, and the loss grows with the roughness.
+    // Energy loss of single scattering: more than half for a rough conductor, none for a smooth one, increasing with
+    // roughness.
     EXPECT_NEAR(AlbedoTable::conductor(kMinAlpha).mean(), 1.0F, 1e-3F);
     EXPECT_NEAR(AlbedoTable::conductor(1.0F).mean(), 0.41F, 0.02F);
     float last = 1.1F;
@@ -105,14 +105,14 @@ TEST(AlbedoTable, SingleScatteringAloneWouldLoseEnergy) {
         EXPECT_LT(mean, last);
         last = mean;
     }
-    // Of a smooth coat: the diffuse Fresnel reflectance of index 1.5, 0.092 (Duntley's value).
+    // Smooth coat: the diffuse Fresnel reflectance of index 1.5, 0.092 (Duntley's value).
     EXPECT_NEAR(AlbedoTable::dielectric(kMinAlpha, 1.5F).mean(), 0.092F, 0.002F);
 }
 
 TEST_P(RoughFurnace, ColouredSurfacesNeverGainEnergy) {
     for (const SurfaceKind kind : {SurfaceKind::glossy, SurfaceKind::metal}) {
         for (const float angle_deg : {0.0F, 50.0F, 80.0F}) {
-            // A flat quad, tilted: all pixels see it under about the same angle.
+            // A tilted quad: nearly the same viewing angle for all pixels.
             const float t = static_cast<float>(radians(static_cast<double>(angle_deg)));
             const glm::vec3 across(2.0F * std::cos(t), 0.0F, 2.0F * std::sin(t));
             const Mesh quad = make_quad(-0.5F * across - glm::vec3(0, 1, 0), across, {0, 2, 0});

@@ -1,5 +1,4 @@
-// What many rays to a pixel give beside smooth edges: depth of field, motion blur and soft shadows, against their
-// formulas.
+// Depth of field, motion blur and soft shadows against analytic formulas.
 
 #include "rayspace/light/directions.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
@@ -21,7 +20,7 @@ RenderOptions many_rays(RenderMethod method, int samples) {
     return options;
 }
 
-// How wide an even disc would be that has the same spread about its middle, in px; `own` is what it would have anyway.
+// Diameter in px of a uniform disc with the same variance about its centroid; `own` is the variance without blur.
 double disc_of(const Image<RgbaF>& image, double own_variance) {
     glm::dvec2 middle(0);
     double sum = 0, spread = 0;
@@ -47,7 +46,7 @@ TEST(ThinLens, ABlurCircleIsAsWideAsTheLensFormulaSays) {
     for (const RenderMethod method : {RenderMethod::kToon, RenderMethod::kPath}) {
         for (const double z : {1.5, 5.0, 30.0}) {
             for (const double aperture : {0.05, 0.2}) {
-                // A speck that shines.
+                // A small emissive quad.
                 const double side = 0.004 * z;
                 Material speck = material_of(SurfaceKind::diffuse, glm::vec3(0.0F));
                 speck.emission = glm::vec3(1.0F);
@@ -60,7 +59,7 @@ TEST(ThinLens, ABlurCircleIsAsWideAsTheLensFormulaSays) {
                 const double expected = aperture * camera.fl_x * std::abs(z - kFocus) / (z * kFocus);
                 if (expected < 4 || expected > 80) continue;
                 const double side_px = side * camera.fl_x / z;
-                const double own = 2 * (1 + side_px * side_px) / 12;  // of the pixels and of the speck
+                const double own = 2 * (1 + side_px * side_px) / 12;  // variance of the pixels and of the quad
                 const double found = disc_of(render(std::move(scene), camera, options).image, own);
                 EXPECT_NEAR(found, expected, 0.03 * expected) << z << " " << aperture;
                 if (method == RenderMethod::kToon) {
@@ -85,7 +84,7 @@ TEST(ThinLens, WhatIsInFocusIsAsSharpAsThroughAPinhole) {
     }
 }
 
-// How much of a lamp is seen along a row of a floor that a half plane shades.
+// Visible share of a lamp along a row of a floor shaded by a half plane.
 double penumbra(RenderMethod method, double lamp_width, double lamp_height, double edge_height) {
     const auto row = [&](bool shaded) {
         Scene scene = scene_of(make_quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -100}), material_of(SurfaceKind::diffuse));
@@ -95,7 +94,7 @@ double penumbra(RenderMethod method, double lamp_width, double lamp_height, doub
         scene.lights = {rectangle_light({-w / 2, lamp_height, -w / 2}, {w, 0, 0}, {0, 0, w}, glm::vec3(5.0F))};
         RenderOptions options = many_rays(method, 1024);
         options.soft_shadows = true;
-        options.max_bounces = 1;  // no light from below the half plane
+        options.max_bounces = 1;  // direct light only
         const Camera camera = look_at_camera({0, 0.9 * edge_height, 1e-4}, {0, 0, 0}, radians(60), 256, 1);
         const Image<RgbaF> image = render(std::move(scene), camera, options).image;
         std::vector<double> light;
@@ -104,7 +103,7 @@ double penumbra(RenderMethod method, double lamp_width, double lamp_height, doub
     };
     const std::vector<double> shaded = row(true), open = row(false);
     const double px = 2 * 0.9 * edge_height * std::tan(radians(30)) / 256;
-    // Where a share of the lamp is left; it falls evenly.
+    // Penumbra: a linear falloff.
     const auto place_of = [&](double share) {
         std::size_t x = 0;
         while (x + 1 < shaded.size() && shaded[x + 1] / open[x + 1] > share) ++x;
@@ -128,7 +127,7 @@ TEST(SoftShadows, APenumbraIsAsWideAsSimilarTrianglesSay) {
 }
 
 TEST(SoftShadows, SurfacesThatShineLightFromAllOver) {
-    // 0.6 above the floor, the middle alone would be far from the integral.
+    // At 0.6 above the floor, the centre alone would be a poor approximation of the integral.
     const auto brightness = [](RenderMethod method) {
         Scene scene = scene_of(make_quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -100}), material_of(SurfaceKind::diffuse));
         Material lamp = material_of(SurfaceKind::diffuse, glm::vec3(0.0F));
@@ -165,7 +164,7 @@ TEST(Shutter, AStreakIsAsLongAsTheWayOfWhatMoves) {
             RenderOptions options = many_rays(method, 256);
             options.toon.edge_radius = 0;
             const Image<RgbaF> image = render(std::move(scene), camera, options).image;
-            // As wide as the way where half of the most is seen, whatever the width of what moves.
+            // The width at half maximum equals the distance moved, independent of the object's width.
             const auto light = [&](int x) { return static_cast<double>(image(x, 64).a * image(x, 64).g); };
             double most = 0, length = 0;
             for (int x = 0; x < 128; ++x) most = std::max(most, light(x));

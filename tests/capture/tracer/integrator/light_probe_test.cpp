@@ -1,4 +1,4 @@
-// What a place sees, against what it sees.
+// Light probes against direct rendering in the same scene.
 
 #include "capture/tracer/integrator/light_probe.hpp"
 
@@ -11,7 +11,7 @@
 namespace rs::capture::test {
 namespace {
 
-// Irradiance of a surface that faces `normal`.
+// Irradiance of a surface with normal `normal`.
 glm::dvec3 irradiance_of(const Image<RgbaF>& map, const glm::dvec3& normal) {
     glm::dvec3 sum(0);
     const int width = map.width();
@@ -44,12 +44,12 @@ TEST(LightProbe, HoldsEveryLightWithItsIrradiance) {
     const double a = 0.5 / std::sqrt(1.25);
     EXPECT_NEAR(measured(rectangle_light({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, glm::vec3(1)), {0, 1, 0}),
                 4 * a * std::atan(a), 0.02);
-    // Not through a wall.
+    // Occluded by a wall.
     EXPECT_EQ(measured(point_light({0, -60, 0}, glm::vec3(8)), {0, -1, 0}), 0);
 }
 
-// A room of 4 x 3 x 4 m with coloured walls and two lamps; a ball of .2 m in its middle, once traced in it, once by
-// itself in the light that its place sees.
+// A room of 4 x 3 x 4 m with coloured walls and two lamps; a ball of 0.2 m in its centre, traced in the
+// room and lit by the light probe at its position.
 TEST(LightProbe, LightsAnObjectAsTheRoomDoes) {
     Scene room;
     const auto add_wall = [&](const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v,

@@ -1,4 +1,4 @@
-// Instant radiosity against path tracing: both go to the same image, whatever shines and whatever reflects.
+// Instant radiosity against path tracing: both converge to the same image for all lights and surfaces.
 
 #include "capture/tracer/integrator/radiosity.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
@@ -62,7 +62,7 @@ glm::dvec3 mean_of(const Image<RgbaF>& image, int x0, int y0, int x1, int y1) {
     return sum / static_cast<double>((x1 - x0) * (y1 - y0));
 }
 
-// Of the whole and of each quarter.
+// Mean of the image and of each quarter.
 void expect_same_light(const Scene& scene) {
     const Image<RgbaF> path = image_of(scene, RenderMethod::kPath, 2048);
     const Image<RgbaF> radiosity = image_of(scene, RenderMethod::kRadiosity, 256);
@@ -150,7 +150,7 @@ TEST(Radiosity, GoesByEverySurfaceAsPathsDo) {
     }
 }
 
-// A curtain a little before a wall, far from the origin, so that rays step off it by more than light has to go.
+// A curtain close to a wall, far from the origin, so that ray offsets exceed the gap between them.
 TEST(Radiosity, GoesThroughWhatHangsBeforeAWall) {
     Material cloth = material_of(SurfaceKind::diffuse, glm::vec3(0.9F));
     cloth.translucency = 0.7F;
@@ -170,12 +170,12 @@ TEST(Radiosity, GoesThroughWhatHangsBeforeAWall) {
         return render(Scene(scene), look_at_camera({kAway, 0, 3.5}, {kAway, 0, 0}, radians(38), 16, 16), options).image;
     };
     const Image<RgbaF> path = image(RenderMethod::kPath, 8192), radiosity = image(RenderMethod::kRadiosity, 1024);
-    // Where the curtain is seen, the ball left out.
+    // Pixels of the curtain without the ball.
     const glm::dvec3 expected = mean_of(path, 4, 3, 12, 7), found = mean_of(radiosity, 4, 3, 12, 7);
     EXPECT_NEAR(found.g, expected.g, 0.04 * expected.g);
 }
 
-// Larger images are interleaved: each pixel of a square has virtual lights of its own.
+// Large images are interleaved: each pixel of a square has its own virtual lights.
 TEST(Radiosity, InterleavedImagesHaveTheLightOfPaths) {
     Scene scene = room_with_ball(material_of(SurfaceKind::glossy, {0.2F, 0.5F, 0.7F}, 0.4F));
     scene.lights.push_back(ceiling_area());
@@ -218,8 +218,7 @@ TEST(Radiosity, PassesGiveTheSameBitsHoweverGrouped) {
     }
 }
 
-// The camera stands in a room that gets light round two corners only; most virtual lights are where no light comes
-// from.
+// The camera is in a room lit around two corners only; most virtual lights do not contribute.
 TEST(Radiosity, KeepsVirtualLightsThatTheCameraSeesTheLightOf) {
     Scene scene;
     const int white = add_material(scene, material_of(SurfaceKind::diffuse, glm::vec3(0.6F)));
@@ -240,7 +239,7 @@ TEST(Radiosity, KeepsVirtualLightsThatTheCameraSeesTheLightOf) {
     const Camera camera = look_at_camera({-3.5, 0, 0.9}, {-1, 0, -0.5}, radians(60), 12, 12);
     const RayImage image{12, 12, camera.centre(), camera.forward(),
                          [&](double x, double y) { return camera.ray(x, y); }};
-    // The mean over the image of each pass, and how far the passes are from each other.
+    // Image mean of each pass, and the variance over the passes.
     struct Found {
         double mean, deviation, lights;
     };
@@ -267,7 +266,7 @@ TEST(Radiosity, KeepsVirtualLightsThatTheCameraSeesTheLightOf) {
     const Found off = found(false), on = found(true);
     EXPECT_NEAR(on.mean, off.mean, 4 * off.deviation / std::sqrt(512.0) * off.mean);
     EXPECT_NEAR(on.lights, off.lights, 0.35 * off.lights);
-    // As the error goes with the root of their number: a third of the lights would do.
+    // The error is proportional to the inverse root of the number of lights: equal to a third of the lights.
     EXPECT_LT(on.deviation, off.deviation / std::sqrt(3.0))
         << on.lights << " lights a pass; " << off.lights << " without";
     RecordProperty("off", std::to_string(off.deviation));

@@ -1,4 +1,4 @@
-// Directions behind mirrors and glass.
+// Directions of reflection and refraction.
 
 #include "capture/tracer/integrator/microfacet.hpp"
 #include "capture/tracer/light/environment_map.hpp"
@@ -12,7 +12,7 @@
 namespace rs::capture::test {
 namespace {
 
-// Each direction has a colour of its own, which changes slowly.
+// Every direction has a unique, slowly varying colour.
 Environment compass_environment() {
     Environment environment;
     environment.pixels = Image<RgbaF>(256, 128);
@@ -55,7 +55,7 @@ TEST(Mirror, ReflectsWhereTheLawSays) {
     }
 }
 
-// A slab top >= z >= top - thickness that is larger than what the camera sees.
+// A slab top >= z >= top - thickness that covers the camera's field of view.
 void add_slab(Scene& scene, float thickness, int material, float top = 0.0F) {
     scene.meshes.push_back(make_quad({-50, -50, top}, {100, 0, 0}, {0, 100, 0}));
     scene.meshes.back().material = material;
@@ -73,7 +73,7 @@ TEST(Glass, SlabShiftsRaysAsSnellSays) {
     lamp.emission = glm::vec3(1.0F);
     scene.materials = {glass, lamp};
     add_slab(scene, kThickness, 0);
-    scene.meshes.push_back(make_quad({0, -50, -1}, {50, 0, 0}, {0, 100, 0}));  // shines where x > 0 on z = -1
+    scene.meshes.push_back(make_quad({0, -50, -1}, {50, 0, 0}, {0, 100, 0}));  // emissive where x > 0 on z = -1
     scene.meshes.back().material = 1;
     const Camera camera = look_at_camera({-2, 0.1, 2}, {0, 0, -1}, radians(20.0), 64, 8);
     const Rendering rendering = render(std::move(scene), camera, sharp(64));
@@ -93,7 +93,7 @@ TEST(Glass, SlabShiftsRaysAsSnellSays) {
         const double straight = camera.centre().x + sideways.x / cos_outside * (camera.centre().z + 1);
         if ((straight > 0) != (p.x > 0)) ++moved_by_refraction;
         if (std::abs(p.x) < 2e-3) continue;
-        // Fresnel splits the light, so lit pixels are less than 1; dark ones get nothing at all.
+        // Fresnel reflection dims lit pixels below 1; dark pixels are exactly 0.
         if (p.x > 0) {
             EXPECT_GT(rendering.image(x, 4).g, 0.7F) << x;
             ++lit;
@@ -112,7 +112,7 @@ TEST(Glass, SlabReflectsAndPassesWhatFresnelSays) {
     Material glass = material_of(SurfaceKind::glass);
     scene.materials = {glass};
     add_slab(scene, 0.3F, 0);
-    // Red comes from before the slab, green from behind it.
+    // Red light comes from in front of the slab, green from behind it.
     scene.environment.pixels = Image<RgbaF>(256, 4);
     for (int y = 0; y < 4; ++y) {
         for (int x = 0; x < 256; ++x) {
@@ -131,7 +131,7 @@ TEST(Glass, SlabReflectsAndPassesWhatFresnelSays) {
 TEST(Glass, AbsorbsByTheLengthOfTheWay) {
     Scene scene;
     Material glass = material_of(SurfaceKind::glass, {0.5F, 0.25F, 1.0F});
-    glass.ior = 1.0F;  // no reflection, no refraction: only the way counts
+    glass.ior = 1.0F;  // no reflection, no refraction: absorption only
     scene.materials = {glass};
     add_slab(scene, 2.0F, 0);
     scene.environment = constant_environment(1.0F);
@@ -141,7 +141,7 @@ TEST(Glass, AbsorbsByTheLengthOfTheWay) {
     EXPECT_NEAR(mean.b, 1.0, 1e-5);
 }
 
-// Slabs of index 1, so that only the way counts: {top, thickness, what a unit length of it lets through}.
+// Slabs of index 1 for absorption without refraction: {top, thickness, transmittance per unit length}.
 struct Slab {
     float top, thickness, through;
 };
@@ -163,11 +163,11 @@ TEST(Glass, InsideOfGlassTheInnermostAbsorbs) {
     };
     // One unit of the outer, one of the inner, one of the outer again.
     expect_seen({{0, 3, 0.5F}, {-1, 1, 0.25F}}, 0.5 * 0.25 * 0.5);
-    // Overlapping, neither inside of the other: one unit of the first, two of the second.
+    // Overlapping: one unit of the first, two of the second.
     expect_seen({{0, 2, 0.5F}, {-1, 2, 0.25F}}, 0.5 * 0.25 * 0.25);
-    // Four deep: each is met on the way in and on the way out.
+    // Four levels: each interface is crossed twice.
     expect_seen({{0, 7, 0.9F}, {-1, 5, 0.8F}, {-2, 3, 0.7F}, {-3, 1, 0.6F}}, 0.9 * 0.9 * 0.8 * 0.8 * 0.7 * 0.7 * 0.6);
-    // Five deep: the outermost is forgotten on the way out.
+    // Five levels: the outermost medium is dropped.
     expect_seen({{0, 9, 0.5F}, {-1, 7, 0.9F}, {-2, 5, 0.8F}, {-3, 3, 0.7F}, {-4, 1, 0.6F}},
                 0.5 * 0.9 * 0.9 * 0.8 * 0.8 * 0.7 * 0.7 * 0.6);
 }
@@ -176,7 +176,7 @@ TEST(Fresnel, KnownValues) {
     EXPECT_NEAR(fresnel_dielectric(1.0F, 1.5F), 0.04F, 1e-6F);
     EXPECT_NEAR(fresnel_dielectric(0.0F, 1.5F), 1.0F, 1e-5F);
     EXPECT_NEAR(fresnel_dielectric(0.7F, 1.0F), 0.0F, 1e-6F);
-    // Beyond asin(1 / 1.5) = 41.8 degrees nothing leaves.
+    // Total internal reflection beyond asin(1 / 1.5) = 41.8 degrees.
     EXPECT_EQ(fresnel_dielectric(std::cos(static_cast<float>(radians(42.0))), 1.0F / 1.5F), 1.0F);
     EXPECT_LT(fresnel_dielectric(std::cos(static_cast<float>(radians(41.0))), 1.0F / 1.5F), 1.0F);
 }

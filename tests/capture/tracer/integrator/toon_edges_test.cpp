@@ -1,4 +1,4 @@
-// Lines of cartoons, against where edges are.
+// Toon edge lines against analytic edge positions.
 
 #include "tests/capture/tracer/test_shapes.hpp"
 
@@ -13,7 +13,7 @@
 namespace rs::capture::test {
 namespace {
 
-// Everything white, lines black.
+// White surfaces, black lines.
 RenderOptions lines(float radius, int samples = 1) {
     RenderOptions options;
     options.method = RenderMethod::kToon;
@@ -37,7 +37,7 @@ int count_lines(const Image<RgbaF>& image) {
     return static_cast<int>(std::ranges::count_if(image.pixels(), is_line));
 }
 
-// Flat faces, outer sides outwards.
+// Flat faces with outward winding.
 Mesh make_box(const glm::vec3& low, const glm::vec3& high) {
     Mesh box;
     box.name = "box";
@@ -65,7 +65,7 @@ Mesh transformed(Mesh mesh, const glm::mat3& m, const glm::vec3& move) {
     return mesh;
 }
 
-// About an axis that is none of the image's.
+// Rotation about an axis that is not aligned with the image.
 glm::mat3 oblique_turn() {
     const glm::vec3 a = glm::normalize(glm::vec3(0.3F, 1, 0.2F)),
                     b = glm::normalize(glm::cross(a, glm::vec3(1, 0, 0.4F)));
@@ -85,7 +85,7 @@ TEST(ToonEdges, ACubeHasItsEdgesAndNoOthers) {
         render(scene_of(transformed(make_box(glm::vec3(-0.7F), glm::vec3(0.7F)), turn, {}), white()), camera,
                lines(radius))
             .image;
-    // Each edge between faces of which one at least is seen.
+    // Edges with at least one visible face.
     std::vector<std::pair<glm::dvec2, glm::dvec2>> edges;
     const auto seen = [&](const glm::vec3& normal) {
         return glm::dot(camera.centre() - glm::dvec3(turn * (0.7F * normal)), glm::dvec3(turn * normal)) > 0;
@@ -146,7 +146,7 @@ TEST(ToonEdges, SteepPlanesHaveNoneWhereTheirDepthAloneWouldSaySo) {
                    options);
         ASSERT_NEAR(drawn.depth(64, 64), 4, 0.2);
         EXPECT_EQ(count_lines(drawn.image), 0) << tilt_deg << " degrees";
-        // The paper's first attempt: anything within the radius that is deeper or less deep by more than a threshold.
+        // The paper's first method: depth differences above a threshold within the radius.
         const int reach = static_cast<int>(kRadius * camera.fl_x / 4);
         for (int y = reach; y < 128 - reach; ++y) {
             for (int x = 0; x < 128; ++x) {
@@ -165,7 +165,7 @@ TEST(ToonEdges, ASmoothSphereHasAnOutlineOnly) {
     const Camera camera = front_camera(4, 34, 400);
     const double outline_px = camera.fl_x / std::sqrt(15.0),
                  line_px = static_cast<double>(kRadius) * camera.fl_x / 3.87;
-    for (const int splits : {4, 6}) {  // coarse facets, too
+    for (const int splits : {4, 6}) {  // including coarse facets
         const Image<RgbaF> image = render(scene_of(make_sphere(splits), white()), camera, lines(kRadius)).image;
         int inside = 0, outline = 0, missing = 0;
         for (int y = 0; y < 400; ++y) {
@@ -183,7 +183,7 @@ TEST(ToonEdges, ASmoothSphereHasAnOutlineOnly) {
     }
 }
 
-// Across the middle of an image, where a line runs along (-across.y, across.x): how much of it is dark, in pixels.
+// Width in pixels of a line along (-across.y, across.x) through the centre of an image.
 double dark_width(const Image<RgbaF>& image, const glm::vec2& across) {
     const double middle = 0.5 * image.width();
     double width = 0;
@@ -205,7 +205,7 @@ TEST(ToonEdges, LinesAreAsWideAsTheirRadiusFromThere) {
          std::vector<std::pair<double, double>>{{0.7, 2}, {0.7, 6}, {3, 6}, {9, 2}, {16, 6}, {30, 2}}) {
         const Camera camera = front_camera(z, 10, 96);
         const auto radius = static_cast<float>(radius_px * z / camera.fl_x);
-        // Edges that stand, lie and lean; halfway between four, eight and sixteen diameters, too.
+        // Vertical, horizontal and slanted edges, including halfway between four, eight and sixteen diameters.
         for (const double lean_deg : {0.0, 5.625, 22.5, 45.0, 123.75}) {
             const auto lean = static_cast<float>(radians(lean_deg));
             const glm::vec3 across(std::cos(lean), std::sin(lean), 0), along(-across.y, across.x, 0);
@@ -257,7 +257,7 @@ TEST(ToonEdges, AMirrorShowsTheEdgesOfTheMirroredMesh) {
     Overlap overlap, of_depth;
     for (int y = 1; y < 255; ++y) {
         for (int x = 1; x < 255; ++x) {
-            // What stands before the mirror hides some of it.
+            // The object in front of the mirror hides part of it.
             const glm::dvec3 ray = camera.ray(x + 0.5, y + 0.5);
             const double to_mirror = -camera.centre().z / ray.z * glm::dot(ray, camera.forward());
             if (!(ray.z < 0) || std::abs(in_mirror.depth(x, y) - to_mirror) > 1e-3) continue;
@@ -265,7 +265,7 @@ TEST(ToonEdges, AMirrorShowsTheEdgesOfTheMirroredMesh) {
             const bool line = in_mirror.image(x, y).g < 0.5F && drawn.image(x, y).a > 0;
             overlap.both += truth && line;
             overlap.any += truth || line;
-            // The usual way, edges of the image's depths, sees the mirror.
+            // Edges of the depth image would show the mirror's plane.
             const auto d = [&](int i, int k) { return in_mirror.depth(x + i, y + k); };
             const float gx = d(1, -1) + 2 * d(1, 0) + d(1, 1) - d(-1, -1) - 2 * d(-1, 0) - d(-1, 1);
             const float gy = d(-1, 1) + 2 * d(0, 1) + d(1, 1) - d(-1, -1) - 2 * d(0, -1) - d(1, -1);

@@ -1,4 +1,4 @@
-// Tones of cartoons, against the angles that their thresholds mean.
+// Toon tones against the angles of their thresholds.
 
 #include "tests/capture/tracer/test_shapes.hpp"
 
@@ -29,14 +29,14 @@ std::set<std::tuple<float, float, float>> colours_of(const Image<RgbaF>& image) 
     return colours;
 }
 
-// Of the unit sphere, where the ray through a place of the image meets it; NaN beside it.
+// Cosine at the hit of a pixel position's ray with the unit sphere; NaN for a miss.
 double cosine_at(const Camera& camera, double x, double y, const glm::dvec3& to_light) {
     const glm::dvec3 d = glm::normalize(camera.ray(x, y)), o = camera.centre();
     const double b = glm::dot(o, d), under_root = b * b - glm::dot(o, o) + 1;
     return under_root > 0 ? glm::dot(o + d * (-b - std::sqrt(under_root)), to_light) : std::nan("");
 }
 
-// Where the cosine passes `value` in the image's row y, between two pixels' middles.
+// Position in row y at which the cosine crosses `value`, between two pixel centres.
 double crossing_of(const Camera& camera, double x0, double x1, double y, const glm::dvec3& to_light, double value) {
     const bool rises = cosine_at(camera, x1, y, to_light) > cosine_at(camera, x0, y, to_light);
     for (int i = 0; i < 40; ++i) {
@@ -56,7 +56,7 @@ TEST(Toon, BandsOfASphereLieAtTheAnglesOfTheThresholds) {
 
     const ToonStyle style;
     std::array<double, 4> error{}, count{};
-    for (int y = 100; y < 412; ++y) {  // where the bands stand steep
+    for (int y = 100; y < 412; ++y) {  // where the bands are steep
         for (int x = 0; x + 1 < 512; ++x) {
             const double here = cosine_at(camera, x + 0.5, y + 0.5, to_light);
             const double next = cosine_at(camera, x + 1.5, y + 0.5, to_light);
@@ -64,7 +64,7 @@ TEST(Toon, BandsOfASphereLieAtTheAnglesOfTheThresholds) {
             for (std::size_t k = 0; k < 4; ++k) {
                 const float colour = std::max(image(x, y).r, image(x + 1, y).r);
                 if (image(x, y).r == image(x + 1, y).r || std::abs(colour - 0.9F * style.values[k]) > 1e-4F) continue;
-                // A tone may be passed within a pixel: then both thresholds are there.
+                // A band may be narrower than a pixel: then both thresholds are in it.
                 const double value = style.thresholds[k];
                 const double found = x + 1, near = std::abs(here - value) < std::abs(next - value) ? here : next;
                 const double slope = std::abs(next - here);
@@ -106,11 +106,11 @@ TEST(Toon, IntensityCountsNotHowBrightALightIsButWhatItIsBesideOthers) {
     EXPECT_NEAR(up({sun({0, -1, 0}, 100)}), 1, 1e-5);
     EXPECT_NEAR(up({point_light({0, 2, 0}, glm::vec3(7))}), 1, 1e-5);
     EXPECT_NEAR(up({sun({1, -1, 0}, 3)}), 0.8, 1e-5);                       // 0.71
-    EXPECT_NEAR(up({sun({1, -1, 0}, 3), sun({-1, -1, 0}, 3)}), 1, 1e-5);    // none could have more
+    EXPECT_NEAR(up({sun({1, -1, 0}, 3), sun({-1, -1, 0}, 3)}), 1, 1e-5);    // the maximum
     EXPECT_NEAR(up({sun({0, -1, 0}, 3), sun({0, 1, 0}, 1)}), 1, 1e-5);      // 3 of 2,
     EXPECT_NEAR(down({sun({0, -1, 0}, 3), sun({0, 1, 0}, 1)}), 0.5, 1e-5);  // 1 of 2
     EXPECT_NEAR(down({sun({0, -1, 0}, 3)}), 0.1, 1e-5);                     // nothing
-    EXPECT_NEAR(down({sun({0, -1, 0}, 3)}, 3 / kPiF), 0.5, 1e-5);           // half of it from everywhere
+    EXPECT_NEAR(down({sun({0, -1, 0}, 3)}, 3 / kPiF), 0.5, 1e-5);           // half of it isotropic
     EXPECT_NEAR(up({}, 1), 1, 1e-5);
 }
 
@@ -118,7 +118,7 @@ TEST(Toon, TheEnvironmentIsALightFromWhereItShinesTheMost) {
     Scene scene = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.5F)));
     scene.environment = constant_environment(3.0F);
     const Image<RgbaF> even = render(std::move(scene), front_camera(4, 34, 64), toon()).image;
-    EXPECT_EQ(colours_of(even).size(), 1U);  // from everywhere alike
+    EXPECT_EQ(colours_of(even).size(), 1U);  // isotropic
 
     Scene under_sky = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.5F)));
     under_sky.environment.pixels = Image<RgbaF>(64, 32);
@@ -135,7 +135,7 @@ TEST(Toon, TheEnvironmentIsALightFromWhereItShinesTheMost) {
 }
 
 TEST(Toon, MirrorsAndGlassShowTones) {
-    // A sphere before a mirror that lies on the floor; nothing but tones of the sphere is in either.
+    // A sphere above a horizontal mirror; both show tones of the sphere only.
     Scene scene = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.8F)));
     scene.materials.push_back(material_of(SurfaceKind::mirror, glm::vec3(1.0F)));
     scene.meshes.push_back(make_quad({-9, -1.2F, 9}, {18, 0, 0}, {0, 0, -18}));
@@ -144,7 +144,7 @@ TEST(Toon, MirrorsAndGlassShowTones) {
     const Image<RgbaF> image =
         render(std::move(scene), look_at_camera({0, 3, 6}, {0, -1, 0}, radians(40), 128, 128), toon()).image;
     for (const auto& [r, g, b] : colours_of(image)) {
-        bool known = r == 0;  // nothing, in the mirror
+        bool known = r == 0;  // background, in the mirror
         for (const float value : ToonStyle{}.values) known = known || std::abs(r - 0.8F * value) < 1e-5F;
         EXPECT_TRUE(known) << r;
     }
@@ -170,7 +170,7 @@ TEST(Toon, SoftShadowsHaveTonesToo) {
     EXPECT_EQ(tones_of_row(soft).size(), 5U);  // all of them, one after the other,
     int dark = 0;
     for (int x = 44; x < 52; ++x) dark += hard(x, 48).g < 0.2F;
-    EXPECT_EQ(dark, 4);  // where a hard shadow has a single step
+    EXPECT_EQ(dark, 4);  // a hard shadow has a single step
 }
 
 }  // namespace

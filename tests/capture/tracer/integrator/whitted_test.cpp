@@ -1,4 +1,4 @@
-// Whitted's ray tracing against formulas.
+// Whitted ray tracing against analytic formulas.
 
 #include "capture/tracer/light/irradiance_map.hpp"
 #include "rayspace/light/directions.hpp"
@@ -19,7 +19,7 @@ RenderOptions whitted() {
     return options;
 }
 
-// A camera above the origin that sees a small patch of the floor there.
+// A camera above the origin with a small patch of the floor in view.
 Camera small_patch_camera() {
     return look_at_camera({0, 1, 0.5}, {0, 0, 0}, radians(0.1), 4, 4);
 }
@@ -41,7 +41,7 @@ TEST(Whitted, DirectLightIsThatOfTheFormulaWithoutNoise) {
 TEST(Whitted, ShadowsAreHard) {
     Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
     scene.lights = {rectangle_light({-0.5F, 4, -0.5F}, {1, 0, 0}, {0, 0, 1}, glm::vec3(2.0F))};
-    scene.meshes.push_back(make_quad({0, 2, -9}, {9, 0, 0}, {0, 0, 18}));  // its edge halfway under the middle
+    scene.meshes.push_back(make_quad({0, 2, -9}, {9, 0, 0}, {0, 0, 18}));  // its edge at half the height of the light
     const Camera camera = look_at_camera({0, 1.5, 0.01}, {0, 0, 0}, radians(60), 64, 3);
     const Image<RgbaF> image = render(std::move(scene), camera, whitted()).image;
     for (int x = 0; x < 64; ++x) {
@@ -54,7 +54,7 @@ TEST(Whitted, ShadowsAreHard) {
 }
 
 TEST(Whitted, AreasAndSurfacesThatShineCountAsTheirMiddle) {
-    // 3 m away, so that a point in the middle is near to the form factor.
+    // At 3 m the centre point approximates the form factor.
     const auto expected = 0.8 * 2 * 1 / (kPi * 9);
     Scene by_area = scene_of(floor_quad(), material_of(SurfaceKind::diffuse, glm::vec3(0.8F)));
     by_area.lights = {rectangle_light({-0.5F, 3, -0.5F}, {1, 0, 0}, {0, 0, 1}, glm::vec3(2.0F))};
@@ -66,7 +66,7 @@ TEST(Whitted, AreasAndSurfacesThatShineCountAsTheirMiddle) {
     by_mesh.meshes.push_back(make_quad({-0.5F, 3, -0.5F}, {1, 0, 0}, {0, 0, 1}));
     by_mesh.meshes.back().material = 1;
     EXPECT_NEAR(brightness(by_mesh, small_patch_camera()), expected, 1e-3);
-    // A ball of radius 0.5 is a disc of that radius from everywhere.
+    // A ball of radius 0.5 appears as a disc of the same radius from all sides.
     by_mesh.meshes.back() = make_sphere(4);
     by_mesh.meshes.back().material = 1;
     for (glm::vec3& p : by_mesh.meshes.back().positions) p = 0.5F * p + glm::vec3(0, 3, 0);
@@ -85,7 +85,7 @@ TEST(Whitted, MirrorsAndGlassAreFollowed) {
     EXPECT_NEAR(seen_by(SurfaceKind::mirror, glm::vec3(0.9F), 8), 1.8, 1e-3);
     EXPECT_NEAR(seen_by(SurfaceKind::metal, glm::vec3(0.7F), 8), 1.4, 1e-3);
     EXPECT_EQ(seen_by(SurfaceKind::mirror, glm::vec3(0.9F), 0), 0);
-    EXPECT_NEAR(seen_by(SurfaceKind::glass, glm::vec3(1.0F), 8), 2, 1e-3);  // reflected and passed together
+    EXPECT_NEAR(seen_by(SurfaceKind::glass, glm::vec3(1.0F), 8), 2, 1e-3);  // reflected plus transmitted
 }
 
 TEST(Whitted, TwoMirrorsEndAfterEightReflections) {

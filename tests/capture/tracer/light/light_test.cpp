@@ -1,4 +1,4 @@
-// Light sources against the formulas of radiometry.
+// Light sources against radiometric formulas.
 
 #include "capture/tracer/integrator/sampler.hpp"
 #include "capture/tracer/light/environment_map.hpp"
@@ -19,7 +19,7 @@ RenderOptions direct_light(int samples) {
     return options;
 }
 
-// A camera above the origin that sees a patch of the plane y = 0 of about 0.02 a side.
+// A camera above the origin with a patch of the plane y = 0 of about 0.02 a side in view.
 Camera patch_camera() {
     return look_at_camera({0, 1, 0.5}, {0, 0, 0}, radians(1.0), 8, 8);
 }
@@ -54,7 +54,7 @@ TEST(DirectionalLight, CoarseSphereShowsNoFacetsAtTheTerminator) {
     const Camera camera = front_camera(8.0, 15.0, 64);
     const Rendering rendering = render(std::move(scene), camera, direct_light(16));
     for (int x = 36; x < 56; ++x) {
-        const double along = (x + 0.5 - 32.0) / camera.fl_x * 7.0;  // about where the ray meets the sphere
+        const double along = (x + 0.5 - 32.0) / camera.fl_x * 7.0;  // approximate position of the hit
         EXPECT_NEAR(rendering.image(x, 32).g, along, 0.06) << x;
     }
 }
@@ -89,14 +89,14 @@ TEST(RectangleLight, GivesTheAnalyticFormFactor) {
 TEST(RectangleLight, IsDarkFromBehindAndSeenInMirrorsOnly) {
     Scene scene = scene_of(floor_quad(), material_of(SurfaceKind::mirror, glm::vec3(0.9F)));
     scene.lights.push_back(rectangle_light({-5, 3, -5}, {10, 0, 0}, {0, 0, 10}, glm::vec3(4.0F)));
-    const Camera camera = patch_camera();  // below the light, which is larger than what it sees
+    const Camera camera = patch_camera();  // below the light, which is larger than the field of view
     EXPECT_NEAR(mean_radiance(render(scene, camera, direct_light(4)).image).g, 0.9 * 4.0, 1e-4);
     std::swap(scene.lights[0].half_u, scene.lights[0].half_v);
     EXPECT_EQ(mean_radiance(render(scene, camera, direct_light(4)).image).g, 0.0);
 }
 
 TEST(Emitter, LightsLikeARectangleOfTheSameSize) {
-    // Directly above the patch and off to the side, so that light samples and hits by chance both matter.
+    // Directly above the patch and off to the side, so that both light samples and BSDF samples matter.
     for (const float offset : {0.0F, 1.0F}) {
         Scene by_light = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
         by_light.lights.push_back(rectangle_light({offset - 0.5F, 0.6F, -0.5F}, {1, 0, 0}, {0, 0, 1}, glm::vec3(2.0F)));
@@ -107,7 +107,7 @@ TEST(Emitter, LightsLikeARectangleOfTheSameSize) {
         by_mesh.materials.push_back(lamp);
         by_mesh.meshes.push_back(make_quad({offset - 0.5F, 0.6F, -0.5F}, {1, 0, 0}, {0, 0, 1}));
         by_mesh.meshes.back().material = 1;
-        // Below the lamp, for it hides the floor from above.
+        // Below the lamp, which hides the floor from above.
         const Camera camera = look_at_camera({0, 0.4, 0.5}, {0, 0, 0}, radians(1.0), 8, 8);
         const double expected = mean_radiance(render(by_light, camera, direct_light(512)).image).g;
         const double mean = mean_radiance(render(by_mesh, camera, direct_light(512)).image).g;
@@ -132,7 +132,7 @@ Scene half_lamp_scene(const RgbaF& right_half, bool painted) {
 }
 
 double floor_radiance(Scene scene, int samples = 1024) {
-    // Below the lamp, for it hides the floor from above.
+    // Below the lamp, which hides the floor from above.
     const Camera camera = look_at_camera({0, 0.4, 0.5}, {0, 0, 0}, radians(1.0), 8, 8);
     return mean_radiance(render(std::move(scene), camera, direct_light(samples)).image).g;
 }
@@ -146,7 +146,7 @@ TEST(Emitter, DoesNotShineThroughItsHoles) {
 }
 
 TEST(Emitter, ShinesAsItsTextureIsPainted) {
-    // The look-up is bilinear and repeats: 1 at s = 1/4, falling to 0 at 3/4 and rising again, as if cut into thin
+    // The look-up is bilinear and periodic: 1 at s = 1/4, falling to 0 at 3/4 and rising again; equivalent to thin
     // strips of that radiance.
     Scene strips = scene_of(floor_quad(), material_of(SurfaceKind::diffuse));
     constexpr int kStrips = 64;
@@ -187,7 +187,7 @@ Environment sunny_environment() {
 TEST(EnvironmentMap, ImportanceSamplingEqualsTheIntegral) {
     const Environment environment = sunny_environment();
     const EnvironmentMap map(environment);
-    // Irradiance on a surface that looks up, by a fine midpoint rule.
+    // Irradiance on an upward-facing surface, by a fine midpoint rule.
     glm::dvec3 irradiance(0);
     constexpr int kRows = 512;
     constexpr int kColumns = 2048;
@@ -230,7 +230,7 @@ TEST(EnvironmentMap, SamplesCarryTheirDensityWhichSumsToOne) {
 TEST(EnvironmentMap, DirectionsFollowTheConvention) {
     Environment environment;
     environment.pixels = Image<RgbaF>(64, 32);
-    environment.pixels(48, 16) = {1, 0, 0, 1};  // a quarter turn from the middle column: +X
+    environment.pixels(48, 16) = {1, 0, 0, 1};  // a quarter turn from the central column: +X
     environment.pixels(5, 0) = {0, 1, 0, 1};    // top row: +Y
     for (int x = 0; x < 64; ++x) environment.pixels(x, 0).g = 1;
     const EnvironmentMap map(environment);

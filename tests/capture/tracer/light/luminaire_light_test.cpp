@@ -1,4 +1,4 @@
-// Luminaires and lights among many, against the formulas of radiometry.
+// Luminaires and scenes with many lights against radiometric formulas.
 
 #include "capture/tracer/light/light_set.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
@@ -19,7 +19,7 @@ std::shared_ptr<const Luminaire> luminaire_of(const std::string& text) {
     return std::make_shared<const Luminaire>(std::move(read).value());
 }
 
-// Not the same to any side: 0 to 90 degrees down, 4 planes of their own.
+// Asymmetric web: 0 to 90 degrees from the nadir, 4 different planes.
 std::shared_ptr<const Luminaire> lopsided() {
     return luminaire_of(
         "TILT=NONE\n1 -1 10 3 5 1 2 0 0 0 1 1 9\n0 45 90\n0 90 180 270 360\n"
@@ -34,7 +34,7 @@ Light light_of(std::shared_ptr<const Luminaire> luminaire, const glm::dvec3& loc
     return light;
 }
 
-// I cos / d^2, of a web that is linear between its angles, at places on the floor all around.
+// Compares I cos / d^2 of a web that is linear between its angles at positions on the floor in all directions.
 TEST(LuminaireLight, LightsTheFloorByTheInverseSquareLaw) {
     const std::array<double, 4> at_45 = {800, 1200, 400, 600}, at_90 = {100, 300, 50, 200};
     for (const double turn_deg : {0.0, 45.0, 90.0, 200.0, 300.0}) {
@@ -65,14 +65,14 @@ TEST(LuminaireLight, LightsTheFloorByTheInverseSquareLaw) {
     }
 }
 
-// What a sphere's wall gets beyond the direct light: flux * r / (4 pi R^2 (1 - r)), whatever the web.
+// Indirect irradiance in a sphere: flux * r / (4 pi R^2 (1 - r)), independent of the web.
 void expect_sphere_is_filled(const std::shared_ptr<const Luminaire>& luminaire, RenderMethod method) {
     SCOPED_TRACE(method == RenderMethod::kPath ? "path" : "radiosity");
     const double albedo = 0.5, radius = 1;
     Scene scene = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(albedo)));
     scene.lights.push_back(light_of(luminaire, {0, 0, 0}));
-    // All directions alike: equal steps of height and turn.
-    // Noise of virtual lights is the same all over an image, so that passes count there, and pixels elsewhere.
+    // Uniform directions: equal steps of height and azimuth.
+    // Noise of virtual lights is correlated over an image, so the number of passes matters there, pixels elsewhere.
     const bool radiosity = method == RenderMethod::kRadiosity;
     const int side = radiosity ? 8 : 96;
     RayImage rays{2 * side, side, glm::dvec3(0), {0, 0, -1}, [side](double x, double y) {
@@ -106,12 +106,12 @@ TEST(LuminaireLightRealData, FillsASphereAsItsFluxSays) {
         ASSERT_TRUE(read) << read.error().message;
         const auto luminaire = std::make_shared<const Luminaire>(std::move(read).value());
         expect_sphere_is_filled(luminaire, RenderMethod::kPath);
-        // It takes seconds each, and only photons and light samples depend on the web: two webs are enough.
+        // Takes seconds each; only photons and light samples depend on the web, so two webs suffice.
         if (i % 4 == 1) expect_sphere_is_filled(luminaire, RenderMethod::kRadiosity);
     }
 }
 
-// Of every kind, beside each other: the draws' mean is what the sources give, and none is missed.
+// Lights of every kind together: the mean of the samples equals the sum of the sources, and every source is sampled.
 TEST(LightSetProperty, DrawsAreUnbiasedWhereverTheyAreNeeded) {
     Scene scene = scene_of(make_quad({-9, -1, 9}, {18, 0, 0}, {0, 0, -18}), material_of(SurfaceKind::diffuse));
     scene.lights.push_back(directional_light({-1, -2, 0}, glm::vec3(0.4F)));
@@ -153,7 +153,7 @@ TEST(LightSetProperty, DrawsAreUnbiasedWhereverTheyAreNeeded) {
     }
 }
 
-// E = pi L sin^2 of the half angle, below its middle; nothing behind.
+// E = pi L sin^2 of the half angle, below its centre; nothing behind.
 TEST(DiscLight, GivesItsFormFactorAndIsSeenInMirrors) {
     for (const bool mirror : {false, true}) {
         Scene scene = scene_of(make_quad({-50, 0, 50}, {100, 0, 0}, {0, 0, -100}),
@@ -175,7 +175,7 @@ TEST(DiscLight, GivesItsFormFactorAndIsSeenInMirrors) {
     }
 }
 
-// A hall whose lamps hang 10 m apart: beneath each there is as much noise as if it were alone.
+// A hall with lamps 10 m apart: the noise below each lamp equals that of a single lamp.
 TEST(LightSet, ALampAmongManyIsFoundWhereItShines) {
     const auto error_below = [](int lamps) {
         Scene scene = scene_of(make_quad({-400, 0, 400}, {800, 0, 0}, {0, 0, -800}), material_of(SurfaceKind::diffuse));
@@ -189,7 +189,7 @@ TEST(LightSet, ALampAmongManyIsFoundWhereItShines) {
         for (const RgbaF& p : image.pixels()) squares += (p.g - mean) * (p.g - mean);
         return std::sqrt(squares / 256) / mean;
     };
-    EXPECT_LT(error_below(49), 0.25);  // drawn evenly it would be 1.7
+    EXPECT_LT(error_below(49), 0.25);  // 1.7 with uniform selection
 }
 
 }  // namespace

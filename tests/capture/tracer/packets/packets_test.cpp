@@ -1,4 +1,4 @@
-// Rays in packets beside single rays: the same bits, on what stands still, moves, has holes, mirrors and refracts.
+// Packets against single rays: bit-identical for static and moving objects, holes, mirrors and glass.
 
 #include "capture/tracer/integrator/gather_packet.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
@@ -51,7 +51,7 @@ void expect_the_bits_of_single_rays(const Scene& scene) {
     rs::test::Random random(3);
     const auto number = [&](double low, double high) { return static_cast<float>(random.real(low, high)); };
     std::vector<RayScene::Ray> asked;
-    for (int i = 0; i < 4013; ++i) {  // not a number of whole packets
+    for (int i = 0; i < 4013; ++i) {  // not a multiple of the packet size
         const glm::vec3 from(number(-3, 3), number(0, 3), number(2, 6));
         const glm::vec3 at(number(-3, 3), number(-1, 1), number(-3, 3));
         asked.push_back({from, glm::normalize(at - from), number(0, 1), std::numeric_limits<float>::infinity()});
@@ -95,7 +95,7 @@ TEST(Packets, GiveTheBitsOfSingleRays) {
     expect_the_bits_of_single_rays(scene);
 }
 
-// Neighbours that go to one lamp, which kept Embree busy for ever where all that stands in the way are instances.
+// Coherent shadow rays to one lamp, for which Embree did not return with instances as the only occluders.
 TEST(Packets, OfNeighboursComeBackFromInstances) {
     Scene scene = scene_of_all_kinds();
     for (Instance& instance : scene.instances) instance.at_close.reset();
@@ -116,7 +116,7 @@ TEST(Packets, OfNeighboursComeBackFromInstances) {
     }
 }
 
-// A ball that shines without a mesh.
+// An emissive ball without a mesh.
 class ShiningBall final : public RayPrimitive {
 public:
     [[nodiscard]] Box bounds() const override { return {kMiddle - kRadius, kMiddle + kRadius}; }
@@ -132,8 +132,8 @@ private:
     static constexpr float kRadius = 0.4F;
 };
 
-// Beside all kinds: relief, a border that goes on, vertices with colours, light that comes through, sides that are not
-// there, what shines, a part that is mirrored, and every kind of light.
+// All surface kinds with normal maps, clamped textures, vertex colours, translucency, one-sided and emissive surfaces,
+// a mirrored part, and every kind of light.
 Scene scene_of_all_details() {
     Scene scene = scene_of_all_kinds();
     Texture stripes;
@@ -205,13 +205,14 @@ Scene scene_of_all_details() {
     return scene;
 }
 
-void expect_whitted_gives_the_bits_of_single_rays(const Scene& scene, float environment, Seen seen, bool soft_shadows) {
+void expect_whitted_gives_the_bits_of_single_rays(const Scene& scene, float environment, CameraVisibility visibility,
+                                                  bool soft_shadows) {
     const auto rays = RayScene::create(scene);
     ASSERT_TRUE(rays);
     const LightSet lights(scene, environment > 0 ? constant_environment(environment) : Environment{},
                           {glm::vec3(0), 6.0F});
     const auto models = make_surface_models(scene.materials);
-    const LightTransport transport(scene, *rays, lights, models, seen);
+    const LightTransport transport(scene, *rays, lights, models, visibility);
     const WhittedTracer tracer(transport, IrradianceMap(lights.environment()), glm::vec3(0.1F), 8, soft_shadows);
     const Camera camera = look_at_camera({0.3, 1.2, 6}, {0, 0, 0}, radians(60), 61, 47);
     std::vector<CameraRay> many;
@@ -228,7 +229,7 @@ void expect_whitted_gives_the_bits_of_single_rays(const Scene& scene, float envi
     double sum = 0;
     for (std::size_t i = 0; i < many.size(); ++i) {
         Sampler sampler = many[i].sampler;
-        single[i].met = tracer.trace(many[i].origin, many[i].direction, many[i].time, sampler, single[i].radiance);
+        single[i].hit = tracer.trace(many[i].origin, many[i].direction, many[i].time, sampler, single[i].radiance);
         sum += static_cast<double>(single[i].radiance.g);
         SurfacePoint point{};
         if (rays->intersect(many[i].origin, many[i].direction, many[i].time, point)) {
@@ -237,19 +238,19 @@ void expect_whitted_gives_the_bits_of_single_rays(const Scene& scene, float envi
     }
     EXPECT_GT(sum, 100);
     for (std::size_t i = 0; i < met.size(); ++i) EXPECT_GT(met[i], 20) << "material " << i;
-    // Whole packets, parts of them, and none.
+    // Full, partial and empty packets.
     for (const std::size_t at_once : {many.size(), std::size_t{256}, std::size_t{1}, std::size_t{15}, std::size_t{17},
                                       std::size_t{65}, std::size_t{0}}) {
         std::vector<CameraRay> asked = many;
-        std::vector<RadianceSample> arrived(many.size());
+        std::vector<RadianceSample> samples(many.size());
         for (std::size_t i = 0; i < many.size(); i += std::max<std::size_t>(at_once, 1)) {
             const std::size_t count = std::min(at_once, many.size() - i);
-            tracer.trace_many(std::span(asked).subspan(i, count), std::span(arrived).subspan(i, count));
+            tracer.trace_many(std::span(asked).subspan(i, count), std::span(samples).subspan(i, count));
             if (at_once == 0) break;
         }
         for (std::size_t i = 0; i < many.size() && at_once > 0; ++i) {
-            ASSERT_EQ(single[i].met, arrived[i].met) << i << ", " << at_once << " at once";
-            ASSERT_EQ(single[i].radiance, arrived[i].radiance) << i << ", " << at_once << " at once";
+            ASSERT_EQ(single[i].hit, samples[i].hit) << i << ", " << at_once << " at once";
+            ASSERT_EQ(single[i].radiance, samples[i].radiance) << i << ", " << at_once << " at once";
         }
     }
 }
@@ -263,7 +264,7 @@ TEST(Packets, OfWhittedGiveTheBitsOfSingleRays) {
     }
 }
 
-// Light that came from the surface's viewer and goes to `out` instead: f, without a cosine, as a viewer there has it.
+// BSDF value, without a cosine, for light from the surface's viewer direction scattered to `out`.
 glm::vec3 sent(const LightTransport& transport, const LightTransport::Vertex& from, const glm::vec3& out) {
     const SurfaceModel& model = transport.model_of(from.point);
     const glm::vec3& colour = from.surface.colour();
@@ -279,11 +280,11 @@ glm::vec3 sent(const LightTransport& transport, const LightTransport::Vertex& fr
 std::optional<LightSample> light_from(const LightTransport& transport, const LightTransport::Vertex& from,
                                       const glm::vec3& flux, float bound, const LightTransport::Vertex& to) {
     const glm::vec3 facet = from.point.geometric_normal;
-    glm::vec3 place = to.start_of(to.point.geometric_normal, true);
+    glm::vec3 place = to.ray_origin(to.point.geometric_normal, true);
     if (to.thin && !(glm::dot(from.point.position - place, to.point.geometric_normal) > 0.0F)) {
-        place = to.start_of(-to.point.geometric_normal, false);
+        place = to.ray_origin(-to.point.geometric_normal, false);
     }
-    glm::vec3 target = from.start_of(facet, true);
+    glm::vec3 target = from.ray_origin(facet, true);
     if (from.thin) {
         const float side = glm::dot(place - from.point.position, facet);
         target = from.point.position + facet * std::copysign(from.step_off, side);
@@ -331,7 +332,7 @@ void expect_virtual_lights_give_the_bits_of_their_twin(const Scene& scene) {
         packet.lit[3] = 0;
         for (std::size_t from = 0; from < vertices.size(); from += 3) {
             LightLanes arrives;
-            const VirtualLight light = materials.virtual_light(vertices[from], flux, 1);
+            const VirtualLight light = materials.make_virtual_light(vertices[from], flux, 1);
             const bool some =
                 light_from_virtual(light, kBound, materials.tables(), packet.surfaces, packet.lit, arrives);
             bool some_expected = false;

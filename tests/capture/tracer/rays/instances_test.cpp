@@ -1,4 +1,4 @@
-// What moves: instances of parts, beside the same scene flattened, and the time of rays against formulas.
+// Instances of parts against the flattened scene, and ray time against analytic formulas.
 
 #include "capture/tracer/rays/ray_scene.hpp"
 #include "capture/tracer/scene/flatten.hpp"
@@ -24,7 +24,7 @@ glm::dmat4 moved_by(const glm::dvec3& way) {
     return glm::translate(glm::dmat4(1), way);
 }
 
-// A quarter of it is holes.
+// A texture with holes in a quarter of its area.
 Texture lattice_texture() {
     Texture texture;
     texture.pixels = Image<RgbaF>(8, 8, {0.9F, 0.8F, 0.3F, 1});
@@ -36,7 +36,7 @@ Texture lattice_texture() {
     return texture;
 }
 
-// A floor that stands still; balls, a lattice and a lamp that are instances: turned, stretched, mirrored.
+// A static floor; balls, a lattice and a lamp as rotated, stretched and mirrored instances.
 Scene moving_scene() {
     Scene scene;
     scene.name = "moving";
@@ -94,13 +94,13 @@ Difference difference_of(const Image<RgbaF>& a, const Image<RgbaF>& b) {
     return difference;
 }
 
-// Nothing at random: pixels may differ only where a ray passes an edge by a hair.
+// Deterministic rendering: pixels may differ only at edges.
 TEST(Instances, LookAsWhenFlattened) {
     const Scene scene = moving_scene();
     const Image<RgbaF> instanced = render(scene, moving_camera(160), options_of(RenderMethod::kWhitted, 1)).image;
     const Image<RgbaF> flat = render(flattened(scene), moving_camera(160), options_of(RenderMethod::kWhitted, 1)).image;
     EXPECT_LT(difference_of(instanced, flat).pixels, 160 * 160 / 1000);
-    // And they are something to be seen.
+    // The instances are visible.
     Scene empty = scene;
     empty.instances.clear();
     const Image<RgbaF> bare = render(std::move(empty), moving_camera(160), options_of(RenderMethod::kWhitted, 1)).image;
@@ -120,7 +120,7 @@ TEST(Instances, MovesBuildNoTriangleTreeAgainAndGiveTheBitsOfANewScene) {
     Scene scene = moving_scene();
     Tracer tracer = tracer_of(scene);
     const Tracer::Builds before = tracer.builds();
-    EXPECT_EQ(before.of_triangles, 3);  // what stands still, and two parts
+    EXPECT_EQ(before.triangle_trees, 3);  // static meshes and two parts
     for (int step = 1; step <= 20; ++step) {
         for (std::size_t i = 0; i < scene.instances.size(); ++i) {
             scene.instances[i].world_from_part =
@@ -129,10 +129,10 @@ TEST(Instances, MovesBuildNoTriangleTreeAgainAndGiveTheBitsOfANewScene) {
         }
         tracer.commit();
     }
-    EXPECT_EQ(tracer.builds().of_triangles, before.of_triangles);
-    EXPECT_EQ(tracer.builds().of_instances, before.of_instances + 20);
+    EXPECT_EQ(tracer.builds().triangle_trees, before.triangle_trees);
+    EXPECT_EQ(tracer.builds().instance_trees, before.instance_trees + 20);
     tracer.commit();  // nothing has moved
-    EXPECT_EQ(tracer.builds().of_instances, before.of_instances + 20);
+    EXPECT_EQ(tracer.builds().instance_trees, before.instance_trees + 20);
     const RenderOptions options = options_of(RenderMethod::kPath, 2);
     EXPECT_EQ(tracer.render(moving_camera(48), options).image, render(scene, moving_camera(48), options).image);
 }
@@ -172,7 +172,7 @@ TEST(Instances, MatricesWithoutAnInverseAreRefused) {
     EXPECT_NE(none.error().message.find("instance 3: part 7 does not exist"), std::string::npos);
 }
 
-// A square of width 1 that shines and goes by 2 in x while the shutter is open: a trapezoid.
+// An emissive square of width 1 that moves by 2 in x while the shutter is open: a trapezoid.
 TEST(RayTime, AMovingSquareIsSeenForAsLongAsItIsThere) {
     Scene scene;
     scene.materials = {material_of(SurfaceKind::diffuse, glm::vec3(0.0F))};
@@ -192,7 +192,7 @@ TEST(RayTime, AMovingSquareIsSeenForAsLongAsItIsThere) {
     }
 }
 
-// Shadows and reflected light are those of the same moment: path and radiosity agree, and the time is the path's.
+// Shadows and reflected light use the time of the path: path tracing and radiosity agree.
 TEST(RayTime, PathAndRadiosityAgreeOnABlurredRoom) {
     Scene scene = moving_scene();
     for (Instance& instance : scene.instances) {
@@ -202,7 +202,7 @@ TEST(RayTime, PathAndRadiosityAgreeOnABlurredRoom) {
     const Image<RgbaF> path = render(scene, moving_camera(16), options_of(RenderMethod::kPath, 256)).image;
     const Image<RgbaF> radiosity = render(scene, moving_camera(16), options_of(RenderMethod::kRadiosity, 128)).image;
     EXPECT_NEAR(difference_of(path, radiosity).of_means, 0, 0.015);
-    // A surface that shines and moves is met by paths only, and brings what it brings.
+    // Moving emissive surfaces are hit by paths only.
     scene.materials[3].emission = {6, 5, 4};
     for (Instance& instance : scene.instances) instance.at_close = instance.world_from_part;
     Scene still = scene;

@@ -1,4 +1,4 @@
-// glTF and GLB files, and what their materials become.
+// glTF and GLB files and the conversion of their materials.
 
 #include "capture/tracer/scene/mesh_file.hpp"
 #include "tests/capture/tracer/mesh_files.hpp"
@@ -131,7 +131,7 @@ TEST(GltfFile, EmissionIsThatOfItsTexture) {
     EXPECT_EQ(material.emission, glm::vec3(1.0F, 0.5F, 1.0F));
     EXPECT_EQ(scene->textures[0].pixels(0, 0), (RgbaF{0, 0, 0, 1}));
     EXPECT_NEAR(scene->textures[0].pixels(1, 0).g, 0.503F, 1e-3F) << "through the sRGB curve";
-    // The texture's own factor is black unless the file says otherwise.
+    // The emissive factor of a texture defaults to black.
     const Result<Scene> dark = read_gltf_material(folder.path(), {{"emissiveTexture", kTexture0}}, image);
     EXPECT_EQ(dark->materials[static_cast<std::size_t>(dark->meshes[0].material)].emission, glm::vec3(0.0F));
     EXPECT_TRUE(dark->textures.empty());
@@ -187,7 +187,7 @@ TEST(GlbFile, ReadsItsEmbeddedTexture) {
     pbr["roughnessFactor"] = 1.0;
     pbr["metallicRoughnessTexture"] = kTexture0;
     Gltf gltf = make_gltf(pbr, {{"bufferView", 3}, {"mimeType", "image/png"}});
-    // The mean blue is 3/4 and the mean green 2/5, which is what the other file of this material says as a factor.
+    // The mean blue is 3/4 and the mean green 2/5, the same as the factors in the other file of this material.
     Image<Rgba8> paint(2, 2, {0, 136, 255, 255});
     paint(0, 0) = {255, 0, 0, 255};
     ASSERT_TRUE(write_png(folder / "paint.png", paint.view()));

@@ -1,4 +1,4 @@
-// OBJ files with MTL, and what is the same of all mesh files.
+// OBJ files with MTL, and behaviour common to all mesh files.
 
 #include "capture/tracer/scene/mesh_file.hpp"
 #include "tests/capture/tracer/mesh_files.hpp"
@@ -148,7 +148,7 @@ TEST(MeshFile, AGlbThatClaimsMoreThanItHoldsIsRefused) {
     }
 }
 
-// Assimp would read it as what it resembles: any of its fifty readers could be reached so.
+// Assimp would detect the format by content, which would expose all of its readers.
 TEST(MeshFile, AFileIsReadAsWhatItsNameSaysOnly) {
     const TemporaryFolder folder;
     write_text(folder / "off.gltf", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");

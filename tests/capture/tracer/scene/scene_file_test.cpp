@@ -1,4 +1,4 @@
-// Recipes: every key, the strictness, the normalisation.
+// Recipes: all keys, strict validation, normalisation.
 
 #include "capture/tracer/scene/scene_file.hpp"
 #include "capture/tracer/scene/normalise.hpp"
@@ -58,7 +58,7 @@ TEST_F(SceneFileTest, MeshAloneGetsStudioAndDefaultCamera) {
 TEST_F(SceneFileTest, KeepsTheMeshesOriginOnTheAxisWhereAsked) {
     const Result<SceneFile> file = load(R"({"object": {"mesh": "quad.obj", "centre": "origin"}})");
     ASSERT_TRUE(file) << file.error().message;
-    // The farthest vertex, (6, 2, 0), comes to distance 1 from the origin that the mesh has.
+    // The farthest vertex, (6, 2, 0), is scaled to distance 1 from the mesh's own origin.
     const glm::vec3 farthest = file->scene.meshes[0].positions[2];
     EXPECT_NEAR(farthest.x, 6 / std::sqrt(40.0), 1e-6);
     EXPECT_NEAR(farthest.y, 2 / std::sqrt(40.0), 1e-6);
@@ -168,7 +168,7 @@ TEST_F(SceneFileTest, GeneratorGetsNameParametersAndSeed) {
 TEST_F(SceneFileTest, ARoomStandsAroundTheObject) {
     std::ofstream(folder_ / "room.mtl") << "newmtl lamp\nKd 0 0 0\nKe 2 2 2\n";
     std::ofstream(folder_ / "room.obj") << "mtllib room.mtl\nusemtl lamp\nv 10 3 4\nv 12 3 4\nv 10 3 6\nf 1 2 3\n";
-    // The quad is 4 x 2, so its radius is half of the root of 20; it stands at its middle's foot.
+    // The quad is 4 x 2, so its radius is sqrt(20) / 2; it is placed by the foot of its centre.
     const Result<SceneFile> file = load(R"({"object": {"mesh": "quad.obj", "texture": "red.png"},
         "room": {"file": "room.obj", "at": [10, 1, 4], "turn_deg": 90, "radius": 2}})");
     ASSERT_TRUE(file) << file.error().message;
@@ -180,7 +180,7 @@ TEST_F(SceneFileTest, ARoomStandsAroundTheObject) {
     EXPECT_EQ(scene.materials[static_cast<std::size_t>(scene.meshes[1].material)].emission, glm::vec3(2));
     EXPECT_EQ(scene.materials[0].texture, 0);
     EXPECT_TRUE(scene.environment.pixels.empty()) << "the lamp is light enough";
-    // 2 above the ground, and what is 2 along +X of the room lies to the turned object's side.
+    // 2 above the ground, and 2 along the room's +X, which is to the rotated object's side.
     const float ground = static_cast<float>(file->ground_height);
     EXPECT_NEAR(ground, -1 / std::sqrt(5.0F), 1e-6F);
     const glm::vec3 above = scene.meshes[1].positions[0], beside = scene.meshes[1].positions[1];

@@ -1,4 +1,4 @@
-// Capture sets as folders.
+// Folders of capture sets.
 
 #include "capture/tracer/session/capture_set.hpp"
 #include "rayspace/image_io/image_io.hpp"

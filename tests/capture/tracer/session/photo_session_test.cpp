@@ -1,5 +1,5 @@
-// Synthetic photographs against their own truth: marks appear where the truth projects them, lights stand still, alpha
-// is what two backdrops tell, the same seed gives the same bytes.
+// Synthetic photos against their ground truth: marks are at their projected positions, lights are static, alpha matches
+// the matte from two backdrops, the same seed yields the same bytes.
 
 #include "capture/tracer/session/photo_session.hpp"
 #include "rayspace/geometry/rig.hpp"
@@ -36,7 +36,7 @@ Material glowing() {
     return material;
 }
 
-// Everything a real camera adds left out.
+// Without noise, drift and other camera errors.
 PhotoOptions clean_options() {
     PhotoOptions options;
     options.session.views = 4;
@@ -67,14 +67,14 @@ glm::dvec2 centroid(const Image<Rgba8>& image) {
     return sum / weight;
 }
 
-// What the truth file says, read as a stranger would.
+// Independent reader of the ground-truth file.
 struct Truth {
     Rig rig;
     TurntableModel model;
     double distance = 0;
     double camera_height = 0;
 
-    // Where a point of the object appears in the photograph of one view.
+    // Position of an object point in the photo of a view.
     [[nodiscard]] glm::dvec2 photo_position(const glm::dvec3& p_in_object, std::size_t view) const {
         const glm::dvec3 in_room = turned(p_in_object, model.angles_rad[view]) - glm::dvec3(0, camera_height, 0);
         return project(model.lens, model.pose, in_room / distance).value_or(glm::dvec2(-1e9));
@@ -156,7 +156,7 @@ TEST_F(PhotoSession, MarksOfTheObjectAppearWhereTheTruthProjectsThem) {
             const glm::dvec2 expected = truth.photo_position(mark, i);
             EXPECT_NEAR(seen.x, expected.x, 0.05) << "view " << i;
             EXPECT_NEAR(seen.y, expected.y, 0.05) << "view " << i;
-            // The pinhole camera of transforms.json, with the lens' distortion put on, says the same.
+            // Agrees with the pinhole camera of transforms.json plus lens distortion.
             const Camera& camera = truth.rig.views[i].camera;
             const glm::dvec3 pinhole = camera.project(glm::dvec3(mark));
             const auto straight = undistorted(truth.model.lens, expected);
@@ -197,7 +197,7 @@ TEST_F(PhotoSession, MarksOfTheBoardAppearWhereItsCornersSay) {
 }
 
 TEST_F(PhotoSession, LightsStandStillInTheRoom) {
-    // A ball on the axis looks the same at every angle, whatever is lit from where, if and only if the lights stay.
+    // A ball on the axis has the same appearance at every angle if and only if the lights are static.
     const auto lit_by = [&](const std::string& name, const std::function<void(Scene&)>& add_light) {
         Scene scene = scene_of(make_sphere(5), material_of(SurfaceKind::diffuse, glm::vec3(0.7F)));
         add_light(scene);
@@ -208,7 +208,7 @@ TEST_F(PhotoSession, LightsStandStillInTheRoom) {
         options.backdrop = backdrop("black");
         const fs::path set = photograph(name, scene, 1, options);
         const Image<Rgba8> first = image_in(set / "photos" / view_file(0));
-        // Of the means of blocks of 8x8 pixels, against the noise of the tracer.
+        // Compares means of blocks of 8x8 pixels, to suppress the noise of the tracer.
         const auto difference = [&](const Image<Rgba8>& other) {
             double sum = 0;
             for (int block = 0; block < 10 * 8; ++block) {
@@ -274,7 +274,7 @@ TEST_F(PhotoSession, AlphaIsWhatABlackAndAWhiteBackdropTell) {
     EXPECT_GT(edges, 100);
     EXPECT_NEAR(told_sum / truth_sum, 1, 0.003);
 
-    // A disc under the object changes the photograph, not the object's alpha.
+    // A disc under the object changes the photo, not the object's alpha.
     options.disc = DiscSurface::speckled;
     const fs::path on_disc = photograph("on-disc", scene, 1, options);
     EXPECT_EQ(image_in(on_disc / "truth" / "alpha" / "000.png"), image_in(on_white / "truth" / "alpha" / "000.png"));
@@ -298,7 +298,7 @@ TEST_F(PhotoSession, TheObjectThrowsAShadowOnTheDiscItTouches) {
         const glm::dvec2 p = truth.photo_position({0, top, distance}, 0);
         return brightness(photo(static_cast<int>(p.x), static_cast<int>(p.y)));
     };
-    EXPECT_LT(disc_at(0.55), 0.75 * disc_at(1.1));  // near the contact, as far as it is seen, and at the rim
+    EXPECT_LT(disc_at(0.55), 0.75 * disc_at(1.1));  // near the visible contact, and at the rim
     EXPECT_GT(disc_at(1.1), 0.2);
 }
 

@@ -1,4 +1,4 @@
-// What is drawn for a photographed turn has the size that was asked for, and the sensor adds what it is told to.
+// Random errors of session plans have the requested size, and the sensor adds the requested noise.
 
 #include "capture/tracer/session/session_plan.hpp"
 #include "capture/tracer/session/seeded_draws.hpp"

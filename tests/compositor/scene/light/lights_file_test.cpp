@@ -1,4 +1,4 @@
-// Lists of lights beside a scene.
+// Light lists of scenes.
 
 #include "compositor/scene/light/lights_file.hpp"
 
@@ -32,7 +32,7 @@ TEST(LightList, PunctualLightsGiveWhatTheirNumbersSay) {
     const Light bulb = only(R"({"kind": "point", "location": [0, 2, 0], "candela": 179, "name": "bulb"})");
     EXPECT_EQ(bulb.name, "bulb");
     EXPECT_NEAR(irradiance_at(bulb, {0, 0, 0}).r, 0.25, 1e-6);
-    EXPECT_NEAR(irradiance_at(bulb, {0, 1.9, 0}).r, 100, 1e-3);  // near, too
+    EXPECT_NEAR(irradiance_at(bulb, {0, 1.9, 0}).r, 100, 1e-3);  // also nearby
     const Light spot = only(
         R"({"kind": "spot", "location": [0, 2, 0], "aim": [0, -1, 0], "candela": 179, "beam_deg": 20, "cut_off_deg": 40})");
     EXPECT_NEAR(irradiance_at(spot, {2 * std::tan(radians(9.9)), 0, 0}).r, 0.25 * std::pow(std::cos(radians(9.9)), 2),
@@ -54,7 +54,7 @@ TEST(LightList, AreasShineToTheirAimWithTheirLumens) {
         if (aim[1] == '0' && aim[2] == '.') towards = glm::normalize(glm::dvec3(0.3, 0.2, -0.7));
         EXPECT_LT(glm::distance(glm::normalize(glm::cross(panel.half_u, panel.half_v)), towards), 1e-9) << aim;
         EXPECT_LT(glm::distance(spot.towards, towards), 1e-9);
-        // Far away the panel is a point on its axis.
+        // From far away the panel is a point on its axis.
         EXPECT_NEAR(irradiance_at(spot, panel.location + 10.0 * towards).r, 20 / kPi / 100, 1e-5);
     }
     EXPECT_NEAR(
@@ -64,7 +64,7 @@ TEST(LightList, AreasShineToTheirAimWithTheirLumens) {
 
 TEST(LightList, LuminairesAreTurnedAboutTheirAim) {
     const test::TemporaryFolder scratch;
-    // 179 cd down; in plane 0 100, in plane 90 200, at 45 degrees.
+    // 179 cd downwards; 100 in plane 0, 200 in plane 90 at 45 degrees.
     ASSERT_TRUE(write_file(scratch / "lamp.ies",
                            "TILT=NONE\n1 -1 1 3 2 1 2 0 0 0 1 1 9\n0 45 90\n0 90\n179 100 0\n179 200 0\n"));
     const std::string head = R"({"kind": "luminaire", "file": "lamp.ies", "location": [0, 1, 0])";
@@ -80,10 +80,10 @@ TEST(LightList, LuminairesAreTurnedAboutTheirAim) {
     EXPECT_NEAR(irradiance_at(aside, {1, 1, 0}).r, 1, 1e-6);
     EXPECT_EQ(irradiance_at(aside, {-2, 1, 0}).r, 0);
     EXPECT_NEAR(glm::determinant(aside.world_from_luminaire), 1, 1e-12);
-    // The spot of it is as bright straight ahead, and reaches no farther back.
+    // Its spot has the same intensity straight ahead and the same extent.
     const Light spot = punctual_of(down);
     EXPECT_LT(glm::distance(spot.towards, glm::dvec3(0, -1, 0)), 1e-12);
-    EXPECT_NEAR(irradiance_at(spot, {0, 0, 0}).r, 200 / 179.0, 1e-5);  // its peak's
+    EXPECT_NEAR(irradiance_at(spot, {0, 0, 0}).r, 200 / 179.0, 1e-5);  // of the peak
     EXPECT_EQ(irradiance_at(spot, {0, 2, 0}).r, 0);
 }
 

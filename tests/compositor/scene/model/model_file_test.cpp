@@ -20,7 +20,7 @@ using ::testing::IsEmpty;
 
 // Positions and texture coordinates of a triangle.
 constexpr float kData[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 1, 1, 0, 0};
-// That triangle, in a data URI or, `binary`, left to the chunk of a .glb; `nodes`, materials and the rest are put in.
+// The triangle in a data URI or, if `binary`, in the chunk of a .glb; `nodes`, materials and the rest are inserted.
 std::string gltf(const std::string& nodes, const std::string& more = "", bool binary = false) {
     const auto* bytes = reinterpret_cast<const unsigned char*>(kData);
     static const char* kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -62,7 +62,7 @@ TEST_F(ModelFile, MeshesMaterialsAndTransformsAreRead) {
     EXPECT_LT(glm::distance(glm::dvec3(node.world_from_node * glm::dvec4(1, 1, 1, 1)), glm::dvec3(3, 3, 4)), 1e-5);
     for (const MeshVertex& vertex : node.mesh->vertices) {
         EXPECT_LT(glm::distance(vertex.normal, glm::vec3(0, 0, 1)), 1e-5F);
-        // t grows upwards.
+        // t increases upwards.
         EXPECT_LT(glm::distance(vertex.texture, glm::vec2(vertex.position)), 1e-5F);
     }
     EXPECT_TRUE(scene->navigation.headlight);
@@ -81,7 +81,7 @@ TEST_F(ModelFile, ExtrasStandForObjects) {
     EXPECT_EQ(object.file, folder_ / "objects/vase.rso");
     EXPECT_EQ(object.description, "Vase");
     EXPECT_FALSE(object.standing);
-    // (0, 1, 2) halved and doubled, moved to (0, 1, 3), turned to (3, 1, 0), moved.
+    // (0, 1, 2) scaled by 1/2 and 2, translated to (0, 1, 3), rotated to (3, 1, 0), translated.
     EXPECT_LT(glm::distance(world_from_node(object.chain).point({0, 1, 2}), glm::dvec3(4, 1, 0)), 1e-6);
 }
 
@@ -104,7 +104,7 @@ TEST_F(ModelFile, AFaultInExtrasIsAnErrorThatNamesItsPlace) {
          {std::pair{R"({"RaySpace": {"size": 1}})", "nodes[0].extras.RaySpace: url is missing"},
           std::pair{R"({"RaySpace": {"url": "a.rso", "size": 0}})", "nodes[0].extras.RaySpace.size: must be a number"},
           std::pair{R"({"RaySpace": {"url": "a.rso", "hue": 0}})", "has a key 'hue'"},
-          std::pair{R"({"RaySpace": {"url": "http://a/b.rso"}})", "no file on this machine"}}) {
+          std::pair{R"({"RaySpace": {"url": "http://a/b.rso"}})", "not a local file"}}) {
         const auto scene = read(gltf(R"({"mesh": 0, "extras": )" + std::string(extras) + "}", kMaterial));
         ASSERT_FALSE(scene) << extras;
         EXPECT_THAT(scene.error().message, ::testing::AllOf(HasSubstr("hall.gltf: "), HasSubstr(expected)));
@@ -218,7 +218,7 @@ TEST_F(ModelFile, FacesOfTwoCornersAreLines) {
 }
 
 TEST_F(ModelFile, AnObjIsRead) {
-    // The second as some programs write it: the statements indented, which Assimp does not read as such.
+    // The second has indented statements, as some exporters write them, which Assimp does not recognise.
     for (const char* materials : {"newmtl red\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 64\nillum 2\n",
                                   "\tnewmtl red\r\n\t\tKd 1 0 0\r\n \r\n  Ks 0.5 0.5 0.5\r\n\t\tNs 64\r\n  illum 2"}) {
         std::ofstream(folder_ / "hall.mtl") << materials;

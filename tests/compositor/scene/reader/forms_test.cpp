@@ -1,5 +1,4 @@
-// Worlds in two forms: what VRML 1.0 or X3D says, and the same world in VRML97. Images of both agree. Skipped where
-// no OpenGL context can be had.
+// Worlds in VRML 1.0 or X3D against the same world in VRML97, by images. Skipped without OpenGL.
 
 #include "compositor/scene/reader/vrml_file.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
@@ -43,7 +42,7 @@ protected:
         return std::move(*frame);
     }
 
-    // In dB, over the pixels of both; and that there is something to see.
+    // PSNR over the pixels of both images; checks that they are not empty.
     static double agreement(const std::string& a, const std::string& b) {
         const Scene first = scene_in_form(a);
         const Scene second = scene_in_form(b);
@@ -197,7 +196,7 @@ TEST_F(Forms, Vrml1SwitchesSeparatorsAndParts) {
                       "Shape { appearance DEF plain Appearance { material Material { } } "
                       "geometry Box { size 1 2 2 } } } Transform { translation 0 3 0 children [ " +
                       [] {
-                          // The binding leaks, as VRML 1.0 has it: each side of the cube has its colour.
+                          // The binding persists, as in VRML 1.0: each side of the cube has its own colour.
                           const char* sides[] = {
                               "-1 -1 1, 1 -1 1, 1 1 1, -1 1 1",     "1 -1 -1, -1 -1 -1, -1 1 -1, 1 1 -1",
                               "-1 -1 -1, -1 -1 1, -1 1 1, -1 1 -1", "1 -1 1, 1 -1 -1, 1 1 -1, 1 1 1",

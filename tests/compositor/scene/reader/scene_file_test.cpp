@@ -95,7 +95,7 @@ TEST(SceneFile, TheExampleOfTheReadmeIsRead) {
     ASSERT_TRUE(scene) << scene.error().message;
     EXPECT_EQ(scene->objects.size(), 2U);
     EXPECT_EQ(scene->geometry.size(), 2U);
-    // It shows the default values where it can.
+    // Default values are used where possible.
     const Scene defaults;
     EXPECT_LT(glm::distance(scene->background.sky[0], defaults.background.sky[0]), 0.02F);
     EXPECT_LT(glm::distance(scene->floor->colour_a, Floor{}.colour_a), 0.02F);

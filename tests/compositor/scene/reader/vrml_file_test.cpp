@@ -28,7 +28,7 @@ glm::dvec3 moved(const GeometryNode& node, const glm::dvec3& p) {
     return glm::dvec3(node.world_from_node * glm::dvec4(p, 1));
 }
 
-// The area and the mean direction of the triangles, by their corners' order.
+// Area and mean direction of the triangles, from the order of their corners.
 glm::dvec3 area_vector(const Mesh& mesh) {
     glm::dvec3 sum(0);
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
@@ -43,8 +43,8 @@ TEST(VrmlFile, TransformsAreChainedInTheOrderOfTheStandard) {
         "Transform { translation 1 2 3 rotation 0 0 1 1.5707963 scale 2 1 1 center 1 0 0 children "
         "Transform { scale 1 1 3 translation 0 0 5 children Shape { geometry Box { } } } }");
     ASSERT_EQ(scene.geometry.size(), 1U);
-    // (2, 0, 1): scaled to (2, 0, 3), moved to z 8; about the centre (1, 0, 0): (1, 0, 8) scaled to (2, 0, 8), turned
-    // to (0, 2, 8), back (1, 2, 8), moved (2, 4, 11).
+    // (2, 0, 1): scaled to (2, 0, 3), translated to z 8; about the centre (1, 0, 0): (1, 0, 8) scaled to (2, 0, 8),
+    // rotated to (0, 2, 8), back (1, 2, 8), translated (2, 4, 11).
     EXPECT_LT(glm::distance(moved(scene.geometry[0], {2, 0, 1}), glm::dvec3(2, 4, 11)), 1e-6);
 }
 
@@ -67,8 +67,8 @@ TEST(VrmlFile, ARaySpaceNodeHasItsChainOfTransforms) {
     EXPECT_EQ(scene.objects[0].description, "Vase");
     EXPECT_FALSE(scene.objects[0].standing);
     EXPECT_THAT(scene.warnings, IsEmpty());
-    // (0, 2, 4) of the object: halved (0, 1, 2), scaled about (0, 1, 0) to (0, 1, 6), moved (0, 1, 8), turned (8, 1,
-    // 0), moved (9, 1, 0).
+    // (0, 2, 4) of the object: halved (0, 1, 2), scaled about (0, 1, 0) to (0, 1, 6), translated (0, 1, 8), rotated (8,
+    // 1, 0), translated (9, 1, 0).
     const Similarity world_from_object = world_from_node(scene.objects[0].chain);
     EXPECT_LT(glm::distance(world_from_object.point({0, 2, 4}), glm::dvec3(9, 1, 0)), 1e-6);
     EXPECT_DOUBLE_EQ(world_from_object.scale, 1.5);
@@ -122,7 +122,7 @@ TEST(VrmlFile, MaterialsAreLinearLight) {
     EXPECT_FLOAT_EQ(material.shininess, 0.7F);
     EXPECT_FLOAT_EQ(material.opacity, 0.75F);
     EXPECT_TRUE(material.lit);
-    // Without a material: white, not lit.
+    // Without a material: white, unlit.
     EXPECT_FALSE(scene.geometry[1].material.lit);
     EXPECT_EQ(scene.geometry[1].material.diffuse, glm::vec3(1));
 }
@@ -177,7 +177,7 @@ TEST(VrmlFile, TheSurroundingsAreRead) {
     EXPECT_EQ(scene.viewpoints[0].description, "a");
     EXPECT_EQ(scene.viewpoints[0].field_of_view_rad, 1);
     EXPECT_LT(glm::distance(glm::dvec3(scene.viewpoints[0].world_from_camera[3]), glm::dvec3(0, 2, 5)), 1e-6);
-    // It looks along -X.
+    // The view direction is -X.
     EXPECT_LT(glm::distance(-glm::dvec3(scene.viewpoints[0].world_from_camera[2]), glm::dvec3(-1, 0, 0)), 1e-6);
     EXPECT_LT(glm::distance(glm::dvec3(scene.viewpoints[1].world_from_camera[3]), glm::dvec3(0, 0, 10)), 1e-6);
     EXPECT_TRUE(scene_of("").navigation.headlight);
@@ -206,7 +206,7 @@ TEST(VrmlFile, FacesAreCutAndColoured) {
     EXPECT_FALSE(scene.geometry[0].mesh->two_sided);
     EXPECT_TRUE(scene.geometry[1].mesh->two_sided);
     EXPECT_FALSE(scene.geometry[0].mesh->has_colours);
-    // Without coordinates of its own: s along the longer side, 0..1.
+    // Without texture coordinates: s along the longer side, 0..1.
     const Mesh& plain = *scene.geometry[0].mesh;
     for (const MeshVertex& vertex : plain.vertices) {
         EXPECT_LT(glm::distance(vertex.texture, glm::vec2(vertex.position) / 2.0F), 1e-5F);
@@ -322,7 +322,7 @@ TEST_F(VrmlFolder, FilesThatIncludeEachOtherTooOftenAreRefused) {
     write("w15.wrl", "Shape { geometry Box { } }");
     const Result<Scene> scene = read_vrml(folder_ / "w0.wrl");
     ASSERT_FALSE(scene);
-    EXPECT_THAT(scene.error().message, HasSubstr("unfold to too much"));
+    EXPECT_THAT(scene.error().message, HasSubstr("expand to too many nodes"));
 }
 
 TEST_F(VrmlFolder, GzipIsUnpackedWhateverTheName) {
@@ -372,7 +372,7 @@ TEST(VrmlFile, APixelTextureBeginsAtTheLowerLeft) {
     EXPECT_FALSE(texture->repeat_s);
     EXPECT_TRUE(texture->repeat_t);
     EXPECT_FALSE(texture->modulates);
-    // (0.25, 0.5): moved (0.75, 0.5), by the centre (1.75, 1.5), turned (-1.5, 1.75), scaled (-3, 5.25), back
+    // (0.25, 0.5): translated (0.75, 0.5), by the centre (1.75, 1.5), rotated (-1.5, 1.75), scaled (-3, 5.25), back
     // (-4, 4.25).
     const glm::vec3 st = scene.geometry[0].material.texture_transform * glm::vec3(0.25F, 0.5F, 1);
     EXPECT_LT(glm::distance(st, glm::vec3(-4, 4.25F, 1)), 1e-5F);

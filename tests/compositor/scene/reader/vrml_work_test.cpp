@@ -1,4 +1,4 @@
-// Shapes that would take minutes to be cut into triangles are left out, at once and with a word.
+// Shapes whose triangulation would take minutes are omitted at once, with a warning.
 
 #include "compositor/scene/reader/vrml_file.hpp"
 
@@ -22,7 +22,7 @@ std::string faces(const std::string& points, const std::string& indices, const s
 }
 
 TEST(VrmlWork, WhatTakesTooLongIsLeftOut) {
-    // All faces meet at one point; faces with thousands of corners; points that fall together; a large grid.
+    // Faces that all meet at one point; faces with thousands of corners; coincident points; a large grid.
     const std::vector<std::string> shapes = {
         faces("0 0 0, 1 0 0, 0 1 0", repeated("0 1 2 -1 ", 40000), "creaseAngle 1"),
         faces("0 0 0, 1 0 0, 0 1 0", repeated(repeated("0 1 2 ", 1300) + "-1 ", 200), "convex FALSE"),

@@ -26,8 +26,8 @@ std::string reading_error(const std::string& body) {
     return graph ? "no error" : graph.error().message;
 }
 
-// "Group { children [ Shape { } ] }", the fields that are given in alphabetical order.
-std::string shown(const std::vector<NodePointer>& nodes) {
+// "Group { children [ Shape { } ] }", given fields in alphabetical order.
+std::string to_text(const std::vector<NodePointer>& nodes) {
     std::ostringstream text;
     const char* between = "";
     for (const NodePointer& node : nodes) {
@@ -36,7 +36,7 @@ std::string shown(const std::vector<NodePointer>& nodes) {
             text << " " << name << " [";
             for (const double number : value.numbers) text << " " << number;
             for (const std::string& string : value.texts) text << " \"" << string << '"';
-            text << (value.nodes.empty() ? "" : " ") << shown(value.nodes) << " ]";
+            text << (value.nodes.empty() ? "" : " ") << to_text(value.nodes) << " ]";
         }
         text << " }";
         between = ", ";
@@ -46,7 +46,8 @@ std::string shown(const std::vector<NodePointer>& nodes) {
 
 TEST(VrmlGraph, KeepsWhatItKnows) {
     const Graph graph = read("Shape { geometry DEF Ball Sphere { radius +2.5e0 } } # end\nGroup{children[USE Ball]}");
-    EXPECT_EQ(shown(graph.roots), "Shape { geometry [ DEF Ball Sphere { radius [ 2.5 ] } ] }, Group { children [ ] }");
+    EXPECT_EQ(to_text(graph.roots),
+              "Shape { geometry [ DEF Ball Sphere { radius [ 2.5 ] } ] }, Group { children [ ] }");
     EXPECT_EQ(graph.roots.at(0)->node("geometry")->line, 2);
     EXPECT_THAT(graph.warnings, ElementsAre("hall.wrl: line 3: USE 'Ball': is no child node; left out"));
 }
@@ -56,15 +57,16 @@ TEST(VrmlGraph, DropsUnknownFieldsOfAnyTypeWithLineAndName) {
                               "DEF X Box { }", "USE X", "NULL", "[ Box { } Box { } ]", "[ ]"}) {
         const Graph graph = read(std::string("Group {\n mirror ") + value + "\n children [ Group { } ] }");
         EXPECT_THAT(graph.warnings, ElementsAre("hall.wrl: line 3: Group has no field 'mirror'; left out")) << value;
-        EXPECT_EQ(shown(graph.roots), "Group { children [ Group { } ] }") << value;
+        EXPECT_EQ(to_text(graph.roots), "Group { children [ Group { } ] }") << value;
     }
 }
 
 TEST(VrmlGraph, ShowsTheChildrenOfUnknownNodes) {
     const Graph graph = read("Vendor { gloss 1 children [ Shape { } ] }\nShape { geometry Teapot { size 3 } }");
-    EXPECT_EQ(shown(graph.roots), "Group { children [ Shape { } ] }, Shape { geometry [ ] }");
-    EXPECT_THAT(graph.warnings, ElementsAre("hall.wrl: line 2: 'Vendor' is no known node; only its children are shown",
-                                            "hall.wrl: line 3: 'Teapot' is no known node; left out"));
+    EXPECT_EQ(to_text(graph.roots), "Group { children [ Shape { } ] }, Shape { geometry [ ] }");
+    EXPECT_THAT(graph.warnings,
+                ElementsAre("hall.wrl: line 2: 'Vendor' is an unknown node; only its children are drawn",
+                            "hall.wrl: line 3: 'Teapot' is an unknown node; left out"));
 }
 
 TEST(VrmlGraph, LeavesOutWhatOnlyMattersInTime) {
@@ -72,7 +74,7 @@ TEST(VrmlGraph, LeavesOutWhatOnlyMattersInTime) {
         "DEF T TimeSensor { loop TRUE } DEF S Script { url \"javascript: { } \" field SFNode n USE T eventIn SFBool b "
         "}\n"
         "ROUTE T.time TO S.set Sound { source AudioClip { } } Group { ROUTE a.b TO c.d children [ ROUTE e TO f ] }");
-    EXPECT_EQ(shown(graph.roots), "Group { children [ ] }");
+    EXPECT_EQ(to_text(graph.roots), "Group { children [ ] }");
     EXPECT_THAT(graph.warnings, IsEmpty());
 }
 
@@ -80,16 +82,16 @@ TEST(VrmlGraph, BreaksRings) {
     const Graph graph = read("DEF A Group { children [ DEF B Group { children [ USE A USE B ] } USE B ] }\nUSE A");
     ASSERT_EQ(graph.roots.size(), 2U);
     EXPECT_EQ(graph.roots[0], graph.roots[1]);
-    EXPECT_EQ(shown({graph.roots[0]}),
+    EXPECT_EQ(to_text({graph.roots[0]}),
               "DEF A Group { children [ DEF B Group { children [ ] }, DEF B Group { children [ ] } ] }");
-    EXPECT_THAT(graph.warnings, ElementsAre(HasSubstr("USE 'A' stands inside of that node itself"),
-                                            HasSubstr("USE 'B' stands inside of that node itself")));
+    EXPECT_THAT(graph.warnings, ElementsAre(HasSubstr("USE 'A' is inside of that node itself"),
+                                            HasSubstr("USE 'B' is inside of that node itself")));
 }
 
 TEST(VrmlGraph, NamesInsideOfDroppedNodesStay) {
     const Graph graph = read("Shape { geometry Group { children DEF A Shape { } } }\nUSE A");
-    EXPECT_EQ(shown(graph.roots), "Shape { geometry [ ] }, DEF A Shape { }");
-    EXPECT_THAT(graph.warnings, ElementsAre(HasSubstr("'Group' cannot stand as geometry")));
+    EXPECT_EQ(to_text(graph.roots), "Shape { geometry [ ] }, DEF A Shape { }");
+    EXPECT_THAT(graph.warnings, ElementsAre(HasSubstr("'Group' is not allowed as geometry")));
 }
 
 TEST(VrmlGraph, ANodeThatIsNotGivenAFieldHasItsDefault) {
@@ -104,7 +106,7 @@ TEST(VrmlGraph, PrototypesUnfold) {
         "PROTO Ball [ field SFFloat r 1 eventIn SFBool in ] { Shape { geometry Sphere { radius IS r } } Script { in IS "
         "in } }\n"
         "Group { children [ Ball { r 2 in 3 q 4 } DEF B Ball { } USE B ] }");
-    EXPECT_EQ(shown(graph.roots),
+    EXPECT_EQ(to_text(graph.roots),
               "Group { children [ Shape { geometry [ Sphere { radius [ 2 ] } ] }, "
               "Shape { geometry [ Sphere { radius [ 1 ] } ] }, Shape { geometry [ Sphere { radius [ 1 ] } ] } ] }");
     EXPECT_EQ(graph.roots.at(0)->field("children").nodes.at(1), graph.roots[0]->field("children").nodes.at(2));
@@ -124,7 +126,7 @@ TEST(VrmlGraph, InstancesInsideOfPrototypesTakeTheFieldsAroundThem) {
         };
         return in(in("") + ", Shape { } ");
     };
-    EXPECT_EQ(shown(graph.roots), expected("7") + ", " + expected("5"));
+    EXPECT_EQ(to_text(graph.roots), expected("7") + ", " + expected("5"));
     const auto& children = graph.roots.at(0)->field("children").nodes;
     EXPECT_EQ(children.at(0), children.at(1)) << "USE is of the same instance's node";
     EXPECT_NE(children.at(0), graph.roots.at(1)->field("children").nodes.at(0));
@@ -135,22 +137,22 @@ TEST(VrmlGraph, WhatComesThroughAPrototypesFieldsMustFit) {
     const Graph graph = read(
         "PROTO P [ field SFNode shape NULL ] { Shape { geometry IS shape } }\nP { shape Sphere { } }\n"
         "P { shape Group { } }");
-    EXPECT_EQ(shown(graph.roots), "Shape { geometry [ Sphere { } ] }, Shape { geometry [ ] }");
-    EXPECT_THAT(graph.warnings, ElementsAre("hall.wrl: line 2: Shape: Group cannot stand as geometry; left out"));
+    EXPECT_EQ(to_text(graph.roots), "Shape { geometry [ Sphere { } ] }, Shape { geometry [ ] }");
+    EXPECT_THAT(graph.warnings, ElementsAre("hall.wrl: line 2: Shape: Group is not allowed as geometry; left out"));
 }
 
 TEST(VrmlGraph, AFieldOfAPrototypeMustBeOfTheSameType) {
     const Graph graph =
         read("PROTO P [ field SFColor c 1 1 1 ] { Shape { geometry Sphere { radius IS c } } } P { } Box { IS IS IS }");
     EXPECT_THAT(graph.warnings, ElementsAre(HasSubstr("'c' is SFColor but should be SFFloat"),
-                                            HasSubstr("'Box' cannot stand as child")));
+                                            HasSubstr("'Box' is not allowed as child")));
 }
 
 TEST(VrmlGraph, RefusesWithTheLine) {
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"Group {\n children [\n", "line 3: the list of children is not closed"},
         {"Group {\n\n", "line 2: the { is not closed"},
-        {"\n}", "line 3: a node should stand here, not '}'"},
+        {"\n}", "line 3: expected a node, not '}'"},
         {"Shape { geometry\nSphere { radius \"wide\" } }", "line 3: radius takes SFFloat, not 'wide'"},
         {"Shape { geometry Sphere { radius [ 1 ] } }", "line 2: radius takes SFFloat"},
         {"Transform { translation 1 2 }", "line 2: translation takes SFVec3f, not '}'"},
@@ -161,7 +163,7 @@ TEST(VrmlGraph, RefusesWithTheLine) {
         {"Collision { collide true }", "line 2: collide takes SFBool"},
         {"Inline { url \"a\n\n", "line 2: the text that begins here has no end"},
         {"Shape { appearance Appearance { texture PixelTexture { image 100000 100000 3 0 } } }", "cannot be read"},
-        {"PROTO P [ field SFFlaot r 1 ] { Group { } }", "line 2: 'SFFlaot' is no type"},
+        {"PROTO P [ field SFFlaot r 1 ] { Group { } }", "line 2: 'SFFlaot' is not a field type"},
         {"PROTO P [ field SFFloat r 1 field SFFloat r 1 ] { Group { } }", "two fields 'r'"},
     };
     for (const auto& [body, expected] : cases) {
@@ -188,7 +190,7 @@ TEST(VrmlGraph, RefusesWhatNestsOrUnfoldsTooFar) {
     EXPECT_THAT(reading_error(repeated("Group { children ", 300)), HasSubstr("deep"));
     EXPECT_THAT(reading_error(repeated("PROTO P [ ] { ", 300)), HasSubstr("deep"));
     EXPECT_EQ(reading_error("Vendor { x " + repeated("[", 100000) + repeated("]", 100000) + " }"), "no error");
-    // Each doubles the one before.
+    // Each level doubles the one before.
     std::string doubling = "DEF N0 Group { } ";
     std::string prototypes = "PROTO P0 [ ] { Group { } } ";
     std::string deep = "DEF D0 Group { } ";
@@ -199,10 +201,10 @@ TEST(VrmlGraph, RefusesWhatNestsOrUnfoldsTooFar) {
         prototypes += "PROTO P" + now + " [ ] { Group { children [ P" + before + " { } P" + before + " { } ] } }\n";
         deep += "DEF D" + now + " " + repeated("Group { children ", 50) + "USE D" + before + repeated(" }", 50) + "\n";
     }
-    EXPECT_THAT(reading_error(doubling), HasSubstr("unfold to too much"));
-    EXPECT_THAT(reading_error(prototypes + "P63 { }"), HasSubstr("unfold to too much"));
+    EXPECT_THAT(reading_error(doubling), HasSubstr("expand to too many nodes"));
+    EXPECT_THAT(reading_error(prototypes + "P63 { }"), HasSubstr("expand to too many nodes"));
     EXPECT_THAT(reading_error(deep), HasSubstr("more than 1000 deep"));
-    // Without limits these would take 2^64 nodes, and a stack as deep as the text is long.
+    // Without limits these would expand to 2^64 nodes, or need a stack as deep as the text is long.
     std::string fields = "PROTO P0 [ field SFFloat r 1 ] { Shape { geometry Sphere { radius IS r } } } ";
     std::string chain = fields;
     for (int i = 1; i < 2000; ++i) {
@@ -211,14 +213,14 @@ TEST(VrmlGraph, RefusesWhatNestsOrUnfoldsTooFar) {
         if (i < 64) fields += head + "Group { children [ " + inner + " " + inner + " ] } }\n";
         chain += head + inner + " }\n";
     }
-    EXPECT_THAT(reading_error(fields + "P63 { }"), HasSubstr("unfold to too much"));
+    EXPECT_THAT(reading_error(fields + "P63 { }"), HasSubstr("expand to too many nodes"));
     EXPECT_THAT(reading_error(chain + "P1999 { }"), HasSubstr("deep"));
-    // A large list that each instance of a PROTO would copy; what is the same in all of them is there once.
+    // Large list that each instance of a PROTO would copy; parts that do not differ are shared.
     const std::string list = "[ field SFFloat r 1 field MFVec3f l [ " + repeated("1 2 3 ", 100000) +
                              "] ] { Shape { geometry PointSet { coord ";
     const std::string copied = "PROTO L " + list + "Coordinate { point IS l } } } }\n";
     EXPECT_EQ(reading_error(copied + repeated("L { } ", 10)), "no error");
-    EXPECT_THAT(reading_error(copied + repeated("L { } ", 200)), HasSubstr("unfold to too much"));
+    EXPECT_THAT(reading_error(copied + repeated("L { } ", 200)), HasSubstr("expand to too many nodes"));
     EXPECT_EQ(reading_error("PROTO L " + list + "Coordinate { } } } }\n" + repeated("L { } ", 200)), "no error");
 }
 

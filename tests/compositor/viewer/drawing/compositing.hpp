@@ -1,5 +1,5 @@
 #pragma once
-// Frames of a small scene, drawn by a frame compositor. Skipped where no OpenGL context can be had.
+// Frames of a small scene by FrameCompositor. Skipped without OpenGL.
 
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "tests/compositor/gl_test.hpp"
@@ -16,7 +16,7 @@ inline constexpr Rgba8 kRed{220, 40, 40, 255};
 inline constexpr Rgba8 kBlue{40, 40, 220, 255};
 inline const Camera kFront = look_at_camera({0, 0, 5}, {0, 0, 0}, radians(50), kFrameWidth, kFrameHeight);
 
-// The way through YUV costs a little; anything that is not the colour differs by far more.
+// Conversion through YUV changes colours slightly; other colours differ much more.
 inline bool is_colour(Rgba8 pixel, Rgba8 colour) {
     return std::abs(pixel.r - colour.r) < 6 && std::abs(pixel.g - colour.g) < 6 && std::abs(pixel.b - colour.b) < 6;
 }
@@ -25,7 +25,7 @@ inline int difference(Rgba8 a, Rgba8 b) {
     return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
 }
 
-// Pixels that differ by more than `tolerance`.
+// Number of pixels that differ by more than `tolerance`.
 inline int count_different(const Image<Rgba8>& a, const Image<Rgba8>& b, int tolerance) {
     int count = 0;
     for (int y = 0; y < a.height(); ++y) {

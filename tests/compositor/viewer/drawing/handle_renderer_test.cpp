@@ -1,5 +1,4 @@
-// Edited light in frames, the surface under a pixel, and handles over a frame. Skipped where no OpenGL context can be
-// had.
+// Edited lights in frames, surface picking, and handles over a frame. Skipped without OpenGL.
 
 #include "compositor/viewer/drawing/handle_renderer.hpp"
 
@@ -108,10 +107,10 @@ TEST_F(Handles, AreDrawnOverACopyAndFaintWhereHidden) {
         const Image<Rgba8> drawn = renderer->shown().read_image();
         EXPECT_EQ(drawn(40, 60), (Rgba8{255, 0, 0, 255}));
         EXPECT_EQ(drawn(120, 60), image->read_image()(120, 60));
-        EXPECT_EQ(image->read_image()(40, 60), image->read_image()(120, 60));  // the image stays
+        EXPECT_EQ(image->read_image()(40, 60), image->read_image()(120, 60));  // the frame itself is unchanged
         EXPECT_EQ(compositor.image(), frame);
     }
-    // Behind the block a handle shines through, faintly.
+    // Handles behind the block are faint.
     FrameCompositor compositor = compositor_of(lit_room());
     ASSERT_TRUE(compositor.draw(camera_));
     const glm::dvec3 hidden(-0.3, 0.5, -0.6);

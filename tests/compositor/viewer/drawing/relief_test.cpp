@@ -1,4 +1,4 @@
-// Normal and bump maps, raster and traced. Skipped where no OpenGL context can be had.
+// Normal and bump maps, raster and traced. Skipped without OpenGL.
 
 #include "compositor/scene/normal_map.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -20,7 +20,7 @@ SceneTexture even_image(Rgba8 colour) {
     return texture;
 }
 
-// A square about the origin that faces +Z, textured once, lit from one side.
+// Textured square about the origin that faces +Z, lit from one side.
 Scene square(std::shared_ptr<const NormalMap> normals) {
     Scene scene;
     scene.lights = {directional_light({-1, 0, -1}, glm::vec3(2.5F))};
@@ -45,7 +45,7 @@ Camera before(double from_side = 0.4) {
 Image<RgbaF> traced(const Scene& scene, TracedMethod method) {
     auto tracer = TracedRenderer::create(scene, {}, {.method = method});
     RS_CHECK(tracer.ok());
-    tracer->look(before());
+    tracer->begin_image(before());
     for (int pass = 0; pass < 4; ++pass) RS_CHECK(tracer->add_pass());
     return tracer->radiance();
 }
@@ -64,7 +64,7 @@ TEST_F(Relief, AFlatMapGivesTheImageWithoutBitForBit) {
     }
 }
 
-// Tilted towards +X by a map, the square is as bright as one that really is.
+// A normal map tilted towards +X gives the same brightness as a tilted square.
 TEST_F(Relief, TiltsTheNormalAlongTheTexturesAxes) {
     const auto red_in_the_middle = [](const Scene& scene) {
         return test::red_of(test::raster_image(scene, {}, before(), false))(kSide_px / 2, kSide_px / 2);
@@ -89,7 +89,7 @@ TEST_F(Relief, HeightsRiseTowardsWhite) {
     image.repeat_s = image.repeat_t = false;
     for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) {
-            const auto height = static_cast<std::uint8_t>(4 * x);  // a slope that looks to -X
+            const auto height = static_cast<std::uint8_t>(4 * x);  // slope towards -X
             image.image(x, y) = {height, height, height, 255};
         }
     }

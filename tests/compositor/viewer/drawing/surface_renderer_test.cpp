@@ -1,5 +1,5 @@
-// The colours of lit geometry against the formula of ISO/IEC 14772-1, 4.14.4, computed here in linear light. Skipped
-// where no OpenGL context can be had.
+// Colours of lit geometry against the formula of ISO/IEC 14772-1, 4.14.4, computed in linear light. Skipped without
+// OpenGL.
 
 #include "compositor/scene/reader/vrml_file.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
@@ -15,7 +15,7 @@
 namespace rs::compositor {
 namespace {
 
-constexpr int kImage_px = 65;  // odd: the middle pixel's middle is the image's
+constexpr int kImage_px = 65;  // odd, so that the central pixel is centred
 const glm::dvec3 kEye(0, 0, 5);
 
 glm::dvec3 linear(const glm::dvec3& srgb) {
@@ -51,7 +51,7 @@ protected:
     FrameStatistics statistics_;
 };
 
-// A square facing +Z through the origin, seen from (0, 0, 5) unless said otherwise.
+// Square facing +Z through the origin, viewed from (0, 0, 5) by default.
 std::string square(const std::string& appearance, const std::string& more = "") {
     return "Shape { appearance Appearance { " + appearance +
            " } geometry IndexedFaceSet { coord Coordinate { point [ -2 -2 0, 2 -2 0, 2 2 0, -2 2 0 ] } coordIndex [ 0 "
@@ -68,7 +68,7 @@ const glm::dvec3 kSpecular = linear({0.5, 0.5, 0.6});
 const glm::dvec3 kEmissive = linear({0.1, 0.2, 0});
 constexpr double kExponent = 12.8;
 
-// What one light adds at the origin of the square; the vectors are of unit length.
+// Contribution of one light at the origin of the square; vectors are of unit length.
 glm::dvec3 reflected(const glm::dvec3& to_light, const glm::dvec3& to_eye, double intensity, double ambient) {
     const glm::dvec3 n(0, 0, 1);
     const double facing = std::max(glm::dot(n, to_light), 0.0);
@@ -144,7 +144,7 @@ TEST_F(Surfaces, OneSidedFacesAreSeenFromTheirFrontOnly) {
     EXPECT_EQ(middle(image_of(square("", "ccw FALSE"))), (Rgba8{0, 0, 0, 255}));
     EXPECT_EQ(middle(image_of(square("", "ccw FALSE"), behind)), (Rgba8{255, 255, 255, 255}));
     EXPECT_EQ(middle(image_of(square("", "solid FALSE"), behind)), (Rgba8{255, 255, 255, 255}));
-    // A mirror turns the corners' order, but not what is the front.
+    // Mirroring reverses the corners' order, but front faces stay front faces.
     const std::string mirrored = "Transform { scale -1 1 1 children " + square("") + " }";
     EXPECT_EQ(middle(image_of(mirrored)), (Rgba8{255, 255, 255, 255}));
     EXPECT_EQ(middle(image_of(mirrored, behind)), (Rgba8{0, 0, 0, 255}));
@@ -156,7 +156,7 @@ TEST_F(Surfaces, BothSidesAreLit) {
 }
 
 TEST_F(Surfaces, NormalsFollowUnevenScales) {
-    // A plane through the origin whose normal (1, 0, 1) becomes (0.5, 0, 1) where x is doubled.
+    // A plane through the origin whose normal (1, 0, 1) becomes (0.5, 0, 1) when x is doubled.
     const std::string slope = "Transform { scale 2 1 1 children Shape { appearance Appearance { " +
                               std::string(kMaterial) +
                               " } geometry IndexedFaceSet { solid FALSE coord Coordinate { point [ -2 -2 2, 2 -2 -2, 2 "
@@ -182,7 +182,7 @@ TEST_F(Surfaces, ImagesStandUprightAndRepeat) {
     const auto upright = image_of(square(image + "FALSE }"));
     EXPECT_GT(upright(kImage_px / 2, kImage_px / 4).g, 200);
     EXPECT_GT(upright(kImage_px / 2, kImage_px * 3 / 4).r, 200);
-    // Moved up by one half and repeated, the colours change places; without repetition the border goes on.
+    // Translated by one half and repeated, the colours swap; without repetition the border continues.
     const std::string moved = "textureTransform TextureTransform { translation 0 0.5 }";
     EXPECT_GT(image_of(square(image + "TRUE }" + moved))(kImage_px / 2, kImage_px * 2 / 5).r, 200);
     EXPECT_GT(image_of(square(image + "FALSE }" + moved))(kImage_px / 2, kImage_px * 2 / 5).g, 200);
@@ -195,7 +195,7 @@ TEST_F(Surfaces, TransparentOnesAreBlendedFromBehindInLinearLight) {
                " }\n";
     };
     const glm::dvec3 expected = 0.5 * glm::dvec3(1, 0, 0) + 0.25 * glm::dvec3(0, 1, 0);
-    // Whichever comes first in the file; the wall behind both is black.
+    // Independent of the order in the file; the wall behind both is black.
     expect_colour(middle(image_of(pane("1 0 0", 1) + pane("0 1 0", -1))), expected, "near first");
     expect_colour(middle(image_of(pane("0 1 0", -1) + pane("1 0 0", 1))), expected, "far first");
     const std::string wall = "Transform { translation 0 0 0.5 children " + square("") + " }";
@@ -223,7 +223,7 @@ TEST_F(Surfaces, TheBackgroundIsAGradientFromZenithToNadir) {
     const glm::dvec3 ahead(0, 0, 5);
     const Image<Rgba8> level = image_of(sky, ahead);
     expect_colour(middle(level), {0, 1, 0}, "horizon");
-    // The ray of the topmost row's middle.
+    // Ray of the topmost row's centre.
     const double up = std::atan(std::tan(radians(30)) * (kImage_px - 1) / kImage_px);
     const double t = (kPi / 2 - up) / (kPi / 2);
     expect_colour(level(kImage_px / 2, 0), {1 - t, t, 0}, "above");

@@ -1,4 +1,4 @@
-// Which lights a surface's shader is given.
+// Selection of the lights of a surface's shader.
 
 #include "compositor/viewer/drawing/surface_tables.hpp"
 
@@ -21,7 +21,7 @@ GeometryNode one_triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec
     return node;
 }
 
-// Whether light arrives at one of many places on the triangle, on a side that is lit.
+// True if light arrives at one of many points of the triangle, on a lit side.
 bool is_lit(const GeometryNode& node, const Light& light) {
     const std::vector<MeshVertex>& at = node.mesh->vertices;
     constexpr int kSteps = 24;
@@ -64,7 +64,7 @@ TEST(SurfaceLights, NoneIsLeftOutThatShinesOnTheSurface) {
     EXPECT_GT(left_out, 0.6 * (4000 - lit));
 }
 
-// A long floor under a lamp that shines on its middle: other triangles' lamps are not its business.
+// Long floor under a lamp that illuminates its middle; lamps of other triangles are not included.
 TEST(SurfaceLights, SpotsBesideTheSurfaceAreLeftOut) {
     Light spot = point_light({0, 3, 0}, glm::vec3(1));
     spot.kind = LightKind::kSpot;
@@ -77,7 +77,7 @@ TEST(SurfaceLights, SpotsBesideTheSurfaceAreLeftOut) {
         return lights_of(scene, node, bounds_of(*node.mesh)).lights.size();
     };
     EXPECT_EQ(given(0), 1U);
-    EXPECT_EQ(given(1.05F), 1U);  // it ends at 1.092
+    EXPECT_EQ(given(1.05F), 1U);  // the beam ends at 1.092
     EXPECT_EQ(given(1.25F), 0U);
     EXPECT_EQ(given(-1.4F), 0U);
 }

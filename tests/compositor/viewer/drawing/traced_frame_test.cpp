@@ -1,4 +1,4 @@
-// What a frame compositor makes of a traced image.
+// Traced images in FrameCompositor.
 
 #include "tests/compositor/viewer/drawing/compositing.hpp"
 
@@ -9,7 +9,7 @@ namespace {
 
 class TracedFrame : public Compositing {};
 
-// A traced image stands for geometry, which still hides objects: it is as far as without.
+// A traced image replaces geometry with the same depths, which still occlude objects.
 TEST_F(TracedFrame, ATracedImageHasTheDepthsOfTheGeometry) {
     for (const bool in_fog : {false, true}) {
         Scene scene = with_box({1, 3, 0.2}, {0.6, 0, 1.5});
@@ -36,7 +36,7 @@ TEST_F(TracedFrame, ATracedImageHasTheDepthsOfTheGeometry) {
         EXPECT_EQ(depths(), lit_depths);
         Camera aside = kFront;
         aside.world_from_camera[3].x += 0.5;
-        EXPECT_EQ(*frames->compose(kFront), *traced);  // finds the depths there
+        EXPECT_EQ(*frames->compose(kFront), *traced);  // with the depths of the frame before
         EXPECT_NE(*frames->compose(aside), *traced);
         EXPECT_EQ(*frames->compose(kFront), *traced);
         int of_image = 0, of_object = 0;
@@ -50,7 +50,7 @@ TEST_F(TracedFrame, ATracedImageHasTheDepthsOfTheGeometry) {
                 of_image += (*traced)(x, y) == kBlue ? 1 : 0;
             }
         }
-        if (in_fog) {  // it dims the object and lies over the geometry of the image
+        if (in_fog) {  // dims the object and covers the geometry of the image
             EXPECT_GT(of_image, kFrameWidth * kFrameHeight / 2);
         } else {
             EXPECT_GT(of_object, 300);
@@ -63,7 +63,7 @@ TEST_F(TracedFrame, ATracedImageHasTheDepthsOfTheGeometry) {
     }
 }
 
-// Where nothing is blended over a traced image, nobody needs depths until they are asked for.
+// Without blended parts over a traced image, depths are rendered on request only.
 TEST_F(TracedFrame, ATracedImageOfGeometryAloneHasDepthsForWhoAsks) {
     auto frames = FrameCompositor::create(with_box({1, 3, 0.2}, {0.2, 0, 1.5}), {},
                                           {.width = kFrameWidth, .height = kFrameHeight, .samples = 1});
@@ -84,7 +84,7 @@ TEST_F(TracedFrame, ATracedImageOfGeometryAloneHasDepthsForWhoAsks) {
     EXPECT_EQ(frames->distance_ahead(), lit_ahead);
     EXPECT_TRUE(frames->statistics().has_depths);
     EXPECT_EQ(frames->image(), *traced);
-    // They are kept for the view's next image, and not for another view's.
+    // Depths are kept for the next image of the view, but not for another view.
     ASSERT_TRUE(frames->draw(kFront));
     EXPECT_TRUE(frames->statistics().has_depths);
     Camera aside = kFront;

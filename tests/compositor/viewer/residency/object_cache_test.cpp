@@ -1,4 +1,4 @@
-// Which objects are in memory: budget, order, hysteresis, failures.
+// ObjectCache: budget, order, hysteresis, failures.
 
 #include "compositor/viewer/residency/object_cache.hpp"
 
@@ -25,12 +25,12 @@ std::vector<std::filesystem::path> files(int count) {
     return names;
 }
 
-// Objects that fit beside the one that is being read.
+// Memory of `objects` objects in addition to the one being read.
 std::int64_t room_for(int objects) {
     return objects * SlowSource::object_bytes() + SlowSource::reading_bytes();
 }
 
-// A store with somebody who uses its objects.
+// A cache with a user of its objects.
 class StoreVisitor {
 public:
     StoreVisitor(int count, std::int64_t budget_bytes, test::SlowSourceOptions options = {})
@@ -40,10 +40,10 @@ public:
 
     void listen() {
         for (CacheEvent& event : store.events()) {
-            if (event.kind == CacheEvent::Kind::kArrived) {
+            if (event.kind == CacheEvent::Kind::kLoaded) {
                 EXPECT_FALSE(here.contains(event.file)) << "arrived twice";
                 here[event.file] = event.object;
-            } else if (event.kind == CacheEvent::Kind::kLeaves) {
+            } else if (event.kind == CacheEvent::Kind::kEvicting) {
                 EXPECT_TRUE(here.contains(event.file)) << "leaves without having come";
                 here.erase(event.file);
                 ++left;
@@ -109,7 +109,7 @@ TEST(ObjectCache, ReadsTheMostWantedFirstAndEachOnce) {
 }
 
 TEST(ObjectCache, NothingIsReadBeforeItIsWanted) {
-    // One thread reads, in the order in which it begins: what was read too early would stand first.
+    // A single reader thread gives a deterministic order: an early read would come first.
     for (int trial = 0; trial < 50; ++trial) {
         StoreVisitor visitor(3, room_for(1));
         visitor.store.set_priorities(distances({9, 8, 0}));
@@ -255,15 +255,15 @@ TEST(MemoryBudget, GivesNoMoreThanItHas) {
 
 TEST(LoadPriority, GivesWayOnlyWhereItIsClearlyLessWanted) {
     const LoadPriority here{LoadPriority::kHere, 2, 0.3};
-    EXPECT_FALSE(gives_way(here, {LoadPriority::kHere, 2.3, 0.3}));
-    EXPECT_FALSE(gives_way({0.2, 1, 0.3}, here)) << "at the door of the next room";
-    EXPECT_TRUE(gives_way({0.4, 1, 0.3}, here));
-    EXPECT_FALSE(gives_way({5, 1, 0.3}, {4, 1, 0.3}));
-    EXPECT_TRUE(gives_way({6, 1, 0.3}, {4, 1, 0.3}));
-    EXPECT_FALSE(gives_way({4, 1, 0.3}, {6, 1, 0.3}));
-    EXPECT_TRUE(gives_way({LoadPriority::kHere, 9, 0.3}, {LoadPriority::kHere, 2, 0.3}));
-    EXPECT_FALSE(gives_way({LoadPriority::kAlways, 90, 0.3}, here));
-    EXPECT_FALSE(gives_way({6, 1, 0.3, 0.2}, here)) << "just left, in a hurry";
+    EXPECT_FALSE(is_evictable_for(here, {LoadPriority::kHere, 2.3, 0.3}));
+    EXPECT_FALSE(is_evictable_for({0.2, 1, 0.3}, here)) << "at the door of the next room";
+    EXPECT_TRUE(is_evictable_for({0.4, 1, 0.3}, here));
+    EXPECT_FALSE(is_evictable_for({5, 1, 0.3}, {4, 1, 0.3}));
+    EXPECT_TRUE(is_evictable_for({6, 1, 0.3}, {4, 1, 0.3}));
+    EXPECT_FALSE(is_evictable_for({4, 1, 0.3}, {6, 1, 0.3}));
+    EXPECT_TRUE(is_evictable_for({LoadPriority::kHere, 9, 0.3}, {LoadPriority::kHere, 2, 0.3}));
+    EXPECT_FALSE(is_evictable_for({LoadPriority::kAlways, 90, 0.3}, here));
+    EXPECT_FALSE(is_evictable_for({6, 1, 0.3, 0.2}, here)) << "just left, in a hurry";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What reading an object takes in memory, measured, against what was foreseen.
+// Measured memory of loading an object against the estimate.
 
 #include "compositor/viewer/residency/object_source.hpp"
 
@@ -26,7 +26,7 @@ std::int64_t allocated_bytes() {
     return static_cast<std::int64_t>(info.uordblks + info.hblkhd);
 }
 
-// Most bytes that were allocated while `work` ran, beyond those before.
+// Peak of the bytes allocated by `work`.
 template <class Work>
 std::int64_t most_allocated(const Work& work) {
     std::atomic<bool> done = false;
@@ -41,7 +41,7 @@ std::int64_t most_allocated(const Work& work) {
     return most;
 }
 
-// With a shape map, which boards do not take, or without.
+// With a shape map, which boards do not support, or without.
 RaySpaceObject ball(bool coded, bool shape) {
     test::RingObjectOptions options = test::sphere_options();
     options.width = 200;
@@ -57,9 +57,9 @@ RaySpaceObject ball(bool coded, bool shape) {
     return object;
 }
 
-class ObjectFiles : public ::testing::TestWithParam<std::tuple<bool, bool>> {};
+class FileObjectSource : public ::testing::TestWithParam<std::tuple<bool, bool>> {};
 
-TEST_P(ObjectFiles, TakeNoMoreThanForeseenAndNotMuchLess) {
+TEST_P(FileObjectSource, TakeNoMoreThanForeseenAndNotMuchLess) {
     const auto [coded, with_board] = GetParam();
     const test::TemporaryFolder folder;
     ASSERT_TRUE(write_object(folder / "ball.rso", ball(coded, !with_board)));
@@ -79,7 +79,7 @@ TEST_P(ObjectFiles, TakeNoMoreThanForeseenAndNotMuchLess) {
         [&] { read.emplace(source->read(folder / "ball.rso", *foreseen, [&](float p) { progress.push_back(p); })); });
     ASSERT_TRUE(*read) << read->error().message;
     const std::int64_t kept = (*read)->memory_bytes();
-    RecordProperty("foreseen", std::to_string(*foreseen));
+    RecordProperty("than estimated", std::to_string(*foreseen));
     RecordProperty("most", std::to_string(most));
     RecordProperty("kept", std::to_string(kept));
     std::printf("foreseen %lld, most %lld, kept %lld bytes\n", static_cast<long long>(*foreseen),
@@ -90,11 +90,11 @@ TEST_P(ObjectFiles, TakeNoMoreThanForeseenAndNotMuchLess) {
     EXPECT_LE(*foreseen, (with_board && coded ? 5 * kept : 5 * kept / 2));
     EXPECT_TRUE(std::is_sorted(progress.begin(), progress.end()));
     EXPECT_EQ(progress.back(), 1);
-    // A file that has grown since.
+    // The file has grown since it was measured.
     EXPECT_FALSE(source->read(folder / "ball.rso", *foreseen / 8, [](float) {}));
 }
 
-INSTANTIATE_TEST_SUITE_P(RawAndCoded, ObjectFiles, ::testing::Combine(::testing::Bool(), ::testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(RawAndCoded, FileObjectSource, ::testing::Combine(::testing::Bool(), ::testing::Bool()));
 
 TEST(ObjectMemory, CountsWhatAnObjectHolds) {
     RaySpaceObject object = ball(false, true);

@@ -1,5 +1,5 @@
 #pragma once
-// Scenes whose shadows are compared: raster's by its maps, traced ones by a ray each.
+// Scenes for comparing shadow maps with traced shadows.
 
 #include "compositor/scene/scene.hpp"
 #include "compositor/traced/traced_renderer.hpp"
@@ -45,7 +45,7 @@ inline compositor::Scene boxes(const Light& light) {
     return scene;
 }
 
-// What geometry shows, linear light of its red.
+// Red channel of the geometry in linear light.
 inline Image<float> red_of(const Image<Rgba8>& image) {
     Image<float> red(image.width(), image.height());
     for (int y = 0; y < image.height(); ++y) {
@@ -64,11 +64,11 @@ inline Image<Rgba8> raster_image(const compositor::Scene& scene, const std::vect
     return std::move(*image);
 }
 
-// Of the pixels that are lit where nothing is in the way: how many raster and rays call shaded alike.
+// Agreement of raster and traced shadows on pixels that are lit without occluders.
 struct ShadowAgreement {
-    int compared = 0;  // not nearer than 1.5 pixels to an edge of the traced shadow
+    int compared = 0;  // at least 1.5 pixels from an edge of the traced shadow
     int alike = 0;
-    int shaded = 0;  // by rays
+    int shaded = 0;  // in the traced image
     [[nodiscard]] double share() const { return static_cast<double>(alike) / compared; }
 };
 
@@ -76,7 +76,7 @@ inline ShadowAgreement shadow_agreement(const compositor::Scene& scene,
                                         const std::vector<compositor::PlacedObject>& objects, const Camera& camera) {
     auto tracer = compositor::TracedRenderer::create(scene, objects, {.method = compositor::TracedMethod::kWhitted});
     RS_CHECK(tracer.ok());
-    tracer->look(camera);
+    tracer->begin_image(camera);
     RS_CHECK(tracer->add_pass());
     const Image<RgbaF> traced = tracer->radiance();
     const Image<float> open = red_of(raster_image(scene, {}, camera, false));

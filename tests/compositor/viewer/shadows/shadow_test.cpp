@@ -1,5 +1,4 @@
-// Raster shadows against traced ones, and against what shadow maps are known to get wrong. Skipped where no OpenGL
-// context can be had.
+// Raster shadows against traced ones, and typical artefacts of shadow maps. Skipped without OpenGL.
 
 #include "tests/compositor/gl_test.hpp"
 #include "tests/compositor/objects.hpp"
@@ -30,7 +29,7 @@ struct NamedLight {
 };
 std::vector<NamedLight> hard_lights() {
     Light point = point_light({0.3, 2.4, 1.2}, glm::vec3(12));
-    point.least_attenuation = 1e-3F;  // not by candelas: walls reflect nothing of it
+    point.least_attenuation = 1e-3F;  // not in candela, so without reflected light
     return {{"directional", directional_light({-0.5, -1, -0.3}, glm::vec3(3))},
             {"low directional", directional_light({-1, -0.45, 0.2}, glm::vec3(5))},
             {"point", point},
@@ -48,13 +47,13 @@ TEST_F(Shadows, AgreeWithTracedOnes) {
     }
 }
 
-// A plane that only it itself could shade.
+// A plane without other casters.
 TEST_F(Shadows, ALitPlaneDoesNotShadeItself) {
     const auto plane = test::matte_box({6, 0.5, 6}, {0, -0.25, 0});
     const Camera camera = look_at_camera({0, 2.5, 3.5}, {0, 0, 0}, radians(60), kWidth_px, kHeight_px);
     for (int incidence_deg = 0; incidence_deg <= 80; incidence_deg += 5) {
         const double from_up = radians(incidence_deg);
-        // Across the texels, not along them.
+        // Diagonal to the texels.
         const glm::dvec3 from(std::sin(from_up) * 0.8, std::cos(from_up), std::sin(from_up) * 0.6);
         for (const Light& light :
              {directional_light(-from, glm::vec3(4)), point_light(3.0 * from, glm::vec3(20)),
@@ -73,7 +72,7 @@ TEST_F(Shadows, ALitPlaneDoesNotShadeItself) {
     }
 }
 
-// Places on the board beside the foot of a box, away from the light: dark up to the box.
+// Points on the board at the foot of a box, on the side away from the light, are dark up to the box.
 TEST_F(Shadows, AreClosedAtTheFoot) {
     const Camera camera = look_at_camera({-1.6, 0.9, 0.4}, {-0.5, 0.1, 0}, radians(50), 960, 640);
     for (const auto& [name, light] : {NamedLight{"directional", directional_light({-1, -1, 0.1}, glm::vec3(6))},
@@ -92,7 +91,7 @@ TEST_F(Shadows, AreClosedAtTheFoot) {
                 const auto x = static_cast<int>(at.x);
                 const auto y = static_cast<int>(at.y);
                 if (x < 0 || y < 0 || x >= camera.width || y >= camera.height) continue;
-                if (!(open(x, y) > 0.05F)) continue;  // a pixel of the box's own dark side
+                if (!(open(x, y) > 0.05F)) continue;  // pixel of the box's own dark side
                 ++looked_at;
                 EXPECT_LT(shadowed(x, y), 0.02F * open(x, y)) << name << " " << along << " " << beside;
             }
@@ -108,7 +107,7 @@ TEST_F(Shadows, OfSheetsFallFromTheSideThatIsSeenOnly) {
     for (const glm::vec2 at : {glm::vec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
         sheet->vertices.push_back({{at.x, 0, -at.y}, {0, 1, 0}});
     }
-    sheet->indices = {0, 1, 2, 0, 2, 3};  // seen from above
+    sheet->indices = {0, 1, 2, 0, 2, 3};  // visible from above
     sheet->two_sided = false;
     GeometryNode ceiling;
     ceiling.mesh = sheet;
@@ -124,7 +123,7 @@ TEST_F(Shadows, OfSheetsFallFromTheSideThatIsSeenOnly) {
     EXPECT_EQ(middle(true), middle(false));
 }
 
-// A light that shines in one room is not shaded by what stands in another.
+// Scoped lights of a room are not shadowed by objects of another.
 TEST_F(Shadows, OfLightsInRoomsAreThoseOfTheRoom) {
     Light light = directional_light({-1, -1, 0}, glm::vec3(3));
     light.everywhere = false;
@@ -165,7 +164,7 @@ TEST_F(Shadows, AreDrawnAgainOnlyWhereSomethingHasChanged) {
     ASSERT_TRUE(frames->draw(camera));
     EXPECT_GT(frames->statistics().shadow_maps_drawn, 0);
     EXPECT_LT(frames->statistics().shadow_maps_drawn, 6);
-    // Not under a traced image, which shows shadows of its own, but as soon as it is gone.
+    // Not under a traced image, which has its own shadows, but as soon as it is removed.
     frames->set_traced(std::make_shared<const Image<Rgba8>>(64, 48));
     frames->turn_object(0, 0.7);
     ASSERT_TRUE(frames->draw(camera));
@@ -178,7 +177,7 @@ TEST_F(Shadows, AreDrawnAgainOnlyWhereSomethingHasChanged) {
     EXPECT_EQ(frames->statistics().shadow_maps_drawn, 0);
 }
 
-// What has moved is drawn anew in its part of the maps alone: frames are still those of maps that are drawn whole.
+// Moved nodes are redrawn in their part of the maps only; frames equal those of complete maps.
 TEST_F(Shadows, OfWhatHasMovedAreThoseOfMapsDrawnWhole) {
     const Camera camera = over_the_boxes();
     const std::vector<PlacedObject> objects{
@@ -186,7 +185,7 @@ TEST_F(Shadows, OfWhatHasMovedAreThoseOfMapsDrawnWhole) {
     for (const auto& [name, light] : hard_lights()) {
         Scene scene = test::boxes(light);
         for (std::uint32_t i = 1; i < 4; ++i) scene.geometry[i].moving = i;
-        scene.geometry.push_back(test::matte_box({0.2, 1.2, 0.2}, {-1.6, 0.6, -0.9}));  // stands among them
+        scene.geometry.push_back(test::matte_box({0.2, 1.2, 0.2}, {-1.6, 0.6, -0.9}));  // among the moving ones
         const auto make = [&] {
             auto frames = FrameCompositor::create(
                 scene, objects, {.width = camera.width, .height = camera.height, .samples = 1, .shadows = true});

@@ -1,4 +1,4 @@
-// How visitors move: every key and drag does what people expect, and nothing else.
+// Navigation: effect of every key and drag.
 
 #include "compositor/viewer/views/navigation.hpp"
 
@@ -32,7 +32,7 @@ TEST(Walking, KeysMoveAlongTheGroundWhateverThePitch) {
     right.seconds = 0.1;
     right.right = 1;
     expect_near(moved(visitor, NavigationMode::kWalk, right, kSettings).eye, {1.2, 1.6, 5});
-    visitor.heading_rad = kPi / 2;  // looks along -X; to the right is -Z
+    visitor.heading_rad = kPi / 2;  // facing -X; the right is -Z
     expect_near(moved(visitor, NavigationMode::kWalk, right, kSettings).eye, {1, 1.6, 4.8});
 }
 
@@ -60,7 +60,7 @@ TEST(Looking, FollowsTheHand) {
     EXPECT_LT(next.sight().x, 0);
     EXPECT_GT(next.sight().y, 0);
     drag.look_px = {0, -1e6};
-    EXPECT_NEAR(moved({}, NavigationMode::kWalk, drag, kSettings).pitch_rad, kMostPitch_rad, kNear);
+    EXPECT_NEAR(moved({}, NavigationMode::kWalk, drag, kSettings).pitch_rad, kMaxPitch_rad, kNear);
 }
 
 TEST(Flying, GoesWhereOneLooks) {
@@ -92,7 +92,7 @@ TEST(Panning, MovesTheSceneWithTheHand) {
     NavigationInput pan;
     pan.pan_px = {10, 20};
     const Visitor next = moved({}, NavigationMode::kWalk, pan, kSettings);
-    EXPECT_LT(next.eye.x, 0);  // the scene goes to the right
+    EXPECT_LT(next.eye.x, 0);  // the scene moves to the right
     EXPECT_GT(next.eye.y, 0);  // and down
     EXPECT_EQ(next.eye.z, 0);
 }
@@ -116,14 +116,14 @@ TEST(Visitors, ComeFromViewpointsAndGiveThemBack) {
     EXPECT_NEAR(back.pivot_distance, 5, kNear);
 }
 
-// A viewpoint that looks straight down: where its image's upper edge is, there goes who walks forward.
+// For a viewpoint that looks straight down, forward is towards the upper image edge.
 TEST(Visitors, FromAboveKnowWhereForwardIs) {
     Viewpoint above;
     above.world_from_camera =
         glm::dmat4(glm::dvec4(1, 0, 0, 0), glm::dvec4(0, 0, -1, 0), glm::dvec4(0, 1, 0, 0), glm::dvec4(0, 9, 0, 1));
     const Visitor visitor = visitor_at(above, {0, 0, 0});
     EXPECT_NEAR(visitor.heading_rad, 0, kNear);
-    EXPECT_NEAR(visitor.pitch_rad, -kMostPitch_rad, kNear);
+    EXPECT_NEAR(visitor.pitch_rad, -kMaxPitch_rad, kNear);
     EXPECT_NEAR(visitor.pivot_distance, 9, kNear);
 }
 

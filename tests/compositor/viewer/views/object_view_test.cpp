@@ -58,7 +58,7 @@ TEST(ObjectView, ItsRectangleIsNotMuchLargerThanTheObject) {
     const Camera camera = look_at_camera({0, 0, 5}, {0, 0, 0}, radians(50), 400, 400);
     const auto view = view_of_object(placed, camera);
     ASSERT_TRUE(view);
-    // The drum's near side is at 4 radii: its silhouette is 2 / 4 * focal length wide at the most.
+    // The drum's near side is at 4 radii: its silhouette is at most 2 / 4 * focal length wide.
     EXPECT_LT(view->rectangle.width, 1.3 * 0.5 * camera.fl_x);
     EXPECT_LT(view->rectangle.height, 1.6 * 0.5 * camera.fl_x);
 }
@@ -88,7 +88,7 @@ TEST(ObjectView, BelowItsFootItsDepthIsThatOfTheGroundAndOnTheObjectsSideOfIt) {
     const glm::dvec3 pixel(100, 230, 1);
     const double ground = placed.world_from_object.point({0, object->extent.bottom, 0}).y;
     const double depth = (ground - above.centre().y) / above.ray(pixel.x, pixel.y).y;
-    // A little nearer than the ground itself, by about a hundredth of the object's radius.
+    // Slightly nearer than the ground, by about a hundredth of the object's radius.
     EXPECT_GT(glm::dot(view->inverse_depth_foot, pixel), 1 / depth);
     EXPECT_LT(glm::dot(view->inverse_depth_foot, pixel), 1.02 / depth);
 

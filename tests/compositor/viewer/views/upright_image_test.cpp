@@ -55,7 +55,7 @@ TEST(UprightImage, ShowsEveryPointOfTheObjectWhereTheHomographySays) {
             EXPECT_NEAR(mapped.x / mapped.z, direct.x, 1e-6);
             EXPECT_NEAR(mapped.y / mapped.z, direct.y, 1e-6);
             EXPECT_NEAR(mapped.z * seen.z, direct.z, 1e-9);
-            // Inside of the image, but for what the image's whole pixels cut at its rim.
+            // Inside of the image, except for rounding to whole pixels at its edge.
             EXPECT_GE(direct.x, -1e-6);
             EXPECT_GE(direct.y, -1e-6);
             EXPECT_LE(direct.x, upright->camera.width + 1e-6);
@@ -82,7 +82,7 @@ TEST(UprightImage, HasAtLeastTheSamplesThatWereAskedFor) {
         const double y = area->y + area->height / 2.0;
         EXPECT_GE(glm::distance(place(x + 0.5, y), place(x - 0.5, y)), 2 - 1e-3) << pitch;
         EXPECT_GE(glm::distance(place(x, y + 0.5), place(x, y - 0.5)), 2 - 1e-3) << pitch;
-        if (pitch == 0.0) {  // nothing but a larger image
+        if (pitch == 0.0) {  // only a larger image
             EXPECT_NEAR(upright->camera.width, 2 * area->width, 2);
             EXPECT_NEAR(upright->camera.height, 2 * area->height, 2);
         }

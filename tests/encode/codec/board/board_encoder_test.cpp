@@ -1,5 +1,5 @@
-// The board profile: what the encoder writes is what its decoder shows, on any number of threads; codebooks are
-// trained; records keep to their classes.
+// Board profile: the decoder returns the encoder's reconstruction for any number of threads; codebooks are trained;
+// records use only their class's fields.
 
 #include "encode/codec/board/board_encoder.hpp"
 #include "encode/codec/board/board_block.hpp"
@@ -48,7 +48,7 @@ std::size_t record_bytes(const codec::CodedImages& coded) {
     return bytes;
 }
 
-// The error against the drawn images, measured on what the file gives back.
+// PSNR of the decoded file against the drawn images.
 double file_psnr(const std::filesystem::path& file) {
     const auto object = read_object(file);
     EXPECT_TRUE(object.ok()) << object.error().message;
@@ -76,7 +76,7 @@ TEST(BoardEncoder, WhatTheFileShowsIsNearTheSource) {
     ASSERT_TRUE(write_object(work / "fine.rso", fine).ok());
     const double found_db = file_psnr(work / "fine.rso");
     EXPECT_GT(found_db, 30);
-    EXPECT_GT(found_db, fine_db - 0.5);  // Y is truer than R, G and B together
+    EXPECT_GT(found_db, fine_db - 0.5);  // Y is more accurate than R, G and B together
     double coarse_db = 0;
     const RaySpaceObject coarse = board_object({.step = 80}, &coarse_db);
     EXPECT_LT(coarse_db, fine_db - 1);
@@ -162,20 +162,20 @@ TEST(VectorQuantiser, FindsCentresAndIgnoresWhatDoesNotMatter) {
                                                               : static_cast<int>(random() % 400) - 200);
         }
     }
-    const TrainedBook book = train_book(vectors, 32);
+    const Codebook book = train_codebook(vectors, 32);
     ASSERT_EQ(book.count(), 32U);
     for (std::size_t d = 0; d < 16; ++d) EXPECT_EQ(book.entries[d], 0);
     for (const auto& centre : centres) {
         std::int16_t values[16];
         const std::int16_t weights[16] = {6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6, 6};
         for (std::size_t d = 0; d < 16; ++d) values[d] = static_cast<std::int16_t>(centre[d]);
-        EXPECT_LE(nearest_entry(book, values, weights).distance, 6 * 16 * 2);
+        EXPECT_LE(find_nearest_entry(book, values, weights).distance, 6 * 16 * 2);
     }
 }
 
 TEST(VectorQuantiser, NearestIsTheFirstOfTheNearest) {
     std::mt19937 random(6);
-    TrainedBook book;
+    Codebook book;
     book.dimensions = 96;
     for (int i = 0; i < 96 * 64; ++i)
         book.entries.push_back(static_cast<std::int16_t>(static_cast<int>(random() % 7) - 3));
@@ -200,7 +200,7 @@ TEST(VectorQuantiser, NearestIsTheFirstOfTheNearest) {
                 best_distance = distance;
             }
         }
-        const Nearest found = nearest_entry(book, values, weights);
+        const Nearest found = find_nearest_entry(book, values, weights);
         EXPECT_EQ(found.index, best);
         EXPECT_EQ(found.distance, best_distance);
     }

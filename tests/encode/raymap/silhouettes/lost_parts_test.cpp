@@ -1,4 +1,4 @@
-// Large parts that cut-outs lack: which they are, and how they are painted.
+// Selects and paints large parts that masks lack.
 
 #include "encode/raymap/silhouettes/lost_parts.hpp"
 
@@ -14,12 +14,12 @@
 namespace rs::encode {
 namespace {
 
-// A square object with a bite at its right side, and what is missing of it.
+// A square object with a notch at its right side, and the missing part.
 class LostPart : public testing::Test {
 protected:
     static constexpr int kSide = 64;
     static constexpr int kFrom = 12, kTo = 52;                 // the object
-    static constexpr int kLeft = 30, kTop = 20, kBottom = 44;  // the bite, to the object's right end
+    static constexpr int kLeft = 30, kTop = 20, kBottom = 44;  // the notch, up to the object's right end
 
     LostPart() : missing_(kSide, kSide, kNoDepth) {
         Camera camera = drawn_ring(8).views[0].camera;
@@ -52,12 +52,12 @@ protected:
 };
 
 TEST_F(LostPart, IsFoundWithItsGapsAndThoseBesideTheObject) {
-    // Nothing next to the object, a slit, and a hole.
+    // No pixels next to the object, a slit, and a hole.
     miss([](int c, int r) {
         return c >= kLeft + 2 && c < kTo && r >= kTop + 2 && r < kBottom - 2 && c != 40 &&
                !(c > 43 && c < 46 && r == 30);
     });
-    const Image<float> part = lost_part(view_, missing_);
+    const Image<float> part = select_lost_part(view_, missing_);
     for_each([&](int c, int r) {
         const bool inside = c >= kLeft && c < kTo - 2 && r >= kTop && r < kBottom;
         if (inside) {
@@ -72,19 +72,19 @@ TEST_F(LostPart, HasSmoothDepths) {
     miss(bitten);
     missing_(30, 40) = 0.9F;
     missing_(33, 45) = -0.9F;
-    const Image<float> part = lost_part(view_, missing_);
+    const Image<float> part = select_lost_part(view_, missing_);
     EXPECT_EQ(part(30, 40), 0.25F);
     EXPECT_EQ(part(33, 45), 0.25F);
 }
 
 TEST_F(LostPart, IsNothingWhereFewPointsAreMissing) {
     miss([](int c, int r) { return bitten(c, r) && c % 2 == 0 && r % 2 == 0; });
-    EXPECT_EQ(count_of(lost_part(view_, missing_)), 0);
+    EXPECT_EQ(count_of(select_lost_part(view_, missing_)), 0);
 }
 
 TEST_F(LostPart, IsNoStripAlongARim) {
     miss([](int c, int r) { return c >= kFrom && c < kTo && r >= kFrom - 5 && r < kFrom; });
-    EXPECT_EQ(count_of(lost_part(view_, missing_)), 0);
+    EXPECT_EQ(count_of(select_lost_part(view_, missing_)), 0);
 }
 
 TEST_F(LostPart, DoesNotFloat) {
@@ -92,13 +92,13 @@ TEST_F(LostPart, DoesNotFloat) {
         return [left](int c, int r) { return c >= left && c < left + 14 && r >= kTop + 4 && r < kTop + 18; };
     };
     miss(square(kTo - 14));
-    EXPECT_EQ(count_of(lost_part(view_, missing_)), 0);  // it has the object at none of its sides
+    EXPECT_EQ(count_of(select_lost_part(view_, missing_)), 0);  // the object is at none of its sides
     missing_ = Image<float>(kSide, kSide, kNoDepth);
     miss([](int c, int r) { return c < kFrom && r >= 20 && r < 40; });
-    EXPECT_EQ(count_of(lost_part(view_, missing_)), 0);  // at one
+    EXPECT_EQ(count_of(select_lost_part(view_, missing_)), 0);  // the object is at one of its sides
 }
 
-// A ring about a ball, in images twice as large as the views; one lacks its middle.
+// A ring about a ball, with images twice as large as the views; one lacks its middle.
 class LostPartPainting : public testing::Test {
 protected:
     static constexpr int kBitten = 3;
@@ -189,7 +189,7 @@ TEST_F(LostPartPainting, TakesAllOfAImageThatShowsMost) {
 
 TEST_F(LostPartPainting, KeepsAImagesOwnSoftEdge) {
     Rgba8& soft = images_[kBitten](kLeft + 4, kTop + 4);
-    soft = {10, 20, 30, 51};  // a fifth
+    soft = {10, 20, 30, 51};  // alpha of one fifth
     LostPartPainter brush = painter();
     brush.paint_from(from(kBitten + 1));
     const Rgba8 found = std::move(brush).image()(kLeft + 4, kTop + 4);

@@ -1,4 +1,4 @@
-// Parts that cut-outs lack, found from a ball whose depths are known.
+// Finds parts that masks lack, from a ball with known depths.
 
 #include "encode/raymap/silhouettes/silhouette_repair.hpp"
 
@@ -17,11 +17,11 @@ namespace {
 constexpr int kViews = 12;
 constexpr double kTolerance = 0.02;
 
-// A ring about the ball with true depths, in images of which one lacks a part.
+// A ring about the ball with ground-truth depths; one image lacks a part.
 class SilhouetteRepair : public testing::Test {
 protected:
     static constexpr int kBitten = 6;
-    // Of the bitten image: a strip at the ball's left rim.
+    // The missing part of one image: a strip at the ball's left rim.
     static constexpr int kLeft = 20, kRight = 32, kTop = 40, kBottom = 64;
 
     SilhouetteRepair() {
@@ -67,7 +67,7 @@ protected:
         const SampledHull searched(VisualHull(silhouettes(), searched_margin), 0.01);
         std::vector<std::vector<RuledOutPoint>> found;
         for (int n = 0; n < kViews; ++n) {
-            found.push_back(ruled_out(ring_[static_cast<std::size_t>(n)], beside(n), kTolerance, searched, hull));
+            found.push_back(find_ruled_out(ring_[static_cast<std::size_t>(n)], beside(n), kTolerance, searched, hull));
         }
         return found;
     }
@@ -101,8 +101,8 @@ TEST_F(SilhouetteRepair, WhatOneImageLacksIsFoundThereAlone) {
             EXPECT_EQ(count_of(missing), 0) << "image " << n;
             continue;
         }
-        int near = 0;  // a few pixels meet no point of the near side
-        // What is next to the object may be its rim.
+        int near = 0;  // pixels that show the near side; a few do not
+        // Pixels next to the object may belong to its rim.
         EXPECT_GT(count_of(missing), bitten_ / 2);
         for (int column = 0; column < missing.height(); ++column) {
             for (int row = 0; row < missing.width(); ++row) {
@@ -124,7 +124,7 @@ TEST_F(SilhouetteRepair, PointsThatOneNeighbourDoesNotShowSayNothing) {
         for (float& depth : ring_[n].depth.pixels()) depth += 0.5F;
     }
     const auto left = points();
-    std::size_t before = 0, after = 0;  // of images of which one neighbour has moved
+    std::size_t before = 0, after = 0;  // for images with one displaced neighbour
     for (std::size_t n = 1; n < kViews; n += 2) {
         before += agreed[n].size();
         after += left[n].size();
@@ -158,7 +158,7 @@ TEST_F(SilhouetteRepair, SoftPixelsSayNothing) {
 
 TEST_F(SilhouetteRepair, WhatMayLieBeforeTheObjectIsNotMissing) {
     const WorkView& view = ring_[0].view;
-    const PlaceInSpace beside{{1.05, 0}, 0}, before{{0, 0}, 0};
+    const SpacePoint beside{{1.05, 0}, 0}, before{{0, 0}, 0};
     const auto missing = [&](const RuledOutPoint& point) {
         return count_of(missing_depths(view, std::vector<std::vector<RuledOutPoint>>{{point}}));
     };
@@ -172,7 +172,7 @@ TEST_F(SilhouetteRepair, WhatLeavesTheFrameMayBeObject) {
     const WorkView& view = ring_[0].view;
     const auto missing_at = [&](double column) {
         const HorizontalRay ray = view.ray_of(column);
-        const PlaceInSpace point{ray.place_at(0), 0};
+        const SpacePoint point{ray.place_at(0), 0};
         return count_of(missing_depths(view, std::vector<std::vector<RuledOutPoint>>{{{point, point, point}}}));
     };
     EXPECT_EQ(missing_at(1.5), 1);
@@ -197,13 +197,13 @@ TEST_F(SilhouetteRepair, FillsBlocksOfTwoAndWhatIsNextToThem) {
 TEST(HalvedView, DropsWhatIsLeftOverAndFillsUpToTheEdge) {
     const Camera camera = drawn_ring(8).views[1].camera;
     WorkView odd = make_work_view(camera, Image<Rgba8>(7, 5, {40, 80, 120, 255}), 1);
-    const WorkView half = halved(odd);
+    const WorkView half = halve(odd);
     EXPECT_EQ(half.width, 3);
     EXPECT_EQ(half.height, 2);
     for (Rgba8& pixel : odd.columns.pixels()) pixel.a = 0;
     fill_missing(odd, Image<float>(2, 3, 0.0F));
     EXPECT_TRUE(std::ranges::all_of(odd.columns.pixels(), [](const Rgba8& pixel) { return pixel.a == 255; }));
-    EXPECT_EQ(halved(make_work_view(camera, Image<Rgba8>(1, 1), 1)).width, 0);
+    EXPECT_EQ(halve(make_work_view(camera, Image<Rgba8>(1, 1), 1)).width, 0);
 }
 
 TEST(HalvedView, SeesPointsAtHalfTheirPlaceInMeansOfFourPixels) {
@@ -212,13 +212,13 @@ TEST(HalvedView, SeesPointsAtHalfTheirPlaceInMeansOfFourPixels) {
     image(10, 21) = {80, 80, 120, 255};
     image(11, 20) = {0, 0, 0, 0};
     const WorkView whole = make_work_view(camera, image, 1);
-    const WorkView half = halved(whole);
+    const WorkView half = halve(whole);
     EXPECT_EQ(half.width, 64);
     EXPECT_EQ(half.height, 56);
     const glm::dvec2 place(0.3, -0.2);
     EXPECT_NEAR(half.see(place).column, whole.see(place).column / 2, 1e-9);
     EXPECT_NEAR(half.row_of(0.4, 3), whole.row_of(0.4, 3) / 2, 1e-9);
-    EXPECT_EQ(half.at(5, 10).r, 53);  // of three
+    EXPECT_EQ(half.at(5, 10).r, 53);  // mean of three
     EXPECT_EQ(half.at(5, 10).a, 191);
     EXPECT_EQ(half.at(6, 10).r, 40);
 }

@@ -1,4 +1,4 @@
-// The hull that silhouettes leave, and the lines of a shape map that heed it.
+// The visual hull of silhouettes, and the lines of a shape map inside it.
 
 #include "encode/raymap/silhouettes/visual_hull.hpp"
 
@@ -97,17 +97,17 @@ TEST(VisualHull, APartThatOneCutOutLacksIsKeptWhereThatIsTolerated) {
     for (int column = 0; column < torn.width; ++column) {
         for (int row = 0; row < torn.height / 2; ++row) torn.columns(row, column) = {};
     }
-    EXPECT_GT(contradicted_share(pointers(views), VisualHull(pointers(views), 16), range), 0.05);
-    EXPECT_LT(contradicted_share(pointers(views), VisualHull(pointers(views), 1, 1), range), 0.01);
+    EXPECT_GT(inconsistent_share(pointers(views), VisualHull(pointers(views), 16), range), 0.05);
+    EXPECT_LT(inconsistent_share(pointers(views), VisualHull(pointers(views), 1, 1), range), 0.01);
 }
 
 TEST(VisualHull, SilhouettesOfTheRightRigAgreeAndOfAWrongOneDoNot) {
     const std::vector<WorkView> views = drawn_views(drawn_ring(12));
     const DepthRange range;
-    EXPECT_LT(contradicted_share(pointers(views), VisualHull(pointers(views), 1), range), 0.01);
+    EXPECT_LT(inconsistent_share(pointers(views), VisualHull(pointers(views), 1), range), 0.01);
     std::vector<WorkView> wrong = views;
     for (WorkView& view : wrong) view.cx += 9;
-    EXPECT_GT(contradicted_share(pointers(wrong), VisualHull(pointers(wrong), 1), range), 0.1);
+    EXPECT_GT(inconsistent_share(pointers(wrong), VisualHull(pointers(wrong), 1), range), 0.1);
 }
 
 TEST(VisualHull, AViewWithoutAnObjectSaysNothing) {
@@ -132,7 +132,7 @@ TEST(SampledHull, HasTheHeightsOfTheNextPointOfItsGrid) {
         const VisualHull hull(pointers(views), 1, tolerated);
         const SampledHull sampled(hull, kSpacing);
         std::mt19937 random(4);
-        std::uniform_real_distribution<double> along(-kDeepest, kDeepest);
+        std::uniform_real_distribution<double> along(-kMaxDepth, kMaxDepth);
         std::vector<Interval> wanted;
         int with_some = 0;
         for (int n = 0; n < 3000; ++n) {
@@ -150,7 +150,7 @@ TEST(SampledHull, HasTheHeightsOfTheNextPointOfItsGrid) {
     }
 }
 
-// Where a cell of a map of cameras at one height lies when its line is that of `viewpoint`.
+// Positions of the cells of the line of `viewpoint`, for cameras at one height.
 class CellPlaces {
 public:
     CellPlaces(const ShapeMap& map, const glm::dvec2& viewpoint) : map_(map), viewpoint_(viewpoint) {}
@@ -160,7 +160,7 @@ public:
         double y = 0;
     };
     [[nodiscard]] Point at(int p_cell, int band, double depth) const {
-        const double p = -kDeepest + (p_cell + 0.5) * 2 * kDeepest / map_.p_cells;
+        const double p = -kMaxDepth + (p_cell + 0.5) * 2 * kMaxDepth / map_.p_cells;
         const double sine = p / glm::length(viewpoint_);
         const glm::dvec2 inwards = -glm::normalize(viewpoint_);
         const glm::dvec2 along = inwards * std::sqrt(1 - sine * sine) + glm::dvec2(-inwards.y, inwards.x) * sine;
@@ -182,8 +182,8 @@ private:
     glm::dvec2 viewpoint_;
 };
 
-// Each image's depths are as wrong as they can be: the far end of the search. From between two images such points
-// stand aside of the object.
+// Every depth is wrong by the maximum: the far end of the search range. Seen from between two images, such points lie
+// beside the object.
 TEST(ShapeLines, NothingFloatsBesideTheObjectWhereSilhouettesAgree) {
     const std::vector<WorkView> views = drawn_views(drawn_ring(12));
     const SampledHull hull(VisualHull(pointers(views), 1), 0.01);
@@ -207,7 +207,7 @@ TEST(ShapeLines, NothingFloatsBesideTheObjectWhereSilhouettesAgree) {
     ASSERT_EQ(all.gaps[0].lines, 1) << "which looks from halfway";
     const std::uint32_t line = all.gaps[0].first_line;
     const auto allowed = [&](int pi, int hi) {
-        for (double depth = -kDeepest; depth <= kDeepest; depth += 0.01) {
+        for (double depth = -kMaxDepth; depth <= kMaxDepth; depth += 0.01) {
             const CellPlaces::Point point = places.at(pi, hi, depth);
             if (is_allowed(views, point.place, point.y, 2)) return true;
         }
@@ -227,7 +227,7 @@ TEST(ShapeLines, NothingFloatsBesideTheObjectWhereSilhouettesAgree) {
     EXPECT_GT(dropped, 20);
 }
 
-// A wall of gauze behind the object: halfway between two images it is also seen where one of them shows the object.
+// A translucent wall behind the object: halfway between two images it is visible where one of them shows the object.
 TEST(ShapeLines, NoImageHidesWhatStandsBehind) {
     std::vector<DepthView> gauze;
     for (const WorkView& view : drawn_views(drawn_ring(12))) {
@@ -255,7 +255,7 @@ TEST(ShapeLines, NoImageHidesWhatStandsBehind) {
                     std::ldexp(map.depth_low_q20, -20) + cell.depth * std::ldexp(map.depth_step_q24, -24);
                 const CellPlaces::Point point = places.at(pi, hi, depth);
                 const bool hides = std::any_of(gauze.begin(), gauze.begin() + 2, [&](const DepthView& image) {
-                    const SeenColumn seen = image.view.see(point.place);
+                    const ProjectedColumn seen = image.view.see(point.place);
                     const double row = image.view.row_of(point.y, seen.axial);
                     return seen.column >= 0 && seen.column < image.view.width && row >= 0 && row < image.view.height &&
                            std::isnan(image.depth(static_cast<int>(row), static_cast<int>(seen.column)));

@@ -1,4 +1,4 @@
-// Images as the depth search sees them.
+// Preparation of working views for depth estimation.
 
 #include "encode/raymap/silhouettes/work_view.hpp"
 
@@ -33,7 +33,7 @@ TEST(WorkView, PixelsGoToPointsAndBack) {
             const HorizontalRay ray = view.ray_of(column);
             EXPECT_NEAR(glm::dot(ray.foot, ray.along), 0, 1e-12);
             for (const double depth : {-0.8, 0.0, 0.7}) {
-                const SeenColumn seen = view.see(ray.foot + depth * ray.along);
+                const ProjectedColumn seen = view.see(ray.foot + depth * ray.along);
                 EXPECT_NEAR(seen.column, column, 1e-9);
                 EXPECT_NEAR(seen.axial, (ray.to_foot + depth) / ray.horizontal_per_axial, 1e-12);
                 EXPECT_NEAR(view.row_of(view.height_of(17.25, seen.axial), seen.axial), 17.25, 1e-9);
@@ -53,7 +53,7 @@ TEST(WorkView, ReductionAveragesByAlpha) {
     EXPECT_EQ(view.at(1, 1), Rgba8{});
 }
 
-// An image of coarse stripes that are brighter than in another one, as gloss is.
+// Coarse stripes that are brighter than in another image, as with gloss.
 TEST(WorkView, WeakenedShadingKeepsDetail) {
     const auto view_of = [](int gloss) {
         WorkView view;
@@ -65,7 +65,7 @@ TEST(WorkView, WeakenedShadingKeepsDetail) {
                 view.columns(x, y) = {value, value, value, static_cast<std::uint8_t>(x == 5 ? 1 : 255)};
             }
         }
-        weaken_shading(view);
+        attenuate_shading(view);
         return view.columns;
     };
     const Image<Rgba8> dull = view_of(0);
@@ -77,7 +77,7 @@ TEST(WorkView, WeakenedShadingKeepsDetail) {
             EXPECT_NEAR(glossy(x, y).g - dull(x, y).g, 15, 1) << x << " " << y;  // a quarter of 60
             EXPECT_EQ(dull(x, y).a, 255);
         }
-        // Two pixels farther on the pattern is the other way.
+        // Two pixels farther the pattern is inverted.
         for (int x = 12; x < 30; ++x) EXPECT_NEAR(std::abs(dull(x + 2, y).g - dull(x, y).g), 40, 5) << x << " " << y;
     }
 }

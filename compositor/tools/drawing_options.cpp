@@ -1,0 +1,95 @@
+#include "compositor/tools/drawing_options.hpp"
+
+#include "rayspace/api/types/executor_table.hpp"
+
+#include <utility>
+
+namespace rs::compositor {
+
+void add_drawing_options(CLI::App& command, DrawingOptions& options) {
+    command.add_option("--samples", options.samples, "samples per pixel at the edges of geometry, 1..16")
+        ->check(CLI::Range(1, 16).description(""))
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        .add_option_function<std::string>(
+            "--shadows", [&options](const std::string& value) { options.shadows = value == "on"; },
+            "raster: lights cast shadows of geometry and objects onto geometry; on or off")
+        ->check(CLI::IsMember({"on", "off"}).description(""))
+        ->type_name("on|off")
+        ->default_str("on");
+    command.add_flag("--wire-frame", options.wire_frame, "draw only the edges of the geometry's triangles");
+    command
+        .add_option_function<std::string>(
+            "--object-depth",
+            [&options](const std::string& value) {
+                options.object_depth = value == "pixel" ? ObjectDepth::kPixel : ObjectDepth::kPlane;
+            },
+            "depth of an object: one plane, or per pixel, so that intersections are visible")
+        ->check(CLI::IsMember({"plane", "pixel"}).description(""))
+        ->type_name("plane|pixel")
+        ->default_str("plane");
+    command
+        .add_option("--object-samples", options.object_samples,
+                    "most samples across a pixel for distant objects, 1.." + std::to_string(kMostSamplesAcross))
+        ->check(CLI::Range(1, kMostSamplesAcross).description(""))
+        ->type_name("N")
+        ->capture_default_str();
+}
+
+void add_upright_option(CLI::App& command, bool& upright) {
+    command.add_flag("--upright", upright, "draw objects for level cameras and resample: faster, slightly softer");
+}
+
+void add_executor_options(CLI::App& command, ExecutorOptions& options) {
+    command
+        .add_option("--executor", options.executor,
+                    engine::ExecutorTable().names() + ": draws the objects; the core draws what it cannot")
+        ->type_name("NAME")
+        ->capture_default_str();
+    add_memory_option(command, options.memory_mib);
+}
+
+void add_memory_option(CLI::App& command, std::int64_t& memory_mib) {
+    command.add_option("--memory", memory_mib, "limit for objects in memory (default: half of the machine's)")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 30).description(""))
+        ->type_name("MIB");
+}
+
+FrameOptions frame_options(const DrawingOptions& options, PixelSize size, double exposure_ev, bool upright) {
+    return {.width = size.width,
+            .height = size.height,
+            .samples = options.samples,
+            .wire_frame = options.wire_frame,
+            .shadows = options.shadows,
+            .exposure_ev = exposure_ev,
+            .object_depth = options.object_depth,
+            .object_samples = options.object_samples,
+            .upright_images = upright};
+}
+
+Result<std::vector<PlacedObject>> LoadedScene::all_objects() const {
+    if (const Status status = showroom->wait_for_all({0, 0, 0}); !status) return status.error();
+    return showroom->placed();
+}
+
+Result<LoadedScene> load_objects(Scene scene, ObjectDepth depth, const ExecutorOptions& options, bool waits) {
+    std::unique_ptr<engine::Executor> executor;
+    if (options.executor != "core") {
+        Result<std::unique_ptr<engine::Executor>> made =
+            engine::ExecutorTable().create(options.executor);
+        if (!made) return made.error();
+        executor = std::move(*made);
+    }
+    LoadedScene loaded;
+    loaded.executor = executor ? executor->traits() : engine::ExecutorTraits{.name = "software core"};
+    if (depth == ObjectDepth::kPixel && !loaded.executor.depth) {
+        return Error{"--object-depth pixel: " + loaded.executor.name + " gives no depth; leave out --executor"};
+    }
+    loaded.showroom = std::make_unique<Showroom>(
+        scene, ShowroomOptions{.memory_bytes = options.memory_mib << 20, .waits = waits}, std::move(executor));
+    loaded.scene = std::move(scene);
+    return loaded;
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,82 @@
+#include "compositor/tools/headless_renderer.hpp"
+
+#include "compositor/tools/scene_options.hpp"
+
+#include <algorithm>
+#include <string>
+#include <thread>
+#include <utility>
+
+namespace rs::compositor {
+
+Result<std::shared_ptr<TracedRenderer>> make_tracer(const LoadedScene& loaded, const RendererOptions& options,
+                                                    const std::string& name) {
+    const Result<TracedOptions> traced = traced_options(options);
+    if (!traced) return traced.error();
+    const Result<std::vector<PlacedObject>> objects = loaded.all_objects();
+    if (!objects) return objects.error();
+    Result<TracedRenderer> tracer = TracedRenderer::create(loaded.scene, *objects, *traced);
+    if (!tracer) return Error{name + ": " + tracer.error().message};
+    print_warnings(tracer->warnings());
+    return std::make_shared<TracedRenderer>(std::move(*tracer));
+}
+
+Result<TracedImages> traced_images(const LoadedScene& loaded, const RendererOptions& options, const PassOptions& limit,
+                                   const std::string& name, Progress& progress) {
+    if (!options.method()) return TracedImages();
+    Result<std::shared_ptr<TracedRenderer>> tracer = make_tracer(loaded, options, name);
+    if (!tracer) return tracer.error();
+    return TracedImages([tracer = std::move(*tracer), limit, &progress](
+                            std::size_t, const Camera& camera) -> Result<std::shared_ptr<const Image<Rgba8>>> {
+        return trace_frame(*tracer, limit, camera, progress);
+    });
+}
+
+Result<HeadlessRenderer> HeadlessRenderer::create(const LoadedScene& loaded, const HeadlessOptions& options,
+                                                  TracedImages traced) {
+    Result<gl::Context> context = gl::Context::create_surfaceless();
+    if (!context) return context.error();
+    Result<FrameCompositor> compositor =
+        FrameCompositor::create(loaded.scene, loaded.showroom->engine(), loaded.showroom->nodes(), options.frame);
+    if (!compositor) return compositor.error();
+    return HeadlessRenderer(loaded, options, std::move(traced), std::move(*context), std::move(*compositor));
+}
+
+HeadlessRenderer::HeadlessRenderer(const LoadedScene& loaded, const HeadlessOptions& options, TracedImages traced,
+                                   gl::Context context, FrameCompositor compositor)
+    : loaded_(&loaded),
+      options_(options),
+      traced_(std::move(traced)),
+      context_(std::move(context)),
+      compositor_(std::move(compositor)) {}
+
+Result<Image<Rgba8>> HeadlessRenderer::render(const Camera& camera) {
+    using Clock = std::chrono::steady_clock;
+    const std::size_t frame = times_.frames();
+    const double frame_s = 1 / options_.frames_per_second;
+    if (options_.real_time) {
+        std::this_thread::sleep_until(begin_ +
+                                      std::chrono::duration_cast<Clock::duration>(
+                                          std::chrono::duration<double>(frame_s * static_cast<double>(frame))));
+    }
+    if (camera.width != compositor_.width() || camera.height != compositor_.height()) {
+        if (Status status = compositor_.resize(camera.width, camera.height); !status) return status.error();
+    }
+    if (traced_) {
+        Result<std::shared_ptr<const Image<Rgba8>>> traced = traced_(frame, camera);
+        if (!traced) return traced.error();
+        compositor_.set_traced(std::move(*traced));
+    }
+    if (Status status = times_.draw(*loaded_->showroom, compositor_, camera, frame_s); !status) return status.error();
+    print_warnings(loaded_->showroom->take_warnings());
+    most_missing_ = std::max(most_missing_, compositor_.statistics().nodes_missing);
+    return compositor_.image();
+}
+
+void HeadlessRenderer::warn_of_missing_objects(std::int64_t memory_mib) const {
+    if (most_missing_ == 0) return;
+    print_warnings({std::to_string(most_missing_) + " objects in view do not fit into --memory " +
+                    std::to_string(memory_mib) + " and are shown as placeholders"});
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,124 @@
+#include "compositor/lighting/light_warnings.hpp"
+#include "compositor/tools/camera_options.hpp"
+#include "compositor/tools/commands.hpp"
+#include "compositor/tools/drawing_options.hpp"
+#include "compositor/tools/headless_renderer.hpp"
+#include "compositor/tools/replaced_flags.hpp"
+#include "compositor/tools/scene_options.hpp"
+#include "compositor/tools/tracing_options.hpp"
+#include "compositor/window/visit.hpp"
+#include "rayspace/image_io/image_io.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace rs::compositor {
+namespace {
+
+struct OpenOptions {
+    SceneOptions scene;
+    ViewOptions view;
+    std::string size = "1280x720";
+    RendererOptions renderer;
+    DrawingOptions drawing;
+    ExecutorOptions executor;
+};
+
+Result<Camera> first_camera(const OpenOptions& options, const LoadedScene& loaded, PixelSize size) {
+    const Result<std::vector<Camera>> cameras = requested_cameras(
+        options.view, MotionOptions{}, loaded.scene, [&] { return loaded.all_objects(); }, size);
+    if (!cameras) return cameras.error();
+    return cameras->front();
+}
+
+Status show_in_window(Window window, const OpenOptions& options, LoadedScene loaded, const Camera& first) {
+    VisitOptions visit_options;
+    visit_options.samples = options.drawing.samples;
+    visit_options.wire_frame = options.drawing.wire_frame;
+    visit_options.shadows = options.drawing.shadows;
+    visit_options.object_depth = options.drawing.object_depth;
+    visit_options.object_samples = options.drawing.object_samples;
+    visit_options.exposure_ev = options.renderer.exposure_ev;
+    const Result<TracedOptions> tracing = traced_options(options.renderer);
+    if (!tracing) return tracing.error();
+    visit_options.tracing = *tracing;
+    visit_options.traced = options.renderer.method().has_value();
+    if (options.scene.lights) visit_options.lights = *options.scene.lights;
+    visit_options.executor = loaded.executor.name;
+    visit_options.warn = print_warnings;
+    Viewpoint begin;
+    begin.world_from_camera = first.world_from_camera;
+    begin.field_of_view_rad = 2 * std::atan(0.5 * std::min(first.width, first.height) / first.fl_y);
+    visit_options.viewpoints = {begin};
+    visit_options.viewpoints.insert(visit_options.viewpoints.end(), loaded.scene.viewpoints.begin(),
+                                    loaded.scene.viewpoints.end());
+    return visit(std::move(window), loaded.scene, std::move(loaded.showroom), visit_options);
+}
+
+// Renders the first view to ./screenshot-N.png, where no window can be opened.
+Status write_first_view(const std::string& file, const OpenOptions& options, const LoadedScene& loaded,
+                        const Camera& first) {
+    ProgressBar progress;
+    Result<TracedImages> traced =
+        traced_images(loaded, options.renderer, PassOptions{}, scene_name(options.scene), progress);
+    if (!traced) return traced.error();
+    const HeadlessOptions headless{.frame = frame_options(options.drawing, {first.width, first.height},
+                                                          options.renderer.exposure_ev, !loaded.executor.tilted)};
+    Result<HeadlessRenderer> renderer = HeadlessRenderer::create(loaded, headless, std::move(*traced));
+    if (!renderer) return renderer.error();
+    const Result<Image<Rgba8>> image = renderer->render(first);
+    if (!image) return image.error();
+    if (Status status = write_png(file, *image); !status) return status;
+    renderer->warn_of_missing_objects(options.executor.memory_mib);
+    return {};
+}
+
+Status run_open(const OpenOptions& options) {
+    const Result<PixelSize> size = parse_size(options.size);
+    if (!size) return size.error();
+    Result<Scene> scene = load_scene(options.scene);
+    if (!scene) return scene.error();
+    print_warnings(light_warnings(*scene));
+    Result<Window> window =
+        Window::create({.title = scene_name(options.scene), .width = size->width, .height = size->height});
+    std::string file;
+    if (!window) {
+        int number = 0;
+        file = free_name(".", "screenshot", ".png", number).string();
+        print_warnings({window.error().message + "; the first view goes to " + file});
+    }
+    Result<LoadedScene> loaded =
+        load_objects(std::move(*scene), options.drawing.object_depth, options.executor, !window.ok());
+    if (!loaded) return loaded.error();
+    const Result<Camera> first = first_camera(options, *loaded, *size);
+    if (!first) return first.error();
+    if (!window) return write_first_view(file, options, *loaded, *first);
+    return show_in_window(std::move(*window), options, std::move(*loaded), *first);
+}
+
+}  // namespace
+
+void add_open_command(CLI::App& app, std::function<Status()>& run) {
+    auto options = std::make_shared<OpenOptions>();
+    CLI::App* command = app.add_subcommand(
+        "open",
+        "Walk through a scene in a window (H shows the keys). `rs-view SCENE` is short for `rs-view open SCENE`");
+    add_scene_options(*command, options->scene);
+    add_view_options(*command, options->view);
+    add_size_option(*command, options->size);
+    add_renderer_options(*command, options->renderer);
+    add_lens_options(*command, options->renderer);
+    add_drawing_options(*command, options->drawing);
+    add_executor_options(*command, options->executor);
+    command->footer(
+        "`rs-view SCENE` is short for `rs-view open SCENE`.\nExample: rs-view open museum.wrl --viewpoint entrance");
+    command->allow_extras();  // so that options of other subcommands can be refused with advice
+    command->callback([command, options, &run] {
+        refuse_unknown_arguments(command->remaining());
+        check_scene_options(options->scene);
+        run = [options] { return run_open(*options); };
+    });
+}
+
+}  // namespace rs::compositor

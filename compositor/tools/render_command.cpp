@@ -1,0 +1,108 @@
+#include "compositor/lighting/light_warnings.hpp"
+#include "compositor/tools/camera_options.hpp"
+#include "compositor/tools/commands.hpp"
+#include "compositor/tools/drawing_options.hpp"
+#include "compositor/tools/frame_output.hpp"
+#include "compositor/tools/headless_renderer.hpp"
+#include "compositor/tools/scene_options.hpp"
+#include "compositor/tools/tracing_options.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/output/view_output.hpp"
+
+#include <memory>
+
+namespace rs::compositor {
+namespace {
+
+struct RenderOptions {
+    SceneOptions scene;
+    ViewOptions view;
+    MotionOptions motion;
+    std::string size = "1280x720";
+    RendererOptions renderer;
+    PassOptions passes;
+    DrawingOptions drawing;
+    ExecutorOptions executor;
+    bool upright = false;
+    bool streaming = false;
+    double frames_per_second = 30;
+    std::string output;
+    std::optional<std::string> stats;
+    bool quiet = false;
+};
+
+Status run_render(const RenderOptions& options) {
+    const Result<PixelSize> size = parse_size(options.size);
+    if (!size) return size.error();
+    Result<Scene> scene = load_scene(options.scene);
+    if (!scene) return scene.error();
+    print_warnings(light_warnings(*scene));
+    const Result<OutputKind> kind = output_kind(options.output);
+    if (!kind) return kind.error();
+    const Result<LoadedScene> loaded =
+        load_objects(std::move(*scene), options.drawing.object_depth, options.executor, !options.streaming);
+    if (!loaded) return loaded.error();
+    const Result<std::vector<Camera>> cameras = requested_cameras(
+        options.view, options.motion, loaded->scene, [&] { return loaded->all_objects(); }, *size);
+    if (!cameras) return cameras.error();
+    if (Status status = check_frame_count(options.output, *kind, cameras->size()); !status) return status;
+
+    FrameProgress progress(options.quiet, cameras->size(), options.renderer.method().has_value());
+    Result<TracedImages> traced =
+        traced_images(*loaded, options.renderer, options.passes, scene_name(options.scene), progress.of_passes());
+    if (!traced) return traced.error();
+    const bool upright = options.upright || options.streaming || !loaded->executor.tilted;
+    HeadlessOptions headless{.frame = frame_options(options.drawing, *size, options.renderer.exposure_ev, upright),
+                             .frames_per_second = options.frames_per_second,
+                             .real_time = options.streaming};
+    headless.frame.time_parts = options.stats.has_value();
+    Result<HeadlessRenderer> renderer = HeadlessRenderer::create(*loaded, headless, std::move(*traced));
+    if (!renderer) return renderer.error();
+    progress.start();
+    const RenderView render = [&](const Camera& camera) { return renderer->render(camera); };
+    if (Status status =
+            write_frames(options.output, *kind, options.frames_per_second, *cameras, render, progress.of_frames());
+        !status) {
+        return status;
+    }
+    progress.finish();
+    if (!options.streaming) renderer->warn_of_missing_objects(options.executor.memory_mib);
+    return options.stats ? write_file(*options.stats, renderer->times().to_json(*loaded->showroom)) : Status();
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, std::function<Status()>& run) {
+    auto options = std::make_shared<RenderOptions>();
+    CLI::App* command =
+        app.add_subcommand("render", "Render an image, a video or a folder of frames, without a window");
+    add_scene_options(*command, options->scene);
+    command->add_option("-o,--output", options->output, "FILE.png, FILE.mp4 or a folder")->required()->type_name("");
+    add_view_options(*command, options->view);
+    add_motion_options(*command, options->motion);
+    add_size_option(*command, options->size);
+    command->add_option("--fps", options->frames_per_second, "frames per second of an .mp4, 1..240")
+        ->check(CLI::Range(1.0, 240.0).description(""))
+        ->type_name("RATE")
+        ->capture_default_str();
+    add_renderer_options(*command, options->renderer);
+    add_lens_options(*command, options->renderer);
+    add_pass_options(*command, options->passes);
+    add_drawing_options(*command, options->drawing);
+    add_upright_option(*command, options->upright);
+    add_executor_options(*command, options->executor);
+    command->add_flag("--streaming", options->streaming,
+                      "run in real time and show objects once they are read, instead of waiting for them");
+    command->add_option("--stats", options->stats, "write the frames' times, by part, as JSON")
+        ->check(ends_in({".json"}))
+        ->type_name("FILE.json");
+    command->add_flag("-q,--quiet", options->quiet, "no progress bar");
+    command->footer("Example: rs-view render hall.wrl --renderer path --lights evening.json --passes 256 -o hall.png");
+    command->callback([command, options, &run] {
+        check_scene_options(options->scene);
+        check_renderer_options(*command, options->renderer);
+        run = [options] { return run_render(*options); };
+    });
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,38 @@
+#pragma once
+// Options of rs-view that choose the scene: its file, a list of lights, and added ray-space objects.
+
+#include "compositor/scene/scene.hpp"
+#include "rayspace/base/result.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rs::compositor {
+
+struct SceneOptions {
+    std::optional<std::string> scene;
+    std::vector<std::string> objects;  // FILE.rso[@X,Y,Z[,TURN_DEG[,SCALE]]]
+    std::optional<std::string> lights;
+};
+
+/// Adds SCENE, --object and --lights.
+void add_scene_options(CLI::App& command, SceneOptions& options);
+/// Adds SCENE, required, and --lights, for subcommands that do not draw objects.
+void add_scene_without_objects_options(CLI::App& command, SceneOptions& options);
+/// Throws CLI::ValidationError if neither a scene nor an object is given.
+void check_scene_options(const SceneOptions& options);
+
+/// Reads the scene file and adds the lights and the objects. Without a file, the objects get a floor. Prints the
+/// scene's warnings.
+Result<Scene> load_scene(const SceneOptions& options);
+
+/// The scene's file name for messages and titles; "rs-view" if there is none.
+std::string scene_name(const SceneOptions& options);
+
+/// Prints each warning as one line on stderr.
+void print_warnings(const std::vector<std::string>& warnings);
+
+}  // namespace rs::compositor

@@ -1,0 +1,381 @@
+#include "compositor/gl/context.hpp"
+#include "compositor/playback/sequence_player.hpp"
+#include "compositor/sequence/converter.hpp"
+#include "compositor/tools/camera_options.hpp"
+#include "compositor/tools/commands.hpp"
+#include "compositor/tools/drawing_options.hpp"
+#include "compositor/tools/scene_options.hpp"
+#include "compositor/tools/tracing_options.hpp"
+#include "compositor/window/visit.hpp"
+#include "rayspace/base/printable.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/file/input_file.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/image_io/image_io.hpp"
+#include "rayspace/output/view_output.hpp"
+#include "rayspace/tool/tool_main.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace rs::compositor {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kJpegQuality = 92;
+constexpr int kDefaultPassesOfFrame = 16;
+
+struct SequenceOptions {
+    std::vector<std::string> folders;
+    std::optional<std::string> output;  // a window if not given
+    std::size_t frame = 0;              // of a single image
+    std::optional<double> frames_per_second;
+    std::string size = "1280x720";
+    std::optional<std::string> weather;  // rain, snow, fog; the sequence's own if not given
+    std::uint32_t seed = Weather{}.seed;
+    double visibility_m = Weather{}.visibility;
+    std::optional<std::string> convert;  // CMD {in} {out}
+    RendererOptions renderer;
+    int passes = kDefaultPassesOfFrame;
+    DrawingOptions drawing;
+    bool upright = false;
+    std::int64_t memory_mib = ExecutorOptions{}.memory_mib;
+    bool quiet = false;
+};
+
+enum class SequenceOutput { kVideo, kImage, kFolder };
+
+Result<SequenceOutput> output_of_sequence(const std::string& output) {
+    const std::string ending = lower_case_extension(output);
+    if (ending == ".mp4") return SequenceOutput::kVideo;
+    if (ending == ".png" || ending == ".jpg" || ending == ".jpeg") return SequenceOutput::kImage;
+    const Result<OutputKind> kind = output_kind(output);
+    if (!kind) return Error{output + ": sequences are written as .mp4, .jpg or .png; give such a name, or a folder"};
+    return SequenceOutput::kFolder;
+}
+
+// The weather of --weather; nullopt for the sequence's own.
+Result<std::optional<Weather>> requested_weather(const SequenceOptions& options) {
+    if (!options.weather) return std::optional<Weather>();
+    Result<Weather> weather = parse_weather(*options.weather);
+    if (!weather) return weather.error();
+    weather->seed = options.seed;
+    weather->visibility = options.visibility_m;
+    return std::optional<Weather>(*weather);
+}
+
+Result<PlayerOptions> player_options(const SequenceOptions& options) {
+    const Result<PixelSize> size = parse_size(options.size);
+    if (!size) return size.error();
+    const Result<TracedOptions> tracing = traced_options(options.renderer);
+    if (!tracing) return tracing.error();
+    const Result<std::optional<Weather>> weather = requested_weather(options);
+    if (!weather) return weather.error();
+    PlayerOptions player;
+    player.frame = frame_options(options.drawing, *size, options.renderer.exposure_ev, options.upright);
+    if (options.renderer.method()) player.tracing = *tracing;
+    player.passes = options.passes;
+    player.weather = *weather;
+    player.memory_bytes = options.memory_mib << 20;
+    return player;
+}
+
+// A sequence and its player.
+struct OpenSequence {
+    std::optional<Converted> converted;  // owns the files that --convert made
+    std::shared_ptr<const Sequence> sequence;
+    std::optional<SequencePlayer> player;
+};
+
+Result<OpenSequence> open_sequence(const SequenceOptions& options, const std::string& folder) {
+    OpenSequence opened;
+    fs::path files = folder;
+    if (options.convert) {
+        Result<Converted> converted = convert_scene(*options.convert, folder);
+        if (!converted) return converted.error();
+        files = converted->path;
+        opened.converted.emplace(std::move(*converted));
+    }
+    Result<Sequence> sequence = read_sequence(files);
+    if (!sequence) return sequence.error();
+    if (opened.converted) sequence->name = fs::path(folder).stem().string();
+    print_warnings(sequence->scene.warnings);
+    opened.sequence = std::make_shared<const Sequence>(std::move(*sequence));
+    return opened;
+}
+
+Status start_player(const SequenceOptions& options, OpenSequence& opened) {
+    const Result<PlayerOptions> player_settings = player_options(options);
+    if (!player_settings) return player_settings.error();
+    Result<SequencePlayer> player = SequencePlayer::create(opened.sequence, *player_settings);
+    if (!player) return player.error();
+    opened.player.emplace(std::move(*player));
+    return {};
+}
+
+Status check_video(const OpenSequence& opened, const std::string& folder) {
+    if (opened.sequence->frames.size() >= 2) return {};
+    return Error{printable(folder) + ": has 1 frame, and a video needs 2 or more; give a .jpg or .png to -o"};
+}
+
+std::vector<Camera> cameras_of(const OpenSequence& opened) {
+    const FrameCompositor& compositor = opened.player->compositor();
+    std::vector<Camera> cameras;
+    for (std::size_t i = 0; i < opened.sequence->frames.size(); ++i) {
+        cameras.push_back(camera_of(*opened.sequence, i, compositor.width(), compositor.height()));
+    }
+    return cameras;
+}
+
+Status write_video(const SequenceOptions& options, OpenSequence& opened, const std::string& output,
+                   Progress& progress) {
+    const double rate = options.frames_per_second.value_or(opened.sequence->frames_per_second);
+    const std::vector<Camera> cameras = cameras_of(opened);
+    std::size_t number = 0;
+    const auto render = [&](const Camera&) { return opened.player->frame(number++); };
+    progress.start("compositing", static_cast<std::int64_t>(cameras.size()));
+    Status status = write_view_video(output, rate, cameras, render, progress);
+    progress.finish();
+    return status;
+}
+
+Status write_images(OpenSequence& opened, const std::string& output, Progress& progress) {
+    Result<StagedFolder> staged = StagedFolder::create(output, "frames of a sequence");
+    if (!staged) return staged.error();
+    const Rig rig = rig_of_views(cameras_of(opened));
+    progress.start("compositing", static_cast<std::int64_t>(rig.views.size()));
+    for (std::size_t i = 0; i < rig.views.size(); ++i) {
+        const Result<Image<Rgba8>> frame = opened.player->frame(i);
+        if (!frame) return frame.error();
+        const fs::path file = staged->temporary_path() / rig.views[i].file_path;
+        if (Status status = write_png(file, *frame); !status) return status;
+        progress.advance();
+    }
+    progress.finish();
+    if (Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
+    return staged->commit();
+}
+
+Status write_image(OpenSequence& opened, std::size_t number, const std::string& output) {
+    if (number >= opened.sequence->frames.size()) {
+        return Error{"--frame " + std::to_string(number) + ": the sequence has frames 0.." +
+                     std::to_string(opened.sequence->frames.size() - 1)};
+    }
+    const Result<Image<Rgba8>> frame = opened.player->frame(number);
+    if (!frame) return frame.error();
+    if (lower_case_extension(output) == ".png") return write_png(output, *frame);
+    return write_jpeg(output, *frame, kJpegQuality);
+}
+
+Status render_sequence(const SequenceOptions& options) {
+    const std::string& output = *options.output;
+    const Result<SequenceOutput> kind = output_of_sequence(output);
+    if (!kind) return kind.error();
+    const std::string& folder = options.folders.front();
+    Result<OpenSequence> opened = open_sequence(options, folder);
+    if (!opened) return opened.error();
+    if (*kind == SequenceOutput::kVideo) {
+        if (Status status = check_video(*opened, folder); !status) return status;
+    }
+    Result<gl::Context> context = gl::Context::create_surfaceless();
+    if (!context) return context.error();
+    if (Status status = start_player(options, *opened); !status) return status;
+    ProgressBar progress(options.quiet);
+    Status status = *kind == SequenceOutput::kVideo    ? write_video(options, *opened, output, progress)
+                    : *kind == SequenceOutput::kFolder ? write_images(*opened, output, progress)
+                                                       : write_image(*opened, options.frame, output);
+    print_warnings(opened->player->take_warnings());
+    opened->player.reset();
+    return status;
+}
+
+// Writes NAME/sequence.mp4 and NAME/snapshot.jpg into the output folder, or nothing if it fails. Returns a summary.
+Result<std::string> render_into_folder(const SequenceOptions& options, const std::string& folder,
+                                       std::set<std::string>& names) {
+    Result<OpenSequence> opened = open_sequence(options, folder);
+    if (!opened) return opened.error();
+    if (Status status = check_video(*opened, folder); !status) return status.error();
+    std::string name = opened->sequence->name.empty() ? "sequence" : opened->sequence->name;
+    for (int i = 2; names.contains(name); ++i) name = opened->sequence->name + "-" + std::to_string(i);
+    names.insert(name);
+    const fs::path target = fs::path(*options.output) / name;
+    Result<StagedFolder> staged = StagedFolder::create(target, "videos of a sequence");
+    if (!staged) return staged.error();
+    if (Status status = start_player(options, *opened); !status) return status.error();
+    ProgressBar progress(options.quiet);
+    const fs::path temporary = staged->temporary_path();
+    Status status = write_video(options, *opened, (temporary / "sequence.mp4").string(), progress);
+    if (status) status = write_image(*opened, options.frame, (temporary / "snapshot.jpg").string());
+    print_warnings(opened->player->take_warnings());
+    opened->player.reset();
+    if (!status) return status.error();
+    if (Status committed = staged->commit(); !committed) return committed.error();
+    return std::to_string(opened->sequence->frames.size()) + " frames -> " + (target / "sequence.mp4").string();
+}
+
+// Renders several sequences, with a line on stdout for each; goes on after a failure and reports failures at the end.
+Status render_sequences(const SequenceOptions& options) {
+    const std::string& output = *options.output;
+    const Result<SequenceOutput> kind = output_of_sequence(output);
+    if (!kind) return kind.error();
+    if (*kind != SequenceOutput::kFolder) {
+        return Error{output + ": " + std::to_string(options.folders.size()) +
+                     " sequences do not fit one file; give a folder to -o"};
+    }
+    Result<gl::Context> context = gl::Context::create_surfaceless();
+    if (!context) return context.error();
+    std::error_code error;
+    const bool created = fs::create_directories(output, error);
+    std::set<std::string> names;
+    std::vector<std::string> failures;
+    for (const std::string& folder : options.folders) {
+        const auto begin = std::chrono::steady_clock::now();
+        const Result<std::string> summary = render_into_folder(options, folder, names);
+        if (!summary) failures.push_back(summary.error().message);
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+        std::printf("%s: %s (%.1f s)\n", printable(folder).c_str(), summary ? printable(*summary).c_str() : "failed",
+                    seconds.count());
+        std::fflush(stdout);
+    }
+    if (created && failures.size() == options.folders.size()) fs::remove(output, error);
+    if (failures.empty()) return {};
+    for (const std::string& failure : failures)
+        std::fprintf(stderr, "rs-view: failed: %s\n", printable(failure).c_str());
+    return Error{std::to_string(failures.size()) + " of " + std::to_string(options.folders.size()) +
+                 " sequences failed; see above"};
+}
+
+// Shows a sequence until the window is closed or another sequence is opened, whose path goes to `next`.
+Status show_sequence(const SequenceOptions& options, PixelSize size, const std::shared_ptr<const Sequence>& sequence,
+                     std::string& next) {
+    auto window = Window::create({.title = sequence->name, .width = size.width, .height = size.height});
+    if (!window) return Error{window.error().message + "; give -o to write an image or a video"};
+    const Result<std::optional<Weather>> weather = requested_weather(options);
+    if (!weather) return weather.error();
+    const Result<TracedOptions> tracing = traced_options(options.renderer);
+    if (!tracing) return tracing.error();
+    VisitOptions visit_options;
+    visit_options.sequence = sequence;
+    visit_options.weather = *weather ? *weather : sequence->weather;
+    visit_options.samples = options.drawing.samples;
+    visit_options.wire_frame = options.drawing.wire_frame;
+    visit_options.shadows = options.drawing.shadows;
+    visit_options.object_depth = options.drawing.object_depth;
+    visit_options.object_samples = options.drawing.object_samples;
+    visit_options.exposure_ev = options.renderer.exposure_ev;
+    visit_options.tracing = *tracing;
+    visit_options.traced = options.renderer.method().has_value();
+    visit_options.warn = print_warnings;
+    visit_options.open = [&next](const std::string& folder) { next = folder; };
+    const Camera first = camera_of(*sequence, 0, size.width, size.height);
+    Viewpoint begin;
+    begin.world_from_camera = first.world_from_camera;
+    begin.field_of_view_rad = 2 * std::atan(0.5 * std::min(first.width, first.height) / first.fl_y);
+    visit_options.viewpoints = {begin};
+    const Scene scene = visit_options.weather ? in_weather(sequence->scene, *visit_options.weather) : sequence->scene;
+    auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.memory_bytes = options.memory_mib << 20});
+    return visit(std::move(*window), scene, std::move(showroom), visit_options);
+}
+
+Status show_sequences(const SequenceOptions& options) {
+    const Result<PixelSize> size = parse_size(options.size);
+    if (!size) return size.error();
+    std::shared_ptr<const Sequence> shown;
+    std::string next = options.folders.front();
+    while (!next.empty()) {
+        Result<Sequence> sequence = read_sequence(std::exchange(next, {}));
+        if (sequence) {
+            print_warnings(sequence->scene.warnings);
+            shown = std::make_shared<const Sequence>(std::move(*sequence));
+        } else if (shown) {
+            print_warnings({sequence.error().message});  // the previous sequence is shown again
+        } else {
+            return sequence.error();
+        }
+        if (Status status = show_sequence(options, *size, shown, next); !status) return status;
+    }
+    return {};
+}
+
+void check_sequence_options(const CLI::App& command, const SequenceOptions& options) {
+    if (!options.weather) {
+        for (const char* const name : {"--seed", "--visibility"}) {
+            if (command.count(name) > 0) throw CLI::ValidationError(std::string(name) + " needs --weather");
+        }
+    }
+    if (options.output) {
+        check_renderer_options(command, options.renderer);
+        return;
+    }
+    if (options.folders.size() > 1) throw CLI::ValidationError("several sequences need -o: the folder to write");
+    for (const char* const name : {"--frame", "--fps", "--convert", "--passes", "--upright", "--quiet"}) {
+        if (command.count(name) == 0) continue;
+        throw CLI::ValidationError(std::string(name) + " needs -o: the video, image or folder to write");
+    }
+}
+
+}  // namespace
+
+void add_sequence_command(CLI::App& app, std::function<Status()>& run) {
+    auto options = std::make_shared<SequenceOptions>();
+    CLI::App* command = app.add_subcommand(
+        "sequence", "Play or render frames of extended OBJ over a base scene (compositor/sequence/README.md)");
+    command
+        ->add_option("FOLDER", options->folders,
+                     "folder with anim/out/frames.json, the frames.json itself, or one extended OBJ")
+        ->type_name("")
+        ->required();
+    command
+        ->add_option("-o,--output", options->output,
+                     ".mp4, .jpg, .png, or a folder; of several sequences a folder of NAME/sequence.mp4")
+        ->type_name("OUTPUT");
+    command->add_option("--frame", options->frame, "number of the frame that a .jpg or .png shows, from 0")
+        ->type_name("N")
+        ->capture_default_str();
+    command->add_option("--fps", options->frames_per_second, "frames per second of an .mp4 (default: sequence's)")
+        ->check(CLI::Range(1.0, 240.0).description(""))
+        ->type_name("RATE");
+    add_size_option(*command, options->size);
+    command->add_option("--weather", options->weather, "rain, snow, fog or rain,fog (default: sequence's own)")
+        ->type_name("NAME,...");
+    command->add_option("--seed", options->seed, "seed of the drops and flakes of --weather")
+        ->check(CLI::Range(0, 1000000000).description(""))
+        ->type_name("N")
+        ->capture_default_str();
+    command->add_option("--visibility", options->visibility_m, "distance in metres at which fog hides everything")
+        ->check(CLI::Range(1.0, 100000.0).description(""))
+        ->type_name("M")
+        ->capture_default_str();
+    command
+        ->add_option("--convert", options->convert,
+                     "command that converts FOLDER {in} to a sequence or an OBJ {out}; run without a shell")
+        ->type_name("'CMD {in} {out}'");
+    add_renderer_options(*command, options->renderer);
+    add_lens_options(*command, options->renderer);
+    command->add_option("--passes", options->passes, "traced: rays per pixel of a frame, 1..65536")
+        ->check(CLI::Range(1, 65536).description(""))
+        ->type_name("N")
+        ->capture_default_str();
+    add_drawing_options(*command, options->drawing);
+    add_upright_option(*command, options->upright);
+    add_memory_option(*command, options->memory_mib);
+    command->add_flag("-q,--quiet", options->quiet, "no progress bar");
+    command->footer("Example: rs-view sequence maps/street --weather rain -o street.mp4");
+    command->callback([command, options, &run] {
+        check_sequence_options(*command, *options);
+        run = [options] {
+            if (!options->output) return show_sequences(*options);
+            return options->folders.size() == 1 ? render_sequence(*options) : render_sequences(*options);
+        };
+    });
+}
+
+}  // namespace rs::compositor

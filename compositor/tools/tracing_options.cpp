@@ -1,0 +1,136 @@
+#include "compositor/tools/tracing_options.hpp"
+
+#include "rayspace/base/printable.hpp"
+
+#include <charconv>
+#include <chrono>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+namespace rs::compositor {
+namespace {
+
+// Parses MM or f/N.
+Result<CameraLens> parse_lens(const std::string& text, const std::optional<double>& focus) {
+    constexpr std::string_view kFNumber = "f/";
+    constexpr double kMaxNumber = 1e6;
+    const bool is_f_number = text.starts_with(kFNumber);
+    const std::string_view digits = std::string_view(text).substr(is_f_number ? kFNumber.size() : 0);
+    double number = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    if (error != std::errc{} || end != digits.data() + digits.size() || !(number > 0 && number <= kMaxNumber)) {
+        return Error{"--lens " + printable(text) + ": must be the diameter in mm, as 25, or an f-number, as f/2.8"};
+    }
+    if (!focus) return Error{"--lens " + text + ": has no distance of focus; add --focus DISTANCE"};
+    CameraLens lens;
+    (is_f_number ? lens.f_number : lens.aperture_mm) = number;
+    lens.focus = *focus;
+    return lens;
+}
+
+}  // namespace
+
+std::optional<TracedMethod> RendererOptions::method() const {
+    for (const NamedMethod& named : kTracedMethods) {
+        if (renderer == named.name) return named.method;
+    }
+    return std::nullopt;
+}
+
+void add_renderer_options(CLI::App& command, RendererOptions& options) {
+    command
+        .add_option("--renderer", options.renderer,
+                    "raster (OpenGL), or traced: toon, whitted, radiosity, path (compositor/traced/README.md)")
+        ->type_name("NAME")
+        ->check(CLI::IsMember({"raster", "toon", "whitted", "radiosity", "path"}).description(""))
+        ->capture_default_str();
+    command.add_option("--exposure", options.exposure_ev, "make lights brighter by EV stops, -40..40")
+        ->check(CLI::Range(-40.0, 40.0).description(""))
+        ->type_name("EV")
+        ->capture_default_str();
+    command.add_flag("--soft-shadows", options.soft_shadows, "whitted and toon: area lights cast soft shadows");
+    command
+        .add_option("--toon-lines", options.toon_line_length,
+                    "toon: width of a line from its edge; 0: none (default: 1/3000 of the scene)")
+        ->check(CLI::Range(0.0, 1e6).description(""))
+        ->type_name("LENGTH");
+}
+
+void add_lens_options(CLI::App& command, RendererOptions& options) {
+    command
+        .add_option("--lens", options.lens,
+                    "traced: diameter of the lens in mm, or f-number on 36 mm film; blurs by depth")
+        ->type_name("MM|f/N");
+    command.add_option("--focus", options.focus, "distance of sharp focus along the line of sight, with --lens")
+        ->check(CLI::Range(1e-6, 1e9).description(""))
+        ->type_name("DISTANCE");
+}
+
+void require_traced_renderer(CLI::App& command, RendererOptions& options) {
+    options.renderer = "path";
+    command.get_option("--renderer")
+        ->description("toon, whitted, radiosity or path (compositor/traced/README.md)")
+        ->check(CLI::IsMember({"toon", "whitted", "radiosity", "path"}).description(""))
+        ->capture_default_str();
+}
+
+void add_pass_options(CLI::App& command, PassOptions& options) {
+    CLI::Option* passes =
+        command.add_option("--passes", options.passes, "traced: rays per pixel of a frame (default: 64)")
+            ->check(CLI::Range(1, 65536).description(""))
+            ->type_name("N");
+    command.add_option("--seconds", options.seconds, "traced: as many passes as fit into this time, per frame")
+        ->check(CLI::Range(0.01, 86400.0).description(""))
+        ->type_name("S")
+        ->excludes(passes);
+}
+
+void check_renderer_options(const CLI::App& command, const RendererOptions& options) {
+    if (options.method()) return;
+    for (const char* const name : {"--soft-shadows", "--toon-lines", "--lens", "--passes", "--seconds"}) {
+        const CLI::Option* const option = command.get_option_no_throw(name);
+        if (option == nullptr || option->count() == 0) continue;
+        throw CLI::ValidationError(std::string(name) +
+                                   " needs a traced renderer; add --renderer path, or another that traces");
+    }
+}
+
+Result<TracedOptions> traced_options(const RendererOptions& options) {
+    TracedOptions traced;
+    traced.method = options.method().value_or(TracedMethod::kPath);
+    traced.exposure_ev = options.exposure_ev;
+    traced.soft_shadows = options.soft_shadows;
+    traced.line_radius = options.toon_line_length;
+    if (!options.lens) return traced;
+    const Result<CameraLens> lens = parse_lens(*options.lens, options.focus);
+    if (!lens) return lens.error();
+    traced.lens = *lens;
+    return traced;
+}
+
+std::shared_ptr<const Image<Rgba8>> trace_frame(TracedRenderer& tracer, const PassOptions& limit, const Camera& camera,
+                                                Progress& progress) {
+    constexpr int kDefaultPasses = 64;
+    tracer.look(camera);
+    if (limit.seconds) {
+        const auto begin = std::chrono::steady_clock::now();
+        const auto is_over = [&] {
+            return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() >= *limit.seconds;
+        };
+        do {
+            tracer.add_pass();
+        } while (!is_over());
+    } else {
+        const int passes = limit.passes.value_or(kDefaultPasses);
+        progress.start("tracing", passes);
+        for (int pass = 0; pass < passes; ++pass) {
+            tracer.add_pass();
+            progress.advance();
+        }
+        progress.finish();
+    }
+    return std::make_shared<const Image<Rgba8>>(tracer.image());
+}
+
+}  // namespace rs::compositor

@@ -1,0 +1,54 @@
+#pragma once
+// Options of rs-view that choose how geometry is lit: rasterized, or traced by one of several methods.
+
+#include "compositor/traced/traced_renderer.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/geometry/camera.hpp"
+#include "rayspace/image/image.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace rs::compositor {
+
+struct RendererOptions {
+    std::string renderer = "raster";
+    double exposure_ev = 0;
+    bool soft_shadows = false;
+    std::optional<double> toon_line_length;  // scene units; by default a fraction of the scene's diagonal
+    std::optional<std::string> lens;         // diameter in mm, or f/N
+    std::optional<double> focus;             // scene units
+    /// The method of a traced renderer; nullopt for raster.
+    [[nodiscard]] std::optional<TracedMethod> method() const;
+};
+
+/// When the tracing of a frame ends; with neither, after 64 passes.
+struct PassOptions {
+    std::optional<int> passes;
+    std::optional<double> seconds;
+};
+
+/// Adds --renderer, --exposure, --soft-shadows and --toon-lines.
+void add_renderer_options(CLI::App& command, RendererOptions& options);
+/// Adds --lens and --focus.
+void add_lens_options(CLI::App& command, RendererOptions& options);
+/// Restricts --renderer to the traced methods, with path as the default.
+void require_traced_renderer(CLI::App& command, RendererOptions& options);
+/// Adds --passes and --seconds.
+void add_pass_options(CLI::App& command, PassOptions& options);
+/// Throws CLI::ValidationError if an option of `command` needs a traced renderer and --renderer is raster.
+void check_renderer_options(const CLI::App& command, const RendererOptions& options);
+
+/// Options of the tracer; for raster those that a window uses when the user switches to traced light. Fails on a lens
+/// that cannot be parsed or has no focus.
+Result<TracedOptions> traced_options(const RendererOptions& options);
+
+/// Traces one frame, at least one pass. `progress` counts the passes unless the time is limited.
+std::shared_ptr<const Image<Rgba8>> trace_frame(TracedRenderer& tracer, const PassOptions& limit, const Camera& camera,
+                                                Progress& progress);
+
+}  // namespace rs::compositor

@@ -1,0 +1,176 @@
+#include "compositor/displays/stereo_image.hpp"
+#include "compositor/lighting/light_warnings.hpp"
+#include "compositor/tools/camera_options.hpp"
+#include "compositor/tools/commands.hpp"
+#include "compositor/tools/drawing_options.hpp"
+#include "compositor/tools/frame_output.hpp"
+#include "compositor/tools/headless_renderer.hpp"
+#include "compositor/tools/scene_options.hpp"
+#include "compositor/tools/tracing_options.hpp"
+#include "compositor/tools/wall_views.hpp"
+#include "compositor/window/wall_visit.hpp"
+#include "rayspace/output/view_output.hpp"
+
+#include <memory>
+#include <utility>
+
+namespace rs::compositor {
+namespace {
+
+struct WallsOptions {
+    SceneOptions scene;
+    ViewOptions view;
+    MotionOptions motion;
+    WallOptions walls;
+    RendererOptions renderer;
+    PassOptions passes;
+    DrawingOptions drawing;
+    ExecutorOptions executor;
+    bool upright = false;
+    bool quiet = false;
+};
+
+Status show_walls(const WallsOptions& options, const WallViews& views, LoadedScene loaded) {
+    const auto tracked = [&views, warned = false]() mutable {
+        const std::optional<Head> head = newest_head(views);
+        if (views.tracker->dropped() > 0 && !std::exchange(warned, true)) {
+            print_warnings({views.tracker->place().text() + ": a datagram " + views.tracker->first_fault() +
+                            "; it is dropped, as others like it will be"});
+        }
+        return head;
+    };
+    WallVisitOptions visit{.display = views.display,
+                           .heads = views.heads,
+                           .place = views.places.front(),
+                           .stereo = views.stereo,
+                           .samples = options.drawing.samples,
+                           .wire_frame = options.drawing.wire_frame,
+                           .shadows = options.drawing.shadows,
+                           .exposure_ev = options.renderer.exposure_ev,
+                           .object_depth = options.drawing.object_depth,
+                           .object_samples = options.drawing.object_samples,
+                           .warn = print_warnings};
+    if (views.tracker) visit.tracked = tracked;
+    Status left = visit_walls(loaded.scene, std::move(loaded.showroom), visit);
+    if (views.tracker && views.tracker->dropped() > 1) {
+        print_warnings({views.tracker->place().text() + ": of " + std::to_string(views.tracker->received()) +
+                        " datagrams " + std::to_string(views.tracker->dropped()) + " were dropped"});
+    }
+    return left;
+}
+
+Status render_walls(const WallsOptions& options, const WallViews& views, const LoadedScene& loaded) {
+    const Result<std::vector<Camera>> cameras = wall_cameras(views);
+    if (!cameras) return cameras.error();
+    FrameProgress progress(options.quiet, cameras->size(), options.renderer.method().has_value());
+    Result<TracedImages> traced =
+        traced_images(loaded, options.renderer, options.passes, scene_name(options.scene), progress.of_passes());
+    if (!traced) return traced.error();
+    const Camera& first = cameras->front();
+    const HeadlessOptions headless{.frame = frame_options(options.drawing, {first.width, first.height},
+                                                          options.renderer.exposure_ev,
+                                                          options.upright || !loaded.executor.tilted)};
+    Result<HeadlessRenderer> renderer = HeadlessRenderer::create(loaded, headless, std::move(*traced));
+    if (!renderer) return renderer.error();
+    progress.start();
+    const RenderView render = [&](const Camera& camera) { return renderer->render(camera); };
+    if (Status status = write_walls(views, *options.walls.output, render, progress.of_frames()); !status) {
+        return status;
+    }
+    progress.finish();
+    renderer->warn_of_missing_objects(options.executor.memory_mib);
+    return {};
+}
+
+Status run_walls(const WallsOptions& options) {
+    constexpr PixelSize kSizeOfVisitor{1280, 720};  // its aspect matters where the view is framed to show everything
+    Result<Scene> scene = load_scene(options.scene);
+    if (!scene) return scene.error();
+    print_warnings(light_warnings(*scene));
+    if (options.walls.output) {
+        const Result<OutputKind> kind = output_kind(*options.walls.output);
+        if (!kind) return kind.error();
+        if (*kind != OutputKind::folder) {
+            return Error{*options.walls.output + ": walls go into a folder; give a folder to -o"};
+        }
+    }
+    Result<PixelSize> size = options.walls.size ? parse_size(*options.walls.size) : kSizeOfVisitor;
+    if (!size) return size.error();
+    Result<LoadedScene> loaded = load_objects(std::move(*scene), options.drawing.object_depth, options.executor,
+                                              options.walls.output.has_value());
+    if (!loaded) return loaded.error();
+    const Result<std::vector<Camera>> visitor = requested_cameras(
+        options.view, options.motion, loaded->scene, [&] { return loaded->all_objects(); }, *size);
+    if (!visitor) return visitor.error();
+    const Result<WallViews> views = requested_walls(options.walls, loaded->scene, *visitor);
+    if (!views) return views.error();
+    if (options.walls.output) return render_walls(options, *views, *loaded);
+    return show_walls(options, *views, std::move(*loaded));
+}
+
+// Windows move by keys and are rasterized.
+void check_window_options(const CLI::App& command) {
+    for (const char* const name :
+         {"--path", "--orbit", "--passes", "--seconds", "--upright", "--quiet", "--soft-shadows", "--toon-lines"}) {
+        if (command.count(name) == 0) continue;
+        throw CLI::ValidationError(std::string(name) + " needs -o: the folder to write images of the walls to");
+    }
+}
+
+void add_display_options(CLI::App& command, WallOptions& options) {
+    command
+        .add_option("--display", options.display,
+                    "cave, power-wall, tabletop, or a file of walls (compositor/displays/README.md)")
+        ->required()
+        ->type_name("NAME|FILE.json");
+    command.add_option("--wall", options.walls, "only these walls, as front,left; by default all")
+        ->type_name("NAME,...");
+    std::vector<std::string> forms;
+    for (const NamedStereoForm& named : kStereoForms) forms.emplace_back(named.name);
+    command.add_option("--stereo", options.stereo, "both eyes: " + CLI::detail::join(forms, ", ") + " (red and cyan)")
+        ->type_name("[FORM]")
+        ->expected(0, 1)
+        ->default_str("folders")
+        ->check(CLI::IsMember(forms).description(""));
+    command.add_option("--eye-distance", options.eye_distance_m, "distance of the eyes (default: display's, or 0.065)")
+        ->check(CLI::Range(0.0, 1.0).description(""))
+        ->type_name("M");
+    command
+        .add_option("--heads", options.heads,
+                    "head per frame, or a tracker that sends opentrack datagrams; udp:PORT is on 127.0.0.1")
+        ->type_name("FILE.json|udp:[ADDR:]PORT");
+    command.add_option("--size", options.size, "size of all walls in pixels (default: each wall's)")->type_name("WxH");
+}
+
+}  // namespace
+
+void add_walls_command(CLI::App& app, std::function<Status()>& run) {
+    auto options = std::make_shared<WallsOptions>();
+    CLI::App* command = app.add_subcommand(
+        "walls", "Project a scene off-axis onto the walls of a CAVE or a power wall, in windows or images");
+    add_scene_options(*command, options->scene);
+    command->add_option("-o,--output", options->walls.output, "folder for an image per wall; without, windows")
+        ->type_name("FOLDER");
+    add_display_options(*command, options->walls);
+    add_view_options(*command, options->view);
+    add_motion_options(*command, options->motion);
+    add_renderer_options(*command, options->renderer);
+    add_pass_options(*command, options->passes);
+    add_drawing_options(*command, options->drawing);
+    add_upright_option(*command, options->upright);
+    add_executor_options(*command, options->executor);
+    command->add_flag("-q,--quiet", options->quiet, "no progress bar");
+    command->footer("Example: rs-view walls hall.wrl --display cave --stereo side-by-side -o walls");
+    command->callback([command, options, &run] {
+        check_scene_options(options->scene);
+        if (options->walls.output) {
+            check_renderer_options(*command, options->renderer);
+        } else {
+            if (options->renderer.method()) throw CLI::ValidationError("--renderer on walls needs -o FOLDER");
+            check_window_options(*command);
+        }
+        run = [options] { return run_walls(*options); };
+    });
+}
+
+}  // namespace rs::compositor

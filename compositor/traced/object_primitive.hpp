@@ -1,0 +1,31 @@
+#pragma once
+// Ray-space object as a primitive of the tracer: each ray is answered by one lookup of the engine.
+//
+// The engine renders an image of one pixel from a viewpoint on the ray in front of the object, which finds the first
+// hit along the whole line. A hit behind the ray's origin counts as a miss: rays that start inside an object, or
+// between its parts, ignore surfaces in front of them.
+
+#include "capture/tracer/scene/scene.hpp"
+#include "compositor/viewer/residency/placed_object.hpp"
+
+namespace rs::compositor {
+
+class ObjectRays : public capture::RayPrimitive {
+public:
+    /// Emits the colours of its images times `brightness`; pixels less than half opaque are empty.
+    ObjectRays(PlacedObject placed, float brightness);
+    /// Must not be called while rays are traced.
+    void set_brightness(float brightness) { brightness_ = brightness; }
+    [[nodiscard]] Box bounds() const override { return box_; }
+    [[nodiscard]] std::optional<Answer> answer(const glm::vec3& origin, const glm::vec3& direction) const override;
+
+private:
+    PlacedObject placed_;
+    Similarity object_from_world_;
+    glm::dvec3 middle_{0};  // centre of the object's bounds, object radii
+    double reach_ = 1;      // radius of the bounds about middle_
+    float brightness_;
+    Box box_{};
+};
+
+}  // namespace rs::compositor

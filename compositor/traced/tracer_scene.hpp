@@ -1,0 +1,43 @@
+#pragma once
+// Converts a scene's geometry and lights for the tracer, in scene units.
+//
+// Conversion of VRML97 materials:
+//     lit                   diffuse surface with the diffuse colour, texture and vertex colours; with a specular colour
+//                           a coat whose roughness gives a highlight of the same width (GGX alpha =
+//                           sqrt(2 / (exponent + 2)), B. Walter and others 2007)
+//     unlit, emissive       emissive surface that illuminates others
+//     alpha-masked textures holes
+// The ambient part of lights is dropped: it approximates interreflection, which is traced. Lines, points and blended
+// surfaces (opacity below 1, textures with many translucent texels) are left to the raster renderer.
+
+#include "capture/tracer/scene/scene.hpp"
+#include "compositor/scene/scene.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace rs::compositor {
+
+/// Movable nodes become instances; nodes of the same mesh and material share a part.
+struct TracerScene {
+    capture::Scene scene;
+    struct MovableNode {
+        std::uint32_t id;
+        glm::dmat4 world_from_node;  // in the scene
+    };
+    std::vector<MovableNode> moving;  // [scene.instances]
+    int raster_only_nodes = 0;        // number of blended nodes and nodes without area
+    int unsupported_lights = 0;       // number of scoped lights, which the tracer does not support
+};
+
+/// Lights and environment for the tracer.
+std::vector<Light> traced_lights(const Scene& scene);
+capture::Environment traced_environment(const Scene& scene);
+
+/// Pure; thread-safe, like all functions here.
+TracerScene make_tracer_scene(const Scene& scene);
+
+/// Headlight at the viewer, used if the scene requests it (Navigation::headlight) and has no other light.
+Light headlight_of(const glm::dvec3& forward);
+
+}  // namespace rs::compositor
