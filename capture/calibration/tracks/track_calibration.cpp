@@ -65,7 +65,7 @@ std::vector<ViewFit> view_fits(const Bundle& bundle) {
     return views;
 }
 
-// Of the two equivalent models with opposite axis directions, takes the one whose camera looks down if the axis is
+// Takes from the two equivalent models with opposite axis directions the one whose camera looks down if the axis is
 // sideways, because the image does not define an upper end then.
 void choose_axis_direction(Bundle& bundle) {
     CameraPose& pose = bundle.model.pose;

@@ -186,7 +186,7 @@ TEST(TurnDiagnosis, TooShortATurnIsAnError) {
     EXPECT_THAT(judged.accepted.error().message, HasSubstr("degrees of turn; 15 to 400"));
 }
 
-TEST(TurnDiagnosis, SaysWhereTextureAndOutlinesDisagreeAboutTheAxis) {
+TEST(TurnDiagnosis, WarnsWhereTextureAndSilhouettesDisagreeAboutTheAxis) {
     const auto warning = axis_warning({300, 102.1, 0.2}, {300, 100, 0.2}, 1);
     ASSERT_TRUE(warning);
     EXPECT_NE(warning->find("2.1 px"), std::string::npos) << *warning;
