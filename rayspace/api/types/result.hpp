@@ -2,9 +2,11 @@
 /// \file
 /// Result<T>: a value, or an Error whose one-line message names the file, the place and the remedy.
 ///
-///     rs::Result<rs::api::Object> object = rs::api::Object::open("vase.rso");
-///     if (!object) return object.error();
-///     use(*object);
+///     rs::Status print_name(const std::filesystem::path& path) {
+///         RS_ASSIGN_OR_RETURN(const rs::api::Object object, rs::api::Object::open(path));
+///         std::puts(object.name().c_str());
+///         return {};
+///     }
 ///
 /// The library neither prints nor exits nor throws. Access to the wrong alternative is a programming error and aborts.
 
@@ -95,3 +97,27 @@ private:
 };
 
 }  // namespace rs
+
+/// Evaluates an expression of type Result or Status, and returns its error from the enclosing function if it failed.
+/// The value of a Result is discarded.
+#define RS_TRY(...) RS_TRY_AS(RS_UNIQUE_NAME(rs_outcome_), __VA_ARGS__)
+
+/// RS_ASSIGN_OR_RETURN(const Rig rig, read_rig(path)): declares a variable with the value of a Result, or returns the
+/// Result's error from the enclosing function. The declaration must not contain a comma. It expands to several
+/// statements, so it must not be the body of an `if` without braces.
+#define RS_ASSIGN_OR_RETURN(declaration, ...) \
+    RS_ASSIGN_OR_RETURN_AS(RS_UNIQUE_NAME(rs_outcome_), declaration, __VA_ARGS__)
+
+/// \cond internal
+#define RS_TRY_AS(outcome, ...)                                                    \
+    do {                                                                           \
+        if (auto&& outcome = (__VA_ARGS__); !outcome.ok()) return outcome.error(); \
+    } while (false)
+#define RS_ASSIGN_OR_RETURN_AS(outcome, declaration, ...) \
+    auto outcome = (__VA_ARGS__);                         \
+    if (!outcome.ok()) return outcome.error();            \
+    declaration = std::move(outcome).value()
+#define RS_UNIQUE_NAME(prefix) RS_CONCATENATE(prefix, __COUNTER__)
+#define RS_CONCATENATE(first, second) RS_CONCATENATE_EXPANDED(first, second)
+#define RS_CONCATENATE_EXPANDED(first, second) first##second
+/// \endcond
