@@ -18,7 +18,7 @@ Status check(const BuildOptions& options) {
     if (options.psnr_db && !(*options.psnr_db >= 10 && *options.psnr_db <= 60)) {
         return Error{"psnr_db: must be 10..60 dB"};
     }
-    if (options.effort < encode::kMinEffort || options.effort > encode::kMostEffort) {
+    if (options.effort < encode::kMinEffort || options.effort > encode::kMaxEffort) {
         return Error{"effort " + std::to_string(options.effort) + ": must be 1..9"};
     }
     if (options.alpha_bits && (*options.alpha_bits < 1 || *options.alpha_bits > codec::kMaxAlphaBits)) {

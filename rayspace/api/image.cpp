@@ -17,7 +17,7 @@ Status check_size(const std::filesystem::path& path, const ConstImageView<T>& im
 }  // namespace
 
 Result<Image<Rgba8>> read_image(const std::filesystem::path& path) {
-    return read_image(path);
+    return rs::read_image(path);
 }
 
 Status write_png(const std::filesystem::path& path, ConstImageView<Rgba8> image) {
@@ -36,7 +36,7 @@ Result<ImageScore> compare_images(ConstImageView<Rgba8> a, ConstImageView<Rgba8>
                      std::to_string(b.width()) + "x" + std::to_string(b.height()) +
                      " cannot be compared; give images of one size"};
     }
-    const ImageDifference difference = compare_images(a, b);
+    const ImageDifference difference = rs::compare_images(a, b);
     return ImageScore{difference.psnr_db(), difference.ssim};
 }
 
