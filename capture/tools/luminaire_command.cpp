@@ -5,6 +5,7 @@
 #include "rayspace/light/luminaire.hpp"
 #include "rayspace/page/polar_plot.hpp"
 #include "rayspace/page/svg_parts.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 #include <nlohmann/json.hpp>
 

@@ -4,8 +4,9 @@ namespace rs::compositor {
 
 Status OverlayPass::run(FrameContext& frame) {
     if (!renderer_) {
-        RS_ASSIGN_OR_RETURN(auto created, HandleRenderer::create());
-        renderer_ = std::move(created);
+        Result<HandleRenderer> created = HandleRenderer::create();
+        if (!created) return created.error();
+        renderer_.emplace(std::move(*created));
     }
     return renderer_->draw(strokes_, frame.view.camera, frame.target.shown(), frame.target.drawn);
 }
