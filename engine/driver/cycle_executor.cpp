@@ -19,7 +19,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 DrawnView drawn_by_core(const PreparedView& view) {
     const auto begin = std::chrono::steady_clock::now();
     CoreExecutor core;
-    const int slot = core.hold(view.renderer);
+    const int slot = core.add(view.renderer);
     Result<std::vector<ExecutedView>> drawn = core.render({{slot, view.registers, view.depth}});
     return {std::move(drawn.value().front()), seconds_since(begin)};
 }

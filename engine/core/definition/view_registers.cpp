@@ -162,7 +162,7 @@ Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& c
     Camera camera = camera_in_rig;
     camera.world_from_camera[3] = glm::dvec4(camera.centre() / object.units_per_radius, 1);
     if (!std::isfinite(glm::length(camera.centre())) || !std::isfinite(camera.cx) || !std::isfinite(camera.cy)) {
-        return view_error("its camera must have finite numbers");
+        return view_error("its camera has parameters that are not finite");
     }
     camera = limit_viewpoint_distance(camera);
 

@@ -78,7 +78,7 @@ Camera random_camera(const RaySpaceObject& object, Random& random, Pose pose) {
 Result<ConformanceReport> check_conformance(RaySpaceObject object, int views, std::uint64_t seed, Progress* progress) {
     RS_TRY(substitute_missing_images(object));
     RS_ASSIGN_OR_RETURN(const Renderer renderer, Renderer::create(object));
-    if (shows_coded_images(object)) {  // the definition reads them unpacked
+    if (has_only_coded_images(object)) {  // the definition reads them unpacked
         object.images.resize(object.views.size());
         codec::decode_images(object);
     }
