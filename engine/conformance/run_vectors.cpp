@@ -10,7 +10,7 @@
 namespace rs::engine {
 namespace {
 
-// What differs from the expected view; "" for nothing.
+// Describes the difference to the expected view; "" if equal.
 std::string difference(const ConformanceView& expected, const ExecutedView& found) {
     const ViewRegisters& r = expected.registers;
     if (found.image.width() != r.width || found.image.height() != r.height) {
@@ -73,10 +73,10 @@ Implementation implementation_of(std::shared_ptr<Executor> executor) {
                                              const RaySpaceObject& object) -> Result<ExecuteView> {
                 RS_TRY(executor->supports(object));
                 if (executor->as_rendered(object).images != object.images) {
-                    return Error{"its alpha has values that " + executor->traits().name + " does not hold"};
+                    return Error{"its alpha has values that " + executor->traits().name + " cannot store"};
                 }
                 RS_ASSIGN_OR_RETURN(const std::optional<int> slot, executor->load(object));
-                if (!slot) return Error{"there is no room for it"};
+                if (!slot) return Error{"not enough memory in " + executor->traits().name};
                 const std::shared_ptr<const int> loaded(new int(*slot), [executor](const int* held) {
                     static_cast<void>(executor->evict(*held));
                     delete held;
@@ -94,7 +94,7 @@ Implementation implementation_in_files(const std::filesystem::path& folder) {
     return {"files:" + folder.filename().string(),
             [folder](const ConformanceCase& of_case, const RaySpaceObject&) -> Result<ExecuteView> {
                 if (!std::filesystem::is_directory(folder / of_case.name)) {
-                    return Error{(folder / of_case.name).string() + ": is not there"};
+                    return Error{(folder / of_case.name).string() + ": does not exist"};
                 }
                 return ExecuteView([folder, &of_case](std::size_t v) {
                     return read_view_files(folder, of_case.name, v, of_case.views[v].registers.width,

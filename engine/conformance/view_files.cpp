@@ -9,7 +9,7 @@
 namespace rs::engine {
 namespace {
 
-constexpr std::uint64_t kBytesPerPixel = 4;  // of colours and of depths
+constexpr std::uint64_t kBytesPerPixel = 4;  // both for colours and for depths
 
 std::filesystem::path file_of(const std::filesystem::path& folder, const std::string& of_case, std::size_t view,
                               const char* ending) {
@@ -21,8 +21,8 @@ Result<std::vector<std::byte>> read_sized(const std::filesystem::path& path, int
         kBytesPerPixel * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     RS_ASSIGN_OR_RETURN(auto bytes, read_file(path, expected + 1));
     if (bytes.size() != expected) {
-        return Error{path.string() + ": has " + std::to_string(bytes.size()) + " bytes; a view of " +
-                     std::to_string(width) + "x" + std::to_string(height) + " has " + std::to_string(expected)};
+        return Error{path.string() + ": has " + std::to_string(bytes.size()) + " bytes; expected for a view of " +
+                     std::to_string(width) + "x" + std::to_string(height) + ": " + std::to_string(expected)};
     }
     return std::vector<std::byte>(bytes.begin(), bytes.end());
 }
@@ -33,7 +33,7 @@ Status write_view_files(const std::filesystem::path& folder, const std::string& 
                         const ExecutedView& executed) {
     std::error_code error;
     std::filesystem::create_directories(folder / of_case, error);
-    if (error) return Error{(folder / of_case).string() + ": cannot be made: " + error.message()};
+    if (error) return Error{(folder / of_case).string() + ": cannot create the folder: " + error.message()};
     ByteWriter colours;
     for (const Rgba8 p : executed.image.pixels()) {
         for (const std::uint8_t channel : {p.r, p.g, p.b, p.a}) colours.put(channel);

@@ -1,5 +1,5 @@
 #pragma once
-// Entries of the executors that the library has (rayspace/api/types/executor_table.hpp).
+// Built-in entries of the executor table (rayspace/api/types/executor_table.hpp).
 
 #include "rayspace/api/types/executor_table.hpp"
 
@@ -7,9 +7,9 @@
 
 namespace rs::engine {
 
-ExecutorEntry scalar_entry();  // reconstruct_scalar: the definition
+ExecutorEntry scalar_entry();  // reconstruct_scalar: the scalar definition
 ExecutorEntry core_entry();    // CoreExecutor
-// The models of the boards; none where the build leaves out the hardware (RAYSPACE_HARDWARE).
+// Models of the boards; empty in builds without RAYSPACE_HARDWARE.
 std::vector<ExecutorEntry> hardware_entries();
 
 }  // namespace rs::engine

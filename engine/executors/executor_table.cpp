@@ -19,12 +19,12 @@ ExecutorTable::ExecutorTable() : entries_{scalar_entry(), core_entry()} {
 
 Status ExecutorTable::add(ExecutorEntry entry) {
     if (entry.name.empty() || entry.name.find(':') != std::string::npos) {
-        return Error{"executor \"" + entry.name + "\": a name is not empty and has no colon"};
+        return Error{"executor \"" + entry.name + "\": the name must not be empty or contain a colon"};
     }
-    if (!entry.create) return Error{"executor " + entry.name + ": has no function that creates it"};
+    if (!entry.create) return Error{"executor " + entry.name + ": has no create function; set ExecutorEntry::create"};
     const auto same = [&](const ExecutorEntry& other) { return other.name == entry.name; };
     if (std::ranges::any_of(entries_, same)) {
-        return Error{"executor " + entry.name + ": is in the table already; give another name"};
+        return Error{"executor " + entry.name + ": exists already; use another name"};
     }
     entries_.push_back(std::move(entry));
     return {};
@@ -36,7 +36,7 @@ Result<std::unique_ptr<Executor>> ExecutorTable::create(const std::string& name)
         if (name.substr(0, colon) != entry.name || (colon == std::string::npos) != entry.argument.empty()) continue;
         return entry.create(colon == std::string::npos ? "" : name.substr(colon + 1));
     }
-    return Error{"executor " + name + ": there is no such executor; give one of " + names()};
+    return Error{"executor " + name + ": no such executor; use one of " + names()};
 }
 
 std::string ExecutorTable::names() const {

@@ -62,7 +62,7 @@ RaySetup set_up_ray(const RaySpaceObject& object, const ViewRegisters& registers
     const std::uint16_t image = map_answer(ring, point);
     if (image == kNoImage) return kNoRay;
 
-    // Section 3: the image's column, and the rows along it.
+    // Section 3: column of the captured image and rows along it.
     const CapturedView& view = object.views[image];
     const CapturedLine& line = view.lines[static_cast<std::size_t>(point.plane)];
     const std::int64_t l_q20 = line.l0_q20 + ((point.x_q20 * line.l1_q30) >> 30);

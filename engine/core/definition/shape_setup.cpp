@@ -11,12 +11,12 @@ namespace {
 constexpr std::int64_t kMostPerStep = std::int64_t{1} << 20;
 constexpr std::int64_t kFarthestView_q20 = std::int64_t{1} << 29;
 
-// A ray of a vertical plane: through its foot, in direction (sine, -cosine) along (tangent, normal).
+// Horizontal projection of a ray: passes its foot in direction (sine, -cosine) along (tangent, normal).
 struct VerticalPlaneRay {
     std::int64_t r_q28 = 0;  // horizontal length of the pixel's direction
     std::int64_t cosine_q30 = 0;
     std::int64_t sine_q30 = 0;
-    std::int64_t p_q20 = 0;
+    std::int64_t p_q20 = 0;  // signed distance of the ray from the axis
 };
 
 VerticalPlaneRay vertical_plane_ray(const PlanePoint& point) {
@@ -29,12 +29,12 @@ VerticalPlaneRay vertical_plane_ray(const PlanePoint& point) {
 }
 
 struct Bracket {
-    int gap = -1;  // none: the ray lies in no gap that has lines
+    int gap = -1;  // -1: the ray lies in no gap that has lines
     std::int64_t from_first_q20 = 0;
     std::int64_t width_q20 = 0;  // above 0
 };
 
-// Where the parallel ray from view n of the ring crosses the plane (equation 1).
+// Position on the plane of the parallel ray from view n of the ring (equation 1).
 std::int64_t crossing_q20(const Ring& ring, int n, const PlanePoint& point) {
     const NormalLine& line =
         ring.shape.normal_lines[static_cast<std::size_t>(n) * static_cast<std::size_t>(ring.planes) +
@@ -42,7 +42,8 @@ std::int64_t crossing_q20(const Ring& ring, int n, const PlanePoint& point) {
     return line.a_q20 + ((point.u_q28 * line.c_q20) >> 28);
 }
 
-// The gap whose two captured lines the ray lies between, searched from the map's answer `hint` (a place in the ring).
+// Finds the gap whose two captured rays bracket the view ray. `hint`: index in the ring of the RS map's view, where the
+// search starts.
 Bracket find_bracket(const Ring& ring, int hint, const PlanePoint& point) {
     const int count = static_cast<int>(ring.views.size());
     int gap = crossing_q20(ring, hint, point) <= point.x_q20 ? hint : (hint + count - 1) % count;
@@ -61,19 +62,20 @@ Bracket find_bracket(const Ring& ring, int hint, const PlanePoint& point) {
     return {};
 }
 
-// Two neighbouring samples and a place between them, in eighths.
+// Position between two neighbouring samples, in eighths.
 struct Between {
     std::int64_t first = 0;  // the second is first + 1
     std::int32_t part = 0;
 };
 
-// `at_q8`: in samples; sample n lies at n + 1/2.
+// `at_q8`: position in samples; sample n is located at n + 1/2.
 Between between_samples(std::int64_t at_q8) {
     const std::int64_t from_middle_q8 = at_q8 - 128;
     return {from_middle_q8 >> 8, static_cast<std::int32_t>((from_middle_q8 >> 5) & 7)};
 }
 
-// Beyond the first and the last line of a gap come those of the gaps beside it, where they have any.
+// Cell columns around the ray. The neighbours of the first and the last line of a gap are in the adjacent gaps, if
+// these have lines.
 CellColumns cells_around(const ShapeMap& shape, const Bracket& bracket, std::int64_t p_q20) {
     const std::size_t gaps = shape.gaps.size();
     const auto n = static_cast<std::size_t>(bracket.gap);
@@ -97,6 +99,7 @@ CellColumns cells_around(const ShapeMap& shape, const Bracket& bracket, std::int
     return columns;
 }
 
+// Coefficients of the projection into view n of the ring.
 ShapeImage along_ray(const RaySpaceObject& object, const Ring& ring, int n, int plane, const VerticalPlaneRay& ray,
                      std::int64_t depth_low_q20, std::int64_t depth_step_q24) {
     const int view = ring.views[static_cast<std::size_t>(n)];

@@ -20,11 +20,11 @@ namespace rs::engine {
 Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera,
                                    std::optional<TexelFilter> filter = {});
 
-// Whether registers from elsewhere are such as prepare_view makes for this object: sizes, ring, number of planes, and
-// the ranges of RECONSTRUCTION.md at every pixel. Renderers do not check again.
+/// Validates registers that prepare_view did not compute: sizes, ring, number of planes, and the ranges of
+/// RECONSTRUCTION.md at every pixel. Renderers require valid registers and do not check them.
 Status check_registers(const RaySpaceObject& object, const ViewRegisters& registers);
 
-// The viewpoint that prepare_view takes, in object radii: the camera's centre, or where it was brought to.
+/// Viewpoint of prepare_view in object radii: the camera's centre, moved to at most 200 radii.
 glm::dvec3 prepared_viewpoint(const RaySpaceObject& object, const Camera& camera);
 
 }  // namespace rs::engine

@@ -1,5 +1,5 @@
-// What both images show of a surface (shown_surface() and laid_over() of shape_pixel.hpp) on vectors, a row of the
-// column per lane. No include guard: shape_walk.cpp includes it once for each SIMD target.
+// SIMD implementation of shown_surface() and laid_over() of shape_pixel.hpp, one row of the column per lane. No include
+// guard: shape_walk.cpp includes it once for each SIMD target.
 
 #include "engine/core/definition/shape_pixel.hpp"
 #include "engine/core/fast/cell_march_lanes.inl"
@@ -7,28 +7,28 @@
 HWY_BEFORE_NAMESPACE();
 namespace rs::engine::HWY_NAMESPACE {
 
-// Where a sample of each lane falls, from the upper left of four texels.
-struct SamplePlace {
+// Image position of the sample of each lane, eighths of a pixel from the center of pixel (0, 0).
+struct SamplePosition {
     LaneMask exists;
     Vector x_q3;
     Vector y_q3;
 };
 
-// sample_image() of the lanes `requested`, as far as the texels.
-HWY_INLINE SamplePlace sample_place(const ShapeWalk& walk, const ShapeImageColumn& image, Vector d, Vector y_q16,
-                                    LaneMask requested) {
+// First part of sample_image(), before the texels are read, for the lanes `requested`.
+HWY_INLINE SamplePosition sample_position(const ShapeWalk& walk, const ShapeImageColumn& image, Vector d, Vector y_q16,
+                                          LaneMask requested) {
     const Vector l = hn::Add(number(image.l0_q20), hn::ShiftRight<7>(hn::Mul(d, number(image.l1_q24))));
     const Vector inverse_l = inverse(l);
     const Vector n = hn::Add(number(image.n0_q12), hn::ShiftRight<3>(hn::Mul(d, number(image.n1_q12))));
     const Vector column = hn::Add(number(image.cx_q8), multiply_shift_within<24>(n, inverse_l));
     const Vector m = multiply_shift_within<16>(number(image.fl_y_q8), inverse_l);
     const Vector row = hn::Sub(number(image.cy_q8), multiply_shift<20>(m, hn::Sub(y_q16, number(image.height_q16))));
-    SamplePlace place;
-    place.exists = hn::And(hn::And(requested, hn::Gt(l, number(kNearest_q20 - 1))),
-                           hn::And(within(column, walk.width << 8), within(row, walk.height << 8)));
-    place.x_q3 = hn::ShiftRight<5>(hn::Sub(column, number(128 - 16)));
-    place.y_q3 = hn::ShiftRight<5>(hn::Sub(row, number(128 - 16)));
-    return place;
+    SamplePosition position;
+    position.exists = hn::And(hn::And(requested, hn::Gt(l, number(kNearest_q20 - 1))),
+                              hn::And(within(column, walk.width << 8), within(row, walk.height << 8)));
+    position.x_q3 = hn::ShiftRight<5>(hn::Sub(column, number(128 - 16)));
+    position.y_q3 = hn::ShiftRight<5>(hn::Sub(row, number(128 - 16)));
+    return position;
 }
 
 struct Sample {
@@ -37,25 +37,26 @@ struct Sample {
     Vector detail;  // codes, q6; 0 with the bilinear filter
 };
 
-// Where both images are looked at for a surface.
-struct SurfacePlace {
+// Sample positions of a surface in both images.
+struct SurfacePositions {
     Vector lambda_q20;
-    SamplePlace first;
-    SamplePlace second;
+    SamplePosition first;
+    SamplePosition second;
 };
 
-HWY_INLINE SurfacePlace surface_place(const ShapeWalk& walk, const ShapeColumn& column, Vector rise, Vector d,
-                                      LaneMask requested) {
-    SurfacePlace place;
-    place.lambda_q20 = hn::Add(number(column.lambda0_q20), hn::ShiftRight<4>(hn::Mul(d, number(column.lambda1_q21))));
-    const LaneMask looked_at = hn::And(requested, hn::Gt(place.lambda_q20, hn::Zero(Lanes())));
-    const Vector y_q16 = hn::Add(number(walk.b_q16), multiply_shift_within<28>(place.lambda_q20, rise));
+HWY_INLINE SurfacePositions surface_positions(const ShapeWalk& walk, const ShapeColumn& column, Vector rise, Vector d,
+                                              LaneMask requested) {
+    SurfacePositions positions;
+    positions.lambda_q20 =
+        hn::Add(number(column.lambda0_q20), hn::ShiftRight<4>(hn::Mul(d, number(column.lambda1_q21))));
+    const LaneMask in_front = hn::And(requested, hn::Gt(positions.lambda_q20, hn::Zero(Lanes())));
+    const Vector y_q16 = hn::Add(number(walk.b_q16), multiply_shift_within<28>(positions.lambda_q20, rise));
     const auto in_image = [&](const ShapeImageColumn& image) {
-        return sample_place(walk, image, d, y_q16, image.used ? looked_at : none());
+        return sample_position(walk, image, d, y_q16, image.used ? in_front : none());
     };
-    place.first = in_image(column.first);
-    place.second = in_image(column.second);
-    return place;
+    positions.first = in_image(column.first);
+    positions.second = in_image(column.second);
+    return positions;
 }
 
 struct ShownLanes {
@@ -76,12 +77,11 @@ HWY_INLINE Vector weight_of_second(const ShapeColumn& column, Vector surface, La
     return hn::IfThenElse(hn::Gt(lean, both), to_second, share(weight, lean));
 }
 
-// Inside of the object: where every texel of both images is opaque, resolve(mix()) is a mean of eight texels whose
-// weights are 64 * 256 together.
+// resolve(mix()) if every texel of both images is opaque: a mean of eight texels whose weights add up to 64 * 256.
 HWY_INLINE Vector opaque_colour(const Sample& first, const Sample& second, Vector weight, bool has_detail) {
     const Vector half = number(1 << 13);
     Channels sum{half, half, half, half};
-    const auto add = [&](const Sample& sample, Vector share) {  // of 256, in both halves of 32 bits
+    const auto add = [&](const Sample& sample, Vector share) {  // 1/256, in both 16-bit halves
         add_texels(sample.texels,
                    {multiply_halves(sample.weights.upper, share), multiply_halves(sample.weights.lower, share)}, sum);
     };
@@ -89,7 +89,7 @@ HWY_INLINE Vector opaque_colour(const Sample& first, const Sample& second, Vecto
     add(first, hn::Sub(number(256 * 0x10001), share));
     add(second, share);
     if (has_detail) {
-        // Sums are of 64 * 256 weights and details of 64.
+        // The weights of the sums add up to 64 * 256, those of the details to 64.
         const Vector detail =
             hn::Add(hn::ShiftLeft<8>(first.detail), hn::Mul(hn::Sub(second.detail, first.detail), weight));
         const auto add_detail = [&](Vector& c) {
@@ -102,31 +102,31 @@ HWY_INLINE Vector opaque_colour(const Sample& first, const Sample& second, Vecto
     return packed(hn::ShiftRight<14>(sum.r), hn::ShiftRight<14>(sum.g), hn::ShiftRight<14>(sum.b), number(255));
 }
 
-// shown_surface() of the lanes `requested`: of `met`, whose place is known.
-HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeColumn& column, const SurfacePlace& place,
-                                  Vector met, LaneMask requested) {
+// shown_surface() of `surface_met` in the lanes `requested`.
+HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeColumn& column, const SurfacePositions& positions,
+                                  Vector surface_met, LaneMask requested) {
     const Vector zero = hn::Zero(Lanes());
-    // The texels' border stands in for the clamps of section 7.
+    // The border of the texels replaces the clamps of section 7.
     const TexelGrid grid{reinterpret_cast<const std::int32_t*>(walk.texels), walk.details, walk.column_stride,
                          walk.height};
     const bool has_detail = walk.details != nullptr;
-    const auto sample = [&](const SamplePlace& of, const ShapeImageColumn& image) {
-        const Vector x = hn::And(of.x_q3, number(7));
-        const Vector y = hn::And(of.y_q3, number(7));
-        Sample taken{texel_weights(x, y), fetch(grid, image.start, of.x_q3, of.y_q3, of.exists), zero};
+    const auto sample = [&](const SamplePosition& at, const ShapeImageColumn& image) {
+        const Vector x = hn::And(at.x_q3, number(7));
+        const Vector y = hn::And(at.y_q3, number(7));
+        Sample taken{texel_weights(x, y), fetch(grid, image.start, at.x_q3, at.y_q3, at.exists), zero};
         if (has_detail) taken.detail = detail_codes(walk.filter, taken.texels, taken.weights, x, y);
         return taken;
     };
-    const LaneMask first_exists = place.first.exists;
-    const LaneMask second_exists = place.second.exists;
-    const Sample first = sample(place.first, column.first);
-    const Sample second = sample(place.second, column.second);
+    const LaneMask first_exists = positions.first.exists;
+    const LaneMask second_exists = positions.second.exists;
+    const Sample first = sample(positions.first, column.first);
+    const Sample second = sample(positions.second, column.second);
     ShownLanes surface;
     const LaneMask both = hn::And(first_exists, second_exists);
     const Vector alphas = hn::Or(hn::And(all_bits(first.texels), all_bits(second.texels)), number(0x00FFFFFF));
     if (HWY_LIKELY(hn::AllTrue(Lanes(), hn::Or(hn::Not(requested), hn::And(both, hn::Eq(alphas, number(-1))))))) {
         surface.shown = both;
-        surface.colour = opaque_colour(first, second, weight_of_second(column, met, requested), has_detail);
+        surface.colour = opaque_colour(first, second, weight_of_second(column, surface_met, requested), has_detail);
         return surface;
     }
 
@@ -135,8 +135,8 @@ HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeColumn& colu
     const LaneMask transparent =
         hn::Or(hn::And(first_exists, hn::Eq(first_sum.a, zero)), hn::And(second_exists, hn::Eq(second_sum.a, zero)));
     surface.shown = hn::AndNot(transparent, hn::Or(first_exists, second_exists));
-    const Vector weight =
-        hn::IfThenElse(both, weight_of_second(column, met, requested), hn::IfThenZeroElse(first_exists, number(256)));
+    const Vector weight = hn::IfThenElse(both, weight_of_second(column, surface_met, requested),
+                                         hn::IfThenZeroElse(first_exists, number(256)));
     const auto mixed = [&](Vector f, Vector s) { return hn::Add(hn::ShiftLeft<8>(f), hn::Mul(hn::Sub(s, f), weight)); };
     const auto detail = [](const Channels& sum, const Sample& of) {
         return hn::ShiftRight<6>(hn::Mul(sum.a, of.detail));
@@ -152,7 +152,7 @@ HWY_INLINE Vector alpha_of(Vector colour) {
     return hn::BitCast(Lanes(), hn::ShiftRight<24>(hn::BitCast(bits, colour)));
 }
 
-// laid_over() of colours where both surfaces show something and the farther one covers its pixel. Two channels at once.
+// laid_over() of two visible surfaces of which the farther one covers its pixel. Computes two channels at once.
 HWY_INLINE Vector laid_over(Vector nearer, Vector farther) {
     const Vector two = number(0x00FF00FF);
     const Vector alpha = alpha_of(nearer);

@@ -17,7 +17,7 @@ Result<Measured> compare_view(const RenderView& render, const std::filesystem::p
     const std::filesystem::path path = image_path(folder, view);
     RS_ASSIGN_OR_RETURN(const Image<Rgba8> truth, read_image(path));
     if (truth.width() != view.camera.width || truth.height() != view.camera.height) {
-        return Error{path.string() + ": has another size than its frame in " + kRigFileName + " says; make them agree"};
+        return Error{path.string() + ": its size differs from its frame in " + kRigFileName + "; correct one of them"};
     }
     const Result<Image<Rgba8>> rendered = render(view.camera);
     if (!rendered) return Error{path.string() + ": " + rendered.error().message};
@@ -39,7 +39,7 @@ Result<Comparison> compare_with_set(const Renderer& renderer, const std::filesys
 
 Result<Comparison> compare_with_set(const RenderView& render, const std::filesystem::path& set, Progress* progress) {
     RS_ASSIGN_OR_RETURN(const Rig rig, read_rig(set));
-    if (rig.views.empty()) return Error{set.string() + ": holds no frames to compare with"};
+    if (rig.views.empty()) return Error{set.string() + ": has no frames to compare with"};
     const std::filesystem::path folder = std::filesystem::is_directory(set) ? set : set.parent_path();
 
     const int count = static_cast<int>(rig.views.size());

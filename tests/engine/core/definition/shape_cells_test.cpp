@@ -204,12 +204,12 @@ void expect_column(const Columns& columns) {
     constexpr std::size_t kStart = 5;
     const std::size_t most = surface_entries(columns.shape.bands);
     SurfaceEntries entries;
-    entries.hold(kStart + most + 1);
+    entries.grow(kStart + most + 1);
     constexpr std::int32_t kUntouched = -12345;
     for (auto* const numbers : {&entries.smooth, &entries.deepest, &entries.steps}) {
         std::fill(numbers->begin(), numbers->end(), kUntouched);
     }
-    const SurfaceColumn column = lay_surfaces(columns.around, columns.shape, kStart, entries);
+    const SurfaceColumn column = build_surface_column(columns.around, columns.shape, kStart, entries);
     for (const auto* const numbers : {&entries.smooth, &entries.deepest}) {
         EXPECT_EQ((*numbers)[kStart - 1], kUntouched);
         EXPECT_EQ((*numbers)[kStart + most], kUntouched);
@@ -277,8 +277,8 @@ TEST(SurfaceColumn, SaysWhatTheDefinitionSaysOnEverySimdTarget) {
 
 TEST(SurfaceColumn, OfARayWithoutAShapeSaysNothing) {
     SurfaceEntries entries;
-    entries.hold(1);
-    const SurfaceColumn column = lay_nothing(0, entries);
+    entries.grow(1);
+    const SurfaceColumn column = build_empty_column(0, entries);
     EXPECT_EQ(column.last, 0);
     EXPECT_EQ(entries.smooth[0], kSurfaceNothing);
     EXPECT_EQ(column.nearest, 256);

@@ -273,7 +273,7 @@ void expect_columns_cover(const RaySpaceObject& object, const ViewRegisters& reg
     if (!setup.has_ray) return;
     const auto covers = [&](const ShapeImage& image, int view, int column) {
         if (image.view != view) return false;
-        const ColumnRange range = columns_read(object, image);
+        const ColumnRange range = sampled_columns(object, image);
         return range.first <= column && column <= range.last;
     };
     const auto read = [&](int view, int column, int) {
@@ -287,7 +287,7 @@ void expect_columns_cover(const RaySpaceObject& object, const ViewRegisters& reg
         int detail(int view, int column, int row) const { return color(view, column, row).r; }
     };
     shape_pixel(object, registers, setup, registers.rise_q24(i, j), Texels{read});
-    const ColumnRange range = columns_read(object, setup.first);
+    const ColumnRange range = sampled_columns(object, setup.first);
     ++counts.ranges;
     counts.narrow_ranges += range.last - range.first + 1 < object.width / 3;
 }
