@@ -153,7 +153,7 @@ Result<BoardRun> Board::render(const std::vector<std::vector<BoardView>>& cycles
         const bool is_drawing = !control.cycles().empty() && control.cycles().back().rendered == 0;
         return static_cast<std::size_t>(control.cycles_begun() - first) - static_cast<std::size_t>(is_drawing);
     };
-    // The images of a cycle are collected when its last has come, so what stands last is of the cycle being
+    // The images of a cycle are collected after its last image, so the last image present belongs to the cycle being
     // delivered.
     const std::deque<HostImage>& at_host = top_->host_bus.images();
     const auto arrived = [&] {
@@ -179,7 +179,7 @@ Result<BoardRun> Board::render(const std::vector<std::vector<BoardView>>& cycles
         if (arrived()) run.cycles.push_back(collect(first + run.cycles.size()));
     }
     run.end = snapshot();
-    // The board learns that its buffer is free.
+    // Lets the board process the release of its buffer.
     const auto quiet = [&] {
         return top_->host_dma.last_activity() == Activity::idle && top_->buffer_free.count() == 0;
     };

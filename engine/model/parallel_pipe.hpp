@@ -1,6 +1,6 @@
 #pragma once
 // A pipe of the parallel board with its memory channel: from the columns of its stripes to their pixels in its part of
-// the image buffer. N of them stand side by side and share nothing but the registers, the private bus and the host.
+// the image buffer. N pipes run side by side and share only the registers, the private bus and the host.
 //
 //     raster_generator -> ray_position -> map_reader -> bracket_finder -> image_reader -> column_setup -> band_reader
 //                                                                                   columns, cells |
@@ -94,12 +94,12 @@ struct ParallelFifos : FifoRack {
 };
 
 struct ParallelPipe {
-    // Pipe `share.pipe` of `share.pipes`; its names end in "_p" and that number.
+    // Pipe `share.pipe` of `share.pipes`; the names of its blocks and FIFOs end in "_p" and its number.
     ParallelPipe(const BoardConfig& config, const RegisterFile& registers, const StripeShare& share);
     ParallelPipe(const ParallelPipe&) = delete;
     ParallelPipe& operator=(const ParallelPipe&) = delete;
     void add_to(Simulator& simulator);
-    std::vector<Block*> blocks();  // but those of the record chains
+    std::vector<Block*> blocks();  // without the blocks of the record chains
 
     ParallelFifos fifos;
     RecordChains chains;
@@ -127,7 +127,7 @@ struct ParallelPipe {
     MemoryController memory;
 };
 
-// Bits of block RAM in a pipe: codebooks, cells, texels, patches, and the FIFOs that are long enough to be one.
+// Bits of block RAM in a pipe: codebooks, cells, texels, patches, and the FIFOs that are deep enough to use block RAM.
 struct PipeMemoryBits {
     std::size_t books = 0, cells = 0, held_words = 0, march_pixels = 0, rim_pixels = 0, texels = 0, patches = 0,
                 columns = 0, fifos = 0;

@@ -1,11 +1,11 @@
 #pragma once
-// Two-phase FIFOs: the only way from block to block. During a cycle everybody sees the FIFO as it was when the cycle
-// began; what is pushed and popped takes effect when the cycle ends (commit). So the order in which blocks are ticked
-// cannot matter: a push is visible in the next cycle, and room made by a pop is too. A FIFO of depth 1 therefore moves
-// an item every second cycle, one of depth 2 or more one per cycle.
+// Two-phase FIFOs: the only connection between blocks. During a cycle all blocks see the FIFO as it was at the start of
+// the cycle; pushes and pops take effect at its end (commit). Therefore the order in which blocks are ticked cannot
+// matter: a push and the space freed by a pop are visible in the next cycle. A FIFO of depth 1 moves an item every
+// second cycle, deeper ones one per cycle.
 //
-// One push and one pop per cycle, as a RAM with a write port and a read port has. Breaking a rule is a defect of the
-// block and stops the program.
+// One push and one pop per cycle, as in a RAM with a write port and a read port. A violation is a defect of the block
+// and stops the program (RS_CHECK).
 
 #include "rayspace/base/check.hpp"
 
@@ -19,7 +19,7 @@ namespace rs::engine::model {
 
 class FifoState;
 
-// FIFOs that stand together: each enters itself, and gets the rack's suffix behind its name.
+// Group of FIFOs: each registers itself, and the suffix of the group is appended to its name.
 class FifoRack {
 public:
     explicit FifoRack(std::string suffix = "") : suffix_(std::move(suffix)) {}
@@ -34,7 +34,7 @@ private:
     std::vector<FifoState*> fifos_;
 };
 
-// What is known of a FIFO without its items: for diagrams, waveforms and dumps.
+// State of a FIFO without its items: for diagrams, waveforms and dumps.
 class FifoState {
 public:
     FifoState(std::string name, int depth, int width_bits)
@@ -53,14 +53,14 @@ public:
     [[nodiscard]] int depth() const { return depth_; }
     [[nodiscard]] int width_bits() const { return width_bits_; }
 
-    // All as of the beginning of the cycle.
+    // State at the beginning of the cycle.
     [[nodiscard]] int count() const { return count_; }
     [[nodiscard]] int room() const { return depth_ - count_; }
     [[nodiscard]] bool can_push() const { return count_ < depth_; }
     [[nodiscard]] bool can_pop() const { return count_ > 0; }
     [[nodiscard]] std::uint64_t pushed_in_all() const { return pushed_in_all_; }
 
-    // Ends the cycle. True where something moved.
+    // Ends the cycle. Returns true if an item was pushed or popped.
     bool commit() {
         if (!pushed_ && !popped_) return false;
         count_ += static_cast<int>(pushed_) - static_cast<int>(popped_);
@@ -69,7 +69,7 @@ public:
         return true;
     }
 
-    // Item `index` from the front, as text; for the dump of a run that is stuck.
+    // Item `index` from the front, as text, for the dump of a stalled run.
     [[nodiscard]] virtual std::string item_text(int index) const = 0;
 
 protected:
@@ -84,7 +84,8 @@ private:
     std::uint64_t pushed_in_all_ = 0;
 };
 
-// T has `std::string text(const T&)` findable by argument-dependent look-up. `width_bits` is what the hardware stores.
+// T requires `std::string text(const T&)`, found by argument-dependent look-up. `width_bits`: bits that the hardware
+// stores per item.
 template <class T>
 class Fifo final : public FifoState {
 public:

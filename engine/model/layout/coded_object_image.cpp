@@ -7,7 +7,7 @@
 namespace rs::engine::model {
 namespace {
 
-// Eight bytes to a word, low first; nothing behind the last byte.
+// Eight bytes per word, low byte first, zero-padded.
 template <class Byte>
 void append_bytes(std::span<const Byte> bytes, std::size_t words, std::vector<std::uint64_t>& out) {
     const std::size_t first = out.size();

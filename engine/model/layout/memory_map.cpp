@@ -17,7 +17,7 @@ MemoryMap::MemoryMap(const MemorySettings& settings) {
 Result<Placement> MemoryMap::take(const std::array<std::uint64_t, kObjectRegions>& words, const std::string& name) {
     Placement placement;
     placement.words = words;
-    std::array<std::size_t, kObjectRegions> places{};  // in the list of runs
+    std::array<std::size_t, kObjectRegions> places{};  // indices into the lists of runs
     for (std::size_t n = 0; n < kObjectRegions; ++n) {
         const Space& space = spaces_[n];
         std::uint64_t at = space.all.first;

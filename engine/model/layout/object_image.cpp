@@ -144,7 +144,7 @@ namespace {
 
 using Words = std::array<std::uint64_t, kObjectRegions>;
 
-// Of their maps, and of `line_words` words for each view and for each of its lines.
+// Footprint of the RS maps, and of `line_words` words per view and per line of a view.
 BoardFootprint maps_and_lines(const RaySpaceObject& object, std::uint64_t line_words) {
     BoardFootprint footprint;
     for (const Ring& ring : object.rings) {
@@ -160,7 +160,7 @@ void add_coded(const codec::CodedImages& coded, BoardFootprint& footprint) {
     footprint.book_bytes = 8 * book_words(coded.board);
 }
 
-// The boards of 2000: one ring, its map and lines in one table, the images as the derived class has them.
+// Boards of 2000: one ring, its map and lines in one table; the derived class adds the images.
 class LayoutOf2000 : public ObjectLayout {
 public:
     [[nodiscard]] Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const override {
@@ -196,7 +196,7 @@ public:
 protected:
     [[nodiscard]] virtual Status has_images(const RaySpaceObject& object) const = 0;
     [[nodiscard]] virtual Words image_words(const RaySpaceObject& object) const = 0;
-    // `behind_tables`: the first word of its region that is free.
+    // `behind_tables`: first free word of the region of the tables.
     virtual void add_images(const RaySpaceObject& object, const Placement& placement, WordAddress behind_tables,
                             ObjectImage& image) const = 0;
 };

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kFlush_bytes = std::size_t{1} << 20;
 
-// Printable names, shortest first: "!", "\"", ... "!!", ...
+// VCD identifiers, shortest first: "!", "\"", ... "!!", ...
 std::string identifier(std::size_t n) {
     std::string id;
     do {

@@ -16,13 +16,12 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kPublishedObjects = 20;
-// Registers for as many objects as memory is meant to hold, eight times the published ones. 512 bits each: 5 block
-// RAMs.
+// Registers for eight times the published number of objects, which the memory can hold. 512 bits each: 5 block RAMs.
 constexpr int kCodedObjects = 160;
 constexpr int kMostPipes = 32;
 
 BoardConfig prototype_2000() {
-    BoardConfig config;  // its defaults are the published board
+    BoardConfig config;  // the defaults are the published board
     config.name = "prototype-2000";
     return config;
 }
@@ -32,7 +31,7 @@ BoardConfig compressed_2000() {
     config.name = "compressed-2000";
     config.limits.kind = BoardKind::coded_images;
     config.limits.objects = kCodedObjects;
-    // Images with references apart from those without: so the hops of a prediction meet in no bank.
+    // Images with and without references are in different banks, so that the hops of a prediction share no bank.
     config.memory.regions.objects = {
         {{"flat_tiles", 0, 2}, {"predicted_tiles", 2, 4}, {"tile_table", 6, 1}, {"tables", 7, 8}}};
     return config;
@@ -53,7 +52,7 @@ BoardConfig parallel() {
     return config;
 }
 
-// The kinds of boards, in the order of BoardKind. 0: boards of that kind have no such setting.
+// Kinds of boards, in the order of BoardKind. 0: boards of that kind do not have this setting.
 struct KindOfBoard {
     const char* base;
     BoardConfig (*built_in)();
@@ -69,8 +68,8 @@ const KindOfBoard& kind_of(const BoardConfig& config) {
     return kKinds.at(static_cast<std::size_t>(config.limits.kind));
 }
 
-// Calls visit(path, reference, least, most) for every number of a configuration: one list serves reading, writing and
-// checking.
+// Calls visit(path, reference, least, most) for every number of a configuration: a single list for reading, writing and
+// range checks.
 template <class Config, class Visit>
 void for_each_number(Config& c, Visit&& visit) {
     const KindOfBoard& kind = kind_of(c);
@@ -125,7 +124,7 @@ void for_each_number(Config& c, Visit&& visit) {
     visit("disk/timeout_cycles", c.disk.timeout_cycles, 1, 2'000'000'000);
 }
 
-// What is only wrong together.
+// Cross-field validation; "" if valid.
 std::string contradiction(const BoardConfig& c) {
     const MemoryRegions& r = c.memory.regions;
     const int banks = 1 << c.memory.shape.bank_bits;
@@ -170,12 +169,12 @@ BoardConfig with_memory(BoardConfig config) {
     return config;
 }
 
-// The objects of a configuration's text by their paths, such as "memory/alpha".
+// JSON objects of a configuration by path, such as "memory/alpha".
 class Objects {
 public:
     explicit Objects(JsonObject& top) : top_(top) {}
 
-    // Null where the text has none.
+    // Null if the text has none.
     JsonObject* at(const std::string& path) {
         if (path.empty()) return &top_;
         const auto [known, is_new] = by_path_.try_emplace(path);

@@ -68,7 +68,7 @@ std::string register_error(const BoardView& view, const RegisterFile& file, cons
     for (int k = 0; k < file.objects[static_cast<std::size_t>(view.object)].planes; ++k) {
         const PlaneView& p = view.planes[static_cast<std::size_t>(k)];
         in_range = in_range && fits(p.a_q20, kPosition) && fits(p.c_q20, kPosition);
-        // Linear over the view: in range at both ends, in range between.
+        // Linear over the view: in range at both ends implies in range between.
         for (const auto& [origin, step] : {std::pair{p.n0_q32, p.nx_q32}, std::pair{p.t0_q32, p.tx_q32}}) {
             in_range = in_range && fits(origin, kDirection) && fits(step, kDirection) &&
                        fits(origin + (view.width - 1) * step, kDirection);
