@@ -33,8 +33,7 @@ struct BoardLimits {
     int image_buffer_side_px = 512;  // the largest reconstructed image, R, G, B and alpha, in two buffers
     std::uint64_t memory_bytes = std::uint64_t{1} << 30;
     BoardKind kind = BoardKind::raw_images;
-    int shape_bands =
-        std::numeric_limits<int>::max();  // bands of a shape map; two of the board kinds do not render shape maps
+    int shape_bands = std::numeric_limits<int>::max();  // bands of a shape map
 };
 
 // Fails with the limit that the object exceeds, its value, and the remedy. Does not check memory.

@@ -113,8 +113,7 @@ struct ViewBank {
 
 struct RegisterFile {
     std::vector<ObjectRegisters> objects;  // [slot]
-    std::vector<ObjectRegisters>
-        loaded;  // written by the disk controller, copied to `objects` by the render controller
+    std::vector<ObjectRegisters> loaded;   // written by the disk controller; the render controller copies it
     std::array<ViewBank, 2> banks{};
     int active = 0;  // index of the bank that is rendered and of the image buffer that is written
     std::array<std::vector<int>, 2> buffer_words{};    // [buffer][view]: valid until the host has the images

@@ -13,7 +13,7 @@ BlockScan::BlockScan(const RegisterFile& registers, Fifo<ColumnWalk>& in, Fifo<B
 
 Activity BlockScan::tick(std::uint64_t) {
     if (!active_) {
-        if (run_ > 0) {  // of the column that is done
+        if (run_ > 0) {  // last run of the previous column
             if (!asks_.can_push()) return Activity::output_full;
             asks_.push(ask_);
             run_ = 0;

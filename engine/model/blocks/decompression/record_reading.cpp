@@ -18,7 +18,7 @@ Activity TileFinder::tick(std::uint64_t) {
     const ObjectRegisters& object = registers_.object_of(ask.view);
     const int column = ask.image * object.tile_columns + (ask.column >> 5);
     const int entry = column * object.table_pitch + (ask.block_row >> 2);
-    // Within a view column all blocks are of one object; what was known before it may be of one that is gone.
+    // All blocks of a view column belong to one object; the entry of an earlier column may belong to an evicted object.
     const bool same = !ask.first && entry == last_entry_;
     if (!same) {
         if (!requests_.can_push()) return Activity::memory_port;

@@ -30,7 +30,7 @@ CodedPixel behind_hop(const CodedPixel& pixel, const BlockRecord& record, bool t
         } else {
             out.flat = record.flat;
         }
-        if (pixel.hops == 0) {  // alpha is the first hop's
+        if (pixel.hops == 0) {  // alpha comes from the first hop
             out.alpha = record.of.alpha ? CodedPixel::Alpha::book : CodedPixel::Alpha::full;
             out.alpha_entry = record.alpha[quarter];
         }

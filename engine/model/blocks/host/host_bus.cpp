@@ -33,7 +33,7 @@ Activity HostBus::tick(std::uint64_t now) {
     if (state_ == State::data) return transfer(now);
     const State state = state_;
     if (--left_ > 0) {
-        // fall through to the activity of a state that lasts
+        // fall through: activity of a state that continues
     } else if (state == State::grant) {
         enter(State::address, 1);
     } else if (state == State::address) {
@@ -48,7 +48,7 @@ Activity HostBus::tick(std::uint64_t now) {
     } else if (state == State::register_write && registers_left_ == 0) {
         if (!commands_.can_push()) {
             left_ = 1;
-            return Activity::target_wait;  // the board holds the last write back
+            return Activity::target_wait;  // the board stalls the last write
         }
         commands_.push({next_program_++});
         registers_left_ = -1;
@@ -68,7 +68,7 @@ Activity HostBus::tick(std::uint64_t now) {
     }
 }
 
-// Who gets the bus. The clock of the decision is the first of the winner's.
+// Arbitrates the bus. The clock of the decision is the first clock of the winner.
 Activity HostBus::decide(std::uint64_t now) {
     if (words_left_ == 0 && words_.can_pop() && words_.front().head) {
         const ImageWord head = words_.pop();
@@ -102,7 +102,7 @@ Activity HostBus::transfer(std::uint64_t now) {
     if (--left_ > 0) return Activity::master_wait;
     --burst_left_;
     counters_.image_bytes += 4;
-    if (burst_left_ % 2 == 0) {  // the second half: the word has gone
+    if (burst_left_ % 2 == 0) {  // second half of the word: the word is complete
         images_.back().words.push_back(words_.pop().data);
         images_.back().arrived = now;
         --words_left_;

@@ -26,7 +26,7 @@ Activity BandReader::hand_over() {
     if (!in_view_) {
         view_column_ = share_.first_column(setup.view);
         in_view_ = true;
-        holds_cells_ = false;  // the object may be another one
+        holds_cells_ = false;  // the object may have changed
     }
     if (column_ == 0) {
         --free_stripes_;

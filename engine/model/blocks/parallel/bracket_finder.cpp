@@ -14,7 +14,7 @@ BracketFinder::BracketFinder(const RegisterFile& registers, Fifo<MappedRay>& in,
       answers_(reads(answers)),
       out_(writes(out)) {}
 
-// True in word_ when answered_.
+// Reads a word of an image record; word_ is valid when answered_ is set.
 Activity BracketFinder::read(int image, int word) {
     if (!requested_) {
         if (!requests_.can_push()) return Activity::memory_port;
@@ -132,7 +132,7 @@ Activity BracketFinder::tick(std::uint64_t) {
             gap_word_ = word_;
             gap_known_ = true;
             requested_ = answered_ = false;
-            // No lines: nothing else needs to be known.
+            // No lines: no other word is needed.
             if ((low_half(gap_word_) & 0xFFFF) == 0) {
                 step_ = Step::decide;
             } else {

@@ -6,7 +6,7 @@
 namespace rs::engine::model {
 namespace {
 
-// On a captured line that image answers alone, and no second surface is needed.
+// On a captured line only that image is used, and no second surface is needed.
 bool is_alone(const ColumnSetup& column) {
     return column.weight == 0 || column.weight == 256;
 }
@@ -39,7 +39,7 @@ CellMarch::CellMarch(const RegisterFile& registers, Fifo<ColumnSetup>& columns, 
       met_(writes(met)),
       empty_(writes(empty)) {}
 
-// A column's set-up counts as there when the last of its cells is.
+// A column's set-up becomes valid with the last of its cells.
 bool CellMarch::load(bool& writes_cells) {
     if (words_left_ == 0) {
         if (!columns_.can_pop()) return false;
@@ -92,7 +92,7 @@ SurfaceStack CellMarch::surfaces_at(const ColumnSetup& column, std::int32_t at_q
     return surfaces_between(around, column.p_part, (from_middle_q12 >> 9) & 7, shape.jump);
 }
 
-// The next pixel; false where there is none.
+// Takes the next pixel; false if there is none.
 bool CellMarch::next_ray(Turn& turn) {
     turn = {};
     if (again_.can_pop()) {
@@ -120,7 +120,7 @@ void CellMarch::look(Turn& turn, const ColumnSetup& column) {
     turn.met = {turn.ray.pixel, std::max(cell.depth_q3, 8 * begin), is_alone(column), turn.state, cell.lean};
 }
 
-// The surface in the foot's band, and then that of the band where it lies, or what lies behind that.
+// First look: the surface in the foot's band. Second look: the surface in the band at its depth, or the one behind it.
 void CellMarch::look_at_foot(Turn& turn, const ColumnSetup& column) {
     const SurfaceCell& of_foot = turn.foot.first;
     const bool at_its_depth = of_foot.exists();
@@ -159,7 +159,7 @@ void CellMarch::take_turn(Turn& turn, int looks) {
         turn.met = {turn.ray.pixel, 0, true, turn.state};
     }
     for (int n = 0; n < looks && turn.outcome == Turn::Outcome::goes_on; ++n) {
-        // The second look at the foot waits for the first one's result.
+        // The second look at the foot depends on the result of the first.
         if (turn.state.begin < MarchState::kFoot) {
             look(turn, column);
         } else if (n == 0 || !turn.foot.first.exists()) {
@@ -177,7 +177,7 @@ Activity CellMarch::tick(std::uint64_t) {
         turn = line_.leaving();
         goes_on = turn.outcome == Turn::Outcome::goes_on;
         const bool met = turn.outcome == Turn::Outcome::met;
-        if (!goes_on && !(met ? met_.can_push() : empty_.can_push())) {  // the whole pipe stands
+        if (!goes_on && !(met ? met_.can_push() : empty_.can_push())) {  // the whole pipeline stalls
             return loads ? Activity::busy : Activity::output_full;
         }
         if (met) met_.push(turn.met);
@@ -190,7 +190,7 @@ Activity CellMarch::tick(std::uint64_t) {
     }
     line_.advance();
     if (loads) return Activity::busy;
-    return in_.can_pop() ? Activity::memory_data : Activity::idle;  // for the column's cells
+    return in_.can_pop() ? Activity::memory_data : Activity::idle;  // waits for the column's cells
 }
 
 }  // namespace rs::engine::model

@@ -5,7 +5,7 @@
 namespace rs::engine::model {
 namespace {
 
-// A ray of a vertical plane: through its foot (x, z), in direction (sine, -cosine) along (tangent, normal).
+// A ray in a vertical plane: through its foot (x, z), in direction (sine, -cosine) along (tangent, normal).
 struct PlaneRay {
     std::int64_t cosine_q30 = 0, sine_q30 = 0;
     std::int64_t foot_x_q20 = 0, foot_z_q20 = 0;
@@ -31,8 +31,9 @@ ImageSetup along_ray(const PlaneRay& ray, int image, const ImageLine& line) {
     return setup;
 }
 
-// The columns of cells beside the ray, which lies at line_q8 of its gap's lines and p_q8 of the cells along p; samples
-// lie at the middles. Lines of neighbouring gaps follow one another, and the first gap's follow the last one's.
+// Finds the columns of cells beside the ray, which is at line_q8 of its gap's lines and at p_q8 of the cells along p;
+// samples are at cell centres. Lines of neighbouring gaps are consecutive; those of the first gap follow those of the
+// last.
 void find_cells(const ShapeRegisters& shape, const BracketedRay& ray, std::int64_t line_q8, std::int64_t p_q8,
                 ColumnSetup& out) {
     const std::int64_t line = (line_q8 - 128) >> 8;

@@ -1,7 +1,7 @@
 #pragma once
-// Image reader: of one or two images the camera and the line of the ray's plane (parallel_layout.hpp), four words
-// without a shape map, five with one and no gap, ten in a gap. 9 cycles for the addresses' products, then a request a
-// cycle.
+// Image reader: reads the camera and the line of the ray's plane for one or two images (parallel_layout.hpp): four
+// words without a shape map, five with one and no gap, ten in a gap. 9 cycles for the products of the addresses, then a
+// request per cycle.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/arithmetic.hpp"

@@ -112,7 +112,8 @@ Activity RayRise::tick(std::uint64_t) {
     const bool takes_column = columns_.can_pop();
     if (takes_column) table_.put(columns_.pop());
     const Activity activity = stage_.step([&](std::optional<RisenPixel>& ray) {
-        if (!in_.can_pop() || takes_column || !table_.holds(in_.front())) return Activity::idle;  // the table: one port
+        if (!in_.can_pop() || takes_column || !table_.holds(in_.front()))
+            return Activity::idle;  // the table has one port
         const ScannedPixel pixel = in_.pop();
         ray = risen(pixel, table_.of(pixel), registers_.object_of(pixel.view).shape, registers_.view(pixel.view).b_q20);
         return Activity::busy;

@@ -8,7 +8,7 @@
 
 namespace rs::engine::model {
 
-// The arithmetic without the clock.
+// RGBA of a pixel, R in the low byte, without the clock.
 std::uint32_t converted(const YuvaPixel& pixel);
 
 class ColourConversion final : public Block {

@@ -1,6 +1,6 @@
 #pragma once
-// RS map reader: one byte of the map gives the captured image that answers the column; 255: none does.
-// One column at a time: request, wait, choose the byte.
+// RS map reader: one byte of the map is the captured image of the column; 255: none. One column at a time: request,
+// wait, select the byte.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/messages.hpp"

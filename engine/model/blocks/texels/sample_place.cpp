@@ -49,7 +49,7 @@ SurfaceSamples placed_samples(const MetSurface& met, const ColumnSetup& column, 
     blank.head.id = met.pixel.id;
     blank.head.final = met.final;
     blank.head.next = met.next;
-    if (column.kind == RayKind::plane) {  // one texel, as it is
+    if (column.kind == RayKind::plane) {  // one texel, unfiltered
         PlacedSample& out = samples.sample[static_cast<std::size_t>(samples.count++)] = blank;
         const std::int64_t row = (column.row_0_q16 + met.pixel.row * column.row_step_q16) >> 16;
         out.head.is_there = true;

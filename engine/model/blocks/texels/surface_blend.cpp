@@ -3,7 +3,7 @@
 namespace rs::engine::model {
 namespace {
 
-// What both samples show: nothing where one states that the point is not the object's.
+// Blends both samples; empty if one of them states that the point is not on the object.
 SampleSum blended(const std::array<SampleSum, 2>& samples, int weight) {
     const auto& [first, second] = samples;
     if ((first.exists && first.a == 0) || (second.exists && second.a == 0)) return {};
@@ -13,7 +13,7 @@ SampleSum blended(const std::array<SampleSum, 2>& samples, int weight) {
     return mix(one, one, 0);
 }
 
-// R in the low byte.
+// Packs a colour, R in the low byte.
 std::uint32_t packed(const Rgba8& c) {
     return std::uint32_t{c.r} | std::uint32_t{c.g} << 8U | std::uint32_t{c.b} << 16U | std::uint32_t{c.a} << 24U;
 }

@@ -34,7 +34,7 @@ bool TexelCache::write(std::uint64_t samples_read) {
 }
 
 Activity TexelCache::tick(std::uint64_t) {
-    const std::uint64_t samples_read = samples_;  // before this cycle
+    const std::uint64_t samples_read = samples_;  // state before this cycle
     const bool had_sample = in_.can_pop();
     const bool blocked = had_sample && !out_.can_push();
     const bool reads_one = read();
