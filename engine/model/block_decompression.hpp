@@ -24,30 +24,30 @@
 
 namespace rs::engine::model {
 
-struct HopFifos : FifoRack {
+struct HopFifos : FifoGroup {
     HopFifos(int hop, const std::string& suffix)
-        : FifoRack("_" + std::to_string(hop) + suffix), depth(is_common(hop) ? 8 : 2), its_hop(hop) {}
+        : FifoGroup("_" + std::to_string(hop) + suffix), depth(is_common(hop) ? 8 : 2), hop_index(hop) {}
     // The encoder predicts over one hop; chains of later hops have the minimum depth.
     static constexpr bool is_common(int hop) { return hop < 2; }
 
     const int depth;
-    const int its_hop;
-    Fifo<BlockAsk> asks{*this, "asks", std::max(depth, 4), BlockAsk::kBits};
+    const int hop_index;
+    Fifo<BlockRequest> asks{*this, "asks", std::max(depth, 4), BlockRequest::kBits};
     Fifo<MemoryRead> table_reads{*this, "table_reads", 2, MemoryRead::kBits};
     Fifo<MemoryWord> table_words{*this, "table_words", depth, MemoryWord::kBits};
     Fifo<FoundTile> found{*this, "found", depth, FoundTile::kBits};
     Fifo<MemoryRead> tile_reads{*this, "tile_reads", 2, MemoryRead::kBits};
     Fifo<MemoryWord> tile_words{*this, "tile_words", depth, MemoryWord::kBits};
-    Fifo<AskedTile> tiles{*this, "tiles", depth, AskedTile::kBits};
+    Fifo<RequestedTile> tiles{*this, "tiles", depth, RequestedTile::kBits};
     Fifo<MemoryRead> record_reads{*this, "record_reads", 4, MemoryRead::kBits};
-    Fifo<MemoryWord> record_words{*this, "record_words", is_common(its_hop) ? 16 : 4, MemoryWord::kBits};
-    Fifo<AskedRecord> asked_records{*this, "asked_records", depth, AskedRecord::kBits};
+    Fifo<MemoryWord> record_words{*this, "record_words", is_common(hop_index) ? 16 : 4, MemoryWord::kBits};
+    Fifo<RequestedRecord> asked_records{*this, "asked_records", depth, RequestedRecord::kBits};
     Fifo<BlockRecord> records{*this, "records", std::max(depth, 4), BlockRecord::kBits};
-    Fifo<CodedPixel> pixels{*this, "pixels", is_common(its_hop) ? 128 >> its_hop : 4, CodedPixel::bits(its_hop)};
+    Fifo<CodedPixel> pixels{*this, "pixels", is_common(hop_index) ? 128 >> hop_index : 4, CodedPixel::bits(hop_index)};
 };
 
 struct HopBlocks {
-    HopBlocks(int hop, const RegisterFile& registers, HopFifos& fifos, Fifo<BlockAsk>* next_asks,
+    HopBlocks(int hop, const RegisterFile& registers, HopFifos& fifos, Fifo<BlockRequest>* next_asks,
               Fifo<CodedPixel>& next_pixels);
     TileFinder tile_finder;
     TileReader tile_reader;
@@ -57,7 +57,7 @@ struct HopBlocks {
 };
 
 // Chains of all hops: requests and pixels enter at hop 0, pixels with all their records leave through `complete`.
-struct RecordChains : FifoRack {
+struct RecordChains : FifoGroup {
     // `suffix` is appended to the names of FIFOs and blocks.
     explicit RecordChains(const RegisterFile& registers, const std::string& suffix = "");
     void add_to(Simulator& simulator);

@@ -38,7 +38,7 @@ Result<int> Board::take_slot(const RaySpaceObject& object) {
         return Error{object.name + ": all " + std::to_string(slots_.size()) +
                      " object slots of the board are taken; evict an object first"};
     }
-    RS_ASSIGN_OR_RETURN(const Placement placement, map_.take(layout_.words(object), object.name));
+    RS_ASSIGN_OR_RETURN(const Placement placement, map_.allocate(layout_.words(object), object.name));
     *free = {true, placement};
     return static_cast<int>(free - slots_.begin());
 }
@@ -82,7 +82,7 @@ Status Board::finish_loads() {
         const DiskController::Load& load = loads[collected_loads_];
         if (!load.failed) continue;
         Slot& slot = slots_[static_cast<std::size_t>(load.slot)];
-        map_.give_back(slot.placement);
+        map_.release(slot.placement);
         slot = {};
         failed += (failed.empty() ? "slot " : ", ") + std::to_string(load.slot);
     }
@@ -107,7 +107,7 @@ Status Board::evict(int slot) {
                      " is being drawn; evict it when its rendering cycles are done"};
     }
     top_->registers.objects[static_cast<std::size_t>(slot)] = {};
-    map_.give_back(slots_[static_cast<std::size_t>(slot)].placement);
+    map_.release(slots_[static_cast<std::size_t>(slot)].placement);
     slots_[static_cast<std::size_t>(slot)] = {};
     return {};
 }
@@ -139,7 +139,7 @@ RenderedCycle Board::collect(std::uint64_t cycle) {
                          static_cast<std::uint64_t>(top_->config.clock_period);
         arrived.pop_front();
     }
-    top_->programs.forget_before(done.program + 1);
+    top_->programs.drop_before(done.program + 1);
     return result;
 }
 

@@ -27,7 +27,7 @@ namespace rs::engine::model {
 
 // A pipe: FIFOs from a column's start to its pixels. The part between `walks` and `samples` depends on the images:
 // SampleReading, or block decompression.
-struct PipeFifos : FifoRack {
+struct PipeFifos : FifoGroup {
     explicit PipeFifos(int sample_bits) : samples(*this, "samples", 4, sample_bits) {}
     Fifo<ViewJob> jobs{*this, "jobs", 2, ViewJob::kBits};
     Fifo<ColumnRay> columns{*this, "columns", 2, ColumnRay::kBits};
@@ -47,7 +47,7 @@ struct PipeFifos : FifoRack {
 };
 
 // Uncompressed images: reads the samples of a column's walk, pixel by pixel.
-struct SampleReading : FifoRack {
+struct SampleReading : FifoGroup {
     static constexpr int kSampleBits = YuvaPixel::kBits;
     SampleReading(const RegisterFile& registers, Fifo<ColumnWalk>& walks, Fifo<YuvaPixel>& samples);
     void add_to(Simulator& simulator);
@@ -66,7 +66,7 @@ struct SampleReading : FifoRack {
 
 // Rendering part of a board: pipes with their memory channels. Views enter, and leave when they are in the image
 // buffer.
-struct BoardBody : FifoRack {
+struct BoardBody : FifoGroup {
     virtual ~BoardBody() = default;
     virtual Fifo<ViewJob>& views_in() = 0;
     virtual Fifo<Done>& views_out() = 0;
@@ -131,7 +131,7 @@ struct ParallelBoard final : BoardBody {
     LoadBroadcast load_broadcast;
 };
 
-struct BoardTop : FifoRack {
+struct BoardTop : FifoGroup {
     explicit BoardTop(const BoardConfig& config, std::uint64_t shuffle_seed = 0);
 
     const BoardConfig config;

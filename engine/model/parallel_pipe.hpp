@@ -37,8 +37,8 @@
 
 namespace rs::engine::model {
 
-struct ParallelFifos : FifoRack {
-    using FifoRack::FifoRack;
+struct ParallelFifos : FifoGroup {
+    using FifoGroup::FifoGroup;
 
     Fifo<ViewJob> jobs{*this, "jobs", 16, ViewJob::kBits};
     Fifo<ViewJob> scan_jobs{*this, "scan_jobs", 16, ViewJob::kBits};
@@ -53,7 +53,7 @@ struct ParallelFifos : FifoRack {
     Fifo<BracketedRay> bracketed{*this, "bracketed", 2, BracketedRay::kBits};
     Fifo<MemoryRead> line_reads{*this, "line_reads", 4, MemoryRead::kBits};
     Fifo<MemoryWord> line_words{*this, "line_words", 8, MemoryWord::kBits};
-    Fifo<LinedRay> lined{*this, "lined", 2, LinedRay::kBits};
+    Fifo<RayWithLines> lined{*this, "lined", 2, RayWithLines::kBits};
     Fifo<ColumnSetup> set_up{*this, "set_up", 2, ColumnSetup::kBits};
     Fifo<MemoryRead> band_reads{*this, "band_reads", 4, MemoryRead::kBits};
     Fifo<MemoryWord> band_words{*this, "band_words", 8, MemoryWord::kBits};
@@ -66,10 +66,10 @@ struct ParallelFifos : FifoRack {
     Fifo<Done> view_done_scan{*this, "view_done_scan", 2, Done::kBits};
     Fifo<Done> view_done_books{*this, "view_done_books", 2, Done::kBits};
     Fifo<ScannedPixel> scanned{*this, "scanned", 4, ScannedPixel::kBits};
-    Fifo<RisenPixel> risen{*this, "risen", 4, RisenPixel::kBits};
-    Fifo<MarchAgain> again{*this, "again", 512, MarchAgain::kBits};
+    Fifo<PixelBandRay> risen{*this, "risen", 4, PixelBandRay::kBits};
+    Fifo<ReturnedPixel> again{*this, "again", 512, ReturnedPixel::kBits};
     Fifo<FinishedPixel> empty{*this, "empty", 4, FinishedPixel::kBitsOfEmpty};
-    Fifo<MetSurface> met{*this, "met", 8, MetSurface::kBits};
+    Fifo<SurfaceHit> met{*this, "met", 8, SurfaceHit::kBits};
     Fifo<PlacedSample> placed{*this, "placed", 4, PlacedSample::kBits};
     Fifo<TexelFill> fills{*this, "fills", 8, TexelFill::kBits};
     Fifo<WaitingSample> waiting{*this, "waiting", 512, WaitingSample::kBits};

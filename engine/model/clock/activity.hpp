@@ -36,7 +36,7 @@ constexpr std::string_view activity_name(Activity activity) {
 
 // True if the block itself used the time: work, or losses of its own interface. The block with the largest share of
 // these limits the others.
-constexpr bool occupies(Activity activity) {
+constexpr bool is_occupied(Activity activity) {
     switch (activity) {
         case Activity::busy:
         case Activity::row_miss:
@@ -67,7 +67,7 @@ struct ActivityCounts {
     }
     [[nodiscard]] std::uint64_t occupied() const {
         std::uint64_t sum = 0;
-        for (std::size_t a = 0; a < kActivities; ++a) sum += occupies(static_cast<Activity>(a)) ? cycles[a] : 0;
+        for (std::size_t a = 0; a < kActivities; ++a) sum += is_occupied(static_cast<Activity>(a)) ? cycles[a] : 0;
         return sum;
     }
 };

@@ -26,7 +26,7 @@ public:
     [[nodiscard]] int depth() const { return depth_; }
     [[nodiscard]] int width_bits() const { return width_bits_; }
     [[nodiscard]] int count() const { return static_cast<int>(pushes_ - pops_); }  // actual number of items
-    [[nodiscard]] std::uint64_t pushed_in_all() const { return pushes_; }
+    [[nodiscard]] std::uint64_t total_pushed() const { return pushes_; }
 
     [[nodiscard]] int room() const { return depth_ - static_cast<int>(pushes_ - pops_seen_[1]); }  // writer's view
     [[nodiscard]] bool can_push() const { return room() > 0; }

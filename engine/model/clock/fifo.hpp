@@ -20,11 +20,11 @@ namespace rs::engine::model {
 class FifoState;
 
 // Group of FIFOs: each registers itself, and the suffix of the group is appended to its name.
-class FifoRack {
+class FifoGroup {
 public:
-    explicit FifoRack(std::string suffix = "") : suffix_(std::move(suffix)) {}
-    FifoRack(const FifoRack&) = delete;
-    FifoRack& operator=(const FifoRack&) = delete;
+    explicit FifoGroup(std::string suffix = "") : suffix_(std::move(suffix)) {}
+    FifoGroup(const FifoGroup&) = delete;
+    FifoGroup& operator=(const FifoGroup&) = delete;
 
     [[nodiscard]] const std::vector<FifoState*>& fifos() const { return fifos_; }
 
@@ -41,7 +41,7 @@ public:
         : name_(std::move(name)), depth_(depth), width_bits_(width_bits) {
         RS_CHECK(depth >= 1 && width_bits >= 1);
     }
-    FifoState(FifoRack& rack, const std::string& name, int depth, int width_bits)
+    FifoState(FifoGroup& rack, const std::string& name, int depth, int width_bits)
         : FifoState(name + rack.suffix_, depth, width_bits) {
         rack.fifos_.push_back(this);
     }
@@ -58,13 +58,13 @@ public:
     [[nodiscard]] int room() const { return depth_ - count_; }
     [[nodiscard]] bool can_push() const { return count_ < depth_; }
     [[nodiscard]] bool can_pop() const { return count_ > 0; }
-    [[nodiscard]] std::uint64_t pushed_in_all() const { return pushed_in_all_; }
+    [[nodiscard]] std::uint64_t total_pushed() const { return total_pushed_; }
 
     // Ends the cycle. Returns true if an item was pushed or popped.
     bool commit() {
         if (!pushed_ && !popped_) return false;
         count_ += static_cast<int>(pushed_) - static_cast<int>(popped_);
-        pushed_in_all_ += static_cast<std::uint64_t>(pushed_);
+        total_pushed_ += static_cast<std::uint64_t>(pushed_);
         pushed_ = popped_ = false;
         return true;
     }
@@ -81,7 +81,7 @@ private:
     std::string name_;
     int depth_;
     int width_bits_;
-    std::uint64_t pushed_in_all_ = 0;
+    std::uint64_t total_pushed_ = 0;
 };
 
 // T requires `std::string text(const T&)`, found by argument-dependent look-up. `width_bits`: bits that the hardware
@@ -91,7 +91,7 @@ class Fifo final : public FifoState {
 public:
     Fifo(std::string name, int depth, int width_bits)
         : FifoState(std::move(name), depth, width_bits), items_(places(depth)) {}
-    Fifo(FifoRack& rack, const std::string& name, int depth, int width_bits)
+    Fifo(FifoGroup& rack, const std::string& name, int depth, int width_bits)
         : FifoState(rack, name, depth, width_bits), items_(places(depth)) {}
 
     void push(const T& item) {

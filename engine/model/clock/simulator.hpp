@@ -28,14 +28,14 @@ public:
 
     void add(Domain domain, Block& block);
     void add(Domain domain, FifoState& fifo);
-    void add(Domain domain, const FifoRack& rack);
+    void add(Domain domain, const FifoGroup& rack);
     void add_crossing(Domain writer, CrossingState& fifo);
 
     // Executes one cycle of the board's clock and the bus cycles that are due in it.
     void step();
 
-    // Steps until done() returns true. Fails after no_progress_cycles without progress, or after `most_cycles`.
-    Status run_until(const std::function<bool()>& done, std::uint64_t most_cycles);
+    // Steps until done() returns true. Fails after no_progress_cycles without progress, or after `max_cycles`.
+    Status run_until(const std::function<bool()>& done, std::uint64_t max_cycles);
 
     [[nodiscard]] std::uint64_t board_cycles() const { return board_cycles_; }
     [[nodiscard]] std::uint64_t pci_cycles() const { return pci_cycles_; }

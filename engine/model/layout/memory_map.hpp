@@ -1,6 +1,6 @@
 #pragma once
-// Allocator of object memory. Each kind of data has its banks (MemoryRegions); an object occupies one run of words in
-// each of four regions, first fit.
+// Allocator of object memory. Each kind of data has its banks (MemoryRegions); an object occupies one run of words
+// in each of four regions, first fit.
 
 #include "engine/model/signals/board_config.hpp"
 #include "engine/model/signals/registers.hpp"
@@ -24,8 +24,8 @@ public:
 
     // Allocates the given number of words per region. Fails, and allocates nothing, if a region has no such run; `name`
     // is the object's, for the error.
-    Result<Placement> take(const std::array<std::uint64_t, kObjectRegions>& words, const std::string& name);
-    void give_back(const Placement& placement);
+    Result<Placement> allocate(const std::array<std::uint64_t, kObjectRegions>& words, const std::string& name);
+    void release(const Placement& placement);
 
     // Number of objects with the given words per region that fit into the empty memory.
     [[nodiscard]] std::uint64_t copies(const std::array<std::uint64_t, kObjectRegions>& words) const;

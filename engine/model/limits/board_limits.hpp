@@ -21,7 +21,7 @@ enum class BoardKind {
     any_object,    // either kind of images, alpha in 8 bits, with or without a shape map: the parallel board
 };
 
-inline constexpr int kMostBands = 384;  // bands of a shape map: cells per column in cell_march of the parallel board
+inline constexpr int kMaxBands = 384;  // bands of a shape map: cells per column in cell_march of the parallel board
 
 struct BoardLimits {
     int objects = 20;

@@ -14,14 +14,14 @@ namespace rs::engine::model {
 
 class Waveform {
 public:
-    // Records `board` from now on, for at most `most_cycles` board cycles. The board must outlive finish().
+    // Records `board` from now on, for at most `max_cycles` board cycles. The board must outlive finish().
     static Result<std::unique_ptr<Waveform>> open(const std::filesystem::path& path, BoardTop& board,
-                                                  std::uint64_t most_cycles);
+                                                  std::uint64_t max_cycles);
     // Ends recording and publishes the file. Fails with the first write error.
     Status finish();
 
 private:
-    Waveform(StagedFile file, BoardTop& board, std::uint64_t most_cycles);
+    Waveform(StagedFile file, BoardTop& board, std::uint64_t max_cycles);
     void declare();
     void sample(std::uint64_t cycle);
     void put(const std::string& text);
@@ -39,7 +39,7 @@ private:
 
     StagedFile file_;
     BoardTop& board_;
-    std::uint64_t most_cycles_;
+    std::uint64_t max_cycles_;
     std::uint64_t seen_ = 0;
     std::vector<Signal> signals_;
     std::string buffer_;

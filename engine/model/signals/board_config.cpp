@@ -18,7 +18,7 @@ using Json = nlohmann::json;
 constexpr int kPublishedObjects = 20;
 // Registers for eight times the published number of objects, which the memory can hold. 512 bits each: 5 block RAMs.
 constexpr int kCodedObjects = 160;
-constexpr int kMostPipes = 32;
+constexpr int kMaxPipes = 32;
 
 BoardConfig prototype_2000() {
     BoardConfig config;  // the defaults are the published board
@@ -42,7 +42,7 @@ BoardConfig parallel() {
     config.name = "parallel";
     config.pipes = 16;
     config.limits.kind = BoardKind::any_object;
-    config.limits.shape_bands = kMostBands;
+    config.limits.shape_bands = kMaxBands;
     config.memory.regions.objects = {
         {{"flat_tiles", 0, 4}, {"predicted_tiles", 4, 4}, {"tile_table", 8, 1}, {"tables", 9, 5}}};
     config.memory.regions.images = {"images", 14, 2};
@@ -53,18 +53,18 @@ BoardConfig parallel() {
 }
 
 // Kinds of boards, in the order of BoardKind. 0: boards of that kind do not have this setting.
-struct KindOfBoard {
+struct BoardKindSettings {
     const char* base;
     BoardConfig (*built_in)();
     int most_objects;
     int most_pipes;
     int most_bands;
 };
-constexpr std::array<KindOfBoard, 3> kKinds = {{{"prototype-2000", prototype_2000, kPublishedObjects, 0, 0},
-                                                {"compressed-2000", compressed_2000, kCodedObjects, 0, 0},
-                                                {"parallel", parallel, kCodedObjects, kMostPipes, kMostBands}}};
+constexpr std::array<BoardKindSettings, 3> kKinds = {{{"prototype-2000", prototype_2000, kPublishedObjects, 0, 0},
+                                                      {"compressed-2000", compressed_2000, kCodedObjects, 0, 0},
+                                                      {"parallel", parallel, kCodedObjects, kMaxPipes, kMaxBands}}};
 
-const KindOfBoard& kind_of(const BoardConfig& config) {
+const BoardKindSettings& kind_of(const BoardConfig& config) {
     return kKinds.at(static_cast<std::size_t>(config.limits.kind));
 }
 
@@ -72,7 +72,7 @@ const KindOfBoard& kind_of(const BoardConfig& config) {
 // range checks.
 template <class Config, class Visit>
 void for_each_number(Config& c, Visit&& visit) {
-    const KindOfBoard& kind = kind_of(c);
+    const BoardKindSettings& kind = kind_of(c);
     visit("clock_mhz", c.clock_mhz, 1, 1000);
     visit("clock_period", c.clock_period, 1, 100);
     visit("queue_cycles", c.queue_cycles, 1, 2);
@@ -125,7 +125,7 @@ void for_each_number(Config& c, Visit&& visit) {
 }
 
 // Cross-field validation; "" if valid.
-std::string contradiction(const BoardConfig& c) {
+std::string cross_field_error(const BoardConfig& c) {
     const MemoryRegions& r = c.memory.regions;
     const int banks = 1 << c.memory.shape.bank_bits;
     std::vector<int> owners(static_cast<std::size_t>(banks));
@@ -206,7 +206,7 @@ Json to_json(const BoardConfig& config) {
 }
 
 std::optional<BoardConfig> built_in(const std::string& name) {
-    for (const KindOfBoard& kind : kKinds) {
+    for (const BoardKindSettings& kind : kKinds) {
         if (name == kind.base) return kind.built_in();
     }
     return std::nullopt;
@@ -222,7 +222,7 @@ std::string listed_built_ins() {
 
 std::vector<std::string> built_in_configs() {
     std::vector<std::string> names;
-    for (const KindOfBoard& kind : kKinds) names.emplace_back(kind.base);
+    for (const BoardKindSettings& kind : kKinds) names.emplace_back(kind.base);
     return names;
 }
 
@@ -246,7 +246,7 @@ Result<BoardConfig> parse_board_config(const std::string& text, const std::strin
             if (given) value = static_cast<std::remove_reference_t<decltype(value)>>(given->whole_number(least, most));
         });
         objects.expect_no_unknown_keys();
-        if (const std::string bad = contradiction(config); !bad.empty()) throw top.wrong(bad);
+        if (const std::string bad = cross_field_error(config); !bad.empty()) throw top.wrong(bad);
         return with_memory(std::move(config));
     });
 }

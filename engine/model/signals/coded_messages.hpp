@@ -12,7 +12,7 @@ namespace rs::engine::model {
 inline constexpr int kHops = 4;
 
 // Request for rows of one column of a block of 8x8 samples.
-struct BlockAsk {
+struct BlockRequest {
     static constexpr int kBits = 4 + 1 + 1 + 7 + 9 + 6 + 8;
     int view = 0;
     bool first = false;  // first request of a view column: the previous tile is invalid
@@ -28,26 +28,26 @@ struct BlockAsk {
 
 // Tile finder output: the word of the tile table is requested, or the tile equals that of the previous request.
 struct FoundTile {
-    static constexpr int kBits = BlockAsk::kBits + 1 + 1;
-    BlockAsk ask;
+    static constexpr int kBits = BlockRequest::kBits + 1 + 1;
+    BlockRequest request;
     bool same = false;
     bool high = false;  // the entry is the high half of the word
 };
 
 // Tile reader output: the first word of the tile is requested, the tile equals that of the previous request, or there
 // is no tile.
-struct AskedTile {
+struct RequestedTile {
     enum class Kind { same, nothing, read };
-    static constexpr int kBits = BlockAsk::kBits + 2 + 27;
-    BlockAsk ask;
+    static constexpr int kBits = BlockRequest::kBits + 2 + 27;
+    BlockRequest request;
     Kind kind = Kind::same;
     WordAddress address = 0;
 };
 
 // Record reader output: the words of the record are requested.
-struct AskedRecord {
-    static constexpr int kBits = BlockAsk::kBits + 3 + 1 + 2 * 7 + 2 + 3;
-    BlockAsk ask;
+struct RequestedRecord {
+    static constexpr int kBits = BlockRequest::kBits + 3 + 1 + 2 * 7 + 2 + 3;
+    BlockRequest request;
     int class_number = 0;
     bool predicted_image = false;  // selects the classes of predicted images
     std::array<int, 2> references{};
@@ -60,7 +60,7 @@ struct BlockRecord {
     static constexpr int kBits = 6 + 1 + 8 + 7 + 3 + 8 * (3 + 2 + 4 * 4 + 4);
     int block_row = 0;
     bool empty = false;  // class 0
-    codec::RecordClass of;
+    codec::RecordClass record_class;
     int motion_y = 0;          // predicted records only
     int reference_column = 0;  // low 3 bits: column in the block that the record is predicted from
     std::array<std::uint8_t, 3> flat{};
@@ -99,22 +99,25 @@ struct CodedPixel {
     std::array<HopLookup, kHops> hop;
 };
 
-inline std::string text(const BlockAsk& m) {
+inline std::string text(const BlockRequest& m) {
     return "view " + std::to_string(m.view) + " image " + std::to_string(m.image) + " column " +
            std::to_string(m.column) + " block row " + std::to_string(m.block_row);
 }
 inline std::string text(const FoundTile& m) {
-    return text(m.ask) + (m.same ? " same tile" : "");
+    return text(m.request) + (m.same ? " same tile" : "");
 }
-inline std::string text(const AskedTile& m) {
+inline std::string text(const RequestedTile& m) {
     constexpr const char* kKinds[] = {" same tile", " no tile", " tile"};
-    return text(m.ask) + kKinds[static_cast<int>(m.kind)];
+    return text(m.request) + kKinds[static_cast<int>(m.kind)];
 }
-inline std::string text(const AskedRecord& m) {
-    return text(m.ask) + " class " + std::to_string(m.class_number) + ", words " + std::to_string(m.words);
+inline std::string text(const RequestedRecord& m) {
+    return text(m.request) + " class " + std::to_string(m.class_number) + ", words " + std::to_string(m.words);
 }
 inline std::string text(const BlockRecord& m) {
-    return "block row " + std::to_string(m.block_row) + (m.empty ? " empty" : m.of.predicted ? " predicted" : " flat");
+    return "block row " + std::to_string(m.block_row) +
+           (m.empty                    ? " empty"
+            : m.record_class.predicted ? " predicted"
+                                       : " flat");
 }
 inline std::string text(const CodedPixel& m) {
     return "view " + std::to_string(m.view) + (m.shows ? " row " + std::to_string(m.row) : " -") +

@@ -116,9 +116,9 @@ struct SampleTag {
     static constexpr int kBits = 4 + 2 + 1 + 2 * 6;
     int view = 0;
     Kind kind = Kind::alpha;
-    int pixel = 0;                   // of the pair; used for chroma and luma
-    int lane[2] = {0, 0};            // byte, byte pair or bit pair of the word, per pixel
-    bool takes[2] = {false, false};  // alpha: the pixels whose alpha is in the word
+    int pixel = 0;                       // of the pair; used for chroma and luma
+    int lane[2] = {0, 0};                // byte, byte pair or bit pair of the word, per pixel
+    bool has_alpha[2] = {false, false};  // alpha: the pixels whose alpha is in the word
 };
 
 struct YuvaPixel {

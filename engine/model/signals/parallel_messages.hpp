@@ -56,7 +56,7 @@ struct ImageLine {
 };
 
 // Image reader output: the ray with the lines of its images.
-struct LinedRay {
+struct RayWithLines {
     static constexpr int kBits = BracketedRay::kBits + 2 * ImageLine::kBits;
     BracketedRay ray;
     std::array<ImageLine, 2> image{};
@@ -121,7 +121,7 @@ struct ScannedPixel {
 };
 
 // Ray rise output: the line along which the pixel's ray crosses the bands (section 6).
-struct RisenPixel {
+struct PixelBandRay {
     static constexpr int kBits = ScannedPixel::kBits + 30 + 31 + 23;
     ScannedPixel pixel;
     std::int32_t foot_q12 = 0;  // band at the foot
@@ -139,7 +139,7 @@ struct MarchState {
 };
 
 // Cell march output: a surface that the pixel's ray hits.
-struct MetSurface {
+struct SurfaceHit {
     static constexpr int kBits = ScannedPixel::kBits + 11 + 1 + MarchState::kBits + 5;
     ScannedPixel pixel;
     int depth_q3 = 0;
@@ -156,7 +156,7 @@ struct FinishedPixel {
     std::uint32_t rgba = 0;
 };
 
-struct MarchAgain {
+struct ReturnedPixel {
     static constexpr int kBits = 9 + MarchState::kBits;
     int id = 0;
     MarchState state;
@@ -242,7 +242,7 @@ inline std::string text(const BracketedRay& m) {
     return "view " + std::to_string(m.view) + " kind " + std::to_string(static_cast<int>(m.kind)) + " images " +
            std::to_string(m.first) + "," + std::to_string(m.second);
 }
-inline std::string text(const LinedRay& m) {
+inline std::string text(const RayWithLines& m) {
     return text(m.ray);
 }
 inline std::string text(const ColumnSetup& m) {
@@ -256,16 +256,16 @@ inline std::string text(const PatchJob& m) {
 inline std::string text(const ScannedPixel& m) {
     return id_text(m.id);
 }
-inline std::string text(const RisenPixel& m) {
+inline std::string text(const PixelBandRay& m) {
     return id_text(m.pixel.id);
 }
-inline std::string text(const MetSurface& m) {
+inline std::string text(const SurfaceHit& m) {
     return id_text(m.pixel.id) + (m.final ? " final" : "");
 }
 inline std::string text(const FinishedPixel& m) {
     return id_text(m.id);
 }
-inline std::string text(const MarchAgain& m) {
+inline std::string text(const ReturnedPixel& m) {
     return id_text(m.id) + " from " + std::to_string(m.state.begin);
 }
 inline std::string text(const PlacedSample& m) {

@@ -23,9 +23,9 @@ Result<BoardView> board_view(const engine::ViewRegisters& registers, int object)
             "view: it asks for the sharp or the smooth filter, and the board samples bilinearly; prepare it "
             "with the bilinear filter, or render it with rs-engine render"};
     }
-    if (registers.planes.size() > static_cast<std::size_t>(kMostPlanes)) {
+    if (registers.planes.size() > static_cast<std::size_t>(kMaxPlanes)) {
         return Error{"view: its object has " + std::to_string(registers.planes.size()) +
-                     " reference planes, more than the board's " + std::to_string(kMostPlanes)};
+                     " reference planes, more than the board's " + std::to_string(kMaxPlanes)};
     }
     BoardView view;
     view.object = object;

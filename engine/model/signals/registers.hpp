@@ -15,7 +15,7 @@
 
 namespace rs::engine::model {
 
-inline constexpr int kMostPlanes = 12;
+inline constexpr int kMaxPlanes = 12;
 
 // Number of codebooks of an object: [flat, predicted] records.
 struct BookCounts {
@@ -101,7 +101,7 @@ struct BoardView {
     std::int32_t b_q20 = 0;
     std::int64_t s0_q32 = 0;  // sx is 0: the view is upright
     std::int64_t sy_q32 = 0;
-    std::array<PlaneView, kMostPlanes> planes{};
+    std::array<PlaneView, kMaxPlanes> planes{};
 
     [[nodiscard]] int words_per_column() const { return (height + 1) / 2; }  // of the image buffer
     [[nodiscard]] int words() const { return width * words_per_column(); }

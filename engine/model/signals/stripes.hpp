@@ -24,7 +24,7 @@ struct StripeShare {
     [[nodiscard]] constexpr int first_column(int view) const {
         return ((pipe - kStripeTurn * view) % pipes + pipes) % pipes * kStripeColumns;
     }
-    [[nodiscard]] constexpr bool takes_part(int view, int width) const { return first_column(view) < width; }
+    [[nodiscard]] constexpr bool has_columns(int view, int width) const { return first_column(view) < width; }
 };
 
 }  // namespace rs::engine::model

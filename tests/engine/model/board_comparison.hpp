@@ -26,7 +26,7 @@ inline rs::test::RingObjectOptions random_ring(std::mt19937_64& random, int fewe
             .seed = random()};
 }
 
-struct Compared {
+struct ComparisonCounts {
     int pairs = 0;           // of a view and its image
     std::int64_t shown = 0;  // pixels that are not clear, in all
 };
@@ -34,7 +34,7 @@ struct Compared {
 // Places the object and draws twenty random upright views of at most `most_px` pixels a side in two rendering cycles.
 // Every image must be the definition's of `stored`: the object as the board keeps it.
 inline void compare_random_views(Board& board, const RaySpaceObject& object, const RaySpaceObject& stored,
-                                 std::mt19937_64& random, int most_px, Compared& compared) {
+                                 std::mt19937_64& random, int most_px, ComparisonCounts& compared) {
     const Result<int> slot = board.place(object);
     ASSERT_TRUE(slot.ok()) << slot.error().message;
     std::vector<engine::ViewRegisters> registers;

@@ -110,14 +110,14 @@ TEST(BoardFaults, AFullMemoryOrAFullTableRefusesTheObjectAndKeepsTheOthers) {
     tight.shape.row_bits = 1;  // 2048 words to a bank: 16384 of luma
     MemoryMap map(tight);
     const std::array<std::uint64_t, kObjectRegions> words = {10'000, 100, 100, 100};
-    const Result<Placement> first = map.take(words, "a");
+    const Result<Placement> first = map.allocate(words, "a");
     ASSERT_TRUE(first.ok());
-    const Result<Placement> second = map.take(words, "b");
+    const Result<Placement> second = map.allocate(words, "b");
     ASSERT_FALSE(second.ok());
     EXPECT_NE(second.error().message.find("b: board memory is full: it needs 80000 bytes of luma"), std::string::npos);
     EXPECT_EQ(map.free_words(Region::chroma), map.capacity_words(Region::chroma) - 100);  // nothing was taken
-    map.give_back(*first);
-    EXPECT_TRUE(map.take(words, "b").ok());
+    map.release(*first);
+    EXPECT_TRUE(map.allocate(words, "b").ok());
 }
 
 TEST(BoardFaults, BadRegistersRefuseTheWholeCycle) {

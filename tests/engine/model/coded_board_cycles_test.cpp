@@ -10,8 +10,8 @@ namespace rs::engine::model {
 namespace {
 
 // The reads of one hop after the other, written down from the layout alone.
-struct CountedReads {
-    explicit CountedReads(const RaySpaceObject& from) : object(from), coded(*from.coded) {}
+struct ReadCounts {
+    explicit ReadCounts(const RaySpaceObject& from) : object(from), coded(*from.coded) {}
 
     void column(const RaySetup& ray, int rows) {
         last_tile.fill(-1);
@@ -108,7 +108,7 @@ TEST(CodedBoardCycles, MemoryReadsAreThoseOfTheFormula) {
             {.views = 16, .width = 100, .height = 90, .fl_px = 140, .x_cells = 64, .u_cells = 64, .seed = seed});
         Board board(test::compressed());
         ASSERT_TRUE(drawn(board, object, kSide, kViews, kTurn).ok());
-        CountedReads counted(object);
+        ReadCounts counted(object);
         for (int v = 0; v < kViews; ++v) {
             const auto view = *prepare_view(object, test::upright_at(kTurn * v, 3.5, 0, 0.95, kSide, kSide));
             for (int i = 0; i < kSide; ++i) {

@@ -91,7 +91,7 @@ TEST(CodedBoardFaults, FullMemoryNamesTheRegion) {
     MemorySettings tight = test::compressed().memory;
     tight.shape.row_bits = 1;  // 2048 words to a bank: 8192 of predicted tiles
     MemoryMap map(tight);
-    const Result<Placement> none = map.take({1, 9000, 1, 1}, "a");
+    const Result<Placement> none = map.allocate({1, 9000, 1, 1}, "a");
     ASSERT_FALSE(none.ok());
     EXPECT_NE(none.error().message.find("bytes of predicted tiles in one piece"), std::string::npos);
     EXPECT_EQ(map.copies({1, 4096, 1, 1}), 2U);
@@ -106,7 +106,7 @@ TEST(CodedBoardFaults, FinishedCyclesAreForgotten) {
     const BoardView view = *board.view(slot, *prepared);
     for (int n = 0; n < 10; ++n) ASSERT_TRUE(board.render({{view}, {view}, {view}}).ok());
     EXPECT_EQ(board.top().programs.size(), 30U);
-    EXPECT_EQ(board.top().programs.kept(), 0U);
+    EXPECT_EQ(board.top().programs.stored(), 0U);
     EXPECT_EQ(board.top().render_control.cycles_begun(), 30U);
     EXPECT_LE(board.top().render_control.cycles().size(), 8U);
 }

@@ -120,8 +120,8 @@ TEST(ParallelBoardCycles, MemoryReadsAreThoseOfTheFormula) {
         std::uint64_t texels = 0;
         for (const auto& pipe : test::pipes(board)) {
             fills += pipe->texel_tags.fills_requested();
-            asks += pipe->chains.hop_fifos[0]->asks.pushed_in_all();
-            texels += pipe->fifos.texels.pushed_in_all();
+            asks += pipe->chains.hop_fifos[0]->asks.total_pushed();
+            texels += pipe->fifos.texels.total_pushed();
         }
         EXPECT_GT(fills, 50U);
         EXPECT_EQ(texels, 64 * fills);

@@ -11,46 +11,46 @@
 
 namespace rs::engine::model {
 
-// Decodes a record of class `of`, without the clock; bytes in memory order, zero after the record.
-BlockRecord block_record(const codec::RecordClass& of, const std::array<std::uint8_t, 32>& bytes);
+// Decodes a record of class `record_class`, without the clock; bytes in memory order, zero after the record.
+BlockRecord block_record(const codec::RecordClass& record_class, const std::array<std::uint8_t, 32>& bytes);
 
 // Reference row or column of a predicted one, clamped to the coded size.
-constexpr int moved(int place, int motion, int coded_size) {
+constexpr int clamped_coordinate(int place, int motion, int coded_size) {
     const int at = place + motion;
     return at < 0 ? 0 : at >= coded_size ? coded_size - 1 : at;
 }
 
 // Requests of a predicted record, in the order in which their pixels arrive; `count` is 1 or 2.
-struct ReferenceAsks {
+struct ReferenceRequests {
     int count = 0;
-    std::array<BlockAsk, 2> ask;
+    std::array<BlockRequest, 2> items;
 };
-ReferenceAsks reference_asks(const BlockAsk& ask, int image, int motion_x, int motion_y, int coded_width,
-                             int coded_height);
+ReferenceRequests reference_requests(const BlockRequest& request, int image, int motion_x, int motion_y,
+                                     int coded_width, int coded_height);
 
 class BlockMotion final : public Block {
 public:
     // `asks` is null for the last hop, where no record is predicted.
-    BlockMotion(int hop, const RegisterFile& registers, Fifo<AskedRecord>& in, Fifo<MemoryWord>& words,
-                Fifo<BlockRecord>& out, Fifo<BlockAsk>* asks);
+    BlockMotion(int hop, const RegisterFile& registers, Fifo<RequestedRecord>& in, Fifo<MemoryWord>& words,
+                Fifo<BlockRecord>& out, Fifo<BlockRequest>* asks);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
-        return "words " + std::to_string(collected_) + (second_ ? ", one more ask" : "");
+        return "words " + std::to_string(collected_) + (second_ ? ", one more request" : "");
     }
 
 private:
-    Activity hand_over();
+    Activity send_output();
 
     const RegisterFile& registers_;
-    Fifo<AskedRecord>& in_;
+    Fifo<RequestedRecord>& in_;
     Fifo<MemoryWord>& words_;
     Fifo<BlockRecord>& out_;
-    Fifo<BlockAsk>* asks_;
+    Fifo<BlockRequest>* asks_;
     int collected_ = 0;
     std::array<std::uint64_t, 4> collected_words_{};
     bool first_ = false;   // a view column has begun, and no request of the next hop was made in it
     bool second_ = false;  // left_over_ is still to be sent
-    BlockAsk left_over_;
+    BlockRequest left_over_;
 };
 
 }  // namespace rs::engine::model

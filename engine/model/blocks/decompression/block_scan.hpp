@@ -12,23 +12,23 @@ namespace rs::engine::model {
 
 class BlockScan final : public Block {
 public:
-    static constexpr int kMostPixels = 16;  // pixels of a run
-    BlockScan(const RegisterFile& registers, Fifo<ColumnWalk>& in, Fifo<BlockAsk>& asks, Fifo<CodedPixel>& pixels);
+    static constexpr int kMaxPixels = 16;  // pixels of a run
+    BlockScan(const RegisterFile& registers, Fifo<ColumnWalk>& in, Fifo<BlockRequest>& asks, Fifo<CodedPixel>& pixels);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override { return "pixels of the run " + std::to_string(run_); }
 
 private:
     const RegisterFile& registers_;
     Fifo<ColumnWalk>& in_;
-    Fifo<BlockAsk>& asks_;
+    Fifo<BlockRequest>& asks_;
     Fifo<CodedPixel>& pixels_;
     bool active_ = false;
     ColumnWalk column_;
     std::int64_t row_q16_ = 0;
     int view_row_ = 0;
-    bool first_ = false;  // no run of this column has ended yet
-    int run_ = 0;         // pixels of the current run
-    BlockAsk ask_;        // request of the current run
+    bool first_ = false;    // no run of this column has ended yet
+    int run_ = 0;           // pixels of the current run
+    BlockRequest request_;  // request of the current run
 };
 
 }  // namespace rs::engine::model

@@ -49,7 +49,7 @@ void BookBanks::set_byte(const BookCounts& counts, std::size_t place, std::uint8
     if (place < kAlphaBytes) alpha[place] = value;
 }
 
-YuvaPixel looked_up(const BookBanks& banks, const CodedPixel& pixel) {
+YuvaPixel decode_coded_pixel(const BookBanks& banks, const CodedPixel& pixel) {
     YuvaPixel out;
     out.view = pixel.view;
     if (!pixel.shows || pixel.alpha == CodedPixel::Alpha::none) return out;
@@ -117,7 +117,7 @@ Activity BookLookup::look_up(std::optional<YuvaPixel>& out) {
         ++turns_;
         return Activity::busy;
     }
-    out = looked_up(banks_, in_.front());
+    out = decode_coded_pixel(banks_, in_.front());
     in_.pop();
     turns_ = 0;
     return Activity::busy;

@@ -36,7 +36,7 @@ struct BookBanks {
 };
 
 // Sum of a pixel's codebook entries, without the clock.
-YuvaPixel looked_up(const BookBanks& banks, const CodedPixel& pixel);
+YuvaPixel decode_coded_pixel(const BookBanks& banks, const CodedPixel& pixel);
 
 class BookLookup final : public Block {
 public:

@@ -10,13 +10,13 @@ namespace rs::engine::model {
 
 class TileFinder final : public Block {
 public:
-    TileFinder(int hop, const RegisterFile& registers, Fifo<BlockAsk>& in, Fifo<MemoryRead>& requests,
+    TileFinder(int hop, const RegisterFile& registers, Fifo<BlockRequest>& in, Fifo<MemoryRead>& requests,
                Fifo<FoundTile>& out);
     Activity tick(std::uint64_t now) override;
 
 private:
     const RegisterFile& registers_;
-    Fifo<BlockAsk>& in_;
+    Fifo<BlockRequest>& in_;
     Fifo<MemoryRead>& requests_;
     Fifo<FoundTile>& out_;
     int last_entry_ = -1;  // table entry of the previous request
@@ -28,14 +28,14 @@ private:
 class TileReader final : public Block {
 public:
     TileReader(int hop, Fifo<FoundTile>& in, Fifo<MemoryWord>& entries, Fifo<MemoryRead>& requests,
-               Fifo<AskedTile>& out);
+               Fifo<RequestedTile>& out);
     Activity tick(std::uint64_t now) override;
 
 private:
     Fifo<FoundTile>& in_;
     Fifo<MemoryWord>& entries_;
     Fifo<MemoryRead>& requests_;
-    Fifo<AskedTile>& out_;
+    Fifo<RequestedTile>& out_;
 };
 
 // Record reader of a hop: stores the first word of the tile, locates a block's record, and requests its words. The
@@ -44,17 +44,17 @@ private:
 
 class RecordReader final : public Block {
 public:
-    RecordReader(int hop, const RegisterFile& registers, Fifo<AskedTile>& in, Fifo<MemoryWord>& heads,
-                 Fifo<MemoryRead>& requests, Fifo<AskedRecord>& out);
+    RecordReader(int hop, const RegisterFile& registers, Fifo<RequestedTile>& in, Fifo<MemoryWord>& heads,
+                 Fifo<MemoryRead>& requests, Fifo<RequestedRecord>& out);
     Activity tick(std::uint64_t now) override;
-    [[nodiscard]] std::string state_text() const override { return "words to ask " + std::to_string(to_request_); }
+    [[nodiscard]] std::string state_text() const override { return "words to request " + std::to_string(to_request_); }
 
 private:
     const RegisterFile& registers_;
-    Fifo<AskedTile>& in_;
+    Fifo<RequestedTile>& in_;
     Fifo<MemoryWord>& heads_;
     Fifo<MemoryRead>& requests_;
-    Fifo<AskedRecord>& out_;
+    Fifo<RequestedRecord>& out_;
     bool loaded_ = false;     // the new tile's word has been taken
     std::uint64_t head_ = 0;  // 0: no tile
     WordAddress tile_ = 0;

@@ -9,8 +9,8 @@
 
 namespace rs::engine::model {
 
-// The pixel after the hop, without the clock. `took`: the record is new.
-CodedPixel behind_hop(const CodedPixel& pixel, const BlockRecord& record, bool took, int coded_height);
+// The pixel after the hop, without the clock. `is_new_record`: the previous pixel had another record.
+CodedPixel apply_hop(const CodedPixel& pixel, const BlockRecord& record, bool is_new_record, int coded_height);
 
 class RecordSelect final : public Block {
 public:

@@ -78,9 +78,9 @@ Activity HostBus::decide(std::uint64_t now) {
         images_.back().words.reserve(images_.back().expected_words);
         return Activity::busy;
     }
-    const bool host_asks = next_program_ < programs_.size();
-    const bool board_asks = burst_is_ready();
-    if (host_asks && (!board_asks || !host_was_last_)) {
+    const bool host_requests = next_program_ < programs_.size();
+    const bool board_requests = burst_is_ready();
+    if (host_requests && (!board_requests || !host_was_last_)) {
         if (registers_left_ < 0) registers_left_ = programs_[next_program_].register_writes;
         --registers_left_;
         ++counters_.register_writes;
@@ -88,7 +88,7 @@ Activity HostBus::decide(std::uint64_t now) {
         enter(State::register_write, settings_.register_clocks);
         return tick(now);
     }
-    if (!board_asks) return Activity::idle;
+    if (!board_requests) return Activity::idle;
     host_was_last_ = false;
     burst_left_ = 2 * std::min(words_left_, settings_.burst_words);
     ++counters_.bursts;

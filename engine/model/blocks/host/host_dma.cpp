@@ -27,7 +27,7 @@ void HostDma::begin_view() {
     column_ = in_column_ = 0;
 }
 
-bool HostDma::ask() {
+bool HostDma::send_request() {
     const auto channel = static_cast<std::size_t>(stripe_owner(view_, column_, static_cast<int>(channels_.size())));
     if (channel != channel_ && to_request_ < to_send_) return false;  // words of another channel are outstanding
     if (!channels_[channel].requests->can_push()) return false;
@@ -70,7 +70,7 @@ Activity HostDma::tick(std::uint64_t) {
     Activity activity = to_request_ > 0 ? Activity::memory_port : Activity::memory_data;
     // The channel of the answers must be selected before the next request changes it.
     Fifo<MemoryWord>& answers = *channels_[channel_].answers;
-    if (to_request_ > 0 && ask()) activity = Activity::busy;
+    if (to_request_ > 0 && send_request()) activity = Activity::busy;
     if (answers.can_pop()) {
         if (!words_.can_push()) return activity == Activity::busy ? activity : Activity::output_full;
         words_.push({answers.pop().data, false, false});
@@ -85,7 +85,7 @@ Activity HostDma::tick(std::uint64_t) {
 
 std::string HostDma::state_text() const {
     if (!active_) return "no buffer";
-    return "buffer " + std::to_string(buffer_) + " view " + std::to_string(view_) + ", to ask " +
+    return "buffer " + std::to_string(buffer_) + " view " + std::to_string(view_) + ", to request " +
            std::to_string(to_request_) + ", to send " + std::to_string(to_send_);
 }
 

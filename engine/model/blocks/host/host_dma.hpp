@@ -29,7 +29,7 @@ public:
 private:
     std::vector<DmaPort> declared(std::vector<DmaPort> channels);
     void begin_view();
-    bool ask();
+    bool send_request();
     [[nodiscard]] const std::vector<int>& sizes_words() const {
         return registers_.buffer_words[static_cast<std::size_t>(buffer_)];
     }

@@ -22,12 +22,12 @@ public:
                Fifo<ColumnSetup>& to_place);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
-        return "stripe " + std::to_string(stripe_) + " column " + std::to_string(column_) + ", words to ask " +
+        return "stripe " + std::to_string(stripe_) + " column " + std::to_string(column_) + ", words to request " +
                std::to_string(to_request_) + ", free stripes " + std::to_string(free_stripes_);
     }
 
 private:
-    Activity hand_over();
+    Activity send_output();
     const RegisterFile& registers_;
     StripeShare share_;
     Fifo<ColumnSetup>& in_;

@@ -31,7 +31,7 @@ private:
     Activity read(int image, int word);
     void next_step();
     Activity decide();
-    Activity hand_over(const BracketedRay& ray);
+    Activity send_output(const BracketedRay& ray);
 
     const RegisterFile& registers_;
     Fifo<MappedRay>& in_;

@@ -11,7 +11,7 @@ bool is_alone(const ColumnSetup& column) {
     return column.weight == 0 || column.weight == 256;
 }
 
-std::int32_t band_q12(const RisenPixel& ray, int d) {
+std::int32_t band_q12(const PixelBandRay& ray, int d) {
     return ray.zero_q12 + ((d * ray.per_d_q20) >> 8);
 }
 
@@ -28,7 +28,8 @@ MarchSteps march_steps(std::int32_t per_d_q20) {
 }
 
 CellMarch::CellMarch(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MemoryWord>& words,
-                     Fifo<RisenPixel>& in, Fifo<MarchAgain>& again, Fifo<MetSurface>& met, Fifo<FinishedPixel>& empty)
+                     Fifo<PixelBandRay>& in, Fifo<ReturnedPixel>& again, Fifo<SurfaceHit>& met,
+                     Fifo<FinishedPixel>& empty)
     : Block("cell_march", "two looks per cycle, one in a cycle that writes cells; latency " +
                               std::to_string(kStages + 1) + ", " + std::to_string(kStages) + " more for each turn"),
       registers_(registers),
@@ -96,7 +97,7 @@ SurfaceStack CellMarch::surfaces_at(const ColumnSetup& column, std::int32_t at_q
 bool CellMarch::next_ray(Turn& turn) {
     turn = {};
     if (again_.can_pop()) {
-        const MarchAgain again = again_.pop();
+        const ReturnedPixel again = again_.pop();
         turn.ray = pixels_[static_cast<std::size_t>(again.id)];
         turn.state = again.state;
         return true;
@@ -173,8 +174,8 @@ Activity CellMarch::tick(std::uint64_t) {
     const bool loads = load(writes_cells);
     Turn turn;
     bool goes_on = false;
-    if (line_.leaves()) {
-        turn = line_.leaving();
+    if (line_.has_output()) {
+        turn = line_.output();
         goes_on = turn.outcome == Turn::Outcome::goes_on;
         const bool met = turn.outcome == Turn::Outcome::met;
         if (!goes_on && !(met ? met_.can_push() : empty_.can_push())) {  // the whole pipeline stalls

@@ -40,12 +40,12 @@ public:
     static constexpr int kStages = kProductCycles + 6;
     static constexpr int kSurfaceBits = 12 + 5 + 8 + 1;
     static constexpr std::size_t kCellBits =
-        std::size_t{kStripeSlots} * kStripeColumns * 2 * kMostBands * static_cast<std::size_t>(kSurfaceBits);
-    static constexpr std::size_t kHeldBits = std::size_t{4} * kMostBands / kCellsPerWord * 64;
-    static constexpr std::size_t kPixelBits = std::size_t{kPatchIds} * RisenPixel::kBits;
+        std::size_t{kStripeSlots} * kStripeColumns * 2 * kMaxBands * static_cast<std::size_t>(kSurfaceBits);
+    static constexpr std::size_t kHeldBits = std::size_t{4} * kMaxBands / kCellsPerWord * 64;
+    static constexpr std::size_t kPixelBits = std::size_t{kPatchIds} * PixelBandRay::kBits;
 
-    CellMarch(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MemoryWord>& words, Fifo<RisenPixel>& in,
-              Fifo<MarchAgain>& again, Fifo<MetSurface>& met, Fifo<FinishedPixel>& empty);
+    CellMarch(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MemoryWord>& words,
+              Fifo<PixelBandRay>& in, Fifo<ReturnedPixel>& again, Fifo<SurfaceHit>& met, Fifo<FinishedPixel>& empty);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override { return "words to come " + std::to_string(words_left_); }
     [[nodiscard]] std::uint64_t looks() const { return looks_; }  // looks used by rays
@@ -54,11 +54,11 @@ private:
     // A ray with the result of its turn.
     struct Turn {
         enum class Outcome { goes_on, met, empty };
-        RisenPixel ray;
+        PixelBandRay ray;
         MarchState state;
         SurfaceStack foot;  // surfaces at the foot, from the second to last look
         Outcome outcome = Outcome::goes_on;
-        MetSurface met;
+        SurfaceHit met;
     };
     bool load(bool& writes_cells);
     void keep_cells(std::uint64_t first_line, std::uint64_t second_line);
@@ -71,21 +71,21 @@ private:
     const RegisterFile& registers_;
     Fifo<ColumnSetup>& columns_;
     Fifo<MemoryWord>& words_;
-    Fifo<RisenPixel>& in_;
-    Fifo<MarchAgain>& again_;
-    Fifo<MetSurface>& met_;
+    Fifo<PixelBandRay>& in_;
+    Fifo<ReturnedPixel>& again_;
+    Fifo<SurfaceHit>& met_;
     Fifo<FinishedPixel>& empty_;
 
     ColumnTable table_;
-    using Cells = std::array<std::array<SurfaceCell, kMostBands>, 2>;  // [p]
+    using Cells = std::array<std::array<SurfaceCell, kMaxBands>, 2>;  // [p]
     std::array<Cells, std::size_t{kStripeSlots} * kStripeColumns> cells_{};
     int words_left_ = 0;  // words left of the column that is being loaded
     int words_of_column_ = 0;
     std::uint64_t first_line_word_ = 0;
-    std::array<std::uint64_t, std::size_t{4} * kMostBands / kCellsPerWord> held_{};  // words of the previous column
+    std::array<std::uint64_t, std::size_t{4} * kMaxBands / kCellsPerWord> held_{};  // words of the previous column
     ColumnSetup loading_;
 
-    std::array<RisenPixel, kPatchIds> pixels_;
+    std::array<PixelBandRay, kPatchIds> pixels_;
     DelayLine<Turn> line_{kStages};
     std::uint64_t looks_ = 0;
 };

@@ -24,7 +24,7 @@
 
 namespace rs::engine::model {
 
-class ColumnSetupStage final : public SerialStage<LinedRay, ColumnSetup> {
+class ColumnSetupStage final : public SerialStage<RayWithLines, ColumnSetup> {
 public:
     static constexpr int kNoRayLatency = 2;
     static constexpr int kTooFarLatency = 1 + (kProductCycles + 2) + kRootCycles + kDivideCycles + 3 + kProductCycles +
@@ -32,15 +32,16 @@ public:
     static constexpr int kShapeLatency = 1 + (kProductCycles + 2) + kRootCycles + kDivideCycles + 2 + kProductCycles +
                                          1 + (kProductCycles + 3) + kRootCycles + kDivideCycles + 1;
 
-    ColumnSetupStage(const RegisterFile& registers, Fifo<LinedRay>& in, Fifo<ColumnSetup>& out);
+    ColumnSetupStage(const RegisterFile& registers, Fifo<RayWithLines>& in, Fifo<ColumnSetup>& out);
 
 private:
-    int work(const LinedRay& in, ColumnSetup& out) override;
+    int work(const RayWithLines& in, ColumnSetup& out) override;
     const RegisterFile& registers_;
 };
 
 // Set-up of a ray of an object with a shape map, without the clock. Returns false if the ray is too far away.
-bool set_up_shape_column(const BoardView& view, const ObjectRegisters& object, const LinedRay& in, ColumnSetup& out);
+bool set_up_shape_column(const BoardView& view, const ObjectRegisters& object, const RayWithLines& in,
+                         ColumnSetup& out);
 
 // Columns of the two stripes in flight: a memory of 32 entries. A member of blocks, not a block.
 

@@ -36,7 +36,7 @@ private:
     Fifo<Done>& view_done_;
     Fifo<PatchJob>& patches_;
     Fifo<ScannedPixel>& pixels_;
-    static constexpr int kMostViews = 2;
+    static constexpr int kMaxViews = 2;
     int free_patches_ = kPatchSlots;
     int views_ = 0;  // views in flight
     bool active_ = false;
@@ -56,12 +56,13 @@ private:
 // 6, up to per_d). Seven multipliers in five consecutive steps; a pixel per cycle. A pixel waits for its column.
 
 // Ray of a pixel through the bands, without the clock.
-RisenPixel risen(const ScannedPixel& pixel, const ColumnSetup& column, const ShapeRegisters& shape, std::int32_t b_q20);
+PixelBandRay pixel_band_ray(const ScannedPixel& pixel, const ColumnSetup& column, const ShapeRegisters& shape,
+                            std::int32_t b_q20);
 
 class RayRise final : public Block {
 public:
     static constexpr int kStages = 5 * kProductCycles;
-    RayRise(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<ScannedPixel>& in, Fifo<RisenPixel>& out);
+    RayRise(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<ScannedPixel>& in, Fifo<PixelBandRay>& out);
     Activity tick(std::uint64_t now) override;
 
 private:
@@ -69,7 +70,7 @@ private:
     Fifo<ColumnSetup>& columns_;
     Fifo<ScannedPixel>& in_;
     ColumnTable table_;
-    PipelinedStage<RisenPixel> stage_;
+    PipelinedStage<PixelBandRay> stage_;
 };
 
 }  // namespace rs::engine::model

@@ -22,11 +22,11 @@ public:
                Fifo<MemoryWord>& answers, Fifo<RayLine>& out);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
-        return "asked " + std::to_string(requested_) + " answered " + std::to_string(answered_);
+        return "requested " + std::to_string(requested_) + " answered " + std::to_string(answered_);
     }
 
 private:
-    void ask();
+    void send_request();
     const RegisterFile& registers_;
     Fifo<MappedRay>& in_;
     Fifo<MemoryRead>& requests_;

@@ -19,8 +19,8 @@ Activity SampleFetch::tick(std::uint64_t) {
     const bool apart = pair.shows[0] && pair.shows[1] && (pair.row[0] >> 5) != (pair.row[1] >> 5);
     if (slot_ < 2) {
         const int first = slot_ == 0 && pair.shows[0] ? 0 : 1;  // pixel whose word is read
-        tag.takes[0] = slot_ == 0 && pair.shows[0];
-        tag.takes[1] = pair.shows[1] && (!apart || slot_ == 1);
+        tag.has_alpha[0] = slot_ == 0 && pair.shows[0];
+        tag.has_alpha[1] = pair.shows[1] && (!apart || slot_ == 1);
         tag.lane[0] = pair.row[0] & 31;
         tag.lane[1] = pair.row[1] & 31;
         read = {pair.alpha + static_cast<WordAddress>(pair.row[first] >> 5), !pair.shows[0] && !pair.shows[1]};
@@ -60,7 +60,7 @@ Activity SampleSelect::tick(std::uint64_t) {
     switch (tag.kind) {
         case SampleTag::Kind::alpha:
             for (int p = 0; p < 2; ++p) {
-                if (tag.takes[p]) level_[p] = static_cast<int>((word >> (2 * tag.lane[p])) & 3U);
+                if (tag.has_alpha[p]) level_[p] = static_cast<int>((word >> (2 * tag.lane[p])) & 3U);
             }
             break;
         case SampleTag::Kind::chroma:

@@ -10,7 +10,7 @@ VerticalCompensation::VerticalCompensation(const RegisterFile& registers, Fifo<R
                   in, out),
       registers_(registers) {}
 
-int compensated(const RegisterFile& registers, const RayLine& in, ColumnWalk& out) {
+int compensate_column(const RegisterFile& registers, const RayLine& in, ColumnWalk& out) {
     using Timing = VerticalCompensation;
     constexpr std::int64_t kNearest_q20 = std::int64_t{1} << 17;
     constexpr std::int64_t kLargestRowScale_q16 = std::int64_t{1} << 30;

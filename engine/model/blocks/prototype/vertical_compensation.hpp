@@ -18,7 +18,7 @@
 namespace rs::engine::model {
 
 // Computes the walk, without the clock; returns its latency in cycles.
-int compensated(const RegisterFile& registers, const RayLine& in, ColumnWalk& out);
+int compensate_column(const RegisterFile& registers, const RayLine& in, ColumnWalk& out);
 
 class VerticalCompensation final : public SerialStage<RayLine, ColumnWalk> {
 public:
@@ -30,7 +30,7 @@ public:
     VerticalCompensation(const RegisterFile& registers, Fifo<RayLine>& in, Fifo<ColumnWalk>& out);
 
 private:
-    int work(const RayLine& in, ColumnWalk& out) override { return compensated(registers_, in, out); }
+    int work(const RayLine& in, ColumnWalk& out) override { return compensate_column(registers_, in, out); }
     const RegisterFile& registers_;
 };
 

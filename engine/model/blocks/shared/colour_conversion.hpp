@@ -9,7 +9,7 @@
 namespace rs::engine::model {
 
 // RGBA of a pixel, R in the low byte, without the clock.
-std::uint32_t converted(const YuvaPixel& pixel);
+std::uint32_t convert_to_rgba(const YuvaPixel& pixel);
 
 class ColourConversion final : public Block {
 public:

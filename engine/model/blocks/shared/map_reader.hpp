@@ -13,7 +13,7 @@ class MapReader final : public Block {
 public:
     MapReader(Fifo<RayPoint>& in, Fifo<MemoryRead>& requests, Fifo<MemoryWord>& answers, Fifo<MappedRay>& out);
     Activity tick(std::uint64_t now) override;
-    [[nodiscard]] std::string state_text() const override { return requested_ ? "asked" : "not asked"; }
+    [[nodiscard]] std::string state_text() const override { return requested_ ? "requested" : "not requested"; }
 
 private:
     Fifo<RayPoint>& in_;

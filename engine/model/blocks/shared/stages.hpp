@@ -17,8 +17,8 @@ public:
     explicit DelayLine(int stages) : places_(static_cast<std::size_t>(stages)) { RS_CHECK(stages >= 1); }
 
     [[nodiscard]] bool empty() const { return count_ == 0; }
-    [[nodiscard]] bool leaves() const { return places_[at_].full; }  // an item leaves in this cycle
-    [[nodiscard]] const T& leaving() const { return places_[at_].item; }
+    [[nodiscard]] bool has_output() const { return places_[at_].full; }  // an item leaves in this cycle
+    [[nodiscard]] const T& output() const { return places_[at_].item; }
 
     // Ends the cycle; the leaving item is removed.
     void advance() {
@@ -59,8 +59,8 @@ public:
     // activity.
     template <class Enter>
     Activity step(Enter&& enter) {
-        if (line_.leaves() && !out_.can_push()) return Activity::output_full;  // the whole stage stalls
-        if (line_.leaves()) out_.push(line_.leaving());
+        if (line_.has_output() && !out_.can_push()) return Activity::output_full;  // the whole stage stalls
+        if (line_.has_output()) out_.push(line_.output());
         std::optional<T> item;
         const Activity activity = enter(item);
         if (item) {

@@ -33,8 +33,8 @@ private:
     int view_ = 0;
     int column_ = 0;
     int plane_ = 0;  // K: output
-    std::array<std::int64_t, kMostPlanes> n_q32_{};
-    std::array<std::int64_t, kMostPlanes> t_q32_{};
+    std::array<std::int64_t, kMaxPlanes> n_q32_{};
+    std::array<std::int64_t, kMaxPlanes> t_q32_{};
     ColumnRay best_;
     std::int64_t smallest_q28_ = 0;
 };

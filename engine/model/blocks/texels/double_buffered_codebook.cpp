@@ -74,7 +74,7 @@ Activity DoubleBufferedCodebook::look_up(std::optional<YuvaPixel>& out) {
         ++turns_;
         return Activity::busy;
     }
-    out = looked_up(*set->banks, pixel);
+    out = decode_coded_pixel(*set->banks, pixel);
     in_.pop();
     turns_ = 0;
     return Activity::busy;

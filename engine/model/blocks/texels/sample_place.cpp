@@ -41,8 +41,8 @@ void place_in_image(PlacedSample& out, const ImageSetup& image, int d_q3, std::i
 
 }  // namespace
 
-SurfaceSamples placed_samples(const MetSurface& met, const ColumnSetup& column, const ObjectRegisters& object,
-                              std::int32_t b_q20) {
+SurfaceSamples place_samples(const SurfaceHit& met, const ColumnSetup& column, const ObjectRegisters& object,
+                             std::int32_t b_q20) {
     SurfaceSamples samples;
     PlacedSample blank;
     blank.view = met.pixel.view;
@@ -74,7 +74,7 @@ SurfaceSamples placed_samples(const MetSurface& met, const ColumnSetup& column, 
     return samples;
 }
 
-SamplePlace::SamplePlace(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MetSurface>& in,
+SamplePlace::SamplePlace(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<SurfaceHit>& in,
                          Fifo<PlacedSample>& out)
     : Block("sample_place", "latency " + std::to_string(kStages + 1) + ", a sample per cycle"),
       registers_(registers),
@@ -87,10 +87,10 @@ Activity SamplePlace::tick(std::uint64_t) {
     return stage_.step([&](std::optional<PlacedSample>& sample) {
         if (!in_.can_pop()) return Activity::idle;
         if (taken_ == 0) {
-            const MetSurface& met = in_.front();
+            const SurfaceHit& met = in_.front();
             RS_CHECK(table_.holds(met.pixel));
-            surface_ = placed_samples(met, table_.of(met.pixel), registers_.object_of(met.pixel.view),
-                                      registers_.view(met.pixel.view).b_q20);
+            surface_ = place_samples(met, table_.of(met.pixel), registers_.object_of(met.pixel.view),
+                                     registers_.view(met.pixel.view).b_q20);
         }
         sample = surface_.sample[static_cast<std::size_t>(taken_)];
         if (++taken_ == surface_.count) {

@@ -20,20 +20,20 @@ struct SurfaceSamples {
     int count = 0;
     std::array<PlacedSample, 2> sample;
 };
-SurfaceSamples placed_samples(const MetSurface& met, const ColumnSetup& column, const ObjectRegisters& object,
-                              std::int32_t b_q20);
+SurfaceSamples place_samples(const SurfaceHit& met, const ColumnSetup& column, const ObjectRegisters& object,
+                             std::int32_t b_q20);
 
 class SamplePlace final : public Block {
 public:
     static constexpr int kStages = 1 + kProductCycles + kDivideCycles + 2 * kProductCycles + 2;
-    SamplePlace(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MetSurface>& in,
+    SamplePlace(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<SurfaceHit>& in,
                 Fifo<PlacedSample>& out);
     Activity tick(std::uint64_t now) override;
 
 private:
     const RegisterFile& registers_;
     Fifo<ColumnSetup>& columns_;
-    Fifo<MetSurface>& in_;
+    Fifo<SurfaceHit>& in_;
     ColumnTable table_;
     SurfaceSamples surface_;  // samples of the surface at the front of in_, if some have been taken
     int taken_ = 0;

@@ -22,7 +22,7 @@ public:
     static constexpr int kOverStages = 2;
     static constexpr int kStages = kBlendStages + kResolveStages + kOverStages;
     static constexpr std::size_t kKeptBits = std::size_t{kPatchIds} * 32;
-    SurfaceBlend(Fifo<FilteredSample>& in, Fifo<FinishedPixel>& out, Fifo<MarchAgain>& again);
+    SurfaceBlend(Fifo<FilteredSample>& in, Fifo<FinishedPixel>& out, Fifo<ReturnedPixel>& again);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::uint64_t sent_back() const { return sent_back_; }
 
@@ -30,13 +30,13 @@ private:
     struct Outcome {
         bool sends_back = false;
         FinishedPixel pixel;
-        MarchAgain again;
+        ReturnedPixel again;
     };
     Outcome decided(const SampleHead& last);
 
     Fifo<FilteredSample>& in_;
     Fifo<FinishedPixel>& out_;
-    Fifo<MarchAgain>& again_;
+    Fifo<ReturnedPixel>& again_;
     std::array<SampleSum, 2> samples_{};   // samples of the current surface
     std::array<Rgba8, kPatchIds> kept_{};  // colours of returned pixels; alpha 0: none
     DelayLine<Outcome> line_{kStages};

@@ -45,7 +45,7 @@ Activity TexelCache::tick(std::uint64_t) {
     return writes_one ? Activity::busy : Activity::idle;
 }
 
-FilteredSample filtered(const TexelQuad& quad) {
+FilteredSample filter_quad(const TexelQuad& quad) {
     FilteredSample out{quad.head, quad.inside, 0, 0, 0, 0};
     if (!quad.inside) return out;
     const int weights[] = {(8 - quad.fx) * (8 - quad.fy), (8 - quad.fx) * quad.fy, quad.fx * (8 - quad.fy),
@@ -69,7 +69,7 @@ TexelFilter::TexelFilter(Fifo<TexelQuad>& in, Fifo<FilteredSample>& out)
 Activity TexelFilter::tick(std::uint64_t) {
     return stage_.step([&](std::optional<FilteredSample>& sample) {
         if (!in_.can_pop()) return Activity::idle;
-        sample = filtered(in_.pop());
+        sample = filter_quad(in_.pop());
         return Activity::busy;
     });
 }

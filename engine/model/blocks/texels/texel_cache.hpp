@@ -41,7 +41,7 @@ private:
 // G and B: four small products, twelve of 14 x 8 bits, two levels of additions. A sample per cycle.
 
 // Weighted sums of a sample's four texels, without the clock.
-FilteredSample filtered(const TexelQuad& quad);
+FilteredSample filter_quad(const TexelQuad& quad);
 
 class TexelFilter final : public Block {
 public:

@@ -3,8 +3,9 @@
 
 namespace rs::engine::model {
 
-FillFetch::FillFetch(const RegisterFile& registers, Fifo<TexelFill>& in, Fifo<BlockAsk>& asks, Fifo<CodedPixel>& pixels,
-                     Fifo<MemoryRead>& raw_reads, Fifo<FillKind>& kinds, Fifo<FillTarget>& targets)
+FillFetch::FillFetch(const RegisterFile& registers, Fifo<TexelFill>& in, Fifo<BlockRequest>& asks,
+                     Fifo<CodedPixel>& pixels, Fifo<MemoryRead>& raw_reads, Fifo<FillKind>& kinds,
+                     Fifo<FillTarget>& targets)
     : Block("fill_fetch", "a coded block in 64 cycles, a raw one in " + std::to_string(kRawBlockWords)),
       registers_(registers),
       in_(reads(in)),

@@ -12,11 +12,12 @@ namespace rs::engine::model {
 
 class FillFetch final : public Block {
 public:
-    FillFetch(const RegisterFile& registers, Fifo<TexelFill>& in, Fifo<BlockAsk>& asks, Fifo<CodedPixel>& pixels,
+    FillFetch(const RegisterFile& registers, Fifo<TexelFill>& in, Fifo<BlockRequest>& asks, Fifo<CodedPixel>& pixels,
               Fifo<MemoryRead>& raw_reads, Fifo<FillKind>& kinds, Fifo<FillTarget>& targets);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
-        return "columns to ask " + std::to_string(8 - requested_) + ", pixels to send " + std::to_string(64 - sent_);
+        return "columns to request " + std::to_string(8 - requested_) + ", pixels to send " +
+               std::to_string(64 - sent_);
     }
 
 private:
@@ -26,7 +27,7 @@ private:
 
     const RegisterFile& registers_;
     Fifo<TexelFill>& in_;
-    Fifo<BlockAsk>& asks_;
+    Fifo<BlockRequest>& asks_;
     Fifo<CodedPixel>& pixels_;
     Fifo<MemoryRead>& raw_reads_;
     Fifo<FillKind>& kinds_;

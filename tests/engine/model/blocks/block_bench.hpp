@@ -26,7 +26,7 @@ public:
     }
     // Steps until `out` holds one more item, and says how many steps that took: in the cycle before, it was not
     // visible. -1: not within `most`.
-    int until(Block& block, const FifoState& out, int most = 400) {
+    int cycles_until(Block& block, const FifoState& out, int most = 400) {
         const int before = out.count();
         for (int n = 1; n <= most; ++n) {
             step(block);

@@ -106,14 +106,14 @@ TEST(DiskController, AWordCrossesThePrivateBusInSixteenCycles) {
         loaded.commit();
         ready.commit();
     };
-    const auto until_word = [&](int count) {
+    const auto cycles_until_word = [&](int count) {
         const std::uint64_t begin = now;
         while (words.count() < count && now < begin + 100) step();
         return now - begin;
     };
-    until_word(1);
-    EXPECT_EQ(until_word(2), 16U);
-    EXPECT_EQ(until_word(3), 16U);
+    cycles_until_word(1);
+    EXPECT_EQ(cycles_until_word(2), 16U);
+    EXPECT_EQ(cycles_until_word(3), 16U);
     EXPECT_EQ(words.pop().address, 50U);
     words.commit();
     EXPECT_FALSE(words.front().last);

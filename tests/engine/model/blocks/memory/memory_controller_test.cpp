@@ -19,7 +19,7 @@ struct PortBench {
         for (FifoState* f : std::initializer_list<FifoState*>{&reads, &words, &writes, &written, &loads, &loaded})
             f->commit();
     }
-    void ask(WordAddress address, bool null = false) {
+    void request(WordAddress address, bool null = false) {
         reads.push({address, null});
         reads.commit();
     }
@@ -28,7 +28,7 @@ struct PortBench {
         writes.commit();
     }
     // Steps until a word has come back.
-    int until_word() {
+    int cycles_until_word() {
         for (int n = 1; n < 100; ++n) {
             step();
             if (words.can_pop()) return n;
@@ -51,16 +51,16 @@ struct PortBench {
 TEST(MemoryController, AReadTakesFiveCyclesAndAClosedOrOtherRowCostsItsCommands) {
     PortBench bench;
     bench.sdram.set_word(7, 70);
-    bench.ask(7);
-    EXPECT_EQ(bench.until_word(), 1 + 5);  // activate, then the read
+    bench.request(7);
+    EXPECT_EQ(bench.cycles_until_word(), 1 + 5);  // activate, then the read
     EXPECT_EQ(bench.words.pop().data, 70U);
     bench.words.commit();
-    bench.ask(8);
-    EXPECT_EQ(bench.until_word(), 5);
+    bench.request(8);
+    EXPECT_EQ(bench.cycles_until_word(), 5);
     bench.words.pop();
     bench.words.commit();
-    bench.ask(7 + (1 << 10));
-    EXPECT_EQ(bench.until_word(), 2 + 5);  // precharge, activate, the read
+    bench.request(7 + (1 << 10));
+    EXPECT_EQ(bench.cycles_until_word(), 2 + 5);  // precharge, activate, the read
     EXPECT_EQ(bench.controller.counters().row_misses, 2U);
     EXPECT_EQ(bench.controller.counters().words_read[0], 3U);
 }
@@ -68,8 +68,8 @@ TEST(MemoryController, AReadTakesFiveCyclesAndAClosedOrOtherRowCostsItsCommands)
 TEST(MemoryController, ANullReadTakesATurnAndNoCommand) {
     PortBench bench;
     bench.sdram.set_word(0, 5);
-    bench.ask(0, true);
-    EXPECT_EQ(bench.until_word(), 5);
+    bench.request(0, true);
+    EXPECT_EQ(bench.cycles_until_word(), 5);
     EXPECT_EQ(bench.words.front().data, 0U);
     EXPECT_EQ(bench.sdram.commands(SdramCommand::activate), 0U);
     EXPECT_EQ(bench.controller.counters().nulls[0], 1U);
@@ -77,7 +77,7 @@ TEST(MemoryController, ANullReadTakesATurnAndNoCommand) {
 
 TEST(MemoryController, NeverAsksForMoreThanTheAnswersHaveRoomFor) {
     PortBench bench;
-    for (WordAddress n = 0; n < 20; ++n) bench.ask(n);
+    for (WordAddress n = 0; n < 20; ++n) bench.request(n);
     for (int n = 0; n < 50; ++n) bench.step();
     EXPECT_EQ(bench.words.count(), 4);
     EXPECT_EQ(bench.reads.count(), 16);
@@ -86,8 +86,8 @@ TEST(MemoryController, NeverAsksForMoreThanTheAnswersHaveRoomFor) {
 
 TEST(MemoryController, ReadsInARowOfOpenColumnsComeOneACycle) {
     PortBench bench;
-    for (WordAddress n = 0; n < 3; ++n) bench.ask(n);
-    EXPECT_EQ(bench.until_word(), 6);
+    for (WordAddress n = 0; n < 3; ++n) bench.request(n);
+    EXPECT_EQ(bench.cycles_until_word(), 6);
     for (int n = 0; n < 2; ++n) {
         bench.words.pop();
         bench.step();
@@ -97,7 +97,7 @@ TEST(MemoryController, ReadsInARowOfOpenColumnsComeOneACycle) {
 
 TEST(MemoryController, WritesWaitForABatchWhileSomebodyReadsAndTurnTheBusRoundOnce) {
     PortBench bench;
-    for (WordAddress n = 0; n < 4; ++n) bench.ask(n);
+    for (WordAddress n = 0; n < 4; ++n) bench.request(n);
     for (WordAddress n = 0; n < 7; ++n) bench.write(100 + n, n);
     for (int n = 0; n < 5; ++n) bench.step();  // activate and four reads
     EXPECT_EQ(bench.controller.counters().image_words, 0U);

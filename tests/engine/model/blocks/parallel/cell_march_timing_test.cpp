@@ -47,9 +47,9 @@ struct March {
     PixelRegisters r;
     Fifo<ColumnSetup> columns{"columns", 4, 1};
     Fifo<MemoryWord> words{"words", 4, 1};
-    Fifo<RisenPixel> in{"in", 4, 1};
-    Fifo<MarchAgain> again{"again", 4, 1};
-    Fifo<MetSurface> met{"met", 4, 1};
+    Fifo<PixelBandRay> in{"in", 4, 1};
+    Fifo<ReturnedPixel> again{"again", 4, 1};
+    Fifo<SurfaceHit> met{"met", 4, 1};
     Fifo<FinishedPixel> empty{"empty", 4, 1};
     CellMarch block{r.file, columns, words, in, again, met, empty};
     Bench bench{&columns, &words, &in, &again, &met, &empty};
@@ -65,18 +65,18 @@ TEST(CellMarchTiming, TakesATurnOfTwoLooksInEveryStageOfItsRing) {
     EXPECT_EQ(kTurn, 11);
     March m;
     m.push(0, 0, 0);  // no ray
-    EXPECT_EQ(m.bench.until(m.block, m.empty), kTurn + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), kTurn + 1);
     m.push(1, middle_of(4), 0);  // bands 4 and 5 are empty
-    EXPECT_EQ(m.bench.until(m.block, m.empty), kTurn + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), kTurn + 1);
     EXPECT_EQ(m.block.looks(), 1U);
     m.push(1, middle_of(2), 0);  // band 2 at the foot, and in another turn at its depth
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * kTurn + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.met), 2 * kTurn + 1);
     EXPECT_TRUE(m.met.front().final);
     EXPECT_EQ(m.met.pop().depth_q3, 800);
     m.met.commit();
     // A band in 64 depths: 9 steps of 28. Looks at depths 14, 42 (near band 2, but not so far yet), 70, 98.
     m.push(1, middle_of(1), 1 << 14);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * kTurn + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.met), 2 * kTurn + 1);
     EXPECT_EQ(m.block.looks(), 3U + 4U);
     EXPECT_FALSE(m.met.front().final);
     EXPECT_EQ(m.met.front().next.begin, 112);
@@ -89,24 +89,24 @@ TEST(CellMarchTiming, GivesAPixelPerCycleOfOneTurn) {
     for (int n = 0; n < 3; ++n) {
         put(m.in, {pixel_of(1 + 16 * n), middle_of(4), middle_of(4), 0});
     }
-    EXPECT_EQ(m.bench.until(m.block, m.empty), CellMarch::kStages + 1);
-    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
-    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), CellMarch::kStages + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), 1);
 }
 
 TEST(CellMarchTiming, GoesOnWithPixelsThatComeBackFirst) {
     March m;
     m.push(1, middle_of(1), 1 << 14);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.met), 2 * CellMarch::kStages + 1);
     m.push(17, middle_of(4), 0);
     m.again.push({1, m.met.pop().next});
     m.met.commit();
     m.again.commit();
     // The look behind 112 is at depth 126: the object still goes on there.
-    EXPECT_EQ(m.bench.until(m.block, m.met), CellMarch::kStages + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.met), CellMarch::kStages + 1);
     EXPECT_EQ(m.met.front().pixel.id, 1);
     EXPECT_EQ(m.met.front().depth_q3, 8 * 112);
-    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), 1);
     EXPECT_EQ(m.empty.front().id, 17);
 }
 
@@ -116,10 +116,10 @@ TEST(CellMarchTiming, WaitsForTheLastWordOfItsColumn) {
     m.push(2, middle_of(9), 0);
     for (int n = 0; n < 7; ++n) {
         put(m.words, {0});
-        EXPECT_EQ(m.bench.until(m.block, m.empty, 20), -1);
+        EXPECT_EQ(m.bench.cycles_until(m.block, m.empty, 20), -1);
     }
     put(m.words, {0});
-    EXPECT_EQ(m.bench.until(m.block, m.empty), CellMarch::kStages + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), CellMarch::kStages + 1);
 }
 
 // A word of the second line is written as cells, through one of the ports of their memory.
@@ -147,7 +147,7 @@ TEST(CellMarchTiming, ShowsTheSurfaceBetweenItsCells) {
     const int jump = m.r.file.objects[static_cast<std::size_t>(m.r.slot)].shape.jump;
     EXPECT_EQ(jump, 20);
     m.push(2, middle_of(1) - (1 << 10), 0);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.met), 2 * CellMarch::kStages + 1);
     EXPECT_EQ(m.met.pop().depth_q3, 8 * (102 + 112) / 2);
     m.met.commit();
     // The next column beside the same cells, nearer to the second line: the words are there, and take as many cycles.
@@ -156,7 +156,7 @@ TEST(CellMarchTiming, ShowsTheSurfaceBetweenItsCells) {
     column.same_cells = true;
     put(m.columns, column);
     m.push(3, middle_of(1) - (1 << 10), 0);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 1 + 8 + 2 * CellMarch::kStages);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.met), 1 + 8 + 2 * CellMarch::kStages);
     EXPECT_EQ(m.met.front().depth_q3, 8 * (106 + 116) / 2);
 }
 
@@ -169,7 +169,7 @@ TEST(CellMarchTiming, GivesAPixelThatComesBackWhatLiesBehindTheLastSurface) {
     m.put_band_1(column, {{100, 100}, {140, 150}}, true);
     m.push(2, middle_of(1), 0);
     for (const int depth_q3 : {8 * 100, 8 * 140, 8 * 150}) {
-        EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
+        EXPECT_EQ(m.bench.cycles_until(m.block, m.met), 2 * CellMarch::kStages + 1);
         EXPECT_EQ(m.met.front().depth_q3, depth_q3);
         EXPECT_EQ(m.met.front().final, depth_q3 == 8 * 150);
         m.again.push({2, m.met.pop().next});

@@ -57,17 +57,17 @@ TEST(ParallelTexelTiming, DoubleBufferedCodebookLoadsBesideLookUpsOfLatencySeven
     l.pixel(0, 1);
     EXPECT_EQ(l.run(words(0) + 3), words(0));
     EXPECT_EQ(l.out.count(), 0);
-    EXPECT_EQ(l.bench.until(l.block, l.out), 6);  // the books' last word came in the step before the last
-    l.view(1);                                    // the same object
-    l.view(2);                                    // a raw one
-    l.view(3);                                    // another: beside it, look-ups go on
+    EXPECT_EQ(l.bench.cycles_until(l.block, l.out), 6);  // the books' last word came in the step before the last
+    l.view(1);                                           // the same object
+    l.view(2);                                           // a raw one
+    l.view(3);                                           // another: beside it, look-ups go on
     EXPECT_EQ(l.run(4 + 100), 100);
     l.pixel(0, 2);
     l.pixel(0, 4);
     l.pixel(0, 1);
-    EXPECT_EQ(l.bench.until(l.block, l.out), 7);
-    EXPECT_EQ(l.bench.until(l.block, l.out), 3);
-    EXPECT_EQ(l.bench.until(l.block, l.out), 1);
+    EXPECT_EQ(l.bench.cycles_until(l.block, l.out), 7);
+    EXPECT_EQ(l.bench.cycles_until(l.block, l.out), 3);
+    EXPECT_EQ(l.bench.cycles_until(l.block, l.out), 1);
     l.run(words(2));
     EXPECT_EQ(l.block.book_loads(), 2U);
 }
@@ -143,16 +143,16 @@ TEST(ParallelDispatch, LoadedWordsGoToAllChannelsInTheSameCycle) {
     for (std::uint64_t n = 0; n < 3; ++n) {
         put(in, {1, n, n == 2});
     }
-    EXPECT_EQ(bench.until(block, words[1]), 1);
+    EXPECT_EQ(bench.cycles_until(block, words[1]), 1);
     EXPECT_EQ(words[0].count(), 1);
     bench.step(block);
     words[0].pop();
     words[0].commit();
-    EXPECT_EQ(bench.until(block, words[0], 9), -1);  // the other channel has no room
+    EXPECT_EQ(bench.cycles_until(block, words[0], 9), -1);  // the other channel has no room
     put(done[1], {});
-    EXPECT_EQ(bench.until(block, loaded, 9), -1);
+    EXPECT_EQ(bench.cycles_until(block, loaded, 9), -1);
     put(done[0], {});
-    EXPECT_EQ(bench.until(block, loaded), 1);
+    EXPECT_EQ(bench.cycles_until(block, loaded), 1);
 }
 
 TEST(ParallelDispatch, EveryColumnHasOneOwnerAndSharesAreEven) {

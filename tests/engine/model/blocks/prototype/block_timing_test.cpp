@@ -30,9 +30,9 @@ TEST(BlockTiming, RasterGeneratorMakesAColumnInPlanesPlusOneCycles) {
     RasterGenerator block(r.file, jobs, columns);
     Bench bench({&jobs, &columns});
     put(jobs, {0});
-    EXPECT_EQ(bench.until(block, columns), 1 + 12 + 1);
-    for (int column = 1; column < 9; ++column) EXPECT_EQ(bench.until(block, columns), 13);
-    EXPECT_EQ(bench.until(block, columns, 40), -1);  // the view has 9 columns
+    EXPECT_EQ(bench.cycles_until(block, columns), 1 + 12 + 1);
+    for (int column = 1; column < 9; ++column) EXPECT_EQ(bench.cycles_until(block, columns), 13);
+    EXPECT_EQ(bench.cycles_until(block, columns, 40), -1);  // the view has 9 columns
 }
 
 // Gives a stage one item and says when its result is visible; then two at once, for the interval.
@@ -43,13 +43,13 @@ void expect_latency(const RegisterFile& file, const In& item, int latency, bool 
     Stage stage(file, in, out);
     Bench bench({&in, &out});
     put(in, item);
-    EXPECT_EQ(bench.until(stage, out), latency);
+    EXPECT_EQ(bench.cycles_until(stage, out), latency);
     EXPECT_EQ(out.front().has_ray, has_ray);
     for (int n = 0; n < 2; ++n) {
         put(in, item);
     }
-    EXPECT_EQ(bench.until(stage, out), latency);
-    EXPECT_EQ(bench.until(stage, out), latency);
+    EXPECT_EQ(bench.cycles_until(stage, out), latency);
+    EXPECT_EQ(bench.cycles_until(stage, out), latency);
 }
 
 // The columns of the view as the raster generator gives them.
@@ -104,9 +104,9 @@ TEST(BlockTiming, RowScanGivesAPairEverySecondCycleAndOneMoreForAnOddRow) {
     RowScan block(r.file, in, out);
     Bench bench({&in, &out});
     put(in, {0, true, 0, 1 << 16, 10, 20, 30});
-    EXPECT_EQ(bench.until(block, out), 3);  // the column, two pixels
-    for (int pair = 1; pair < 4; ++pair) EXPECT_EQ(bench.until(block, out), 2);
-    EXPECT_EQ(bench.until(block, out, 20), -1);  // 7 rows: four pairs
+    EXPECT_EQ(bench.cycles_until(block, out), 3);  // the column, two pixels
+    for (int pair = 1; pair < 4; ++pair) EXPECT_EQ(bench.cycles_until(block, out), 2);
+    EXPECT_EQ(bench.cycles_until(block, out, 20), -1);  // 7 rows: four pairs
     for (int pair = 0; pair < 4; ++pair) {
         const PixelPair p = out.pop();
         out.commit();
@@ -147,10 +147,10 @@ TEST(BlockTiming, ColourConversionHasLatencyFiveAndAPixelPerCycle) {
     for (int n = 0; n < 3; ++n) {
         put(in, {0, 10 * n, 128, 128, 255});
     }
-    EXPECT_EQ(bench.until(block, out), 5);
-    EXPECT_EQ(bench.until(block, out), 1);
-    EXPECT_EQ(bench.until(block, out), 1);
-    EXPECT_EQ(bench.until(block, out, 20), -1);
+    EXPECT_EQ(bench.cycles_until(block, out), 5);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out, 20), -1);
 }
 
 TEST(BlockTiming, ImageWriterPacksTwoPixels) {
@@ -162,8 +162,8 @@ TEST(BlockTiming, ImageWriterPacksTwoPixels) {
     for (std::uint32_t n = 1; n <= 4; ++n) {
         put(in, {0, n});
     }
-    EXPECT_EQ(bench.until(block, out), 2);
-    EXPECT_EQ(bench.until(block, out), 2);
+    EXPECT_EQ(bench.cycles_until(block, out), 2);
+    EXPECT_EQ(bench.cycles_until(block, out), 2);
     EXPECT_EQ(out.front().data, (std::uint64_t{2} << 32) | 1U);
     EXPECT_EQ(out.front().address, r.file.images);
     EXPECT_FALSE(out.front().last);
@@ -177,11 +177,11 @@ TEST(BlockTiming, MapReaderAsksOnceAndHandsOnTheByte) {
     MapReader block(in, reads, words, out);
     Bench bench({&in, &reads, &words, &out});
     put(in, {0, true, 1, 2, 3, 8 * 50 + 3});
-    EXPECT_EQ(bench.until(block, reads), 1);
+    EXPECT_EQ(bench.cycles_until(block, reads), 1);
     EXPECT_EQ(reads.front().address, 50U);
-    EXPECT_EQ(bench.until(block, out, 10), -1);
+    EXPECT_EQ(bench.cycles_until(block, out, 10), -1);
     put(words, {0xFFFFFFFF'2AFFFFFF});
-    EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
     EXPECT_EQ(out.front().image, 42);
     EXPECT_TRUE(out.front().has_ray);
     EXPECT_EQ(reads.count(), 1);
