@@ -87,8 +87,8 @@ Status Board::finish_loads() {
         failed += (failed.empty() ? "slot " : ", ") + std::to_string(load.slot);
     }
     if (failed.empty()) return {};
-    return Error{"the board's disk gave nothing for too long while it loaded " + failed +
-                 "; the slot is empty again, load the object once more"};
+    return Error{"the board's disk delivered no data before the timeout while loading " + failed +
+                 "; the slot is empty again; load the object once more"};
 }
 
 Status Board::evict(int slot) {

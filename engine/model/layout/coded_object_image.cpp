@@ -61,13 +61,13 @@ Status has_board_images(const RaySpaceObject& object) {
         "--profile raw";
     if (object.coded == nullptr) {
         return Error{object.name +
-                     ": its images are not compressed, and compressed-2000 holds those of profile "
+                     ": its images are not compressed, but compressed-2000 holds images of profile "
                      "board" +
                      remedy};
     }
     if (object.coded->profile != codec::Profile::kBoard) {
         return Error{object.name + ": its images are of profile " + codec::name_of(object.coded->profile) +
-                     ", and compressed-2000 unpacks those of profile board" + remedy};
+                     ", but compressed-2000 decodes images of profile board" + remedy};
     }
     const std::vector<codec::CodedImage>& images = object.coded->images;
     if (images.size() != object.views.size() ||

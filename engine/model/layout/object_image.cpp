@@ -78,7 +78,7 @@ void add_raw_images(const RaySpaceObject& object, const Placement& placement, Ob
 Status has_raw_images(const RaySpaceObject& object) {
     if (object.coded != nullptr) {
         return Error{object.name + ": its images are of profile " + codec::name_of(object.coded->profile) +
-                     ", and this board holds raw ones (U and V at half size); encode it with --profile raw" +
+                     ", but this board holds raw images (U and V at half size); encode it with --profile raw" +
                      (object.coded->profile == codec::Profile::kBoard
                           ? ", or use compressed-2000"
                           : ", or with --profile board for compressed-2000")};
@@ -90,7 +90,7 @@ Status has_raw_images(const RaySpaceObject& object) {
     for (const PlanarImage& image : object.images) {
         if (image.chroma_shift != 1) {
             return Error{object.name +
-                         ": stores colour at full size, and the board has U and V at half size; encode it "
+                         ": stores colour at full size, but the board has U and V at half size; encode it "
                          "with colour at half size"};
         }
     }
@@ -169,8 +169,8 @@ public:
         if (Status status = fits(object, limits); !status) return status;
         if (object.rings.front().shape.empty()) return {};
         return Error{object.name +
-                     ": has a shape map, which the published board does not know (it takes objects to lie on "
-                     "their reference planes); encode it with --raymap plane, or use parallel"};
+                     ": has a shape map, which the published board does not support (it renders surfaces on "
+                     "reference planes only); encode it with --raymap plane, or use parallel"};
     }
 
     [[nodiscard]] Words words(const RaySpaceObject& object) const override {
@@ -267,7 +267,7 @@ public:
         if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
         if (object.coded != nullptr && object.coded->profile != codec::Profile::kBoard) {
             return Error{object.name + ": its images are of profile " + codec::name_of(object.coded->profile) +
-                         ", and the board unpacks those of profile board; encode it with --profile board or --profile "
+                         ", but the board decodes images of profile board; encode it with --profile board or --profile "
                          "raw"};
         }
         const bool coded = object.coded != nullptr;

@@ -146,7 +146,7 @@ std::string cross_field_error(const BoardConfig& c) {
     }
     const int load_row = t.activate_to_column + c.memory.load_words_per_window + t.write_to_precharge;
     if (load_row < t.activate_to_precharge || load_row + t.precharge_to_activate < t.activate_to_activate) {
-        return "memory/load_words_per_window is too small: a row would be closed before it may be";
+        return "memory/load_words_per_window is too small: a row would be closed before its minimum open time";
     }
     if (c.memory.load_words_per_window > 1 << c.memory.shape.column_bits) {
         return "memory/load_words_per_window is larger than a row of the memory";

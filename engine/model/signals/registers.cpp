@@ -15,12 +15,12 @@ bool fits(std::int64_t value, int bits) {
 Result<BoardView> board_view(const engine::ViewRegisters& registers, int object) {
     if (!registers.upright()) {
         return Error{
-            "view: the camera is tilted, and the board draws upright views only (every view column a vertical "
+            "view: the camera is tilted, but the board renders upright views only (every view column a vertical "
             "plane of rays); make the camera upright and move its principal point, or render it with rs-engine render"};
     }
     if (registers.filter != engine::TexelFilter::kBilinear) {
         return Error{
-            "view: it asks for the sharp or the smooth filter, and the board samples bilinearly; prepare it "
+            "view: it uses the sharp or the smooth filter, but the board samples bilinearly; prepare it "
             "with the bilinear filter, or render it with rs-engine render"};
     }
     if (registers.planes.size() > static_cast<std::size_t>(kMaxPlanes)) {

@@ -1,4 +1,4 @@
-// Every bit of the board's images is that of the scalar definition.
+// The board's images equal those of the scalar definition bit for bit.
 
 #include "tests/engine/model/board_comparison.hpp"
 

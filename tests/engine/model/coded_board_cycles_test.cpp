@@ -9,7 +9,7 @@
 namespace rs::engine::model {
 namespace {
 
-// The reads of one hop after the other, written down from the layout alone.
+// Expected reads of each hop, computed from the layout only.
 struct ReadCounts {
     explicit ReadCounts(const RaySpaceObject& from) : object(from), coded(*from.coded) {}
 
@@ -101,7 +101,7 @@ Result<BoardRun> drawn(Board& board, const RaySpaceObject& object, int side, int
 TEST(CodedBoardCycles, MemoryReadsAreThoseOfTheFormula) {
     constexpr int kSide = 70;
     constexpr int kViews = 6;
-    constexpr double kTurn = 1.1;  // to images of all levels
+    constexpr double kTurn = 1.1;  // the views use images of all levels
     std::array<std::uint64_t, kHops> records{};
     for (std::uint64_t seed = 21; seed < 27; ++seed) {
         const RaySpaceObject object = test::random_coded_object(
@@ -149,7 +149,7 @@ TEST(CodedBoardCycles, TickOrderChangesNeitherCyclesNorBits) {
     }
 }
 
-// The same images, uncompressed on the published board. The books' load is part of it.
+// Compared with the same images, uncompressed, on the published board. The load of the codebooks is included.
 TEST(CodedBoardCycles, IsNotSlowerThanThePrototype) {
     const test::EncodedObject object = test::encoded_object(20, 128);
     Board coded_board(test::compressed());
@@ -162,7 +162,7 @@ TEST(CodedBoardCycles, IsNotSlowerThanThePrototype) {
     EXPECT_EQ(make_report(coded_board, *coded).rendering.limiting_block, "memory_controller");
 }
 
-// Written down once from a run whose parts had been checked; a change of any timing shows here.
+// Golden counts from a run whose parts were verified; any change of timing changes them.
 TEST(CodedBoardCyclesGolden, RandomTiles) {
     const auto cycles_of = [](int side, int views, std::uint64_t seed) {
         Board board(test::compressed());

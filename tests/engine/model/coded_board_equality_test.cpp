@@ -1,5 +1,5 @@
-// Every bit of images that the board unpacks itself is that of the definition, on the object that rayspace/codec
-// unpacks.
+// Images that the board decompresses equal, bit for bit, those of the definition for the object that rayspace/codec
+// decodes.
 
 #include "tests/engine/model/board_comparison.hpp"
 #include "tests/engine/model/coded_test_objects.hpp"

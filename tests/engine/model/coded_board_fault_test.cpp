@@ -1,5 +1,4 @@
-// What can go wrong with compressed images: the wrong kind of object, an object in the place of another one, too
-// many.
+// Faults with compressed images: wrong kind of object, replacement of an object, too many objects.
 
 #include "engine/model/limits/coded_layout.hpp"
 #include "tests/engine/model/coded_test_objects.hpp"
@@ -40,8 +39,8 @@ TEST(CodedBoardFaults, EachBoardRefusesTheOthersObjectsAndNamesIt) {
     EXPECT_NE(refusal(test::compressed(), partly).find("not all of its images are loaded"), std::string::npos);
 }
 
-// Same slot, same places in memory, other books and tiles: nothing of the first may be left in the pipe.
-TEST(CodedBoardFaults, AnObjectInThePlaceOfAnother) {
+// Same slot, same memory addresses, other codebooks and tiles: no state of the first object may remain in the pipe.
+TEST(CodedBoardFaults, AnObjectReplacesAnother) {
     Board board(test::compressed());
     for (std::uint64_t seed = 1; seed < 8; ++seed) {
         const RaySpaceObject object = small_coded(seed);
@@ -97,8 +96,8 @@ TEST(CodedBoardFaults, FullMemoryNamesTheRegion) {
     EXPECT_EQ(map.copies({1, 4096, 1, 1}), 2U);
 }
 
-// A board lives for many cycles: what it knows of those that are done is bounded.
-TEST(CodedBoardFaults, FinishedCyclesAreForgotten) {
+// Memory for finished cycles is bounded.
+TEST(CodedBoardFaults, FinishedCyclesAreDropped) {
     Board board(test::compressed());
     const RaySpaceObject object = small_coded(5);
     const int slot = *board.place(object);

@@ -1,5 +1,5 @@
-// Every bit of the parallel board's images is that of the scalar definition: raw and coded images, with a shape map
-// and without, any number of pipes.
+// Images of the parallel board equal those of the scalar definition bit for bit: raw and coded images, with and without
+// a shape map, any number of pipes.
 
 #include "tests/engine/model/board_comparison.hpp"
 #include "tests/engine/model/parallel_test_objects.hpp"
@@ -47,7 +47,7 @@ TEST(ParallelBoardEqualityProperty, RawImagesWithShapeMaps) {
     ASSERT_NO_FATAL_FAILURE(compare({.coded = false, .shape = true}, 20261125, counts));
     EXPECT_EQ(counts.pairs, 500);
     EXPECT_GT(counts.shown, 60'000);
-    EXPECT_GT(counts.sent_back, 10'000U);  // surfaces that did not answer
+    EXPECT_GT(counts.sent_back, 10'000U);  // transparent surfaces
 }
 
 TEST(ParallelBoardEqualityProperty, CodedImagesWithShapeMaps) {
@@ -58,7 +58,7 @@ TEST(ParallelBoardEqualityProperty, CodedImagesWithShapeMaps) {
     EXPECT_GT(counts.of_last_hop, 1000U);
 }
 
-// Objects of all four kinds in one rendering cycle; more of them than there are sets of codebooks; from the disk.
+// Objects of all four kinds in one rendering cycle; more than there are sets of codebooks; loaded from the disk.
 TEST(ParallelBoardEquality, ManyObjectsInOneCycleFromTheDisk) {
     Board board(test::parallel());
     std::vector<RaySpaceObject> objects;

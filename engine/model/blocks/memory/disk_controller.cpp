@@ -103,7 +103,7 @@ Activity DiskController::send() {
 std::string DiskController::state_text() const {
     if (!active_) return "no load";
     return "sent " + std::to_string(sent_bytes_) + " of " + std::to_string(all_bytes_) +
-           " bytes, on the platter's side " + std::to_string(platter_bytes_);
+           " bytes, read from the platter " + std::to_string(platter_bytes_);
 }
 
 }  // namespace rs::engine::model

@@ -185,7 +185,7 @@ Activity MemoryController::serve_write(std::uint64_t now) {
 }
 
 std::string MemoryController::state_text() const {
-    std::string text = chosen_ == kNobody       ? "nobody"
+    std::string text = chosen_ == kNobody       ? "no client"
                        : chosen_ == kImageWrite ? "image write"
                                                 : ports_[static_cast<std::size_t>(chosen_)].client;
     return "serves " + text + ", batch left " + std::to_string(batch_left_);

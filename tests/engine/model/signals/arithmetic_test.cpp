@@ -1,4 +1,4 @@
-// The hardware's divider and multiplier, step by step, against the operations that RECONSTRUCTION.md is written in.
+// Divider and multiplier of the hardware, step by step, compared with the operations of RECONSTRUCTION.md.
 
 #include "engine/model/signals/arithmetic.hpp"
 #include "engine/core/definition/fixed_point.hpp"

@@ -1,4 +1,4 @@
-// Latency and throughput of the blocks of decompression: nothing a cycle early, the result on time.
+// Latency and throughput of the decompression blocks: results appear exactly on time, not a cycle early.
 
 #include "engine/model/limits/coded_layout.hpp"
 #include "tests/engine/model/blocks/block_bench.hpp"
@@ -10,7 +10,7 @@ namespace {
 using test::Bench;
 using test::put;
 
-// A view of an object of 12 views whose classes are known.
+// A view of an object of 12 views with known classes.
 struct CodedRegisters {
     CodedRegisters()
         : object(rs::test::ring_object({.views = 12, .width = 80, .height = 70})), board(test::compressed()) {
@@ -34,7 +34,7 @@ BlockRequest request_of(int block_row, bool first) {
     return {0, first, true, 2, 40, block_row, 0xFF};
 }
 
-TEST(CodedBlockTiming, BlockScanGivesAPixelPerCycleAndAnAskBehindItsRun) {
+TEST(CodedBlockTiming, BlockScanOutputsAPixelPerCycleAndARequestAfterItsRun) {
     const CodedRegisters r;
     Fifo<ColumnWalk> in("in", 4, 1);
     Fifo<BlockRequest> asks("asks", 16, 1);
@@ -44,7 +44,7 @@ TEST(CodedBlockTiming, BlockScanGivesAPixelPerCycleAndAnAskBehindItsRun) {
     put(in, {0, true, 2, 40, std::int64_t{5} << 16, 1 << 16});  // rows 5 .. 45
     EXPECT_EQ(bench.cycles_until(block, pixels), 2);
     for (int n = 1; n < 3; ++n) EXPECT_EQ(bench.cycles_until(block, pixels), 1);
-    EXPECT_EQ(asks.count(), 0);  // rows 5, 6 and 7 have come
+    EXPECT_EQ(asks.count(), 0);  // rows 5, 6 and 7 are scanned
     bench.step(block);
     ASSERT_EQ(asks.count(), 1);
     EXPECT_EQ(asks.front().rows, 0b11100000U);
@@ -78,7 +78,7 @@ TEST(CodedBlockTiming, BlockScanEndsARunAfterSixteenPixels) {
     EXPECT_EQ(begins, 3);
 }
 
-TEST(CodedBlockTiming, TileFinderTakesABlockPerCycleAndAsksOncePerTile) {
+TEST(CodedBlockTiming, TileFinderTakesABlockPerCycleAndRequestsOncePerTile) {
     const CodedRegisters r;
     Fifo<BlockRequest> in("in", 8, 1);
     Fifo<MemoryRead> reads("reads", 8, 1);
@@ -91,7 +91,7 @@ TEST(CodedBlockTiming, TileFinderTakesABlockPerCycleAndAsksOncePerTile) {
     }
     for (int n = 0; n < 4; ++n) EXPECT_EQ(bench.cycles_until(block, out), 1);
     const ObjectRegisters& object = r.file.objects[0];
-    ASSERT_EQ(reads.count(), 3);  // the second block is of the first one's tile; a new column knows of none
+    ASSERT_EQ(reads.count(), 3);  // the second block is in the tile of the first; a new column starts without a tile
     const int column = (2 * object.tile_columns + 1) * object.table_pitch / 2;
     EXPECT_EQ(reads.front().address, object.tile_table + static_cast<WordAddress>(column));
     EXPECT_FALSE(out.pop().same);
@@ -101,7 +101,7 @@ TEST(CodedBlockTiming, TileFinderTakesABlockPerCycleAndAsksOncePerTile) {
     EXPECT_TRUE(out.front().high);  // tile row 1
 }
 
-TEST(CodedBlockTiming, TileReaderAsksInTheCycleOfTheWord) {
+TEST(CodedBlockTiming, TileReaderRequestsInTheCycleOfTheWord) {
     Fifo<FoundTile> in("in", 4, 1);
     Fifo<MemoryWord> words("words", 4, 1);
     Fifo<MemoryRead> reads("reads", 4, 1);
@@ -160,7 +160,7 @@ TEST(CodedBlockTiming, RecordReaderTakesACyclePerWordAndOneForANewTile) {
     }
 }
 
-TEST(CodedBlockTiming, BlockMotionTakesACyclePerWordOneToHandOverAndOneForASecondAsk) {
+TEST(CodedBlockTiming, BlockMotionTakesACyclePerWordOneForOutputAndOneForASecondRequest) {
     const CodedRegisters r;
     Fifo<RequestedRecord> in("in", 4, 1);
     Fifo<MemoryWord> words("words", 4, 1);
@@ -256,7 +256,7 @@ TEST(CodedBlockTiming, BookLookupLoadsAWordPerCycleThenGivesAPixelPerCycleOfLate
     EXPECT_EQ(block.book_loads(), 1U);
 }
 
-// What DIAGRAM.md says of the chip.
+// Bits of the codebook banks, as in DIAGRAM.md.
 TEST(CodedBlockTiming, TheBanksHaveTheBitsOfTheDiagram) {
     EXPECT_EQ(BookBanks::kBits, 1'605'632U);
 }

@@ -8,7 +8,7 @@
 namespace rs::engine::model {
 namespace {
 
-// The bus alone, with a board that always has words.
+// The bus without other blocks; the board side always has words.
 struct BusBench {
     explicit BusBench(const PciSettings& s) : settings(s), bus(settings, programs, words, commands, transferred) {}
     void step() {
@@ -47,7 +47,7 @@ TEST(HostBus, ABurstTakesItsClocks) {
         settings.burst_words = burst;
         BusBench bench(settings);
         bench.send(48);
-        std::vector<std::uint64_t> ends;  // of the bursts: the clock of the last word
+        std::vector<std::uint64_t> ends;  // bus clock of the last word of each burst
         std::size_t seen = 0;
         for (int n = 0; n < 3000; ++n) {
             bench.step();
@@ -129,7 +129,7 @@ TEST(DiskController, AWordCrossesThePrivateBusInSixteenCycles) {
     ASSERT_TRUE(ready.can_pop());
     EXPECT_EQ(ready.front().number, 3);
     EXPECT_TRUE(registers.loaded[3].valid);
-    EXPECT_FALSE(registers.objects[3].valid);  // the render controller takes it over
+    EXPECT_FALSE(registers.objects[3].valid);  // the render controller copies the registers
 }
 
 }  // namespace

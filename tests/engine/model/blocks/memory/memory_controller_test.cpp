@@ -1,4 +1,4 @@
-// The memory controller alone: latency, row misses, batches, the maintenance window, and answers that have no room.
+// Memory controller: latency, row misses, batches, the maintenance window, and full answer FIFOs.
 
 #include "engine/model/blocks/memory/memory_controller.hpp"
 
@@ -27,7 +27,7 @@ struct PortBench {
         writes.push({address, data, last});
         writes.commit();
     }
-    // Steps until a word has come back.
+    // Steps until a word has been returned.
     int cycles_until_word() {
         for (int n = 1; n < 100; ++n) {
             step();
@@ -65,7 +65,7 @@ TEST(MemoryController, AReadTakesFiveCyclesAndAClosedOrOtherRowCostsItsCommands)
     EXPECT_EQ(bench.controller.counters().words_read[0], 3U);
 }
 
-TEST(MemoryController, ANullReadTakesATurnAndNoCommand) {
+TEST(MemoryController, ANullReadTakesASlotAndNoCommand) {
     PortBench bench;
     bench.sdram.set_word(0, 5);
     bench.request(0, true);
@@ -75,7 +75,7 @@ TEST(MemoryController, ANullReadTakesATurnAndNoCommand) {
     EXPECT_EQ(bench.controller.counters().nulls[0], 1U);
 }
 
-TEST(MemoryController, NeverAsksForMoreThanTheAnswersHaveRoomFor) {
+TEST(MemoryController, NeverRequestsMoreThanTheAnswerFifoHolds) {
     PortBench bench;
     for (WordAddress n = 0; n < 20; ++n) bench.request(n);
     for (int n = 0; n < 50; ++n) bench.step();
@@ -84,7 +84,7 @@ TEST(MemoryController, NeverAsksForMoreThanTheAnswersHaveRoomFor) {
     EXPECT_EQ(bench.controller.last_activity(), Activity::output_full);
 }
 
-TEST(MemoryController, ReadsInARowOfOpenColumnsComeOneACycle) {
+TEST(MemoryController, ReadsOfAnOpenRowTakeOneCycleEach) {
     PortBench bench;
     for (WordAddress n = 0; n < 3; ++n) bench.request(n);
     EXPECT_EQ(bench.cycles_until_word(), 6);
@@ -95,14 +95,14 @@ TEST(MemoryController, ReadsInARowOfOpenColumnsComeOneACycle) {
     }
 }
 
-TEST(MemoryController, WritesWaitForABatchWhileSomebodyReadsAndTurnTheBusRoundOnce) {
+TEST(MemoryController, WritesWaitForABatchDuringReadsAndTurnTheBusOnce) {
     PortBench bench;
     for (WordAddress n = 0; n < 4; ++n) bench.request(n);
     for (WordAddress n = 0; n < 7; ++n) bench.write(100 + n, n);
     for (int n = 0; n < 5; ++n) bench.step();  // activate and four reads
     EXPECT_EQ(bench.controller.counters().image_words, 0U);
     EXPECT_EQ(bench.controller.counters().words_read[0], 4U);
-    // Nobody reads: what there is is written, three cycles after the last read and one for the turn.
+    // No port reads: the available words are written, three cycles after the last read and one turnaround cycle.
     for (int n = 0; n < 3; ++n) bench.step();
     EXPECT_EQ(bench.controller.last_activity(), Activity::turnaround);
     EXPECT_EQ(bench.controller.counters().image_words, 0U);
@@ -123,7 +123,7 @@ TEST(MemoryController, TheLastWordOfAViewIsReported) {
     EXPECT_EQ(bench.written.count(), 1);
 }
 
-// Cycles in which the port is lost to maintenance, over a few windows.
+// Port cycles used by maintenance, over several windows.
 std::uint64_t maintenance_cycles(int load_words) {
     PortBench bench;
     for (int n = 0; n < load_words; ++n) {

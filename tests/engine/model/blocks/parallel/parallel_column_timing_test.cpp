@@ -1,5 +1,5 @@
-// Latency and throughput of the blocks that set up a parallel board's columns: nothing a cycle early, the result on
-// time.
+// Latency and throughput of the column set-up blocks of a parallel board: results appear exactly on time, not a cycle
+// early.
 
 #include "engine/core/definition/fixed_point.hpp"
 #include "engine/model/blocks/parallel/band_reader.hpp"
@@ -33,7 +33,7 @@ struct ColumnRegisters {
     int slot = 0;
 };
 
-// Answers every request a cycle later, with word(address), and says when `out` has one more.
+// Answers every request a cycle later with word(address); returns the number of cycles until `out` has one more item.
 template <class Word>
 int cycles_until_answered(Bench& bench, Block& block, Fifo<MemoryRead>& reads, Fifo<MemoryWord>& words,
                           const FifoState& out, const Word& word) {
@@ -48,7 +48,7 @@ int cycles_until_answered(Bench& bench, Block& block, Fifo<MemoryRead>& reads, F
     return -1;
 }
 
-TEST(ParallelArithmetic, SquareRootsAreThoseOfTheLaw) {
+TEST(ParallelArithmetic, SquareRootsEqualTheDefinition) {
     std::mt19937_64 random(3);
     for (int n = 0; n < 20'000; ++n) {
         const std::uint64_t square = random() >> (1 + random() % 63);
@@ -79,7 +79,7 @@ TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
         return at == 2 ? std::uint64_t{3 | 2 << 16} | (3 * n) << 32U : n * 1000;
     };
     put(in, {0, true, 1, 3400, 7, 3, 0, 1 << 28, 0});
-    // Crossing of 3: ask, take, 9; gap 3: ask, take; crossing of 4: ask, take, 9; decide.
+    // Crossing of 3: request, take, 9; gap 3: request, take; crossing of 4: request, take, 9; decide.
     EXPECT_EQ(cycles_until_answered(bench, block, reads, words, out, word), 11 + 2 + 11 + 1);
     BracketedRay found = out.pop();
     out.commit();
@@ -121,7 +121,7 @@ TEST(ParallelColumnTiming, RaysOfPlaneObjectsPassTheBracketFinder) {
     EXPECT_EQ(out.front().first, 3);
 }
 
-TEST(ParallelColumnTiming, ImageReaderAsksAWordPerCycle) {
+TEST(ParallelColumnTiming, ImageReaderRequestsAWordPerCycle) {
     const ColumnRegisters r(true);
     Fifo<BracketedRay> in("in", 4, 1);
     Fifo<MemoryRead> reads("reads", 2, 1);
@@ -177,7 +177,7 @@ TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
     EXPECT_EQ(out.front().line_part, 0);
     EXPECT_EQ(out.front().map_place, (std::array<int, 2>{4, 5}));
     EXPECT_EQ(out.front().p_part, 0);
-    ray.ray.n_q28 = 1 << 24;  // the foot lies 2^9 radii away
+    ray.ray.n_q28 = 1 << 24;  // the foot is 2^9 radii away
     ray.ray.t_q28 = 0;
     RegisterFile far = r.file;
     far.banks[0].views[0].planes[0].c_q20 = (1 << 28) - 1;
@@ -194,7 +194,8 @@ TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
     EXPECT_EQ(bench.cycles_until(block, out), VerticalCompensation::kLatency);
 }
 
-// Lines before the first and behind the last of a gap are its neighbours', or, where those have none, its own.
+// Lines before the first and after the last line of a gap are those of the neighbouring gaps, or the gap's own if those
+// have none.
 TEST(ParallelColumnTiming, ColumnSetupFindsTheLinesBesideTheRayInNeighbouringGapsToo) {
     const ColumnRegisters r(true);
     const ObjectRegisters& object = r.file.objects[static_cast<std::size_t>(r.slot)];
@@ -223,7 +224,7 @@ TEST(ParallelColumnTiming, ColumnSetupFindsTheLinesBesideTheRayInNeighbouringGap
     EXPECT_EQ(lines_at(1600, 5, 2, true, true), (Lines{5, 6, 4}));
 }
 
-TEST(ParallelColumnTiming, BandReaderAsksAWordPerCycleAndWaitsForAStripe) {
+TEST(ParallelColumnTiming, BandReaderRequestsAWordPerCycleAndWaitsForAStripe) {
     const ColumnRegisters r(true);  // 48 columns
     Fifo<ColumnSetup> in("in", 64, 1);
     Fifo<Done> stripe_free("free", 2, 1);
@@ -241,14 +242,14 @@ TEST(ParallelColumnTiming, BandReaderAsksAWordPerCycleAndWaitsForAStripe) {
     EXPECT_EQ(bench.cycles_until(block, march), 19);
     EXPECT_EQ(rise.count(), 1);
     EXPECT_EQ(place.count(), 1);
-    // 9 places of 7 bands, which stand in 2 words.
+    // 9 places of 7 bands, stored in 2 words each.
     for (int n = 0; n < 8; ++n) EXPECT_EQ(bench.cycles_until(block, reads), 1);
     EXPECT_EQ(bench.cycles_until(block, reads, 5), -1);
     for (const int word : {22, 76, 23, 77, 24, 78, 25, 79}) {
         EXPECT_EQ(reads.pop().address, r.file.objects[0].shape.cells + static_cast<WordAddress>(word));
         reads.commit();
     }
-    // A ray beside the same cells, though elsewhere between them, asks for nothing; one beside others does.
+    // A ray beside the same cells, at another position between them, requests nothing; a ray beside other cells does.
     EXPECT_FALSE(march.pop().same_cells);
     march.commit();
     column.line_part = 3;
@@ -268,7 +269,7 @@ TEST(ParallelColumnTiming, BandReaderAsksAWordPerCycleAndWaitsForAStripe) {
         put(in, column);
     }
     for (int n = 3; n < 32; ++n) EXPECT_EQ(bench.cycles_until(block, march), 1);
-    EXPECT_EQ(bench.cycles_until(block, march, 50), -1);  // two stripes are under way
+    EXPECT_EQ(bench.cycles_until(block, march, 50), -1);  // two stripes are in flight
     put(stripe_free, {});
     EXPECT_EQ(bench.cycles_until(block, march), 1);
     EXPECT_EQ(march.count(), 30);

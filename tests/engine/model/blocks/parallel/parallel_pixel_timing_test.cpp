@@ -1,4 +1,4 @@
-// Latency and throughput of the blocks that a parallel board's pixels pass: nothing a cycle early, the result on time.
+// Latency and throughput of the pixel blocks of a parallel board: results appear exactly on time, not a cycle early.
 
 #include "engine/model/blocks/parallel/patch_store.hpp"
 #include "engine/model/blocks/parallel/pixel_rays.hpp"
@@ -44,7 +44,7 @@ TEST(ParallelPixelTiming, PixelScanGivesAPixelPerCycleOfFourPatches) {
     EXPECT_EQ(out.front().rise_q24, static_cast<std::int32_t>((view.s0_q32 + view.sy_q32) >> 8));
 }
 
-TEST(ParallelPixelTiming, PixelScanHasTwoViewsUnderWay) {
+TEST(ParallelPixelTiming, PixelScanHasTwoViewsInFlight) {
     const PixelRegisters r;
     RegisterFile file = r.file;
     file.banks[0].views.resize(3, file.banks[0].views[0]);
@@ -82,7 +82,7 @@ TEST(ParallelPixelTiming, RayRiseWaitsForItsColumnThenGivesAPixelPerCycle) {
     EXPECT_EQ(bench.cycles_until(block, out), 1 + RayRise::kStages + 1);
     EXPECT_EQ(RayRise::kStages, 25);
     EXPECT_EQ(bench.cycles_until(block, out), 1);
-    EXPECT_EQ(bench.cycles_until(block, out, 60), -1);  // column 1 has not come
+    EXPECT_EQ(bench.cycles_until(block, out, 60), -1);  // column 1 is missing
 }
 
 TEST(ParallelPixelTiming, SamplePlaceGivesASamplePerCycleOfLatency53) {
@@ -159,8 +159,8 @@ TEST(ParallelPixelTiming, FilterAndBlendArePipelines) {
     resolved.commit();
 }
 
-// One image alone answers where the point is beside the other one's frame; one that is transparent there rules out
-// the surface.
+// If the point is outside of one image's frame, only the other image is used; a transparent sample rules out the
+// surface.
 TEST(ParallelPixelTiming, SurfaceBlendTakesTheImageWhoseFrameHasThePoint) {
     const auto outcome = [](bool second_inside, std::int32_t second_a) {
         Fifo<FilteredSample> in("in", 4, 1);
@@ -187,8 +187,8 @@ TEST(ParallelPixelTiming, SurfaceBlendTakesTheImageWhoseFrameHasThePoint) {
     EXPECT_EQ(outcome(true, 0), 0U);
 }
 
-// A pixel that its last surface does not cover is kept until what lies behind it comes, and laid over that.
-TEST(ParallelPixelTiming, SurfaceBlendKeepsAPixelAtARim) {
+// A pixel that its last surface does not cover is stored until the surface behind it arrives, and composited over that.
+TEST(ParallelPixelTiming, SurfaceBlendStoresAPartlyCoveredPixel) {
     Fifo<FilteredSample> in("in", 4, 1);
     Fifo<FinishedPixel> out("out", 4, 1);
     Fifo<ReturnedPixel> again("again", 4, 1);
@@ -211,27 +211,27 @@ TEST(ParallelPixelTiming, SurfaceBlendKeepsAPixelAtARim) {
     };
     put(in, sample(7, 230, 10, false, MarchState::kBehind));
     expect(0xE600000AU);
-    put(in, sample(7, 229, 10, false, MarchState::kFoot));  // met on the way: nothing says what lies behind
+    put(in, sample(7, 229, 10, false, MarchState::kFoot));  // hit before the foot: unknown surfaces behind it
     expect(0xE500000AU);
     const struct {
         int nearer;
         int farther;
         std::uint32_t rgba;
     } cases[] = {{229, 229, 0xE500000AU}, {229, 230, 0xFC00000BU}, {64, 255, 0xFF000012U}, {0, 100, 0x64000014U}};
-    for (const auto& one : cases) {
-        SCOPED_TRACE(one.farther);
-        put(in, sample(7, one.nearer, 10, false, MarchState::kBehind));
+    for (const auto& depths : cases) {
+        SCOPED_TRACE(depths.farther);
+        put(in, sample(7, depths.nearer, 10, false, MarchState::kBehind));
         EXPECT_EQ(bench.cycles_until(block, again), 17);
         EXPECT_EQ(again.pop().id, 7);
         again.commit();
-        put(in, sample(8, 40, 30, true, MarchState::kBehind));  // another one passes
+        put(in, sample(8, 40, 30, true, MarchState::kBehind));  // another pixel passes
         expect(0x2800001EU);
-        put(in, sample(7, one.farther, 20, true, MarchState::kBehind));
-        expect(one.rgba);
+        put(in, sample(7, depths.farther, 20, true, MarchState::kBehind));
+        expect(depths.rgba);
     }
     put(in, sample(7, 40, 30, true, MarchState::kBehind));  // a new pixel in its place
     expect(0x2800001EU);
-    // It goes back twice, and what does not cover it in between is not kept.
+    // It returns twice; a surface that does not cover it in between is not stored.
     for (const auto& [alpha, next] : {std::pair{64, MarchState::kBehind}, {229, MarchState::kFarthest}}) {
         put(in, sample(7, alpha, 10, false, next));
         EXPECT_EQ(bench.cycles_until(block, again), 17);
@@ -262,12 +262,12 @@ TEST(ParallelPixelTiming, PatchStoreWritesAPatchWhenItsLastPixelIsThere) {
     EXPECT_EQ(bench.cycles_until(block, writes, 40), -1);
     EXPECT_EQ(pixels.count() + empty.count(), 0);
     put(pixels, {16, 1016});
-    EXPECT_EQ(bench.cycles_until(block, writes), 2);  // one to take it
+    EXPECT_EQ(bench.cycles_until(block, writes), 2);  // one cycle to take it
     for (int n = 1; n < 4; ++n) EXPECT_EQ(bench.cycles_until(block, writes), 1);
     EXPECT_EQ(writes.front().address, r.file.image(0, 0) + 32U * 15U + 12U);
     EXPECT_EQ(writes.pop().data, 1000U | std::uint64_t{1016} << 32U);
     writes.commit();
-    EXPECT_EQ(writes.pop().data, 0U);  // a row below the view, and one of which nothing is seen
+    EXPECT_EQ(writes.pop().data, 0U);  // a row below the view, and an empty pixel
     writes.commit();
     EXPECT_EQ(writes.pop().data, 1001U | std::uint64_t{1017} << 32U);
     writes.commit();

@@ -1,4 +1,4 @@
-// Latency and throughput of each block: nothing a cycle early, the result on time, the next one after its interval.
+// Latency, throughput and interval of each block: results appear exactly on time, not a cycle early.
 
 #include "tests/engine/model/blocks/block_bench.hpp"
 #include "tests/engine/model/board_test_objects.hpp"
@@ -35,7 +35,7 @@ TEST(BlockTiming, RasterGeneratorMakesAColumnInPlanesPlusOneCycles) {
     EXPECT_EQ(bench.cycles_until(block, columns, 40), -1);  // the view has 9 columns
 }
 
-// Gives a stage one item and says when its result is visible; then two at once, for the interval.
+// Measures the latency of a stage with one item, then the interval with two items.
 template <class Stage, class In, class Out>
 void expect_latency(const RegisterFile& file, const In& item, int latency, bool has_ray) {
     Fifo<In> in("in", 4, 1);
@@ -52,7 +52,7 @@ void expect_latency(const RegisterFile& file, const In& item, int latency, bool 
     EXPECT_EQ(bench.cycles_until(stage, out), latency);
 }
 
-// The columns of the view as the raster generator gives them.
+// Columns of the view from the raster generator.
 std::vector<ColumnRay> columns_of(const RegisterFile& file) {
     Fifo<ViewJob> jobs("jobs", 2, 4);
     Fifo<ColumnRay> columns("columns", 20, 72);
@@ -89,7 +89,7 @@ TEST(BlockTiming, VerticalCompensationAndColumnAddress) {
     RayLine near = line;
     near.l0_q20 = (1 << 17) - 1;
     expect_latency<VerticalCompensation, RayLine, ColumnWalk>(r.file, near, 12, false);
-    near.l0_q20 = 1 << 17;  // on the edge: far enough
+    near.l0_q20 = 1 << 17;  // at the limit: far enough
     near.fl_y_q16 = 1 << 20;
     expect_latency<VerticalCompensation, RayLine, ColumnWalk>(r.file, near, 65, true);
     expect_latency<VerticalCompensation, RayLine, ColumnWalk>(r.file, RayLine{}, 2, false);
@@ -169,7 +169,7 @@ TEST(BlockTiming, ImageWriterPacksTwoPixels) {
     EXPECT_FALSE(out.front().last);
 }
 
-TEST(BlockTiming, MapReaderAsksOnceAndHandsOnTheByte) {
+TEST(BlockTiming, MapReaderRequestsOnceAndOutputsTheByte) {
     Fifo<RayPoint> in("in", 2, 1);
     Fifo<MemoryRead> reads("reads", 2, 1);
     Fifo<MemoryWord> words("words", 2, 1);

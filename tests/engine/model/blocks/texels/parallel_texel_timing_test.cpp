@@ -1,5 +1,4 @@
-// Latency and throughput of the blocks that bring texels to a parallel board's samples, and of those that join its
-// pipes.
+// Latency and throughput of the texel blocks of a parallel board.
 
 #include "engine/model/blocks/texels/texel_cache.hpp"
 #include "engine/model/blocks/texels/texel_fills.hpp"
@@ -37,7 +36,7 @@ struct Tags {
     Bench bench{&in, &fills, &out};
 };
 
-TEST(ParallelTexelTiming, TexelTagsTakeACycleMoreForEachBlockThatIsNotThere) {
+TEST(ParallelTexelTiming, TexelTagsTakeACycleMoreForEachMissingBlock) {
     Tags t;
     t.push(sample_at(1, 7, 15, 3, 5));  // four blocks
     EXPECT_EQ(t.bench.cycles_until(t.block, t.out), 5);
@@ -58,7 +57,7 @@ TEST(ParallelTexelTiming, TexelTagsTakeACycleMoreForEachBlockThatIsNotThere) {
     EXPECT_EQ(t.fills.count(), 5);
 }
 
-TEST(ParallelTexelTiming, TexelTagsReplaceTheOlderLineBehindItsLastReader) {
+TEST(ParallelTexelTiming, TexelTagsReplaceTheOlderLineAfterItsLastReader) {
     Tags t;
     // Blocks 0, 4 and 8 of a row share a set.
     for (const int block : {0, 4, 0, 8}) {
@@ -74,7 +73,7 @@ TEST(ParallelTexelTiming, TexelTagsReplaceTheOlderLineBehindItsLastReader) {
     EXPECT_EQ(t.fills.front().line, second.line);
     EXPECT_EQ(t.fills.front().guard, 2U);  // the second sample read it last
     t.push(sample_at(2, 0, 0, 0, 0));
-    EXPECT_EQ(t.bench.cycles_until(t.block, t.out), 1);  // still there
+    EXPECT_EQ(t.bench.cycles_until(t.block, t.out), 1);  // still in the cache
 }
 
 TEST(ParallelTexelTiming, FillFetchTakes64CyclesForACodedBlockAndAWordPerCycleForARawOne) {
@@ -154,7 +153,7 @@ struct Cache {
     Bench bench{&in, &targets, &texels, &out};
 };
 
-TEST(ParallelTexelTiming, TexelCacheReadsInTheCycleBehindTheLastTexel) {
+TEST(ParallelTexelTiming, TexelCacheReadsInTheCycleAfterTheLastTexel) {
     Cache c;
     c.wait_for(5, 1);
     c.wait_for(5, 0);
@@ -170,8 +169,8 @@ TEST(ParallelTexelTiming, TexelCacheReadsInTheCycleBehindTheLastTexel) {
 TEST(ParallelTexelTiming, TexelCacheWritesNoLineBeforeItsLastReaderHasRead) {
     Cache c;
     c.wait_for(5, 0);
-    c.wait_for(5, 1);  // waits for the block, and so does
-    c.wait_for(6, 1);  // this one, whose block comes into a line that the one before reads
+    c.wait_for(5, 1);  // waits for its block
+    c.wait_for(6, 1);  // waits too; its block goes into a line that the previous sample reads
     put(c.targets, {5, 1});
     put(c.targets, {5, 2});
     c.texels_of_a_block(64, 8);
