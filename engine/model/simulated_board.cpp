@@ -40,7 +40,7 @@ public:
 
     Result<std::optional<int>> load(const RaySpaceObject& object) override {
         const Result<int> slot = instant_loads_ ? board_.place(object) : board_.start_load(object);
-        if (!slot) return std::optional<int>();  // supports() was checked before: only room can be missing
+        if (!slot) return std::optional<int>();  // supports() was checked before: only lack of memory or slots can fail
         if (instant_loads_) return std::optional<int>(*slot);
         RS_TRY(board_.finish_loads());
         return std::optional<int>(*slot);
