@@ -20,8 +20,8 @@ double at_share(std::vector<double> values, double share) {
 
 Status FrameTimes::draw(Showroom& showroom, FrameCompositor& compositor, const Camera& camera, double seconds) {
     const auto begin = Clock::now();
-    if (Status status = showroom.update(camera.centre(), seconds); !status) return status;
-    if (Status status = compositor.draw(camera); !status) return status;
+    RS_TRY(showroom.update(camera.centre(), seconds));
+    RS_TRY(compositor.draw(camera));
     frames_ms_.push_back(1e3 * std::chrono::duration<double>(Clock::now() - begin).count());
     const FrameStatistics& statistics = compositor.statistics();
     geometry_ms_.push_back(1e3 * statistics.geometry_s);

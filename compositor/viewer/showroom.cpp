@@ -99,7 +99,7 @@ Status Showroom::take_events() {
 Status Showroom::wait() {
     while (!cache_.settled()) {
         cache_.wait_for_events();
-        if (Status status = take_events(); !status) return status;
+        RS_TRY(take_events());
     }
     return {};
 }

@@ -125,7 +125,7 @@ Status FrameCompositor::ensure_depths() {
 
 Status FrameCompositor::draw_handles(const std::vector<HandleStroke>& strokes) {
     RS_CHECK(camera_.has_value());
-    if (Status status = ensure_depths(); !status) return status;
+    RS_TRY(ensure_depths());
     passes_.overlay.set_handles(strokes);
     FrameContext frame = context_of(*camera_);
     return passes_.overlay.run(frame);
