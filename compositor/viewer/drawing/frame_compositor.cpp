@@ -159,7 +159,7 @@ std::optional<double> FrameCompositor::distance_ahead() {
     return kNear / depth;
 }
 
-// Renders the one pixel with the engine.
+// Renders this pixel with the engine.
 bool FrameCompositor::is_opaque_at(std::size_t node, const ObjectView& view, const glm::ivec2& image_pixel) const {
     constexpr int kOpaque = 128;
     Camera pixel = view.camera;
