@@ -69,16 +69,14 @@ FrameOptions frame_options(const DrawingOptions& options, PixelSize size, double
 }
 
 Result<std::vector<PlacedObject>> LoadedScene::all_objects() const {
-    if (const Status status = showroom->wait_for_all({0, 0, 0}); !status) return status.error();
+    RS_TRY(showroom->wait_for_all({0, 0, 0}));
     return showroom->placed();
 }
 
 Result<LoadedScene> load_objects(Scene scene, ObjectDepth depth, const ExecutorOptions& options, bool waits) {
     std::unique_ptr<engine::Executor> executor;
     if (options.executor != "core") {
-        Result<std::unique_ptr<engine::Executor>> made = engine::ExecutorTable().create(options.executor);
-        if (!made) return made.error();
-        executor = std::move(*made);
+        RS_ASSIGN_OR_RETURN(executor, engine::ExecutorTable().create(options.executor));
     }
     LoadedScene loaded;
     loaded.executor = executor ? executor->traits() : engine::ExecutorTraits{.name = "software core"};

@@ -9,17 +9,15 @@ namespace {
 
 Status write_folder(const std::string& output, bool force, const std::vector<Camera>& cameras, const RenderView& render,
                     Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(output, "composited views", force);
-    if (!staged) return staged.error();
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "composited views", force));
     const Rig rig = make_rig_of_views(cameras);
     for (const RigView& view : rig.views) {
-        const Result<Image<Rgba8>> frame = render(view.camera);
-        if (!frame) return frame.error();
-        if (Status status = write_png(staged->temporary_path() / view.file_path, *frame); !status) return status;
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> frame, render(view.camera));
+        RS_TRY(write_png(staged.temporary_path() / view.file_path, frame));
         progress.advance();
     }
-    if (Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
-    return staged->commit();
+    RS_TRY(write_rig(staged.temporary_path() / kRigFileName, rig));
+    return staged.commit();
 }
 
 }  // namespace
@@ -34,9 +32,8 @@ Status write_frames(const std::string& output, bool force, OutputKind kind, doub
                     const std::vector<Camera>& cameras, const RenderView& render, Progress& progress) {
     if (kind == OutputKind::video) return write_view_video(output, frames_per_second, cameras, render, progress);
     if (kind == OutputKind::folder) return write_folder(output, force, cameras, render, progress);
-    const Result<Image<Rgba8>> frame = render(cameras.front());
-    if (!frame) return frame.error();
-    return write_png(output, *frame);
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> frame, render(cameras.front()));
+    return write_png(output, frame);
 }
 
 }  // namespace rs::compositor

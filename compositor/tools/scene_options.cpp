@@ -51,23 +51,19 @@ void check_scene_options(const SceneOptions& options) {
 Result<Scene> load_scene(const SceneOptions& options) {
     Scene scene;
     if (options.scene) {
-        Result<Scene> read = read_scene(*options.scene);
-        if (!read) return read.error();
-        scene = std::move(*read);
+        RS_ASSIGN_OR_RETURN(scene, read_scene(*options.scene));
     } else {
         scene.floor = Floor{};
     }
     if (options.lights) {
-        Result<LightList> list = read_light_list(*options.lights);
-        if (!list) return list.error();
-        if (Status added = add_lights(scene, std::move(*list), *options.lights); !added) return added.error();
+        RS_ASSIGN_OR_RETURN(LightList list, read_light_list(*options.lights));
+        RS_TRY(add_lights(scene, std::move(list), *options.lights));
     }
     const auto count = static_cast<double>(options.objects.size());
     for (std::size_t i = 0; i < options.objects.size(); ++i) {
         const double row_x = (static_cast<double>(i) - (count - 1) / 2) * kRowSpacing;
-        Result<RaySpaceNode> node = parse_object_argument(options.objects[i], {row_x, 0, 0});
-        if (!node) return node.error();
-        scene.objects.push_back(std::move(*node));
+        RS_ASSIGN_OR_RETURN(RaySpaceNode node, parse_object_argument(options.objects[i], {row_x, 0, 0}));
+        scene.objects.push_back(std::move(node));
     }
     print_warnings(scene.warnings);
     return scene;

@@ -103,9 +103,8 @@ Result<TracedOptions> traced_options(const RendererOptions& options) {
     traced.soft_shadows = options.soft_shadows;
     traced.line_radius = options.toon_line_length;
     if (!options.lens) return traced;
-    const Result<CameraLens> lens = parse_lens(*options.lens, options.focus);
-    if (!lens) return lens.error();
-    traced.lens = *lens;
+    RS_ASSIGN_OR_RETURN(const CameraLens lens, parse_lens(*options.lens, options.focus));
+    traced.lens = lens;
     return traced;
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kFade_s = 0.4;
 constexpr std::size_t kObjectsOfBoard = 20;
-constexpr double kAhead_s = 2;        // how far ahead of the visitor is looked
-constexpr double kSteadying_s = 0.3;  // over which speed is averaged
+constexpr double kPrediction_s = 2;           // of the eye position
+constexpr double kVelocitySmoothing_s = 0.3;  // time constant
 
 }  // namespace
 
@@ -48,7 +48,7 @@ Placeholder Showroom::placeholder_of(std::size_t node) const {
     return placeholder;
 }
 
-Status Showroom::arrive(const CacheEvent& event) {
+Status Showroom::add_loaded(const CacheEvent& event) {
     RS_ASSIGN_OR_RETURN(const engine::ObjectHandle handle, engine_->load(prepared(event.object)));
     handles_[event.file] = handle;
     for (std::size_t i = 0; i < scene_nodes_.size(); ++i) {
@@ -62,7 +62,7 @@ Status Showroom::arrive(const CacheEvent& event) {
     return {};
 }
 
-void Showroom::leave(CacheEvent event) {
+void Showroom::evict(CacheEvent event) {
     for (std::size_t i = 0; i < scene_nodes_.size(); ++i) {
         if (plan_.file_of_node(i) != event.file) continue;
         (*nodes_)[i].object.reset();
@@ -72,7 +72,7 @@ void Showroom::leave(CacheEvent event) {
     cache_.give_back(std::move(event.object));
 }
 
-Status Showroom::fail(const CacheEvent& event) {
+Status Showroom::record_failure(const CacheEvent& event) {
     warnings_.push_back(event.why + "; shown without this object");
     for (std::size_t i = 0; i < scene_nodes_.size(); ++i) {
         if (plan_.file_of_node(i) != event.file) continue;
@@ -86,11 +86,11 @@ Status Showroom::take_events() {
     for (CacheEvent& event : cache_.events()) {
         Status status;
         if (event.kind == CacheEvent::Kind::kLoaded)
-            status = arrive(event);
+            status = add_loaded(event);
         else if (event.kind == CacheEvent::Kind::kEvicting)
-            leave(std::move(event));
+            evict(std::move(event));
         else
-            status = fail(event);
+            status = record_failure(event);
         if (!status) return status;
     }
     return {};
@@ -99,7 +99,7 @@ Status Showroom::take_events() {
 Status Showroom::wait() {
     while (!cache_.settled()) {
         cache_.wait_for_events();
-        if (Status status = take_events(); !status) return status;
+        RS_TRY(take_events());
     }
     return {};
 }
@@ -109,7 +109,7 @@ Status Showroom::wait_for_all(const glm::dvec3& eye) {
     return wait();
 }
 
-// What a visitor at `eye` needs most, as many as boards hold.
+// Loads the objects of highest priority at `eye`, up to the capacity of a board.
 void Showroom::load_on_board(const glm::dvec3& eye) {
     if (!engine_->has_board()) return;
     const std::vector<LoadPriority> priorities = plan_.priorities({eye, eye});
@@ -128,22 +128,20 @@ void Showroom::fade(double seconds) {
     for (std::size_t i = 0; i < nodes_->size(); ++i) {
         DisplayedNode& node = (*nodes_)[i];
         if (node.object) node.opacity = std::min(node.opacity + static_cast<float>(seconds / kFade_s), 1.0F);
-        const bool hidden = scene_nodes_[i].failed || (node.object && node.opacity >= 1);
-        if (hidden) {
-            node.placeholder.reset();
-        } else {
-            node.placeholder = placeholder_of(i);
-            if (node.object) node.placeholder->opacity = 1 - node.opacity;
-        }
+        const bool has_placeholder = !(scene_nodes_[i].failed || (node.object && node.opacity >= 1));
+        node.placeholder.reset();
+        if (!has_placeholder) continue;
+        node.placeholder = placeholder_of(i);
+        if (node.object) node.placeholder->opacity = 1 - node.opacity;
     }
 }
 
 Status Showroom::update(const glm::dvec3& eye, double seconds, const std::optional<glm::dvec3>& destination) {
     if (eye_ && seconds > 0) {
-        velocity_ += ((eye - *eye_) / seconds - velocity_) * (1 - std::exp(-seconds / kSteadying_s));
+        velocity_ += ((eye - *eye_) / seconds - velocity_) * (1 - std::exp(-seconds / kVelocitySmoothing_s));
     }
     eye_ = eye;
-    const glm::dvec3 soon = destination.value_or(eye + velocity_ * kAhead_s);
+    const glm::dvec3 soon = destination.value_or(eye + velocity_ * kPrediction_s);
     if (waits_) {
         cache_.set_priorities(plan_.priorities({eye, eye}));
         priorities_taken_ = true;

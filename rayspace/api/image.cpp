@@ -21,12 +21,12 @@ Result<Image<Rgba8>> read_image(const std::filesystem::path& path) {
 }
 
 Status write_png(const std::filesystem::path& path, ConstImageView<Rgba8> image) {
-    if (Status status = check_size(path, image); !status) return status;
+    RS_TRY(check_size(path, image));
     return rs::write_png(path, image);
 }
 
 Status write_depth_exr(const std::filesystem::path& path, ConstImageView<float> depth) {
-    if (Status status = check_size(path, depth); !status) return status;
+    RS_TRY(check_size(path, depth));
     return write_exr_channel(path, depth);
 }
 

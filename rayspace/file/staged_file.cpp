@@ -33,14 +33,13 @@ Result<StagedFile> StagedFile::create(const fs::path& path) {
     if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
         return Error{path.string() + ": is no regular file and cannot be replaced; give another name"};
     }
-    Result<Temporary> temporary = Temporary::create(path, Temporary::Kind::kFile);
-    if (!temporary) return temporary.error();
-    return StagedFile(path, std::move(*temporary));
+    RS_ASSIGN_OR_RETURN(Temporary temporary, Temporary::create(path, Temporary::Kind::kFile));
+    return StagedFile(path, std::move(temporary));
 }
 
 Status StagedFile::write(std::span<const std::byte> bytes) {
     RS_CHECK(temporary_.descriptor() >= 0);
-    if (Status status = write_all(temporary_.descriptor(), path_, bytes, size_bytes_); !status) return status;
+    RS_TRY(write_all(temporary_.descriptor(), path_, bytes, size_bytes_));
     size_bytes_ += bytes.size();
     return {};
 }

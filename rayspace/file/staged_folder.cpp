@@ -33,10 +33,9 @@ Result<std::set<std::string>> files_below(const fs::path& folder) {
 }
 
 Status write_marker(const fs::path& folder, const std::string& contents) {
-    const Result<std::set<std::string>> files = files_below(folder);
-    if (!files) return files.error();
+    RS_ASSIGN_OR_RETURN(const std::set<std::string> files, files_below(folder));
     std::string text = contents + '\n';
-    for (const std::string& file : *files) text += file + '\n';
+    for (const std::string& file : files) text += file + '\n';
     return write_file(folder / kMarker, text);
 }
 
@@ -66,15 +65,13 @@ Status check_replaceable(const fs::path& path, const std::string& contents, bool
         return Error{path.string() + ": contains the current folder and is not replaced; choose another name"};
     }
     if (force) return {};
-    const Result<std::set<std::string>> files = files_below(path);
-    if (!files) return files.error();
-    if (files->empty()) return {};
+    RS_ASSIGN_OR_RETURN(const std::set<std::string> files, files_below(path));
+    if (files.empty()) return {};
     const std::string remedy = "; choose another name, or replace the folder with --force";
     std::set<std::string> ours{kMarker};
-    if (files->contains(kMarker)) {
-        const auto bytes = read_file(path / kMarker, kMarkerCap_bytes);
-        if (!bytes) return bytes.error();
-        std::istringstream lines(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()));
+    if (files.contains(kMarker)) {
+        RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path / kMarker, kMarkerCap_bytes));
+        std::istringstream lines(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
         std::string line;
         std::getline(lines, line);
         if (line != contents) {
@@ -82,8 +79,8 @@ Status check_replaceable(const fs::path& path, const std::string& contents, bool
         }
         while (std::getline(lines, line)) ours.insert(line);
     }
-    const auto other = std::ranges::find_if(*files, [&](const std::string& file) { return !ours.contains(file); });
-    if (other == files->end()) return {};
+    const auto other = std::ranges::find_if(files, [&](const std::string& file) { return !ours.contains(file); });
+    if (other == files.end()) return {};
     return Error{path.string() + ": holds files that this program did not write, such as " + printable(*other) +
                  remedy};
 }
@@ -96,17 +93,16 @@ StagedFolder::StagedFolder(fs::path path, std::string contents, bool force, Temp
 Result<StagedFolder> StagedFolder::create(const fs::path& given, std::string contents, bool force) {
     RS_CHECK(!contents.empty());
     const fs::path path = without_trailing_slash(given);
-    if (Status replaceable = check_replaceable(path, contents, force); !replaceable) return replaceable.error();
-    Result<Temporary> temporary = Temporary::create(path, Temporary::Kind::kFolder);
-    if (!temporary) return temporary.error();
-    return StagedFolder(path, std::move(contents), force, std::move(*temporary));
+    RS_TRY(check_replaceable(path, contents, force));
+    RS_ASSIGN_OR_RETURN(Temporary temporary, Temporary::create(path, Temporary::Kind::kFolder));
+    return StagedFolder(path, std::move(contents), force, std::move(temporary));
 }
 
 Status StagedFolder::commit() {
     RS_CHECK(temporary_.descriptor() >= 0);
     // Somebody may have filled the folder since create().
-    if (Status replaceable = check_replaceable(path_, contents_, force_); !replaceable) return replaceable;
-    if (Status marked = write_marker(temporary_.path(), contents_); !marked) return marked;
+    RS_TRY(check_replaceable(path_, contents_, force_));
+    RS_TRY(write_marker(temporary_.path(), contents_));
     return temporary_.move_to(path_);
 }
 

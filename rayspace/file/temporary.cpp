@@ -114,7 +114,7 @@ Error output_error(const fs::path& path, const std::string& what, int error) {
 }
 
 Result<Temporary> Temporary::create(const fs::path& target, Kind kind) {
-    if (const Status parent = check_parent(target); !parent) return parent.error();
+    RS_TRY(check_parent(target));
     remove_left_behind(target);
     const bool is_folder = kind == Kind::kFolder;
     const int flags = is_folder ? O_RDONLY | O_DIRECTORY : O_RDWR | O_CREAT | O_EXCL;

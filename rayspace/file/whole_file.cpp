@@ -11,9 +11,7 @@
 namespace rs {
 
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t cap_bytes) {
-    const Result<int> opened = open_input(path);
-    if (!opened) return opened.error();
-    const int descriptor = *opened;
+    RS_ASSIGN_OR_RETURN(const int descriptor, open_input(path));
     struct Closer {
         int descriptor;
         ~Closer() { ::close(descriptor); }
@@ -53,10 +51,9 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std:
 }
 
 Status write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-    Result<StagedFile> file = StagedFile::create(path);
-    if (!file) return file.error();
-    if (Status status = file->write(bytes); !status) return status;
-    return file->commit();
+    RS_ASSIGN_OR_RETURN(StagedFile file, StagedFile::create(path));
+    RS_TRY(file.write(bytes));
+    return file.commit();
 }
 
 Status write_file(const std::filesystem::path& path, const std::string& text) {

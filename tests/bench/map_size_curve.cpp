@@ -1,9 +1,9 @@
-// How much a shape map costs and what it brings: held-out dB over the map's size, by the size of its cells.
+// Size and benefit of a shape map: held-out PSNR over the map's size, for several cell sizes.
 //
 //     bench_map_size SET HELD_OUT [-o curve.svg]
 //
-// HELD_OUT is a second set of the same object, from other places (rs-capture synth --first-angle). Prints a table as
-// CSV: cell side in pixels, bytes in the file, share of the raw images, bytes in memory, dB.
+// HELD_OUT is a second set of the same object with other cameras (rs-capture synth --first-angle). Prints CSV: cell
+// side in pixels, bytes in the file and their share of the raw images, bytes in memory and their share, PSNR in dB.
 
 #include "encode/build.hpp"
 #include "engine/core/fast/renderer.hpp"
@@ -26,7 +26,7 @@ struct Arguments {
 };
 
 struct Measured {
-    double share = 0;  // of the raw images, in the file
+    double share = 0;  // file size of the map over that of the raw images
     double psnr_db = 0;
 };
 
@@ -87,7 +87,7 @@ Status run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     rs::encode::Arguments arguments;
-    CLI::App app("Held-out dB over the size of the shape map.", "bench_map_size");
+    CLI::App app("Held-out PSNR over the size of the shape map.", "bench_map_size");
     app.add_option("SET", arguments.set, "capture set to build from")->required();
     app.add_option("HELD_OUT", arguments.held_out, "capture set to score on")->required();
     app.add_option("-o,--output", arguments.plot, "plot to write, SVG");

@@ -125,7 +125,7 @@ Status FrameCompositor::ensure_depths() {
 
 Status FrameCompositor::draw_handles(const std::vector<HandleStroke>& strokes) {
     RS_CHECK(camera_.has_value());
-    if (Status status = ensure_depths(); !status) return status;
+    RS_TRY(ensure_depths());
     passes_.overlay.set_handles(strokes);
     FrameContext frame = context_of(*camera_);
     return passes_.overlay.run(frame);
@@ -159,7 +159,7 @@ std::optional<double> FrameCompositor::distance_ahead() {
     return kNear / depth;
 }
 
-// Renders the one pixel with the engine.
+// Renders this pixel with the engine.
 bool FrameCompositor::is_opaque_at(std::size_t node, const ObjectView& view, const glm::ivec2& image_pixel) const {
     constexpr int kOpaque = 128;
     Camera pixel = view.camera;

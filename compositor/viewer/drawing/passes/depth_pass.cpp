@@ -15,10 +15,10 @@ bool blends_something(const FrameContext& frame) {
 
 Status DepthPass::run(FrameContext& frame) {
     const bool traced = frame.traced != nullptr;
-    const bool held = traced && held_from_ == frame.view.clip_from_world;
+    const bool held = traced && depth_view_ == frame.view.clip_from_world;
     const bool has_depths = !traced || held || frame.needs_depths || blends_something(frame);
-    held_from_.reset();
-    if (traced && has_depths && !objects_write_depth_) held_from_ = frame.view.clip_from_world;
+    depth_view_.reset();
+    if (traced && has_depths && !objects_write_depth_) depth_view_ = frame.view.clip_from_world;
     frame.statistics.has_depths = has_depths;
     frame.target.drawn.begin(frame.background.zenith(), held);
     if (!traced) return {};

@@ -1,5 +1,5 @@
 #pragma once
-// The state of one frame that its passes share. Each pass reads what the passes before it have left here.
+// State of one frame, shared by its passes. Each pass reads the results of the passes before it.
 
 #include "compositor/scene/scene.hpp"
 #include "compositor/scene/weather.hpp"
@@ -25,7 +25,7 @@ namespace rs::compositor {
 /// Measures the parts of a frame.
 class PartClock {
 public:
-    /// \param waits wait until everything is drawn before each measurement; else the time covers only the submission
+    /// \param waits wait until everything is drawn before each measurement; otherwise only submission is measured
     explicit PartClock(bool waits) : waits_(waits) {}
     /// Seconds since the last call, or since construction.
     double lap();
@@ -36,7 +36,7 @@ private:
 };
 
 /// An object that is visible in the frame.
-struct SeenNode {
+struct VisibleNode {
     std::size_t index = 0;
     ObjectView view;
 };
@@ -49,7 +49,7 @@ struct BlendedDraw {
 };
 
 struct FrameContext {
-    // Given by the compositor.
+    // Set by the compositor.
     FrameView view;
     FrameTarget& target;
     LitGeometry& geometry;
@@ -65,8 +65,8 @@ struct FrameContext {
     double weather_s = 0;  // since the beginning of the sequence
     std::optional<Fog> fog;
 
-    // Left by the passes.
-    std::vector<SeenNode> seen;                                      // ObjectRequestPass
+    // Set by the passes.
+    std::vector<VisibleNode> seen;                                   // ObjectRequestPass
     std::vector<SurfaceRenderer::Transparent> transparent_surfaces;  // DepthPass or OpaquePass
     std::vector<BlendedDraw> blended;                                // ObjectPass, TransparentPass, WeatherPass
 };

@@ -8,8 +8,8 @@
 namespace rs::compositor {
 namespace {
 
-// Fraction of an object's own light that fog leaves at a distance.
-float kept_in_fog(const std::optional<Fog>& fog, double distance) {
+// Transmittance of the fog over a distance.
+float fog_transmittance(const std::optional<Fog>& fog, double distance) {
     if (!fog) return 1;
     if (distance >= fog->visibility) return 0;
     const double left = fog->visibility - distance;
@@ -31,7 +31,7 @@ Status ObjectPass::run(FrameContext& frame) {
     RS_ASSIGN_OR_RETURN(const std::vector<engine::DrawnView> rendered, frame.engine_views.retrieve());
     frame.statistics.engine_wait_s = frame.clock.lap();
     for (std::size_t n = 0; n < frame.seen.size(); ++n) {
-        const SeenNode& node = frame.seen[n];
+        const VisibleNode& node = frame.seen[n];
         upload(node, rendered[n], frame);
         frame.blended.push_back({node.view.plane_distance, true, [this, &node, &frame] { draw(node, frame); }});
     }
@@ -46,7 +46,7 @@ void ObjectPass::release_unloaded(const ObjectNodes& nodes) {
     }
 }
 
-void ObjectPass::upload(const SeenNode& node, const engine::DrawnView& rendered, FrameContext& frame) {
+void ObjectPass::upload(const VisibleNode& node, const engine::DrawnView& rendered, FrameContext& frame) {
     Image<float> depths;
     if (depth_ == ObjectDepth::kPixel) {
         const RaySpaceObject& object = frame.nodes[node.index].object->object->renderer.object();
@@ -63,11 +63,11 @@ void ObjectPass::upload(const SeenNode& node, const engine::DrawnView& rendered,
     statistics.pixels_rendered += std::int64_t{width} * height;
 }
 
-void ObjectPass::draw(const SeenNode& node, const FrameContext& frame) const {
+void ObjectPass::draw(const VisibleNode& node, const FrameContext& frame) const {
     objects_.draw(node.index, node.view,
                   {.screen_px = {frame.target.drawn.width(), frame.target.drawn.height()},
                    .fog = frame.fog ? frame.fog->colour : glm::vec3(0),
-                   .own_light = kept_in_fog(frame.fog, node.view.plane_distance),
+                   .own_light = fog_transmittance(frame.fog, node.view.plane_distance),
                    .opacity = frame.nodes[node.index].opacity});
 }
 

@@ -13,19 +13,19 @@
 
 namespace rs::compositor {
 
-// Needs a gl::Context that is current, and outlives it. Move-only.
+/// Requires a current gl::Context that outlives it; move-only.
 class ObjectPass {
 public:
     static Result<ObjectPass> create(std::size_t nodes, ObjectDepth depth);
-    /// The pass must stay in place until the blended draws are done.
+    /// The pass must not move until the blended draws are done.
     Status run(FrameContext& frame);
 
 private:
     ObjectPass(ObjectRenderer objects, PlaceholderRenderer placeholders, ObjectDepth depth)
         : objects_(std::move(objects)), placeholders_(std::move(placeholders)), depth_(depth) {}
     void release_unloaded(const ObjectNodes& nodes);
-    void upload(const SeenNode& node, const engine::DrawnView& rendered, FrameContext& frame);
-    void draw(const SeenNode& node, const FrameContext& frame) const;
+    void upload(const VisibleNode& node, const engine::DrawnView& rendered, FrameContext& frame);
+    void draw(const VisibleNode& node, const FrameContext& frame) const;
     void add_placeholders(FrameContext& frame) const;
 
     ObjectRenderer objects_;

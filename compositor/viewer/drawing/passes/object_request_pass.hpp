@@ -14,7 +14,7 @@ class ObjectRequestPass {
 public:
     /// \param depths request a depth per pixel
     explicit ObjectRequestPass(bool depths) : depths_(depths) {}
-    /// Fails if the engine refuses a view, naming the object.
+    /// Fails if the engine rejects a view; the error names the object.
     Status run(FrameContext& frame) const;
 
 private:

@@ -1,5 +1,5 @@
 #pragma once
-// Draws opaque geometry, the floor, and the background behind them; nothing under a traced image, which has them.
+// Draws opaque geometry, the floor and the background; nothing under a traced image, which contains them.
 
 #include "compositor/viewer/drawing/passes/frame_context.hpp"
 #include "rayspace/base/result.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// Draws the handles of lights over a copy of the finished frame, so that the frame itself stays without them.
+// Draws the handles of lights over a copy of the finished frame.
 
 #include "compositor/viewer/drawing/handle_renderer.hpp"
 #include "compositor/viewer/drawing/passes/frame_context.hpp"
@@ -11,12 +11,12 @@
 
 namespace rs::compositor {
 
-// Needs a gl::Context that is current, and outlives it. Move-only.
+/// Requires a current gl::Context that outlives it; move-only.
 class OverlayPass {
 public:
-    /// For the next run().
+    /// Sets the handles that the next run() draws.
     void set_handles(std::vector<HandleStroke> strokes) { strokes_ = std::move(strokes); }
-    /// The frame must have depths. Fails if the driver refuses a shader or a framebuffer.
+    /// The frame must have depths. Fails if the driver rejects a shader or a framebuffer.
     Status run(FrameContext& frame);
     /// The copy with the handles; null before the first run().
     [[nodiscard]] const HandleRenderer* handles() const { return renderer_ ? &*renderer_ : nullptr; }

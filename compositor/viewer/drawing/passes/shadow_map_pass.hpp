@@ -1,5 +1,5 @@
 #pragma once
-// Brings the shadow maps up to date: draws those in which something has changed.
+// Redraws the shadow maps in which something has changed.
 
 #include "compositor/viewer/drawing/passes/frame_context.hpp"
 #include "rayspace/base/result.hpp"

@@ -10,7 +10,7 @@
 
 namespace rs::compositor {
 
-// Needs a gl::Context that is current, and outlives it. Move-only.
+/// Requires a current gl::Context that outlives it; move-only.
 class TracedUnderlayPass {
 public:
     static Result<TracedUnderlayPass> create();

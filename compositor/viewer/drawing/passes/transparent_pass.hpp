@@ -1,6 +1,6 @@
 #pragma once
-// Adds the transparent surfaces of geometry to the blended draws, which are then ordered from the farthest on; at equal
-// distance surfaces come before objects.
+// Adds the transparent surfaces of geometry to the blended draws and sorts these back to front; at equal distance,
+// surfaces come before objects.
 
 #include "compositor/viewer/drawing/passes/frame_context.hpp"
 #include "rayspace/base/result.hpp"

@@ -1,6 +1,6 @@
 #pragma once
-// Inserts rain and snow between the blended draws: a layer before each object, because objects may leave no depth that
-// drops could be tested against, and the last layer before the camera.
+// Inserts layers of rain and snow between the blended draws: one behind each object, since objects may write no depth
+// that drops could be tested against, and one between the nearest object and the camera.
 
 #include "compositor/viewer/drawing/passes/frame_context.hpp"
 #include "compositor/viewer/drawing/weather_renderer.hpp"
@@ -10,11 +10,11 @@
 
 namespace rs::compositor {
 
-// Needs a gl::Context that is current, and outlives it. Move-only.
+/// Requires a current gl::Context that outlives it; move-only.
 class WeatherPass {
 public:
     static Result<WeatherPass> create(const Scene& scene);
-    /// The blended draws are in order. The pass must stay in place until they are done.
+    /// Requires sorted blended draws. The pass must not move until they are done.
     Status run(FrameContext& frame) const;
 
 private:
