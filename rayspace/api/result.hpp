@@ -4,6 +4,12 @@
 
 #include "rayspace/api/types/result.hpp"
 
+/// \namespace rs
+/// Types that the public library shares with the rest of the project.
+/// \namespace rs::engine
+/// Data of a view, executors and their table.
+
+/// The public library.
 namespace rs::api {
 
 using rs::Error;   ///< \copybrief rs::Error

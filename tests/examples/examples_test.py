@@ -1,5 +1,6 @@
 """Runs an example as its users do: examples_test.py BUILD EXAMPLES_BUILD EXAMPLE. 77: what it needs is missing."""
 
+import importlib.util
 import json
 import math
 import os
@@ -129,6 +130,9 @@ def compare_with_photos(work):
 
 
 def convert_nerf(work):
+    if importlib.util.find_spec("cv2") is None:
+        print("OpenCV's Python module is missing")
+        sys.exit(77)
     # Z up, away from the origin, with cameras of other elevations, as NeRF data sets have them.
     world = np.array([[1.0, 0, 0, 5], [0, 0, -1, 2], [0, 1, 0, -3], [0, 0, 0, 1]])
     others = [pose(0.3 + n, 0.5 + 0.1 * n, 3.5) for n in range(5)]
