@@ -65,7 +65,7 @@ struct Renderer::State {
                               views.front().image.height() == registers.height &&
                               (!options.depth || (views.front().depth_q20.width() == registers.width &&
                                                   views.front().depth_q20.height() == registers.height));
-        if (!complete) return Error{"executor " + executor->traits().name + ": gave another view than was requested"};
+        if (!complete) return Error{"executor " + executor->traits().name + ": returned a view of another size"};
         return std::move(views.front());
     }
 };
@@ -94,7 +94,7 @@ Result<Renderer> Renderer::create(const Object& object, std::unique_ptr<Executor
     if (const Status status = executor->supports(object.data()); !status) return Error{name + status.error().message};
     const Result<std::optional<int>> slot = executor->load(object.data());
     if (!slot) return Error{name + slot.error().message};
-    if (!slot->has_value()) return Error{name + "has no room for the object"};
+    if (!slot->has_value()) return Error{name + "has no free memory for the object"};
     auto state = std::make_shared<State>();
     state->object = object;
     state->slot = **slot;

@@ -56,7 +56,7 @@ public:
     /// A renderer with another executor.
     /// \param object    has all of its photos
     /// \param executor  not null
-    /// \return the executor's error if it does not support the object; an error if it has no room
+    /// \return the executor's error if it does not support the object; an error if it has no free memory
     static Result<Renderer> create(const Object& object, std::unique_ptr<Executor> executor);
 
     Renderer(Renderer&&) noexcept;             ///< moves

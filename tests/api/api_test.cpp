@@ -212,8 +212,8 @@ TEST_F(Api, ExecutorsAreAddedToATableByValue) {
     const auto with = [&](const std::string& which) {
         return Renderer::create(object(), std::move(table.create("test:" + which)).value());
     };
-    EXPECT_THAT(with("full").error().message, HasSubstr("no room"));
-    EXPECT_THAT(with("wrong")->render(camera()).error().message, HasSubstr("another view"));
+    EXPECT_THAT(with("full").error().message, HasSubstr("no free memory"));
+    EXPECT_THAT(with("wrong")->render(camera()).error().message, HasSubstr("another size"));
     EXPECT_THAT(with("no-depth")->render(camera(), {.depth = true}).error().message, HasSubstr("no depth"));
     EXPECT_TRUE(with("no-depth")->render(camera()).ok());
     EXPECT_THAT(with("no-filters")->render(camera(), {.filter = Filter::kSharp}).error().message, HasSubstr("filter"));

@@ -65,7 +65,7 @@ public:
 
     /// Loads an object.
     /// \param object  supported; its photos may be present only in compressed form (RaySpaceObject::coded)
-    /// \return its slot, or nullopt if there is no room now. On an error nothing is loaded.
+    /// \return its slot, or nullopt if there is no free memory now. On an error nothing is loaded.
     virtual Result<std::optional<int>> load(const RaySpaceObject& object) = 0;
     /// Frees a slot that no view is being rendered from.
     virtual Status evict(int slot) = 0;
