@@ -32,16 +32,16 @@ using ProgressCallback = std::function<void(const std::string& stage, double fra
 
 /// Options of build_object().
 struct BuildOptions {
-    std::string name;                           ///< of the object; empty: the name of the set's folder
-    MapKind map = MapKind::kShape;              ///< RS map
-    int planes = 12;                            ///< reference planes, 3..64
-    PhotoCoding coding = PhotoCoding::kDense;   ///< storage of the photos
-    double quality = 75;                        ///< of compressed photos, 1..100
-    std::optional<double> psnr_db;              ///< at least this fidelity, 10..60 dB, in place of the quality
-    std::optional<std::uint64_t> photos_bytes;  ///< at most these bytes for the photos, in place of both
-    int effort = 5;                             ///< of the dense coding, 1 (fastest) .. 9 (smallest)
-    std::optional<int> alpha_bits;  ///< of compressed photos' alpha, 1..6; chosen by their content if not given
-    ProgressCallback progress;      ///< may be empty
+    std::string name = {};                           ///< of the object; empty: the name of the set's folder
+    MapKind map = MapKind::kShape;                   ///< RS map
+    int planes = 12;                                 ///< reference planes, 3..64
+    PhotoCoding coding = PhotoCoding::kDense;        ///< storage of the photos
+    double quality = 75;                             ///< of compressed photos, 1..100
+    std::optional<double> psnr_db = {};              ///< at least this fidelity, 10..60 dB, in place of the quality
+    std::optional<std::uint64_t> photos_bytes = {};  ///< at most these bytes for the photos, in place of both
+    int effort = 5;                                  ///< of the dense coding, 1 (fastest) .. 9 (smallest)
+    std::optional<int> alpha_bits = {};  ///< of compressed photos' alpha, 1..6; chosen by their content if not given
+    ProgressCallback progress = {};      ///< may be empty
 };
 
 /// A built object.

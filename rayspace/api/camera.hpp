@@ -44,9 +44,9 @@ struct CapturedCamera {
 
 /// Size and field of view of a view that is otherwise as captured.
 struct ViewShape {
-    std::optional<int> width;         ///< px; as captured if not given
-    std::optional<int> height;        ///< px; as captured if not given
-    std::optional<double> fov_x_rad;  ///< horizontal field of view, 0..pi; the whole captured frame if not given
+    std::optional<int> width = {};         ///< px; as captured if not given
+    std::optional<int> height = {};        ///< px; as captured if not given
+    std::optional<double> fov_x_rad = {};  ///< horizontal field of view, 0..pi; the whole captured frame if not given
 };
 
 /// Camera with square pixels and the principal point in the middle. Thread-safe.

@@ -28,10 +28,10 @@ struct Evaluation {
 
 /// Options of evaluate_held_out().
 struct HoldOutOptions {
-    int every = 2;                  ///< of each `every` neighbouring photos of a ring the middle one is held out, >= 2
-    MapKind map = MapKind::kShape;  ///< of the object that is built from the others
-    int planes = 12;                ///< reference planes, 3..64
-    ProgressCallback progress;      ///< may be empty
+    int every = 2;                   ///< of each `every` neighbouring photos of a ring the middle one is held out, >= 2
+    MapKind map = MapKind::kShape;   ///< of the object that is built from the others
+    int planes = 12;                 ///< reference planes, 3..64
+    ProgressCallback progress = {};  ///< may be empty
 };
 
 /// Renders every pose of a capture set and compares it with the set's photo. Thread-safe.
