@@ -103,7 +103,7 @@ void CodedTexels::fill_tile_column(int image, int tile_column) {
 
 void CodedTexels::convert_tile(int image, const codec::TileRect& place) {
     const codec::ConstPlaneViews planes = samples_->planes(image);
-    // Converted row by row into a buffer, in the order of the samples, then copied column by column.
+    // ConvertedScene row by row into a buffer, in the order of the samples, then copied column by column.
     constexpr int kMaxTileSide = 1 << codec::kMaxTileLog2;
     Rgba8 tile[kMaxTileSide * kMaxTileSide];
     for (int y = 0; y < place.height; ++y) {
