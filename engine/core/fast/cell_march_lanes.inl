@@ -1,4 +1,4 @@
-// SIMD implementation of CellMarch, one row of the column per lane. No include guard: shown_surface_lanes.inl, which
+// SIMD implementation of CellMarch, one row of the column per lane. No include guard: blend_surface_lanes.inl, which
 // shape_walk.cpp includes, includes it once for each SIMD target.
 
 #include "engine/core/definition/cell_march.hpp"
