@@ -20,7 +20,7 @@ using ExecuteView = std::function<Result<ExecutedView>(std::size_t view)>;
 struct Implementation {
     std::string name;
     // `object` has its images as stored in the file (coded images are not unpacked).
-    std::function<Result<ExecuteView>(const ConformanceCase& of_case, RaySpaceObject object)> open;
+    std::function<Result<ExecuteView>(const ConformanceCase& test_case, RaySpaceObject object)> open;
 };
 
 /// Runs an executor. Declines objects and views that it does not render unchanged.

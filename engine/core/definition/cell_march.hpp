@@ -21,8 +21,8 @@ namespace rs::engine {
 // ends with the surface that a ray of reference slope would meet, and the surfaces that may lie behind it.
 class CellMarch {
 public:
-    static constexpr int kMostSteps = 64;
-    static constexpr std::int32_t kMostPerDepth_q20 = 1 << 22;
+    static constexpr int kMaxSteps = 64;
+    static constexpr std::int32_t kMaxPerDepth_q20 = 1 << 22;
 
     CellMarch(const ShapeMap& shape, const ShapeSetup& setup, std::int32_t b_q20, std::int32_t rise_q24)
         : cells_(setup.cells), bands_(shape.bands), jump_(shape.jump), thickness_(shape.thickness) {
@@ -34,8 +34,8 @@ public:
         foot_q12_ = multiply_shift(h_q16 - (shape.h_low_q20 >> 4), shape.bands_per_unit_q12, 16);
         zero_q12_ = foot_q12_ + multiply_shift(per_radius_q20, shape.depth_low_q20, 28);
         per_depth_q20_ =
-            std::clamp(multiply_shift(per_radius_q20, shape.depth_step_q24, 24), -kMostPerDepth_q20, kMostPerDepth_q20);
-        const int steps = std::min((std::abs(per_depth_q20_) >> 11) + 1, kMostSteps);
+            std::clamp(multiply_shift(per_radius_q20, shape.depth_step_q24, 24), -kMaxPerDepth_q20, kMaxPerDepth_q20);
+        const int steps = std::min((std::abs(per_depth_q20_) >> 11) + 1, kMaxSteps);
         step_ = 256 / steps;
         if (steps == 1) begin_ = 256;
     }

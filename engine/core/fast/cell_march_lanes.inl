@@ -117,9 +117,9 @@ public:
 private:
     HWY_INLINE void begin_march() {
         per_depth_ =
-            hn::Min(hn::Max(per_depth_, number(-CellMarch::kMostPerDepth_q20)), number(CellMarch::kMostPerDepth_q20));
+            hn::Min(hn::Max(per_depth_, number(-CellMarch::kMaxPerDepth_q20)), number(CellMarch::kMaxPerDepth_q20));
         const Vector steps =
-            hn::Min(hn::Add(hn::ShiftRight<11>(hn::Abs(per_depth_)), number(1)), number(CellMarch::kMostSteps));
+            hn::Min(hn::Add(hn::ShiftRight<11>(hn::Abs(per_depth_)), number(1)), number(CellMarch::kMaxSteps));
         const LaneMask one = hn::Eq(steps, number(1));
         if (hn::AllTrue(Lanes(), one)) return;
         // Exact integer division in float: the added half keeps quotients away from integers.

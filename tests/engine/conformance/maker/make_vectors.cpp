@@ -201,7 +201,7 @@ RaySpaceObject with_shape(RaySpaceObject object, std::uint64_t seed, double empt
     return object;
 }
 
-struct Planned {
+struct PlannedCase {
     const char* name;
     const char* covers;
     RaySpaceObject object;
@@ -209,7 +209,7 @@ struct Planned {
     TexelFilter filter = TexelFilter::kBilinear;
 };
 
-std::vector<Planned> planned_cases() {
+std::vector<PlannedCase> planned_cases() {
     const test::RingObjectOptions small{
         .views = 9, .width = 40, .height = 34, .fl_px = 50, .planes = 5, .x_cells = 48, .u_cells = 32};
     const test::RingObjectOptions many{
@@ -229,7 +229,7 @@ std::vector<Planned> planned_cases() {
     test::RingObjectOptions shaped = many;
     shaped.views = 12;
 
-    std::vector<Planned> cases;
+    std::vector<PlannedCase> cases;
     cases.push_back({"plane-upright", "upright views by reference planes", ring(small), random_poses(1, 12, true)});
     cases.push_back(
         {"plane-twelve", "twelve planes, captured poses and those halfway", ring(many), ring_poses(18, 3.5, 10)});
@@ -285,7 +285,7 @@ std::vector<Planned> planned_cases() {
 
 Status make_all(const fs::path& folder, const std::string& edition) {
     VectorSet set{folder, edition, {}};
-    for (const Planned& planned : planned_cases()) {
+    for (const PlannedCase& planned : planned_cases()) {
         Result<ConformanceCase> made =
             make_case(folder, planned.name, planned.covers, planned.object, planned.poses, planned.filter);
         if (!made) return Error{std::string(planned.name) + ": " + made.error().message};

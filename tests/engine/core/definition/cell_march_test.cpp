@@ -108,10 +108,10 @@ TEST(CellMarch, TakesAtMostTheMaximumNumberOfSteps) {
     column.shape.bands_per_unit_q12 = 1 << 26;
     column.shape.h_low_q20 = -kOne_q20 / 8;
     for (const std::int32_t slope_q20 : {kOne_q20, -kOne_q20, 127 * kOne_q20, -127 * kOne_q20}) {
-        EXPECT_LE(column.met(slope_q20 >> 4).size(), CellMarch::kMostSteps + 2U);
+        EXPECT_LE(column.met(slope_q20 >> 4).size(), CellMarch::kMaxSteps + 2U);
     }
     // At most 4 bands per depth: from 1024 bands below the foot up to the foot, all inside the map.
-    EXPECT_EQ(column.met(7 * kOne_q20).size(), CellMarch::kMostSteps + 2U);
+    EXPECT_EQ(column.met(7 * kOne_q20).size(), CellMarch::kMaxSteps + 2U);
 }
 
 // Half a band per step, from band -4 to band 4 relative to the foot. The map has the upper or the lower half of them;

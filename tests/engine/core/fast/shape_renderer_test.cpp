@@ -95,13 +95,13 @@ CanvasPair on_canvas(const Camera& camera, int border, const Render& render) {
     return canvas;
 }
 
-struct Seen {
+struct PixelCounts {
     std::int64_t pixels = 0;
     std::int64_t opaque = 0;  // alpha above 0
 };
 
-Seen expect_equal(Pose pose, std::uint64_t first_seed, int objects, int views) {
-    Seen seen;
+PixelCounts expect_equal(Pose pose, std::uint64_t first_seed, int objects, int views) {
+    PixelCounts counts;
     for (std::uint64_t seed = first_seed; seed < first_seed + static_cast<std::uint64_t>(objects); ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
@@ -129,20 +129,20 @@ Seen expect_equal(Pose pose, std::uint64_t first_seed, int objects, int views) {
             });
             EXPECT_EQ(rendered.colour, defined.colour);
             EXPECT_EQ(rendered.lambda, defined.lambda);
-            if (!(rendered == defined)) return seen;
-            seen.pixels += std::int64_t{camera.width} * camera.height;
+            if (!(rendered == defined)) return counts;
+            counts.pixels += std::int64_t{camera.width} * camera.height;
             for (int j = border; j < border + camera.height; ++j) {
                 for (int i = border; i < border + camera.width; ++i) {
                     const bool shown = defined.colour(i, j).a > 0;
-                    seen.opaque += shown;
+                    counts.opaque += shown;
                     EXPECT_EQ(defined.lambda(i, j) > 0, shown);
                 }
             }
         }
     }
     // Guards against a vacuous test: the views must show enough of the objects.
-    EXPECT_GT(seen.opaque * 20, seen.pixels);
-    return seen;
+    EXPECT_GT(counts.opaque * 20, counts.pixels);
+    return counts;
 }
 
 TEST(ShapeRendererProperty, EqualsTheScalarDefinitionOnTheRing) {
