@@ -40,7 +40,7 @@ struct CaseResult {
 struct ConformanceMatrix {
     std::vector<std::string> names;
     std::vector<std::vector<CaseResult>> results;  // [case][implementation]
-    [[nodiscard]] bool passed() const;             // no difference, no failure, and each has a result
+    [[nodiscard]] bool passed() const;             // no difference, no failure, and an equal view of each
 };
 
 /// Runs all cases. If `write_folder` is not empty, also writes the views of the first implementation to it

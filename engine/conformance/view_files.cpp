@@ -38,8 +38,8 @@ Status write_view_files(const std::filesystem::path& folder, const std::string& 
     for (const Rgba8 p : executed.image.pixels()) {
         for (const std::uint8_t channel : {p.r, p.g, p.b, p.a}) colours.put(channel);
     }
-    Status written = write_file(file_of(folder, test_case, view, ".rgba"), colours.bytes());
-    if (!written || executed.depth_q20.empty()) return written;
+    RS_TRY(write_file(file_of(folder, test_case, view, ".rgba"), colours.bytes()));
+    if (executed.depth_q20.empty()) return {};
     ByteWriter depths;
     for (const std::int32_t depth : executed.depth_q20.pixels()) depths.put(depth);
     return write_file(file_of(folder, test_case, view, ".depth"), depths.bytes());

@@ -26,9 +26,9 @@ Status run_board(const std::vector<std::string>& paths) {
     }
     std::printf("%-28s %49.2f\n", "image buffer", static_cast<double>(image_buffer_bytes(limits)) / 1e6);
     for (const RaySpaceObject& object : objects) {
-        if (Status status = layout.fits(object, limits); !status) return status;
+        RS_TRY(layout.fits(object, limits));
     }
-    if (Status status = layout.fit_together(objects, limits); !status) return status;
+    RS_TRY(layout.fit_together(objects, limits));
     std::printf("all fit on the published board (%llu bytes)\n", static_cast<unsigned long long>(limits.memory_bytes));
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const bool has_shape =

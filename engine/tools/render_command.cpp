@@ -109,7 +109,7 @@ Status write_view_with_depth(const Renderer& renderer, const Camera& camera, std
     Image<std::int32_t> lambda_q20(camera.width, camera.height);
     renderer.render(registers, image, lambda_q20);
     empty.add(image);
-    if (Status status = write_png(path, image); !status) return status;
+    RS_TRY(write_png(path, image));
     return write_exr_channel(depth_name(path), depth_image(renderer.object(), camera, lambda_q20));
 }
 
@@ -122,15 +122,14 @@ Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras
         if (arguments.depth) view.depth_file_path = depth_name(view.file_path).string();
     }
     const int count = static_cast<int>(cameras.size());
-    Status written = for_each_in_parallel(count, "rendering", &progress, [&](int i) -> Status {
+    RS_TRY(for_each_in_parallel(count, "rendering", &progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
         const std::filesystem::path path = staged.temporary_path() / rig.views[n].file_path;
         if (arguments.depth) return write_view_with_depth(renderer, cameras[n], arguments.filter, path, empty);
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, render_camera(renderer, cameras[n], arguments.filter, empty));
         return write_png(path, image);
-    });
-    if (!written) return written;
-    if (Status status = write_rig(staged.temporary_path() / kRigFileName, rig); !status) return status;
+    }));
+    RS_TRY(write_rig(staged.temporary_path() / kRigFileName, rig));
     return staged.commit();
 }
 
@@ -174,7 +173,7 @@ Status check_one_image(const std::vector<Camera>& cameras, const RenderArguments
 
 Status write_image(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
                    EmptyViews& empty) {
-    if (Status status = check_one_image(cameras, arguments); !status) return status;
+    RS_TRY(check_one_image(cameras, arguments));
     if (arguments.depth)
         return write_view_with_depth(renderer, cameras.front(), arguments.filter, arguments.output, empty);
     std::vector<Image<Rgba8>> images;
@@ -214,9 +213,7 @@ Status run_render(const RenderArguments& arguments) {
                      ": --depth cannot be written with a video or a sheet; give a folder or one view's FILE.png to -o, "
                      "or leave out --depth"};
     }
-    if (Status kept = refuse_overwriting_inputs(arguments.output, {arguments.object, arguments.views.poses}); !kept) {
-        return kept;
-    }
+    RS_TRY(refuse_overwriting_inputs(arguments.output, {arguments.object, arguments.views.poses}));
     RS_ASSIGN_OR_RETURN(const Renderer renderer, open_renderer(arguments.object, arguments.level));
     RS_ASSIGN_OR_RETURN(std::vector<Camera> cameras, requested_cameras(renderer.object(), arguments.views));
     if (arguments.sheet_columns > 0 && arguments.views.size.empty()) {

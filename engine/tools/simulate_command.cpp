@@ -191,8 +191,7 @@ Status check_and_write_images(const model::BoardRun& run, const std::vector<Simu
             reconstruct_scalar(stored[views[n].object], views[n].registers, defined);
             equal += static_cast<std::size_t>(image == defined);
             if (folder) {
-                Status status = write_png(folder->temporary_path() / rig.views[n].file_path, image);
-                if (!status) return status;
+                RS_TRY(write_png(folder->temporary_path() / rig.views[n].file_path, image));
             }
             ++n;
         }
@@ -200,7 +199,7 @@ Status check_and_write_images(const model::BoardRun& run, const std::vector<Simu
     std::printf("%zu of %zu images equal the definition bit for bit\n", equal, n);
     if (equal != n) return Error{"the board's images differ from the definition; this is a defect of the model"};
     if (!folder) return {};
-    if (Status status = write_rig(folder->temporary_path() / kRigFileName, rig); !status) return status;
+    RS_TRY(write_rig(folder->temporary_path() / kRigFileName, rig));
     return folder->commit();
 }
 
@@ -219,7 +218,7 @@ Status run_simulate(const SimulateArguments& arguments) {
     used.emplace_back(arguments.views.poses);
     if (std::filesystem::is_regular_file(arguments.config)) used.emplace_back(arguments.config);
     for (const std::string& output : {arguments.output, arguments.stats, arguments.chart, arguments.trace}) {
-        if (Status kept = refuse_overwriting_inputs(output, used); !kept) return kept;
+        RS_TRY(refuse_overwriting_inputs(output, used));
         used.emplace_back(output);
     }
     std::vector<RaySpaceObject> objects;
@@ -242,17 +241,17 @@ Status run_simulate(const SimulateArguments& arguments) {
     RS_ASSIGN_OR_RETURN(const model::BoardRun run, board.render(cycles));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (waveform) {
-        if (Status status = waveform->finish(); !status) return status;
+        RS_TRY(waveform->finish());
     }
     const model::BoardReport report = model::make_report(board, run);
     print_report(report);
     std::printf("simulated at %.2f million board cycles a second\n", double(report.board_cycles) / seconds / 1e6);
     if (!arguments.stats.empty()) {
-        if (Status status = write_file(arguments.stats, model::report_json(report)); !status) return status;
+        RS_TRY(write_file(arguments.stats, model::report_json(report)));
     }
     if (!arguments.chart.empty()) {
         const std::string title = report.config + ", " + std::to_string(report.images) + " images";
-        if (Status status = write_file(arguments.chart, model::report_chart_svg(report, title)); !status) return status;
+        RS_TRY(write_file(arguments.chart, model::report_chart_svg(report, title)));
     }
     return check_and_write_images(run, views, objects, arguments.output, arguments.force);
 }

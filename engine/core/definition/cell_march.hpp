@@ -17,8 +17,9 @@ namespace rs::engine {
 //
 // A ray with the slope of the reference viewpoint's ray stays in one band. Any other ray crosses bands, linearly in
 // depth: band = zero + d * per_depth. The march goes away from the viewer in steps of half a band. A step meets the
-// surface there unless the step begins more than the map's thickness behind the deepest surrounding cell. The march
-// ends with the surface that a ray of reference slope would meet, and the surfaces that may lie behind it.
+// surface of its band if the surface is in front of the end of the step, and the step begins at most the map's
+// thickness behind the deepest surrounding cell. The march ends with the surface that a ray of reference slope would
+// meet, and the surfaces that may lie behind it.
 class CellMarch {
 public:
     static constexpr int kMaxSteps = 64;
@@ -65,7 +66,7 @@ public:
     [[nodiscard]] bool at_end() const { return ended_; }
 
 private:
-    // Surfaces at a band coordinate. Cells are samples at the centers of their bands.
+    // Surfaces at a band coordinate. Cells are samples at the centres of their bands.
     [[nodiscard]] SurfaceStack surfaces_at(std::int32_t at_q12) const {
         const std::int32_t from_middle_q12 = at_q12 - (1 << 11);
         const std::int32_t band = from_middle_q12 >> 12;

@@ -64,7 +64,7 @@ SampleSum sample_image(const RaySpaceObject& object, const ShapeImage& image, in
     const std::int32_t row_q8 = (view.cy_q16 >> 8) - multiply_shift(m_q12, y_q16 - (view.height_q20 >> 4), 20);
     if (column_q8 < 0 || column_q8 >= object.width << 8 || row_q8 < 0 || row_q8 >= object.height << 8) return {};
 
-    // Position of the sample in eighths of a pixel, from the center of pixel (0, 0).
+    // Position of the sample in eighths of a pixel, from the centre of pixel (0, 0).
     const int x_q3 = (column_q8 - 128 + 16) >> 5;
     const int y_q3 = (row_q8 - 128 + 16) >> 5;
     const int left = std::max(x_q3 >> 3, 0);

@@ -7,7 +7,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace rs::engine::HWY_NAMESPACE {
 
-// Image position of the sample of each lane, eighths of a pixel from the center of pixel (0, 0).
+// Image position of the sample of each lane, eighths of a pixel from the centre of pixel (0, 0).
 struct SamplePosition {
     LaneMask exists;
     Vector x_q3;

@@ -45,7 +45,7 @@ public:
         using By12 = std::integral_constant<int, 12>;
         using By16 = std::integral_constant<int, 16>;
         const Vector per_unit = number(walk.bands_per_unit_q12);
-        // Relative to the center of the first entry's band.
+        // Relative to the centre of the first entry's band.
         foot_ = hn::Sub(shifted(By16(), hn::Sub(h, number(walk.h_low_q16)), per_unit), number(column.first_middle_q12));
         const Vector slope = multiply_shift_within<24>(number(column.inverse_r_q20), rise);
         const Vector reference =

@@ -69,7 +69,7 @@ Camera random_camera(const RaySpaceObject& object, Random& random, Pose pose) {
         look_at_camera(eye * object.units_per_radius, at * object.units_per_radius, fov_x, width, height);
     if (pose == Pose::tilted) return camera;
     Camera upright = upright_camera(camera);
-    if (pose == Pose::on_ring) upright.cy -= upright.fl_y * eye_height / distance;  // keeps the object centered
+    if (pose == Pose::on_ring) upright.cy -= upright.fl_y * eye_height / distance;  // keeps the object centred
     return upright;
 }
 

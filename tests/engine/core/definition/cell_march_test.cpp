@@ -1,6 +1,6 @@
 // Tests of the surfaces that a ray meets (engine/RECONSTRUCTION.md, section 6). The viewpoint is on the axis at height
 // b, so that the foot is at height b, too, and the reference slope is 0 if b is the reference height. The ray passes
-// the center of one column of cells; shape_cells_test.cpp tests rays between columns. If all adjacent cells have a
+// the centre of one column of cells; shape_cells_test.cpp tests rays between columns. If all adjacent cells have a
 // surface, the last surface met is the farthest of them.
 #include "engine/core/definition/cell_march.hpp"
 
@@ -59,7 +59,7 @@ TEST(CellMarch, ARayOfReferenceSlopeMeetsTheSurfaceOfItsFootAlone) {
     EXPECT_EQ(at(-kOne_q20 / 8), (std::vector<int>{35 * 8 - 10, 40 * 8}));
     EXPECT_EQ(at(kOne_q20 / 8), (std::vector<int>{35 * 8 + 10, 40 * 8}));
     EXPECT_EQ(at(kOne_q20 / 8 - 256), (std::vector<int>{35 * 8, 40 * 8}));
-    // The first and the last cell reach one band beyond their centers, as far as their weight is above 0.
+    // The first and the last cell reach one band beyond their centres, as far as their weight is above 0.
     EXPECT_EQ(at(-9 * kOne_q20 / 2 + kOne_q20 / 8), (std::vector<int>{0}));
     EXPECT_TRUE(at(-9 * kOne_q20 / 2 + kOne_q20 / 8 - 256).empty());
     EXPECT_EQ(at(9 * kOne_q20 / 2 - 256), (std::vector<int>{70 * 8}));
@@ -181,14 +181,14 @@ TEST(CellMarch, CountsTheThicknessFromTheDeepestCell) {
 // surface of the ray's band at that depth.
 TEST(CellMarch, EndsWithTheSurfaceThatAReferenceRayWouldMeet) {
     Column column(8, {});
-    column.shape.h_low_q20 -= kOne_q20 / 2;       // the foot is at the center of band 4
+    column.shape.h_low_q20 -= kOne_q20 / 2;       // the foot is at the centre of band 4
     const std::int32_t one_step_q20 = 2047 * 64;  // an eighth of a band per radius: a quarter down at depth 0
     const auto end = [&](ShapeCell band3, ShapeCell band4) {
         column.cells[3] = band3;
         column.cells[4] = band4;
         return column.met(one_step_q20);
     };
-    // At depth 0 the ray is 2/8 below the center, and band 3 has a quarter of the weight.
+    // At depth 0 the ray is 2/8 below the centre, and band 3 has a quarter of the weight.
     EXPECT_EQ(end({16, kByBoth}, {0, kByBoth}), (std::vector<int>{2 * 16, 8 * 16}));
     // Beyond a jump: the surface with more weight, the one behind it, and the farthest, which is the same here.
     EXPECT_EQ(end({77, kByBoth}, {0, kByBoth}), (std::vector<int>{0, 8 * 77, 8 * 77}));

@@ -116,7 +116,7 @@ struct Differences {
     double mean_depth = 0, most_depth = 0, mean_grey = 0;
 };
 
-// Compares with ray casting over the pixels whose rays pass the ball's center at less than 0.8 of its radius.
+// Compares with ray casting over the pixels whose rays pass the ball's centre at less than 0.8 of its radius.
 Differences against_ray_casting(const RaySpaceObject& object, const test::Sphere& sphere, const Camera& camera) {
     Differences result;
     const Texel texel = stored(object);
