@@ -68,8 +68,8 @@ TEST(ConformanceSet, OneWrongBitIsFound) {
     const VectorSet set = small_set();
     for (const bool in_depth : {false, true}) {
         Implementation wrong = implementation_of(executor_named("scalar"));
-        wrong.open = [in_depth](const ConformanceCase& of_case, RaySpaceObject object) -> Result<ExecuteView> {
-            auto right = implementation_of(executor_named("scalar")).open(of_case, std::move(object));
+        wrong.open = [in_depth](const ConformanceCase& test_case, RaySpaceObject object) -> Result<ExecuteView> {
+            auto right = implementation_of(executor_named("scalar")).open(test_case, std::move(object));
             return ExecuteView([right = *right, in_depth](std::size_t v) {
                 auto view = right(v);
                 if (v == 1 && in_depth) view->depth_q20(3, 3) ^= 1;
