@@ -20,7 +20,7 @@ using ExecuteView = std::function<Result<ExecutedView>(std::size_t view)>;
 struct Implementation {
     std::string name;
     // `object` has its images as stored in the file (coded images are not unpacked).
-    std::function<Result<ExecuteView>(const ConformanceCase& of_case, RaySpaceObject object)> open;
+    std::function<Result<ExecuteView>(const ConformanceCase& test_case, RaySpaceObject object)> open;
 };
 
 /// Runs an executor. Declines objects and views that it does not render unchanged.
@@ -40,7 +40,7 @@ struct CaseResult {
 struct ConformanceMatrix {
     std::vector<std::string> names;
     std::vector<std::vector<CaseResult>> results;  // [case][implementation]
-    [[nodiscard]] bool passed() const;             // no difference, no failure, and each has a result
+    [[nodiscard]] bool passed() const;             // no difference, no failure, and an equal view of each
 };
 
 /// Runs all cases. If `write_folder` is not empty, also writes the views of the first implementation to it

@@ -7,11 +7,11 @@
 namespace rs::engine {
 
 /// Writes a view; creates folders as needed.
-Status write_view_files(const std::filesystem::path& folder, const std::string& of_case, std::size_t view,
+Status write_view_files(const std::filesystem::path& folder, const std::string& test_case, std::size_t view,
                         const ExecutedView& executed);
 
 /// Reads a view. \return error if the colour file is missing or a file is not of width x height pixels
-Result<ExecutedView> read_view_files(const std::filesystem::path& folder, const std::string& of_case, std::size_t view,
-                                     int width, int height);
+Result<ExecutedView> read_view_files(const std::filesystem::path& folder, const std::string& test_case,
+                                     std::size_t view, int width, int height);
 
 }  // namespace rs::engine

@@ -28,7 +28,7 @@ class ImageScore:
     def ssim(self) -> float: ...
 
 def read_image(path: _Path) -> npt.NDArray[np.uint8]:
-    """An image file as uint8 (height, width, 4): sRGB with straight alpha."""
+    """Reads an image file as uint8 (height, width, 4): sRGB with straight alpha."""
 
 def write_png(path: _Path, image: npt.NDArray[np.uint8]) -> None:
     """Writes uint8 (height, width, 4) as a PNG file."""

@@ -1,5 +1,5 @@
-// Python module `rayspace`: the public library (rayspace/api) under the same names. rayspace.pyi describes it for type
-// checkers; tests/python/stub_test.py compares both.
+// Python module `rayspace`: bindings of the public library (rayspace/api) under the same names. rayspace.pyi has its
+// type stubs; tests/python/stub_test.py compares both.
 
 #include "rayspace/api/builder.hpp"
 #include "rayspace/api/evaluation.hpp"
@@ -43,7 +43,7 @@ void check(const Status& status) {
     if (!status) throw Failure(status.error().message);
 }
 
-// Calls the library without the interpreter's lock.
+// Calls `function` with the interpreter lock (GIL) released.
 template <class Function>
 auto unlocked(const Function& function) {
     const py::gil_scoped_release other_threads_run;
@@ -117,7 +117,7 @@ py::object depth_or_none(const RenderedView& view) {
     return view.depth.empty() ? py::none() : py::object(to_array(view.depth));
 }
 
-// An exception of the callback is reported and does not stop the work.
+// Wraps a callback: its exceptions are reported as unraisable and do not stop the call.
 ProgressCallback guarded(std::optional<ProgressCallback> progress) {
     if (!progress) return {};
     return [progress = std::move(*progress)](const std::string& stage, double fraction) {
@@ -137,7 +137,7 @@ void add_images(py::module_& module) {
         .def_readonly("ssim", &ImageScore::ssim, "mean over R, G, B; 1 if equal");
     module.def(
         "read_image", [](const Path& path) { return to_array(unlocked([&] { return value_of(read_image(path)); })); },
-        py::arg("path"), "An image file as uint8 (height, width, 4): sRGB with straight alpha.");
+        py::arg("path"), "Reads an image file as uint8 (height, width, 4): sRGB with straight alpha.");
     module.def(
         "write_png", [](const Path& path, const Bytes& image) { check(write_png(path, image_of(image))); },
         py::arg("path"), py::arg("image"), "Writes uint8 (height, width, 4) as a PNG file.");
@@ -151,9 +151,10 @@ void add_images(py::module_& module) {
 }
 
 void add_cameras(py::module_& module) {
-    py::class_<Camera>(module, "Camera",
-                       "Pinhole camera with OpenGL axes: +X right, +Y up, it looks along -Z. Lengths are in the units "
-                       "of the object's capture set.")
+    py::class_<Camera>(
+        module, "Camera",
+        "Pinhole camera with OpenGL axes: +X right, +Y up, viewing direction -Z. Lengths are in the units "
+        "of the object's capture set.")
         .def(py::init(&make_camera), py::arg("world_from_camera"), py::arg("width"), py::arg("height"), py::kw_only(),
              py::arg("fov_x_rad") = py::none(), py::arg("fl_x") = py::none(), py::arg("fl_y") = py::none(),
              py::arg("cx") = py::none(), py::arg("cy") = py::none(),
@@ -255,8 +256,8 @@ void add_renderer(py::module_& module) {
             "image", [](const RenderedView& view) { return to_array(view.image); },
             "uint8 (height, width, 4): sRGB with straight alpha")
         .def_property_readonly("depth", &depth_or_none,
-                               "float32 (height, width): axial depth in the units of the capture set, 0 where nothing "
-                               "is shown; None if not wanted");
+                               "float32 (height, width): axial depth in the units of the capture set, 0 where alpha "
+                               "is 0; None if not requested");
     py::class_<Renderer>(module, "Renderer", "Renders views of one object. Create one with Renderer.create().")
         .def_static("create", &make_renderer, py::arg("object"), py::kw_only(), py::arg("executor") = "core",
                     py::arg("decoded_budget_bytes") = RendererOptions{}.decoded_budget_bytes,
@@ -268,7 +269,7 @@ void add_renderer(py::module_& module) {
                 return unlocked([&] { return value_of(renderer.render(camera, {filter, depth})); });
             },
             py::arg("camera"), py::kw_only(), py::arg_v("filter", Filter::kAuto, "Filter.AUTO"),
-            py::arg("depth") = false, "Renders a view; threads may call it at once.");
+            py::arg("depth") = false, "Renders a view. Thread-safe.");
     module.def(
         "executor_names", [] { return ExecutorTable().names(); },
         "Names of the executors, such as \"scalar, core, board:CONFIG\".");
@@ -281,10 +282,10 @@ void add_builder(py::module_& module) {
     py::enum_<PhotoCoding>(module, "PhotoCoding", "Storage of the photos.")
         .value("DENSE", PhotoCoding::kDense, "smallest")
         .value("BOARD", PhotoCoding::kBoard, "records of fixed sizes, for hardware")
-        .value("RAW", PhotoCoding::kRaw, "as they are, 2.5 bytes per pixel");
+        .value("RAW", PhotoCoding::kRaw, "uncompressed, 2.5 bytes per pixel");
     py::class_<BuiltObject>(module, "BuiltObject", "A built object.")
         .def_readonly("object", &BuiltObject::object, "in memory; Object.write() stores it")
-        .def_readonly("warnings", &BuiltObject::warnings, "what in the set limits the quality, one line each")
+        .def_readonly("warnings", &BuiltObject::warnings, "properties of the set that limit the quality, one line each")
         .def_readonly("photos_psnr_db", &BuiltObject::photos_psnr_db, "fidelity of compressed photos, or None");
     module.def(
         "build_object",
@@ -299,7 +300,7 @@ void add_builder(py::module_& module) {
         py::arg("planes") = 12, py::arg_v("coding", PhotoCoding::kDense, "PhotoCoding.DENSE"),
         py::arg("quality") = 75.0, py::arg("psnr_db") = py::none(), py::arg("photos_bytes") = py::none(),
         py::arg("effort") = 5, py::arg("alpha_bits") = py::none(), py::arg("progress") = py::none(),
-        "Builds an object from a capture set. Of photos_bytes, psnr_db and quality the first that is given counts. "
+        "Builds an object from a capture set. The first given option of photos_bytes, psnr_db and quality is used. "
         "progress is called with the stage and its fraction done.");
 }
 
@@ -327,8 +328,9 @@ void add_evaluation(py::module_& module) {
         },
         py::arg("set"), py::kw_only(), py::arg("every") = 2, py::arg_v("map", MapKind::kShape, "MapKind.SHAPE"),
         py::arg("planes") = 12, py::arg("progress") = py::none(),
-        "Builds an object from some photos of a set, renders the poses of the others, and compares. Of each `every` "
-        "neighbouring photos of a ring the middle one is held out.");
+        "Builds an object from some photos of a set, renders the poses of the others, and compares. The middle one of "
+        "each "
+        "`every` neighbouring photos of a ring is held out.");
 }
 
 }  // namespace

@@ -26,18 +26,19 @@ Status run_board(const std::vector<std::string>& paths) {
     }
     std::printf("%-28s %49.2f\n", "image buffer", static_cast<double>(image_buffer_bytes(limits)) / 1e6);
     for (const RaySpaceObject& object : objects) {
-        if (Status status = layout.fits(object, limits); !status) return status;
+        RS_TRY(layout.fits(object, limits));
     }
-    if (Status status = layout.fit_together(objects, limits); !status) return status;
+    RS_TRY(layout.fit_together(objects, limits));
     std::printf("all fit on the published board (%llu bytes)\n", static_cast<unsigned long long>(limits.memory_bytes));
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const bool has_shape =
             std::ranges::any_of(objects[i].rings, [](const Ring& ring) { return !ring.shape.empty(); });
         if (objects[i].coded == nullptr && !has_shape) continue;
-        std::fprintf(stderr,
-                     "rs-engine: %s: the board draws raw images on planes alone; encode it with --profile raw --raymap "
-                     "plane, and it takes what is stated here\n",
-                     printable(paths[i]).c_str());
+        std::fprintf(
+            stderr,
+            "rs-engine: %s: the board renders only raw images with a plane map; the sizes above are those after "
+            "encoding with --profile raw --raymap plane\n",
+            printable(paths[i]).c_str());
     }
     return {};
 }
@@ -47,7 +48,7 @@ Status run_board(const std::vector<std::string>& paths) {
 void add_board_command(CLI::App& app, std::function<Status()>& run) {
     auto objects = std::make_shared<std::vector<std::string>>();
     CLI::App* command = app.add_subcommand(
-        "board", "Say how much memory of the published hardware board objects take, and whether they fit");
+        "board", "Print the memory that objects take on the published hardware board, and check that they fit");
     command->add_option("OBJECT", *objects, "ray-space objects, .rso")->required();
     command->footer("Example:\n  rs-engine board vase.rso doll.rso");
     command->callback([objects, &run] { run = [objects] { return run_board(*objects); }; });

@@ -53,14 +53,14 @@ Status run_compare(const CompareArguments& arguments) {
 
 void add_compare_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<CompareArguments>();
-    CLI::App* command =
-        app.add_subcommand("compare",
-                           "Render every pose of a capture set and print PSNR and SSIM against its images.\n"
-                           "RGB premultiplied by alpha, 8 bit, over pixels where either image's alpha is above 0");
+    CLI::App* command = app.add_subcommand(
+        "compare",
+        "Render every pose of a capture set and print PSNR and SSIM against its photos.\n"
+        "Measured on RGB premultiplied by alpha, 8 bit, over pixels where either image's alpha is above 0");
     command->add_option("OBJECT", arguments->object, "ray-space object, .rso")->required();
-    command->add_option("SET", arguments->set, "capture set with the true images")->required();
+    command->add_option("SET", arguments->set, "capture set with the reference photos")->required();
     command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
-    command->add_flag("--json", arguments->json, "as JSON");
+    command->add_flag("--json", arguments->json, "print JSON");
     command->footer("Example:\n  rs-engine compare vase.rso vase-held-out --json");
     command->callback([arguments, &run] { run = [arguments] { return run_compare(*arguments); }; });
 }

@@ -17,12 +17,13 @@ namespace rs::engine {
 //
 // A ray with the slope of the reference viewpoint's ray stays in one band. Any other ray crosses bands, linearly in
 // depth: band = zero + d * per_depth. The march goes away from the viewer in steps of half a band. A step meets the
-// surface there unless the step begins more than the map's thickness behind the deepest surrounding cell. The march
-// ends with the surface that a ray of reference slope would meet, and the surfaces that may lie behind it.
+// surface of its band if the surface is in front of the end of the step, and the step begins at most the map's
+// thickness behind the deepest surrounding cell. The march ends with the surface that a ray of reference slope would
+// meet, and the surfaces that may lie behind it.
 class CellMarch {
 public:
-    static constexpr int kMostSteps = 64;
-    static constexpr std::int32_t kMostPerDepth_q20 = 1 << 22;
+    static constexpr int kMaxSteps = 64;
+    static constexpr std::int32_t kMaxPerDepth_q20 = 1 << 22;
 
     CellMarch(const ShapeMap& shape, const ShapeSetup& setup, std::int32_t b_q20, std::int32_t rise_q24)
         : cells_(setup.cells), bands_(shape.bands), jump_(shape.jump), thickness_(shape.thickness) {
@@ -34,8 +35,8 @@ public:
         foot_q12_ = multiply_shift(h_q16 - (shape.h_low_q20 >> 4), shape.bands_per_unit_q12, 16);
         zero_q12_ = foot_q12_ + multiply_shift(per_radius_q20, shape.depth_low_q20, 28);
         per_depth_q20_ =
-            std::clamp(multiply_shift(per_radius_q20, shape.depth_step_q24, 24), -kMostPerDepth_q20, kMostPerDepth_q20);
-        const int steps = std::min((std::abs(per_depth_q20_) >> 11) + 1, kMostSteps);
+            std::clamp(multiply_shift(per_radius_q20, shape.depth_step_q24, 24), -kMaxPerDepth_q20, kMaxPerDepth_q20);
+        const int steps = std::min((std::abs(per_depth_q20_) >> 11) + 1, kMaxSteps);
         step_ = 256 / steps;
         if (steps == 1) begin_ = 256;
     }
@@ -65,7 +66,7 @@ public:
     [[nodiscard]] bool at_end() const { return ended_; }
 
 private:
-    // Surfaces at a band coordinate. Cells are samples at the centers of their bands.
+    // Surfaces at a band coordinate. Cells are samples at the centres of their bands.
     [[nodiscard]] SurfaceStack surfaces_at(std::int32_t at_q12) const {
         const std::int32_t from_middle_q12 = at_q12 - (1 << 11);
         const std::int32_t band = from_middle_q12 >> 12;

@@ -64,7 +64,7 @@ SampleSum sample_image(const RaySpaceObject& object, const ShapeImage& image, in
     const std::int32_t row_q8 = (view.cy_q16 >> 8) - multiply_shift(m_q12, y_q16 - (view.height_q20 >> 4), 20);
     if (column_q8 < 0 || column_q8 >= object.width << 8 || row_q8 < 0 || row_q8 >= object.height << 8) return {};
 
-    // Position of the sample in eighths of a pixel, from the center of pixel (0, 0).
+    // Position of the sample in eighths of a pixel, from the centre of pixel (0, 0).
     const int x_q3 = (column_q8 - 128 + 16) >> 5;
     const int y_q3 = (row_q8 - 128 + 16) >> 5;
     const int left = std::max(x_q3 >> 3, 0);
@@ -101,16 +101,16 @@ inline int leaning_weight(int weight, int lean) {
 }
 
 // Section 8: blend of both images at a surface.
-struct ShownSurface {
+struct BlendedSurface {
     SampleSum sum;  // weights add up to 64 * 256; does not exist, or a = 0, if neither image shows the surface
     std::int32_t lambda_q20 = 0;
 };
 
 // Blends both images at depth d_q3. `rise_q24`: the rise of the pixel's direction (ViewRegisters::rise_q24).
 template <class Texels>
-ShownSurface shown_surface(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
-                           std::int32_t d_q3, int lean, std::int32_t rise_q24, const Texels& texels) {
-    ShownSurface shown;
+BlendedSurface blend_surface(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
+                             std::int32_t d_q3, int lean, std::int32_t rise_q24, const Texels& texels) {
+    BlendedSurface shown;
     shown.lambda_q20 = setup.lambda0_q20 + ((d_q3 * setup.lambda1_q21) >> 4);
     if (shown.lambda_q20 <= 0) return {};
     const std::int32_t y_q16 = (registers.b_q20 >> 4) + multiply_shift(shown.lambda_q20, rise_q24, 28);
@@ -144,9 +144,9 @@ template <class Texels>
 ShapePixel shape_pixel(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
                        std::int32_t rise_q24, const Texels& texels) {
     const auto shown_at = [&](std::int32_t d_q3, int lean = kBothShow) {
-        return shown_surface(object, registers, setup, d_q3, lean, rise_q24, texels);
+        return blend_surface(object, registers, setup, d_q3, lean, rise_q24, texels);
     };
-    const auto pixel = [](const ShownSurface& shown) { return ShapePixel{resolve(shown.sum), shown.lambda_q20}; };
+    const auto pixel = [](const BlendedSurface& shown) { return ShapePixel{resolve(shown.sum), shown.lambda_q20}; };
     if (!setup.has_shape()) return pixel(shown_at(0));
 
     const ShapeMap& shape = object.rings[static_cast<std::size_t>(registers.ring)].shape;
@@ -158,7 +158,7 @@ ShapePixel shape_pixel(const RaySpaceObject& object, const ViewRegisters& regist
     }
     ShapePixel nearer;  // first visible surface, which does not cover the pixel
     for (; cell.exists(); cell = march.next()) {
-        const ShownSurface shown = shown_at(cell.depth_q3, cell.lean);
+        const BlendedSurface shown = shown_at(cell.depth_q3, cell.lean);
         if (shown.sum.a == 0) continue;
         const ShapePixel here = pixel(shown);
         nearer = laid_over(nearer, here);

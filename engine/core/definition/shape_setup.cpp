@@ -8,8 +8,8 @@
 namespace rs::engine {
 namespace {
 
-constexpr std::int64_t kMostPerStep = std::int64_t{1} << 20;
-constexpr std::int64_t kFarthestView_q20 = std::int64_t{1} << 29;
+constexpr std::int64_t kMaxPerStep = std::int64_t{1} << 20;
+constexpr std::int64_t kMaxFootDepth_q20 = std::int64_t{1} << 29;
 
 // Horizontal projection of a ray: passes its foot in direction (sine, -cosine) along (tangent, normal).
 struct VerticalPlaneRay {
@@ -63,13 +63,13 @@ Bracket find_bracket(const Ring& ring, int hint, const PlanePoint& point) {
 }
 
 // Position between two neighbouring samples, in eighths.
-struct Between {
+struct InterpolationPosition {
     std::int64_t first = 0;  // the second is first + 1
     std::int32_t part = 0;
 };
 
 // `at_q8`: position in samples; sample n is located at n + 1/2.
-Between between_samples(std::int64_t at_q8) {
+InterpolationPosition between_samples(std::int64_t at_q8) {
     const std::int64_t from_middle_q8 = at_q8 - 128;
     return {from_middle_q8 >> 8, static_cast<std::int32_t>((from_middle_q8 >> 5) & 7)};
 }
@@ -82,8 +82,9 @@ CellColumns cells_around(const ShapeMap& shape, const Bracket& bracket, std::int
     const ShapeGap& gap = shape.gaps[n];
     const ShapeGap& before = shape.gaps[(n + gaps - 1) % gaps];
     const ShapeGap& after = shape.gaps[(n + 1) % gaps];
-    const Between p = between_samples(((p_q20 + shape.p_half_q20) * shape.p_cells_per_unit_q12) >> 24);
-    const Between line = between_samples(bracket.from_first_q20 * (std::int64_t{256} * gap.lines) / bracket.width_q20);
+    const InterpolationPosition p = between_samples(((p_q20 + shape.p_half_q20) * shape.p_cells_per_unit_q12) >> 24);
+    const InterpolationPosition line =
+        between_samples(bracket.from_first_q20 * (std::int64_t{256} * gap.lines) / bracket.width_q20);
     CellColumns columns;
     columns.p_part = p.part;
     columns.line_part = line.part;
@@ -119,7 +120,7 @@ ShapeImage along_ray(const RaySpaceObject& object, const Ring& ring, int n, int 
     image.l1_q24 = static_cast<std::int32_t>((depth_step_q24 * l_along_q30) >> 30);
     image.n0_q12 = static_cast<std::int32_t>((n_foot_q16 + ((depth_low_q20 * n_along_q16) >> 20)) >> 4);
     image.n1_q12 =
-        static_cast<std::int32_t>(std::clamp((depth_step_q24 * n_along_q16) >> 28, -kMostPerStep, kMostPerStep));
+        static_cast<std::int32_t>(std::clamp((depth_step_q24 * n_along_q16) >> 28, -kMaxPerStep, kMaxPerStep));
     return image;
 }
 
@@ -138,7 +139,7 @@ ShapeSetup set_up_shape(const RaySpaceObject& object, const ViewRegisters& regis
     const PlaneRegisters& plane = registers.planes[static_cast<std::size_t>(point.plane)];
     const std::int64_t to_foot_q20 = (plane.c_q20 * ray.cosine_q30 - plane.a_q20 * ray.sine_q30) >> 30;
     const std::int64_t lambda_foot_q20 = floor_divide(to_foot_q20 * (std::int64_t{1} << 28), ray.r_q28);
-    if (lambda_foot_q20 <= -kFarthestView_q20 || lambda_foot_q20 >= kFarthestView_q20) return {};
+    if (lambda_foot_q20 <= -kMaxFootDepth_q20 || lambda_foot_q20 >= kMaxFootDepth_q20) return {};
 
     ShapeSetup setup;
     setup.has_ray = true;

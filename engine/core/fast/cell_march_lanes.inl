@@ -1,4 +1,4 @@
-// SIMD implementation of CellMarch, one row of the column per lane. No include guard: shown_surface_lanes.inl, which
+// SIMD implementation of CellMarch, one row of the column per lane. No include guard: blend_surface_lanes.inl, which
 // shape_walk.cpp includes, includes it once for each SIMD target.
 
 #include "engine/core/definition/cell_march.hpp"
@@ -45,7 +45,7 @@ public:
         using By12 = std::integral_constant<int, 12>;
         using By16 = std::integral_constant<int, 16>;
         const Vector per_unit = number(walk.bands_per_unit_q12);
-        // Relative to the center of the first entry's band.
+        // Relative to the centre of the first entry's band.
         foot_ = hn::Sub(shifted(By16(), hn::Sub(h, number(walk.h_low_q16)), per_unit), number(column.first_middle_q12));
         const Vector slope = multiply_shift_within<24>(number(column.inverse_r_q20), rise);
         const Vector reference =
@@ -117,9 +117,9 @@ public:
 private:
     HWY_INLINE void begin_march() {
         per_depth_ =
-            hn::Min(hn::Max(per_depth_, number(-CellMarch::kMostPerDepth_q20)), number(CellMarch::kMostPerDepth_q20));
+            hn::Min(hn::Max(per_depth_, number(-CellMarch::kMaxPerDepth_q20)), number(CellMarch::kMaxPerDepth_q20));
         const Vector steps =
-            hn::Min(hn::Add(hn::ShiftRight<11>(hn::Abs(per_depth_)), number(1)), number(CellMarch::kMostSteps));
+            hn::Min(hn::Add(hn::ShiftRight<11>(hn::Abs(per_depth_)), number(1)), number(CellMarch::kMaxSteps));
         const LaneMask one = hn::Eq(steps, number(1));
         if (hn::AllTrue(Lanes(), one)) return;
         // Exact integer division in float: the added half keeps quotients away from integers.

@@ -27,9 +27,9 @@ bool has_valid_references(const CodedImages& coded, std::size_t view) {
 }
 
 // Decodes the reference tiles of a tile before they are read.
-class References final : public codec::ReferenceListener {
+class ReferenceDecoder final : public codec::ReferenceListener {
 public:
-    References(SampleStore& store, const codec::ImageHead& head) : store_(store), head_(head) {}
+    ReferenceDecoder(SampleStore& store, const codec::ImageHead& head) : store_(store), head_(head) {}
 
     void need(int reference, int left, int top, int right, int bottom) override {
         const CodedImages& coded = store_.coded();
@@ -102,7 +102,7 @@ void SampleStore::decode(int view, int tile) {
         references[r] = planes(head.reference[r]);
         mark_used(head.reference[r]);
     }
-    References listener(*this, head);
+    ReferenceDecoder listener(*this, head);
     codec::decode_tile(*coded_, static_cast<std::size_t>(view), static_cast<std::size_t>(tile), references, &listener,
                        writable_planes(view));
     const codec::TileRect place = codec::tile_rect(*coded_, static_cast<std::size_t>(tile));

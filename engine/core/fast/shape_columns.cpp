@@ -11,7 +11,7 @@ namespace {
 
 // Range of depths in which section 7's integers deviate less than half a column from the exact quotient. Nearer points
 // are not visible; at farther ones the reciprocal has too few bits.
-constexpr std::int64_t kFarthestBracket_q20 = std::int64_t{1} << 26;
+constexpr std::int64_t kMaxBracketDepth_q20 = std::int64_t{1} << 26;
 constexpr std::int64_t kMaxLateral_q12 = std::int64_t{1} << 30;
 
 // Bilinear reads need one column on either side; a second one covers rounding.
@@ -29,7 +29,7 @@ ColumnRange sampled_columns(const RaySpaceObject& object, const ShapeImage& imag
     for (const int d_q3 : {0, 255 * 8}) {
         const std::int64_t l_q20 = image.l0_q20 + ((std::int64_t{d_q3} * image.l1_q24) >> 7);
         const std::int64_t n_q12 = image.n0_q12 + ((std::int64_t{d_q3} * image.n1_q12) >> 3);
-        if (l_q20 < kNearest_q20 || l_q20 > kFarthestBracket_q20) return whole;
+        if (l_q20 < kNearest_q20 || l_q20 > kMaxBracketDepth_q20) return whole;
         if (n_q12 < -kMaxLateral_q12 || n_q12 > kMaxLateral_q12) return whole;
         const auto inverse_q20 = static_cast<std::int32_t>((std::int64_t{1} << 40) / l_q20);
         const std::int64_t column_q8 =

@@ -158,8 +158,8 @@ HWY_INLINE TexelQuads fetch(const TexelGrid& grid, std::int32_t start, Vector x_
     const Vector index = hn::Add(in_columns, in_rows);
     const Vector zero = hn::Zero(Lanes());
     TexelQuads quads{zero, zero, zero, zero, zero, zero};
-    // Prefetches the texels of the next rows of this column, which are read after all other columns. (GCC drops
-    // prefetches in a lambda.)
+    // Prefetches the texels of the next rows of this column, which are read after all other columns. (The
+    // compiler drops prefetches in a lambda.)
     constexpr int kBefore = 14;  // of 16 in a cache line
     const std::int32_t below = std::clamp(2 * rows[kLanes - 1] - rows[0], kBefore, std::max(grid.height - 1, kBefore));
     const std::int32_t* const next = grid.texels + start + columns[kLanes - 1] + below;

@@ -93,13 +93,13 @@ void set_row_range(const ShapeWalk& walk, const ShapeSetup& setup, ShapeColumn& 
     constexpr double kMaxNumber = 1 << 28;        // 2^29 would saturate
     const BandsAtEnd first = bands_at_end(walk, setup, walk.first_rise_q24);
     const BandsAtEnd last = bands_at_end(walk, setup, walk.last_rise_q24);
-    const bool is_exact = std::max(first.largest, last.largest) <= kMaxNumber;
+    const bool is_unsaturated = std::max(first.largest, last.largest) <= kMaxNumber;
     const double per_depth = std::max(std::abs(first.per_depth_q20), std::abs(last.per_depth_q20));
     const BandErrors errors = band_errors(walk, setup);
-    column.level = is_exact && per_depth + errors.per_depth_q20 < kMinMarching_q20;
+    column.level = is_unsaturated && per_depth + errors.per_depth_q20 < kMinMarching_q20;
     column.first_row = 0;
     column.end_row = walk.rows;
-    if (column.alone || !is_exact || per_depth > kMaxPerDepth_q20) return;
+    if (column.alone || !is_unsaturated || per_depth > kMaxPerDepth_q20) return;
     if (column.beyond == 0) {
         column.end_row = 0;
         return;

@@ -25,7 +25,7 @@ HWY_AFTER_NAMESPACE();
 
 #else
 
-#include "engine/core/fast/shown_surface_lanes.inl"
+#include "engine/core/fast/blend_surface_lanes.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace rs::engine::HWY_NAMESPACE {
@@ -67,7 +67,7 @@ public:
 
     // Writes the first surface; returns false if no row needs another one.
     HWY_INLINE bool write_first(const ShapeWalk& walk, const PixelRows& rows) {
-        const ShownLanes surface = shown_lanes(walk, rows.column, positions_, surface_, active_);
+        const BlendedLanes surface = blend_surface_lanes(walk, rows.column, positions_, surface_, active_);
         const Vector colour = hn::IfThenElseZero(surface.shown, surface.colour);
         hn::Store(colour, Lanes(), rows.colour);
         if (rows.lambda != nullptr) {
@@ -85,10 +85,10 @@ public:
         const Vector rise = hn::LoadU(Lanes(), rows.rise_q24);
         const auto blend = [&] {
             project(walk, rows.column, rise);
-            return shown_lanes(walk, rows.column, positions_, surface_, active_);
+            return blend_surface_lanes(walk, rows.column, positions_, surface_, active_);
         };
         while (!hn::AllFalse(Lanes(), active_) && find_surface(rows.column)) {
-            const ShownLanes surface = blend();
+            const BlendedLanes surface = blend();
             add(rows, hn::And(surface.shown, hn::Ne(surface.colour, zero)), surface.colour, surface.shown);
             update_active(surface);
         }
@@ -96,7 +96,7 @@ public:
             surface_ = behind;
             active_ = hn::And(uncovered_, is_surface(surface_));
             if (hn::AllFalse(Lanes(), active_)) continue;
-            const ShownLanes surface = blend();
+            const BlendedLanes surface = blend();
             const Vector nearer = hn::Load(Lanes(), rows.colour);
             const Vector farther = hn::IfThenElseZero(surface.shown, surface.colour);
             const LaneMask alone = hn::And(active_, hn::Eq(nearer, zero));
@@ -117,7 +117,7 @@ private:
     }
 
     // Deactivates the rows that are complete; returns true if any row needs another surface.
-    HWY_INLINE bool update_active(const ShownLanes& surface) {
+    HWY_INLINE bool update_active(const BlendedLanes& surface) {
         const LaneMask covers = hn::And(surface.shown, at_least(alpha_of(surface.colour), number(kCoveringAlpha)));
         const LaneMask at_end = hn::And(hn::AndNot(covers, active_), march_.ended());
         if (!hn::AllFalse(Lanes(), at_end)) {

@@ -44,7 +44,7 @@ struct ShapeColumn {
     bool alone = false;       // one image has all the weight
     // No ray of the column marches and no number of section 6 of engine/RECONSTRUCTION.md saturates.
     bool level = false;
-    // SurfaceColumn and its entries; first_middle: center of the first entry's band.
+    // SurfaceColumn and its entries; first_middle: centre of the first entry's band.
     const std::int32_t* smooth = nullptr;
     const std::int32_t* deepest = nullptr;
     const std::int32_t* steps = nullptr;

@@ -8,12 +8,12 @@
 namespace rs::engine {
 namespace {
 
-struct Measured {
+struct MeasuredView {
     ComparedView view;
     ImageDifference difference;
 };
 
-Result<Measured> compare_view(const RenderView& render, const std::filesystem::path& folder, const RigView& view) {
+Result<MeasuredView> compare_view(const RenderView& render, const std::filesystem::path& folder, const RigView& view) {
     const std::filesystem::path path = image_path(folder, view);
     RS_ASSIGN_OR_RETURN(const Image<Rgba8> truth, read_image(path));
     if (truth.width() != view.camera.width || truth.height() != view.camera.height) {
@@ -22,7 +22,7 @@ Result<Measured> compare_view(const RenderView& render, const std::filesystem::p
     const Result<Image<Rgba8>> rendered = render(view.camera);
     if (!rendered) return Error{path.string() + ": " + rendered.error().message};
     const ImageDifference difference = compare_images(*rendered, truth);
-    return Measured{{view.file_path, difference.psnr_db(), difference.ssim}, difference};
+    return MeasuredView{{view.file_path, difference.psnr_db(), difference.ssim}, difference};
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ Result<Comparison> compare_with_set(const RenderView& render, const std::filesys
     std::vector<ImageDifference> differences(rig.views.size());
     RS_TRY(for_each_in_parallel(count, "comparing", progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
-        RS_ASSIGN_OR_RETURN(Measured measured, compare_view(render, folder, rig.views[n]));
+        RS_ASSIGN_OR_RETURN(MeasuredView measured, compare_view(render, folder, rig.views[n]));
         comparison.views[n] = std::move(measured.view);
         differences[n] = measured.difference;
         return {};

@@ -29,16 +29,16 @@ private:
 enum class Pose { upright, on_ring, tilted };
 
 // Position of the views of a ring, in object radii.
-struct RingPlace {
+struct RingPosition {
     double distance = 0;
     double height = 0;
 };
 
-RingPlace random_place(const RaySpaceObject& object, Random& random) {
+RingPosition random_ring_position(const RaySpaceObject& object, Random& random) {
     const auto rings = static_cast<double>(object.rings.size());
     const Ring& ring = object.rings[std::min(static_cast<std::size_t>(random.in(0, rings)), object.rings.size() - 1)];
     const auto place = [](std::int32_t distance_q20, std::int32_t height_q20) {
-        return RingPlace{std::ldexp(distance_q20, -20), std::ldexp(height_q20, -20)};
+        return RingPosition{std::ldexp(distance_q20, -20), std::ldexp(height_q20, -20)};
     };
     if (!ring.shape.empty()) return place(ring.shape.reference_distance_q20, ring.shape.reference_height_q20);
     const CapturedView& view = object.views[ring.views.front()];
@@ -54,7 +54,7 @@ Camera random_camera(const RaySpaceObject& object, Random& random, Pose pose) {
     const double at_x = random.in(-0.3, 0.3);
     const double at_z = random.in(-0.3, 0.3);
     if (pose == Pose::on_ring) {
-        const RingPlace place = random_place(object, random);
+        const RingPosition place = random_ring_position(object, random);
         distance = place.distance;
         eye_height = place.height;
         at_height = 0;
@@ -69,7 +69,7 @@ Camera random_camera(const RaySpaceObject& object, Random& random, Pose pose) {
         look_at_camera(eye * object.units_per_radius, at * object.units_per_radius, fov_x, width, height);
     if (pose == Pose::tilted) return camera;
     Camera upright = upright_camera(camera);
-    if (pose == Pose::on_ring) upright.cy -= upright.fl_y * eye_height / distance;  // keeps the object centered
+    if (pose == Pose::on_ring) upright.cy -= upright.fl_y * eye_height / distance;  // keeps the object centred
     return upright;
 }
 

@@ -20,7 +20,7 @@ Result<Camera> first_captured_camera(const RaySpaceObject& object) {
     return rig.views[object.rings.front().views.front()].camera;
 }
 
-// Scales the image to the new shape about its center.
+// Scales the image to the new shape about its centre.
 void reshape(Camera& camera, const ViewShape& shape) {
     const int width = shape.width > 0 ? shape.width : camera.width;
     const int height = shape.height > 0 ? shape.height : camera.height;

@@ -1,4 +1,4 @@
-// The conformance set that comes with the project, and what happens to those who do not conform.
+// Tests of the conformance set of the project, and of implementations that do not conform.
 
 #include "engine/conformance/run_vectors.hpp"
 #include "engine/conformance/view_files.hpp"
@@ -27,7 +27,7 @@ VectorSet the_set() {
     return set.ok() ? *set : VectorSet{};
 }
 
-// The first case alone, with few views.
+// The first case only, with few views.
 VectorSet small_set() {
     VectorSet set = the_set();
     set.cases.resize(1);
@@ -35,7 +35,7 @@ VectorSet small_set() {
     return set;
 }
 
-TEST(ConformanceSet, DefinitionAndCoreAreAsTheHashesSay) {
+TEST(ConformanceSet, DefinitionAndCoreMatchTheHashes) {
     const VectorSet set = the_set();
     ASSERT_GE(set.cases.size(), 20U);
     const auto matrix =
@@ -50,7 +50,7 @@ TEST(ConformanceSet, DefinitionAndCoreAreAsTheHashesSay) {
     }
 }
 
-// A case whose images are all empty, or all the same, would hold nothing to be compared.
+// Cases with only empty or only equal images would test nothing.
 TEST(ConformanceSet, CasesShowTheirObjects) {
     for (const ConformanceCase& c : the_set().cases) {
         std::set<std::uint64_t> images;
@@ -68,8 +68,8 @@ TEST(ConformanceSet, OneWrongBitIsFound) {
     const VectorSet set = small_set();
     for (const bool in_depth : {false, true}) {
         Implementation wrong = implementation_of(executor_named("scalar"));
-        wrong.open = [in_depth](const ConformanceCase& of_case, RaySpaceObject object) -> Result<ExecuteView> {
-            auto right = implementation_of(executor_named("scalar")).open(of_case, std::move(object));
+        wrong.open = [in_depth](const ConformanceCase& test_case, RaySpaceObject object) -> Result<ExecuteView> {
+            auto right = implementation_of(executor_named("scalar")).open(test_case, std::move(object));
             return ExecuteView([right = *right, in_depth](std::size_t v) {
                 auto view = right(v);
                 if (v == 1 && in_depth) view->depth_q20(3, 3) ^= 1;
@@ -87,7 +87,7 @@ TEST(ConformanceSet, OneWrongBitIsFound) {
     }
 }
 
-TEST(ConformanceSet, WhoDeclinesEverythingHasNotPassed) {
+TEST(ConformanceSet, AnImplementationThatDeclinesEverythingFails) {
     const Implementation none{"none", [](const ConformanceCase&, const RaySpaceObject&) -> Result<ExecuteView> {
                                   return Error{"does nothing"};
                               }};
@@ -97,7 +97,7 @@ TEST(ConformanceSet, WhoDeclinesEverythingHasNotPassed) {
     EXPECT_EQ(matrix->results[0][1].declined, "does nothing");
 }
 
-TEST(ConformanceFiles, GoOutAndComeBack) {
+TEST(ConformanceFiles, RoundTrip) {
     const test::TemporaryFolder work;
     const VectorSet set = small_set();
     ASSERT_TRUE(run_vectors(set, {implementation_of(executor_named("core"))}, work / "out")->passed());
@@ -107,7 +107,7 @@ TEST(ConformanceFiles, GoOutAndComeBack) {
 
     const fs::path colours = work / "out" / set.cases[0].name / "1.rgba";
     fs::remove(work / "out" / set.cases[0].name / "1.depth");
-    EXPECT_TRUE(run_vectors(set, {implementation_in_files(work / "out")})->passed());  // depth may be left out
+    EXPECT_TRUE(run_vectors(set, {implementation_in_files(work / "out")})->passed());  // depth is optional
     fs::resize_file(colours, fs::file_size(colours) - 1);
     const auto cut = run_vectors(set, {implementation_in_files(work / "out")});
     EXPECT_FALSE(cut->passed());
@@ -125,7 +125,7 @@ protected:
     test::TemporaryFolder work_;
 };
 
-TEST_F(VectorsFile, ComesBackAsWritten) {
+TEST_F(VectorsFile, RoundTrip) {
     VectorSet set = the_set();
     set.folder = work_.path();
     ASSERT_TRUE(write_vectors(set).ok());
@@ -141,7 +141,7 @@ TEST_F(VectorsFile, ComesBackAsWritten) {
               expected.registers.planes.back().along_tangent.per_row);
 }
 
-TEST_F(VectorsFile, ThatIsNoneIsRefusedByName) {
+TEST_F(VectorsFile, InvalidFilesAreRejectedByName) {
     const std::string sound_case =
         R"({"name":"a","covers":"b","object":"a.rso","views":[{"registers":{"width":1,"height":1,"ring":0,"b":0,"s":[0,0,0],"planes":[]},"rgba":"0","depth":"0","object_pixels":0}]})";
     EXPECT_TRUE(read(R"({"version":1,"edition":"1","cases":[)" + sound_case + "]}").ok());
@@ -160,7 +160,7 @@ TEST_F(VectorsFile, ThatIsNoneIsRefusedByName) {
     }
 }
 
-TEST_F(VectorsFile, RegistersOutOfRangeAreRefused) {
+TEST_F(VectorsFile, RegistersOutOfRangeAreRejected) {
     const VectorSet sound = small_set();
     const auto refused = [&](const char* what, const std::function<void(ViewRegisters&)>& damage) {
         VectorSet set = sound;

@@ -1,4 +1,4 @@
-// SIMD implementation of shown_surface() and laid_over() of shape_pixel.hpp, one row of the column per lane. No include
+// SIMD implementation of blend_surface() and laid_over() of shape_pixel.hpp, one row of the column per lane. No include
 // guard: shape_walk.cpp includes it once for each SIMD target.
 
 #include "engine/core/definition/shape_pixel.hpp"
@@ -7,7 +7,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace rs::engine::HWY_NAMESPACE {
 
-// Image position of the sample of each lane, eighths of a pixel from the center of pixel (0, 0).
+// Image position of the sample of each lane, eighths of a pixel from the centre of pixel (0, 0).
 struct SamplePosition {
     LaneMask exists;
     Vector x_q3;
@@ -59,7 +59,7 @@ HWY_INLINE SurfacePositions surface_positions(const ShapeWalk& walk, const Shape
     return positions;
 }
 
-struct ShownLanes {
+struct BlendedLanes {
     LaneMask shown;
     Vector colour;
 };
@@ -102,9 +102,9 @@ HWY_INLINE Vector opaque_colour(const Sample& first, const Sample& second, Vecto
     return packed(hn::ShiftRight<14>(sum.r), hn::ShiftRight<14>(sum.g), hn::ShiftRight<14>(sum.b), number(255));
 }
 
-// shown_surface() of `surface_met` in the lanes `requested`.
-HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeColumn& column, const SurfacePositions& positions,
-                                  Vector surface_met, LaneMask requested) {
+// blend_surface() of `surface_met` in the lanes `requested`.
+HWY_INLINE BlendedLanes blend_surface_lanes(const ShapeWalk& walk, const ShapeColumn& column,
+                                            const SurfacePositions& positions, Vector surface_met, LaneMask requested) {
     const Vector zero = hn::Zero(Lanes());
     // The border of the texels replaces the clamps of section 7.
     const TexelGrid grid{reinterpret_cast<const std::int32_t*>(walk.texels), walk.details, walk.column_stride,
@@ -121,7 +121,7 @@ HWY_INLINE ShownLanes shown_lanes(const ShapeWalk& walk, const ShapeColumn& colu
     const LaneMask second_exists = positions.second.exists;
     const Sample first = sample(positions.first, column.first);
     const Sample second = sample(positions.second, column.second);
-    ShownLanes surface;
+    BlendedLanes surface;
     const LaneMask both = hn::And(first_exists, second_exists);
     const Vector alphas = hn::Or(hn::And(all_bits(first.texels), all_bits(second.texels)), number(0x00FFFFFF));
     if (HWY_LIKELY(hn::AllTrue(Lanes(), hn::Or(hn::Not(requested), hn::And(both, hn::Eq(alphas, number(-1))))))) {
