@@ -190,12 +190,9 @@ Status run(const Arguments& arguments) {
     const Scene flat = flattened(instanced);
     const Camera camera = look_at_camera(glm::dvec3(model.views[0].eye), glm::dvec3(model.views[0].at), radians(60),
                                          arguments.width, arguments.height);
-    Result<Tracer> tracer = Tracer::create(flat);
-    if (!tracer) return tracer.error();
-    Result<Tracer> of_instances = Tracer::create(instanced);
-    if (!of_instances) return of_instances.error();
-    const Result<RayScene> rays = RayScene::create(flat);
-    if (!rays) return rays.error();
+    RS_ASSIGN_OR_RETURN(Tracer tracer, Tracer::create(flat));
+    RS_ASSIGN_OR_RETURN(Tracer of_instances, Tracer::create(instanced));
+    RS_ASSIGN_OR_RETURN(const RayScene rays, RayScene::create(flat));
     std::printf("%s, %lld triangles, %dx%d, %zu lights\n", model.name.c_str(),
                 static_cast<long long>(synthetic::triangle_count(model)), arguments.width, arguments.height,
                 flat.lights.size());
@@ -204,14 +201,14 @@ Status run(const Arguments& arguments) {
     options.samples_per_pixel = 1;
     options.ambient = glm::vec3(0.1F);
     options.threads = arguments.threads;
-    const std::vector<TileRays> tiles = rays_of_frame(*rays, flat, camera);
+    const std::vector<TileRays> tiles = rays_of_frame(rays, flat, camera);
     std::size_t count = 0;
     for (const TileRays& asked : tiles) count += asked.camera.size() + asked.to_lights.size();
 
-    const Cost whitted = measure("Whitted", arguments.frames, [&] { (void)tracer->render(camera, options); });
-    const LightSet lights(flat, flat.environment, {0.5F * (rays->upper() + rays->lower()), glm::length(rays->upper())});
+    const Cost whitted = measure("Whitted", arguments.frames, [&] { (void)tracer.render(camera, options); });
+    const LightSet lights(flat, flat.environment, {0.5F * (rays.upper() + rays.lower()), glm::length(rays.upper())});
     const std::vector<SurfaceModel> models = make_surface_models(flat.materials);
-    const LightTransport transport(flat, *rays, lights, models);
+    const LightTransport transport(flat, rays, lights, models);
     const WhittedTracer alone(transport, IrradianceMap(lights.environment()), options.ambient, 8);
     const auto of_rays = [&](bool packets) {
         return measure(packets ? "its rays, in packets" : "its rays, one by one", arguments.frames, [&] {
@@ -235,8 +232,8 @@ Status run(const Arguments& arguments) {
             const TileRays& asked = tiles[static_cast<std::size_t>(i)];
             std::vector<RayScene::Hit> hits(asked.camera.size());
             std::vector<std::uint8_t> hidden(asked.to_lights.size());
-            rays->intersect_many(asked.camera, hits);
-            rays->occluded_many(asked.to_lights, hidden);
+            rays.intersect_many(asked.camera, hits);
+            rays.occluded_many(asked.to_lights, hidden);
         });
     });
     std::vector<Packets> made;
@@ -246,37 +243,36 @@ Status run(const Arguments& arguments) {
             const Packets& tile = made[static_cast<std::size_t>(i)];
             for (const auto& [mask, met] : tile.camera) {
                 RayHitLanes found = met;
-                rays->intersect(mask, found);
+                rays.intersect(mask, found);
             }
             for (const auto& [mask, ray] : tile.to_lights) {
                 RayLanes found = ray;
-                rays->occluded(mask, found);
+                rays.occluded(mask, found);
             }
         });
     });
     const Cost instances =
-        measure("Whitted, all instances", arguments.frames, [&] { (void)of_instances->render(camera, options); });
+        measure("Whitted, all instances", arguments.frames, [&] { (void)of_instances.render(camera, options); });
     Camera coarse = camera;
     coarse.width = 1280 / 16;
     coarse.height = 720 / 16;
     coarse.fl_x = coarse.fl_y = coarse.fl_x * coarse.width / camera.width;
     coarse.cx = coarse.width / 2.0;
     coarse.cy = coarse.height / 2.0;
-    measure("a grid of 16x16 pixels of 1280x720", arguments.frames, [&] { (void)tracer->render(coarse, options); });
+    measure("a grid of 16x16 pixels of 1280x720", arguments.frames, [&] { (void)tracer.render(coarse, options); });
 
     Scene movers = flat;
     movers.parts = {{"chair", model.groups[3].meshes}};
     for (int i = 0; i < 1000; ++i) movers.instances.push_back({0});
-    Result<Tracer> moving = Tracer::create(movers);
-    if (!moving) return moving.error();
+    RS_ASSIGN_OR_RETURN(Tracer moving, Tracer::create(movers));
     int step = 0;
     measure("1000 instances moved", arguments.frames, [&] {
         ++step;
         for (std::size_t i = 0; i < 1000; ++i) {
             const auto place = static_cast<double>(i);
-            (void)moving->move(i, glm::translate(glm::dmat4(1), {0.02 * place, 0.1 * step, 0.003 * place}));
+            (void)moving.move(i, glm::translate(glm::dmat4(1), {0.02 * place, 0.1 * step, 0.003 * place}));
         }
-        moving->commit();
+        moving.commit();
     });
     std::printf("%.1f frames/s; %.2f rays per pixel; %.2f Mray/s per core\n", 1000 / whitted.wall_ms,
                 static_cast<double>(count) / camera.width / camera.height,

@@ -71,37 +71,31 @@ std::string about(const ReferenceImages& images) {
 
 Result<SetResult> measure_set(const std::string& folder, const CurveNames& wanted, const std::string& encoder,
                               const WorkFolder& work, Progress& progress) {
-    const Result<ReferenceImages> images = read_reference_images(folder, &progress);
-    if (!images) return images.error();
+    RS_ASSIGN_OR_RETURN(const ReferenceImages images, read_reference_images(folder, &progress));
     std::vector<Measurement> measured;
     if (!wanted.profiles.empty()) {
-        const auto ours = measure_ours(*images, wanted.profiles, encoder, work, progress);
-        if (!ours) return ours.error();
-        measured = *ours;
+        RS_ASSIGN_OR_RETURN(const auto ours, measure_ours(images, wanted.profiles, encoder, work, progress));
+        measured = ours;
     }
     if (!wanted.anchors.empty()) {
-        const auto anchors = measure_anchors(*images, wanted.anchors, work, progress);
-        if (!anchors) return anchors.error();
-        measured.insert(measured.end(), anchors->begin(), anchors->end());
+        RS_ASSIGN_OR_RETURN(const auto anchors, measure_anchors(images, wanted.anchors, work, progress));
+        measured.insert(measured.end(), anchors.begin(), anchors.end());
     }
-    return SetResult{images->name, about(*images), best_variants(measured)};
+    return SetResult{images.name, about(images), best_variants(measured)};
 }
 
 Status run(const Arguments& arguments) {
-    const Result<CurveNames> wanted = parse_curve_names(arguments.only);
-    if (!wanted) return wanted.error();
-    if (Status status = check_encoder(arguments.encoder, wanted->profiles); !status) return status;
-    const Result<WorkFolder> work = WorkFolder::open(arguments.work);
-    if (!work) return work.error();
+    RS_ASSIGN_OR_RETURN(const CurveNames wanted, parse_curve_names(arguments.only));
+    RS_TRY(check_encoder(arguments.encoder, wanted.profiles));
+    RS_ASSIGN_OR_RETURN(const WorkFolder work, WorkFolder::open(arguments.work));
     ProgressBar progress;
     std::vector<SetResult> results;
     for (const std::string& set : arguments.sets) {
-        Result<SetResult> result = measure_set(set, *wanted, arguments.encoder, *work, progress);
-        if (!result) return result.error();
-        results.push_back(std::move(*result));
+        RS_ASSIGN_OR_RETURN(SetResult result, measure_set(set, wanted, arguments.encoder, work, progress));
+        results.push_back(std::move(result));
         // Written after every set, so that results survive a failure of a later one.
-        if (Status status = write_file(arguments.csv, points_csv(results)); !status) return status;
-        if (Status status = write_file(ratios_path(arguments.csv), ratios_csv(results)); !status) return status;
+        RS_TRY(write_file(arguments.csv, points_csv(results)));
+        RS_TRY(write_file(ratios_path(arguments.csv), ratios_csv(results)));
     }
     std::fputs(summary_text(results).c_str(), stdout);
     return arguments.svg.empty() ? Status{} : write_file(arguments.svg, rate_plot_svg(results));

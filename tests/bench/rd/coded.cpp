@@ -36,11 +36,10 @@ Status CodedCache::store(const std::string& key, const Coded& coded) const {
     text << key << '\n'
          << coded.bytes << ' ' << coded.error.object_pixels << ' ' << coded.error.squared_error << ' '
          << coded.error.block_pixels << ' ' << coded.error.alpha_error << ' ' << coded.has_alpha << '\n';
-    Result<StagedFile> file = StagedFile::create(file_of(key));
-    if (!file) return file.error();
+    RS_ASSIGN_OR_RETURN(StagedFile file, StagedFile::create(file_of(key)));
     const std::string content = text.str();
-    if (Status status = file->write(std::as_bytes(std::span(content))); !status) return status;
-    return file->commit();
+    RS_TRY(file.write(std::as_bytes(std::span(content))));
+    return file.commit();
 }
 
 }  // namespace rs::bench

@@ -89,19 +89,17 @@ Result<Coded> code_astc(const ReferenceImages& images, const std::vector<Image<R
     if (!with_alpha) atlas = made_opaque(std::move(atlas));
     const std::filesystem::path in = folder / "astc-in.png";
     const std::filesystem::path out = folder / "astc-out.png";
-    if (Status status = write_png(in, atlas); !status) return status.error();
+    RS_TRY(write_png(in, atlas));
     const std::string size = std::to_string(block_px) + "x" + std::to_string(block_px);
-    const Result<std::string> ran = run_tool({"astcenc", "-ts", in.string(), out.string(), size, "-medium"});
-    if (!ran) return ran.error();
-    const Result<Image<Rgba8>> decoded = read_image(out);
-    if (!decoded) return decoded.error();
-    if (decoded->width() != atlas.width() || decoded->height() != atlas.height()) {
+    RS_TRY(run_tool({"astcenc", "-ts", in.string(), out.string(), size, "-medium"}));
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> decoded, read_image(out));
+    if (decoded.width() != atlas.width() || decoded.height() != atlas.height()) {
         return Error{out.string() + ": differs in size from the input of astcenc; try another version of astcenc"};
     }
     Coded coded;
     coded.bytes = kAstcBlock_bytes * places.size();
     coded.has_alpha = with_alpha;
-    const std::vector<Image<Rgba8>> views = unpacked(images, *decoded, places, packing);
+    const std::vector<Image<Rgba8>> views = unpacked(images, decoded, places, packing);
     for (std::size_t view = 0; view < views.size(); ++view) coded.error += object_error(images, view, views[view]);
     return coded;
 }

@@ -48,9 +48,7 @@ Result<Coded> code_stills(const ReferenceImages& images, const std::vector<Image
         }
         return {};
     };
-    if (Status status = for_each_in_parallel(static_cast<int>(shown.size()), "", nullptr, code); !status) {
-        return status.error();
-    }
+    RS_TRY(for_each_in_parallel(static_cast<int>(shown.size()), "", nullptr, code));
     Coded all;
     for (const Coded& part : parts) {
         all.bytes += part.bytes;
