@@ -1,4 +1,4 @@
-// Three real turns: what must hold of every view, whatever the photographs look like in detail.
+// Import of three real photo sets: properties that every view must have.
 
 #include "capture/photos/import.hpp"
 #include "capture/photos/rig/turning.hpp"
@@ -24,8 +24,8 @@ struct Imported {
     ImportReport report;
     Rig rig;
     std::vector<Image<Rgba8>> cuts;
-    double held_out_db = 0;    // of views between the photographs: every second one held out
-    double held_out_ssim = 0;  // likewise
+    double held_out_db = 0;    // PSNR of views between the photos; every second one is held out
+    double held_out_ssim = 0;  // SSIM of the same views
 };
 
 void score_held_out(const std::filesystem::path& folder, Imported& imported) {
@@ -55,7 +55,7 @@ Imported import(const std::filesystem::path& photos, CalibrationChoice calibrati
     return imported;
 }
 
-// Solid pixels of the largest 4-connected part, and of all parts.
+// Opaque pixels of the largest 4-connected component, and of all components.
 struct Parts {
     int largest = 0;
     int all = 0;
@@ -89,7 +89,7 @@ Parts solid_parts(const Image<Rgba8>& cut) {
     return parts;
 }
 
-// Solid pixels within 2 px of the image's border.
+// Opaque pixels within 2 px of the image's border.
 int solid_at_border(const Image<Rgba8>& cut) {
     int count = 0;
     for (int y = 0; y < cut.height(); ++y) {
@@ -108,7 +108,7 @@ void expect_one_object_in_every_view(const Imported& imported) {
     }
 }
 
-// As a nominal rig asks for it.
+// Direction of rotation as determined for a nominal rig.
 std::optional<Turning> turning_by_images(const ImportReport& report) {
     const std::vector<Image<Rgba8>>& turn = report.small_foregrounds;
     const double axis_px = report.nominal.axis_x_px * turn.front().width() / report.folder.width;
@@ -131,14 +131,14 @@ TEST(RealPhotos, DinosaurOnABlueDisc) {
     EXPECT_EQ(imported.report.backdrop, BackgroundKind::kColour);
     EXPECT_GT(imported.report.backdrop_colour.b, imported.report.backdrop_colour.r + 40);
     EXPECT_EQ(imported.report.turning, Turning::kClockwise);
-    EXPECT_EQ(imported.report.nominal.turning_from, "") << "points tell it";
+    EXPECT_EQ(imported.report.nominal.turning_from, "") << "found from feature points";
     EXPECT_EQ(turning_by_images(imported.report), Turning::kClockwise);
     EXPECT_LT(imported.report.nominal.axis_spread_px, 5);
     EXPECT_GT(imported.report.min_coverage, 0.09);
     EXPECT_LT(imported.report.max_coverage, 0.18);
     expect_one_object_in_every_view(imported);
     for (std::size_t i = 0; i < imported.cuts.size(); ++i) {
-        // The dinosaur's colours are yellow to red and white; what is blue and solid would be the disc.
+        // The dinosaur is yellow to red and white; opaque blue pixels would belong to the disc.
         int blue = 0;
         int solid = 0;
         for (const Rgba8& p : imported.cuts[i].pixels()) {
@@ -149,7 +149,7 @@ TEST(RealPhotos, DinosaurOnABlueDisc) {
         EXPECT_LT(blue, 0.004 * solid) << "view " << i;
         EXPECT_EQ(solid_at_border(imported.cuts[i]), 0) << "view " << i;
     }
-    // 20 degrees apart; 21.97 dB and 0.797 were measured.
+    // 20 degrees apart; measured: 21.97 dB and 0.797.
     EXPECT_GT(imported.held_out_db, 21.5);
     EXPECT_GT(imported.held_out_ssim, 0.78);
 }
@@ -166,7 +166,7 @@ TEST(RealPhotos, ShoeOnWhiteWithASoftShadow) {
     EXPECT_LT(imported.report.max_coverage, 0.42);
     expect_one_object_in_every_view(imported);
     for (const Image<Rgba8>& cut : imported.cuts) {
-        // The shoe's heel comes up to the right side in two views; elsewhere the border is free.
+        // The shoe's heel touches the right border in two views; otherwise the border is free.
         EXPECT_LT(solid_at_border(cut), 60);
     }
 }
