@@ -40,7 +40,7 @@ constexpr int kHidden = 91;
 constexpr double kObjectRadius = 0.272;  // images of 256x256 px on a screen of 1280x720
 
 // Smooth procedural texture of a base colour, 512x512.
-std::shared_ptr<const compositor::SceneTexture> stained(const glm::vec3& colour, unsigned seed) {
+std::shared_ptr<const compositor::SceneTexture> stained_texture(const glm::vec3& colour, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> phase(0, 6.28F);
     const float a = phase(random);
@@ -108,7 +108,8 @@ Scene room() {
     };
     const auto face = square();
     const auto painted = [](const glm::vec3& colour, unsigned seed) {
-        return Material{.specular = glm::vec3(0.05F), .ambient = 1, .texture = stained(colour, seed), .normals = {}};
+        return Material{
+            .specular = glm::vec3(0.05F), .ambient = 1, .texture = stained_texture(colour, seed), .normals = {}};
     };
     const Material wall = painted({0.85F, 0.82F, 0.75F}, 1);
     add(face, placed({0, 1.5, -4}, {8, 0, 0}, {0, 3, 0}, {0, 0, 1}), wall);
@@ -168,8 +169,8 @@ struct Times {
     int nodes = 0;
 };
 
-Result<Times> timed(const Scene& scene, const std::vector<PlacedObject>& objects, const Options& options, int samples,
-                    bool parts) {
+Result<Times> measure_frames(const Scene& scene, const std::vector<PlacedObject>& objects, const Options& options,
+                             int samples, bool parts) {
     RS_ASSIGN_OR_RETURN(auto frames, compositor::FrameCompositor::create(scene, objects,
                                                                          {.width = options.width,
                                                                           .height = options.height,
@@ -227,8 +228,8 @@ Status run(Options options) {
     for (const int samples : {1, 4}) {
         for (const int unseen : {0, kHidden}) {
             const std::vector<PlacedObject> placed = placed_objects(objects, unseen);
-            RS_ASSIGN_OR_RETURN(const Times whole, timed(scene, placed, options, samples, false));
-            RS_ASSIGN_OR_RETURN(const Times parts, timed(scene, placed, options, samples, true));
+            RS_ASSIGN_OR_RETURN(const Times whole, measure_frames(scene, placed, options, samples, false));
+            RS_ASSIGN_OR_RETURN(const Times parts, measure_frames(scene, placed, options, samples, true));
             std::printf("%7d %7zu %5d  %4.0f^2 %12.1f %7.1f %7.1f  | %8.1f %7.1f %7.1f %10.1f\n", samples,
                         placed.size(), whole.nodes, whole.side_px, whole.frame_ms, 1e3 / whole.frame_ms, whole.cpu_ms,
                         parts.geometry_ms, parts.engine_ms, parts.upload_ms, parts.composite_ms);

@@ -38,12 +38,13 @@ double luminance_of(const RgbaF& p) {
     return p.a > 0 ? static_cast<double>(luminance({p.r, p.g, p.b})) : 0;
 }
 
-struct Taken {
+struct ElapsedTime {
     double wall_s = 0;
     double cpu_s = 0;
 };
 
-void print_row(const char* name, const TracedRenderer& renderer, const Taken& taken, const RenderedImages& reference) {
+void print_row(const char* name, const TracedRenderer& renderer, const ElapsedTime& taken,
+               const RenderedImages& reference) {
     const Image<RgbaF> radiance = renderer.radiance();
     double sum = 0, reference_sum = 0, squares = 0;
     for (int y = 0; y < radiance.height(); ++y) {
@@ -91,7 +92,7 @@ Status run(const Arguments& arguments) {
         renderer.set_method(named.method);
         renderer.begin_image(camera);
         const bench::Stopwatch watch;
-        Taken taken;
+        ElapsedTime taken;
         do {
             renderer.add_pass();
             taken = {watch.wall_s(), watch.cpu_s()};

@@ -43,15 +43,16 @@ MirrorView view_from(double turn_deg, int side_px) {
 }
 
 // Traces the view by a mirror perpendicular to the line of sight, halfway along it.
-Result<Image<Rgba8>> in_mirror(const compositor::PlacedObject& placed, const MirrorView& looked, int samples) {
-    const glm::dvec3 n = looked.towards, middle = 0.5 * kDistance * n;
+Result<Image<Rgba8>> trace_mirrored(const compositor::PlacedObject& placed, const MirrorView& mirror_view,
+                                    int samples) {
+    const glm::dvec3 n = mirror_view.towards, middle = 0.5 * kDistance * n;
     const auto mirrored = [&](const glm::dvec3& v) { return v - 2 * glm::dot(v, n) * n; };
     capture::Scene scene;
     capture::Material mirror;
     mirror.kind = capture::SurfaceKind::mirror;
     mirror.colour = glm::vec3(1);
     scene.materials = {mirror};
-    const glm::dvec3 across = 4.0 * looked.camera.right(), up = 4.0 * glm::cross(n, looked.camera.right());
+    const glm::dvec3 across = 4.0 * mirror_view.camera.right(), up = 4.0 * glm::cross(n, mirror_view.camera.right());
     capture::Mesh glass;
     for (const auto& [s, t] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
         glass.positions.emplace_back(middle + static_cast<double>(s) * across + static_cast<double>(t) * up);
@@ -61,12 +62,12 @@ Result<Image<Rgba8>> in_mirror(const compositor::PlacedObject& placed, const Mir
     scene.primitives = {std::make_shared<compositor::ObjectPrimitive>(placed, 1.0F)};
     RS_ASSIGN_OR_RETURN(const capture::Tracer tracer, capture::Tracer::create(std::move(scene)));
 
-    const glm::dmat4& from = looked.camera.world_from_camera;
-    Camera behind = looked.camera;
+    const glm::dmat4& from = mirror_view.camera.world_from_camera;
+    Camera behind = mirror_view.camera;
     behind.world_from_camera =
         glm::dmat4(glm::dvec4(-mirrored(glm::dvec3(from[0])), 0), glm::dvec4(mirrored(glm::dvec3(from[1])), 0),
                    glm::dvec4(mirrored(glm::dvec3(from[2])), 0),
-                   glm::dvec4(mirrored(looked.camera.centre() - middle) + middle, 1));
+                   glm::dvec4(mirrored(mirror_view.camera.centre() - middle) + middle, 1));
     capture::RenderOptions options;
     options.method = capture::RenderMethod::kWhitted;
     options.samples_per_pixel = samples;
@@ -81,7 +82,7 @@ Result<Image<Rgba8>> in_mirror(const compositor::PlacedObject& placed, const Mir
     return turned;
 }
 
-bool black(Rgba8 p) {
+bool is_black(Rgba8 p) {
     return p.r == 0 && p.g == 0 && p.b == 0;
 }
 
@@ -105,9 +106,9 @@ Status compare(const std::string& name, const Arguments& arguments) {
 
     Sums all;
     for (const double turn_deg : {3.0, 123.0, 243.0}) {
-        const MirrorView looked = view_from(turn_deg, arguments.side_px);
-        RS_ASSIGN_OR_RETURN(const TruthDifference direct, comparison.compare(looked.camera, arguments.truth));
-        RS_ASSIGN_OR_RETURN(const Image<Rgba8> mirror, in_mirror(placed, looked, arguments.truth.samples));
+        const MirrorView mirror_view = view_from(turn_deg, arguments.side_px);
+        RS_ASSIGN_OR_RETURN(const TruthDifference direct, comparison.compare(mirror_view.camera, arguments.truth));
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> mirror, trace_mirrored(placed, mirror_view, arguments.truth.samples));
         const Image<Rgba8>& truth = direct.truth.image;
         Sums sums;
         Image<Rgba8> sheet(3 * truth.width(), truth.height());
@@ -117,7 +118,7 @@ Status compare(const std::string& name, const Arguments& arguments) {
                 sheet(x, y) = a;
                 sheet(x + truth.width(), y) = b;
                 sheet(x + 2 * truth.width(), y) = t;
-                if (black(a) && black(b) && black(t)) continue;
+                if (is_black(a) && is_black(b) && is_black(t)) continue;
                 const auto square = [&](Rgba8 p) {
                     return std::pow(p.r - t.r, 2.0) + std::pow(p.g - t.g, 2.0) + std::pow(p.b - t.b, 2.0);
                 };

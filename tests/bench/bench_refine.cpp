@@ -36,7 +36,7 @@ double ms_since(WallClock::time_point begin) {
 
 // Number of cells along a row, from colour changes between neighbours. The row with the most changes counts, since
 // adjacent cells may have equal colours.
-int cells_of(const Image<Rgba8>& image) {
+int count_cells(const Image<Rgba8>& image) {
     int most = 0;
     for (int y = 0; y < image.height(); ++y) {
         int cells = 1;
@@ -46,18 +46,18 @@ int cells_of(const Image<Rgba8>& image) {
     return most;
 }
 
-struct First {
+struct InitialImage {
     double ms;
     int cells;
     std::shared_ptr<const Image<Rgba8>> image;
 };
 
 // First image of the view requested at `begin`.
-First wait_for_first(Refinement& refinement, const Camera& camera, WallClock::time_point begin) {
+InitialImage wait_for_first(Refinement& refinement, const Camera& camera, WallClock::time_point begin) {
     for (;;) {
         const auto step = refinement.take();
         if (step && step->camera.world_from_camera == camera.world_from_camera) {
-            return {ms_since(begin), cells_of(*step->image), step->image};
+            return {ms_since(begin), count_cells(*step->image), step->image};
         }
         if (refinement.failure()) return {-1, 0, nullptr};
         std::this_thread::sleep_for(std::chrono::microseconds(200));
@@ -93,10 +93,10 @@ Status run(const Arguments& arguments) {
             return made;
         });
         refinement.begin(lit.camera, named.method);
-        const First first = wait_for_first(refinement, lit.camera, begin);
+        const InitialImage first = wait_for_first(refinement, lit.camera, begin);
         if (!first.image) return *refinement.failure();
         std::printf("%-10s tracer created in %.0f ms, first image after %.0f ms\n", named.name, made_ms, first.ms);
-        const auto keep = [&](const First& next) {
+        const auto keep = [&](const InitialImage& next) {
             ms.push_back(next.ms);
             cells.push_back(next.cells);
         };
@@ -105,7 +105,7 @@ Status run(const Arguments& arguments) {
             const Camera camera = moved();
             begin = WallClock::now();
             refinement.begin(camera, named.method);
-            const First next = wait_for_first(refinement, camera, begin);
+            const InitialImage next = wait_for_first(refinement, camera, begin);
             keep(next);
             begin = WallClock::now();
             frames.set_traced(next.image);

@@ -105,9 +105,9 @@ Status run(const Options& options) {
                 options.size.c_str(), options.samples, options.frames);
     std::printf("viewpoint         off       on  off cpu   on cpu  ratio  on at best     first\n");
     for (const compositor::Viewpoint& viewpoint : scene.viewpoints) {
-        const bool asked = options.viewpoints.empty() ||
-                           std::ranges::find(options.viewpoints, viewpoint.description) != options.viewpoints.end();
-        if (!asked) continue;
+        const bool selected = options.viewpoints.empty() ||
+                              std::ranges::find(options.viewpoints, viewpoint.description) != options.viewpoints.end();
+        if (!selected) continue;
         RS_TRY(run_at(scene, showroom, viewpoint, size, options));
     }
     return {};

@@ -52,15 +52,15 @@ Image<Rgba8> side_by_side(const TruthDifference& difference) {
 // Mean frame times of the walk.
 Status print_costs(const compositor::Scene& scene, const std::vector<compositor::PlacedObject>& placed,
                    PixelSize size) {
-    struct Way {
+    struct DrawingMode {
         const char* name;
         compositor::ObjectDepth depth;
         int samples;
     };
     std::printf("\n%-28s %9s %9s %9s %12s\n", "ms per frame", "whole", "engine", "upload", "pixels");
-    for (const Way& way : {Way{"plane, one sample", compositor::ObjectDepth::kPlane, 1},
-                           {"plane", compositor::ObjectDepth::kPlane, compositor::kDefaultSamplesAcross},
-                           {"pixel", compositor::ObjectDepth::kPixel, compositor::kDefaultSamplesAcross}}) {
+    for (const DrawingMode& way : {DrawingMode{"plane, one sample", compositor::ObjectDepth::kPlane, 1},
+                                   {"plane", compositor::ObjectDepth::kPlane, compositor::kDefaultSamplesAcross},
+                                   {"pixel", compositor::ObjectDepth::kPixel, compositor::kDefaultSamplesAcross}}) {
         RS_ASSIGN_OR_RETURN(auto frames, compositor::FrameCompositor::create(scene, placed,
                                                                              {.width = size.width,
                                                                               .height = size.height,

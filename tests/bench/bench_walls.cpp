@@ -38,7 +38,7 @@ struct Options {
     int samples = 4;
 };
 
-Result<FrameCompositor> compositor_of(const Scene& scene, Showroom& showroom, int width, int height, int samples) {
+Result<FrameCompositor> create_compositor(const Scene& scene, Showroom& showroom, int width, int height, int samples) {
     return FrameCompositor::create(scene, showroom.engine(), showroom.nodes(),
                                    {.width = width, .height = height, .samples = samples});
 }
@@ -48,7 +48,7 @@ Status bench_walls(const Scene& scene, Showroom& showroom, const Camera& visitor
     RS_TRY(select_walls(cave, "left,front,right"));
     for (Wall& wall : cave.walls) wall.width = wall.height = options.side;
     const RoomPose place = place_of(visitor, cave.head, 1);
-    RS_ASSIGN_OR_RETURN(auto frames, compositor_of(scene, showroom, options.side, options.side, options.samples));
+    RS_ASSIGN_OR_RETURN(auto frames, create_compositor(scene, showroom, options.side, options.side, options.samples));
     std::vector<double> wall_ms, cpu_ms;
     for (int frame = 0; frame <= options.frames; ++frame) {
         const Stopwatch watch;
@@ -72,7 +72,7 @@ Status bench_walls(const Scene& scene, Showroom& showroom, const Camera& visitor
 Status bench_quilt(const Scene& scene, Showroom& showroom, const Camera& middle, double focus, const Options& options) {
     const QuiltLayout layout{5, 9, middle.width, middle.height};
     const std::vector<Camera> cameras = quilt_cameras(middle, layout, radians(40), focus);
-    RS_ASSIGN_OR_RETURN(auto frames, compositor_of(scene, showroom, middle.width, middle.height, options.samples));
+    RS_ASSIGN_OR_RETURN(auto frames, create_compositor(scene, showroom, middle.width, middle.height, options.samples));
     RS_TRY(frames.compose(middle));
     std::vector<Image<Rgba8>> alone;
     double single_ms = 0, quilt_ms = 0, single_cpu = 0, quilt_cpu = 0;

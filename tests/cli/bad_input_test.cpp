@@ -51,7 +51,7 @@ protected:
         test::write_drawn_set(work_ / name, rig);
     }
 
-    void write_photographs(const std::string& name) const {
+    void write_photos(const std::string& name) const {
         std::filesystem::create_directories(work_ / name);
         const Rig rig = make_ring({.count = 6, .fl_px = 60, .width = 48, .height = 40});
         for (std::size_t i = 0; i < 6; ++i) {
@@ -82,13 +82,13 @@ TEST_F(BadInput, Folders) {
 }
 
 TEST_F(BadInput, ImagesOfDifferentSizes) {
-    write_photographs("photos");
+    write_photos("photos");
     ASSERT_TRUE(write_png(work_ / "photos" / "p3.png", Image<Rgba8>(50, 40)).ok());
     expect_failure("rs-capture", {"import", in("photos"), "-o", in("set"), "-q"}, {"p3.png", "50x40"});
 }
 
 TEST_F(BadInput, CorruptImages) {
-    write_photographs("photos");
+    write_photos("photos");
     const auto photo = work_ / "photos" / "p4.png";
     const auto size = std::filesystem::file_size(photo);
     std::filesystem::resize_file(photo, size / 2);
@@ -178,7 +178,7 @@ TEST_F(BadInput, InvalidOutputs) {
     EXPECT_TRUE(std::filesystem::exists(work_ / "mine" / "letter.txt"));
     // Every command that writes a folder has --force. A new file in the folder requires it again.
     write_text("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    write_photographs("photos");
+    write_photos("photos");
     const std::vector<std::pair<std::string, std::vector<std::string>>> commands = {
         {"rs-encode", {"extract", object, "-q"}},
         {"rs-encode", {"evaluate", in("object-set"), "--methods", "photo", "-q"}},
@@ -211,7 +211,7 @@ TEST_F(BadInput, InvalidOutputs) {
 
 TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
     write_set("set");
-    write_photographs("photos");
+    write_photos("photos");
     ASSERT_EQ(write_object(), in("object.rso"));
     std::filesystem::copy_file(work_ / "object.rso", work_ / "object.png");
     ASSERT_EQ(

@@ -219,18 +219,19 @@ TEST_F(ImportTool, SegmentersAreChosenReportedAndRefused) {
     EXPECT_EQ(json.at("segmenter").at("reason"), "--masks");
     fs::remove_all(folder_ / "set");
 
-    struct Refused {
+    struct RefusedCase {
         std::vector<std::string> arguments;
         std::string named;
     };
-    for (const Refused& refused :
-         {Refused{{"--segmenter", "model"}, "--segmentation-model"}, Refused{{"--masks-alpha"}, "--masks-alpha"},
-          Refused{{"--segmenter", "masks"}, "--masks"}, Refused{{"--segmenter", "alpha"}, "no transparent pixels"},
-          Refused{{"--masks", in("masks"), "--shadow", "keep"}, "--shadow keep"},
-          Refused{{"--masks", in("masks"), "--segmenter", "chroma"}, "--masks"},
-          Refused{{"--masks", in("masks"), "--backdrop", "white"}, "--backdrop"},
-          Refused{{"--segmentation-model", in("photos/") + file_name(0), "--segmenter", "background"},
-                  "--segmentation-model: has no effect"}}) {
+    for (const RefusedCase& refused :
+         {RefusedCase{{"--segmenter", "model"}, "--segmentation-model"},
+          RefusedCase{{"--masks-alpha"}, "--masks-alpha"}, RefusedCase{{"--segmenter", "masks"}, "--masks"},
+          RefusedCase{{"--segmenter", "alpha"}, "no transparent pixels"},
+          RefusedCase{{"--masks", in("masks"), "--shadow", "keep"}, "--shadow keep"},
+          RefusedCase{{"--masks", in("masks"), "--segmenter", "chroma"}, "--masks"},
+          RefusedCase{{"--masks", in("masks"), "--backdrop", "white"}, "--backdrop"},
+          RefusedCase{{"--segmentation-model", in("photos/") + file_name(0), "--segmenter", "background"},
+                      "--segmentation-model: has no effect"}}) {
         const test::ToolRun run = import(refused.arguments);
         expect_nothing_written(run);
         EXPECT_NE(run.err.find(refused.named), std::string::npos) << run.err;

@@ -186,8 +186,8 @@ TEST_F(View, MissingObjectsAreSkipped) {
     EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2)
         << run.err;  // one warning for the object, one for the scene
     EXPECT_GT(red_pixels(in("shot.png")), 20);
-    const test::ToolRun asked = render({in("hall.wrl"), "--object", in("gone.rso"), "-o", in("other.png")});
-    EXPECT_EQ(asked.exit_code, 1);
+    const test::ToolRun required = render({in("hall.wrl"), "--object", in("gone.rso"), "-o", in("other.png")});
+    EXPECT_EQ(required.exit_code, 1);
     EXPECT_FALSE(std::filesystem::exists(in("other.png")));
 }
 

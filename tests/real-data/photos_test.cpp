@@ -20,7 +20,7 @@
 namespace rs::capture {
 namespace {
 
-struct Imported {
+struct ImportResult {
     ImportReport report;
     Rig rig;
     std::vector<Image<Rgba8>> cuts;
@@ -28,7 +28,7 @@ struct Imported {
     double held_out_ssim = 0;  // SSIM of the same views
 };
 
-void score_held_out(const std::filesystem::path& folder, Imported& imported) {
+void score_held_out(const std::filesystem::path& folder, ImportResult& imported) {
     const Result<encode::CaptureSet> set = encode::open_capture_set(folder);
     ASSERT_TRUE(set.ok()) << set.error().message;
     const Result<encode::HoldOut> hold_out = encode::choose_hold_out(set->upright, 2, folder.string());
@@ -39,7 +39,7 @@ void score_held_out(const std::filesystem::path& folder, Imported& imported) {
     imported.held_out_ssim = scores->front().mean_ssim;
 }
 
-Imported import(const std::filesystem::path& photos, CalibrationChoice calibration) {
+ImportResult import(const std::filesystem::path& photos, CalibrationChoice calibration) {
     const test::TemporaryFolder folder;
     ImportOptions options;
     options.photos = photos;
@@ -48,7 +48,7 @@ Imported import(const std::filesystem::path& photos, CalibrationChoice calibrati
     const Result<ImportReport> report = import_photos(options, nullptr);
     EXPECT_TRUE(report.ok()) << (report.ok() ? "" : report.error().message);
     if (!report.ok()) return {};
-    Imported imported{*report, *read_rig(options.output), {}, 0, 0};
+    ImportResult imported{*report, *read_rig(options.output), {}, 0, 0};
     for (const RigView& view : imported.rig.views)
         imported.cuts.push_back(*read_image(image_path(options.output, view)));
     if (calibration == CalibrationChoice::kTracks) score_held_out(options.output, imported);
@@ -56,20 +56,20 @@ Imported import(const std::filesystem::path& photos, CalibrationChoice calibrati
 }
 
 // Opaque pixels of the largest 4-connected component, and of all components.
-struct Parts {
+struct ComponentSizes {
     int largest = 0;
     int all = 0;
 };
 
-Parts solid_parts(const Image<Rgba8>& cut) {
-    Parts parts;
-    Image<std::uint8_t> seen(cut.width(), cut.height());
+ComponentSizes solid_parts(const Image<Rgba8>& cut) {
+    ComponentSizes parts;
+    Image<std::uint8_t> visited(cut.width(), cut.height());
     std::vector<std::pair<int, int>> open;
     for (int y = 0; y < cut.height(); ++y) {
         for (int x = 0; x < cut.width(); ++x) {
-            if (cut(x, y).a < 128 || seen(x, y) != 0) continue;
+            if (cut(x, y).a < 128 || visited(x, y) != 0) continue;
             int size = 0;
-            seen(x, y) = 1;
+            visited(x, y) = 1;
             open.assign(1, {x, y});
             while (!open.empty()) {
                 const auto [u, v] = open.back();
@@ -77,8 +77,8 @@ Parts solid_parts(const Image<Rgba8>& cut) {
                 ++size;
                 for (const auto& [p, q] : {std::pair{u - 1, v}, {u + 1, v}, {u, v - 1}, {u, v + 1}}) {
                     if (p < 0 || q < 0 || p >= cut.width() || q >= cut.height()) continue;
-                    if (cut(p, q).a < 128 || seen(p, q) != 0) continue;
-                    seen(p, q) = 1;
+                    if (cut(p, q).a < 128 || visited(p, q) != 0) continue;
+                    visited(p, q) = 1;
                     open.emplace_back(p, q);
                 }
             }
@@ -101,9 +101,9 @@ int solid_at_border(const Image<Rgba8>& cut) {
     return count;
 }
 
-void expect_one_object_in_every_view(const Imported& imported) {
+void expect_one_object_in_every_view(const ImportResult& imported) {
     for (std::size_t i = 0; i < imported.cuts.size(); ++i) {
-        const Parts parts = solid_parts(imported.cuts[i]);
+        const ComponentSizes parts = solid_parts(imported.cuts[i]);
         EXPECT_GE(parts.largest, 0.97 * parts.all) << "view " << i;
     }
 }
@@ -125,7 +125,7 @@ std::optional<Turning> turning_by_images(const ImportReport& report) {
 
 TEST(RealPhotos, DinosaurOnABlueDisc) {
     const auto photos = RS_REAL_DATA_OR_SKIP("turntable/oxford-dino");
-    const Imported imported = import(photos, CalibrationChoice::kTracks);
+    const ImportResult imported = import(photos, CalibrationChoice::kTracks);
     ASSERT_EQ(imported.cuts.size(), 36U);
     EXPECT_EQ(imported.report.dropped_repeat, "viff.036.png");
     EXPECT_EQ(imported.report.backdrop, BackgroundKind::kColour);
@@ -156,7 +156,7 @@ TEST(RealPhotos, DinosaurOnABlueDisc) {
 
 TEST(RealPhotos, ShoeOnWhiteWithASoftShadow) {
     const auto photos = RS_REAL_DATA_OR_SKIP("turntable/shoe36");
-    const Imported imported = import(photos, CalibrationChoice::kNominal);
+    const ImportResult imported = import(photos, CalibrationChoice::kNominal);
     ASSERT_EQ(imported.cuts.size(), 36U);
     EXPECT_EQ(imported.report.dropped_repeat, "");
     EXPECT_EQ(imported.report.backdrop, BackgroundKind::kWhite);
@@ -173,7 +173,7 @@ TEST(RealPhotos, ShoeOnWhiteWithASoftShadow) {
 
 TEST(RealPhotos, CarWithItsOwnAlpha) {
     const auto photos = RS_REAL_DATA_OR_SKIP("turntable/car52");
-    const Imported imported = import(photos, CalibrationChoice::kNominal);
+    const ImportResult imported = import(photos, CalibrationChoice::kNominal);
     ASSERT_EQ(imported.cuts.size(), 51U);
     EXPECT_EQ(imported.report.dropped_repeat, "52.png");
     EXPECT_EQ(imported.report.backdrop, BackgroundKind::kAlpha);

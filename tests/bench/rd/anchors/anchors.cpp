@@ -42,7 +42,7 @@ private:
         const auto fill = [&](int view) -> Status {
             const auto n = static_cast<std::size_t>(view);
             Image<Rgba8> image = with_background(images_.views[n], background);
-            place[n] = is_opaque ? made_opaque(std::move(image)) : std::move(image);
+            place[n] = is_opaque ? make_opaque(std::move(image)) : std::move(image);
             return {};
         };
         const Status always_ok = for_each_in_parallel(static_cast<int>(place.size()), "", nullptr, fill);
@@ -63,7 +63,7 @@ struct Anchor {
     std::vector<int> probes;  // settings at which variants are compared
     std::vector<int> settings;
     std::string version_key;  // version of the tool
-    std::function<Result<Coded>(int setting)> code;
+    std::function<Result<CodingResult>(int setting)> code;
 };
 
 std::string setting_name(const Anchor& anchor, int setting) {
@@ -138,7 +138,7 @@ std::string cache_key(const ReferenceImages& images, const Anchor& anchor, const
 // Measures the anchors on one set.
 class AnchorMeter {
 public:
-    AnchorMeter(const ReferenceImages& images, const CodedCache& cache, Progress& progress)
+    AnchorMeter(const ReferenceImages& images, const CodingCache& cache, Progress& progress)
         : images_(images), cache_(cache), progress_(progress) {}
 
     // Measures the variants of one curve.
@@ -171,9 +171,9 @@ private:
     Status measure(const Anchor& anchor, int setting, std::vector<Measurement>& measured) {
         const std::string name = setting_name(anchor, setting);
         const std::string key = cache_key(images_, anchor, name);
-        std::optional<Coded> coded = cache_.find(key);
+        std::optional<CodingResult> coded = cache_.find(key);
         if (!coded) {
-            RS_ASSIGN_OR_RETURN(const Coded fresh, anchor.code(setting));
+            RS_ASSIGN_OR_RETURN(const CodingResult fresh, anchor.code(setting));
             RS_TRY(cache_.store(key, fresh));
             coded = fresh;
         }
@@ -183,7 +183,7 @@ private:
     }
 
     const ReferenceImages& images_;
-    const CodedCache& cache_;
+    const CodingCache& cache_;
     Progress& progress_;
     std::vector<Measurement> measured_;
 };
@@ -198,7 +198,7 @@ const std::vector<std::string>& anchor_names() {
 
 Result<std::vector<Measurement>> measure_anchors(const ReferenceImages& images, const std::set<std::string>& names,
                                                  const WorkFolder& work, Progress& progress) {
-    const CodedCache cache(work.anchors());
+    const CodingCache cache(work.anchors());
     AnchorInputs shown(images);
     AnchorList list(images, shown, work.scratch());
     for (const bool with_alpha : {false, true}) {

@@ -9,8 +9,8 @@
 namespace rs::bench {
 namespace {
 
-Status write_film(const std::filesystem::path& path, const std::vector<Image<Rgba8>>& shown,
-                  const FrameFormat& format) {
+Status write_raw_video(const std::filesystem::path& path, const std::vector<Image<Rgba8>>& shown,
+                       const FrameFormat& format) {
     std::vector<std::vector<std::byte>> frames(shown.size());
     const auto convert = [&](int n) -> Status {
         const auto view = static_cast<std::size_t>(n);
@@ -27,13 +27,13 @@ Status write_film(const std::filesystem::path& path, const std::vector<Image<Rgb
 
 }  // namespace
 
-Result<Coded> code_x265(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown,
-                        const X265Settings& settings, const std::filesystem::path& folder) {
+Result<CodingResult> code_x265(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown,
+                               const X265Settings& settings, const std::filesystem::path& folder) {
     const FrameFormat format{images.width, images.height, settings.full_chroma};
     const std::filesystem::path in = folder / "x265-in.yuv";
     const std::filesystem::path stream = folder / "x265.hevc";
     const std::filesystem::path out = folder / "x265-out.yuv";
-    RS_TRY(write_film(in, shown, format));
+    RS_TRY(write_raw_video(in, shown, format));
     std::vector<std::string> command = {
         "x265",
         "--input",
@@ -62,7 +62,7 @@ Result<Coded> code_x265(const ReferenceImages& images, const std::vector<Image<R
     const auto film_bytes = format.frame_bytes() * shown.size();
     RS_ASSIGN_OR_RETURN(const auto film, read_file(out, film_bytes));
     std::error_code error;
-    Coded coded;
+    CodingResult coded;
     coded.bytes = std::filesystem::file_size(stream, error);
     if (error || film.size() != film_bytes) {
         return Error{out.string() + ": x265 did not write all frames; try another version of it"};

@@ -1,4 +1,4 @@
-#include "tests/bench/rd/ours.hpp"
+#include "tests/bench/rd/rayspace_coding.hpp"
 
 #include "rayspace/format/object_chunks.hpp"
 #include "rayspace/format/object_file.hpp"
@@ -23,10 +23,10 @@ const std::vector<Profile>& profiles() {
     return table;
 }
 
-Result<Coded> read_back(const ReferenceImages& images, const std::filesystem::path& encoder,
-                        const std::filesystem::path& file) {
+Result<CodingResult> read_back(const ReferenceImages& images, const std::filesystem::path& encoder,
+                               const std::filesystem::path& file) {
     RS_ASSIGN_OR_RETURN(const ContainerReader container, ContainerReader::open(file));
-    Coded coded;
+    CodingResult coded;
     coded.bytes = container.size_bytes();
     coded.has_alpha = true;
     for (const ChunkSummary& chunk : summarise_chunks(container)) {
@@ -51,15 +51,15 @@ Result<Coded> read_back(const ReferenceImages& images, const std::filesystem::pa
     return coded;
 }
 
-Result<Coded> code_ours(const ReferenceImages& images, const std::vector<std::string>& options,
-                        const std::filesystem::path& encoder, const std::filesystem::path& folder) {
+Result<CodingResult> code_with_rayspace(const ReferenceImages& images, const std::vector<std::string>& options,
+                                        const std::filesystem::path& encoder, const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "ours.rso";
     std::vector<std::string> command = {encoder.string(), "build", images.folder.string(), "-o", file.string(), "-q"};
     command.insert(command.end(), options.begin(), options.end());
     // Fastest RS map, as the map does not count.
     command.insert(command.end(), {"--raymap", "plane"});
     RS_TRY(run_tool(command));
-    Result<Coded> coded = read_back(images, encoder, file);
+    Result<CodingResult> coded = read_back(images, encoder, file);
     std::error_code ignored;
     std::filesystem::remove(file, ignored);
     return coded;
@@ -93,9 +93,9 @@ Status check_encoder(const std::filesystem::path& encoder, const std::set<std::s
     return {};
 }
 
-Result<std::vector<Measurement>> measure_ours(const ReferenceImages& images, const std::set<std::string>& names,
-                                              const std::filesystem::path& encoder, const WorkFolder& work,
-                                              Progress& progress) {
+Result<std::vector<Measurement>> measure_rayspace(const ReferenceImages& images, const std::set<std::string>& names,
+                                                  const std::filesystem::path& encoder, const WorkFolder& work,
+                                                  Progress& progress) {
     struct Point {
         std::string profile;
         std::string setting;
@@ -113,7 +113,8 @@ Result<std::vector<Measurement>> measure_ours(const ReferenceImages& images, con
     progress.start(images.name + ": ours", static_cast<std::int64_t>(points.size()));
     std::vector<Measurement> measured;
     for (const Point& point : points) {
-        RS_ASSIGN_OR_RETURN(const Coded coded, code_ours(images, point.options, encoder, work.scratch()));
+        RS_ASSIGN_OR_RETURN(const CodingResult coded,
+                            code_with_rayspace(images, point.options, encoder, work.scratch()));
         measured.push_back(measurement_of(images, point.profile, "", point.setting, coded));
         progress.advance();
     }
