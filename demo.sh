@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# The main job, from nothing to a walk around: installs what is missing, builds the tools, and
+# Runs the whole pipeline: installs missing packages, builds the tools, and
 #
 #   ./demo.sh                   traces two objects on a turntable,
-#   ./demo.sh FOLDER_OF_PHOTOS  or takes your turntable photographs, or a film of a turn,
+#   ./demo.sh FOLDER_OF_PHOTOS  or imports your turntable photos, or a video of a turn,
 #
-# encodes them, checks the files and the renderer bit for bit, renders an orbit video and a contact sheet, and shows
-# them: our objects in a shop and a museum that we walk through (the other objects are traced small), yours on a floor.
-# Everything lands in demo-out/. Further arguments after the folder go to `rs-capture import`.
+# encodes them, verifies the files and the renderer bit for bit, and renders an orbit video and a contact sheet. Traced
+# objects are then shown in a walk through a shop and a museum (further objects are traced at low resolution), imported
+# ones on a floor. Results are in demo-out/. Arguments after the folder are passed to `rs-capture import`.
 set -euo pipefail
 cd "$(dirname "$0")"
 FROM=$OLDPWD
@@ -18,7 +18,7 @@ VIEWS=${RAYSPACE_DEMO_VIEWS:-90}
 SIZE=${RAYSPACE_DEMO_SIZE:-400x400}
 SPP=${RAYSPACE_DEMO_SPP:-12}
 OBJECTS=${RAYSPACE_DEMO_OBJECTS:-vase doll}
-# Of the other objects in the showroom, which are seen from farther away; and of the walk through it.
+# Further objects in the showroom, which are farther away, and the walk through it.
 ROOM_VIEWS=${RAYSPACE_DEMO_ROOM_VIEWS:-48}
 ROOM_SIZE=${RAYSPACE_DEMO_ROOM_SIZE:-224x224}
 ROOM_SPP=${RAYSPACE_DEMO_ROOM_SPP:-8}
@@ -29,27 +29,27 @@ PHOTOS=
 if [ $# -gt 0 ]; then
   case $1 in
     -h | --help)
-      sed -n '2,10s/^# \{0,1\}//p' demo.sh
+      sed -n '2,9s/^# \{0,1\}//p' demo.sh
       exit 0
       ;;
     /*) PHOTOS=$1 ;;
     *) PHOTOS=$FROM/$1 ;;
   esac
   shift
-  [ -e "$PHOTOS" ] || fail "$PHOTOS: there is no such folder or film; give turntable photographs or a film of a turn"
+  [ -e "$PHOTOS" ] || fail "$PHOTOS: there is no such folder or video; give turntable photos or a video of a turn"
 fi
 
 install_packages "${BUILD_PACKAGES[@]}"
 
 say "Building the tools"
-# No tests here: they would ask for packages that the tools do not need.
+# Without tests, which need more packages than the tools.
 configure build/release -DCMAKE_BUILD_TYPE=Release -DRAYSPACE_TESTS=OFF -DRAYSPACE_BENCH=OFF
 cmake --build build/release -j "$(nproc)" --target rs-capture rs-encode rs-engine rs-showroom rs-street rs-view
 
 mkdir -p "$OUT"
 TABLE=()
 
-# step LABEL FILE COMMAND...: runs the command and notes its time and the size of what it made.
+# step LABEL FILE COMMAND...: runs the command and records its time and the size of its output.
 step() {
   local label=$1 file=$2 begun size=
   shift 2
@@ -60,7 +60,7 @@ step() {
   TABLE+=("$(printf '%-34s %7.1f s  %7s  %s' "$label" "$(echo "$begun $(date +%s.%N)" | awk '{print $2 - $1}')" "${size:--}" "${file:-}")")
 }
 
-# from_set NAME: everything after the capture set $OUT/NAME-set.
+# from_set NAME: all steps after the capture set $OUT/NAME-set.
 from_set() {
   local name=$1
   step "$name: encode" "$OUT/$name.rso" "$BIN/rs-encode" build "$OUT/$name-set" -o "$OUT/$name.rso" --name "$name"
@@ -68,10 +68,10 @@ from_set() {
   step "$name: verify" "" "$BIN/rs-encode" verify "$OUT/$name.rso"
   step "$name: bit-accuracy" "" "$BIN/rs-engine" conformance "$OUT/$name.rso" --views 40
   step "$name: contact sheet" "$OUT/$name-sheet.png" "$BIN/rs-engine" render "$OUT/$name.rso" --orbit 12 --sheet 4 -o "$OUT/$name-sheet.png"
-  step "$name: how good it is" "$OUT/$name.html" "$BIN/rs-encode" evaluate "$OUT/$name-set" --report "$OUT/$name.html" -q
+  step "$name: evaluate" "$OUT/$name.html" "$BIN/rs-encode" evaluate "$OUT/$name-set" --report "$OUT/$name.html" -q
 }
 
-# traced_for_room NAME...: the objects that are not here yet, small, all at once.
+# traced_for_room NAME...: traces and encodes the missing objects in parallel, at low resolution.
 traced_for_room() {
   local name job jobs=()
   for name in "$@"; do
@@ -82,20 +82,20 @@ traced_for_room() {
     } &
     jobs+=($!)
   done
-  for job in "${jobs[@]}"; do wait "$job" || fail "an object of the showroom could not be made; see above"; done
+  for job in "${jobs[@]}"; do wait "$job" || fail "an object of the showroom could not be built; see above"; done
 }
 
-# show_toon: an object drawn as a cartoon, beside those that were photographed.
+# show_toon: an object with toon shading among photorealistic ones.
 show_toon() {
   local world=$OUT/showroom
-  step "toon: trace 48 pictures" "$OUT/blocks-toon-set" "$BIN/rs-capture" synth datasets-synthetic/recipes/blocks-toon.json \
+  step "toon: trace 48 images" "$OUT/blocks-toon-set" "$BIN/rs-capture" synth datasets-synthetic/recipes/blocks-toon.json \
     -o "$OUT/blocks-toon-set" --views 48 --size 224x224 --spp 4 -q
   step "toon: encode" "$OUT/blocks-toon.rso" "$BIN/rs-encode" build "$OUT/blocks-toon-set" -o "$OUT/blocks-toon.rso" -q
   step "toon: in the shop" "$OUT/showroom-toon.png" "$BIN/rs-view" render "$world/showroom.wrl" --viewpoint table \
     --object "$OUT/blocks-toon.rso@-1.3,0.8,4.05,-10,0.15" --size 800x450 -o "$OUT/showroom-toon.png"
 }
 
-# show_room: the shop and the museum, and the walk through both.
+# show_room: images of the shop and the museum, and the walk through both.
 show_room() {
   local rest=() name world=$OUT/showroom view
   for name in vase flower doll lamp lattice blocks; do
@@ -115,36 +115,36 @@ show_room() {
     --path "$world/showroom-walk.json" --size "$WALK_SIZE" --upright -o "$OUT/showroom-walk.mp4"
 }
 
-# show_street: ten seconds of traffic, and one moment by day, by night and in every weather.
+# show_street: ten seconds of traffic, and one frame by day, by night and in every weather.
 show_street() {
-  local look pictures=() picture folder
+  local look images=() image folder
   step "street: by day" "$OUT/town" "$BIN/rs-street" -o "$OUT/town" --objects ..
   step "street: by night" "$OUT/town-night" "$BIN/rs-street" -o "$OUT/town-night" --time night --objects ..
   step "street: ten seconds" "$OUT/street.mp4" "$BIN/rs-view" sequence "$OUT/town" --size "$STREET_SIZE" --upright -o "$OUT/street.mp4"
   for look in town:fair town:rain town:snow town:fog town-night:fair town-night:rain; do
     folder=${look%%:*}
-    picture=$OUT/street-${look/:/-}.png
+    image=$OUT/street-${look/:/-}.png
     local weather=()
     [ "${look##*:}" = fair ] || weather=(--weather "${look##*:}")
-    "$BIN/rs-view" sequence "$OUT/$folder" "${weather[@]}" --frame 130 --size "$STREET_SIZE" -o "$picture"
-    pictures+=("$picture")
+    "$BIN/rs-view" sequence "$OUT/$folder" "${weather[@]}" --frame 130 --size "$STREET_SIZE" -o "$image"
+    images+=("$image")
   done
-  step "street: contact sheet" "$OUT/street-sheet.jpg" oiiotool "${pictures[@]}" --mosaic:pad=8 3x2 -o "$OUT/street-sheet.jpg"
+  step "street: contact sheet" "$OUT/street-sheet.jpg" oiiotool "${images[@]}" --mosaic:pad=8 3x2 -o "$OUT/street-sheet.jpg"
 }
 
 if [ -n "$PHOTOS" ]; then
-  # By themselves: they may be called like what is traced.
+  # In a folder of their own, since they may have the name of a traced object.
   OUT=$OUT/photographs
   mkdir -p "$OUT"
   NAME=$(basename "$(realpath "$PHOTOS")")
   [ -d "$PHOTOS" ] || NAME=${NAME%.*}
-  step "$NAME: import photographs" "$OUT/$NAME-set" "$BIN/rs-capture" import "$PHOTOS" -o "$OUT/$NAME-set" "$@"
+  step "$NAME: import photos" "$OUT/$NAME-set" "$BIN/rs-capture" import "$PHOTOS" -o "$OUT/$NAME-set" "$@"
   from_set "$NAME"
   step "on a floor" "$OUT/$NAME-floor.png" "$BIN/rs-view" render --object "$OUT/$NAME.rso" -o "$OUT/$NAME-floor.png"
   LOOK="the contact sheet, the orbit video and $NAME-floor.png"
 else
   for name in $OBJECTS; do
-    step "$name: trace $VIEWS pictures" "$OUT/$name-set" "$BIN/rs-capture" synth "datasets-synthetic/recipes/$name.json" \
+    step "$name: trace $VIEWS images" "$OUT/$name-set" "$BIN/rs-capture" synth "datasets-synthetic/recipes/$name.json" \
       -o "$OUT/$name-set" --views "$VIEWS" --size "$SIZE" --spp "$SPP"
     from_set "$name"
   done

@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Sourced by demo.sh and test.sh: installs what is missing and configures a build. Says what it does.
+# Sourced by demo.sh and test.sh: installs missing packages and configures a build, with a line of output per step.
 
 BUILD_PACKAGES=(
   g++ cmake ninja-build pkg-config
@@ -11,11 +11,11 @@ BUILD_PACKAGES=(
 TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-14 shellcheck xvfb
   dpkg-dev pybind11-dev python3-dev python3-numpy python3-opencv snakemake doxygen help2man)
 # shellcheck disable=SC2034
-CLANG_PACKAGES=(clang-14 libclang-rt-14-dev llvm)  # for sanitizers, whose traces llvm names, and fuzzing
+CLANG_PACKAGES=(clang-14 libclang-rt-14-dev llvm)  # for fuzzing and sanitizers, whose stack traces need llvm-symbolizer
 # shellcheck disable=SC2034
 CLANG=(-DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14)
 
-export LC_ALL=C  # numbers with a point, whatever the locale
+export LC_ALL=C  # decimal points, independent of the locale
 
 say() { printf '\n== %s\n' "$*"; }
 
@@ -30,7 +30,7 @@ install_packages() {
     dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' || missing+=("$package")
   done
   if [ ${#missing[@]} -eq 0 ]; then
-    say "All ${#} packages are here"
+    say "All ${#} packages are installed"
     return
   fi
   local sudo=()
@@ -39,9 +39,9 @@ install_packages() {
     sudo=(sudo)
   fi
   say "Installing ${#missing[@]} missing packages: ${missing[*]}"
-  # A fresh machine may be at its own updates: wait for its lock.
+  # Waits for the lock: a new machine may be installing updates.
   local apt=("${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300)
-  "${apt[@]}" update -qq || fail "apt-get update failed; is the network there?"
+  "${apt[@]}" update -qq || fail "apt-get update failed; check the network"
   "${apt[@]}" install -y -qq --no-install-recommends "${missing[@]}" >/dev/null ||
     fail "apt-get could not install: ${missing[*]}"
 }

@@ -12,8 +12,8 @@ import rayspace
 
 parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
 parser.add_argument("set", help="capture set: a folder with a transforms.json and RGBA photos")
-parser.add_argument("--object", help="an object, .rso, in the units of the set")
-parser.add_argument("--every", type=int, default=2, help="of each N neighbouring photos one is held out (default 2)")
+parser.add_argument("--object", help="object (.rso) in the units of the set")
+parser.add_argument("--every", type=int, default=2, help="hold out one of every N consecutive photos (default 2)")
 parser.add_argument("--filter", choices=["auto", "sharp", "bilinear", "smooth"], default="auto",
                     help="with --object: sampling of the photos")
 arguments = parser.parse_args()

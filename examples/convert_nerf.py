@@ -4,10 +4,10 @@
     convert_nerf.py lego/transforms_test.json -o lego-set
     rs-encode build lego-set -o lego.rso
 
-Input: a transforms.json with poses (OpenGL camera axes) and RGBA images, as of the NeRF synthetic scenes or nerfstudio.
+Input: a transforms.json with poses (OpenGL camera axes) and RGBA images, as in NeRF synthetic scenes or nerfstudio.
 rs-encode needs the object's vertical axis on Y, the object around the origin, and rings of cameras at one elevation.
-The script turns the world so that --up becomes Y, moves the point that the cameras look at to the origin, and keeps the
-cameras of the elevation that has the most. It copies the images and writes transforms.json.
+The script rotates the world so that --up becomes Y, moves the common look-at point of the cameras to the origin, and
+keeps the cameras at the most frequent elevation. It copies the images and writes transforms.json.
 """
 
 import argparse
@@ -22,7 +22,7 @@ import numpy as np
 
 DISTORTION = ("k1", "k2", "k3", "k4", "p1", "p2")
 INTRINSICS = ("camera_angle_x", "fl_x", "fl_y", "cx", "cy", "w", "h")
-MOST_PITCH_DEG = 60  # steeper cameras cannot be made upright
+MOST_PITCH_DEG = 60  # steeper cameras cannot be rectified to upright ones
 
 
 def fail(message):

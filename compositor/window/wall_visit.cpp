@@ -174,7 +174,7 @@ Result<bool> WallVisit::step(std::optional<double> seconds) {
         quits_ = quits_ || window.should_close();
     }
     for (const Key command : input_.commands()) on_key(command);
-    if (leaves_) return false;
+    if (quits_) return false;
     move(passed);
     RS_TRY(showroom_->update(place_.in_scene(head_.position), passed));
     if (const std::vector<std::string> warnings = showroom_->take_warnings(); !warnings.empty() && options_.warn) {

@@ -1,4 +1,4 @@
-// The public library as its users call it.
+// Public library.
 
 #include "rayspace/api/builder.hpp"
 #include "rayspace/api/evaluation.hpp"
@@ -24,7 +24,7 @@ using testing::HasSubstr;
 
 constexpr int kViews = 12;
 
-// An object of the drawn balls.
+// Object built from rendered images of balls.
 class Api : public testing::Test {
 protected:
     static void SetUpTestSuite() {
@@ -164,7 +164,7 @@ TEST_F(Api, RendererSharesTheObject) {
     EXPECT_EQ(kept->photo(3).value(), object().photo(3).value());
 }
 
-// An executor from outside: the core with limits, or with defects.
+// User-defined executor: the core with limits, or with defects.
 class TestExecutor final : public Executor {
 public:
     TestExecutor() : core_(std::move(ExecutorTable().create("core")).value()) { traits_.name = "test"; }
@@ -284,7 +284,7 @@ TEST(ApiVersion, IsThatOfTheProject) {
     EXPECT_THAT(text, HasSubstr("VERSION " + version_text() + " "));
 }
 
-// Users need nothing but the standard library.
+// Public headers depend on the standard library only.
 TEST(ApiHeaders, IncludeOnlyTheStandardLibraryAndOneAnother) {
     static const std::regex kInclude(R"(^#include ([<"])([^>"]+)[>"])");
     int headers = 0;

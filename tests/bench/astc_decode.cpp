@@ -21,17 +21,17 @@ constexpr int kSide = 512;
 constexpr const char* kThreads = "2";
 
 // Temporary folder, removed by the destructor.
-class Folder {
+class TemporaryFolder {
 public:
-    Folder() : path_(std::filesystem::temp_directory_path() / ("rayspace-astc-" + std::to_string(getpid()))) {
+    TemporaryFolder() : path_(std::filesystem::temp_directory_path() / ("rayspace-astc-" + std::to_string(getpid()))) {
         std::filesystem::create_directories(path_);
     }
-    ~Folder() {
+    ~TemporaryFolder() {
         std::error_code ignored;
         std::filesystem::remove_all(path_, ignored);
     }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
     [[nodiscard]] std::string file(const char* name) const { return (path_ / name).string(); }
 
 private:
@@ -47,7 +47,7 @@ std::optional<double> decoding_seconds(const std::string& printed) {
 }
 
 void astc_decode(benchmark::State& state, const char* block) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const Rig rig = make_ring(
         {.count = 4, .distance = 3.5, .fl_px = 1.4 * kSide, .width = kSide, .height = kSide, .first_rad = 0.01});
     const Image<Rgba8> ball = ball_image(rig.views.front().camera);

@@ -51,16 +51,15 @@ Status run(const Arguments& arguments) {
     ProgressBar progress(false);
     for (const char* name : {"Original", "Sphere", "Glossy", "Mirror"}) {
         if (!arguments.only.empty() && arguments.only != name) continue;
-        Result<Scene> scene = read_mesh_file(arguments.folder / (std::string("CornellBox-") + name + ".obj"));
-        if (!scene) return scene.error();
-        const auto tracer = Tracer::create(std::move(*scene));
-        if (!tracer) return tracer.error();
+        RS_ASSIGN_OR_RETURN(Scene scene,
+                            read_mesh_file(arguments.folder / (std::string("CornellBox-") + name + ".obj")));
+        RS_ASSIGN_OR_RETURN(const auto tracer, Tracer::create(std::move(scene)));
         const Camera camera = look_at_camera({0, 1, 3.4}, {0, 1, 0}, radians(39), arguments.side_px, arguments.side_px);
         RenderOptions options;
         options.samples_per_pixel = arguments.paths;
         const auto image = [&](const char* what) {
             progress.start(what, Tracer::step_count(camera));
-            Image<RgbaF> found = tracer->render(camera, options, &progress).image;
+            Image<RgbaF> found = tracer.render(camera, options, &progress).image;
             progress.finish();
             return found;
         };

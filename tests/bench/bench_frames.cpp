@@ -40,7 +40,7 @@ constexpr int kHidden = 91;
 constexpr double kObjectRadius = 0.272;  // images of 256x256 px on a screen of 1280x720
 
 // Smooth procedural texture of a base colour, 512x512.
-std::shared_ptr<const compositor::SceneTexture> stained(const glm::vec3& colour, unsigned seed) {
+std::shared_ptr<const compositor::SceneTexture> stained_texture(const glm::vec3& colour, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> phase(0, 6.28F);
     const float a = phase(random);
@@ -108,7 +108,8 @@ Scene room() {
     };
     const auto face = square();
     const auto painted = [](const glm::vec3& colour, unsigned seed) {
-        return Material{.specular = glm::vec3(0.05F), .ambient = 1, .texture = stained(colour, seed), .normals = {}};
+        return Material{
+            .specular = glm::vec3(0.05F), .ambient = 1, .texture = stained_texture(colour, seed), .normals = {}};
     };
     const Material wall = painted({0.85F, 0.82F, 0.75F}, 1);
     add(face, placed({0, 1.5, -4}, {8, 0, 0}, {0, 3, 0}, {0, 0, 1}), wall);
@@ -168,16 +169,15 @@ struct Times {
     int nodes = 0;
 };
 
-Result<Times> timed(const Scene& scene, const std::vector<PlacedObject>& objects, const Options& options, int samples,
-                    bool parts) {
-    auto frames = compositor::FrameCompositor::create(scene, objects,
-                                                      {.width = options.width,
-                                                       .height = options.height,
-                                                       .samples = samples,
-                                                       .object_samples = options.object_samples,
-                                                       .upright_images = !options.direct,
-                                                       .time_parts = parts});
-    if (!frames) return frames.error();
+Result<Times> measure_frames(const Scene& scene, const std::vector<PlacedObject>& objects, const Options& options,
+                             int samples, bool parts) {
+    RS_ASSIGN_OR_RETURN(auto frames, compositor::FrameCompositor::create(scene, objects,
+                                                                         {.width = options.width,
+                                                                          .height = options.height,
+                                                                          .samples = samples,
+                                                                          .object_samples = options.object_samples,
+                                                                          .upright_images = !options.direct,
+                                                                          .time_parts = parts}));
     std::vector<double> frame, cpu, geometry, engine, upload, composite;
     Times times;
     for (int n = -3; n < options.frames; ++n) {  // three to warm up
@@ -185,12 +185,12 @@ Result<Times> timed(const Scene& scene, const std::vector<PlacedObject>& objects
         const Camera camera =
             look_at_camera({sway, 1.75, 1.9}, {0.5 * sway, 1.5, -3}, radians(50), options.width, options.height);
         const Stopwatch watch;
-        if (const Status status = frames->draw(camera); !status) return status.error();
-        if (frames->image().empty()) return Error{"an empty image was read back"};
+        RS_TRY(frames.draw(camera));
+        if (frames.image().empty()) return Error{"an empty image was read back"};
         if (n < 0) continue;
         frame.push_back(watch.wall_ms());
         cpu.push_back(watch.cpu_ms());
-        const compositor::FrameStatistics& s = frames->statistics();
+        const compositor::FrameStatistics& s = frames.statistics();
         geometry.push_back(1e3 * s.geometry_s);
         engine.push_back(1e3 * s.engine_s);
         upload.push_back(1e3 * s.upload_s);
@@ -208,37 +208,31 @@ Result<Times> timed(const Scene& scene, const std::vector<PlacedObject>& objects
 }
 
 Status run(Options options) {
-    const Result<PixelSize> size = parse_size(options.size);
-    if (!size) return size.error();
-    options.width = size->width;
-    options.height = size->height;
-    auto context = gl::Context::create_surfaceless();
-    if (!context) return context.error();
+    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
+    options.width = size.width;
+    options.height = size.height;
+    RS_ASSIGN_OR_RETURN(auto context, gl::Context::create_surfaceless());
     std::vector<std::shared_ptr<const compositor::ViewableObject>> objects;
     for (const std::string& file : options.files) {
-        Result<RaySpaceObject> object = read_object(file);
-        if (!object) return object.error();
-        object->coded.reset();  // decoded already, as in the viewer
-        auto viewable = compositor::make_viewable(std::move(*object));
-        if (!viewable) return viewable.error();
-        objects.push_back(std::make_shared<const compositor::ViewableObject>(std::move(*viewable)));
+        RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(file));
+        object.coded.reset();  // decoded already, as in the viewer
+        RS_ASSIGN_OR_RETURN(auto viewable, compositor::make_viewable(std::move(object)));
+        objects.push_back(std::make_shared<const compositor::ViewableObject>(std::move(viewable)));
     }
     const Scene scene = room();
     std::size_t triangles = 0;
     for (const GeometryNode& node : scene.geometry) triangles += node.mesh->indices.size() / 3;
-    std::printf("%s, %dx%d, %zu triangles, %d frames each, medians in ms\n", context->device_name().c_str(),
+    std::printf("%s, %dx%d, %zu triangles, %d frames each, medians in ms\n", context.device_name().c_str(),
                 options.width, options.height, triangles, options.frames);
     std::printf("samples objects  seen  image      frame     fps     cpu  | geometry  engine  upload  composite\n");
     for (const int samples : {1, 4}) {
         for (const int unseen : {0, kHidden}) {
             const std::vector<PlacedObject> placed = placed_objects(objects, unseen);
-            const Result<Times> whole = timed(scene, placed, options, samples, false);
-            if (!whole) return whole.error();
-            const Result<Times> parts = timed(scene, placed, options, samples, true);
-            if (!parts) return parts.error();
+            RS_ASSIGN_OR_RETURN(const Times whole, measure_frames(scene, placed, options, samples, false));
+            RS_ASSIGN_OR_RETURN(const Times parts, measure_frames(scene, placed, options, samples, true));
             std::printf("%7d %7zu %5d  %4.0f^2 %12.1f %7.1f %7.1f  | %8.1f %7.1f %7.1f %10.1f\n", samples,
-                        placed.size(), whole->nodes, whole->side_px, whole->frame_ms, 1e3 / whole->frame_ms,
-                        whole->cpu_ms, parts->geometry_ms, parts->engine_ms, parts->upload_ms, parts->composite_ms);
+                        placed.size(), whole.nodes, whole.side_px, whole.frame_ms, 1e3 / whole.frame_ms, whole.cpu_ms,
+                        parts.geometry_ms, parts.engine_ms, parts.upload_ms, parts.composite_ms);
         }
     }
     return {};

@@ -38,12 +38,13 @@ double luminance_of(const RgbaF& p) {
     return p.a > 0 ? static_cast<double>(luminance({p.r, p.g, p.b})) : 0;
 }
 
-struct Taken {
+struct ElapsedTime {
     double wall_s = 0;
     double cpu_s = 0;
 };
 
-void print_row(const char* name, const TracedRenderer& renderer, const Taken& taken, const RenderedImages& reference) {
+void print_row(const char* name, const TracedRenderer& renderer, const ElapsedTime& taken,
+               const RenderedImages& reference) {
     const Image<RgbaF> radiance = renderer.radiance();
     double sum = 0, reference_sum = 0, squares = 0;
     for (int y = 0; y < radiance.height(); ++y) {
@@ -70,34 +71,33 @@ void print_row(const char* name, const TracedRenderer& renderer, const Taken& ta
 }
 
 Status run(const Arguments& arguments) {
-    const Result<LitScene> lit = read_lit_scene(arguments.lit);
-    if (!lit) return lit.error();
-    const Camera& camera = lit->camera;
-    auto renderer = TracedRenderer::create(lit->scene, {}, {.exposure_ev = arguments.lit.exposure_ev});
-    if (!renderer) return renderer.error();
+    RS_ASSIGN_OR_RETURN(const LitScene lit, read_lit_scene(arguments.lit));
+    const Camera& camera = lit.camera;
+    RS_ASSIGN_OR_RETURN(auto renderer,
+                        TracedRenderer::create(lit.scene, {}, {.exposure_ev = arguments.lit.exposure_ev}));
     // A minimal offset decorrelates its noise from that of the others.
     Camera aside = camera;
     aside.world_from_camera[3].x += 1e-7;
     ProgressBar progress(false);
     progress.start("reference", arguments.reference);
-    renderer->begin_image(aside);
-    while (renderer->passes() < arguments.reference) {
-        renderer->add_pass();
+    renderer.begin_image(aside);
+    while (renderer.passes() < arguments.reference) {
+        renderer.add_pass();
         progress.advance();
     }
     progress.finish();
-    const RenderedImages reference{renderer->radiance(), renderer->image()};
+    const RenderedImages reference{renderer.radiance(), renderer.image()};
 
     const auto trace = [&](const NamedMethod& named, double seconds, int passes) {
-        renderer->set_method(named.method);
-        renderer->begin_image(camera);
+        renderer.set_method(named.method);
+        renderer.begin_image(camera);
         const bench::Stopwatch watch;
-        Taken taken;
+        ElapsedTime taken;
         do {
-            renderer->add_pass();
+            renderer.add_pass();
             taken = {watch.wall_s(), watch.cpu_s()};
-        } while (passes > 0 ? renderer->passes() < passes : taken.wall_s < seconds);
-        print_row(named.name, *renderer, taken, reference);
+        } while (passes > 0 ? renderer.passes() < passes : taken.wall_s < seconds);
+        print_row(named.name, renderer, taken, reference);
         std::fflush(stdout);
     };
     for (const NamedMethod& named : kTracedMethods) trace(named, arguments.seconds, 0);

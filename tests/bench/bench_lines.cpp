@@ -37,7 +37,7 @@ struct View {
     cv::Mat1b inside;  // 255 at least 6 px inside the object
 };
 
-View view_of(ConstImageView<Rgba8> image) {
+View make_view(ConstImageView<Rgba8> image) {
     View view{cv::Mat1b(image.height(), image.width()), cv::Mat1b(image.height(), image.width())};
     for (int y = 0; y < image.height(); ++y) {
         for (int x = 0; x < image.width(); ++x) {
@@ -70,7 +70,7 @@ double steps_per_1000(const View& view) {
     return 1000 * steps / std::max(1.0, all);
 }
 
-cv::Mat1b edges_of(const View& view, double strength) {
+cv::Mat1b detect_edges(const View& view, double strength) {
     cv::Mat1b edges;
     cv::Canny(view.grey, edges, 0.4 * strength, strength);
     return edges;
@@ -94,31 +94,27 @@ struct Share {
 };
 
 Status run(const fs::path& drawn_folder, const fs::path& truth_folder) {
-    const Result<Rig> drawn_rig = read_rig(drawn_folder);
-    if (!drawn_rig) return drawn_rig.error();
-    const Result<Rig> truth_rig = read_rig(truth_folder);
-    if (!truth_rig) return truth_rig.error();
-    if (drawn_rig->views.size() != truth_rig->views.size()) {
+    RS_ASSIGN_OR_RETURN(const Rig drawn_rig, read_rig(drawn_folder));
+    RS_ASSIGN_OR_RETURN(const Rig truth_rig, read_rig(truth_folder));
+    if (drawn_rig.views.size() != truth_rig.views.size()) {
         return Error{drawn_folder.string() + ": has not as many views as " + truth_folder.string() +
                      "; render it with --poses " + truth_folder.string()};
     }
     double drawn_steps = 0, truth_steps = 0;
     Share found, real;
-    const std::size_t count = truth_rig->views.size();
+    const std::size_t count = truth_rig.views.size();
     for (std::size_t i = 0; i < count; ++i) {
-        const auto draw_image = read_image(drawn_folder / drawn_rig->views[i].file_path);
-        if (!draw_image) return draw_image.error();
-        const auto truth_image = read_image(truth_folder / truth_rig->views[i].file_path);
-        if (!truth_image) return truth_image.error();
-        if (draw_image->width() != truth_image->width() || draw_image->height() != truth_image->height()) {
+        RS_ASSIGN_OR_RETURN(const auto draw_image, read_image(drawn_folder / drawn_rig.views[i].file_path));
+        RS_ASSIGN_OR_RETURN(const auto truth_image, read_image(truth_folder / truth_rig.views[i].file_path));
+        if (draw_image.width() != truth_image.width() || draw_image.height() != truth_image.height()) {
             return Error{drawn_folder.string() +
                          ": its images differ in size from the true ones; render it with the same cameras"};
         }
-        const View drawn = view_of(*draw_image), truth = view_of(*truth_image);
+        const View drawn = make_view(draw_image), truth = make_view(truth_image);
         drawn_steps += steps_per_1000(drawn);
         truth_steps += steps_per_1000(truth);
-        found.add(edges_of(truth, kStrong), edges_of(drawn, kWeak));
-        real.add(edges_of(drawn, kStrong), edges_of(truth, kWeak));
+        found.add(detect_edges(truth, kStrong), detect_edges(drawn, kWeak));
+        real.add(detect_edges(drawn, kStrong), detect_edges(truth, kWeak));
     }
     std::printf(
         "steps per 1000 px: %.2f, truth %.2f\nedges of truth found: %.2f %% of %.0f px, real: %.2f %% of %.0f px\n",

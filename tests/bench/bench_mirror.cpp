@@ -43,15 +43,16 @@ MirrorView view_from(double turn_deg, int side_px) {
 }
 
 // Traces the view by a mirror perpendicular to the line of sight, halfway along it.
-Result<Image<Rgba8>> in_mirror(const compositor::PlacedObject& placed, const MirrorView& looked, int samples) {
-    const glm::dvec3 n = looked.towards, middle = 0.5 * kDistance * n;
+Result<Image<Rgba8>> trace_mirrored(const compositor::PlacedObject& placed, const MirrorView& mirror_view,
+                                    int samples) {
+    const glm::dvec3 n = mirror_view.towards, middle = 0.5 * kDistance * n;
     const auto mirrored = [&](const glm::dvec3& v) { return v - 2 * glm::dot(v, n) * n; };
     capture::Scene scene;
     capture::Material mirror;
     mirror.kind = capture::SurfaceKind::mirror;
     mirror.colour = glm::vec3(1);
     scene.materials = {mirror};
-    const glm::dvec3 across = 4.0 * looked.camera.right(), up = 4.0 * glm::cross(n, looked.camera.right());
+    const glm::dvec3 across = 4.0 * mirror_view.camera.right(), up = 4.0 * glm::cross(n, mirror_view.camera.right());
     capture::Mesh glass;
     for (const auto& [s, t] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
         glass.positions.emplace_back(middle + static_cast<double>(s) * across + static_cast<double>(t) * up);
@@ -59,19 +60,18 @@ Result<Image<Rgba8>> in_mirror(const compositor::PlacedObject& placed, const Mir
     glass.triangles = {{0, 2, 1}, {0, 3, 2}};
     scene.meshes = {glass};
     scene.primitives = {std::make_shared<compositor::ObjectPrimitive>(placed, 1.0F)};
-    const Result<capture::Tracer> tracer = capture::Tracer::create(std::move(scene));
-    if (!tracer) return tracer.error();
+    RS_ASSIGN_OR_RETURN(const capture::Tracer tracer, capture::Tracer::create(std::move(scene)));
 
-    const glm::dmat4& from = looked.camera.world_from_camera;
-    Camera behind = looked.camera;
+    const glm::dmat4& from = mirror_view.camera.world_from_camera;
+    Camera behind = mirror_view.camera;
     behind.world_from_camera =
         glm::dmat4(glm::dvec4(-mirrored(glm::dvec3(from[0])), 0), glm::dvec4(mirrored(glm::dvec3(from[1])), 0),
                    glm::dvec4(mirrored(glm::dvec3(from[2])), 0),
-                   glm::dvec4(mirrored(looked.camera.centre() - middle) + middle, 1));
+                   glm::dvec4(mirrored(mirror_view.camera.centre() - middle) + middle, 1));
     capture::RenderOptions options;
     options.method = capture::RenderMethod::kWhitted;
     options.samples_per_pixel = samples;
-    const Image<Rgba8> seen = capture::to_srgb8(tracer->render(behind, options).image);
+    const Image<Rgba8> seen = capture::to_srgb8(tracer.render(behind, options).image);
     Image<Rgba8> turned(seen.width(), seen.height());
     for (int y = 0; y < seen.height(); ++y) {
         for (int x = 0; x < seen.width(); ++x) {
@@ -82,7 +82,7 @@ Result<Image<Rgba8>> in_mirror(const compositor::PlacedObject& placed, const Mir
     return turned;
 }
 
-bool black(Rgba8 p) {
+bool is_black(Rgba8 p) {
     return p.r == 0 && p.g == 0 && p.b == 0;
 }
 
@@ -92,40 +92,33 @@ struct Sums {
 };
 
 Status compare(const std::string& name, const Arguments& arguments) {
-    auto object = read_object(std::filesystem::path(arguments.objects) / (name + ".rso"));
-    if (!object) return object.error();
-    auto viewable = compositor::make_viewable(std::move(*object));
-    if (!viewable) return viewable.error();
-    const compositor::PlacedObject placed{std::make_shared<const compositor::ViewableObject>(std::move(*viewable)), {}};
-    Result<capture::SceneFile> recipe = object_of_recipe(name);
-    if (!recipe) return recipe.error();
-    auto traced = traced_object(std::move(*recipe));
-    if (!traced) return traced.error();
+    RS_ASSIGN_OR_RETURN(auto object, read_object(std::filesystem::path(arguments.objects) / (name + ".rso")));
+    RS_ASSIGN_OR_RETURN(auto viewable, compositor::make_viewable(std::move(object)));
+    const compositor::PlacedObject placed{std::make_shared<const compositor::ViewableObject>(std::move(viewable)), {}};
+    RS_ASSIGN_OR_RETURN(capture::SceneFile recipe, object_of_recipe(name));
+    RS_ASSIGN_OR_RETURN(auto traced, traced_object(std::move(recipe)));
     compositor::Scene nothing;
     nothing.background.sky = {glm::vec3(0)};
     nothing.navigation.headlight = false;
     compositor::FrameOptions frame;
     frame.width = frame.height = arguments.side_px;
-    auto comparison = TruthComparison::create(nothing, {placed}, {{*traced, {}}}, frame);
-    if (!comparison) return comparison.error();
+    RS_ASSIGN_OR_RETURN(auto comparison, TruthComparison::create(nothing, {placed}, {{traced, {}}}, frame));
 
     Sums all;
     for (const double turn_deg : {3.0, 123.0, 243.0}) {
-        const MirrorView looked = view_from(turn_deg, arguments.side_px);
-        const Result<TruthDifference> direct = comparison->compare(looked.camera, arguments.truth);
-        if (!direct) return direct.error();
-        const Result<Image<Rgba8>> mirror = in_mirror(placed, looked, arguments.truth.samples);
-        if (!mirror) return mirror.error();
-        const Image<Rgba8>& truth = direct->truth.image;
+        const MirrorView mirror_view = view_from(turn_deg, arguments.side_px);
+        RS_ASSIGN_OR_RETURN(const TruthDifference direct, comparison.compare(mirror_view.camera, arguments.truth));
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> mirror, trace_mirrored(placed, mirror_view, arguments.truth.samples));
+        const Image<Rgba8>& truth = direct.truth.image;
         Sums sums;
         Image<Rgba8> sheet(3 * truth.width(), truth.height());
         for (int y = 0; y < truth.height(); ++y) {
             for (int x = 0; x < truth.width(); ++x) {
-                const Rgba8 a = direct->frame(x, y), b = (*mirror)(x, y), t = truth(x, y);
+                const Rgba8 a = direct.frame(x, y), b = mirror(x, y), t = truth(x, y);
                 sheet(x, y) = a;
                 sheet(x + truth.width(), y) = b;
                 sheet(x + 2 * truth.width(), y) = t;
-                if (black(a) && black(b) && black(t)) continue;
+                if (is_black(a) && is_black(b) && is_black(t)) continue;
                 const auto square = [&](Rgba8 p) {
                     return std::pow(p.r - t.r, 2.0) + std::pow(p.g - t.g, 2.0) + std::pow(p.b - t.b, 2.0);
                 };
@@ -141,7 +134,7 @@ Status compare(const std::string& name, const Arguments& arguments) {
         if (arguments.output.empty()) continue;
         std::filesystem::create_directories(arguments.output);
         const std::string file = name + "-" + std::to_string(static_cast<int>(turn_deg)) + ".png";
-        if (Status written = write_png(std::filesystem::path(arguments.output) / file, sheet); !written) return written;
+        RS_TRY(write_png(std::filesystem::path(arguments.output) / file, sheet));
     }
     std::printf("%-10s        all %8.2f dB direct %8.2f dB in the mirror %+6.2f\n", name.c_str(), all.db(all.frame),
                 all.db(all.mirror), all.db(all.mirror) - all.db(all.frame));
@@ -149,19 +142,15 @@ Status compare(const std::string& name, const Arguments& arguments) {
 }
 
 Status run_bench(const Arguments& arguments) {
-    const Result<gl::Context> context = gl::Context::create_surfaceless();
-    if (!context) return context.error();
+    RS_ASSIGN_OR_RETURN(const gl::Context context, gl::Context::create_surfaceless());
     std::filesystem::create_directories(arguments.objects);
     for (const std::string& name : truth_object_names()) {
         if (!std::filesystem::exists(std::filesystem::path(arguments.objects) / (name + ".rso"))) {
-            Result<capture::SceneFile> object = object_of_recipe(name);
-            if (!object) return object.error();
+            RS_ASSIGN_OR_RETURN(capture::SceneFile object, object_of_recipe(name));
             ProgressBar bar(false);
-            if (Status made = write_captured_object(name, std::move(*object), {}, arguments.objects, &bar); !made) {
-                return made;
-            }
+            RS_TRY(write_captured_object(name, std::move(object), {}, arguments.objects, &bar));
         }
-        if (Status compared = compare(name, arguments); !compared) return compared;
+        RS_TRY(compare(name, arguments));
     }
     return {};
 }

@@ -36,7 +36,7 @@ double ms_since(WallClock::time_point begin) {
 
 // Number of cells along a row, from colour changes between neighbours. The row with the most changes counts, since
 // adjacent cells may have equal colours.
-int cells_of(const Image<Rgba8>& image) {
+int count_cells(const Image<Rgba8>& image) {
     int most = 0;
     for (int y = 0; y < image.height(); ++y) {
         int cells = 1;
@@ -46,18 +46,18 @@ int cells_of(const Image<Rgba8>& image) {
     return most;
 }
 
-struct First {
+struct InitialImage {
     double ms;
     int cells;
     std::shared_ptr<const Image<Rgba8>> image;
 };
 
 // First image of the view requested at `begin`.
-First wait_for_first(Refinement& refinement, const Camera& camera, WallClock::time_point begin) {
+InitialImage wait_for_first(Refinement& refinement, const Camera& camera, WallClock::time_point begin) {
     for (;;) {
         const auto step = refinement.take();
         if (step && step->camera.world_from_camera == camera.world_from_camera) {
-            return {ms_since(begin), cells_of(*step->image), step->image};
+            return {ms_since(begin), count_cells(*step->image), step->image};
         }
         if (refinement.failure()) return {-1, 0, nullptr};
         std::this_thread::sleep_for(std::chrono::microseconds(200));
@@ -71,18 +71,15 @@ void print(const char* name, const char* what, std::vector<double> ms, const std
 }
 
 Status run(const Arguments& arguments) {
-    const Result<LitScene> lit = read_lit_scene(arguments.lit);
-    if (!lit) return lit.error();
-    const Result<gl::Context> context = gl::Context::create_surfaceless();
-    if (!context) return context.error();
-    auto frames = FrameCompositor::create(lit->scene, std::vector<PlacedObject>(),
-                                          {.width = lit->camera.width, .height = lit->camera.height});
-    if (!frames) return frames.error();
-    if (Status drawn = frames->draw(lit->camera); !drawn) return drawn;
+    RS_ASSIGN_OR_RETURN(const LitScene lit, read_lit_scene(arguments.lit));
+    RS_ASSIGN_OR_RETURN(const gl::Context context, gl::Context::create_surfaceless());
+    RS_ASSIGN_OR_RETURN(auto frames, FrameCompositor::create(lit.scene, std::vector<PlacedObject>(),
+                                                             {.width = lit.camera.width, .height = lit.camera.height}));
+    RS_TRY(frames.draw(lit.camera));
 
     int moves = 0;
     const auto moved = [&] {
-        Camera camera = lit->camera;
+        Camera camera = lit.camera;
         camera.world_from_camera[3] += 0.01 * ++moves * camera.world_from_camera[0];
         return camera;
     };
@@ -91,15 +88,15 @@ Status run(const Arguments& arguments) {
         auto begin = WallClock::now();
         double made_ms = 0;
         Refinement refinement([&] {
-            auto made = TracedRenderer::create(lit->scene, {}, {.exposure_ev = arguments.lit.exposure_ev});
+            auto made = TracedRenderer::create(lit.scene, {}, {.exposure_ev = arguments.lit.exposure_ev});
             made_ms = ms_since(begin);
             return made;
         });
-        refinement.begin(lit->camera, named.method);
-        const First first = wait_for_first(refinement, lit->camera, begin);
+        refinement.begin(lit.camera, named.method);
+        const InitialImage first = wait_for_first(refinement, lit.camera, begin);
         if (!first.image) return *refinement.failure();
         std::printf("%-10s tracer created in %.0f ms, first image after %.0f ms\n", named.name, made_ms, first.ms);
-        const auto keep = [&](const First& next) {
+        const auto keep = [&](const InitialImage& next) {
             ms.push_back(next.ms);
             cells.push_back(next.cells);
         };
@@ -108,12 +105,12 @@ Status run(const Arguments& arguments) {
             const Camera camera = moved();
             begin = WallClock::now();
             refinement.begin(camera, named.method);
-            const First next = wait_for_first(refinement, camera, begin);
+            const InitialImage next = wait_for_first(refinement, camera, begin);
             keep(next);
             begin = WallClock::now();
-            frames->set_traced(next.image);
-            if (Status drawn = frames->draw(camera); !drawn) return drawn;
-            (void)frames->image();
+            frames.set_traced(next.image);
+            RS_TRY(frames.draw(camera));
+            (void)frames.image();
             draw_ms.push_back(ms_since(begin));
         }
         print(named.name, "after a pause", ms, cells);

@@ -78,11 +78,9 @@ struct ObjectBytes {
 Result<ObjectBytes> measure_object(const std::filesystem::path& file) {
     const auto engine = std::make_shared<engine::RenderSession>();
     const std::unique_ptr<ObjectSource> source = make_file_source(engine, false);
-    const Result<std::int64_t> most = source->most_bytes(file);
-    if (!most) return most.error();
-    const Result<ViewableObject> object = source->read(file, *most, [](float) {});
-    if (!object) return object.error();
-    return ObjectBytes{object->memory_bytes(), *most};
+    RS_ASSIGN_OR_RETURN(const std::int64_t most, source->most_bytes(file));
+    RS_ASSIGN_OR_RETURN(const ViewableObject object, source->read(file, most, [](float) {}));
+    return ObjectBytes{object.memory_bytes(), most};
 }
 
 // Missing objects in the visitor's room. Rooms that are visible through doors do not count: the budget allows only
@@ -116,34 +114,32 @@ private:
 };
 
 Status walk(const char* name, const Scene& scene, const ShowroomOptions& options, const Arguments& arguments) {
-    const Result<PixelSize> size = parse_size(arguments.size);
-    if (!size) return size.error();
+    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(arguments.size));
     const std::int64_t resident_before = resident_bytes();
     std::int64_t resident_most = 0;
     Showroom showroom(scene, options);
-    Result<FrameCompositor> compositor = FrameCompositor::create(
-        scene, showroom.engine(), showroom.nodes(), {.width = size->width, .height = size->height, .time_parts = true});
-    if (!compositor) return compositor.error();
+    RS_ASSIGN_OR_RETURN(FrameCompositor compositor,
+                        FrameCompositor::create(scene, showroom.engine(), showroom.nodes(),
+                                                {.width = size.width, .height = size.height, .time_parts = true}));
     const double length = test::kRooms * test::kRoomSide;
     const auto frames = static_cast<int>(length / arguments.speed * kFrames_per_s);
-    const std::vector<Camera> cameras = test::walk_through(frames, size->width, size->height);
+    const std::vector<Camera> cameras = test::walk_through(frames, size.width, size.height);
     FrameTimes times;
     MissingInRoom missing_objects;
     // Starts when the first room is loaded and has faded in.
-    if (Status status = showroom.wait_for_all(cameras.front().centre()); !status) return status;
+    RS_TRY(showroom.wait_for_all(cameras.front().centre()));
     for (int n = 0; n < 15; ++n) {
         FrameTimes before;
-        if (Status status = before.draw(showroom, *compositor, cameras.front(), 1 / kFrames_per_s); !status)
-            return status;
+        RS_TRY(before.draw(showroom, compositor, cameras.front(), 1 / kFrames_per_s));
     }
     const CacheStatistics at_start = showroom.statistics();
     const auto begin = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const std::chrono::duration<double> due(static_cast<double>(i) / kFrames_per_s);
         std::this_thread::sleep_until(begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(due));
-        if (Status status = times.draw(showroom, *compositor, cameras[i], 1 / kFrames_per_s); !status) return status;
+        RS_TRY(times.draw(showroom, compositor, cameras[i], 1 / kFrames_per_s));
         resident_most = std::max(resident_most, resident_bytes());
-        missing_objects.add_frame(cameras[i], compositor->statistics());
+        missing_objects.add_frame(cameras[i], compositor.statistics());
     }
     const CacheStatistics store = showroom.statistics();
     const auto [missing, missing_s] = missing_objects.result();
@@ -160,7 +156,7 @@ Status walk(const char* name, const Scene& scene, const ShowroomOptions& options
 Status run(const Arguments& arguments) {
     test::TemporaryFolder folder;
     const std::filesystem::path first = folder / "0-0.rso";
-    if (Status status = write_object(first, make_object(arguments)); !status) return status;
+    RS_TRY(write_object(first, make_object(arguments)));
     const auto file_of = [&](int room, int number) {
         return folder / (std::to_string(room) + "-" + std::to_string(number) + ".rso");
     };
@@ -170,24 +166,19 @@ Status run(const Arguments& arguments) {
         }
     }
     const Scene scene = test::six_rooms(file_of);
-    const Result<ObjectBytes> bytes = measure_object(first);
-    if (!bytes) return bytes.error();
-    Result<gl::Context> context = gl::Context::create_surfaceless();
-    if (!context) return context.error();
+    RS_ASSIGN_OR_RETURN(const ObjectBytes bytes, measure_object(first));
+    RS_ASSIGN_OR_RETURN(gl::Context context, gl::Context::create_surfaceless());
     std::printf(
         "%s; %d rooms of %d objects: %d views of %dx%d, %.1f MiB each, %.1f MiB while they are read; file %.0f KiB\n",
-        context->device_name().c_str(), test::kRooms, test::kObjectsInRoom, arguments.views, arguments.side,
-        arguments.side, mebibytes(bytes->object), mebibytes(bytes->reading),
+        context.device_name().c_str(), test::kRooms, test::kObjectsInRoom, arguments.views, arguments.side,
+        arguments.side, mebibytes(bytes.object), mebibytes(bytes.reading),
         static_cast<double>(std::filesystem::file_size(first)) / 1024);
     std::printf("%-12s %6s %7s %7s %6s %9s %9s %6s %6s %8s %9s %9s %9s\n", "walk", "frames", "median", "longest",
                 "ratio", "missing", "longest", "loads", "evict.", "longest", "budget", "peak", "resident");
     std::printf("%-12s %6s %7s %7s %6s %9s %9s %6s %6s %8s %9s %9s %9s\n", "", "", "ms", "ms", "", "times", "ms", "",
                 "", "load ms", "MiB", "MiB", "+MiB");
-    if (Status status =
-            walk("all loaded", scene, {.memory_bytes = 49 * bytes->object + bytes->reading, .waits = true}, arguments);
-        !status)
-        return status;
-    return walk("two rooms", scene, {.memory_bytes = 2 * test::kObjectsInRoom * bytes->object + bytes->reading},
+    RS_TRY(walk("all loaded", scene, {.memory_bytes = 49 * bytes.object + bytes.reading, .waits = true}, arguments));
+    return walk("two rooms", scene, {.memory_bytes = 2 * test::kObjectsInRoom * bytes.object + bytes.reading},
                 arguments);
 }
 

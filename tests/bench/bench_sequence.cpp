@@ -102,11 +102,10 @@ std::shared_ptr<const Sequence> thousand_boxes() {
 }
 
 Result<compositor::PlayerOptions> player_options(const Options& options) {
-    const Result<PixelSize> size = parse_size(options.size);
-    if (!size) return size.error();
+    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
     compositor::PlayerOptions player;
-    player.frame.width = size->width;
-    player.frame.height = size->height;
+    player.frame.width = size.width;
+    player.frame.height = size.height;
     player.frame.samples = options.samples;
     player.frame.shadows = options.shadows;
     player.frame.upright_images = options.upright;
@@ -116,9 +115,8 @@ Result<compositor::PlayerOptions> player_options(const Options& options) {
         if (options.renderer == named.name) player.tracing = compositor::TracedOptions{.method = named.method};
     }
     if (options.weather.empty()) return player;
-    const auto weather = compositor::parse_weather(options.weather);
-    if (!weather) return weather.error();
-    player.weather = *weather;
+    RS_ASSIGN_OR_RETURN(const auto weather, compositor::parse_weather(options.weather));
+    player.weather = weather;
     return player;
 }
 
@@ -140,8 +138,7 @@ Status time_frames(SequencePlayer& player, int frames, const char* what, bool pa
     const auto count = std::min<std::size_t>(static_cast<std::size_t>(frames), player.frames());
     for (std::size_t i = 0; i < count; ++i) {
         const Stopwatch watch;
-        const auto frame = player.frame(i);
-        if (!frame) return frame.error();
+        RS_TRY(player.frame(i));
         if (i == 0 && count > 1) continue;
         wall_ms.push_back(watch.wall_ms());
         cpu_ms.push_back(watch.cpu_ms());
@@ -160,28 +157,22 @@ Status time_frames(SequencePlayer& player, int frames, const char* what, bool pa
 }
 
 Status run_thousand(const Options& options) {
-    auto context = gl::Context::create_surfaceless();
-    if (!context) return context.error();
+    RS_ASSIGN_OR_RETURN(const gl::Context context, gl::Context::create_surfaceless());
     const auto sequence = thousand_boxes();
     std::printf("%zu static triangles, %zu instances\n", sequence->scene.geometry[0].mesh->indices.size() / 3,
                 sequence->slots.size());
-    const auto with = player_options(options);
-    if (!with) return with.error();
-    auto player = SequencePlayer::create(sequence, *with);
-    if (!player) return player.error();
-    if (const auto first = player->frame(0); !first) return first.error();
-    const int uploads = player->compositor().uploads();
-    const auto second = player->frame(1);
-    if (!second) return second.error();
-    auto fresh = SequencePlayer::create(sequence, *with);
-    if (!fresh) return fresh.error();
-    const auto again = fresh->frame(1);
-    if (!again) return again.error();
-    const bool same = std::equal(second->pixels().begin(), second->pixels().end(), again->pixels().begin());
+    RS_ASSIGN_OR_RETURN(const auto with, player_options(options));
+    RS_ASSIGN_OR_RETURN(auto player, SequencePlayer::create(sequence, with));
+    RS_TRY(player.frame(0));
+    const int uploads = player.compositor().uploads();
+    RS_ASSIGN_OR_RETURN(const auto second, player.frame(1));
+    RS_ASSIGN_OR_RETURN(auto fresh, SequencePlayer::create(sequence, with));
+    RS_ASSIGN_OR_RETURN(const auto again, fresh.frame(1));
+    const bool same = std::equal(second.pixels().begin(), second.pixels().end(), again.pixels().begin());
     std::printf("second frame against a fresh load: %s\n", same ? "same bytes" : "DIFFERENT");
-    if (Status status = time_frames(*player, 12, options.renderer.c_str(), options.parts); !status) return status;
+    RS_TRY(time_frames(player, 12, options.renderer.c_str(), options.parts));
     std::printf("meshes and images uploaded: %d before the first frame, %d after it\n", uploads,
-                player->compositor().uploads() - uploads);
+                player.compositor().uploads() - uploads);
     std::vector<double> ms;
     for (std::size_t i = 0; i < 40; ++i) {
         const Stopwatch watch;
@@ -193,15 +184,12 @@ Status run_thousand(const Options& options) {
 }
 
 Status run_play(const Options& options) {
-    auto context = gl::Context::create_surfaceless();
-    if (!context) return context.error();
-    auto sequence = compositor::read_sequence(options.folder);
-    if (!sequence) return sequence.error();
-    const auto with = player_options(options);
-    if (!with) return with.error();
-    auto player = SequencePlayer::create(std::make_shared<const Sequence>(std::move(*sequence)), *with);
-    if (!player) return player.error();
-    return time_frames(*player, options.frames, (options.renderer + " " + options.size).c_str(), options.parts);
+    RS_ASSIGN_OR_RETURN(const gl::Context context, gl::Context::create_surfaceless());
+    RS_ASSIGN_OR_RETURN(auto sequence, compositor::read_sequence(options.folder));
+    RS_ASSIGN_OR_RETURN(const auto with, player_options(options));
+    RS_ASSIGN_OR_RETURN(auto player,
+                        SequencePlayer::create(std::make_shared<const Sequence>(std::move(sequence)), with));
+    return time_frames(player, options.frames, (options.renderer + " " + options.size).c_str(), options.parts);
 }
 
 }  // namespace

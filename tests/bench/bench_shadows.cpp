@@ -48,7 +48,7 @@ struct Times {
 
 Status draw(compositor::FrameCompositor& frames, const Camera& camera, int number, Times& times) {
     const Stopwatch watch;
-    if (const Status status = frames.draw(camera); !status) return status;
+    RS_TRY(frames.draw(camera));
     if (frames.image().empty()) return Error{"an empty image was read back"};
     const double frame_ms = watch.wall_ms();
     if (number == 0) times.first_ms = frame_ms;
@@ -62,21 +62,20 @@ Status run_at(const compositor::Scene& scene, compositor::Showroom& showroom, co
               PixelSize size, const Options& options) {
     std::vector<compositor::FrameCompositor> both;
     for (const bool shadows : {false, true}) {
-        auto frames = compositor::FrameCompositor::create(scene, showroom.engine(), showroom.nodes(),
-                                                          {.width = size.width,
-                                                           .height = size.height,
-                                                           .samples = options.samples,
-                                                           .shadows = shadows,
-                                                           .upright_images = true});
-        if (!frames) return frames.error();
-        both.push_back(std::move(*frames));
+        RS_ASSIGN_OR_RETURN(auto frames, compositor::FrameCompositor::create(scene, showroom.engine(), showroom.nodes(),
+                                                                             {.width = size.width,
+                                                                              .height = size.height,
+                                                                              .samples = options.samples,
+                                                                              .shadows = shadows,
+                                                                              .upright_images = true}));
+        both.push_back(std::move(frames));
     }
     std::array<Times, 2> times;
     for (int n = 0; n < options.frames + 3; ++n) {
         Camera camera = camera_at(viewpoint, size.width, size.height);
         camera.world_from_camera[3] += glm::dvec4(0.05 * std::sin(0.4 * n) * camera.right(), 0);
         for (std::size_t i = 0; i < 2; ++i) {
-            if (const Status status = draw(both[i], camera, n, times[i]); !status) return status;
+            RS_TRY(draw(both[i], camera, n, times[i]));
         }
     }
     const double off = median(times[0].cpu_ms);
@@ -89,31 +88,27 @@ Status run_at(const compositor::Scene& scene, compositor::Showroom& showroom, co
 }
 
 Status run(const Options& options) {
-    const Result<PixelSize> size = parse_size(options.size);
-    if (!size) return size.error();
-    auto scene = compositor::read_scene(options.scene);
-    if (!scene) return scene.error();
+    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
+    RS_ASSIGN_OR_RETURN(auto scene, compositor::read_scene(options.scene));
     if (!options.lights.empty()) {
-        auto list = compositor::read_light_list(options.lights);
-        if (!list) return list.error();
-        if (list->replace) {
-            scene->lights.clear();
-            for (compositor::GeometryNode& node : scene->geometry) node.lights.clear();
+        RS_ASSIGN_OR_RETURN(auto list, compositor::read_light_list(options.lights));
+        if (list.replace) {
+            scene.lights.clear();
+            for (compositor::GeometryNode& node : scene.geometry) node.lights.clear();
         }
-        scene->lights.insert(scene->lights.end(), list->lights.begin(), list->lights.end());
+        scene.lights.insert(scene.lights.end(), list.lights.begin(), list.lights.end());
     }
-    auto context = gl::Context::create_surfaceless();
-    if (!context) return context.error();
-    compositor::Showroom showroom(*scene, {.waits = true});
-    if (const Status status = showroom.wait_for_all({0, 0, 0}); !status) return status.error();
-    std::printf("%s, %s, %d samples a pixel, medians of %d frames in ms\n", context->device_name().c_str(),
+    RS_ASSIGN_OR_RETURN(auto context, gl::Context::create_surfaceless());
+    compositor::Showroom showroom(scene, {.waits = true});
+    RS_TRY(showroom.wait_for_all({0, 0, 0}));
+    std::printf("%s, %s, %d samples a pixel, medians of %d frames in ms\n", context.device_name().c_str(),
                 options.size.c_str(), options.samples, options.frames);
     std::printf("viewpoint         off       on  off cpu   on cpu  ratio  on at best     first\n");
-    for (const compositor::Viewpoint& viewpoint : scene->viewpoints) {
-        const bool asked = options.viewpoints.empty() ||
-                           std::ranges::find(options.viewpoints, viewpoint.description) != options.viewpoints.end();
-        if (!asked) continue;
-        if (const Status status = run_at(*scene, showroom, viewpoint, *size, options); !status) return status;
+    for (const compositor::Viewpoint& viewpoint : scene.viewpoints) {
+        const bool selected = options.viewpoints.empty() ||
+                              std::ranges::find(options.viewpoints, viewpoint.description) != options.viewpoints.end();
+        if (!selected) continue;
+        RS_TRY(run_at(scene, showroom, viewpoint, size, options));
     }
     return {};
 }

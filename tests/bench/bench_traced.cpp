@@ -95,45 +95,45 @@ Scene scene_of(const synthetic::Model& model) {
 }
 
 struct Cost {
-    double wall_ms, processor_ms;
+    double wall_ms, cpu_ms;
 };
 // Minimum over the frames.
 Cost measure(const char* what, int frames, const std::function<void()>& frame) {
-    std::vector<double> wall_ms, processor_ms;
+    std::vector<double> wall_ms, cpu_ms;
     for (int i = 0; i < frames; ++i) {
         const bench::Stopwatch watch;
         frame();
-        processor_ms.push_back(watch.cpu_ms());
+        cpu_ms.push_back(watch.cpu_ms());
         wall_ms.push_back(watch.wall_ms());
     }
     std::ranges::sort(wall_ms);
-    std::ranges::sort(processor_ms);
+    std::ranges::sort(cpu_ms);
     std::printf("%-40s %8.2f ms, median %8.2f; CPU %8.2f, median %8.2f\n", what, wall_ms.front(),
-                wall_ms[wall_ms.size() / 2], processor_ms.front(), processor_ms[processor_ms.size() / 2]);
+                wall_ms[wall_ms.size() / 2], cpu_ms.front(), cpu_ms[cpu_ms.size() / 2]);
     std::fflush(stdout);
-    return {wall_ms.front(), processor_ms.front()};
+    return {wall_ms.front(), cpu_ms.front()};
 }
 
 // Rays of a tile of 16x16 pixels, in the order in which Whitted traces them: camera rays in squares of 4x4, then the
 // shadow rays from their hits, light by light.
 struct TileRays {
     std::vector<RayScene::Ray> camera;
-    std::vector<RayScene::Ray> to_lights;
+    std::vector<RayScene::Ray> shadow_rays;
 };
 std::vector<TileRays> rays_of_frame(const RayScene& rays, const Scene& scene, const Camera& camera) {
     std::vector<TileRays> tiles;
     for (int top = 0; top < camera.height; top += 16) {
         for (int left = 0; left < camera.width; left += 16) {
-            TileRays asked;
+            TileRays rays_of_tile;
             for (int i = 0; i < 256; ++i) {
                 const int x = left + i / 16 % 4 * 4 + i % 4, y = top + i / 64 * 4 + i / 4 % 4;
                 if (x >= camera.width || y >= camera.height) continue;
-                asked.camera.push_back({glm::vec3(camera.centre()),
-                                        glm::vec3(glm::normalize(camera.ray(x + 0.5, y + 0.5))), 0,
-                                        std::numeric_limits<float>::infinity()});
+                rays_of_tile.camera.push_back({glm::vec3(camera.centre()),
+                                               glm::vec3(glm::normalize(camera.ray(x + 0.5, y + 0.5))), 0,
+                                               std::numeric_limits<float>::infinity()});
             }
             for (const Light& light : scene.lights) {
-                for (const RayScene::Ray& ray : asked.camera) {
+                for (const RayScene::Ray& ray : rays_of_tile.camera) {
                     SurfacePoint point;
                     if (!rays.intersect(ray.origin, ray.direction, 0, point)) continue;
                     const glm::vec3 from = point.lifted_position + point.geometric_normal * rays.step_off();
@@ -141,11 +141,11 @@ std::vector<TileRays> rays_of_frame(const RayScene& rays, const Scene& scene, co
                     const glm::vec3 way = far ? glm::vec3(-light.towards) : glm::vec3(light.location) - from;
                     const float length = glm::length(way);
                     if (!(glm::dot(way, point.shading_normal) > 0)) continue;
-                    asked.to_lights.push_back(
+                    rays_of_tile.shadow_rays.push_back(
                         {from, way / length, 0, far ? std::numeric_limits<float>::infinity() : length * (1 - 1e-4F)});
                 }
             }
-            tiles.push_back(std::move(asked));
+            tiles.push_back(std::move(rays_of_tile));
         }
     }
     return tiles;
@@ -154,32 +154,32 @@ std::vector<TileRays> rays_of_frame(const RayScene& rays, const Scene& scene, co
 // The same rays as Embree packets.
 struct Packets {
     std::vector<std::pair<MaskLanes, RayHitLanes>> camera;
-    std::vector<std::pair<MaskLanes, RayLanes>> to_lights;
+    std::vector<std::pair<MaskLanes, RayLanes>> shadow_rays;
 };
-void fill(std::span<const RayScene::Ray> rays, MaskLanes& asked, RayLanes& lanes) {
+void fill(std::span<const RayScene::Ray> rays, MaskLanes& active, RayLanes& lanes) {
     for (std::size_t i = 0; i < kLanes; ++i) {
         const RayScene::Ray& ray = rays[std::min(i, rays.size() - 1)];
-        asked[i] = i < rays.size() ? -1 : 0;
+        active[i] = i < rays.size() ? -1 : 0;
         lanes.origin.set(i, ray.origin);
         lanes.direction.set(i, ray.direction);
         lanes.reach[i] = ray.reach;
         lanes.mask[i] = ~0U;
     }
 }
-Packets packets_of(const TileRays& asked) {
+Packets packets_of(const TileRays& rays_of_tile) {
     Packets packets;
     const auto part = [](const std::vector<RayScene::Ray>& rays, std::size_t first) {
         return std::span(rays).subspan(first, std::min(kLanes, rays.size() - first));
     };
-    for (std::size_t i = 0; i < asked.camera.size(); i += kLanes) {
-        auto& [mask, met] = packets.camera.emplace_back();
-        fill(part(asked.camera, i), mask, met.ray);
-        met.hit.mesh.of.fill(~0U);
-        met.hit.instance.of.fill(~0U);
+    for (std::size_t i = 0; i < rays_of_tile.camera.size(); i += kLanes) {
+        auto& [mask, ray_hit] = packets.camera.emplace_back();
+        fill(part(rays_of_tile.camera, i), mask, ray_hit.ray);
+        ray_hit.hit.mesh.of.fill(~0U);
+        ray_hit.hit.instance.of.fill(~0U);
     }
-    for (std::size_t i = 0; i < asked.to_lights.size(); i += kLanes) {
-        auto& [mask, ray] = packets.to_lights.emplace_back();
-        fill(part(asked.to_lights, i), mask, ray);
+    for (std::size_t i = 0; i < rays_of_tile.shadow_rays.size(); i += kLanes) {
+        auto& [mask, ray] = packets.shadow_rays.emplace_back();
+        fill(part(rays_of_tile.shadow_rays, i), mask, ray);
     }
     return packets;
 }
@@ -190,12 +190,9 @@ Status run(const Arguments& arguments) {
     const Scene flat = flattened(instanced);
     const Camera camera = look_at_camera(glm::dvec3(model.views[0].eye), glm::dvec3(model.views[0].at), radians(60),
                                          arguments.width, arguments.height);
-    Result<Tracer> tracer = Tracer::create(flat);
-    if (!tracer) return tracer.error();
-    Result<Tracer> of_instances = Tracer::create(instanced);
-    if (!of_instances) return of_instances.error();
-    const Result<RayScene> rays = RayScene::create(flat);
-    if (!rays) return rays.error();
+    RS_ASSIGN_OR_RETURN(Tracer tracer, Tracer::create(flat));
+    RS_ASSIGN_OR_RETURN(Tracer of_instances, Tracer::create(instanced));
+    RS_ASSIGN_OR_RETURN(const RayScene rays, RayScene::create(flat));
     std::printf("%s, %lld triangles, %dx%d, %zu lights\n", model.name.c_str(),
                 static_cast<long long>(synthetic::triangle_count(model)), arguments.width, arguments.height,
                 flat.lights.size());
@@ -204,14 +201,14 @@ Status run(const Arguments& arguments) {
     options.samples_per_pixel = 1;
     options.ambient = glm::vec3(0.1F);
     options.threads = arguments.threads;
-    const std::vector<TileRays> tiles = rays_of_frame(*rays, flat, camera);
+    const std::vector<TileRays> tiles = rays_of_frame(rays, flat, camera);
     std::size_t count = 0;
-    for (const TileRays& asked : tiles) count += asked.camera.size() + asked.to_lights.size();
+    for (const TileRays& rays_of_tile : tiles) count += rays_of_tile.camera.size() + rays_of_tile.shadow_rays.size();
 
-    const Cost whitted = measure("Whitted", arguments.frames, [&] { (void)tracer->render(camera, options); });
-    const LightSet lights(flat, flat.environment, {0.5F * (rays->upper() + rays->lower()), glm::length(rays->upper())});
+    const Cost whitted = measure("Whitted", arguments.frames, [&] { (void)tracer.render(camera, options); });
+    const LightSet lights(flat, flat.environment, {0.5F * (rays.upper() + rays.lower()), glm::length(rays.upper())});
     const std::vector<SurfaceModel> models = make_surface_models(flat.materials);
-    const LightTransport transport(flat, *rays, lights, models);
+    const LightTransport transport(flat, rays, lights, models);
     const WhittedTracer alone(transport, IrradianceMap(lights.environment()), options.ambient, 8);
     const auto of_rays = [&](bool packets) {
         return measure(packets ? "its rays, in packets" : "its rays, one by one", arguments.frames, [&] {
@@ -220,11 +217,11 @@ Status run(const Arguments& arguments) {
                 for (const RayScene::Ray& ray : tiles[static_cast<std::size_t>(i)].camera) {
                     many.push_back({ray.origin, ray.direction, 0, Sampler(0, 0)});
                 }
-                std::vector<RadianceSample> arrived(many.size());
+                std::vector<RadianceSample> samples(many.size());
                 if (packets) {
-                    alone.trace_many(many, arrived);
+                    alone.trace_many(many, samples);
                 } else {
-                    alone.Integrator::trace_many(many, arrived);
+                    alone.Integrator::trace_many(many, samples);
                 }
             });
         });
@@ -232,62 +229,60 @@ Status run(const Arguments& arguments) {
     const Cost single = of_rays(false), packets = of_rays(true);
     const Cost bare = measure("bare Embree, packets, the same rays", arguments.frames, [&] {
         for_each_index(static_cast<std::int64_t>(tiles.size()), arguments.threads, [&](std::int64_t i) {
-            const TileRays& asked = tiles[static_cast<std::size_t>(i)];
-            std::vector<RayScene::Hit> hits(asked.camera.size());
-            std::vector<std::uint8_t> hidden(asked.to_lights.size());
-            rays->intersect_many(asked.camera, hits);
-            rays->occluded_many(asked.to_lights, hidden);
+            const TileRays& rays_of_tile = tiles[static_cast<std::size_t>(i)];
+            std::vector<RayScene::Hit> hits(rays_of_tile.camera.size());
+            std::vector<std::uint8_t> hidden(rays_of_tile.shadow_rays.size());
+            rays.intersect_many(rays_of_tile.camera, hits);
+            rays.occluded_many(rays_of_tile.shadow_rays, hidden);
         });
     });
     std::vector<Packets> made;
-    for (const TileRays& asked : tiles) made.push_back(packets_of(asked));
+    for (const TileRays& rays_of_tile : tiles) made.push_back(packets_of(rays_of_tile));
     const Cost beforehand = measure("bare Embree, prepared packets", arguments.frames, [&] {
         for_each_index(static_cast<std::int64_t>(made.size()), arguments.threads, [&](std::int64_t i) {
             const Packets& tile = made[static_cast<std::size_t>(i)];
-            for (const auto& [mask, met] : tile.camera) {
-                RayHitLanes found = met;
-                rays->intersect(mask, found);
+            for (const auto& [mask, ray_hit] : tile.camera) {
+                RayHitLanes found = ray_hit;
+                rays.intersect(mask, found);
             }
-            for (const auto& [mask, ray] : tile.to_lights) {
+            for (const auto& [mask, ray] : tile.shadow_rays) {
                 RayLanes found = ray;
-                rays->occluded(mask, found);
+                rays.occluded(mask, found);
             }
         });
     });
     const Cost instances =
-        measure("Whitted, all instances", arguments.frames, [&] { (void)of_instances->render(camera, options); });
+        measure("Whitted, all instances", arguments.frames, [&] { (void)of_instances.render(camera, options); });
     Camera coarse = camera;
     coarse.width = 1280 / 16;
     coarse.height = 720 / 16;
     coarse.fl_x = coarse.fl_y = coarse.fl_x * coarse.width / camera.width;
     coarse.cx = coarse.width / 2.0;
     coarse.cy = coarse.height / 2.0;
-    measure("a grid of 16x16 pixels of 1280x720", arguments.frames, [&] { (void)tracer->render(coarse, options); });
+    measure("a grid of 16x16 pixels of 1280x720", arguments.frames, [&] { (void)tracer.render(coarse, options); });
 
     Scene movers = flat;
     movers.parts = {{"chair", model.groups[3].meshes}};
     for (int i = 0; i < 1000; ++i) movers.instances.push_back({0});
-    Result<Tracer> moving = Tracer::create(movers);
-    if (!moving) return moving.error();
+    RS_ASSIGN_OR_RETURN(Tracer moving, Tracer::create(movers));
     int step = 0;
     measure("1000 instances moved", arguments.frames, [&] {
         ++step;
         for (std::size_t i = 0; i < 1000; ++i) {
             const auto place = static_cast<double>(i);
-            (void)moving->move(i, glm::translate(glm::dmat4(1), {0.02 * place, 0.1 * step, 0.003 * place}));
+            (void)moving.move(i, glm::translate(glm::dmat4(1), {0.02 * place, 0.1 * step, 0.003 * place}));
         }
-        moving->commit();
+        moving.commit();
     });
     std::printf("%.1f frames/s; %.2f rays per pixel; %.2f Mray/s per core\n", 1000 / whitted.wall_ms,
                 static_cast<double>(count) / camera.width / camera.height,
-                static_cast<double>(count) / whitted.processor_ms / 1000);
+                static_cast<double>(count) / whitted.cpu_ms / 1000);
     std::printf(
         "of bare Embree: frames %.2f, rays in packets %.2f (prepared packets %.2f), one by one %.2f; "
         "flattened %.2f times as fast as "
         "instances\n",
-        bare.processor_ms / whitted.processor_ms, bare.processor_ms / packets.processor_ms,
-        beforehand.processor_ms / packets.processor_ms, bare.processor_ms / single.processor_ms,
-        instances.processor_ms / whitted.processor_ms);
+        bare.cpu_ms / whitted.cpu_ms, bare.cpu_ms / packets.cpu_ms, beforehand.cpu_ms / packets.cpu_ms,
+        bare.cpu_ms / single.cpu_ms, instances.cpu_ms / whitted.cpu_ms);
     return {};
 }
 

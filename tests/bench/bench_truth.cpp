@@ -52,22 +52,21 @@ Image<Rgba8> side_by_side(const TruthDifference& difference) {
 // Mean frame times of the walk.
 Status print_costs(const compositor::Scene& scene, const std::vector<compositor::PlacedObject>& placed,
                    PixelSize size) {
-    struct Way {
+    struct DrawingMode {
         const char* name;
         compositor::ObjectDepth depth;
         int samples;
     };
     std::printf("\n%-28s %9s %9s %9s %12s\n", "ms per frame", "whole", "engine", "upload", "pixels");
-    for (const Way& way : {Way{"plane, one sample", compositor::ObjectDepth::kPlane, 1},
-                           {"plane", compositor::ObjectDepth::kPlane, compositor::kDefaultSamplesAcross},
-                           {"pixel", compositor::ObjectDepth::kPixel, compositor::kDefaultSamplesAcross}}) {
-        auto frames = compositor::FrameCompositor::create(scene, placed,
-                                                          {.width = size.width,
-                                                           .height = size.height,
-                                                           .object_depth = way.depth,
-                                                           .object_samples = way.samples,
-                                                           .time_parts = true});
-        if (!frames) return frames.error();
+    for (const DrawingMode& way : {DrawingMode{"plane, one sample", compositor::ObjectDepth::kPlane, 1},
+                                   {"plane", compositor::ObjectDepth::kPlane, compositor::kDefaultSamplesAcross},
+                                   {"pixel", compositor::ObjectDepth::kPixel, compositor::kDefaultSamplesAcross}}) {
+        RS_ASSIGN_OR_RETURN(auto frames, compositor::FrameCompositor::create(scene, placed,
+                                                                             {.width = size.width,
+                                                                              .height = size.height,
+                                                                              .object_depth = way.depth,
+                                                                              .object_samples = way.samples,
+                                                                              .time_parts = true}));
         constexpr int kTimes = 3;
         double whole_s = 0;
         double engine_s = 0;
@@ -77,12 +76,12 @@ Status print_costs(const compositor::Scene& scene, const std::vector<compositor:
         for (int i = -1; i < kTimes; ++i) {
             for (const TruthViewpoint& viewpoint : truth_walk(size.width, size.height)) {
                 const bench::Stopwatch watch;
-                if (Status drawn = frames->draw(viewpoint.camera); !drawn) return drawn;
+                RS_TRY(frames.draw(viewpoint.camera));
                 if (i < 0) continue;  // the first walk fills caches
                 whole_s += watch.wall_s();
-                engine_s += frames->statistics().engine_s;
-                upload_s += frames->statistics().upload_s;
-                pixels += frames->statistics().pixels_rendered;
+                engine_s += frames.statistics().engine_s;
+                upload_s += frames.statistics().upload_s;
+                pixels += frames.statistics().pixels_rendered;
                 ++count;
             }
         }
@@ -93,64 +92,54 @@ Status print_costs(const compositor::Scene& scene, const std::vector<compositor:
 }
 
 Status run_bench(Arguments arguments) {
-    const Result<PixelSize> size = parse_size(arguments.size);
-    if (!size) return size.error();
-    const Result<gl::Context> context = gl::Context::create_surfaceless();
-    if (!context) return context.error();
+    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(arguments.size));
+    RS_ASSIGN_OR_RETURN(const gl::Context context, gl::Context::create_surfaceless());
     const std::filesystem::path folder = arguments.objects;
     std::filesystem::create_directories(folder);
     for (const std::string& name : truth_object_names()) {
         if (std::filesystem::exists(folder / (name + ".rso"))) continue;
-        Result<capture::SceneFile> object = object_of_recipe(name);
-        if (!object) return object.error();
+        RS_ASSIGN_OR_RETURN(capture::SceneFile object, object_of_recipe(name));
         ProgressBar bar(false);
-        if (Status made = write_captured_object(name, std::move(*object), {}, folder, &bar); !made) return made.error();
+        RS_TRY(write_captured_object(name, std::move(object), {}, folder, &bar));
     }
-    Result<compositor::Scene> scene = write_truth_room(folder);
-    if (!scene) return scene.error();
-    const auto placed = read_placed_objects(*scene);
-    if (!placed) return placed.error();
-    for (const std::string& warning : scene->warnings) std::fprintf(stderr, "%s\n", warning.c_str());
+    RS_ASSIGN_OR_RETURN(compositor::Scene scene, write_truth_room(folder));
+    RS_ASSIGN_OR_RETURN(const auto placed, read_placed_objects(scene));
+    for (const std::string& warning : scene.warnings) std::fprintf(stderr, "%s\n", warning.c_str());
     std::vector<TracedNode> traced;
-    for (std::size_t i = 0; i < placed->size(); ++i) {
-        Result<capture::SceneFile> recipe = object_of_recipe(scene->objects[i].file.stem().string());
-        if (!recipe) return recipe.error();
-        auto object = traced_object(std::move(*recipe));
-        if (!object) return object.error();
-        const double foot = static_cast<double>((*object)->rays().lower().y) / (*object)->object_radius();
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        RS_ASSIGN_OR_RETURN(capture::SceneFile recipe, object_of_recipe(scene.objects[i].file.stem().string()));
+        RS_ASSIGN_OR_RETURN(auto object, traced_object(std::move(recipe)));
+        const double foot = static_cast<double>(object->rays().lower().y) / object->object_radius();
         std::fprintf(stderr, "%s: foot %.3f radii below its centre, estimated as %.3f\n",
-                     scene->objects[i].file.stem().c_str(), -foot, -(*placed)[i].object->extent.bottom);
-        traced.push_back({std::move(*object), (*placed)[i].world_from_object});
+                     scene.objects[i].file.stem().c_str(), -foot, -placed[i].object->extent.bottom);
+        traced.push_back({std::move(object), placed[i].world_from_object});
     }
-    arguments.frame.width = size->width;
-    arguments.frame.height = size->height;
-    auto comparison = TruthComparison::create(*scene, *placed, traced, arguments.frame);
-    if (!comparison) return comparison.error();
+    arguments.frame.width = size.width;
+    arguments.frame.height = size.height;
+    RS_ASSIGN_OR_RETURN(auto comparison, TruthComparison::create(scene, placed, traced, arguments.frame));
 
     std::printf("%-20s %8s %10s %8s %9s %6s %8s %8s %8s %7s\n", "viewpoint", "objects", "elsewhere", "alone", "share",
                 "cuts", "mean px", "99% px", "most px", "s");
     int number = 0;
-    for (const TruthViewpoint& viewpoint : truth_walk(size->width, size->height)) {
+    for (const TruthViewpoint& viewpoint : truth_walk(size.width, size.height)) {
         ++number;
         if (!arguments.only.empty() &&
             std::find(arguments.only.begin(), arguments.only.end(), number) == arguments.only.end()) {
             continue;
         }
         const bench::Stopwatch watch;
-        const Result<TruthDifference> difference = comparison->compare(viewpoint.camera, arguments.truth);
-        if (!difference) return difference.error();
-        const EdgeDistances& cuts = difference->cuts;
+        RS_ASSIGN_OR_RETURN(const TruthDifference difference, comparison.compare(viewpoint.camera, arguments.truth));
+        const EdgeDistances& cuts = difference.cuts;
         std::printf("%-20s %8.2f %10.2f %8.2f %8.1f%% %6d %8.2f %8.2f %8.2f %7.1f\n", viewpoint.what.c_str(),
-                    difference->objects_db, difference->elsewhere_db, difference->alone_db,
-                    100 * difference->object_share, cuts.places, cuts.mean_px, cuts.within_px, cuts.largest_px,
-                    watch.wall_s());
+                    difference.objects_db, difference.elsewhere_db, difference.alone_db, 100 * difference.object_share,
+                    cuts.places, cuts.mean_px, cuts.within_px, cuts.largest_px, watch.wall_s());
         std::fflush(stdout);
         if (arguments.output.empty()) continue;
         std::filesystem::create_directories(arguments.output);
         const auto file = std::filesystem::path(arguments.output) / ("view" + std::to_string(number) + ".png");
-        if (Status written = write_png(file, side_by_side(*difference)); !written) return written;
+        RS_TRY(write_png(file, side_by_side(difference)));
     }
-    return print_costs(*scene, *placed, *size);
+    return print_costs(scene, placed, size);
 }
 
 }  // namespace

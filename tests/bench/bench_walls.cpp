@@ -38,18 +38,17 @@ struct Options {
     int samples = 4;
 };
 
-Result<FrameCompositor> compositor_of(const Scene& scene, Showroom& showroom, int width, int height, int samples) {
+Result<FrameCompositor> create_compositor(const Scene& scene, Showroom& showroom, int width, int height, int samples) {
     return FrameCompositor::create(scene, showroom.engine(), showroom.nodes(),
                                    {.width = width, .height = height, .samples = samples});
 }
 
 Status bench_walls(const Scene& scene, Showroom& showroom, const Camera& visitor, const Options& options) {
     WallDisplay cave = *preset_display("cave");
-    if (Status status = select_walls(cave, "left,front,right"); !status) return status;
+    RS_TRY(select_walls(cave, "left,front,right"));
     for (Wall& wall : cave.walls) wall.width = wall.height = options.side;
     const RoomPose place = place_of(visitor, cave.head, 1);
-    auto frames = compositor_of(scene, showroom, options.side, options.side, options.samples);
-    if (!frames) return frames.error();
+    RS_ASSIGN_OR_RETURN(auto frames, create_compositor(scene, showroom, options.side, options.side, options.samples));
     std::vector<double> wall_ms, cpu_ms;
     for (int frame = 0; frame <= options.frames; ++frame) {
         const Stopwatch watch;
@@ -57,9 +56,8 @@ Status bench_walls(const Scene& scene, Showroom& showroom, const Camera& visitor
         head.position.x += 0.01 * frame;
         for (const Wall& wall : cave.walls) {
             for (const double offset : {-0.0325, 0.0325}) {
-                const Result<Camera> camera = wall_camera(wall, head.eye(offset), place);
-                if (!camera) return camera.error();
-                if (const auto image = frames->compose(*camera); !image) return image.error();
+                RS_ASSIGN_OR_RETURN(const Camera camera, wall_camera(wall, head.eye(offset), place));
+                RS_TRY(frames.compose(camera));
             }
         }
         if (frame == 0) continue;  // the first one warms up
@@ -74,9 +72,8 @@ Status bench_walls(const Scene& scene, Showroom& showroom, const Camera& visitor
 Status bench_quilt(const Scene& scene, Showroom& showroom, const Camera& middle, double focus, const Options& options) {
     const QuiltLayout layout{5, 9, middle.width, middle.height};
     const std::vector<Camera> cameras = quilt_cameras(middle, layout, radians(40), focus);
-    auto frames = compositor_of(scene, showroom, middle.width, middle.height, options.samples);
-    if (!frames) return frames.error();
-    if (const auto image = frames->compose(middle); !image) return image.error();
+    RS_ASSIGN_OR_RETURN(auto frames, create_compositor(scene, showroom, middle.width, middle.height, options.samples));
+    RS_TRY(frames.compose(middle));
     std::vector<Image<Rgba8>> alone;
     double single_ms = 0, quilt_ms = 0, single_cpu = 0, quilt_cpu = 0;
     bool equal = true;
@@ -84,18 +81,16 @@ Status bench_quilt(const Scene& scene, Showroom& showroom, const Camera& middle,
         alone.clear();
         const Stopwatch alone_watch;
         for (const Camera& camera : cameras) {
-            auto image = frames->compose(camera);
-            if (!image) return image.error();
-            alone.push_back(std::move(*image));
+            RS_ASSIGN_OR_RETURN(auto image, frames.compose(camera));
+            alone.push_back(std::move(image));
         }
         single_ms += alone_watch.wall_ms();
         single_cpu += alone_watch.cpu_ms();
         const Stopwatch quilt_watch;
         Image<Rgba8> quilt(layout.width(), layout.height());
         for (int view = 0; view < layout.views(); ++view) {
-            auto image = frames->compose(cameras[static_cast<std::size_t>(view)]);
-            if (!image) return image.error();
-            place_tile(layout, view, *image, quilt);
+            RS_ASSIGN_OR_RETURN(auto image, frames.compose(cameras[static_cast<std::size_t>(view)]));
+            place_tile(layout, view, image, quilt);
         }
         quilt_ms += quilt_watch.wall_ms();
         quilt_cpu += quilt_watch.cpu_ms();
@@ -120,27 +115,23 @@ Status run(const Options& options) {
     Scene scene;
     scene.floor = Floor{};
     if (!options.scene.empty()) {
-        Result<Scene> read = read_scene(options.scene);
-        if (!read) return read.error();
-        scene = std::move(*read);
+        RS_ASSIGN_OR_RETURN(scene, read_scene(options.scene));
     }
     if (!options.object.empty()) {
-        Result<RaySpaceNode> node = parse_object_argument(options.object, {0, 0, 0});
-        if (!node) return node.error();
-        scene.objects.push_back(std::move(*node));
+        RS_ASSIGN_OR_RETURN(RaySpaceNode node, parse_object_argument(options.object, {0, 0, 0}));
+        scene.objects.push_back(std::move(node));
     }
     Showroom showroom(scene, {.waits = true});
-    if (Status status = showroom.wait_for_all({0, 0, 0}); !status) return status;
+    RS_TRY(showroom.wait_for_all({0, 0, 0}));
     constexpr int kTileWidth = 420, kTileHeight = 560;
     CameraPose pose = framing_pose(showroom.placed(), radians(50), static_cast<double>(kTileWidth) / kTileHeight);
     Camera visitor = look_at_camera(pose.eye, pose.at, radians(50), kTileWidth, kTileHeight);
     for (const Viewpoint& viewpoint : scene.viewpoints) {
         if (viewpoint.description == options.viewpoint) visitor = camera_at(viewpoint, kTileWidth, kTileHeight);
     }
-    if (Status status = showroom.update(visitor.centre(), 0); !status) return status;
-    const Result<gl::Context> context = gl::Context::create_surfaceless();
-    if (!context) return context.error();
-    if (Status status = bench_walls(scene, showroom, visitor, options); !status) return status;
+    RS_TRY(showroom.update(visitor.centre(), 0));
+    RS_ASSIGN_OR_RETURN(const gl::Context context, gl::Context::create_surfaceless());
+    RS_TRY(bench_walls(scene, showroom, visitor, options));
     const double focus =
         std::max(glm::dot(bounds_from(scene, 0, 0).middle() - visitor.centre(), visitor.forward()), 1.0);
     return bench_quilt(scene, showroom, visitor, focus, options);

@@ -20,7 +20,7 @@
 namespace rs {
 namespace {
 
-capture::BoardCorners found_by_opencv(const Image<Rgba8>& image, const capture::BoardDesign& design) {
+capture::BoardCorners detect_with_opencv(const Image<Rgba8>& image, const capture::BoardDesign& design) {
     cv::Mat1b grey(image.height(), image.width());
     for (int y = 0; y < grey.rows; ++y) {
         for (int x = 0; x < grey.cols; ++x) grey(y, x) = image(x, y).g;
@@ -32,14 +32,14 @@ capture::BoardCorners found_by_opencv(const Image<Rgba8>& image, const capture::
     std::vector<std::vector<cv::Point2f>> markers;
     std::vector<int> marker_ids;
     cv::aruco::detectMarkers(grey, dictionary, markers, marker_ids);
-    capture::BoardCorners seen;
-    if (marker_ids.empty()) return seen;
+    capture::BoardCorners found;
+    if (marker_ids.empty()) return found;
     std::vector<cv::Point2f> corners;
     std::vector<int> ids;
     cv::aruco::interpolateCornersCharuco(markers, marker_ids, grey, board, corners, ids);
     // Pixel centres are at +0.5, as in detect_board.
-    for (std::size_t i = 0; i < ids.size(); ++i) seen.corners.push_back({ids[i], {corners[i].x, corners[i].y}});
-    return seen;
+    for (std::size_t i = 0; i < ids.size(); ++i) found.corners.push_back({ids[i], {corners[i].x, corners[i].y}});
+    return found;
 }
 
 struct Sum {
@@ -51,9 +51,9 @@ void add(Sum& sum, const Image<Rgba8>& image, const capture::BoardTurn& turn, st
          const std::function<capture::BoardCorners(const Image<Rgba8>&)>& find) {
     constexpr double kFar_px = 2;
     const bench::Stopwatch watch;
-    const capture::BoardCorners seen = find(image);
+    const capture::BoardCorners found = find(image);
     sum.seconds += watch.wall_s();
-    for (const capture::DetectedCorner& one : seen.corners) {
+    for (const capture::DetectedCorner& one : found.corners) {
         const auto p =
             capture::project(turn.model.lens, turn.model.pose, test::corner_in_table(turn, {}, one.corner, view));
         const double off_px = p ? glm::length(*p - one.p) : kFar_px;
@@ -92,11 +92,11 @@ int main(int argc, char** argv) {
                 const auto view = static_cast<std::size_t>(i * options.views / views);
                 const Image<Rgba8> image = test::drawn(turn, {}, view, hidden_mm);
                 add(ours, image, turn, view, [](const Image<Rgba8>& shown) {
-                    const auto seen = capture::detect_board(shown.view(), {});
-                    return seen ? *seen : capture::BoardCorners{};
+                    const auto found = capture::detect_board(shown.view(), {});
+                    return found ? *found : capture::BoardCorners{};
                 });
                 add(theirs, image, turn, view,
-                    [](const Image<Rgba8>& shown) { return found_by_opencv(shown, capture::BoardDesign{}); });
+                    [](const Image<Rgba8>& shown) { return detect_with_opencv(shown, capture::BoardDesign{}); });
             }
             std::printf("%.0f,%.0f", height_deg, hidden_mm);
             print(ours, views);

@@ -1,11 +1,10 @@
-"""The arithmetic of colmap_turntable.sh: how far the steps of calibrated turns are from published ones.
+"""Computations of colmap_turntable.sh: errors of the steps of calibrated turns against published ones.
 
-    colmap_turntable.py views SET             per view of a set: its picture, a tab, the photograph it came from
-    colmap_turntable.py compare OUT CAMERAS   table and CSV of what colmap_turntable.sh left in OUT, and OUT/steps.csv
+    colmap_turntable.py views SET             prints per view of a set: its image, a tab, its photo
+    colmap_turntable.py compare OUT CAMERAS   prints a table and CSV of the results in OUT, and writes OUT/steps.csv
 
 Rotations are 3x3 nested lists, camera_from_object. A step is the rotation from one view to the next, R[i+1] R[i]^T;
-the last one closes the turn. Its angle is counted about the mean axis of all steps, so a step that goes backwards is
-negative.
+the last one closes the turn. Angles are about the mean axis of all steps; steps in the opposite direction are negative.
 """
 
 import csv
@@ -46,7 +45,7 @@ def unit(v):
     return [x / length for x in v]
 
 
-# ---- Published cameras: the level 5 MAT format, as far as a cell array of real matrices needs it.
+# ---- Published cameras: the subset of the level 5 MAT format for a cell array of real matrices.
 
 
 def mat_elements(data):
@@ -80,14 +79,14 @@ def mat_matrices(data):
 
 
 def published_steps(path):
-    """Degrees from view to view. M[i+1] M[i]^-1 of the left 3x3 parts is K R K^-1, whose trace is that of R."""
+    """Degrees between consecutive views. M[i+1] M[i]^-1 of the left 3x3 parts is K R K^-1, whose trace is that of R."""
     data = Path(path).read_bytes()
     if data[124:128] != b"\x00\x01IM":
         fail(f"{path} is not a little-endian level 5 MAT file")
     cameras = [values for rows, columns, values in mat_matrices(data[128:]) if (rows, columns) == (3, 4)]
     lefts = [transposed([p[0:3], p[3:6], p[6:9]]) for p in cameras]
     if len(lefts) < 3:
-        fail(f"{path} holds {len(lefts)} projection matrices: a turn needs at least 3")
+        fail(f"{path}: contains {len(lefts)} projection matrices; a turn needs at least 3")
     steps = []
     for i, m in enumerate(lefts):
         volume = determinant(m)
@@ -119,7 +118,7 @@ def our_turn(summary, photos):
     if not found:
         return turn
     if len(found["angles"]) != len(photos):
-        fail(f"{summary}: {len(found['angles'])} angles for {len(photos)} photographs")
+        fail(f"{summary}: {len(found['angles'])} angles for {len(photos)} photos")
     for photo, angle in zip(photos, found["angles"]):
         if photo not in report["left_out"]:
             turn["rotations"][photo] = turntable_rotation(
@@ -232,17 +231,17 @@ def add_seconds(turn, stages):
 def notes(turn, photos):
     missing = [photo for photo in photos if photo not in turn["rotations"]]
     if len(missing) == len(photos):
-        yield f"{turn['method']} FAILED: it calibrated no photograph"
+        yield f"{turn['method']} FAILED: it calibrated no photo"
     elif missing:
         lost = sum(step is None for step in turn["steps"])
-        yield f"{turn['method']} FAILED on {len(missing)} photographs, {lost} steps left out: {' '.join(missing)}"
+        yield f"{turn['method']} FAILED on {len(missing)} photos, {lost} steps skipped: {' '.join(missing)}"
     if len(turn.get("models", [])) > 1:
-        yield f"{turn['method']} broke the turn into models of {turn['models']} photographs; the largest is compared"
+        yield f"{turn['method']} split the turn into models of {turn['models']} photos; the largest is compared"
 
 
 COLUMNS = [  # key, heading, format
     ("method", "method", "s"),
-    ("registered", "pictures", "d"),
+    ("registered", "photos", "d"),
     ("compared", "steps", "d"),
     ("rms_deg", "RMS deg", ".4f"),
     ("largest_deg", "max deg", ".4f"),
@@ -269,7 +268,7 @@ def compare(out, cameras):
     photos = (out / "photos.txt").read_text().splitlines()
     published = published_steps(cameras)
     if len(published) != len(photos):
-        fail(f"{cameras} holds {len(published)} cameras for {len(photos)} photographs")
+        fail(f"{cameras}: contains {len(published)} cameras for {len(photos)} photos")
     seconds = read_seconds(out / "seconds.txt")
     turns = [our_turn(out / "import.out", photos)]
     add_seconds(turns[0], [seconds["import"]])

@@ -1,22 +1,22 @@
 #!/usr/bin/env bash
-# A turn of photographs calibrated by `rs-capture import` and by COLMAP, both held against published cameras.
+# Calibrates a turn of photos with `rs-capture import` and with COLMAP, and compares both with published cameras.
 #
 #   tests/bench/colmap_turntable.sh PHOTOS CAMERAS.mat [OUT] [BIN]
 #
-# PHOTOS: the folder of one turn. CAMERAS.mat: a cell array of 3x4 projection matrices, one per photograph (dino_Ps.mat
-# of oxford-dino). Only the angles from view to view are taken from them, which need neither their scale nor their lens.
-# OUT (new or empty; default: a temporary folder) keeps the logs, both models and steps.csv. BIN holds rs-capture
-# (default: build/release/bin). THREADS (default 2) processors for either. VARIANTS: "masks" (default) and "no-masks",
-# where COLMAP sees the whole photographs.
+# PHOTOS: folder of one turn. CAMERAS.mat: a cell array of 3x4 projection matrices, one per photo (dino_Ps.mat of
+# oxford-dino). Only the angles between views are used, which are independent of scale and intrinsics. OUT (new or
+# empty; default: a temporary folder) receives the logs, both models and steps.csv. BIN: folder of rs-capture
+# (default: build/release/bin). THREADS: cores for each program (default 2). VARIANTS: "masks" (default) and
+# "no-masks", where COLMAP uses the whole photos.
 #
-# COLMAP gets the same photographs, one shared SIMPLE_RADIAL camera whose focal length it finds, features on the CPU,
-# and as masks the mattes of a nominal import. Its time runs from feature extraction to the model and does not count the
-# making of those masks; ours is the whole import, mattes and rectified pictures included.
+# COLMAP uses the same photos, one shared SIMPLE_RADIAL camera with unknown focal length, features on the CPU, and the
+# alpha mattes of a nominal import as masks. Its time covers feature extraction to the model, without the creation of
+# the masks; the time of rs-capture covers the whole import, including alpha mattes and rectified images.
 #
-# Table and CSV: errors of the steps from view to view in degrees, all of them and "open", without the one that closes
-# the turn (cameras that were found picture after picture pile their drift up there); the largest angle of a step's axis
-# to the mean axis (0 by our model); focal length and distortion; RMS of the residuals' lengths and COLMAP's own mean,
-# both over the observations that the method kept; wall and processor seconds (believe the latter on a busy machine).
+# Table and CSV: errors of the steps between views in degrees, for all steps and, as "open", without the one that
+# closes the turn (where incremental reconstruction accumulates its drift); the largest angle between a step's axis
+# and the mean axis (0 in the model of rs-capture); focal length and distortion; RMS length of the residuals, and
+# COLMAP's own mean, both over the inliers of each method; wall and CPU seconds (use the latter on a loaded machine).
 set -euo pipefail
 HERE=$(realpath "$(dirname "$0")")
 fail() {
@@ -30,25 +30,25 @@ fi
 for tool in colmap oiiotool python3 taskset; do
   command -v "$tool" >/dev/null || fail "$tool is not installed (Debian: colmap openimageio-tools python3 util-linux)"
 done
-[ -d "$1" ] || fail "$1 is not a folder of photographs"
-[ -f "$2" ] || fail "$2, the published cameras, is not there"
+[ -d "$1" ] || fail "$1 is not a folder of photos"
+[ -f "$2" ] || fail "$2: the file of published cameras does not exist"
 PHOTOS=$(realpath "$1")
 CAMERAS=$(realpath "$2")
 BIN=${4:-$HERE/../../build/release/bin}
-[ -x "$BIN/rs-capture" ] || fail "no rs-capture in $BIN: build it, or name its folder as the fourth argument"
+[ -x "$BIN/rs-capture" ] || fail "$BIN: contains no rs-capture; build it, or give its folder as the fourth argument"
 THREADS=${THREADS:-2}
 if [ -n "${3:-}" ]; then
   mkdir -p "$3"
   OUT=$(realpath "$3")
-  [ -z "$(ls -A "$OUT")" ] || fail "$OUT is not empty: name a new folder"
+  [ -z "$(ls -A "$OUT")" ] || fail "$OUT: is not empty; give a new folder"
 else
   OUT=$(mktemp -d)
   trap 'rm -rf "$OUT"' EXIT
 fi
 export QT_QPA_PLATFORM=offscreen
 
-# Runs a command on THREADS processors; what it prints goes to OUT/WHAT.out and WHAT.err, its times to seconds.txt:
-# WHAT, wall, user and system seconds. Returns the command's status.
+# Runs a command on THREADS cores. Its output goes to OUT/WHAT.out and WHAT.err, its times to seconds.txt: WHAT, wall,
+# user and system seconds. Returns the command's status.
 run_timed() {
   local what=$1
   shift
@@ -64,22 +64,22 @@ timed() {
   fail "$what failed: $*"
 }
 
-echo "COLMAP: $(colmap help | head -1); $THREADS processors, load before: $(cut -d' ' -f1-3 /proc/loadavg)"
+echo "COLMAP: $(colmap help | head -1); $THREADS cores, load before: $(cut -d' ' -f1-3 /proc/loadavg)"
 timed import "$BIN/rs-capture" import "$PHOTOS" -o "$OUT/set" --json -q
-timed mattes "$BIN/rs-capture" import "$PHOTOS" -o "$OUT/nominal" --calibration nominal -q
+timed nominal "$BIN/rs-capture" import "$PHOTOS" -o "$OUT/nominal" --calibration nominal -q
 
 mkdir "$OUT/masks"
 python3 "$HERE/colmap_turntable.py" views "$OUT/nominal" >"$OUT/views.txt"
-while IFS=$'\t' read -r matte photo; do
+while IFS=$'\t' read -r image photo; do
   echo "$photo" >>"$OUT/photos.txt"
-  oiiotool "$OUT/nominal/$matte" --ch A --subc 0.5 --mulc 1000 --clamp:min=0:max=1 -d uint8 -o "$OUT/masks/$photo.png"
+  oiiotool "$OUT/nominal/$image" --ch A --subc 0.5 --mulc 1000 --clamp:min=0:max=1 -d uint8 -o "$OUT/masks/$photo.png"
 done <"$OUT/views.txt"
 
 for variant in ${VARIANTS:-masks}; do
   case $variant in
     masks) masks=(--ImageReader.mask_path "$OUT/masks") ;;
     no-masks) masks=() ;;
-    *) fail "VARIANTS knows masks and no-masks, not $variant" ;;
+    *) fail "VARIANTS: unknown variant $variant; use masks or no-masks" ;;
   esac
   database=$OUT/$variant.db
   sparse=$OUT/colmap-$variant
@@ -89,7 +89,7 @@ for variant in ${VARIANTS:-masks}; do
     --ImageReader.camera_model SIMPLE_RADIAL --SiftExtraction.use_gpu 0 --SiftExtraction.num_threads "$THREADS"
   timed "$variant.matching" colmap exhaustive_matcher --database_path "$database" --SiftMatching.use_gpu 0 \
     --SiftMatching.num_threads "$THREADS"
-  # Where it finds no model it fails; the table then says that it calibrated nothing.
+  # COLMAP fails if it finds no model; the table reports this.
   run_timed "$variant.mapping" colmap mapper --database_path "$database" --image_path "$PHOTOS" \
     --output_path "$sparse" --Mapper.num_threads "$THREADS" || tail -n 5 "$OUT/$variant.mapping.err" >&2
   for model in "$sparse"/*/; do

@@ -31,11 +31,11 @@ def draw_mask(entry):
 
 
 def draw_overlay(photo, entry, scale=2):
-    picture = cv2.resize(photo, None, fx=scale, fy=scale, interpolation=cv2.INTER_CUBIC)
+    overlay = cv2.resize(photo, None, fx=scale, fy=scale, interpolation=cv2.INTER_CUBIC)
     for polygon in entry["polygons"]:
         points = (np.array(polygon["points"]) + 0.5) * scale - 0.5
-        cv2.polylines(picture, [np.rint(points).astype(np.int32)], True, (0, 255, 0))
-    return picture
+        cv2.polylines(overlay, [np.rint(points).astype(np.int32)], True, (0, 255, 0))
+    return overlay
 
 
 def main():

@@ -34,22 +34,18 @@ struct LitScene {
 };
 
 inline Result<LitScene> read_lit_scene(const LitSceneArguments& arguments) {
-    Result<Scene> scene = read_scene(arguments.scene);
-    if (!scene) return scene.error();
+    RS_ASSIGN_OR_RETURN(Scene scene, read_scene(arguments.scene));
     if (!arguments.lights.empty()) {
-        Result<LightList> list = read_light_list(arguments.lights);
-        if (!list) return list.error();
-        if (list->replace) scene->lights.clear();
-        scene->lights.insert(scene->lights.end(), list->lights.begin(), list->lights.end());
-        scene->environment = std::move(list->environment);
+        RS_ASSIGN_OR_RETURN(LightList list, read_light_list(arguments.lights));
+        if (list.replace) scene.lights.clear();
+        scene.lights.insert(scene.lights.end(), list.lights.begin(), list.lights.end());
+        scene.environment = std::move(list.environment);
     }
-    const auto size = parse_size(arguments.size);
-    if (!size) return size.error();
-    const auto eye = parse_triple(arguments.eye, "--eye"), at = parse_triple(arguments.at, "--at");
-    if (!eye) return eye.error();
-    if (!at) return at.error();
-    return LitScene{std::move(*scene), look_at_camera({eye->x, eye->y, eye->z}, {at->x, at->y, at->z},
-                                                      radians(arguments.fov_deg), size->width, size->height)};
+    RS_ASSIGN_OR_RETURN(const auto size, parse_size(arguments.size));
+    RS_ASSIGN_OR_RETURN(const auto eye, parse_triple(arguments.eye, "--eye"));
+    RS_ASSIGN_OR_RETURN(const auto at, parse_triple(arguments.at, "--at"));
+    return LitScene{std::move(scene), look_at_camera({eye.x, eye.y, eye.z}, {at.x, at.y, at.z},
+                                                     radians(arguments.fov_deg), size.width, size.height)};
 }
 
 }  // namespace rs::compositor

@@ -25,43 +25,40 @@ struct Arguments {
     std::string plot;
 };
 
-struct Measured {
+struct MapMeasurement {
     double share = 0;  // file size of the map over that of the raw images
     double psnr_db = 0;
 };
 
-Result<Measured> measure(const CaptureSet& set, const std::string& held_out, double cell_px) {
+Result<MapMeasurement> measure(const CaptureSet& set, const std::string& held_out, double cell_px) {
     BuildOptions options;
     options.map = default_plane_map(MapKind::kShape);
     options.shape.lines.cell_px = cell_px;
-    Result<BuiltObject> built = build_object(set, options);
-    if (!built) return built.error();
+    RS_ASSIGN_OR_RETURN(BuiltObject built, build_object(set, options));
     std::size_t file_bytes = 0;
     std::size_t memory_bytes = 0;
-    for (const Ring& ring : built->object.rings) {
+    for (const Ring& ring : built.object.rings) {
         file_bytes += object_chunks::map_payload(ring).size();
         memory_bytes += ring.cells.size() * sizeof(ring.cells[0]) + ring.shape.cells.size() * sizeof(ShapeCell);
         if (!ring.shape.cells.empty()) file_bytes += object_chunks::shape_payload(ring).size();
     }
     const double raw_bytes = 1.5 * static_cast<double>(set.upright.views.size()) * set.width * set.height;
-    const Result<engine::Renderer> renderer = engine::Renderer::create(std::move(built->object));
-    if (!renderer) return renderer.error();
-    const Result<engine::Comparison> comparison = engine::compare_with_set(*renderer, held_out);
-    if (!comparison) return comparison.error();
+    RS_ASSIGN_OR_RETURN(const engine::Renderer renderer, engine::Renderer::create(std::move(built.object)));
+    RS_ASSIGN_OR_RETURN(const engine::Comparison comparison, engine::compare_with_set(renderer, held_out));
     const double share = static_cast<double>(file_bytes) / raw_bytes;
     std::printf("%.1f,%zu,%.2f,%zu,%.2f,%.2f\n", cell_px, file_bytes, 100 * share, memory_bytes,
-                100 * static_cast<double>(memory_bytes) / raw_bytes, comparison->mean_psnr_db);
+                100 * static_cast<double>(memory_bytes) / raw_bytes, comparison.mean_psnr_db);
     std::fflush(stdout);
-    return Measured{share, comparison->mean_psnr_db};
+    return MapMeasurement{share, comparison.mean_psnr_db};
 }
 
-Status write_plot(const std::string& path, const std::vector<Measured>& measured) {
+Status write_plot(const std::string& path, const std::vector<MapMeasurement>& measured) {
     LinePlot plot;
     plot.title = "Views held out against the size of the RS map";
     plot.x_label = "RS map in the file, % of the raw images (YUV 4:2:0)";
     plot.y_label = "mean PSNR, dB";
     plot.series.push_back({"cells of 12, 8, 6, 4.8, 3.2, 2.4 px", {}, {}});
-    for (const Measured& point : measured) {
+    for (const MapMeasurement& point : measured) {
         plot.series[0].x.push_back(100 * point.share);
         plot.series[0].y.push_back(point.psnr_db);
     }
@@ -70,14 +67,12 @@ Status write_plot(const std::string& path, const std::vector<Measured>& measured
 }
 
 Status run(const Arguments& arguments) {
-    const Result<CaptureSet> set = open_capture_set(arguments.set);
-    if (!set) return set.error();
+    RS_ASSIGN_OR_RETURN(const CaptureSet set, open_capture_set(arguments.set));
     std::printf("cell_px,file_bytes,file_percent,memory_bytes,memory_percent,psnr_db\n");
-    std::vector<Measured> measured;
+    std::vector<MapMeasurement> measured;
     for (const double cell_px : {12.0, 8.0, 6.0, 4.8, 3.2, 2.4, 2.0, 1.6}) {
-        const Result<Measured> point = measure(*set, arguments.held_out, cell_px);
-        if (!point) return point.error();
-        measured.push_back(*point);
+        RS_ASSIGN_OR_RETURN(const MapMeasurement point, measure(set, arguments.held_out, cell_px));
+        measured.push_back(point);
     }
     return arguments.plot.empty() ? Status{} : write_plot(arguments.plot, measured);
 }

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# The paper's baseline on Spot: 90 views of 512x512, focal length 1.4 widths, eye at 3.5 object radii, scored on 90 views
-# halfway between. "photo" shows the nearest captured picture as it is, "plane" renders the object.
+# Baseline of the paper on Spot: 90 views of 512x512, focal length 1.4 widths, eye at 3.5 object radii, scored on 90
+# views halfway between. "photo" is the nearest captured image, unchanged; "plane" renders the object.
 #
-#   tests/bench/paper_baseline.sh [DATA]      DATA: the folder that holds meshes/spot and hdr (default: $RAYSPACE_DATA)
+#   tests/bench/paper_baseline.sh [DATA]      DATA: folder with meshes/spot and hdr (default: $RAYSPACE_DATA)
 #
-# SPP (default 64) samples per pixel. LIGHTS: "white" (even, overexposed), "bright" (even light and a sun) and names of light probes in hdr/. 3.5 object radii are 2.81 bounding-sphere radii, which `synth` counts in.
+# SPP: samples per pixel (default 64). LIGHTS: "white" (uniform, overexposed), "bright" (uniform with a sun) and names
+# of light probes in hdr/. 3.5 object radii are 2.81 bounding-sphere radii, the unit of `synth`.
 set -euo pipefail
 DATA=$(realpath "${1:-${RAYSPACE_DATA:?give the folder of test inputs}}")
 BIN=$(realpath "$(dirname "$0")/../../build/release/bin")
@@ -27,7 +28,7 @@ JSON
   "$BIN/rs-capture" synth "$WORK/spot.json" -o "$WORK/set" --views 90 --size 512x512 --spp "$SPP" --no-filter -q >/dev/null
   "$BIN/rs-capture" synth "$WORK/spot.json" -o "$WORK/halfway" --views 90 --size 512x512 --spp "$SPP" --no-filter --first-angle 2 -q >/dev/null
   "$BIN/rs-encode" build "$WORK/set" -o "$WORK/spot.rso" --raymap plane --planes 12 -q >/dev/null
-  # The pictures of the halfway set, claimed to be taken at the captured poses: what flipping photographs costs.
+  # Images of the halfway set with the captured poses: the error of switching between photos.
   cp -r "$WORK/halfway" "$WORK/flipped"
   cp "$WORK/set/transforms.json" "$WORK/flipped/transforms.json"
   printf '%-10s photo %s\n' "$light" "$("$BIN/rs-engine" compare "$WORK/spot.rso" "$WORK/flipped" -q | tail -1)"

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Picture coding against ASTC, JPEG, WebP and x265: makes the sets (two of real photographs, three synthetic ones of 90
-# views of 512x512), then runs bench_rd on them. OUT gets rd.csv, rd_ratios.csv and rd.svg.
+# Compares image coding with ASTC, JPEG, WebP and x265: creates the sets (two of real photos, three synthetic ones of 90
+# views of 512x512), then runs bench_rd on them. Writes rd.csv, rd_ratios.csv and rd.svg to OUT.
 #
-#   tests/bench/rate_distortion.sh DATA OUT [OPTION...]     DATA: the folder that holds turntable/oxford-dino and shoe36
+#   tests/bench/rate_distortion.sh DATA OUT [OPTION...]     DATA: folder with turntable/oxford-dino and shoe36
 #
-# Further options go to bench_rd, such as --only anchors. SPP (default 64): samples per pixel. BIN: the folder of the
-# programs. Sets and the anchors' results in OUT are used again, so a second run measures little but the encoder. Needs
-# the commands astcenc and x265. The first run takes hours on two cores, nearly all of them ASTC and x265.
+# Further options are passed to bench_rd, such as --only anchors. SPP: samples per pixel (default 64). BIN: folder of
+# the programs. Sets and the anchors' results in OUT are reused, so that further runs mainly measure the encoder.
+# Needs the commands astcenc and x265. The first run takes hours on two cores, mostly for ASTC and x265.
 set -euo pipefail
 DATA=$(realpath "${1:?give the folder of test inputs}")
 OUT=${2:?give a folder for the results}

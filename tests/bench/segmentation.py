@@ -3,18 +3,18 @@
 
 segmentation.py SET ... [--rs-capture RS_CAPTURE] [--args "..."] [--eye-photos DIR] [--json]
 
-A SET is a folder with photos/ and alpha/ (grey, 255 = object, the same order), as segmentation_sets.py makes it.
-Each set is imported with `--calibration nominal`, because the images then stand where the photos do. With
---eye-photos, which holds the folders of real sets (DIR/boot36/img01.jpg ...), the sets of eye_masks.json are imported
-too, and compared in the views that have a mask. Means over the views of a set, per cent where stated:
+A SET is a folder with photos/ and alpha/ (grey, 255 = object, the same order), as written by segmentation_sets.py.
+Each set is imported with `--calibration nominal`, so that images are aligned with the photos. With --eye-photos, the
+parent of the folders of real sets (DIR/boot36/img01.jpg ...), the sets of eye_masks.json are imported too, and
+compared in the views that have a mask. Means over the views of a set, per cent where stated:
 
   iou      intersection over union of alpha > 0.5 and true alpha > 0.5
   mae      mean absolute error of alpha over the image, x 1000
   band     mean absolute error of alpha within 2.5 px of the true contour (a mask by eye is accurate to 1.5 px only)
-  signed   the same with its sign: below 0 where the object is cut too thin, above 0 where too fat
+  signed   mean signed error in the same band: negative if the mask is too small, positive if it is too large
   missing  pixels of the object with alpha <= 0.5, % of the object's area
   added    pixels outside the object with alpha > 0.5, % of the object's area
-  floor    the same more than 2 px from the object and below its middle row: floor that is left
+  floor    added pixels more than 2 px from the object and below its middle row: remaining floor
   worst    lowest IoU of a view
 
 A view whose image is missing, and each view of an import that fails, counts as empty (IoU 0).

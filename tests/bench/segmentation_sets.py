@@ -5,7 +5,8 @@ segmentation_sets.py --data DATA --rs-capture RS_CAPTURE -o OUT [SET ...]
 
 Each set is a folder with photos/NNN.jpg and alpha/NNN.png in the same order (grey, 255 = object). Two sources:
 
-car-*   RGBA photos of a car (DATA/turntable/car52), every third view, before a synthetic studio or a still panorama.
+car-*   RGBA photos of a car (DATA/turntable/car52), every third view, in front of a synthetic studio or a static
+        panorama.
         The car's alpha includes a soft floor shadow. The shadow is composited, but it is not part of the true alpha
         (see body_alpha).
 others  views traced by `rs-capture synth --as-photos`. The tracer writes the true alpha.

@@ -1,4 +1,4 @@
-// `rs-capture synth --as-photos` as a user meets it.
+// Command line of `rs-capture synth --as-photos`.
 
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image_io/image_io.hpp"
@@ -35,7 +35,7 @@ protected:
     test::TemporaryFolder folder_;
 };
 
-TEST_F(AsPhotos, WritesPhotographsAndTheirTruth) {
+TEST_F(AsPhotos, WritesPhotosAndTheirTruth) {
     const std::vector<std::string> arguments = {"--as-photos", "--views", "3",        "--size", "64x48", "--k1",
                                                 "-0.12",       "--disc",  "speckled", "--seed", "4",     "--json"};
     const test::ToolRun run = synth(arguments);
@@ -63,10 +63,10 @@ TEST_F(AsPhotos, WritesPhotographsAndTheirTruth) {
     ASSERT_TRUE(alpha.ok());
     EXPECT_EQ((*alpha)(0, 0).g, 0);
     EXPECT_EQ((*alpha)(32, 24).g, 255);
-    EXPECT_EQ(synth(arguments).exit_code, 0) << "photographs may be taken again";
+    EXPECT_EQ(synth(arguments).exit_code, 0) << "an existing set may be replaced";
 }
 
-TEST_F(AsPhotos, RecentredOnesFillTheFrameAndTellTheirPlaces) {
+TEST_F(AsPhotos, RecentredPhotosFillTheFrameAndStateTheirOffsets) {
     ASSERT_EQ(synth({"--as-photos", "--recentred", "--views", "4", "--size", "64x48", "--disc", "none"}).exit_code, 0);
     const Result<Rig> rig = read_rig(folder_ / "set" / "truth");
     ASSERT_TRUE(rig.ok()) << rig.error().message;
@@ -91,7 +91,7 @@ TEST_F(AsPhotos, RecentredOnesFillTheFrameAndTellTheirPlaces) {
     EXPECT_NEAR(left + right, 64, 2);
 }
 
-TEST_F(AsPhotos, TheQualityDecidesTheSize) {
+TEST_F(AsPhotos, FileSizeDependsOnTheQuality) {
     const auto size_at = [&](const std::string& quality, const std::string& file) {
         const test::ToolRun run =
             synth({"--as-photos", "--views", "1", "--size", "160x120", "--jpeg", quality}, "set" + quality);
@@ -114,7 +114,7 @@ TEST_F(AsPhotos, AFolderMayHaveABackdropsName) {
     EXPECT_NE(run.err.find("would replace"), std::string::npos) << run.err;
 }
 
-TEST_F(AsPhotos, WrongValuesAreUsageErrorsInOneLine) {
+TEST_F(AsPhotos, InvalidValuesAreUsageErrorsInOneLine) {
     const std::vector<std::vector<std::string>> wrong = {
         {"--as-photos", "--k1", "nan"},
         {"--recentred"},
@@ -124,13 +124,13 @@ TEST_F(AsPhotos, WrongValuesAreUsageErrorsInOneLine) {
         {"--as-photos", "--step-error", "inf"},
         {"--as-photos", "--exposure-drift", "1"},
         {"--as-photos", "--disc", "square"},
-        {"--as-photos", "--board-width", "2"},  // of no board
+        {"--as-photos", "--board-width", "2"},  // without a board
         {"--as-photos", "--elevation", "-5"},
         {"--as-photos", "--first-angle", "5"},
         {"--as-photos", "--depth"},
         {"--as-photos", "--format", "exr"},
         {"--as-photos", "--poses", "x.json"},
-        {"--k1", "0.1"},  // of no photographs
+        {"--k1", "0.1"},  // without --as-photos
         {"--counter-clockwise"},
         {"--disc", "plain"},
     };

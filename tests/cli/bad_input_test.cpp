@@ -1,4 +1,4 @@
-// Bad input: one line that names the file, exit code 1, nothing half-written, no crash (run under the sanitizers too).
+// Bad input: one line that names the file, exit code 1, no partial output, no crash. Also run under the sanitizers.
 
 #include "rayspace/file/file_output.hpp"
 #include "tests/support/drawn_set.hpp"
@@ -28,7 +28,7 @@ std::set<std::string> names_in(const std::filesystem::path& folder) {
 
 class BadInput : public testing::Test {
 protected:
-    // The tool must fail as it should, and leave `work_` as it was.
+    // Expects exit code 1, one error line with all `mentions`, and no change in `work_`.
     void expect_failure(const std::string& tool, const std::vector<std::string>& arguments,
                         const std::vector<std::string>& mentions) {
         SCOPED_TRACE(tool + " " + arguments.front());
@@ -51,7 +51,7 @@ protected:
         test::write_drawn_set(work_ / name, rig);
     }
 
-    void write_photographs(const std::string& name) const {
+    void write_photos(const std::string& name) const {
         std::filesystem::create_directories(work_ / name);
         const Rig rig = make_ring({.count = 6, .fl_px = 60, .width = 48, .height = 40});
         for (std::size_t i = 0; i < 6; ++i) {
@@ -82,13 +82,13 @@ TEST_F(BadInput, Folders) {
 }
 
 TEST_F(BadInput, ImagesOfDifferentSizes) {
-    write_photographs("photos");
+    write_photos("photos");
     ASSERT_TRUE(write_png(work_ / "photos" / "p3.png", Image<Rgba8>(50, 40)).ok());
     expect_failure("rs-capture", {"import", in("photos"), "-o", in("set"), "-q"}, {"p3.png", "50x40"});
 }
 
 TEST_F(BadInput, CorruptImages) {
-    write_photographs("photos");
+    write_photos("photos");
     const auto photo = work_ / "photos" / "p4.png";
     const auto size = std::filesystem::file_size(photo);
     std::filesystem::resize_file(photo, size / 2);
@@ -124,7 +124,7 @@ TEST_F(BadInput, DamagedObjects) {
     };
     write_damaged({});
     expect_failure("rs-encode", {"verify", in("damaged.rso")}, {"damaged.rso"});
-    // Spread over the file; every single byte is flipped in the unit tests of the container.
+    // Positions spread over the file; the unit tests of the container flip every byte.
     for (std::size_t n = 0; n < 40; ++n) {
         SCOPED_TRACE(n);
         std::vector<std::byte> damaged = *bytes;
@@ -159,7 +159,7 @@ TEST_F(BadInput, Meshes) {
     expect_failure("rs-capture", {"synth", in("recipe.json"), "-o", in("set"), "-q"}, {"recipe.json", "objekt"});
 }
 
-TEST_F(BadInput, OutputThatCannotBe) {
+TEST_F(BadInput, InvalidOutputs) {
     const std::string object = write_object();
     expect_failure("rs-encode", {"build", in("object-set"), "-o", in("no/such/folder/o.rso"), "-q"},
                    {"no/such/folder"});
@@ -171,14 +171,14 @@ TEST_F(BadInput, OutputThatCannotBe) {
     expect_failure("rs-engine",
                    {"render", object, "--orbit", "2", "--depth", "--sheet", "2", "-o", in("two.png"), "-q"},
                    {"two.png", "--depth"});
-    // A folder that is not ours is not replaced.
+    // A folder with other files is not replaced.
     std::filesystem::create_directories(work_ / "mine");
     write_text("mine/letter.txt", "dear");
     expect_failure("rs-encode", {"extract", object, "-o", in("mine"), "-q"}, {"mine", "letter.txt", "--force"});
     EXPECT_TRUE(std::filesystem::exists(work_ / "mine" / "letter.txt"));
-    // Every command that writes a folder has --force; a new file in its folder needs it again.
+    // Every command that writes a folder has --force. A new file in the folder requires it again.
     write_text("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    write_photographs("photos");
+    write_photos("photos");
     const std::vector<std::pair<std::string, std::vector<std::string>>> commands = {
         {"rs-encode", {"extract", object, "-q"}},
         {"rs-encode", {"evaluate", in("object-set"), "--methods", "photo", "-q"}},
@@ -203,14 +203,15 @@ TEST_F(BadInput, OutputThatCannotBe) {
         EXPECT_EQ(forced.exit_code, 0) << forced.err;
         EXPECT_FALSE(std::filesystem::exists(work_ / "mine" / "letter.txt"));
         command.pop_back();
-        EXPECT_EQ(test::run_tool(scratch_.path(), tool, command).exit_code, 0) << "a folder of ours is replaced";
+        EXPECT_EQ(test::run_tool(scratch_.path(), tool, command).exit_code, 0)
+            << "a folder written by the tool is replaced";
         write_text("mine/letter.txt", "dear");
     }
 }
 
 TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
     write_set("set");
-    write_photographs("photos");
+    write_photos("photos");
     ASSERT_EQ(write_object(), in("object.rso"));
     std::filesystem::copy_file(work_ / "object.rso", work_ / "object.png");
     ASSERT_EQ(
@@ -272,7 +273,7 @@ TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
         EXPECT_NE(run.err.find(wrong.mention), std::string::npos) << run.err;
         EXPECT_TRUE(bytes_of(wrong.kept) == before) << run.err;
     }
-    // Two outputs of one command that are the same file.
+    // Two outputs of one command are the same file.
     std::filesystem::create_symlink(in("new.png"), in("times.json"));
     const test::ToolRun run = test::run_tool(
         scratch_.path(), "rs-view",
@@ -282,7 +283,7 @@ TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
     EXPECT_FALSE(std::filesystem::exists(in("new.png")));
 }
 
-TEST_F(BadInput, LimitsOfTheProcessAreOnePlainLine) {
+TEST_F(BadInput, ProcessLimitsAreReportedInOneLine) {
     write_set("set");
     ASSERT_EQ(write_object(), in("object.rso"));
     const std::string tools = RAYSPACE_TOOLS_DIR;
@@ -307,7 +308,7 @@ TEST_F(BadInput, LimitsOfTheProcessAreOnePlainLine) {
 #endif
 }
 
-TEST_F(BadInput, PipesThatFilesNameAreRefusedAtOnce) {
+TEST_F(BadInput, PipesInReferencesAreRefusedAtOnce) {
     ASSERT_EQ(::mkfifo((work_ / "pipe").c_str(), 0600), 0);
     ASSERT_EQ(::mkfifo((work_ / "pipe.mtl").c_str(), 0600), 0);
     std::filesystem::create_directories(work_ / "set");
@@ -328,7 +329,7 @@ TEST_F(BadInput, PipesThatFilesNameAreRefusedAtOnce) {
     expect_failure("rs-encode", {"build", in("set"), "-o", in("x.rso"), "-q"}, {"no regular file"});
     expect_failure("rs-engine", {"render", in("pipe"), "--orbit", "2", "-o", in("x"), "-q"}, {"no regular file"});
     for (const char* const scene : {"texture.wrl", "inline.wrl", "object.wrl", "model.obj", "model.gltf"}) {
-        // An error or a warning: what counts is that it comes back, and says which file.
+        // An error or a warning: the tool must terminate and name the file.
         const test::ToolRun run =
             test::run_tool(scratch_.path(), "rs-view", {"render", in(scene), "--size", "32x24", "-o", in("frame.png")});
         EXPECT_LE(run.exit_code, 1) << scene << ": " << run.err;
@@ -378,16 +379,16 @@ protected:
     void SetUp() override {
         std::filesystem::create_directories(work_ / "small");
         disk_.emplace(work_ / "small");
-        if (!disk_->mounted()) GTEST_SKIP() << "a small file system cannot be mounted here (it takes root)";
+        if (!disk_->mounted()) GTEST_SKIP() << "a small file system cannot be mounted here (root is required)";
     }
     void expect_disk_full(const std::string& tool, const std::vector<std::string>& arguments) {
         expect_failure(tool, arguments, {"no space left"});
         EXPECT_TRUE(names_in(work_ / "small").empty());
     }
-    std::optional<test::SmallDisk> disk_;  // gone before the folder it stands in
+    std::optional<test::SmallDisk> disk_;  // destroyed before the folder that contains it
 };
 
-TEST_F(FullDisk, IsSaidAndLeavesNothingBehind) {
+TEST_F(FullDisk, IsReportedAndLeavesNoFiles) {
     Rig rig = make_ring({.count = 4, .fl_px = 500, .width = 400, .height = 400});
     rig.object_radius = 0.9;
     test::write_drawn_set(work_ / "set", rig);

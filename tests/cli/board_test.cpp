@@ -1,4 +1,4 @@
-// `rs-capture board` as a user calls it.
+// Command line of `rs-capture board`.
 
 #include "rayspace/image_io/image_io.hpp"
 #include "tests/support/run_tool.hpp"
@@ -28,7 +28,7 @@ TEST(BoardTool, WritesEachKindOfFile) {
     EXPECT_EQ(info->width, 780);
 }
 
-TEST(BoardTool, WrongNumbersAreUsageErrorsAndWhatCannotBePrintedFails) {
+TEST(BoardTool, InvalidNumbersAreUsageErrorsAndUnprintableBoardsFail) {
     const test::TemporaryFolder scratch;
     const std::string file = (scratch / "board.pdf").string();
     const auto exit_code_with = [&](std::vector<std::string> options) {

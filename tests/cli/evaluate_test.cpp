@@ -1,4 +1,4 @@
-// `rs-encode evaluate` and the page of `rs-encode build --report`, as a user meets them.
+// Command line of `rs-encode evaluate`, and the report of `rs-encode build --report`.
 
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image_io/image_io.hpp"
@@ -39,7 +39,7 @@ protected:
     test::TemporaryFolder scratch_;
 };
 
-TEST_F(Evaluate, ScoresEveryMethodOnTheViewsHeldOut) {
+TEST_F(Evaluate, ScoresEveryMethodOnHeldOutViews) {
     const test::ToolRun done =
         run({"evaluate", in("set"), "--hold-out", "every-3rd", "-o", in("answers"), "--json", "-q"});
     ASSERT_EQ(done.exit_code, 0) << done.err;
@@ -65,7 +65,7 @@ TEST_F(Evaluate, ScoresEveryMethodOnTheViewsHeldOut) {
     EXPECT_EQ(*truth, *captured);
 }
 
-TEST_F(Evaluate, PrintsATableOfTheMethodsThatAreAskedFor) {
+TEST_F(Evaluate, PrintsATableOfTheRequestedMethods) {
     const test::ToolRun done =
         run({"evaluate", in("set"), "--methods", "plane,photo", "--planes", "6", "--views", "-q"});
     ASSERT_EQ(done.exit_code, 0) << done.err;
@@ -75,20 +75,20 @@ TEST_F(Evaluate, PrintsATableOfTheMethodsThatAreAskedFor) {
     EXPECT_EQ(done.out.find("shape"), std::string::npos);
 }
 
-TEST_F(Evaluate, SaysWhatIsWrong) {
+TEST_F(Evaluate, ReportsErrors) {
     expect_failure({"evaluate", in("set"), "--methods", "photo,foto", "-q"}, {"foto", "photo,plane,shape"});
     expect_failure({"evaluate", in("set"), "--hold-out", "half", "-q"}, {"half", "every-2nd"});
     expect_failure({"evaluate", in("set"), "--planes", "2", "-q"}, {"--planes 2", "3..64"});
     expect_failure({"evaluate", in("two"), "-q"}, {"two", "too few"});
     expect_failure({"evaluate", in("nowhere"), "-q"}, {"nowhere"});
-    // A folder of somebody's is not replaced.
+    // A folder with other files is not replaced.
     expect_failure({"evaluate", in("set"), "-o", in("two"), "-q"}, {"two"});
     expect_failure({"build", in("set"), "-o", in("o.rso"), "--raymap", "512x512", "-q"}, {"--raymap", "--cells"});
     expect_failure({"build", in("set"), "-o", in("o.rso"), "--cells", "many", "-q"}, {"--cells", "512x512"});
     EXPECT_EQ(run({"evaluate"}).exit_code, 2);
 }
 
-TEST_F(Evaluate, WritesAPageOfItsScores) {
+TEST_F(Evaluate, WritesAReportOfItsScores) {
     const test::ToolRun done = run({"evaluate", in("set"), "--hold-out", "every-3rd", "--methods", "photo,shape",
                                     "--report", in("page.html"), "-q"});
     ASSERT_EQ(done.exit_code, 0) << done.err;
@@ -101,7 +101,7 @@ TEST_F(Evaluate, WritesAPageOfItsScores) {
     expect_failure({"evaluate", in("set"), "--report", in("nowhere/page.html"), "-q"}, {"nowhere"});
 }
 
-TEST_F(Evaluate, BuildWritesAPageAboutItself) {
+TEST_F(Evaluate, BuildWritesAReport) {
     const test::ToolRun built =
         run({"build", in("set"), "-o", in("o.rso"), "--name", "<balls>", "--report", in("page.html"), "-q"});
     ASSERT_EQ(built.exit_code, 0) << built.err;
@@ -111,11 +111,11 @@ TEST_F(Evaluate, BuildWritesAPageAboutItself) {
     EXPECT_THAT(page, HasSubstr("12 of 64x52"));
     EXPECT_EQ(page.find("<balls>"), std::string::npos);
     EXPECT_EQ(page.find("http://", page.find("</style>")), page.find("http://www.w3.org/2000/svg"))
-        << "the page needs nothing from elsewhere";
+        << "the page must not load external resources";
     for (const char* method : {"photo", "plane", "shape"}) {
         EXPECT_THAT(page, HasSubstr(std::string("error of ") + method));
     }
-    // A set too small to hold views out has a page that says so.
+    // The report of a set too small for held-out views states this.
     const test::ToolRun small = run({"build", in("two"), "-o", in("o.rso"), "--report", in("page.html"), "-q"});
     ASSERT_EQ(small.exit_code, 0) << small.err;
     std::ifstream again(work_ / "page.html");

@@ -1,4 +1,4 @@
-// `rs-capture import` of a film, from the command line.
+// Command line of `rs-capture import` with a video.
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"
@@ -26,7 +26,7 @@ using testing::HasSubstr;
 
 class ImportFilm : public testing::Test {
 protected:
-    // Writes a turn of the drum in `frames` frames, and a tenth of a turn more.
+    // Writes 1.1 turns of the drum; one turn takes `frames` frames.
     void write_drum(int frames) const {
         const capture::TurntableModel model = test::drum_turn(frames + frames / 10, 2 * kPi / frames);
         const auto view = [&](int i) { return test::drawn_drum({}, model, static_cast<std::size_t>(i)); };
@@ -53,7 +53,7 @@ protected:
     test::TemporaryFolder folder_;
 };
 
-TEST_F(ImportFilm, MakesASetOfAFilm) {
+TEST_F(ImportFilm, ConvertsAVideoToASet) {
     write_drum(144);
     const test::ToolRun run = import({"--json", "--frames", "36", "--report", (folder_ / "page.html").string()});
     ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -79,7 +79,7 @@ TEST_F(ImportFilm, RefusesADamagedFile) {
     expect_refused(import({"-q"}), "turn.mp4: cannot be read as a video");
 }
 
-TEST_F(ImportFilm, RefusesAFilmInWhichNothingTurns) {
+TEST_F(ImportFilm, RefusesAVideoWithoutRotation) {
     Result<VideoWriter> video = VideoWriter::open(folder_ / "turn.mp4", 64, 48, 30);
     ASSERT_TRUE(video.ok());
     for (int i = 0; i < 30; ++i) ASSERT_TRUE(video->add(Image<Rgba8>(64, 48, {90, 120, 60, 255})).ok());

@@ -1,4 +1,4 @@
-// `rs-capture import` from photographs to a set, as a user calls it.
+// Command line of `rs-capture import`, from photos to a capture set.
 
 #include "capture/calibration/model/turntable_model.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -37,7 +37,7 @@ protected:
         arguments.insert(arguments.begin(), {"import", in("photos"), "-o", in("set"), "-q", "--json"});
         return test::run_tool(folder_.path(), "rs-capture", arguments);
     }
-    // Cut out already, and the rig they were drawn by.
+    // Writes segmented images and the rig with which they were rendered.
     void write_drum(int views) const {
         const capture::TurntableModel model = test::drum_turn(views, 2 * kPi / views);
         Rig rig;
@@ -69,7 +69,7 @@ protected:
     test::TemporaryFolder folder_;
 };
 
-TEST_F(ImportTool, TakesTheRigOfATransformsJson) {
+TEST_F(ImportTool, UsesTheRigOfATransformsJson) {
     write_drum(12);
     const test::ToolRun run = import({"--known", in("rig/transforms.json"), "--report", in("page.html")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -90,7 +90,7 @@ TEST_F(ImportTool, TakesTheRigOfATransformsJson) {
     ASSERT_TRUE(read_rig(folder_ / "set").ok());
 }
 
-TEST_F(ImportTool, WhatIsKnownCountsThePhotographsPixels) {
+TEST_F(ImportTool, KnownIntrinsicsAreInPhotoPixels) {
     write_drum(12);
     const test::ToolRun run = import({"--known", in("rig/transforms.json"), "--max-side", "128"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
@@ -109,11 +109,11 @@ TEST_F(ImportTool, WhatIsKnownCountsThePhotographsPixels) {
     ASSERT_EQ(nominal.exit_code, 0) << nominal.err;
     EXPECT_NEAR(nlohmann::json::parse(nominal.out).at("axis_column_px"), 64 + off * scale, 1e-4);
     const test::ToolRun wide = import({"--max-side", "1000000"});
-    EXPECT_EQ(wide.exit_code, 2) << "8192 is the most";
+    EXPECT_EQ(wide.exit_code, 2) << "8192 is the maximum";
     EXPECT_NE(wide.err.find("--max-side"), std::string::npos) << wide.err;
 }
 
-TEST_F(ImportTool, WhatIsKnownMustBeOfThesePhotographs) {
+TEST_F(ImportTool, KnownIntrinsicsMustMatchThePhotos) {
     write_drum(6);
     const std::string whole = text_of("rig/transforms.json");
     auto json = nlohmann::json::parse(whole);
@@ -140,18 +140,18 @@ TEST_F(ImportTool, WhatIsKnownMustBeOfThesePhotographs) {
     EXPECT_NE(no_lens.err.find("known.yml"), std::string::npos) << no_lens.err;
 }
 
-TEST_F(ImportTool, OutlinesNeedTheSteps) {
+TEST_F(ImportTool, SilhouetteCalibrationNeedsTheSteps) {
     write_drum(12);
     const test::ToolRun run = import({"--calibration", "silhouettes", "--counter-clockwise", "--fov", "28.94"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const auto json = nlohmann::json::parse(run.out);
     EXPECT_EQ(json.at("method"), "silhouettes");
-    EXPECT_TRUE(json.at("calibration").at("angles").at(3).at("deviation").is_null()) << "nothing is known of them";
+    EXPECT_TRUE(json.at("calibration").at("angles").at(3).at("deviation").is_null()) << "their deviation is unknown";
     const capture::TurntableModel truth = test::drum_turn(12, radians(30));
     EXPECT_NEAR(json.at("calibration").at("axis_column_px"), *capture::axis_column(truth.lens, truth.pose, 128), 0.7);
 }
 
-TEST_F(ImportTool, TakesBoardAndMasksAndWritesAPage) {
+TEST_F(ImportTool, UsesBoardAndMasksAndWritesAReport) {
     const test::BoardPhotos photos;
     for (std::size_t i = 0; i < photos.model.angles_rad.size(); ++i) {
         const test::BoardPhotos::Photo photo = photos.taken(i);
@@ -184,7 +184,7 @@ TEST_F(ImportTool, TakesBoardAndMasksAndWritesAPage) {
     EXPECT_NE(no_mask.err.find("04.png"), std::string::npos) << no_mask.err;
 }
 
-TEST_F(ImportTool, BadImagesLeaveNothing) {
+TEST_F(ImportTool, BadImagesLeaveNoOutput) {
     write_drum(3);
     const test::ToolRun few = import({"--calibration", "tracks", "--report", in("page.html")});
     expect_nothing_written(few);
@@ -219,18 +219,19 @@ TEST_F(ImportTool, SegmentersAreChosenReportedAndRefused) {
     EXPECT_EQ(json.at("segmenter").at("reason"), "--masks");
     fs::remove_all(folder_ / "set");
 
-    struct Refused {
+    struct RefusedCase {
         std::vector<std::string> arguments;
         std::string named;
     };
-    for (const Refused& refused :
-         {Refused{{"--segmenter", "model"}, "--segmentation-model"}, Refused{{"--masks-alpha"}, "--masks-alpha"},
-          Refused{{"--segmenter", "masks"}, "--masks"}, Refused{{"--segmenter", "alpha"}, "no transparent pixels"},
-          Refused{{"--masks", in("masks"), "--shadow", "keep"}, "--shadow keep"},
-          Refused{{"--masks", in("masks"), "--segmenter", "chroma"}, "--masks"},
-          Refused{{"--masks", in("masks"), "--backdrop", "white"}, "--backdrop"},
-          Refused{{"--segmentation-model", in("photos/") + file_name(0), "--segmenter", "background"},
-                  "--segmentation-model: has no effect"}}) {
+    for (const RefusedCase& refused :
+         {RefusedCase{{"--segmenter", "model"}, "--segmentation-model"},
+          RefusedCase{{"--masks-alpha"}, "--masks-alpha"}, RefusedCase{{"--segmenter", "masks"}, "--masks"},
+          RefusedCase{{"--segmenter", "alpha"}, "no transparent pixels"},
+          RefusedCase{{"--masks", in("masks"), "--shadow", "keep"}, "--shadow keep"},
+          RefusedCase{{"--masks", in("masks"), "--segmenter", "chroma"}, "--masks"},
+          RefusedCase{{"--masks", in("masks"), "--backdrop", "white"}, "--backdrop"},
+          RefusedCase{{"--segmentation-model", in("photos/") + file_name(0), "--segmenter", "background"},
+                      "--segmentation-model: has no effect"}}) {
         const test::ToolRun run = import(refused.arguments);
         expect_nothing_written(run);
         EXPECT_NE(run.err.find(refused.named), std::string::npos) << run.err;

@@ -1,4 +1,4 @@
-// Numbers out of range on the command line of `rs-capture import` are usage errors, said before any work.
+// Numbers out of range on the command line of `rs-capture import` are usage errors, reported before any work.
 
 #include "tests/support/run_tool.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -26,7 +26,7 @@ TEST(ImportUsage, NumbersOutOfRangeAreUsageErrors) {
     for (const char* step : {"0", "-10", "181", "ten"}) {
         EXPECT_EQ(exit_code_with("--degrees-per-view", step), 2) << step;
     }
-    // In range: the folder is what is wrong.
+    // In range: only the folder is invalid.
     for (const char* fov : {"1", "120"}) EXPECT_EQ(exit_code_with("--fov", fov), 1) << fov;
     for (const char* step : {"0.01", "180"}) EXPECT_EQ(exit_code_with("--degrees-per-view", step), 1) << step;
 }

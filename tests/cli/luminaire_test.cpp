@@ -1,4 +1,4 @@
-// `rs-capture luminaire` as a user calls it.
+// Command line of `rs-capture luminaire`.
 
 #include "rayspace/file/file_output.hpp"
 #include "tests/support/run_tool.hpp"
@@ -17,7 +17,7 @@ namespace {
 const std::string kDownlight =
     "IESNA:LM-63-2002\n[LUMCAT]<Sphere> & Co\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0 1 1 10\n0 180\n0\n100 100\n";
 
-TEST(LuminaireTool, TellsLumensAndDrawsThePlot) {
+TEST(LuminaireTool, PrintsLumensAndDrawsThePlot) {
     const test::TemporaryFolder scratch;
     const std::string file = (scratch / "even.ies").string();
     const std::string plot = (scratch / "even.svg").string();
@@ -37,7 +37,7 @@ TEST(LuminaireTool, TellsLumensAndDrawsThePlot) {
     EXPECT_EQ(parsed["keywords"][0][1], "<Sphere> & Co");
 }
 
-TEST(LuminaireTool, WhatCannotBeReadIsNamedAndNothingIsWritten) {
+TEST(LuminaireTool, NamesUnreadableFilesAndWritesNothing) {
     const test::TemporaryFolder scratch;
     const std::string file = (scratch / "cut.ies").string();
     const std::string plot = (scratch / "cut.svg").string();

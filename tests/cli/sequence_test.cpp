@@ -1,4 +1,4 @@
-// rs-view sequence as a user runs it, on the street that rs-street writes.
+// Command line of rs-view sequence, on the street written by rs-street.
 
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image_io/image_io.hpp"
@@ -31,7 +31,7 @@ protected:
         arguments.insert(arguments.end(), {"-q", "--size", "320x180"});
         return run("rs-view", arguments);
     }
-    // Six frames of the street; false where there is no OpenGL.
+    // Writes six frames of the street; false if there is no OpenGL.
     bool street(const std::string& name = "town") const {
         const test::ToolRun made = run("rs-street", {"-o", in(name), "--seconds", "0.24", "--small", "--name", name});
         EXPECT_EQ(made.exit_code, 0) << made.err;
@@ -61,7 +61,7 @@ double psnr_db(const cv::Mat& decoded, const Image<Rgba8>& still) {
     return 10 * std::log10(255.0 * 255.0 * 3 * still.width() * still.height() / std::max(sum, 1e-9));
 }
 
-TEST_F(SequenceTool, AVideoHasTheFramesOfItsStills) {
+TEST_F(SequenceTool, VideoFramesEqualTheStills) {
     if (!street()) GTEST_SKIP() << "no OpenGL";
     ASSERT_EQ(view({in("town"), "-o", in("stills")}).exit_code, 0);
     ASSERT_EQ(view({in("town"), "-o", in("street.mp4")}).exit_code, 0);
@@ -117,7 +117,7 @@ TEST_F(SequenceTool, AVideoNeedsTwoFrames) {
     }
 }
 
-TEST_F(SequenceTool, ABatchGoesOnAndTellsWhatFailed) {
+TEST_F(SequenceTool, ABatchContinuesAndReportsFailures) {
     if (!street() || !street("village")) GTEST_SKIP() << "no OpenGL";
     fs::create_directory(work_ / "empty");
     const test::ToolRun batch =
@@ -133,7 +133,7 @@ TEST_F(SequenceTool, ABatchGoesOnAndTellsWhatFailed) {
     }
 }
 
-TEST_F(SequenceTool, OtherFormatsComeThroughAConverter) {
+TEST_F(SequenceTool, OtherFormatsAreConverted) {
     if (!street()) GTEST_SKIP() << "no OpenGL";
     const std::string convert = "cp -r {in} {out}";
     EXPECT_EQ(view({in("town"), "--convert", convert, "-o", in("c.jpg")}).exit_code, 0);

@@ -1,4 +1,4 @@
-// The tools as a user meets them: help, usage errors, and the whole way from a scene to a rendered view.
+// Tools from the command line: help, usage errors, and the whole pipeline from a mesh to a rendered view.
 
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image/image_metrics.hpp"
@@ -14,7 +14,7 @@ namespace {
 
 const std::vector<std::string> kTools = {"rs-capture", "rs-encode", "rs-engine", "rs-view"};
 
-TEST(Help, EveryToolExplainsItselfWithExamples) {
+TEST(Help, OfEveryToolHasExamples) {
     const test::TemporaryFolder folder;
     for (const std::string& tool : kTools) {
         const test::ToolRun run = test::run_tool(folder.path(), tool, {"--help"});
@@ -24,7 +24,7 @@ TEST(Help, EveryToolExplainsItselfWithExamples) {
     }
 }
 
-TEST(Help, WrongUsageIsExitCodeTwoAndOneLine) {
+TEST(Help, UsageErrorsHaveExitCodeTwoAndOneLine) {
     const test::TemporaryFolder folder;
     for (const std::string& tool : kTools) {
         const test::ToolRun run = test::run_tool(folder.path(), tool, {"--no-such-option"});
@@ -34,7 +34,7 @@ TEST(Help, WrongUsageIsExitCodeTwoAndOneLine) {
     }
 }
 
-TEST(WholeWay, AMeshBecomesAnObjectThatGivesItsImagesBack) {
+TEST(Pipeline, AMeshBecomesAnObjectThatReproducesItsImages) {
     const test::TemporaryFolder folder;
     const auto in = [&](const char* name) { return (folder / name).string(); };
     const auto run = [&](const std::string& tool, const std::vector<std::string>& arguments) {

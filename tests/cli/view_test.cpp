@@ -76,8 +76,7 @@ TEST_F(View, AModelIsShownWhole) {
     EXPECT_GT(red_pixels(in("shot.png")), 300);
 }
 
-// Of a scene the rest is shown; what the command line asks for must be there.
-// A white floor under a lamp, and a board between the two that only traced light respects.
+// White floor under a lamp, with a board between the two whose shadow only tracing renderers draw.
 constexpr const char* kShadedFloor =
     "#VRML V2.0 utf8\nViewpoint { position 0 6 0 orientation 1 0 0 -1.5708 }\n"
     "Shape { appearance DEF white Appearance { material Material { diffuseColor 1 1 1 } } geometry Box { size 20 .1 20 "
@@ -86,7 +85,7 @@ constexpr const char* kShadedFloor =
 constexpr const char* kLamp =
     R"({"replace": true, "lights": [{"kind": "luminaire", "file": "lamp.ies", "location": [4, 6, 0]}]})";
 
-TEST_F(View, LightIsTracedWhereThatIsAskedFor) {
+TEST_F(View, LightIsTracedOnRequest) {
     write("hall.wrl", kShadedFloor);
     write("lamp.ies", "TILT=NONE\n1 -1 1 2 1 1 2 0 0 0 1 1 9\n0 180\n0\n9000 9000\n");
     write("evening.json", kLamp);
@@ -117,7 +116,7 @@ TEST_F(View, LightIsTracedWhereThatIsAskedFor) {
     EXPECT_EQ(info->width, 512);
 }
 
-TEST_F(View, CartoonsHaveTonesWhateverTheExposure) {
+TEST_F(View, ToonShadingIgnoresTheExposure) {
     write("hall.wrl", kShadedFloor);
     write("evening.json", R"({"replace": true, "lights": [{"kind": "directional", "aim": [0, -1, 0], "lux": 2000}]})");
     const std::vector<std::string> base = {
@@ -140,7 +139,7 @@ TEST_F(View, CartoonsHaveTonesWhateverTheExposure) {
     EXPECT_EQ(render({in("hall.wrl"), "--lens", "25", "--focus", "2", "-o", in("y.png")}).exit_code, 2);
 }
 
-TEST_F(View, ListsOfLightsThatMakeNoSenseAreRefused) {
+TEST_F(View, InvalidLightListsAreRefused) {
     write("hall.wrl", kShadedFloor);
     write("evening.json", R"({"lights": [{"kind": "luminaire", "file": "none.ies", "location": [0, 1, 0]}]})");
     const test::ToolRun run = render({in("hall.wrl"), "--lights", in("evening.json"), "-o", in("x.png")});
@@ -155,7 +154,7 @@ TEST_F(View, ListsOfLightsThatMakeNoSenseAreRefused) {
     EXPECT_EQ(render({in("hall.wrl"), "--passes", "2", "-o", in("x.png")}).exit_code, 2);
 }
 
-// A scene's own lights and those of a list, in one list that replaces them all.
+// rs-view lights merges a scene's lights with those of a list into one list that replaces them all.
 TEST_F(View, SavedLightsGiveTheSameImage) {
     write("hall.wrl", std::string(kShadedFloor) +
                           "PointLight { location 0.3 0.8 0.2 intensity 0.4 color 1 0.9 0.7 attenuation 1 0.3 0.1 }\n"
@@ -177,21 +176,22 @@ TEST_F(View, SavedLightsGiveTheSameImage) {
     EXPECT_EQ(read_file(in("all.json"), 1 << 20).value(), read_file(in("again.json"), 1 << 20).value());
 }
 
-TEST_F(View, AnObjectThatIsNotThereIsLeftOut) {
+TEST_F(View, MissingObjectsAreSkipped) {
     write("hall.wrl", std::string(kWorld) + "RaySpace { url \"gone.rso\" }\nRaySpace { url \"gone.rso\" }\n");
     const test::ToolRun run = render({in("hall.wrl"), "-o", in("shot.png")});
     if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
     ASSERT_EQ(run.exit_code, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("gone.rso"));
     EXPECT_THAT(run.err, HasSubstr("shown without this object"));
-    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;  // one for the file, one of the world
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2)
+        << run.err;  // one warning for the object, one for the scene
     EXPECT_GT(red_pixels(in("shot.png")), 20);
-    const test::ToolRun asked = render({in("hall.wrl"), "--object", in("gone.rso"), "-o", in("other.png")});
-    EXPECT_EQ(asked.exit_code, 1);
+    const test::ToolRun required = render({in("hall.wrl"), "--object", in("gone.rso"), "-o", in("other.png")});
+    EXPECT_EQ(required.exit_code, 1);
     EXPECT_FALSE(std::filesystem::exists(in("other.png")));
 }
 
-TEST_F(View, AWalkIsTakenFromItsFile) {
+TEST_F(View, CameraPathsAreReadFromAFile) {
     write("hall.wrl", kWorld);
     write("walk.json",
           R"({"camera": {"path": [{"eye": [0, 0, 9], "at": [0, 0, 0]}, {"eye": [0, 0, 4], "at": [0, 0, 0]}],
@@ -210,7 +210,7 @@ TEST_F(View, AWalkIsTakenFromItsFile) {
     EXPECT_THAT(none.err, HasSubstr("has no camera path"));
 }
 
-// Two rooms, each with an object of its own.
+// Two rooms with one object each.
 TEST_F(View, RoomsAreWalkedThroughWithinABudget) {
     test::SmallObjectOptions options;
     options.width = 256;
@@ -240,12 +240,13 @@ TEST_F(View, RoomsAreWalkedThroughWithinABudget) {
     EXPECT_GT(all["views_by_core"], 5);
     const auto last = read_image(in("frames/0005.png"));
     ASSERT_TRUE(last);
-    // An object takes 2 MiB, and some 5 while it is read: 6 do not hold one and the reading of the other.
+    // An object takes 2 MiB, and about 5 MiB while it is read: 6 MiB do not suffice for one in memory and one being
+    // read.
     const nlohmann::json one = stats_of({"--memory", "6"});
     ASSERT_EQ(run_.exit_code, 0) << run_.err;
     EXPECT_EQ(one["memory"]["evictions"], 1) << one;
     EXPECT_LE(one["memory"]["peak_bytes"], 6 << 20);
-    EXPECT_EQ(*read_image(in("frames/0005.png")), *last) << "each room is complete when it is seen";
+    EXPECT_EQ(*read_image(in("frames/0005.png")), *last) << "each room is complete when it is visible";
     const nlohmann::json streamed = stats_of({"--streaming", "--fps", "10"});
     ASSERT_EQ(run_.exit_code, 0) << run_.err;
     EXPECT_GE(streamed["memory"]["loads"], 1);
@@ -262,7 +263,7 @@ TEST_F(View, RoomsAreWalkedThroughWithinABudget) {
     EXPECT_THAT(run_.err, HasSubstr("more than the budget of 1 MiB"));
 }
 
-TEST_F(View, WhatIsNoSceneIsRefusedOnOneLine) {
+TEST_F(View, OtherFilesAreRefusedInOneLine) {
     write("broken.wrl", "#VRML V2.0 utf8\n\nGroup {\n children [\n");
     write("hall.txt", "hello");
     const std::vector<std::pair<std::string, std::string>> cases = {
@@ -298,7 +299,7 @@ TEST_F(View, WithoutAWindowTheFirstViewIsWritten) {
     EXPECT_GT(red_pixels(in("screenshot-1.png")), 20);
 }
 
-// Every subcommand: its help fits on a screen and has an example, and its options do not exist elsewhere.
+// The help of every subcommand fits on a screen and has an example; its options are not accepted elsewhere.
 TEST_F(View, HelpOfEachSubcommandFitsOnAScreen) {
     const std::vector<std::vector<std::string>> commands = {
         {"open"},   {"render"}, {"quilt"},        {"walls"},         {"sequence"},        {"probe"},
@@ -331,7 +332,7 @@ TEST_F(View, OldFlagsNameTheirSubcommand) {
     }
 }
 
-// Tiles that are traced one by one give the frame that is traced whole, bit for bit.
+// Separately traced tiles assemble to a frame that is bit-identical to one traced as a whole.
 TEST_F(View, AssembledTilesEqualTheFrame) {
     write("hall.wrl", kShadedFloor);
     ASSERT_TRUE(write_object(work_ / "small.rso", test::small_object()).ok());

@@ -98,7 +98,7 @@ TEST_F(Displays, HeadsMoveFrameByFrameAndNotThroughWalls) {
     EXPECT_FALSE(exists("no"));
 }
 
-// Sends a head again and again, as a tracker does.
+// Sends a head pose repeatedly, like a tracker.
 class Tracker {
 public:
     Tracker(std::uint16_t port, const std::array<double, 6>& head)
@@ -114,7 +114,7 @@ private:
     std::jthread thread_;
 };
 
-TEST_F(Displays, ImagesAreOfTheHeadThatIsTracked) {
+TEST_F(Displays, ImagesUseTheTrackedHead) {
     write("walls.json",
           R"({"walls": [{"name": "w", "lower_left": [-1, 0, -1], "lower_right": [1, 0, -1], "upper_left": [-1, 2, -1],
               "pixels": [32, 32]}], "head": {"position": [0, 1, 0]}})");
@@ -139,7 +139,7 @@ TEST_F(Displays, ImagesAreOfTheHeadThatIsTracked) {
     EXPECT_FALSE(exists("behind"));
 }
 
-TEST_F(Displays, ATrackerThatSaysNothingIsNamed) {
+TEST_F(Displays, SilentTrackersAreReported) {
     const auto fault = [&](const std::string& heads) {
         const test::ToolRun run =
             view({"walls", in("hall.wrl"), "--display", "cave", "--heads", heads, "-o", in("none")});
@@ -172,7 +172,7 @@ TEST_F(Displays, AQuiltHasItsLayoutInItsName) {
     ASSERT_EQ(quilt.width(), 90);
     ASSERT_EQ(quilt.height(), 80);
     EXPECT_FALSE(exists("hall.png"));
-    // Where the views agree: the middle of the box.
+    // All views agree at the middle of the box.
     for (int column = 0; column < 3; ++column) {
         for (int row = 0; row < 2; ++row) EXPECT_GT(quilt(30 * column + 15, 40 * row + 20).r, 200);
     }
@@ -181,7 +181,7 @@ TEST_F(Displays, AQuiltHasItsLayoutInItsName) {
     EXPECT_TRUE(exists("turn/0001_qs3x2a0.75.png"));
 }
 
-TEST_F(Displays, WhatCannotBeIsRefusedInOneLine) {
+TEST_F(Displays, InvalidOptionsAreRefusedInOneLine) {
     const auto fault = [&](const std::vector<std::string>& arguments) {
         const test::ToolRun run = view(arguments);
         EXPECT_NE(run.exit_code, 0);
@@ -200,7 +200,7 @@ TEST_F(Displays, WhatCannotBeIsRefusedInOneLine) {
     EXPECT_FALSE(exists("x"));
 }
 
-TEST_F(Displays, OlderAndNewerWorldsAreShown) {
+TEST_F(Displays, OlderAndNewerVrmlVersionsAreShown) {
     write("old.wrl", "#VRML V1.0 ascii\nMaterial { emissiveColor 1 0 0 } Cube { }\n");
     write("new.x3d",
           "<X3D><Scene><Shape><Appearance><Material emissiveColor='1 0 0'/></Appearance><Box/></Shape></Scene></X3D>");

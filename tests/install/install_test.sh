@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What users get: installs a build and uses it as they would, from the outside.
+# Installs a build and uses it from outside of the source tree, like a user.
 #
 #     install_test.sh BUILD library|python|package
 set -euo pipefail
@@ -14,14 +14,14 @@ fail() {
   exit 1
 }
 
-# expect_same TOOL PICTURE: PICTURE is what the installed tool draws of the object.
+# expect_same TOOL IMAGE: IMAGE equals the installed tool's rendering of the object.
 expect_same() {
   "$1" render "$OBJECT" --orbit 1 -o "$WORK/expected.png" -q
-  cmp "$2" "$WORK/expected.png" || fail "$2 is another picture than $1 draws"
+  cmp "$2" "$WORK/expected.png" || fail "$2 differs from the image that $1 renders"
 }
 
-# in_root OPTIONS...: dpkg in $ROOT, which needs no rights. It refuses a package whose dependencies are not installed.
-# The package's scripts call ldconfig, which here sees to $ROOT alone.
+# in_root OPTIONS...: dpkg in $ROOT, without root privileges. It refuses a package whose dependencies are not installed.
+# The package's scripts call ldconfig, which is replaced by one that is limited to $ROOT.
 in_root() {
   mkdir -p "$WORK/bin"
   # shellcheck disable=SC2016  # dpkg sets DPKG_ROOT for the script
@@ -31,10 +31,10 @@ in_root() {
     { cat "$WORK/log"; fail "dpkg $*"; }
 }
 
-# Every library that a file of the package loads belongs to a package that Depends names, or that those depend on.
+# Every library that a file of the package loads belongs to a package in Depends, or to one of its dependencies.
 expect_all_stated() {
   local file library libraries owner
-  # One line per package: its names, and after a bar what it depends on.
+  # One line per package: its names, and after a bar its dependencies.
   dpkg-query -W -f='${Package},${Provides}|${Pre-Depends},${Depends}\n' | sed 's/([^)]*)//g; s/:[a-z]*//g' >"$WORK/packages"
   echo "rayspace|$(dpkg-deb -f "$PACKAGE" Depends | sed 's/([^)]*)//g')" >>"$WORK/packages"
   awk -F'|' '
@@ -52,17 +52,17 @@ expect_all_stated() {
   done < <(find "$ROOT/usr/bin" "$ROOT/usr/lib" -type f \( -perm -u+x -o -name '*.so*' \))
   ! grep 'not found' "$WORK/loaded" || fail "the package lacks libraries"
   mapfile -t libraries < <(awk '$2 == "=>" { print $3 }' "$WORK/loaded" | grep -v "^$WORK" | xargs realpath | sort -u)
-  # The database may know a library by its place before /lib became a part of /usr.
+  # The database may list a library under its path from before /lib was merged into /usr.
   dpkg-query -S "${libraries[@]}" "${libraries[@]#/usr}" 2>/dev/null | sed '/^diversion/d; s/^\([^:,]*\).*: /\1 /' >"$WORK/owners" || true
   for library in "${libraries[@]}"; do
     owner=$(awk -v a="$library" -v b="${library#/usr}" '$2 == a || $2 == b { print $1; exit }' "$WORK/owners")
-    [ -n "$owner" ] || fail "no package has $library"
-    grep -qxF "$owner" "$WORK/stated" || fail "the package needs $library of $owner, which Depends does not lead to"
+    [ -n "$owner" ] || fail "no package contains $library"
+    grep -qxF "$owner" "$WORK/stated" || fail "the package needs $library of $owner, which is not among its dependencies"
   done
 }
 
 case "$2" in
-  library) # find_package(Rayspace) in somebody else's project
+  library) # find_package(Rayspace) in another project
     cmake --install "$BUILD" --prefix "$WORK/there" >"$WORK/install.log"
     cmake -S "$HERE/../../examples" -B "$WORK/examples" -DCMAKE_PREFIX_PATH="$WORK/there" -DCMAKE_BUILD_TYPE=Release >"$WORK/log" || { cat "$WORK/log"; fail "find_package"; }
     cmake --build "$WORK/examples" >"$WORK/log" || { cat "$WORK/log"; fail "the examples do not build"; }
@@ -75,7 +75,7 @@ case "$2" in
     ;;
   python)
     cmake --install "$BUILD" --prefix "$WORK/there" >"$WORK/install.log"
-    # A set whose pictures are the object's views: its map is of random cells, which do not give its pictures back.
+    # A set whose images are the object's rendered views: its map has random cells, which do not reproduce its images.
     "$WORK/there/bin/rs-encode" extract "$OBJECT" -o "$WORK/set" -q >"$WORK/log"
     "$WORK/there/bin/rs-engine" render "$OBJECT" --poses "$WORK/set/transforms.json" -o "$WORK/drawn" -q
     cp -r "$WORK/drawn/." "$WORK/set"
@@ -89,7 +89,7 @@ case "$2" in
     mkdir -p "$ROOT"/var/lib/dpkg/{updates,triggers}
     cp -r /var/lib/dpkg/{status,info} "$ROOT/var/lib/dpkg"
     in_root --install "$PACKAGE"
-    [ -e "$ROOT/usr/lib/rayspace/librayspace_image_io.so" ] || fail "the package lacks its picture module"
+    [ -e "$ROOT/usr/lib/rayspace/librayspace_image_io.so" ] || fail "the package lacks its image module"
     expect_all_stated
     for tool in "$ROOT"/usr/bin/*; do
       (cd "$WORK" && "$tool" --help >/dev/null) || fail "$tool does not start"

@@ -1,4 +1,4 @@
-"""Uses the Python module as its users do: use_module.py OBJECT.rso CAPTURE_SET; the set's photos are what the tools render."""
+"""Tests the installed Python module: use_module.py OBJECT.rso CAPTURE_SET. The set's images are rendered by the tools."""
 import sys
 
 import numpy as np
@@ -13,7 +13,7 @@ height, width = captured[0].camera.height, captured[0].camera.width
 assert all(v.shape == (height, width, 4) and v.dtype == np.uint8 for v in views)
 assert all(v[..., 3].max() == 255 for v in views) and (views[0] != views[4]).any()
 
-# Depth is there where something is shown, and only there; the camera is 3.5 units away.
+# Depth is positive exactly at visible pixels; the camera is 3.5 units away.
 near = rayspace.Camera(captured[0].camera.world_from_camera, 64, 48, fov_x_rad=0.785)
 view = renderer.render(near, depth=True)
 assert view.depth.dtype == np.float32 and ((view.depth > 0) == (view.image[..., 3] > 0)).all()

@@ -66,12 +66,12 @@ std::vector<std::string> words_of(const std::string& text) {
     return {std::istream_iterator<std::string>(stream), {}};
 }
 
-// A target of the product in the graph that CMake writes (rs_write_target_graph).
+// Target of the product in the graph written by CMake (rs_write_target_graph).
 struct Target {
     std::string name;
     std::string folder;
-    std::vector<std::string> linked;           // by itself
-    std::vector<std::string> linked_by_users;  // PUBLIC and INTERFACE
+    std::vector<std::string> linked;           // own dependencies
+    std::vector<std::string> linked_by_users;  // PUBLIC and INTERFACE dependencies
 };
 
 class TargetGraph {
@@ -94,7 +94,7 @@ public:
 
     [[nodiscard]] std::size_t size() const { return targets_.size(); }
 
-    // The longest folder of a target that contains the file, or an empty string.
+    // Innermost folder of a target that contains the file, or an empty string.
     [[nodiscard]] std::string folder_of(const std::string& path) const {
         std::string longest;
         for (const auto& [folder, may_include] : includable_) {
@@ -108,17 +108,17 @@ public:
         return includable != includable_.end() && includable->second.contains(folder_of(header));
     }
 
-    // A target that links itself through others, or an empty string.
+    // A target that links itself transitively, or an empty string.
     [[nodiscard]] std::string cyclic_target() const {
         for (const auto& [name, target] : targets_) {
-            std::set<std::string> seen;
+            std::set<std::string> checked;
             std::vector<std::string> open = target.linked;
             open.insert(open.end(), target.linked_by_users.begin(), target.linked_by_users.end());
             while (!open.empty()) {
                 const std::string next = open.back();
                 open.pop_back();
                 if (next == name) return name;
-                if (!targets_.contains(next) || !seen.insert(next).second) continue;
+                if (!targets_.contains(next) || !checked.insert(next).second) continue;
                 for (const auto* more : {&targets_.at(next).linked, &targets_.at(next).linked_by_users}) {
                     open.insert(open.end(), more->begin(), more->end());
                 }
@@ -128,7 +128,7 @@ public:
     }
 
 private:
-    // The targets whose headers `target` may include: those it links, and what these hand to their users.
+    // Targets whose headers `target` may include: those it links, and their public dependencies.
     [[nodiscard]] std::set<std::string> reachable(const Target& target) const {
         std::set<std::string> found;
         std::vector<std::string> open = target.linked;
@@ -255,14 +255,14 @@ TEST(Names, AreNotReserved) {
 // clang-tidy checks this in a main source only, and the tidy target joins many sources.
 TEST(Names, OfUsingDeclarationsAreUsed) {
     static const std::regex kUsing(R"(^\s*using (?:\w+::)+(\w+);)");
-    std::size_t seen = 0;
+    std::size_t checked = 0;
     for (const fs::path& source : sources()) {
         if (source.extension() != ".cpp") continue;  // a header may re-export names
         const std::vector<std::string> lines = lines_of(source);
         for (std::size_t i = 0; i < lines.size(); ++i) {
             std::smatch taken;
             if (!std::regex_search(lines[i], taken, kUsing)) continue;
-            ++seen;
+            ++checked;
             const std::regex name("\\b" + taken[1].str() + "\\b");
             const auto uses = std::count_if(lines.begin(), lines.end(), [&](const std::string& line) {
                 return &line != &lines[i] && std::regex_search(line.substr(0, line.find("//")), name);
@@ -270,7 +270,7 @@ TEST(Names, OfUsingDeclarationsAreUsed) {
             EXPECT_GT(uses, 0) << source.string() << ":" << i + 1 << ": " << lines[i];
         }
     }
-    EXPECT_GT(seen, 100U) << "the pattern finds none";
+    EXPECT_GT(checked, 100U) << "the pattern matches nothing";
 }
 
 // The first word of a comment block names its subject: "Weights of ...", not "What the weights are".

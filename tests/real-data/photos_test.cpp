@@ -1,4 +1,4 @@
-// Three real turns: what must hold of every view, whatever the photographs look like in detail.
+// Import of three real photo sets: properties that every view must have.
 
 #include "capture/photos/import.hpp"
 #include "capture/photos/rig/turning.hpp"
@@ -20,15 +20,15 @@
 namespace rs::capture {
 namespace {
 
-struct Imported {
+struct ImportResult {
     ImportReport report;
     Rig rig;
     std::vector<Image<Rgba8>> cuts;
-    double held_out_db = 0;    // of views between the photographs: every second one held out
-    double held_out_ssim = 0;  // likewise
+    double held_out_db = 0;    // PSNR of views between the photos; every second one is held out
+    double held_out_ssim = 0;  // SSIM of the same views
 };
 
-void score_held_out(const std::filesystem::path& folder, Imported& imported) {
+void score_held_out(const std::filesystem::path& folder, ImportResult& imported) {
     const Result<encode::CaptureSet> set = encode::open_capture_set(folder);
     ASSERT_TRUE(set.ok()) << set.error().message;
     const Result<encode::HoldOut> hold_out = encode::choose_hold_out(set->upright, 2, folder.string());
@@ -39,7 +39,7 @@ void score_held_out(const std::filesystem::path& folder, Imported& imported) {
     imported.held_out_ssim = scores->front().mean_ssim;
 }
 
-Imported import(const std::filesystem::path& photos, CalibrationChoice calibration) {
+ImportResult import(const std::filesystem::path& photos, CalibrationChoice calibration) {
     const test::TemporaryFolder folder;
     ImportOptions options;
     options.photos = photos;
@@ -48,28 +48,28 @@ Imported import(const std::filesystem::path& photos, CalibrationChoice calibrati
     const Result<ImportReport> report = import_photos(options, nullptr);
     EXPECT_TRUE(report.ok()) << (report.ok() ? "" : report.error().message);
     if (!report.ok()) return {};
-    Imported imported{*report, *read_rig(options.output), {}, 0, 0};
+    ImportResult imported{*report, *read_rig(options.output), {}, 0, 0};
     for (const RigView& view : imported.rig.views)
         imported.cuts.push_back(*read_image(image_path(options.output, view)));
     if (calibration == CalibrationChoice::kTracks) score_held_out(options.output, imported);
     return imported;
 }
 
-// Solid pixels of the largest 4-connected part, and of all parts.
-struct Parts {
+// Opaque pixels of the largest 4-connected component, and of all components.
+struct ComponentSizes {
     int largest = 0;
     int all = 0;
 };
 
-Parts solid_parts(const Image<Rgba8>& cut) {
-    Parts parts;
-    Image<std::uint8_t> seen(cut.width(), cut.height());
+ComponentSizes solid_parts(const Image<Rgba8>& cut) {
+    ComponentSizes parts;
+    Image<std::uint8_t> visited(cut.width(), cut.height());
     std::vector<std::pair<int, int>> open;
     for (int y = 0; y < cut.height(); ++y) {
         for (int x = 0; x < cut.width(); ++x) {
-            if (cut(x, y).a < 128 || seen(x, y) != 0) continue;
+            if (cut(x, y).a < 128 || visited(x, y) != 0) continue;
             int size = 0;
-            seen(x, y) = 1;
+            visited(x, y) = 1;
             open.assign(1, {x, y});
             while (!open.empty()) {
                 const auto [u, v] = open.back();
@@ -77,8 +77,8 @@ Parts solid_parts(const Image<Rgba8>& cut) {
                 ++size;
                 for (const auto& [p, q] : {std::pair{u - 1, v}, {u + 1, v}, {u, v - 1}, {u, v + 1}}) {
                     if (p < 0 || q < 0 || p >= cut.width() || q >= cut.height()) continue;
-                    if (cut(p, q).a < 128 || seen(p, q) != 0) continue;
-                    seen(p, q) = 1;
+                    if (cut(p, q).a < 128 || visited(p, q) != 0) continue;
+                    visited(p, q) = 1;
                     open.emplace_back(p, q);
                 }
             }
@@ -89,7 +89,7 @@ Parts solid_parts(const Image<Rgba8>& cut) {
     return parts;
 }
 
-// Solid pixels within 2 px of the image's border.
+// Opaque pixels within 2 px of the image's border.
 int solid_at_border(const Image<Rgba8>& cut) {
     int count = 0;
     for (int y = 0; y < cut.height(); ++y) {
@@ -101,14 +101,14 @@ int solid_at_border(const Image<Rgba8>& cut) {
     return count;
 }
 
-void expect_one_object_in_every_view(const Imported& imported) {
+void expect_one_object_in_every_view(const ImportResult& imported) {
     for (std::size_t i = 0; i < imported.cuts.size(); ++i) {
-        const Parts parts = solid_parts(imported.cuts[i]);
+        const ComponentSizes parts = solid_parts(imported.cuts[i]);
         EXPECT_GE(parts.largest, 0.97 * parts.all) << "view " << i;
     }
 }
 
-// As a nominal rig asks for it.
+// Direction of rotation as determined for a nominal rig.
 std::optional<Turning> turning_by_images(const ImportReport& report) {
     const std::vector<Image<Rgba8>>& turn = report.small_foregrounds;
     const double axis_px = report.nominal.axis_x_px * turn.front().width() / report.folder.width;
@@ -125,20 +125,20 @@ std::optional<Turning> turning_by_images(const ImportReport& report) {
 
 TEST(RealPhotos, DinosaurOnABlueDisc) {
     const auto photos = RS_REAL_DATA_OR_SKIP("turntable/oxford-dino");
-    const Imported imported = import(photos, CalibrationChoice::kTracks);
+    const ImportResult imported = import(photos, CalibrationChoice::kTracks);
     ASSERT_EQ(imported.cuts.size(), 36U);
     EXPECT_EQ(imported.report.dropped_repeat, "viff.036.png");
     EXPECT_EQ(imported.report.backdrop, BackgroundKind::kColour);
     EXPECT_GT(imported.report.backdrop_colour.b, imported.report.backdrop_colour.r + 40);
     EXPECT_EQ(imported.report.turning, Turning::kClockwise);
-    EXPECT_EQ(imported.report.nominal.turning_from, "") << "points tell it";
+    EXPECT_EQ(imported.report.nominal.turning_from, "") << "found from feature points";
     EXPECT_EQ(turning_by_images(imported.report), Turning::kClockwise);
     EXPECT_LT(imported.report.nominal.axis_spread_px, 5);
     EXPECT_GT(imported.report.min_coverage, 0.09);
     EXPECT_LT(imported.report.max_coverage, 0.18);
     expect_one_object_in_every_view(imported);
     for (std::size_t i = 0; i < imported.cuts.size(); ++i) {
-        // The dinosaur's colours are yellow to red and white; what is blue and solid would be the disc.
+        // The dinosaur is yellow to red and white; opaque blue pixels would belong to the disc.
         int blue = 0;
         int solid = 0;
         for (const Rgba8& p : imported.cuts[i].pixels()) {
@@ -149,14 +149,14 @@ TEST(RealPhotos, DinosaurOnABlueDisc) {
         EXPECT_LT(blue, 0.004 * solid) << "view " << i;
         EXPECT_EQ(solid_at_border(imported.cuts[i]), 0) << "view " << i;
     }
-    // 20 degrees apart; 21.97 dB and 0.797 were measured.
+    // 20 degrees apart; measured: 21.97 dB and 0.797.
     EXPECT_GT(imported.held_out_db, 21.5);
     EXPECT_GT(imported.held_out_ssim, 0.78);
 }
 
 TEST(RealPhotos, ShoeOnWhiteWithASoftShadow) {
     const auto photos = RS_REAL_DATA_OR_SKIP("turntable/shoe36");
-    const Imported imported = import(photos, CalibrationChoice::kNominal);
+    const ImportResult imported = import(photos, CalibrationChoice::kNominal);
     ASSERT_EQ(imported.cuts.size(), 36U);
     EXPECT_EQ(imported.report.dropped_repeat, "");
     EXPECT_EQ(imported.report.backdrop, BackgroundKind::kWhite);
@@ -166,14 +166,14 @@ TEST(RealPhotos, ShoeOnWhiteWithASoftShadow) {
     EXPECT_LT(imported.report.max_coverage, 0.42);
     expect_one_object_in_every_view(imported);
     for (const Image<Rgba8>& cut : imported.cuts) {
-        // The shoe's heel comes up to the right side in two views; elsewhere the border is free.
+        // The shoe's heel touches the right border in two views; otherwise the border is free.
         EXPECT_LT(solid_at_border(cut), 60);
     }
 }
 
 TEST(RealPhotos, CarWithItsOwnAlpha) {
     const auto photos = RS_REAL_DATA_OR_SKIP("turntable/car52");
-    const Imported imported = import(photos, CalibrationChoice::kNominal);
+    const ImportResult imported = import(photos, CalibrationChoice::kNominal);
     ASSERT_EQ(imported.cuts.size(), 51U);
     EXPECT_EQ(imported.report.dropped_repeat, "52.png");
     EXPECT_EQ(imported.report.backdrop, BackgroundKind::kAlpha);

@@ -99,7 +99,7 @@ FrameContext FrameCompositor::context_of(const Camera& camera) {
             .weather = weather_,
             .weather_s = weather_seconds_,
             .fog = fog_,
-            .seen = {},
+            .visible_nodes = {},
             .transparent_surfaces = {},
             .blended = {}};
 }

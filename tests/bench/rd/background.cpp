@@ -10,7 +10,7 @@ namespace {
 // sRGB values multiplied by a weight, which is in `a`.
 using Weighted = Image<RgbaF>;
 
-Weighted halved(const Weighted& fine) {
+Weighted downsample(const Weighted& fine) {
     Weighted coarse((fine.width() + 1) / 2, (fine.height() + 1) / 2);
     for (int y = 0; y < fine.height(); ++y) {
         for (int x = 0; x < fine.width(); ++x) {
@@ -31,7 +31,7 @@ Weighted halved(const Weighted& fine) {
 }
 
 // Bilinear value of `coarse`, whose weights are all 1, at the centre of pixel (x, y) of the next finer level.
-RgbaF between(const Weighted& coarse, int x, int y) {
+RgbaF sample_bilinear(const Weighted& coarse, int x, int y) {
     const int x0 = std::clamp((x - 1) >> 1, 0, coarse.width() - 1);
     const int y0 = std::clamp((y - 1) >> 1, 0, coarse.height() - 1);
     const int x1 = std::min(((x - 1) >> 1) + 1, coarse.width() - 1);
@@ -51,7 +51,7 @@ void fill_from(const Weighted& coarse, Weighted& fine) {
         for (int x = 0; x < fine.width(); ++x) {
             RgbaF& p = fine(x, y);
             if (p.a >= 1) continue;
-            const RgbaF q = between(coarse, x, y);
+            const RgbaF q = sample_bilinear(coarse, x, y);
             const float missing = 1 - p.a;
             p = {p.r + missing * q.r, p.g + missing * q.g, p.b + missing * q.b, 1};
         }
@@ -67,7 +67,7 @@ Image<Rgba8> with_spread_colours(ConstImageView<Rgba8> image) {
             if (p.a > 0) pyramid[0](x, y) = {float(p.r), float(p.g), float(p.b), 1};
         }
     }
-    while (pyramid.back().width() > 1 || pyramid.back().height() > 1) pyramid.push_back(halved(pyramid.back()));
+    while (pyramid.back().width() > 1 || pyramid.back().height() > 1) pyramid.push_back(downsample(pyramid.back()));
     RgbaF& top = pyramid.back()(0, 0);
     top = top.a > 0 ? RgbaF{top.r / top.a, top.g / top.a, top.b / top.a, 1} : RgbaF{0, 0, 0, 1};
     for (std::size_t level = pyramid.size() - 1; level-- > 0;) fill_from(pyramid[level + 1], pyramid[level]);
@@ -95,7 +95,7 @@ Image<Rgba8> with_background(ConstImageView<Rgba8> image, Background background)
     return filled;
 }
 
-Image<Rgba8> made_opaque(Image<Rgba8> image) {
+Image<Rgba8> make_opaque(Image<Rgba8> image) {
     for (Rgba8& p : image.pixels()) p.a = 255;
     return image;
 }

@@ -15,6 +15,6 @@ enum class Background {
 Image<Rgba8> with_background(ConstImageView<Rgba8> image, Background background);
 
 /// Sets alpha to 255.
-Image<Rgba8> made_opaque(Image<Rgba8> image);
+Image<Rgba8> make_opaque(Image<Rgba8> image);
 
 }  // namespace rs::bench

@@ -10,8 +10,8 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/tool/tool_main.hpp"
 #include "tests/bench/rd/anchors/anchors.hpp"
-#include "tests/bench/rd/ours.hpp"
 #include "tests/bench/rd/rate_plot.hpp"
+#include "tests/bench/rd/rayspace_coding.hpp"
 #include "tests/bench/rd/report.hpp"
 
 #include <algorithm>
@@ -43,16 +43,16 @@ bool contains(const std::vector<std::string>& list, const std::string& word) {
 Result<CurveNames> parse_curve_names(const std::vector<std::string>& only) {
     // Default: everything except raw images.
     const std::vector<std::string> words = only.empty() ? std::vector<std::string>{"anchors", "ours"} : only;
-    CurveNames wanted;
+    CurveNames requested;
     for (const std::string& word : words) {
         if (word == "anchors") {
-            wanted.anchors.insert(anchor_names().begin(), anchor_names().end());
+            requested.anchors.insert(anchor_names().begin(), anchor_names().end());
         } else if (word == "ours") {
-            wanted.profiles.insert({"dense", "board"});
+            requested.profiles.insert({"dense", "board"});
         } else if (contains(anchor_names(), word)) {
-            wanted.anchors.insert(word);
+            requested.anchors.insert(word);
         } else if (contains(profile_names(), word)) {
-            wanted.profiles.insert(word);
+            requested.profiles.insert(word);
         } else {
             std::string known = "anchors, ours";
             for (const auto* names : {&anchor_names(), &profile_names()}) {
@@ -61,7 +61,7 @@ Result<CurveNames> parse_curve_names(const std::vector<std::string>& only) {
             return Error{"--only " + word + ": there is no such curve; give one of " + known};
         }
     }
-    return wanted;
+    return requested;
 }
 
 std::string about(const ReferenceImages& images) {
@@ -69,39 +69,33 @@ std::string about(const ReferenceImages& images) {
            std::to_string(images.height) + ", " + std::to_string(images.touched_blocks) + " touched blocks";
 }
 
-Result<SetResult> measure_set(const std::string& folder, const CurveNames& wanted, const std::string& encoder,
+Result<SetResult> measure_set(const std::string& folder, const CurveNames& requested, const std::string& encoder,
                               const WorkFolder& work, Progress& progress) {
-    const Result<ReferenceImages> images = read_reference_images(folder, &progress);
-    if (!images) return images.error();
+    RS_ASSIGN_OR_RETURN(const ReferenceImages images, read_reference_images(folder, &progress));
     std::vector<Measurement> measured;
-    if (!wanted.profiles.empty()) {
-        const auto ours = measure_ours(*images, wanted.profiles, encoder, work, progress);
-        if (!ours) return ours.error();
-        measured = *ours;
+    if (!requested.profiles.empty()) {
+        RS_ASSIGN_OR_RETURN(const auto ours, measure_rayspace(images, requested.profiles, encoder, work, progress));
+        measured = ours;
     }
-    if (!wanted.anchors.empty()) {
-        const auto anchors = measure_anchors(*images, wanted.anchors, work, progress);
-        if (!anchors) return anchors.error();
-        measured.insert(measured.end(), anchors->begin(), anchors->end());
+    if (!requested.anchors.empty()) {
+        RS_ASSIGN_OR_RETURN(const auto anchors, measure_anchors(images, requested.anchors, work, progress));
+        measured.insert(measured.end(), anchors.begin(), anchors.end());
     }
-    return SetResult{images->name, about(*images), best_variants(measured)};
+    return SetResult{images.name, about(images), best_variants(measured)};
 }
 
 Status run(const Arguments& arguments) {
-    const Result<CurveNames> wanted = parse_curve_names(arguments.only);
-    if (!wanted) return wanted.error();
-    if (Status status = check_encoder(arguments.encoder, wanted->profiles); !status) return status;
-    const Result<WorkFolder> work = WorkFolder::open(arguments.work);
-    if (!work) return work.error();
+    RS_ASSIGN_OR_RETURN(const CurveNames requested, parse_curve_names(arguments.only));
+    RS_TRY(check_encoder(arguments.encoder, requested.profiles));
+    RS_ASSIGN_OR_RETURN(const WorkFolder work, WorkFolder::open(arguments.work));
     ProgressBar progress;
     std::vector<SetResult> results;
     for (const std::string& set : arguments.sets) {
-        Result<SetResult> result = measure_set(set, *wanted, arguments.encoder, *work, progress);
-        if (!result) return result.error();
-        results.push_back(std::move(*result));
+        RS_ASSIGN_OR_RETURN(SetResult result, measure_set(set, requested, arguments.encoder, work, progress));
+        results.push_back(std::move(result));
         // Written after every set, so that results survive a failure of a later one.
-        if (Status status = write_file(arguments.csv, points_csv(results)); !status) return status;
-        if (Status status = write_file(ratios_path(arguments.csv), ratios_csv(results)); !status) return status;
+        RS_TRY(write_file(arguments.csv, points_csv(results)));
+        RS_TRY(write_file(ratios_path(arguments.csv), ratios_csv(results)));
     }
     std::fputs(summary_text(results).c_str(), stdout);
     return arguments.svg.empty() ? Status{} : write_file(arguments.svg, rate_plot_svg(results));

@@ -6,7 +6,7 @@
 namespace rs::bench {
 
 Measurement measurement_of(const ReferenceImages& images, const std::string& codec, const std::string& variant,
-                           const std::string& setting, const Coded& coded) {
+                           const std::string& setting, const CodingResult& coded) {
     Measurement measured{images.name, codec, variant, setting, coded.bytes, 0, 0, std::nullopt};
     measured.bpp = images.bits_per_pixel(coded.bytes);
     measured.psnr_db = coded.error.psnr_db();

@@ -1,7 +1,7 @@
 #pragma once
 // Rate-distortion curve of one codec on one set, and the comparison of two curves.
 
-#include "tests/bench/rd/coded.hpp"
+#include "tests/bench/rd/coding_result.hpp"
 
 #include <optional>
 #include <string>
@@ -21,7 +21,7 @@ struct Measurement {
 };
 
 Measurement measurement_of(const ReferenceImages& images, const std::string& codec, const std::string& variant,
-                           const std::string& setting, const Coded& coded);
+                           const std::string& setting, const CodingResult& coded);
 
 /// Pareto-optimal points by increasing dB: points that cost more than a better point are dropped.
 class RateCurve {

@@ -24,29 +24,25 @@ Image<std::uint8_t> touched_blocks_of(const Image<Rgba8>& image) {
 }  // namespace
 
 Result<ReferenceImages> read_reference_images(const std::filesystem::path& folder, Progress* progress) {
-    const Result<encode::CaptureSet> set = encode::open_capture_set(folder, progress);
-    if (!set) return set.error();
+    RS_ASSIGN_OR_RETURN(const encode::CaptureSet set, encode::open_capture_set(folder, progress));
     ReferenceImages images;
     images.folder = std::filesystem::absolute(folder).lexically_normal();
     if (!images.folder.has_filename()) images.folder = images.folder.parent_path();
     images.name = images.folder.filename().string();
-    images.width = set->width;
-    images.height = set->height;
-    const auto count = set->upright.views.size();
+    images.width = set.width;
+    images.height = set.height;
+    const auto count = set.upright.views.size();
     images.views.resize(count);
     images.touched.resize(count);
     const auto read = [&](int view) -> Status {
-        Result<Image<Rgba8>> image = encode::read_upright_image(*set, view);
-        if (!image) return image.error();
+        RS_ASSIGN_OR_RETURN(Image<Rgba8> image, encode::read_upright_image(set, view));
         const auto n = static_cast<std::size_t>(view);
-        images.touched[n] = touched_blocks_of(*image);
-        images.views[n] = std::move(*image);
+        images.touched[n] = touched_blocks_of(image);
+        images.views[n] = std::move(image);
         return {};
     };
     const std::string label = "reading " + images.name;
-    if (Status status = for_each_in_parallel(static_cast<int>(count), label, progress, read); !status) {
-        return status.error();
-    }
+    RS_TRY(for_each_in_parallel(static_cast<int>(count), label, progress, read));
     images.hash = XXH64(&images.width, sizeof images.width, 0);
     for (std::size_t n = 0; n < count; ++n) {
         for (const std::uint8_t touched : images.touched[n].pixels()) images.touched_blocks += touched;

@@ -36,7 +36,7 @@ Rate rate_at(const SetResult& result, const ChosenCurve& curve, double psnr_db) 
     return rate;
 }
 
-std::string table_of(const SetResult& result) {
+std::string format_table(const SetResult& result) {
     const std::vector<double> targets = target_dbs(result.set);
     std::string text = formatted("  %-16s", "bpp (x of ASTC)");
     for (const double db : targets) text += formatted("%17.0f dB", db);
@@ -55,7 +55,7 @@ std::string table_of(const SetResult& result) {
 }
 
 // "  astc: 26.4 .. 38.5 dB; 'rgb spread' is the best variant; 'rgba spread' takes 1.140 of its bits"
-std::string variants_of(const ChosenCurve& curve) {
+std::string describe_variants(const ChosenCurve& curve) {
     std::string text = "  " + curve.codec;
     if (!curve.curve.empty()) text += formatted(": %.1f .. %.1f dB", curve.curve.least_db(), curve.curve.most_db());
     if (!curve.variant.empty()) text += "; '" + curve.variant + "' is the best variant";
@@ -66,7 +66,7 @@ std::string variants_of(const ChosenCurve& curve) {
 }
 
 // Comparison of ASTC as RGB and as RGBA.
-std::string astc_of(const SetResult& result) {
+std::string describe_astc(const SetResult& result) {
     const ChosenCurve* const rgb = find_curve(result.curves, "astc");
     const ChosenCurve* const rgba = find_curve(result.curves, "astc-rgba");
     if (rgb == nullptr || rgba == nullptr) return "";
@@ -77,7 +77,7 @@ std::string astc_of(const SetResult& result) {
 }
 
 // Quality from which 4:4:4 takes fewer bits than 4:2:0.
-std::string full_chroma_of(const SetResult& result, const std::string& codec) {
+std::string describe_full_chroma(const SetResult& result, const std::string& codec) {
     const ChosenCurve* const half = find_curve(result.curves, codec);
     const ChosenCurve* const full = find_curve(result.curves, codec + "-444");
     if (half == nullptr || full == nullptr || half->curve.empty() || full->curve.empty()) return "";
@@ -131,10 +131,10 @@ std::string ratios_csv(const std::vector<SetResult>& results) {
 std::string summary_text(const std::vector<SetResult>& results) {
     std::string text;
     for (const SetResult& result : results) {
-        text += result.set + ": " + result.about + "\n" + table_of(result);
-        for (const ChosenCurve& curve : result.curves) text += variants_of(curve);
-        text += astc_of(result);
-        for (const std::string codec : {"x265-intra", "x265-inter"}) text += full_chroma_of(result, codec);
+        text += result.set + ": " + result.about + "\n" + format_table(result);
+        for (const ChosenCurve& curve : result.curves) text += describe_variants(curve);
+        text += describe_astc(result);
+        for (const std::string codec : {"x265-intra", "x265-inter"}) text += describe_full_chroma(result, codec);
         text += "\n";
     }
     return text;

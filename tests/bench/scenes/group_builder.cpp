@@ -15,7 +15,7 @@ using glm::vec3;
 
 // Repeated square roots of the magnitude, with the sign. Square roots are exactly rounded on every machine, unlike
 // powers.
-float softened(float value, int roots) {
+float repeated_root(float value, int roots) {
     float size = std::abs(value);
     for (int i = 0; i < roots; ++i) size = std::sqrt(size);
     return std::copysign(size, value);
@@ -112,12 +112,12 @@ void GroupBuilder::cushion(int look, vec3 low, vec3 high, int roots, int columns
     const vec3 middle = 0.5F * (low + high), half = 0.5F * (high - low);
     for (int row = 0; row <= rows; ++row) {
         const float polar = portable::kPiF * (static_cast<float>(row) / static_cast<float>(rows) - 0.5F);
-        const float ring = row == 0 || row == rows ? 0.0F : softened(portable::cos(polar), roots);
-        const float height = row == 0 ? -1.0F : row == rows ? 1.0F : softened(portable::sin(polar), roots);
+        const float ring = row == 0 || row == rows ? 0.0F : repeated_root(portable::cos(polar), roots);
+        const float height = row == 0 ? -1.0F : row == rows ? 1.0F : repeated_root(portable::sin(polar), roots);
         for (int column = 0; column <= columns; ++column) {
             const float turn = portable::kTwoPiF * static_cast<float>(column % columns) / static_cast<float>(columns);
-            const vec3 unit{ring * softened(portable::sin(turn), roots), height,
-                            ring * softened(portable::cos(turn), roots)};
+            const vec3 unit{ring * repeated_root(portable::sin(turn), roots), height,
+                            ring * repeated_root(portable::cos(turn), roots)};
             grid.positions.push_back(middle + half * unit);
             grid.uvs.emplace_back(static_cast<float>(column) / static_cast<float>(columns),
                                   static_cast<float>(row) / static_cast<float>(rows));

@@ -131,14 +131,14 @@ Status write_model(const Model& model, const std::filesystem::path& output, cons
     const std::filesystem::path& folder = staged.temporary_path();
     Buffer buffer;
     const std::string text = gltf_of(model, name, buffer).dump(1) + "\n";
-    if (Status status = write_file(folder / (name + ".gltf"), text); !status) return status;
-    if (Status status = write_file(folder / (name + ".bin"), buffer.bytes_); !status) return status;
-    if (Status status = write_file(folder / "lights.json", model.lights); !status) return status;
+    RS_TRY(write_file(folder / (name + ".gltf"), text));
+    RS_TRY(write_file(folder / (name + ".bin"), buffer.bytes_));
+    RS_TRY(write_file(folder / "lights.json", model.lights));
     for (const auto& [file, ies] : model.luminaires) {
-        if (Status status = write_file(folder / file, ies); !status) return status;
+        RS_TRY(write_file(folder / file, ies));
     }
     for (const auto& [file, image] : model.images) {
-        if (Status status = write_png(folder / file, image); !status) return status;
+        RS_TRY(write_png(folder / file, image));
     }
     return staged.commit();
 }

@@ -4,7 +4,8 @@ namespace rs::compositor {
 namespace {
 
 bool blends_something(const FrameContext& frame) {
-    if (!frame.seen.empty() || frame.fog || frame.weather || frame.geometry.surfaces().has_transparent()) return true;
+    if (!frame.visible_nodes.empty() || frame.fog || frame.weather || frame.geometry.surfaces().has_transparent())
+        return true;
     for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
         if (frame.nodes.placeholder_in_view(i, frame.view)) return true;
     }

@@ -66,7 +66,7 @@ struct FrameContext {
     std::optional<Fog> fog;
 
     // Set by the passes.
-    std::vector<VisibleNode> seen;                                   // ObjectRequestPass
+    std::vector<VisibleNode> visible_nodes;                          // ObjectRequestPass
     std::vector<SurfaceRenderer::Transparent> transparent_surfaces;  // DepthPass or OpaquePass
     std::vector<BlendedDraw> blended;                                // ObjectPass, TransparentPass, WeatherPass
 };

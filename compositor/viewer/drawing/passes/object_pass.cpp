@@ -30,8 +30,8 @@ Status ObjectPass::run(FrameContext& frame) {
     release_unloaded(frame.nodes);
     RS_ASSIGN_OR_RETURN(const std::vector<engine::DrawnView> rendered, frame.engine_views.retrieve());
     frame.statistics.engine_wait_s = frame.clock.lap();
-    for (std::size_t n = 0; n < frame.seen.size(); ++n) {
-        const VisibleNode& node = frame.seen[n];
+    for (std::size_t n = 0; n < frame.visible_nodes.size(); ++n) {
+        const VisibleNode& node = frame.visible_nodes[n];
         upload(node, rendered[n], frame);
         frame.blended.push_back({node.view.plane_distance, true, [this, &node, &frame] { draw(node, frame); }});
     }

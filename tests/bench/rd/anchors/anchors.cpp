@@ -42,7 +42,7 @@ private:
         const auto fill = [&](int view) -> Status {
             const auto n = static_cast<std::size_t>(view);
             Image<Rgba8> image = with_background(images_.views[n], background);
-            place[n] = is_opaque ? made_opaque(std::move(image)) : std::move(image);
+            place[n] = is_opaque ? make_opaque(std::move(image)) : std::move(image);
             return {};
         };
         const Status always_ok = for_each_in_parallel(static_cast<int>(place.size()), "", nullptr, fill);
@@ -63,7 +63,7 @@ struct Anchor {
     std::vector<int> probes;  // settings at which variants are compared
     std::vector<int> settings;
     std::string version_key;  // version of the tool
-    std::function<Result<Coded>(int setting)> code;
+    std::function<Result<CodingResult>(int setting)> code;
 };
 
 std::string setting_name(const Anchor& anchor, int setting) {
@@ -78,19 +78,12 @@ public:
         : images_(images), shown_(shown), folder_(folder) {}
 
     Status add_astc(const std::string& name, bool with_alpha) {
-        const Result<std::string> version = run_tool({"astcenc", "-version"});
-        if (!version) return version.error();
+        RS_ASSIGN_OR_RETURN(const std::string version, run_tool({"astcenc", "-version"}));
         for (const std::string background : {kBlack, kSpread}) {
             const auto code = [=, this](int block_px) {
                 return code_astc(images_, shown_.with_alpha(background), block_px, with_alpha, folder_);
             };
-            add({name,
-                 (with_alpha ? "rgba " : "rgb ") + background,
-                 "",
-                 {6, 10},
-                 {4, 5, 6, 8, 10, 12},
-                 *version,
-                 code});
+            add({name, (with_alpha ? "rgba " : "rgb ") + background, "", {6, 10}, {4, 5, 6, 8, 10, 12}, version, code});
         }
         return {};
     }
@@ -106,8 +99,7 @@ public:
     }
 
     Status add_x265(const std::string& name, bool intra, bool full_chroma) {
-        const Result<std::string> version = run_tool({"x265", "--version"});
-        if (!version) return version.error();
+        RS_ASSIGN_OR_RETURN(const std::string version, run_tool({"x265", "--version"}));
         // 4:4:4 covers the qualities that 4:2:0 cannot reach.
         const std::vector<int> factors =
             full_chroma ? std::vector{8, 12, 16, 20, 24} : std::vector{12, 16, 20, 24, 28, 32, 36, 40};
@@ -117,7 +109,7 @@ public:
                 const auto code = [=, this](int crf) {
                     return code_x265(images_, shown_.opaque(background), {intra, full_chroma, tune_psnr, crf}, folder_);
                 };
-                add({name, background + (tune_psnr ? " tune-psnr" : ""), "crf", probes, factors, *version, code});
+                add({name, background + (tune_psnr ? " tune-psnr" : ""), "crf", probes, factors, version, code});
             }
         }
         return {};
@@ -146,7 +138,7 @@ std::string cache_key(const ReferenceImages& images, const Anchor& anchor, const
 // Measures the anchors on one set.
 class AnchorMeter {
 public:
-    AnchorMeter(const ReferenceImages& images, const CodedCache& cache, Progress& progress)
+    AnchorMeter(const ReferenceImages& images, const CodingCache& cache, Progress& progress)
         : images_(images), cache_(cache), progress_(progress) {}
 
     // Measures the variants of one curve.
@@ -154,7 +146,7 @@ public:
         std::vector<Measurement> tried;
         for (const Anchor& anchor : variants) {
             for (const int setting : anchor.probes) {
-                if (Status status = measure(anchor, setting, tried); !status) return status;
+                RS_TRY(measure(anchor, setting, tried));
             }
         }
         const std::string best = best_variants(tried).front().variant;
@@ -162,7 +154,7 @@ public:
             if (anchor.variant != best) continue;
             for (const int setting : anchor.settings) {
                 if (contains(anchor.probes, setting)) continue;
-                if (Status status = measure(anchor, setting, tried); !status) return status;
+                RS_TRY(measure(anchor, setting, tried));
             }
         }
         measured_.insert(measured_.end(), tried.begin(), tried.end());
@@ -179,12 +171,11 @@ private:
     Status measure(const Anchor& anchor, int setting, std::vector<Measurement>& measured) {
         const std::string name = setting_name(anchor, setting);
         const std::string key = cache_key(images_, anchor, name);
-        std::optional<Coded> coded = cache_.find(key);
+        std::optional<CodingResult> coded = cache_.find(key);
         if (!coded) {
-            const Result<Coded> fresh = anchor.code(setting);
-            if (!fresh) return fresh.error();
-            if (Status status = cache_.store(key, *fresh); !status) return status;
-            coded = *fresh;
+            RS_ASSIGN_OR_RETURN(const CodingResult fresh, anchor.code(setting));
+            RS_TRY(cache_.store(key, fresh));
+            coded = fresh;
         }
         measured.push_back(measurement_of(images_, anchor.codec, anchor.variant, name, *coded));
         progress_.advance();
@@ -192,7 +183,7 @@ private:
     }
 
     const ReferenceImages& images_;
-    const CodedCache& cache_;
+    const CodingCache& cache_;
     Progress& progress_;
     std::vector<Measurement> measured_;
 };
@@ -207,13 +198,13 @@ const std::vector<std::string>& anchor_names() {
 
 Result<std::vector<Measurement>> measure_anchors(const ReferenceImages& images, const std::set<std::string>& names,
                                                  const WorkFolder& work, Progress& progress) {
-    const CodedCache cache(work.anchors());
+    const CodingCache cache(work.anchors());
     AnchorInputs shown(images);
     AnchorList list(images, shown, work.scratch());
     for (const bool with_alpha : {false, true}) {
         const std::string name = with_alpha ? "astc-rgba" : "astc";
         if (!names.contains(name)) continue;
-        if (Status status = list.add_astc(name, with_alpha); !status) return status.error();
+        RS_TRY(list.add_astc(name, with_alpha));
     }
     if (names.contains("jpeg")) list.add_still("jpeg", StillCodec::kJpeg);
     if (names.contains("webp")) list.add_still("webp", StillCodec::kWebp);
@@ -221,7 +212,7 @@ Result<std::vector<Measurement>> measure_anchors(const ReferenceImages& images, 
         for (const bool intra : {true, false}) {
             const std::string name = std::string(intra ? "x265-intra" : "x265-inter") + (full_chroma ? "-444" : "");
             if (!names.contains(name)) continue;
-            if (Status status = list.add_x265(name, intra, full_chroma); !status) return status.error();
+            RS_TRY(list.add_x265(name, intra, full_chroma));
         }
     }
 
@@ -238,7 +229,7 @@ Result<std::vector<Measurement>> measure_anchors(const ReferenceImages& images, 
     progress.start(images.name + ": anchors", steps);
     AnchorMeter meter(images, cache, progress);
     for (const std::span<const Anchor> variants : curves) {
-        if (Status status = meter.measure(variants); !status) return status.error();
+        RS_TRY(meter.measure(variants));
     }
     progress.finish();
     return meter.measured();

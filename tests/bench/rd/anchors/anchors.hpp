@@ -2,7 +2,7 @@
 // Anchors: established codecs, each measured with the variants that may be its best.
 
 #include "rayspace/base/progress.hpp"
-#include "tests/bench/rd/coded.hpp"
+#include "tests/bench/rd/coding_result.hpp"
 #include "tests/bench/rd/curve.hpp"
 #include "tests/bench/rd/work_folder.hpp"
 

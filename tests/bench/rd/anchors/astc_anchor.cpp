@@ -48,8 +48,8 @@ struct Packing {
     [[nodiscard]] int y(std::size_t n) const { return static_cast<int>(n) / columns * block_px; }
 };
 
-Image<Rgba8> packed(const std::vector<Image<Rgba8>>& shown, const std::vector<BlockPlace>& places,
-                    const Packing& packing) {
+Image<Rgba8> pack_blocks(const std::vector<Image<Rgba8>>& shown, const std::vector<BlockPlace>& places,
+                         const Packing& packing) {
     const int rows = (static_cast<int>(places.size()) + packing.columns - 1) / packing.columns;
     Image<Rgba8> atlas(packing.columns * packing.block_px, rows * packing.block_px);
     for (std::size_t n = 0; n < places.size(); ++n) {
@@ -65,8 +65,8 @@ Image<Rgba8> packed(const std::vector<Image<Rgba8>>& shown, const std::vector<Bl
     return atlas;
 }
 
-std::vector<Image<Rgba8>> unpacked(const ReferenceImages& images, const Image<Rgba8>& atlas,
-                                   const std::vector<BlockPlace>& places, const Packing& packing) {
+std::vector<Image<Rgba8>> unpack_blocks(const ReferenceImages& images, const Image<Rgba8>& atlas,
+                                        const std::vector<BlockPlace>& places, const Packing& packing) {
     std::vector<Image<Rgba8>> views(images.views.size(), Image<Rgba8>(images.width, images.height));
     for (std::size_t n = 0; n < places.size(); ++n) {
         Image<Rgba8>& to = views[places[n].view];
@@ -81,27 +81,25 @@ std::vector<Image<Rgba8>> unpacked(const ReferenceImages& images, const Image<Rg
 
 }  // namespace
 
-Result<Coded> code_astc(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown, int block_px,
-                        bool with_alpha, const std::filesystem::path& folder) {
+Result<CodingResult> code_astc(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown, int block_px,
+                               bool with_alpha, const std::filesystem::path& folder) {
     const std::vector<BlockPlace> places = visible_blocks(images, block_px);
     const Packing packing{block_px, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(places.size()))))};
-    Image<Rgba8> atlas = packed(shown, places, packing);
-    if (!with_alpha) atlas = made_opaque(std::move(atlas));
+    Image<Rgba8> atlas = pack_blocks(shown, places, packing);
+    if (!with_alpha) atlas = make_opaque(std::move(atlas));
     const std::filesystem::path in = folder / "astc-in.png";
     const std::filesystem::path out = folder / "astc-out.png";
-    if (Status status = write_png(in, atlas); !status) return status.error();
+    RS_TRY(write_png(in, atlas));
     const std::string size = std::to_string(block_px) + "x" + std::to_string(block_px);
-    const Result<std::string> ran = run_tool({"astcenc", "-ts", in.string(), out.string(), size, "-medium"});
-    if (!ran) return ran.error();
-    const Result<Image<Rgba8>> decoded = read_image(out);
-    if (!decoded) return decoded.error();
-    if (decoded->width() != atlas.width() || decoded->height() != atlas.height()) {
+    RS_TRY(run_tool({"astcenc", "-ts", in.string(), out.string(), size, "-medium"}));
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> decoded, read_image(out));
+    if (decoded.width() != atlas.width() || decoded.height() != atlas.height()) {
         return Error{out.string() + ": differs in size from the input of astcenc; try another version of astcenc"};
     }
-    Coded coded;
+    CodingResult coded;
     coded.bytes = kAstcBlock_bytes * places.size();
     coded.has_alpha = with_alpha;
-    const std::vector<Image<Rgba8>> views = unpacked(images, *decoded, places, packing);
+    const std::vector<Image<Rgba8>> views = unpack_blocks(images, decoded, places, packing);
     for (std::size_t view = 0; view < views.size(); ++view) coded.error += object_error(images, view, views[view]);
     return coded;
 }

@@ -4,7 +4,7 @@
 // bytes each. ASTC is therefore not charged for the empty part of a touched 8x8 block, nor for empty blocks larger than
 // 8x8 that overlap one.
 
-#include "tests/bench/rd/coded.hpp"
+#include "tests/bench/rd/coding_result.hpp"
 
 #include <filesystem>
 #include <vector>
@@ -14,7 +14,7 @@ namespace rs::bench {
 /// \param shown images to code, by view, with alpha
 /// \param with_alpha code as RGBA; otherwise as opaque RGB
 /// \param folder for temporary files
-Result<Coded> code_astc(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown, int block_px,
-                        bool with_alpha, const std::filesystem::path& folder);
+Result<CodingResult> code_astc(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown, int block_px,
+                               bool with_alpha, const std::filesystem::path& folder);
 
 }  // namespace rs::bench

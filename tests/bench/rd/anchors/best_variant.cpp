@@ -7,16 +7,16 @@
 namespace rs::bench {
 namespace {
 
-struct Tried {
+struct VariantCurve {
     std::string codec;
     std::string variant;
     std::vector<Measurement> points;
 };
 
-std::vector<Tried> grouped(const std::vector<Measurement>& measured) {
-    std::vector<Tried> groups;
+std::vector<VariantCurve> grouped(const std::vector<Measurement>& measured) {
+    std::vector<VariantCurve> groups;
     for (const Measurement& point : measured) {
-        const auto same = [&](const Tried& group) {
+        const auto same = [&](const VariantCurve& group) {
             return group.codec == point.codec && group.variant == point.variant;
         };
         auto group = std::find_if(groups.begin(), groups.end(), same);
@@ -26,8 +26,8 @@ std::vector<Tried> grouped(const std::vector<Measurement>& measured) {
     return groups;
 }
 
-ChosenCurve chosen_of(const std::vector<Tried>& variants) {
-    const auto fewer = [](const Tried& a, const Tried& b) { return a.points.size() < b.points.size(); };
+ChosenCurve chosen_of(const std::vector<VariantCurve>& variants) {
+    const auto fewer = [](const VariantCurve& a, const VariantCurve& b) { return a.points.size() < b.points.size(); };
     const auto most = std::max_element(variants.begin(), variants.end(), fewer);
     auto best = static_cast<std::size_t>(most - variants.begin());
     for (std::size_t n = 0; n < variants.size(); ++n) {
@@ -48,13 +48,13 @@ ChosenCurve chosen_of(const std::vector<Tried>& variants) {
 }  // namespace
 
 std::vector<ChosenCurve> best_variants(const std::vector<Measurement>& measured) {
-    const std::vector<Tried> groups = grouped(measured);
+    const std::vector<VariantCurve> groups = grouped(measured);
     std::vector<ChosenCurve> curves;
-    for (const Tried& group : groups) {
+    for (const VariantCurve& group : groups) {
         if (find_curve(curves, group.codec) != nullptr) continue;
-        std::vector<Tried> variants;
+        std::vector<VariantCurve> variants;
         std::copy_if(groups.begin(), groups.end(), std::back_inserter(variants),
-                     [&](const Tried& other) { return other.codec == group.codec; });
+                     [&](const VariantCurve& other) { return other.codec == group.codec; });
         curves.push_back(chosen_of(variants));
     }
     return curves;

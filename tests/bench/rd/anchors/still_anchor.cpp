@@ -25,13 +25,13 @@ Image<Rgba8> rgba_of(const cv::Mat3b& bgr) {
 
 }  // namespace
 
-Result<Coded> code_stills(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown, StillCodec codec,
-                          int quality) {
+Result<CodingResult> code_stills(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown,
+                                 StillCodec codec, int quality) {
     const bool jpeg = codec == StillCodec::kJpeg;
     const std::vector<int> parameters =
         jpeg ? std::vector<int>{cv::IMWRITE_JPEG_QUALITY, quality, cv::IMWRITE_JPEG_OPTIMIZE, 1}
              : std::vector<int>{cv::IMWRITE_WEBP_QUALITY, quality};
-    std::vector<Coded> parts(shown.size());
+    std::vector<CodingResult> parts(shown.size());
     const auto code = [&](int view) -> Status {
         const auto n = static_cast<std::size_t>(view);
         const Error failure{images.name + ": view " + std::to_string(view) + ": OpenCV cannot code " +
@@ -48,11 +48,9 @@ Result<Coded> code_stills(const ReferenceImages& images, const std::vector<Image
         }
         return {};
     };
-    if (Status status = for_each_in_parallel(static_cast<int>(shown.size()), "", nullptr, code); !status) {
-        return status.error();
-    }
-    Coded all;
-    for (const Coded& part : parts) {
+    RS_TRY(for_each_in_parallel(static_cast<int>(shown.size()), "", nullptr, code));
+    CodingResult all;
+    for (const CodingResult& part : parts) {
         all.bytes += part.bytes;
         all.error += part.error;
     }

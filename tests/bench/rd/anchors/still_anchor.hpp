@@ -1,7 +1,7 @@
 #pragma once
 // JPEG and WebP, one file per image. All bytes of the files count; alpha is not stored.
 
-#include "tests/bench/rd/coded.hpp"
+#include "tests/bench/rd/coding_result.hpp"
 
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@ enum class StillCodec {
 
 /// \param shown opaque images to code, by view
 /// \param quality 1..100
-Result<Coded> code_stills(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown, StillCodec codec,
-                          int quality);
+Result<CodingResult> code_stills(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown,
+                                 StillCodec codec, int quality);
 
 }  // namespace rs::bench

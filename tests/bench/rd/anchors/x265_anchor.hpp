@@ -3,7 +3,7 @@
 // the stream count; alpha is not stored. One frame thread (-F 1), so that the result does not depend on the machine.
 
 #include "tests/bench/rd/anchors/yuv_frames.hpp"
-#include "tests/bench/rd/coded.hpp"
+#include "tests/bench/rd/coding_result.hpp"
 
 #include <filesystem>
 #include <vector>
@@ -19,7 +19,7 @@ struct X265Settings {
 
 /// \param shown opaque images to code, by view
 /// \param folder for temporary files
-Result<Coded> code_x265(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown,
-                        const X265Settings& settings, const std::filesystem::path& folder);
+Result<CodingResult> code_x265(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown,
+                               const X265Settings& settings, const std::filesystem::path& folder);
 
 }  // namespace rs::bench

@@ -2,7 +2,7 @@
 // Rayspace's own image coding: builds an object from the set with the command `rs-encode` and decodes it.
 
 #include "rayspace/base/progress.hpp"
-#include "tests/bench/rd/coded.hpp"
+#include "tests/bench/rd/coding_result.hpp"
 #include "tests/bench/rd/curve.hpp"
 #include "tests/bench/rd/work_folder.hpp"
 
@@ -22,8 +22,8 @@ Status check_encoder(const std::filesystem::path& encoder, const std::set<std::s
 /// Measures the profiles in `names` at all their qualities. Bytes are those of the file without the RS map (chunks RMAP
 /// and shap), which is geometry that the other codecs do not store. Results are not cached, since the encoder is what
 /// changes between runs.
-Result<std::vector<Measurement>> measure_ours(const ReferenceImages& images, const std::set<std::string>& names,
-                                              const std::filesystem::path& encoder, const WorkFolder& work,
-                                              Progress& progress);
+Result<std::vector<Measurement>> measure_rayspace(const ReferenceImages& images, const std::set<std::string>& names,
+                                                  const std::filesystem::path& encoder, const WorkFolder& work,
+                                                  Progress& progress);
 
 }  // namespace rs::bench

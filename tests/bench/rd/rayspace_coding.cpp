@@ -1,4 +1,4 @@
-#include "tests/bench/rd/ours.hpp"
+#include "tests/bench/rd/rayspace_coding.hpp"
 
 #include "rayspace/format/object_chunks.hpp"
 #include "rayspace/format/object_file.hpp"
@@ -23,22 +23,20 @@ const std::vector<Profile>& profiles() {
     return table;
 }
 
-Result<Coded> read_back(const ReferenceImages& images, const std::filesystem::path& encoder,
-                        const std::filesystem::path& file) {
-    const Result<ContainerReader> container = ContainerReader::open(file);
-    if (!container) return container.error();
-    Coded coded;
-    coded.bytes = container->size_bytes();
+Result<CodingResult> read_back(const ReferenceImages& images, const std::filesystem::path& encoder,
+                               const std::filesystem::path& file) {
+    RS_ASSIGN_OR_RETURN(const ContainerReader container, ContainerReader::open(file));
+    CodingResult coded;
+    coded.bytes = container.size_bytes();
     coded.has_alpha = true;
-    for (const ChunkSummary& chunk : summarise_chunks(*container)) {
+    for (const ChunkSummary& chunk : summarise_chunks(container)) {
         if (chunk.name == to_string(object_chunks::kMap) || chunk.name == to_string(object_chunks::kShape)) {
             coded.bytes -= chunk.size_bytes;
         }
     }
     // The encoder decodes its own file, since it may be of another build.
     const std::filesystem::path folder = file.parent_path() / "ours-images";
-    const Result<std::string> ran = run_tool({encoder.string(), "extract", file.string(), "-o", folder.string(), "-q"});
-    if (!ran) return ran.error();
+    RS_TRY(run_tool({encoder.string(), "extract", file.string(), "-o", folder.string(), "-q"}));
     const Result<ReferenceImages> decoded = read_reference_images(folder, nullptr);
     std::error_code ignored;
     std::filesystem::remove_all(folder, ignored);
@@ -53,15 +51,15 @@ Result<Coded> read_back(const ReferenceImages& images, const std::filesystem::pa
     return coded;
 }
 
-Result<Coded> code_ours(const ReferenceImages& images, const std::vector<std::string>& options,
-                        const std::filesystem::path& encoder, const std::filesystem::path& folder) {
+Result<CodingResult> code_with_rayspace(const ReferenceImages& images, const std::vector<std::string>& options,
+                                        const std::filesystem::path& encoder, const std::filesystem::path& folder) {
     const std::filesystem::path file = folder / "ours.rso";
     std::vector<std::string> command = {encoder.string(), "build", images.folder.string(), "-o", file.string(), "-q"};
     command.insert(command.end(), options.begin(), options.end());
     // Fastest RS map, as the map does not count.
     command.insert(command.end(), {"--raymap", "plane"});
-    if (const Result<std::string> ran = run_tool(command); !ran) return ran.error();
-    Result<Coded> coded = read_back(images, encoder, file);
+    RS_TRY(run_tool(command));
+    Result<CodingResult> coded = read_back(images, encoder, file);
     std::error_code ignored;
     std::filesystem::remove(file, ignored);
     return coded;
@@ -85,10 +83,9 @@ Status check_encoder(const std::filesystem::path& encoder, const std::set<std::s
             needing += (needing.empty() ? "" : ", ") + profile.name;
     }
     if (needing.empty()) return {};
-    const Result<std::string> help = run_tool({encoder.string(), "build", "--help"});
-    if (!help) return help.error();
+    RS_ASSIGN_OR_RETURN(const std::string help, run_tool({encoder.string(), "build", "--help"}));
     for (const std::string option : {"--profile", "--quality"}) {
-        if (help->find(option) == std::string::npos) {
+        if (help.find(option) == std::string::npos) {
             return Error{encoder.string() + ": its build has no " + option + ", which is needed for " + needing +
                          "; give another --encoder, or --only anchors, or --only raw"};
         }
@@ -96,9 +93,9 @@ Status check_encoder(const std::filesystem::path& encoder, const std::set<std::s
     return {};
 }
 
-Result<std::vector<Measurement>> measure_ours(const ReferenceImages& images, const std::set<std::string>& names,
-                                              const std::filesystem::path& encoder, const WorkFolder& work,
-                                              Progress& progress) {
+Result<std::vector<Measurement>> measure_rayspace(const ReferenceImages& images, const std::set<std::string>& names,
+                                                  const std::filesystem::path& encoder, const WorkFolder& work,
+                                                  Progress& progress) {
     struct Point {
         std::string profile;
         std::string setting;
@@ -116,9 +113,9 @@ Result<std::vector<Measurement>> measure_ours(const ReferenceImages& images, con
     progress.start(images.name + ": ours", static_cast<std::int64_t>(points.size()));
     std::vector<Measurement> measured;
     for (const Point& point : points) {
-        const Result<Coded> coded = code_ours(images, point.options, encoder, work.scratch());
-        if (!coded) return coded.error();
-        measured.push_back(measurement_of(images, point.profile, "", point.setting, *coded));
+        RS_ASSIGN_OR_RETURN(const CodingResult coded,
+                            code_with_rayspace(images, point.options, encoder, work.scratch()));
+        measured.push_back(measurement_of(images, point.profile, "", point.setting, coded));
         progress.advance();
     }
     progress.finish();

@@ -12,7 +12,7 @@
 
 namespace rs::bench {
 
-struct Coded {
+struct CodingResult {
     std::uint64_t bytes = 0;
     ObjectError error;
     bool has_alpha = false;  // the codec stores alpha; error.alpha_error is valid
@@ -20,12 +20,12 @@ struct Coded {
 
 /// Small text files in a folder, named after the hash of a key with everything that the result depends on: images,
 /// codec, settings, version of the tool. Files that cannot be parsed are ignored.
-class CodedCache {
+class CodingCache {
 public:
     // The folder must exist.
-    explicit CodedCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
-    [[nodiscard]] std::optional<Coded> find(const std::string& key) const;
-    [[nodiscard]] Status store(const std::string& key, const Coded& coded) const;
+    explicit CodingCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    [[nodiscard]] std::optional<CodingResult> find(const std::string& key) const;
+    [[nodiscard]] Status store(const std::string& key, const CodingResult& coded) const;
 
 private:
     [[nodiscard]] std::filesystem::path file_of(const std::string& key) const;
