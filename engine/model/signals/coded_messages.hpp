@@ -87,7 +87,7 @@ struct CodedPixel {
     static constexpr int kColourBits = 3 * 8 + 2 + 8;
     static constexpr int bits(int hop) { return kHeadBits + (hop > 0 ? kColourBits + hop * HopLookup::kBits : 0); }
     int view = 0;
-    bool shows = false;
+    bool is_visible = false;
     bool begins = false;   // the next hop's record differs from that of the previous pixel
     bool pending = false;  // a record of the next hop is needed
     int row = 0;           // of the next hop's image
@@ -120,7 +120,7 @@ inline std::string text(const BlockRecord& m) {
                                        : " flat");
 }
 inline std::string text(const CodedPixel& m) {
-    return "view " + std::to_string(m.view) + (m.shows ? " row " + std::to_string(m.row) : " -") +
+    return "view " + std::to_string(m.view) + (m.is_visible ? " row " + std::to_string(m.row) : " -") +
            (m.pending ? " pending" : "");
 }
 

@@ -87,7 +87,7 @@ struct PlacedColumn {
 struct PixelPair {
     static constexpr int kBits = 4 + 2 * (1 + 9) + 3 * 27;
     int view = 0;
-    bool shows[2] = {false, false};
+    bool is_visible[2] = {false, false};
     int row[2] = {0, 0};
     WordAddress luma = 0, chroma = 0, alpha = 0;
 };
@@ -179,8 +179,8 @@ inline std::string text(const PlacedColumn& m) {
     return "view " + std::to_string(m.view) + (m.has_ray ? " luma at " + std::to_string(m.luma) : " no ray");
 }
 inline std::string text(const PixelPair& m) {
-    return "view " + std::to_string(m.view) + " rows " + (m.shows[0] ? std::to_string(m.row[0]) : "-") + "," +
-           (m.shows[1] ? std::to_string(m.row[1]) : "-");
+    return "view " + std::to_string(m.view) + " rows " + (m.is_visible[0] ? std::to_string(m.row[0]) : "-") + "," +
+           (m.is_visible[1] ? std::to_string(m.row[1]) : "-");
 }
 inline std::string text(const MemoryRead& m) {
     return m.null ? "null" : "word " + std::to_string(m.address);
