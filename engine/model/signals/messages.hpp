@@ -122,8 +122,7 @@ struct SampleTag {
 };
 
 struct YuvaPixel {
-    // Uncompressed images have 2 bits of alpha. Where alpha is 0, 85, 170 or 255, the 8 bits are these 2 bits repeated
-    // four times.
+    // Uncompressed images have 2 bits of alpha; repeated four times, they give the 8 bits 0, 85, 170 or 255.
     static constexpr int kBits = 4 + 3 * 8 + 2;
     static constexpr int kBitsOfCoded = 4 + 3 * 8 + 8;
     int view = 0;
