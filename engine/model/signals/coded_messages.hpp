@@ -21,9 +21,7 @@ struct BlockRequest {
     int column = 0;     // of the image
     int block_row = 0;  // rows 8 * block_row ..
     unsigned rows = 0;  // bit r: row 8 * block_row + r
-    [[nodiscard]] int block() const {
-        return ((column >> 3) & 3) * 4 + (block_row & 3);
-    }  // index of the block in its tile
+    [[nodiscard]] int block() const { return ((column >> 3) & 3) * 4 + (block_row & 3); }  // index in its tile
 };
 
 // Tile finder output: the word of the tile table is requested, or the tile equals that of the previous request.
