@@ -5,7 +5,7 @@
 namespace rs::engine::model {
 namespace {
 
-constexpr std::uint64_t kMostCycles = std::uint64_t{1} << 40;
+constexpr std::uint64_t kMaxRunCycles = std::uint64_t{1} << 40;
 
 // Pixel (i, j) is half (j & 1) of word i * ceil(height / 2) + (j >> 1).
 Image<Rgba8> unpack_host_image(const HostImage& words, const BoardView& view) {
@@ -75,7 +75,7 @@ Result<int> Board::start_load(const RaySpaceObject& object) {
 
 Status Board::finish_loads() {
     const auto idle = [&] { return top_->disk_controller.is_idle() && top_->object_ready.count() == 0; };
-    if (Status status = top_->simulator.run_until(idle, kMostCycles); !status) return status;
+    RS_TRY(top_->simulator.run_until(idle, kMaxRunCycles));
     const std::vector<DiskController::Load>& loads = top_->disk_controller.loads();
     std::string failed;
     for (; collected_loads_ < loads.size(); ++collected_loads_) {
@@ -170,7 +170,7 @@ Result<BoardRun> Board::render(const std::vector<std::vector<BoardView>>& cycles
         const auto event = [&] {
             return rendered() != was || top_->render_control.refusals().size() != refused || arrived();
         };
-        RS_TRY(top_->simulator.run_until(event, kMostCycles));
+        RS_TRY(top_->simulator.run_until(event, kMaxRunCycles));
         if (top_->render_control.refusals().size() != refused) {
             return Error{"the board refused a rendering cycle: " + top_->render_control.refusals().back().reason};
         }
@@ -183,7 +183,7 @@ Result<BoardRun> Board::render(const std::vector<std::vector<BoardView>>& cycles
     const auto quiet = [&] {
         return top_->host_dma.last_activity() == Activity::idle && top_->buffer_free.count() == 0;
     };
-    RS_TRY(top_->simulator.run_until(quiet, kMostCycles));
+    RS_TRY(top_->simulator.run_until(quiet, kMaxRunCycles));
     return run;
 }
 

@@ -74,9 +74,9 @@ struct BoardBody : FifoGroup {
     virtual void add_pipes(Simulator& simulator) = 0;
     virtual void add_loading(Simulator& /*simulator*/) {}  // adds the block between the disk and several channels
     [[nodiscard]] virtual int channels() const = 0;
-    [[nodiscard]] virtual const MemoryController& object_memory_bytes(int channel) const = 0;
+    [[nodiscard]] virtual const MemoryController& memory_controller(int channel) const = 0;
     [[nodiscard]] virtual Sdram& sdram_of(int channel) = 0;
-    [[nodiscard]] virtual std::optional<PipeMemoryBits> memory_of_a_pipe() const { return std::nullopt; }
+    [[nodiscard]] virtual std::optional<PipeMemoryBits> pipe_memory() const { return std::nullopt; }
 };
 
 // One pipe and one memory channel: boards of 2000. `Reading`: SampleReading or BlockDecompression.
@@ -89,7 +89,7 @@ struct SingleBoard final : BoardBody {
     std::vector<DmaPort> dma_ports() override { return {{&host_reads, &host_words}}; }
     void add_pipes(Simulator& simulator) override;
     [[nodiscard]] int channels() const override { return 1; }
-    [[nodiscard]] const MemoryController& object_memory_bytes(int) const override { return memory; }
+    [[nodiscard]] const MemoryController& memory_controller(int) const override { return memory; }
     [[nodiscard]] Sdram& sdram_of(int) override { return sdram; }
 
     Sdram sdram;
@@ -117,11 +117,9 @@ struct ParallelBoard final : BoardBody {
     void add_pipes(Simulator& simulator) override;
     void add_loading(Simulator& simulator) override { simulator.add(Domain::board, load_broadcast); }
     [[nodiscard]] int channels() const override { return static_cast<int>(pipes.size()); }
-    [[nodiscard]] const MemoryController& object_memory_bytes(int channel) const override {
-        return pipe(channel).memory;
-    }
+    [[nodiscard]] const MemoryController& memory_controller(int channel) const override { return pipe(channel).memory; }
     [[nodiscard]] Sdram& sdram_of(int channel) override { return pipe(channel).sdram; }
-    [[nodiscard]] std::optional<PipeMemoryBits> memory_of_a_pipe() const override { return pipe_memory_bits(pipe(0)); }
+    [[nodiscard]] std::optional<PipeMemoryBits> pipe_memory() const override { return pipe_memory_bits(pipe(0)); }
     [[nodiscard]] ParallelPipe& pipe(int n) const { return *pipes[static_cast<std::size_t>(n)]; }
 
     Fifo<ViewJob> jobs{*this, "jobs", 2, ViewJob::kBits};
@@ -155,7 +153,7 @@ struct BoardTop : FifoGroup {
     Simulator simulator;
 
     [[nodiscard]] int channels() const { return body->channels(); }
-    [[nodiscard]] const MemoryController& memory(int channel = 0) const { return body->object_memory_bytes(channel); }
+    [[nodiscard]] const MemoryController& memory(int channel = 0) const { return body->memory_controller(channel); }
     [[nodiscard]] Sdram& sdram(int channel = 0) { return body->sdram_of(channel); }
 };
 

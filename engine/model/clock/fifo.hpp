@@ -41,9 +41,9 @@ public:
         : name_(std::move(name)), depth_(depth), width_bits_(width_bits) {
         RS_CHECK(depth >= 1 && width_bits >= 1);
     }
-    FifoState(FifoGroup& rack, const std::string& name, int depth, int width_bits)
-        : FifoState(name + rack.suffix_, depth, width_bits) {
-        rack.fifos_.push_back(this);
+    FifoState(FifoGroup& group, const std::string& name, int depth, int width_bits)
+        : FifoState(name + group.suffix_, depth, width_bits) {
+        group.fifos_.push_back(this);
     }
     virtual ~FifoState() = default;
     FifoState(const FifoState&) = delete;
@@ -91,8 +91,8 @@ class Fifo final : public FifoState {
 public:
     Fifo(std::string name, int depth, int width_bits)
         : FifoState(std::move(name), depth, width_bits), items_(places(depth)) {}
-    Fifo(FifoGroup& rack, const std::string& name, int depth, int width_bits)
-        : FifoState(rack, name, depth, width_bits), items_(places(depth)) {}
+    Fifo(FifoGroup& group, const std::string& name, int depth, int width_bits)
+        : FifoState(group, name, depth, width_bits), items_(places(depth)) {}
 
     void push(const T& item) {
         RS_CHECK(can_push() && !pushed_);

@@ -33,8 +33,8 @@ void Simulator::add(Domain domain, FifoState& fifo) {
     (domain == Domain::board ? board_ : pci_).fifos.push_back(&fifo);
 }
 
-void Simulator::add(Domain domain, const FifoGroup& rack) {
-    for (FifoState* const fifo : rack.fifos()) add(domain, *fifo);
+void Simulator::add(Domain domain, const FifoGroup& group) {
+    for (FifoState* const fifo : group.fifos()) add(domain, *fifo);
 }
 
 void Simulator::add_crossing(Domain writer, CrossingState& fifo) {

@@ -28,7 +28,7 @@ public:
 
     void add(Domain domain, Block& block);
     void add(Domain domain, FifoState& fifo);
-    void add(Domain domain, const FifoGroup& rack);
+    void add(Domain domain, const FifoGroup& group);
     void add_crossing(Domain writer, CrossingState& fifo);
 
     // Executes one cycle of the board's clock and the bus cycles that are due in it.

@@ -136,7 +136,7 @@ Status ObjectLayout::fit_together(std::span<const RaySpaceObject> objects, const
 }
 
 Status ObjectLayout::fits(const RaySpaceObject& object, const BoardLimits& limits) const {
-    if (Status status = within_limits(object, limits); !status) return status;
+    RS_TRY(within_limits(object, limits));
     return fit_together({&object, 1}, limits);
 }
 
@@ -161,12 +161,12 @@ void add_coded(const codec::CodedImages& coded, BoardFootprint& footprint) {
 }
 
 // Boards of 2000: one ring, its map and lines in one table; the derived class adds the images.
-class LayoutOf2000 : public ObjectLayout {
+class SingleRingLayout : public ObjectLayout {
 public:
     [[nodiscard]] Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const override {
         if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
-        if (Status status = has_images(object); !status) return status;
-        if (Status status = fits(object, limits); !status) return status;
+        RS_TRY(has_images(object));
+        RS_TRY(fits(object, limits));
         if (object.rings.front().shape.empty()) return {};
         return Error{object.name +
                      ": has a shape map, which the published board does not support (it renders surfaces on "
@@ -201,7 +201,7 @@ protected:
                             ObjectImage& image) const = 0;
 };
 
-class RawLayout final : public LayoutOf2000 {
+class RawLayout final : public SingleRingLayout {
 public:
     [[nodiscard]] BoardFootprint footprint(const RaySpaceObject& object) const override {
         const std::uint64_t images = object.views.size();
@@ -234,7 +234,7 @@ private:
     }
 };
 
-class CodedLayout final : public LayoutOf2000 {
+class CodedLayout final : public SingleRingLayout {
 public:
     [[nodiscard]] BoardFootprint footprint(const RaySpaceObject& object) const override {
         BoardFootprint footprint = maps_and_lines(object, 2);
@@ -271,7 +271,7 @@ public:
                          "raw"};
         }
         const bool coded = object.coded != nullptr;
-        if (Status status = coded ? has_board_images(object) : has_raw_images(object); !status) return status;
+        RS_TRY(coded ? has_board_images(object) : has_raw_images(object));
         return fits(object, limits);
     }
     [[nodiscard]] Words words(const RaySpaceObject& object) const override { return parallel_object_words(object); }

@@ -5,7 +5,7 @@
 namespace rs::engine::model {
 namespace {
 
-struct Ends {
+struct FifoEnds {
     std::string from;
     std::string to;
 };
@@ -21,7 +21,7 @@ std::string shown(const std::string& name) {
 }
 
 void add_blocks(const Simulator::DomainParts& parts, const char* clock, std::string& out,
-                std::map<std::string, Ends>& ends) {
+                std::map<std::string, FifoEnds>& ends) {
     for (const Block* block : parts.blocks) {
         std::string in;
         std::string outs;
@@ -39,11 +39,11 @@ void add_blocks(const Simulator::DomainParts& parts, const char* clock, std::str
 }
 
 template <class F>
-std::string fifo_row(const F& fifo, const std::map<std::string, Ends>& ends, const char* kind) {
+std::string fifo_row(const F& fifo, const std::map<std::string, FifoEnds>& ends, const char* kind) {
     const auto at = ends.find(fifo.name());
     if (is_of_other_pipe(fifo.name())) return {};
-    const Ends none;
-    const Ends& e = at == ends.end() ? none : at->second;
+    const FifoEnds none;
+    const FifoEnds& e = at == ends.end() ? none : at->second;
     return "| " + shown(fifo.name()) + " | " + std::to_string(fifo.depth()) + " | " +
            std::to_string(fifo.width_bits()) + " | " + e.from + " | " + e.to + " | " + kind + " |\n";
 }
@@ -68,7 +68,7 @@ std::string memory_table(const PipeMemoryBits& bits) {
 std::string diagram_tables(const BoardTop& board) {
     const Simulator::DomainParts& on_board = board.simulator.parts(Domain::board);
     const Simulator::DomainParts& on_bus = board.simulator.parts(Domain::pci);
-    std::map<std::string, Ends> ends;
+    std::map<std::string, FifoEnds> ends;
     std::string out = "| block | clock | timing | reads | writes |\n|---|---|---|---|---|\n";
     add_blocks(on_board, "board", out, ends);
     add_blocks(on_bus, "bus", out, ends);
@@ -76,7 +76,7 @@ std::string diagram_tables(const BoardTop& board) {
     for (const FifoState* fifo : on_board.fifos) out += fifo_row(*fifo, ends, "one clock");
     for (const CrossingState* fifo : on_board.written) out += fifo_row(*fifo, ends, "board to bus");
     for (const CrossingState* fifo : on_bus.written) out += fifo_row(*fifo, ends, "bus to board");
-    if (const auto bits = board.body->memory_of_a_pipe()) out += memory_table(*bits);
+    if (const auto bits = board.body->pipe_memory()) out += memory_table(*bits);
     return out;
 }
 

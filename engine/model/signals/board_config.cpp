@@ -170,9 +170,9 @@ BoardConfig with_memory(BoardConfig config) {
 }
 
 // JSON objects of a configuration by path, such as "memory/alpha".
-class Objects {
+class JsonObjects {
 public:
-    explicit Objects(JsonObject& top) : top_(top) {}
+    explicit JsonObjects(JsonObject& top) : top_(top) {}
 
     // Null if the text has none.
     JsonObject* at(const std::string& path) {
@@ -238,7 +238,7 @@ Result<BoardConfig> parse_board_config(const std::string& text, const std::strin
         BoardConfig config = *known;
         config.name = where;
         top.read("name", config.name);
-        Objects objects(top);
+        JsonObjects objects(top);
         for_each_number(config, [&](const std::string& path, auto& value, int least, int most) {
             const std::size_t slash = path.rfind('/');
             JsonObject* const object = objects.at(slash == std::string::npos ? "" : path.substr(0, slash));

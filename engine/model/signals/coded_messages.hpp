@@ -21,9 +21,7 @@ struct BlockRequest {
     int column = 0;     // of the image
     int block_row = 0;  // rows 8 * block_row ..
     unsigned rows = 0;  // bit r: row 8 * block_row + r
-    [[nodiscard]] int block() const {
-        return ((column >> 3) & 3) * 4 + (block_row & 3);
-    }  // index of the block in its tile
+    [[nodiscard]] int block() const { return ((column >> 3) & 3) * 4 + (block_row & 3); }  // index in its tile
 };
 
 // Tile finder output: the word of the tile table is requested, or the tile equals that of the previous request.
@@ -87,7 +85,7 @@ struct CodedPixel {
     static constexpr int kColourBits = 3 * 8 + 2 + 8;
     static constexpr int bits(int hop) { return kHeadBits + (hop > 0 ? kColourBits + hop * HopLookup::kBits : 0); }
     int view = 0;
-    bool shows = false;
+    bool is_visible = false;
     bool begins = false;   // the next hop's record differs from that of the previous pixel
     bool pending = false;  // a record of the next hop is needed
     int row = 0;           // of the next hop's image
@@ -120,7 +118,7 @@ inline std::string text(const BlockRecord& m) {
                                        : " flat");
 }
 inline std::string text(const CodedPixel& m) {
-    return "view " + std::to_string(m.view) + (m.shows ? " row " + std::to_string(m.row) : " -") +
+    return "view " + std::to_string(m.view) + (m.is_visible ? " row " + std::to_string(m.row) : " -") +
            (m.pending ? " pending" : "");
 }
 

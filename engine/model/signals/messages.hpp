@@ -87,7 +87,7 @@ struct PlacedColumn {
 struct PixelPair {
     static constexpr int kBits = 4 + 2 * (1 + 9) + 3 * 27;
     int view = 0;
-    bool shows[2] = {false, false};
+    bool is_visible[2] = {false, false};
     int row[2] = {0, 0};
     WordAddress luma = 0, chroma = 0, alpha = 0;
 };
@@ -122,8 +122,7 @@ struct SampleTag {
 };
 
 struct YuvaPixel {
-    // Uncompressed images have 2 bits of alpha. Where alpha is 0, 85, 170 or 255, the 8 bits are these 2 bits repeated
-    // four times.
+    // Uncompressed images have 2 bits of alpha; repeated four times, they give the 8 bits 0, 85, 170 or 255.
     static constexpr int kBits = 4 + 3 * 8 + 2;
     static constexpr int kBitsOfCoded = 4 + 3 * 8 + 8;
     int view = 0;
@@ -179,8 +178,8 @@ inline std::string text(const PlacedColumn& m) {
     return "view " + std::to_string(m.view) + (m.has_ray ? " luma at " + std::to_string(m.luma) : " no ray");
 }
 inline std::string text(const PixelPair& m) {
-    return "view " + std::to_string(m.view) + " rows " + (m.shows[0] ? std::to_string(m.row[0]) : "-") + "," +
-           (m.shows[1] ? std::to_string(m.row[1]) : "-");
+    return "view " + std::to_string(m.view) + " rows " + (m.is_visible[0] ? std::to_string(m.row[0]) : "-") + "," +
+           (m.is_visible[1] ? std::to_string(m.row[1]) : "-");
 }
 inline std::string text(const MemoryRead& m) {
     return m.null ? "null" : "word " + std::to_string(m.address);

@@ -3,7 +3,7 @@
 // the number of an image is the place of its view in the ring (parallel_layout.hpp).
 //
 // A *patch* is 16 columns and 8 rows of a view: pixel `id` is slot * 128 + row * 16 + column, where `slot` is one of
-// the four patches under way. A *stripe* is 16 columns over the whole height; `stripe` counts a pipe's stripes,
+// the four patches in flight. A *stripe* is 16 columns over the whole height; `stripe` counts a pipe's stripes,
 // modulo 4.
 
 #include "engine/core/definition/shape_cells.hpp"
@@ -30,7 +30,7 @@ enum class RayKind {
     shape,  // object with a shape map and bands for this ray
 };
 
-// Bracket finder: the two images beside the ray (section 5).
+// Bracket finder output: the two captured images that enclose the ray (section 5).
 struct BracketedRay {
     static constexpr int kBits = 4 + 2 + 4 + 23 + 29 + 31 + 32 + 7 + 7 + 31 + 31 + 11 + 27 + 2;
     int view = 0;
@@ -80,7 +80,7 @@ struct ColumnSetup {
     static constexpr int kPlaceBits = kHeadBits + 46 + 36 + 9 + 2 * ImageSetup::kBits + 9 + 30 + 23;
     int view = 0;
     RayKind kind = RayKind::none;
-    int stripe = 0;           // band reader
+    int stripe = 0;           // set by the band reader
     int column = 0;           // in the stripe; set by the band reader
     bool same_cells = false;  // the same cells as the previous column; set by the band reader
     // plane
@@ -168,8 +168,8 @@ struct SampleHead {
     static constexpr int kBits = 9 + 1 + 1 + 9 + 1 + 1 + MarchState::kBits;
     int id = 0;
     bool is_there = false;  // false: a token that only ends its surface
-    bool second = false;    // image
-    int weight = 0;         // of the second image
+    bool second = false;    // sample of the second image
+    int weight = 0;         // blend weight of the second image
     bool last = false;      // last sample of its surface
     bool final = false;
     MarchState next;

@@ -84,13 +84,13 @@ TEST(BoardCycles, MemoryReadsAreThoseOfTheFormula) {
             lines += ray.image >= 0 ? 4 : 0;
             words += static_cast<std::uint64_t>((view.height + 1) / 2);
             for (int j = 0; j < view.height; j += 2) {
-                const auto shows = [&](int at) {
+                const auto is_visible = [&](int at) {
                     return ray.image >= 0 && at < view.height && ray.row(at) >= 0 && ray.row(at) < scene.object.height;
                 };
-                const bool both = shows(j) && shows(j + 1);
+                const bool both = is_visible(j) && is_visible(j + 1);
                 const std::uint64_t alpha = both && ray.row(j) / 32 != ray.row(j + 1) / 32 ? 2 : 1;
                 const std::uint64_t pixels =
-                    static_cast<std::uint64_t>(shows(j)) + static_cast<std::uint64_t>(shows(j + 1));
+                    static_cast<std::uint64_t>(is_visible(j)) + static_cast<std::uint64_t>(is_visible(j + 1));
                 samples += (pixels > 0 ? alpha : 0) + 2 * pixels;
                 nulls += (pixels > 0 ? 0 : 1) + 2 * (2 - pixels);
             }

@@ -72,18 +72,18 @@ Activity BlockMotion::tick(std::uint64_t) {
 
 Activity BlockMotion::send_output() {
     if (!out_.can_push()) return Activity::output_full;
-    const RequestedRecord& asked = in_.front();
-    first_ = first_ || asked.request.first;
+    const RequestedRecord& requested = in_.front();
+    first_ = first_ || requested.request.first;
     BlockRecord record;
-    record.empty = asked.class_number == 0;
+    record.empty = requested.class_number == 0;
     if (!record.empty) {
-        const ObjectRegisters& object = registers_.object_of(asked.request.view);
+        const ObjectRegisters& object = registers_.object_of(requested.request.view);
         const codec::RecordClass& record_class =
-            object.classes[asked.predicted_image ? 1 : 0][static_cast<std::size_t>(asked.class_number)];
+            object.classes[requested.predicted_image ? 1 : 0][static_cast<std::size_t>(requested.class_number)];
         if (record_class.predicted && (asks_ == nullptr || !asks_->can_push())) return Activity::output_full;
         std::array<std::uint8_t, 32> bytes{};
         for (int n = 0; n < record_class.bytes(); ++n) {
-            const int at = asked.lane + n;
+            const int at = requested.lane + n;
             bytes[static_cast<std::size_t>(n)] =
                 static_cast<std::uint8_t>(collected_words_[static_cast<std::size_t>(at / 8)] >> (8 * (at % 8)));
         }
@@ -91,7 +91,7 @@ Activity BlockMotion::send_output() {
         if (record_class.predicted) {
             const codec::BoardMotion motion = codec::board_motion(static_cast<std::uint16_t>(bytes[0] | bytes[1] << 8));
             ReferenceRequests requests =
-                reference_requests(asked.request, asked.references[static_cast<std::size_t>(motion.reference)],
+                reference_requests(requested.request, requested.references[static_cast<std::size_t>(motion.reference)],
                                    motion.x, motion.y, object.coded_width, object.coded_height);
             record.motion_y = motion.y;
             record.reference_column = requests.items[0].column & 7;
@@ -102,7 +102,7 @@ Activity BlockMotion::send_output() {
             left_over_ = requests.items[1];
         }
     }
-    record.block_row = asked.request.block_row;
+    record.block_row = requested.request.block_row;
     out_.push(record);
     in_.pop();
     collected_ = 0;

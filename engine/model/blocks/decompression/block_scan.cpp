@@ -29,10 +29,10 @@ Activity BlockScan::tick(std::uint64_t) {
     if (!pixels_.can_push()) return Activity::output_full;
     const BoardView& view = registers_.view(column_.view);
     const std::int64_t row = row_q16_ >> 16;
-    const bool shows =
+    const bool is_visible =
         column_.has_ray && view_row_ < view.height && row >= 0 && row < registers_.object_of(column_.view).height;
-    const int block_row = static_cast<int>(shows ? row >> 3 : 0);
-    const bool joins = shows && run_ > 0 && run_ < kMaxPixels && block_row == request_.block_row;
+    const int block_row = static_cast<int>(is_visible ? row >> 3 : 0);
+    const bool joins = is_visible && run_ > 0 && run_ < kMaxPixels && block_row == request_.block_row;
     if (run_ > 0 && !joins) {
         if (!asks_.can_push()) return Activity::output_full;
         asks_.push(request_);
@@ -40,8 +40,8 @@ Activity BlockScan::tick(std::uint64_t) {
     }
     CodedPixel pixel;
     pixel.view = column_.view;
-    pixel.shows = pixel.pending = shows;
-    if (shows) {
+    pixel.is_visible = pixel.pending = is_visible;
+    if (is_visible) {
         if (run_ == 0) {
             request_ = {column_.view, first_, column_.row_step_q16 >= 0, column_.image, column_.column, block_row, 0};
             first_ = false;

@@ -52,7 +52,7 @@ void BookBanks::set_byte(const BookCounts& counts, std::size_t place, std::uint8
 YuvaPixel decode_coded_pixel(const BookBanks& banks, const CodedPixel& pixel) {
     YuvaPixel out;
     out.view = pixel.view;
-    if (!pixel.shows || pixel.alpha == CodedPixel::Alpha::none) return out;
+    if (!pixel.is_visible || pixel.alpha == CodedPixel::Alpha::none) return out;
     std::array<int, 3> samples = {pixel.flat[0], pixel.flat[1], pixel.flat[2]};
     for (int h = pixel.hops - 1; h >= 0; --h) {
         const std::array<int, 3> sum = sum_of_entries(banks, pixel.hop[static_cast<std::size_t>(h)]);
@@ -105,7 +105,7 @@ Activity BookLookup::load() {
 
 Activity BookLookup::look_up(std::optional<YuvaPixel>& out) {
     if (!in_.can_pop()) return Activity::idle;
-    if (in_.front().shows && registers_.object_of(in_.front().view).serial != resident_) {
+    if (in_.front().is_visible && registers_.object_of(in_.front().view).serial != resident_) {
         if (!stage_.empty()) return Activity::busy;  // drain the pipeline first
         loading_ = true;
         requested_ = written_ = 0;

@@ -42,18 +42,18 @@ Activity TileReader::tick(std::uint64_t) {
     if (!in_.can_pop()) return Activity::idle;
     if (!out_.can_push()) return Activity::output_full;
     const FoundTile& found = in_.front();
-    RequestedTile asked{found.request, RequestedTile::Kind::same, 0};
+    RequestedTile requested{found.request, RequestedTile::Kind::same, 0};
     if (!found.same) {
         if (!entries_.can_pop()) return Activity::memory_data;
         if (!requests_.can_push()) return Activity::memory_port;
         const auto entry = static_cast<std::uint32_t>(entries_.pop().data >> (found.high ? 32 : 0));
-        asked.kind = entry == kNoTile ? RequestedTile::Kind::nothing : RequestedTile::Kind::read;
-        if (asked.kind == RequestedTile::Kind::read) {
-            asked.address = entry;
+        requested.kind = entry == kNoTile ? RequestedTile::Kind::nothing : RequestedTile::Kind::read;
+        if (requested.kind == RequestedTile::Kind::read) {
+            requested.address = entry;
             requests_.push({entry, false});
         }
     }
-    out_.push(asked);
+    out_.push(requested);
     in_.pop();
     return Activity::busy;
 }
@@ -76,26 +76,26 @@ Activity RecordReader::tick(std::uint64_t) {
         return Activity::busy;
     }
     if (!in_.can_pop()) return Activity::idle;
-    const RequestedTile& asked = in_.front();
-    if (asked.kind == RequestedTile::Kind::read && !loaded_) {
+    const RequestedTile& requested = in_.front();
+    if (requested.kind == RequestedTile::Kind::read && !loaded_) {
         if (!heads_.can_pop()) return Activity::memory_data;
         head_ = heads_.pop().data;
-        tile_ = asked.address;
+        tile_ = requested.address;
         loaded_ = true;
         return Activity::busy;
     }
     if (!out_.can_push()) return Activity::output_full;
     if (!requests_.can_push()) return Activity::memory_port;
-    if (asked.kind == RequestedTile::Kind::nothing) head_ = 0;
-    const int block = asked.request.block();
+    if (requested.kind == RequestedTile::Kind::nothing) head_ = 0;
+    const int block = requested.request.block();
     RequestedRecord record;
-    record.request = asked.request;
+    record.request = requested.request;
     record.class_number = block_class(head_, block);
     const auto byte = [&](int n) { return static_cast<int>((head_ >> (8 * n)) & 255U); };
     record.predicted_image = byte(6) != kNoReferenceByte;
     record.references = {byte(6), byte(7)};
     if (record.class_number > 0) {
-        const auto& classes = registers_.object_of(asked.request.view).classes[record.predicted_image ? 1 : 0];
+        const auto& classes = registers_.object_of(requested.request.view).classes[record.predicted_image ? 1 : 0];
         const int offset = record_offset(head_, block, classes);
         const int bytes = classes[static_cast<std::size_t>(record.class_number)].bytes();
         record.lane = offset & 7;

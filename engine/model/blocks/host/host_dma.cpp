@@ -7,12 +7,12 @@ HostDma::HostDma(const RegisterFile& registers, Fifo<Done>& images_ready, std::v
     : Block("host_dma", "a request and a word per cycle"),
       registers_(registers),
       images_ready_(reads(images_ready)),
-      channels_(declared(std::move(channels))),
+      channels_(declare_ports(std::move(channels))),
       words_(writes(words)),
       transferred_(reads(transferred)),
       buffer_free_(writes(buffer_free)) {}
 
-std::vector<DmaPort> HostDma::declared(std::vector<DmaPort> channels) {
+std::vector<DmaPort> HostDma::declare_ports(std::vector<DmaPort> channels) {
     for (const DmaPort& channel : channels) {
         writes(*channel.requests);
         reads(*channel.answers);

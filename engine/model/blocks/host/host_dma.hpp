@@ -27,7 +27,7 @@ public:
     [[nodiscard]] std::string state_text() const override;
 
 private:
-    std::vector<DmaPort> declared(std::vector<DmaPort> channels);
+    std::vector<DmaPort> declare_ports(std::vector<DmaPort> channels);
     void begin_view();
     bool send_request();
     [[nodiscard]] const std::vector<int>& sizes_words() const {

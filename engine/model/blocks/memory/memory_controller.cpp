@@ -30,7 +30,7 @@ MemoryController::MemoryController(std::string name, const MemorySettings& setti
       loads_(reads(loads)),
       object_loaded_(writes(object_loaded)),
       in_flight_(std::bit_ceil(static_cast<std::size_t>(read_cycles(settings)))),
-      promised_(ports_.size()),
+      outstanding_(ports_.size()),
       next_window_(static_cast<std::uint64_t>(settings.maintenance_interval)) {
     for (const ReadPort& port : ports_) {
         reads(*port.requests);
@@ -43,18 +43,18 @@ MemoryController::MemoryController(std::string name, const MemorySettings& setti
 Activity MemoryController::tick(std::uint64_t now) {
     deliver(now);
     if (window_ != Window::none || now >= next_window_) return maintain(now);
-    if (chosen_ == kNobody) choose();
-    if (chosen_ == kNobody) return starved_ ? Activity::output_full : Activity::idle;
+    if (chosen_ == kNoClient) choose_client();
+    if (chosen_ == kNoClient) return starved_ ? Activity::output_full : Activity::idle;
     return serve(now);
 }
 
 void MemoryController::deliver(std::uint64_t now) {
-    if (returned_ != kNobody) --promised_[static_cast<std::size_t>(returned_)];
+    if (returned_ != kNoClient) --outstanding_[static_cast<std::size_t>(returned_)];
     InFlight& arriving = in_flight_[now & (in_flight_.size() - 1)];
     returned_ = arriving.port;
-    if (arriving.port == kNobody) return;
+    if (arriving.port == kNoClient) return;
     ports_[static_cast<std::size_t>(arriving.port)].answers->push({arriving.data});
-    arriving.port = kNobody;
+    arriving.port = kNoClient;
 }
 
 Activity MemoryController::maintain(std::uint64_t now) {
@@ -109,7 +109,7 @@ void MemoryController::load_word(std::uint64_t now) {
     loads_.pop();
 }
 
-void MemoryController::choose() {
+void MemoryController::choose_client() {
     if (batch_left_ == 0 && image_writes_.count() >= settings_.write_batch) batch_left_ = settings_.write_batch;
     if (batch_left_ > 0 && image_writes_.can_pop()) {
         chosen_ = kImageWrite;
@@ -120,7 +120,7 @@ void MemoryController::choose() {
     starved_ = false;
     for (std::size_t n = 0; n < ports_.size(); ++n) {
         if (!ports_[n].requests->can_pop()) continue;
-        if (ports_[n].answers->room() > promised_[n]) {
+        if (ports_[n].answers->room() > outstanding_[n]) {
             chosen_ = static_cast<int>(n);
             return;
         }
@@ -160,10 +160,10 @@ Activity MemoryController::serve_read(std::uint64_t now) {
     }
     ++(read.null ? counters_.nulls : counters_.words_read)[n];
     ports_[n].requests->pop();
-    ++promised_[n];
+    ++outstanding_[n];
     const std::uint64_t arrives = now + static_cast<std::uint64_t>(read_cycles(settings_) - 1);
     in_flight_[arrives & (in_flight_.size() - 1)] = {chosen_, data};
-    chosen_ = kNobody;
+    chosen_ = kNoClient;
     return Activity::busy;
 }
 
@@ -180,12 +180,12 @@ Activity MemoryController::serve_write(std::uint64_t now) {
     image_writes_.pop();
     ++counters_.image_words;
     --batch_left_;
-    chosen_ = kNobody;
+    chosen_ = kNoClient;
     return Activity::busy;
 }
 
 std::string MemoryController::state_text() const {
-    std::string text = chosen_ == kNobody       ? "no client"
+    std::string text = chosen_ == kNoClient     ? "no client"
                        : chosen_ == kImageWrite ? "image write"
                                                 : ports_[static_cast<std::size_t>(chosen_)].client;
     return "serves " + text + ", batch left " + std::to_string(batch_left_);

@@ -52,21 +52,21 @@ public:
     static int read_cycles(const MemorySettings& settings);
 
 private:
-    static constexpr int kNobody = -1;
+    static constexpr int kNoClient = -1;
     static constexpr int kImageWrite = -2;
     enum class Window { none, closing, refreshing, loading };
 
     void deliver(std::uint64_t now);
     Activity maintain(std::uint64_t now);
     void load_word(std::uint64_t now);
-    void choose();
+    void choose_client();
     Activity serve(std::uint64_t now);
     Activity open_row(WordAddress address, std::uint64_t now);
     Activity serve_read(std::uint64_t now);
     Activity serve_write(std::uint64_t now);
 
     struct InFlight {
-        int port = kNobody;
+        int port = kNoClient;
         std::uint64_t data = 0;
     };
 
@@ -80,9 +80,9 @@ private:
     Counters counters_;
 
     std::vector<InFlight> in_flight_;  // ring buffer, indexed by the cycle of arrival
-    std::vector<int> promised_;        // per port: outstanding answers
-    int returned_ = kNobody;           // port whose answer was pushed in the previous cycle
-    int chosen_ = kNobody;
+    std::vector<int> outstanding_;     // per port: outstanding answers
+    int returned_ = kNoClient;         // port whose answer was pushed in the previous cycle
+    int chosen_ = kNoClient;
     int batch_left_ = 0;
     bool starved_ = false;  // a port has a request, but no space for the answer
     Window window_ = Window::none;

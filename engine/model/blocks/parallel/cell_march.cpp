@@ -59,7 +59,7 @@ bool CellMarch::load(bool& writes_cells) {
     const std::uint64_t word = held;
     writes_cells = words_left_ % 2 == 1;
     if (writes_cells) {
-        keep_cells(first_line_word_, word);
+        store_cells(first_line_word_, word);
     } else {
         first_line_word_ = word;
     }
@@ -67,7 +67,7 @@ bool CellMarch::load(bool& writes_cells) {
     return true;
 }
 
-void CellMarch::keep_cells(std::uint64_t first_line, std::uint64_t second_line) {
+void CellMarch::store_cells(std::uint64_t first_line, std::uint64_t second_line) {
     const int pair = (4 * words_of_column_ - words_left_) / 2;
     auto& column = cells_[ColumnTable::place(loading_.stripe, loading_.column)];
     auto& cells = column[static_cast<std::size_t>(pair / words_of_column_)];
@@ -159,7 +159,7 @@ void CellMarch::take_turn(Turn& turn, int looks) {
         turn.outcome = Turn::Outcome::met;
         turn.met = {turn.ray.pixel, 0, true, turn.state};
     }
-    for (int n = 0; n < looks && turn.outcome == Turn::Outcome::goes_on; ++n) {
+    for (int n = 0; n < looks && turn.outcome == Turn::Outcome::continues; ++n) {
         // The second look at the foot depends on the result of the first.
         if (turn.state.begin < MarchState::kFoot) {
             look(turn, column);
@@ -173,18 +173,18 @@ Activity CellMarch::tick(std::uint64_t) {
     bool writes_cells = false;
     const bool loads = load(writes_cells);
     Turn turn;
-    bool goes_on = false;
+    bool continues = false;
     if (line_.has_output()) {
         turn = line_.output();
-        goes_on = turn.outcome == Turn::Outcome::goes_on;
+        continues = turn.outcome == Turn::Outcome::continues;
         const bool met = turn.outcome == Turn::Outcome::met;
-        if (!goes_on && !(met ? met_.can_push() : empty_.can_push())) {  // the whole pipeline stalls
+        if (!continues && !(met ? met_.can_push() : empty_.can_push())) {  // the whole pipeline stalls
             return loads ? Activity::busy : Activity::output_full;
         }
         if (met) met_.push(turn.met);
-        if (!goes_on && !met) empty_.push({turn.ray.pixel.id, 0});
+        if (!continues && !met) empty_.push({turn.ray.pixel.id, 0});
     }
-    if (goes_on || next_ray(turn)) {
+    if (continues || next_ray(turn)) {
         take_turn(turn, writes_cells ? 1 : 2);
         line_.advance(turn);
         return Activity::busy;

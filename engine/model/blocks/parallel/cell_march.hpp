@@ -53,15 +53,15 @@ public:
 private:
     // A ray with the result of its turn.
     struct Turn {
-        enum class Outcome { goes_on, met, empty };
+        enum class Outcome { continues, met, empty };
         PixelBandRay ray;
         MarchState state;
         SurfaceStack foot;  // surfaces at the foot, from the second to last look
-        Outcome outcome = Outcome::goes_on;
+        Outcome outcome = Outcome::continues;
         SurfaceHit met;
     };
     bool load(bool& writes_cells);
-    void keep_cells(std::uint64_t first_line, std::uint64_t second_line);
+    void store_cells(std::uint64_t first_line, std::uint64_t second_line);
     bool next_ray(Turn& turn);
     void take_turn(Turn& turn, int looks);
     void look(Turn& turn, const ColumnSetup& column);

@@ -109,17 +109,17 @@ RayRise::RayRise(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo
       stage_(kStages, writes(out)) {}
 
 Activity RayRise::tick(std::uint64_t) {
-    const bool takes_column = columns_.can_pop();
-    if (takes_column) table_.put(columns_.pop());
+    const bool stores_column = columns_.can_pop();
+    if (stores_column) table_.put(columns_.pop());
     const Activity activity = stage_.step([&](std::optional<PixelBandRay>& ray) {
-        if (!in_.can_pop() || takes_column || !table_.holds(in_.front()))
+        if (!in_.can_pop() || stores_column || !table_.holds(in_.front()))
             return Activity::idle;  // the table has one port
         const ScannedPixel pixel = in_.pop();
         ray = pixel_band_ray(pixel, table_.of(pixel), registers_.object_of(pixel.view).shape,
                              registers_.view(pixel.view).b_q20);
         return Activity::busy;
     });
-    return takes_column ? Activity::busy : activity;
+    return stores_column ? Activity::busy : activity;
 }
 
 }  // namespace rs::engine::model

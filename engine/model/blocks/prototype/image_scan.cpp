@@ -53,8 +53,8 @@ Activity RowScan::tick(std::uint64_t) {
     }
     if (view_row_ < view.height) {
         const std::int64_t row = row_q16_ >> 16;
-        pair_.shows[n] = column_.has_ray && row >= 0 && row < registers_.object_of(column_.view).height;
-        pair_.row[n] = pair_.shows[n] ? static_cast<int>(row) : 0;
+        pair_.is_visible[n] = column_.has_ray && row >= 0 && row < registers_.object_of(column_.view).height;
+        pair_.row[n] = pair_.is_visible[n] ? static_cast<int>(row) : 0;
         row_q16_ += column_.row_step_q16;
     }
     ++view_row_;

@@ -47,7 +47,7 @@ Activity RenderControl::tick(std::uint64_t now) {
 }
 
 bool RenderControl::is_free(int bank) const {
-    return std::none_of(queue_.begin(), queue_.end(), [&](const Queued& q) { return q.bank == bank; });
+    return std::none_of(queue_.begin(), queue_.end(), [&](const QueuedCycle& q) { return q.bank == bank; });
 }
 
 bool RenderControl::take_command() {
@@ -111,7 +111,7 @@ bool RenderControl::start_views(std::uint64_t now) {
 }
 
 bool RenderControl::uses_object(int slot) const {
-    return std::any_of(queue_.begin(), queue_.end(), [&](const Queued& q) {
+    return std::any_of(queue_.begin(), queue_.end(), [&](const QueuedCycle& q) {
         const std::vector<BoardView>& views = registers_.banks[static_cast<std::size_t>(q.bank)].views;
         return std::any_of(views.begin(), views.end(), [&](const BoardView& v) { return v.object == slot; });
     });

@@ -63,11 +63,11 @@ private:
     Fifo<Done>& buffer_free_;
     Fifo<Done>& object_ready_;
 
-    struct Queued {
+    struct QueuedCycle {
         std::uint64_t program = 0;
         int bank = 0;
     };
-    std::deque<Queued> queue_;  // `rendering_`: the first one is being rendered
+    std::deque<QueuedCycle> queue_;  // `rendering_`: the first one is being rendered
     bool rendering_ = false;
     int next_view_ = 0;
     int written_views_ = 0;

@@ -16,14 +16,15 @@ Activity SampleFetch::tick(std::uint64_t) {
     SampleTag tag;
     tag.view = pair.view;
     MemoryRead read;
-    const bool apart = pair.shows[0] && pair.shows[1] && (pair.row[0] >> 5) != (pair.row[1] >> 5);
+    const bool apart = pair.is_visible[0] && pair.is_visible[1] && (pair.row[0] >> 5) != (pair.row[1] >> 5);
     if (slot_ < 2) {
-        const int first = slot_ == 0 && pair.shows[0] ? 0 : 1;  // pixel whose word is read
-        tag.has_alpha[0] = slot_ == 0 && pair.shows[0];
-        tag.has_alpha[1] = pair.shows[1] && (!apart || slot_ == 1);
+        const int first = slot_ == 0 && pair.is_visible[0] ? 0 : 1;  // pixel whose word is read
+        tag.has_alpha[0] = slot_ == 0 && pair.is_visible[0];
+        tag.has_alpha[1] = pair.is_visible[1] && (!apart || slot_ == 1);
         tag.lane[0] = pair.row[0] & 31;
         tag.lane[1] = pair.row[1] & 31;
-        read = {pair.alpha + static_cast<WordAddress>(pair.row[first] >> 5), !pair.shows[0] && !pair.shows[1]};
+        read = {pair.alpha + static_cast<WordAddress>(pair.row[first] >> 5),
+                !pair.is_visible[0] && !pair.is_visible[1]};
         slot_ = slot_ == 0 && apart ? 1 : 2;
     } else {
         const int n = (slot_ - 2) / 2;
@@ -34,7 +35,7 @@ Activity SampleFetch::tick(std::uint64_t) {
         tag.lane[n] = luma ? row & 7 : (row >> 1) & 3;
         // A word has eight rows of Y, or four (U, V) pairs for eight rows: both words are the (row >> 3)-th of their
         // column.
-        read = {(luma ? pair.luma : pair.chroma) + static_cast<WordAddress>(row >> 3), !pair.shows[n]};
+        read = {(luma ? pair.luma : pair.chroma) + static_cast<WordAddress>(row >> 3), !pair.is_visible[n]};
         slot_ = slot_ == 5 ? 0 : slot_ + 1;
     }
     requests_.push(read);

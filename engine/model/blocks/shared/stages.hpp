@@ -14,32 +14,32 @@ namespace rs::engine::model {
 template <class T>
 class DelayLine {
 public:
-    explicit DelayLine(int stages) : places_(static_cast<std::size_t>(stages)) { RS_CHECK(stages >= 1); }
+    explicit DelayLine(int stages) : stages_(static_cast<std::size_t>(stages)) { RS_CHECK(stages >= 1); }
 
     [[nodiscard]] bool empty() const { return count_ == 0; }
-    [[nodiscard]] bool has_output() const { return places_[at_].full; }  // an item leaves in this cycle
-    [[nodiscard]] const T& output() const { return places_[at_].item; }
+    [[nodiscard]] bool has_output() const { return stages_[at_].full; }  // an item leaves in this cycle
+    [[nodiscard]] const T& output() const { return stages_[at_].item; }
 
     // Ends the cycle; the leaving item is removed.
     void advance() {
-        count_ -= static_cast<int>(places_[at_].full);
-        places_[at_].full = false;
-        at_ = at_ + 1 == places_.size() ? 0 : at_ + 1;
+        count_ -= static_cast<int>(stages_[at_].full);
+        stages_[at_].full = false;
+        at_ = at_ + 1 == stages_.size() ? 0 : at_ + 1;
     }
     // Ends the cycle with an item that enters.
     void advance(const T& item) {
         const std::size_t place = at_;
         advance();
-        places_[place] = {true, item};
+        stages_[place] = {true, item};
         ++count_;
     }
 
 private:
-    struct Place {
+    struct Stage {
         bool full = false;
         T item{};
     };
-    std::vector<Place> places_;
+    std::vector<Stage> stages_;
     std::size_t at_ = 0;
     int count_ = 0;
 };

@@ -46,7 +46,7 @@ bool DoubleBufferedCodebook::load() {
         requests_.push({object_.books + requested_++, false});
         moved = true;
     }
-    Set& set = sets_[static_cast<std::size_t>(loading_)];
+    BankSet& set = sets_[static_cast<std::size_t>(loading_)];
     if (words_.can_pop()) {
         const std::uint64_t word = words_.pop().data;
         for (std::size_t n = 0; n < 8; ++n) {
@@ -67,7 +67,7 @@ Activity DoubleBufferedCodebook::look_up(std::optional<YuvaPixel>& out) {
     if (!in_.can_pop()) return Activity::idle;
     const CodedPixel& pixel = in_.front();
     const std::uint32_t serial = registers_.object_of(pixel.view).serial;
-    const Set* const set = sets_[0].serial == serial ? &sets_[0] : sets_[1].serial == serial ? &sets_[1] : nullptr;
+    const BankSet* const set = sets_[0].serial == serial ? &sets_[0] : sets_[1].serial == serial ? &sets_[1] : nullptr;
     if (set == nullptr) return Activity::memory_data;
     // Flat and predicted banks process one hop each per cycle; the pixel leaves with its last prediction.
     if (turns_ < pixel.hops - 2) {

@@ -38,12 +38,12 @@ private:
     Fifo<CodedPixel>& in_;
     Fifo<MemoryRead>& requests_;
     Fifo<MemoryWord>& words_;
-    struct Set {
+    struct BankSet {
         std::uint32_t serial = 0;     // number of the object's load; 0: none
         std::uint64_t last_view = 0;  // last view that needs the set, counted from 1
         std::unique_ptr<BookBanks> banks = std::make_unique<BookBanks>();
     };
-    std::array<Set, 2> sets_;
+    std::array<BankSet, 2> sets_;
     std::uint64_t views_ = 0;       // views received
     std::uint64_t views_done_ = 0;  // views finished
     int loading_ = -1;              // set that is being loaded; -1: none

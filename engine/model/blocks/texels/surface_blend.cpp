@@ -27,7 +27,7 @@ SurfaceBlend::SurfaceBlend(Fifo<FilteredSample>& in, Fifo<FinishedPixel>& out, F
       out_(writes(out)),
       again_(writes(again)) {}
 
-SurfaceBlend::Outcome SurfaceBlend::decided(const SampleHead& last) {
+SurfaceBlend::Outcome SurfaceBlend::resolve_surface(const SampleHead& last) {
     const SampleSum sum = blend_samples(samples_, last.weight);
     const Rgba8 colour = resolve(sum);
     Rgba8& kept = kept_[static_cast<std::size_t>(last.id)];
@@ -64,7 +64,7 @@ Activity SurfaceBlend::tick(std::uint64_t) {
         line_.advance();
         return Activity::busy;
     }
-    line_.advance(decided(sample.head));
+    line_.advance(resolve_surface(sample.head));
     samples_ = {};
     return Activity::busy;
 }

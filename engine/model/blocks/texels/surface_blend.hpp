@@ -32,7 +32,7 @@ private:
         FinishedPixel pixel;
         ReturnedPixel again;
     };
-    Outcome decided(const SampleHead& last);
+    Outcome resolve_surface(const SampleHead& last);
 
     Fifo<FilteredSample>& in_;
     Fifo<FinishedPixel>& out_;

@@ -42,7 +42,7 @@ bool FillFetch::fetch_coded() {
     if (sent_ < 64 && pixels_.can_push()) {
         CodedPixel pixel;
         pixel.view = fill_.view;
-        pixel.shows = pixel.pending = true;
+        pixel.is_visible = pixel.pending = true;
         pixel.begins = sent_ % 8 == 0;
         pixel.row = 8 * fill_.block_row + sent_ % 8;
         pixel.column = sent_ / 8;

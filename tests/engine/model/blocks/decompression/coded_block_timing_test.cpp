@@ -199,7 +199,7 @@ TEST(CodedBlockTiming, RecordSelectGivesAPixelPerCycle) {
     Bench bench({&in, &records, &out});
     for (int row = 6; row < 10; ++row) {
         CodedPixel pixel;
-        pixel.shows = pixel.pending = true;
+        pixel.is_visible = pixel.pending = true;
         pixel.begins = row == 6;
         pixel.row = row;
         put(in, pixel);
@@ -226,7 +226,7 @@ TEST(CodedBlockTiming, BookLookupLoadsAWordPerCycleThenGivesAPixelPerCycleOfLate
     BookLookup block(r.file, in, reads, words, out);
     Bench bench({&in, &reads, &words, &out});
     CodedPixel pixel;
-    pixel.shows = true;
+    pixel.is_visible = true;
     pixel.hops = 1;
     put(in, pixel);
     const auto all = static_cast<std::uint64_t>(r.file.objects[0].book_words);

@@ -15,8 +15,8 @@ using test::put;
 
 // Column 1, between two equal lines and at the first of two places in p: bands 2 and 6 of seven have a surface at depth
 // 100; the object extends to depth 120.
-struct March {
-    March() {
+struct MarchBench {
+    MarchBench() {
         r.file.objects[static_cast<std::size_t>(r.slot)].shape.thickness = 20;
         put(columns, column_of(RayKind::none, 0));
         put(columns, column_of(RayKind::shape, 1));
@@ -63,7 +63,7 @@ constexpr std::int32_t middle_of(int band) {
 TEST(CellMarchTiming, TakesATurnOfTwoLooksInEveryStageOfItsRing) {
     constexpr int kTurn = CellMarch::kStages;
     EXPECT_EQ(kTurn, 11);
-    March m;
+    MarchBench m;
     m.push(0, 0, 0);  // no ray
     EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), kTurn + 1);
     m.push(1, middle_of(4), 0);  // bands 4 and 5 are empty
@@ -85,7 +85,7 @@ TEST(CellMarchTiming, TakesATurnOfTwoLooksInEveryStageOfItsRing) {
 
 // Rays march concurrently: a turn enters in every cycle.
 TEST(CellMarchTiming, GivesAPixelPerCycleOfOneTurn) {
-    March m;
+    MarchBench m;
     for (int n = 0; n < 3; ++n) {
         put(m.in, {pixel_of(1 + 16 * n), middle_of(4), middle_of(4), 0});
     }
@@ -95,7 +95,7 @@ TEST(CellMarchTiming, GivesAPixelPerCycleOfOneTurn) {
 }
 
 TEST(CellMarchTiming, ReturnedPixelsPrecedeNewOnes) {
-    March m;
+    MarchBench m;
     m.push(1, middle_of(1), 1 << 14);
     EXPECT_EQ(m.bench.cycles_until(m.block, m.met), 2 * CellMarch::kStages + 1);
     m.push(17, middle_of(4), 0);
@@ -111,7 +111,7 @@ TEST(CellMarchTiming, ReturnedPixelsPrecedeNewOnes) {
 }
 
 TEST(CellMarchTiming, WaitsForTheLastWordOfItsColumn) {
-    March m;
+    MarchBench m;
     put(m.columns, column_of(RayKind::shape, 2));
     m.push(2, middle_of(9), 0);
     for (int n = 0; n < 7; ++n) {
@@ -124,7 +124,7 @@ TEST(CellMarchTiming, WaitsForTheLastWordOfItsColumn) {
 
 // A word of the second line is written as cells, through one of the ports of their memory.
 TEST(CellMarchTiming, LooksOnceInACycleThatWritesCells) {
-    March m;
+    MarchBench m;
     put(m.columns, column_of(RayKind::shape, 2));
     m.bench.step(m.block);
     put(m.words, {0});
@@ -139,7 +139,7 @@ TEST(CellMarchTiming, LooksOnceInACycleThatWritesCells) {
 
 // The stored and interpolated surface of two lines is that of section 6.
 TEST(CellMarchTiming, ShowsTheSurfaceBetweenItsCells) {
-    March m;
+    MarchBench m;
     ColumnSetup column = column_of(RayKind::shape, 2);
     column.line_part = 2;
     column.p_part = 4;
@@ -164,7 +164,7 @@ TEST(CellMarchTiming, ShowsTheSurfaceBetweenItsCells) {
 // Two places in p on two surfaces: the nearer one has more weight, and the farthest cell is behind both. A returned
 // pixel repeats the turns of the foot.
 TEST(CellMarchTiming, ReturnedPixelsHitTheSurfaceBehindTheLast) {
-    March m;
+    MarchBench m;
     ColumnSetup column = column_of(RayKind::shape, 2);
     column.p_part = 3;
     m.put_band_1(column, {{100, 100}, {140, 150}}, true);

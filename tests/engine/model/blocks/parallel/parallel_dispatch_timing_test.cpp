@@ -12,7 +12,7 @@ using test::Bench;
 using test::put;
 using test::ViewsOfThreeObjects;
 
-struct Lookup {
+struct LookupBench {
     // Runs `steps` cycles and answers requests at once; returns the number of answered words.
     int run(int steps) {
         int answered = 0;
@@ -32,7 +32,7 @@ struct Lookup {
     void pixel(int number, int hops) {
         CodedPixel p;
         p.view = number;
-        p.shows = true;
+        p.is_visible = true;
         p.hops = hops;
         put(in, p);
     }
@@ -48,7 +48,7 @@ struct Lookup {
 };
 
 TEST(ParallelTexelTiming, DoubleBufferedCodebookLoadsDuringLookUpsOfLatencySeven) {
-    Lookup l;
+    LookupBench l;
     const auto words = [&](int slot) {
         return static_cast<int>(l.r.file.objects[static_cast<std::size_t>(l.r.slots[slot])].book_words);
     };
@@ -72,7 +72,7 @@ TEST(ParallelTexelTiming, DoubleBufferedCodebookLoadsDuringLookUpsOfLatencySeven
 }
 
 TEST(ParallelTexelTiming, DoubleBufferedCodebookReplacesNoBooksOfAViewInFlight) {
-    Lookup l;
+    LookupBench l;
     l.view(0);
     l.run(30'000);
     l.view(3);

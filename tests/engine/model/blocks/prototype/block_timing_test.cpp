@@ -110,9 +110,9 @@ TEST(BlockTiming, RowScanGivesAPairEverySecondCycleAndOneMoreForAnOddRow) {
     for (int pair = 0; pair < 4; ++pair) {
         const PixelPair p = out.pop();
         out.commit();
-        EXPECT_TRUE(p.shows[0]);
+        EXPECT_TRUE(p.is_visible[0]);
         EXPECT_EQ(p.row[0], 2 * pair);
-        EXPECT_EQ(p.shows[1], pair < 3);
+        EXPECT_EQ(p.is_visible[1], pair < 3);
     }
 }
 

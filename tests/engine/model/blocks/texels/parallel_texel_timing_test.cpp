@@ -26,7 +26,7 @@ PlacedSample sample_at(int image, int left, int top, int fx, int fy, int view = 
     return sample;
 }
 
-struct Tags {
+struct TagsBench {
     void push(const PlacedSample& sample) { put(in, sample); }
     ViewsOfThreeObjects r;
     Fifo<PlacedSample> in{"in", 8, 1};
@@ -37,7 +37,7 @@ struct Tags {
 };
 
 TEST(ParallelTexelTiming, TexelTagsTakeACycleMoreForEachMissingBlock) {
-    Tags t;
+    TagsBench t;
     t.push(sample_at(1, 7, 15, 3, 5));  // four blocks
     EXPECT_EQ(t.bench.cycles_until(t.block, t.out), 5);
     EXPECT_EQ(t.fills.count(), 4);
@@ -58,7 +58,7 @@ TEST(ParallelTexelTiming, TexelTagsTakeACycleMoreForEachMissingBlock) {
 }
 
 TEST(ParallelTexelTiming, TexelTagsReplaceTheOlderLineAfterItsLastReader) {
-    Tags t;
+    TagsBench t;
     // Blocks 0, 4 and 8 of a row share a set.
     for (const int block : {0, 4, 0, 8}) {
         t.push(sample_at(2, 8 * block, 0, 0, 0));
@@ -132,7 +132,7 @@ TEST(ParallelTexelTiming, TexelMergeKeepsTheOrderOfTheBlocks) {
     for (int n = 1; n < 64; ++n) EXPECT_EQ(bench.cycles_until(block, out), 1);
 }
 
-struct Cache {
+struct CacheBench {
     void texels_of_a_block(int n, std::uint32_t value) {
         for (int i = 0; i < n; ++i) {
             put(texels, {0, value});
@@ -154,7 +154,7 @@ struct Cache {
 };
 
 TEST(ParallelTexelTiming, TexelCacheReadsInTheCycleAfterTheLastTexel) {
-    Cache c;
+    CacheBench c;
     c.wait_for(5, 1);
     c.wait_for(5, 0);
     put(c.targets, {5, 0});
@@ -167,7 +167,7 @@ TEST(ParallelTexelTiming, TexelCacheReadsInTheCycleAfterTheLastTexel) {
 }
 
 TEST(ParallelTexelTiming, TexelCacheWritesNoLineBeforeItsLastReaderHasRead) {
-    Cache c;
+    CacheBench c;
     c.wait_for(5, 0);
     c.wait_for(5, 1);  // waits for its block
     c.wait_for(6, 1);  // waits too; its block goes into a line that the previous sample reads
