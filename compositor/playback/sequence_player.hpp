@@ -22,7 +22,7 @@ struct PlayerOptions {
     std::optional<TracedOptions> tracing = {};  // nullopt: raster
     int passes = 16;                            // per traced frame
     std::optional<Weather> weather = {};        // overrides the sequence's weather
-    std::int64_t memory_bytes = usual_memory_budget();
+    std::int64_t memory_bytes = default_memory_budget();
 };
 
 /// Weather to draw; nullopt if fair.

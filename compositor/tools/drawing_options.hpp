@@ -26,7 +26,7 @@ struct DrawingOptions {
 
 struct ExecutorOptions {
     std::string executor = "core";
-    std::int64_t memory_mib = usual_memory_budget() >> 20;
+    std::int64_t memory_mib = default_memory_budget() >> 20;
 };
 
 /// Adds --samples, --shadows, --wire-frame, --object-depth and --object-samples.

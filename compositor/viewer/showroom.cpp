@@ -16,7 +16,7 @@ constexpr double kVelocitySmoothing_s = 0.3;  // time constant
 
 }  // namespace
 
-std::int64_t usual_memory_budget() {
+std::int64_t default_memory_budget() {
     return std::int64_t{sysconf(_SC_PHYS_PAGES)} / 2 * sysconf(_SC_PAGESIZE);
 }
 

@@ -23,10 +23,10 @@
 namespace rs::compositor {
 
 /// Half of the machine's physical memory.
-std::int64_t usual_memory_budget();
+std::int64_t default_memory_budget();
 
 struct ShowroomOptions {
-    std::int64_t memory_bytes = usual_memory_budget();  // limit for objects, including those being read
+    std::int64_t memory_bytes = default_memory_budget();  // limit for objects, including those being read
     // Every update waits for all objects that are needed and fit, so that images are reproducible. Otherwise objects
     // fade in when they are loaded.
     bool waits = false;

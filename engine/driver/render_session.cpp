@@ -108,12 +108,12 @@ Result<ObjectHandle> RenderSession::load(RaySpaceObject object) {
 }
 
 Result<ObjectHandle> RenderSession::load_checked(RaySpaceObject object) {
-    const std::shared_ptr<const RaySpaceObject> for_board = as_board_draws(object);
+    const std::shared_ptr<const RaySpaceObject> for_board = convert_for_board(object);
     RS_ASSIGN_OR_RETURN(Renderer renderer, Renderer::create(std::move(object)));
     return load({std::make_shared<const Renderer>(std::move(renderer)), for_board});
 }
 
-std::shared_ptr<const RaySpaceObject> RenderSession::as_board_draws(RaySpaceObject& object) const {
+std::shared_ptr<const RaySpaceObject> RenderSession::convert_for_board(RaySpaceObject& object) const {
     const BoardThread* const board = state_->executor.board();
     if (board == nullptr || !board->device().supports(object)) return nullptr;
     object = board->device().as_rendered(std::move(object));

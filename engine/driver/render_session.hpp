@@ -50,7 +50,7 @@ struct RenderSessionLimits {
 // Object prepared in advance, on any thread, so that load() takes no time.
 struct PreparedObject {
     std::shared_ptr<const Renderer> renderer;         // not null
-    std::shared_ptr<const RaySpaceObject> for_board;  // from RenderSession::as_board_draws(), or null
+    std::shared_ptr<const RaySpaceObject> for_board;  // from RenderSession::convert_for_board(), or null
 };
 
 struct RenderSessionStatistics {
@@ -74,7 +74,7 @@ public:
 
     /// Converts a valid object (validate_object) to the board's representation, if the session has a board that
     /// supports it. \return copy for PreparedObject::for_board; null, with `object` unchanged, otherwise
-    [[nodiscard]] std::shared_ptr<const RaySpaceObject> as_board_draws(RaySpaceObject& object) const;
+    [[nodiscard]] std::shared_ptr<const RaySpaceObject> convert_for_board(RaySpaceObject& object) const;
 
     [[nodiscard]] const RenderSessionLimits& limits() const;
     [[nodiscard]] bool has_board() const;

@@ -243,7 +243,7 @@ void coded_random_pixel(benchmark::State& state, codec::Profile profile) {
             tile = static_cast<int>(random() % static_cast<unsigned>(tiles));
         } while (!coded.images[static_cast<std::size_t>(view)].tiles[static_cast<std::size_t>(tile)].present);
         const bench::Stopwatch watch;
-        samples->need_tile(view, tile);
+        samples->ensure_tile(view, tile);
         state.SetIterationTime(watch.wall_s());
         double bytes = 0;
         for (int v = 0; v < views; ++v) {

@@ -38,7 +38,7 @@ PlanePoint plane_point(const Ring& ring, const ViewRegisters& registers, int i, 
     return point;
 }
 
-std::uint16_t map_answer(const Ring& ring, const PlanePoint& point) {
+std::uint16_t look_up_rs_map(const Ring& ring, const PlanePoint& point) {
     const std::int64_t xi = ((point.x_q20 + ring.x_half_q20) * ring.x_cells_per_unit_q12) >> 32;
     const std::int64_t ui = ((point.u_q28 + ring.u_half_q28) * ring.u_cells_per_unit_q12) >> 40;
     return ring.cells[ring.cell_index(point.plane, clamped(xi, ring.x_cells), clamped(ui, ring.u_cells))];
@@ -59,7 +59,7 @@ RaySetup set_up_ray(const RaySpaceObject& object, const ViewRegisters& registers
 
     const PlanePoint point = plane_point(ring, registers, i, j);
     if (!point.exists) return kNoRay;
-    const std::uint16_t image = map_answer(ring, point);
+    const std::uint16_t image = look_up_rs_map(ring, point);
     if (image == kNoImage) return kNoRay;
 
     // Section 3: column of the captured image and rows along it.

@@ -23,7 +23,7 @@ struct PlanePoint {
 PlanePoint plane_point(const Ring& ring, const ViewRegisters& registers, int i, int j);
 
 /// Looks up the ray in the RS map. \return index of a view, or kNoImage
-std::uint16_t map_answer(const Ring& ring, const PlanePoint& point);
+std::uint16_t look_up_rs_map(const Ring& ring, const PlanePoint& point);
 
 struct RaySetup {
     int image = -1;  // -1: no ray

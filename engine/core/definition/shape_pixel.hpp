@@ -95,7 +95,7 @@ SampleSum sample_image(const RaySpaceObject& object, const ShapeImage& image, in
 }
 
 // Section 8: blend weight of the second image, 0..256, adjusted by the lean (visibility weight) of a surface.
-inline int leaning_weight(int weight, int lean) {
+inline int apply_lean(int weight, int lean) {
     if (lean <= kBothShow) return (weight * lean + 4) >> 3;
     return weight + (((256 - weight) * (lean - kBothShow) + 4) >> 3);
 }
@@ -121,13 +121,13 @@ BlendedSurface blend_surface(const RaySpaceObject& object, const ViewRegisters& 
     const SampleSum second = setup.weight > 0 ? sample(setup.second) : SampleSum{};
     // Every point of the object projects into every silhouette.
     if ((first.exists && first.a == 0) || (second.exists && second.a == 0)) return {};
-    if (first.exists && second.exists) shown.sum = mix(first, second, leaning_weight(setup.weight, lean));
+    if (first.exists && second.exists) shown.sum = mix(first, second, apply_lean(setup.weight, lean));
     if (first.exists != second.exists) shown.sum = first.exists ? mix(first, first, 0) : mix(second, second, 0);
     return shown;
 }
 
 // Section 8, "Over": composites a surface over a farther one, if the farther one covers its pixel.
-inline ShapePixel laid_over(const ShapePixel& nearer, const ShapePixel& farther) {
+inline ShapePixel blend_over(const ShapePixel& nearer, const ShapePixel& farther) {
     const Rgba8& n = nearer.colour;
     const Rgba8& f = farther.colour;
     if (n.a == 0) return farther;
@@ -161,7 +161,7 @@ ShapePixel shape_pixel(const RaySpaceObject& object, const ViewRegisters& regist
         const BlendedSurface shown = shown_at(cell.depth_q3, cell.lean);
         if (shown.sum.a == 0) continue;
         const ShapePixel here = pixel(shown);
-        nearer = laid_over(nearer, here);
+        nearer = blend_over(nearer, here);
         if (!march.at_end() || here.colour.a >= kCoveringAlpha) break;
     }
     return nearer;

@@ -131,7 +131,7 @@ ShapeSetup set_up_shape(const RaySpaceObject& object, const ViewRegisters& regis
     const ShapeMap& shape = ring.shape;
     const PlanePoint point = plane_point(ring, registers, i, j);
     if (!point.exists) return {};
-    const std::uint16_t hint = map_answer(ring, point);
+    const std::uint16_t hint = look_up_rs_map(ring, point);
     if (hint == kNoImage) return {};
     const auto place = std::find(ring.views.begin(), ring.views.end(), hint) - ring.views.begin();
 

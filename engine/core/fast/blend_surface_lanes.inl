@@ -1,5 +1,5 @@
-// SIMD implementation of blend_surface() and laid_over() of shape_pixel.hpp, one row of the column per lane. No include
-// guard: shape_walk.cpp includes it once for each SIMD target.
+// SIMD implementation of blend_surface() and blend_over() of shape_pixel.hpp, one row of the column per lane. No
+// include guard: shape_walk.cpp includes it once for each SIMD target.
 
 #include "engine/core/definition/shape_pixel.hpp"
 #include "engine/core/fast/cell_march_lanes.inl"
@@ -64,7 +64,7 @@ struct BlendedLanes {
     Vector colour;
 };
 
-// leaning_weight() of the lanes `requested`.
+// apply_lean() of the lanes `requested`.
 HWY_INLINE Vector weight_of_second(const ShapeColumn& column, Vector surface, LaneMask requested) {
     const Vector lean = hn::ShiftRight<kDepthBits>(surface);
     const Vector both = number(kBothShow);
@@ -152,8 +152,8 @@ HWY_INLINE Vector alpha_of(Vector colour) {
     return hn::BitCast(Lanes(), hn::ShiftRight<24>(hn::BitCast(bits, colour)));
 }
 
-// laid_over() of two visible surfaces of which the farther one covers its pixel. Computes two channels at once.
-HWY_INLINE Vector laid_over(Vector nearer, Vector farther) {
+// blend_over() of two visible surfaces of which the farther one covers its pixel. Computes two channels at once.
+HWY_INLINE Vector blend_over(Vector nearer, Vector farther) {
     const Vector two = number(0x00FF00FF);
     const Vector alpha = alpha_of(nearer);
     const Vector weight = hn::Add(alpha, hn::ShiftRight<7>(alpha));

@@ -64,7 +64,7 @@ void CodedTexels::decode_tile_column(int image, int tile_column) {
     const codec::CodedImage& from = coded.images[static_cast<std::size_t>(image)];
     for (int row = 0; row < coded.tile_rows(); ++row) {
         const int tile = row * coded.tile_columns() + tile_column;
-        if (from.tiles[static_cast<std::size_t>(tile)].present) samples_->need_tile(image, tile);
+        if (from.tiles[static_cast<std::size_t>(tile)].present) samples_->ensure_tile(image, tile);
     }
 }
 

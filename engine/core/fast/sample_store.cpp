@@ -38,7 +38,7 @@ public:
         const int last_row = (bottom - 1) >> coded.tile_height_log2;
         for (int row = top >> coded.tile_height_log2; row <= last_row; ++row) {
             for (int column = left >> coded.tile_width_log2; column <= last_column; ++column) {
-                store_.need_tile(view, row * coded.tile_columns() + column);
+                store_.ensure_tile(view, row * coded.tile_columns() + column);
             }
         }
     }
@@ -89,7 +89,7 @@ codec::ConstPlaneViews SampleStore::planes(int view) const {
     return {planes[0], planes[1], planes[2], planes[3]};
 }
 
-void SampleStore::need_tile(int view, int tile) {
+void SampleStore::ensure_tile(int view, int tile) {
     DoneFlag& flag = tiles_[tile_index(view, tile)];
     if (!flag.done()) flag.ensure([&] { decode(view, tile); });
 }

@@ -27,7 +27,7 @@ public:
     [[nodiscard]] const codec::CodedImages& coded() const { return *coded_; }
 
     /// Decodes tile `tile` of a loaded image unless it is decoded already. Thread-safe.
-    void need_tile(int view, int tile);
+    void ensure_tile(int view, int tile);
     [[nodiscard]] bool decoded(int view, int tile) const { return tiles_[tile_index(view, tile)].done(); }
 
     /// Planes of an image; valid in decoded tiles only.

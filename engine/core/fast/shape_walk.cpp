@@ -103,7 +103,7 @@ public:
             const LaneMask covers = hn::And(active_, at_least(alpha_of(farther), number(kCoveringAlpha)));
             const LaneMask seen =
                 hn::Or(hn::And(alone, hn::Ne(farther, zero)), hn::And(covers, hn::Lt(alpha_of(nearer), number(128))));
-            add(rows, seen, hn::IfThenElse(alone, farther, laid_over(nearer, farther)), hn::Or(alone, covers));
+            add(rows, seen, hn::IfThenElse(alone, farther, blend_over(nearer, farther)), hn::Or(alone, covers));
             uncovered_ = hn::AndNot(covers, uncovered_);
         }
     }

@@ -53,7 +53,7 @@ struct ColumnReads {
             const PlanePoint point = plane_point(ring, view, i, 0);
             if (!point.exists) continue;
             ++map;
-            const std::uint16_t answer = map_answer(ring, point);
+            const std::uint16_t answer = look_up_rs_map(ring, point);
             if (answer == kNoImage) continue;
             if (ring.shape.empty()) {
                 lines += 4;

@@ -58,7 +58,7 @@ SurfaceSamples place_samples(const SurfaceHit& met, const ColumnSetup& column, c
         out.left = column.image_column;
         out.top = static_cast<int>(out.inside ? row : 0);
     } else {
-        blank.head.weight = leaning_weight(column.weight, met.lean);
+        blank.head.weight = apply_lean(column.weight, met.lean);
         const std::int64_t lambda_q20 = column.lambda0_q20 + ((met.depth_q3 * column.lambda1_q21) >> 4);
         const std::int32_t y_q16 = (b_q20 >> 4) + multiply_shift(narrow(lambda_q20), met.pixel.rise_q24, 28);
         for (int second = 0; second < 2; ++second) {

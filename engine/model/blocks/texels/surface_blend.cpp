@@ -31,7 +31,7 @@ SurfaceBlend::Outcome SurfaceBlend::resolve_surface(const SampleHead& last) {
     const SampleSum sum = blend_samples(samples_, last.weight);
     const Rgba8 colour = resolve(sum);
     Rgba8& kept = kept_[static_cast<std::size_t>(last.id)];
-    const Rgba8 so_far = laid_over({kept}, {colour}).colour;
+    const Rgba8 so_far = blend_over({kept}, {colour}).colour;
     const bool needs_behind = last.next.begin > MarchState::kFoot && colour.a < kCoveringAlpha;
     Outcome out;
     out.again = {last.id, last.next};

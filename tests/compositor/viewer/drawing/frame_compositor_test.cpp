@@ -257,7 +257,7 @@ TEST_F(Compositing, ABoardDrawsTheSameBits) {
     const auto engine = std::make_shared<engine::RenderSession>(viewer_session_limits(),
                                                                 engine::model::make_simulated_board(*config, true));
     RaySpaceObject object = test::drum_object();
-    const std::shared_ptr<const RaySpaceObject> for_board = engine->as_board_draws(object);
+    const std::shared_ptr<const RaySpaceObject> for_board = engine->convert_for_board(object);
     ASSERT_TRUE(for_board);
     Result<ViewableObject> viewable = make_viewable(std::move(object));
     ASSERT_TRUE(viewable);

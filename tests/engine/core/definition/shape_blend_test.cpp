@@ -50,12 +50,12 @@ TEST_F(Midway, BlendsBothImagesWithHalfWeightEach) {
 TEST_F(Midway, AnImageThatDoesNotShowTheSurfaceHasNoWeight) {
     EXPECT_EQ(shown({128, ShapeCell::kByFirst}, plain_).colour, by_view(0));
     EXPECT_EQ(shown({128, ShapeCell::kBySecond}, plain_).colour, by_view(1));
-    EXPECT_EQ(leaning_weight(100, 8), 100);
-    EXPECT_EQ(leaning_weight(100, 4), 50);
-    EXPECT_EQ(leaning_weight(100, 0), 0);
-    EXPECT_EQ(leaning_weight(100, 12), 178);
-    EXPECT_EQ(leaning_weight(100, 16), 256);
-    EXPECT_EQ(leaning_weight(101, 7), 88);  // 88.375
+    EXPECT_EQ(apply_lean(100, 8), 100);
+    EXPECT_EQ(apply_lean(100, 4), 50);
+    EXPECT_EQ(apply_lean(100, 0), 0);
+    EXPECT_EQ(apply_lean(100, 12), 178);
+    EXPECT_EQ(apply_lean(100, 16), 256);
+    EXPECT_EQ(apply_lean(101, 7), 88);  // 88.375
 }
 
 // Colour is weighted by alpha.
