@@ -9,7 +9,7 @@ BUILD_PACKAGES=(
 )
 # shellcheck disable=SC2034  # used by the scripts that source this file
 TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-14 shellcheck xvfb
-  dpkg-dev pybind11-dev python3-dev python3-numpy snakemake)
+  dpkg-dev pybind11-dev python3-dev python3-numpy python3-opencv snakemake doxygen help2man)
 # shellcheck disable=SC2034
 CLANG_PACKAGES=(clang-14 libclang-rt-14-dev llvm)  # for sanitizers, whose traces llvm names, and fuzzing
 # shellcheck disable=SC2034

@@ -66,7 +66,7 @@ std::optional<MapKind> parse_map_kind(const std::string& name) {
     return std::nullopt;
 }
 
-PlaneMapOptions usual_plane_map(MapKind kind) {
+PlaneMapOptions default_plane_map(MapKind kind) {
     PlaneMapOptions map;
     if (kind == MapKind::kShape) map.x_cells = map.u_cells = 128;
     return map;

@@ -25,7 +25,7 @@ std::optional<MapKind> parse_map_kind(const std::string& name);
 
 /// The default plane map of each kind. Beside a shape map it is coarser, since it only fills the rays without a
 /// surface.
-PlaneMapOptions usual_plane_map(MapKind kind);
+PlaneMapOptions default_plane_map(MapKind kind);
 
 struct BuildOptions {
     PlaneMapOptions map;
@@ -46,7 +46,8 @@ struct BuiltObject {
 /// image per thread.
 Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& options, Progress* progress = nullptr);
 
-/// Writes the stored images and their rig as a capture set to `folder`, without loss.
-Status extract_images(const RaySpaceObject& object, const std::filesystem::path& folder, Progress* progress = nullptr);
+/// Writes the stored images and their rig as a capture set to `folder`, without loss. `force` is that of StagedFolder.
+Status extract_images(const RaySpaceObject& object, const std::filesystem::path& folder, Progress* progress = nullptr,
+                      bool force = false);
 
 }  // namespace rs::encode

@@ -19,7 +19,7 @@ struct ImageGoal {
     std::optional<std::uint64_t> images_bytes;  // upper limit of chunks CODE and PICT together
     std::optional<double> psnr_db;              // lower limit of EncodedImages::psnr_db
     double quality = 75;                        // kMinQuality .. kMaxQuality
-    int effort = kDefaultEffort;                // dense encoder only: kLeastEffort .. kMaxEffort
+    int effort = kDefaultEffort;                // dense encoder only: kMinEffort .. kMaxEffort
 };
 inline constexpr double kMinQuality = 1;
 inline constexpr double kMaxQuality = 100;

@@ -7,7 +7,8 @@
 
 namespace rs::encode {
 
-Status extract_images(const RaySpaceObject& object, const std::filesystem::path& folder, Progress* progress) {
+Status extract_images(const RaySpaceObject& object, const std::filesystem::path& folder, Progress* progress,
+                      bool force) {
     if (object.rig_json.empty()) {
         return Error{object.name + ": contains no rig, which a capture set needs; encode the object again"};
     }
@@ -16,7 +17,7 @@ Status extract_images(const RaySpaceObject& object, const std::filesystem::path&
         return Error{object.name + ": its rig has " + std::to_string(rig.views.size()) + " views for " +
                      std::to_string(object.images.size()) + " images; the object is damaged, encode it again"};
     }
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, "images out of an object"));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, "images out of an object", force));
 
     const int count = static_cast<int>(object.images.size());
     for (int i = 0; i < count; ++i) {
@@ -28,7 +29,7 @@ Status extract_images(const RaySpaceObject& object, const std::filesystem::path&
         return write_png(staged.temporary_path() / rig.views[n].file_path, rgba_from_planar(object.images[n]));
     });
     if (!written) return written;
-    if (Status status = write_rig(staged.temporary_path() / kRigFileName, rig); !status) return status;
+    RS_TRY(write_rig(staged.temporary_path() / kRigFileName, rig));
     return staged.commit();
 }
 

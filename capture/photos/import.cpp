@@ -51,22 +51,7 @@ PhotoRequest photo_request(const ImportOptions& options) {
     const KnownInputs& known = options.known.known;
     const bool are_described = !options.segmentation.masks.empty() || !options.known.images.empty() ||
                                known.angles_rad || known.step_rad || known.equal_steps || options.degrees_per_view;
-    return {options.photos, options.output, options.max_side_px, options.frames, are_described};
-}
-
-// Rejects an output folder that is or contains the photos: an existing set at `output` is replaced completely, so
-// photos inside it would be lost.
-Status check_paths(const ImportOptions& options) {
-    std::error_code failure;
-    const fs::path photos = fs::weakly_canonical(options.photos, failure);
-    if (failure) return Error{options.photos.string() + ": cannot be resolved (" + failure.message() + ")"};
-    const fs::path output = fs::weakly_canonical(options.output, failure);
-    if (failure) return Error{options.output.string() + ": cannot be resolved (" + failure.message() + ")"};
-    const auto [rest, inner] = std::mismatch(output.begin(), output.end(), photos.begin(), photos.end());
-    if (rest != output.end()) return {};
-    return Error{options.output.string() + ": " + (photos == output ? "is" : "contains") +
-                 (is_video(options.photos) ? " the video " : " the folder of photos ") + options.photos.string() +
-                 ", which would be replaced; give another place with -o"};
+    return {options.photos, options.output, options.force, options.max_side_px, options.frames, are_described};
 }
 
 Status make_folder(const fs::path& folder, const fs::path& output) {
@@ -93,7 +78,7 @@ ImportReport report_of(const ImportOptions& options, const Intake& intake, const
     const auto [least, most] = std::ranges::minmax(turn.coverage);
     report.min_coverage = least;
     report.max_coverage = most;
-    report.small_cut_outs = std::move(turn.small);
+    report.small_foregrounds = std::move(turn.small);
     return report;
 }
 
@@ -107,7 +92,7 @@ std::vector<std::string> calibration_problems(const FoundRig& rig) {
     const std::string remedy =
         "; give --calibration nominal, --known, or photos with a printed board (rs-capture board)";
     if (found.rms_px > kMaxResidual_px) {
-        problems.push_back("the calibration fits the photos to " + with_digits(found.rms_px, 1) + " px only" + remedy);
+        problems.push_back("the calibration fits the photos to " + format_fixed(found.rms_px, 1) + " px only" + remedy);
     }
     if (found.deviations.f_px > kMaxFocalDeviation * found.model.lens.f_px) {
         problems.push_back("the focal length is uncertain by more than half of it" + remedy);
@@ -116,7 +101,8 @@ std::vector<std::string> calibration_problems(const FoundRig& rig) {
 }
 
 // Reports problems as an error, or as notes with --force.
-Status settle(const ImportOptions& options, const std::vector<std::string>& problems, std::vector<std::string>& notes) {
+Status report_problems(const ImportOptions& options, const std::vector<std::string>& problems,
+                       std::vector<std::string>& notes) {
     if (problems.empty()) return {};
     if (options.force) {
         notes.insert(notes.end(), problems.begin(), problems.end());
@@ -139,13 +125,13 @@ Status check_count(const PhotoFolder& folder, const ImportOptions& options) {
 }
 
 Result<ImportReport> import_checked(const ImportOptions& options, Progress* progress) {
-    RS_TRY(check_paths(options));
+    RS_TRY(refuse_overwriting_inputs(options.output, {options.photos}));
     RS_ASSIGN_OR_RETURN(PhotoFolder folder, open_photos(photo_request(options), progress));
     if (!options.segmentation.masks.empty() && folder.has_ambiguous_orientation()) {
         return ambiguous_orientation_error(folder, "--masks " + options.segmentation.masks.string());
     }
     RS_TRY(check_count(folder, options));
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(options.output, "imported photos"));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(options.output, "imported photos", options.force));
     const fs::path set = staged.temporary_path();
     const fs::path cut = set / "cut";
     for (const fs::path& inner : {cut, set / "images"}) {
@@ -165,10 +151,10 @@ Result<ImportReport> import_checked(const ImportOptions& options, Progress* prog
     SegmentationFindings findings =
         check_segmentation(intake.folder, turn, chosen.kind, options.segmentation.parameters.checks);
     chosen.notes.insert(chosen.notes.end(), findings.notes.begin(), findings.notes.end());
-    RS_TRY(settle(options, findings.problems, chosen.notes));
+    RS_TRY(report_problems(options, findings.problems, chosen.notes));
 
     RS_ASSIGN_OR_RETURN(FoundRig rig, find_rig(options, intake.folder, turn, foregrounds, progress));
-    RS_TRY(settle(options, calibration_problems(rig), rig.notes));
+    RS_TRY(report_problems(options, calibration_problems(rig), rig.notes));
 
     RS_ASSIGN_OR_RETURN(ImportReport report,
                         write_import_set(set, intake.folder, turn, foregrounds,

@@ -24,9 +24,10 @@ namespace rs::capture {
 
 struct ImportOptions : RigRequest {
     std::filesystem::path photos;  ///< folder, or a video (intake/photo_source.hpp)
-    std::filesystem::path output;  ///< folder; an existing set is replaced, see StagedFolder
+    std::filesystem::path output;  ///< folder; an existing one is replaced as StagedFolder states
     SegmenterRequest segmentation;
-    bool force = false;  ///< write a set whose checks failed; their findings become notes
+    /// Write a set whose checks failed, with their findings as notes, and replace an existing folder whatever it holds.
+    bool force = false;
     /// Larger photos are reduced first (open_photo_folder()); kMinSide_px .. kMaxImageSide_px.
     int max_side_px = kDefaultMaxSide_px;
     /// Number of frames of a video, or of photos of a larger folder, to select: kMinSelectedFrames ..

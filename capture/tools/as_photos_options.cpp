@@ -7,7 +7,7 @@
 
 namespace rs::capture {
 
-CLI::Validator within(double low, double high) {
+CLI::Validator range(double low, double high) {
     const CLI::Validator is_number(
         [](const std::string& text) {
             return std::isnan(std::strtod(text.c_str(), nullptr)) ? "'" + text + "' is not a number" : std::string();
@@ -38,7 +38,7 @@ void add_as_photos_options(CLI::App& synth, AsPhotosOptions& options) {
                        "Render photos of a turntable before a backdrop, with noise, as JPEG, and the ground truth");
     const auto number = [&](const char* name, double& value, const char* what, double low, double high) {
         return synth.add_option(name, value, std::string("Photos: ") + what)
-            ->check(within(low, high))
+            ->check(range(low, high))
             ->capture_default_str()
             ->needs(as_photos);
     };

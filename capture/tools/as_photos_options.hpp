@@ -11,7 +11,7 @@
 namespace rs::capture {
 
 /// Accepts a number in [low, high]; CLI::Range alone accepts NaN.
-CLI::Validator within(double low, double high);
+CLI::Validator range(double low, double high);
 
 struct AsPhotosOptions {
     bool is_enabled = false;

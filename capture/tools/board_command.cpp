@@ -26,7 +26,7 @@ CLI::Validator board_word(const std::string& key) {
 }
 
 Status run_board(const BoardCommandLine& given) {
-    if (Status written = write_board(given.output, given.sheet); !written) return written;
+    RS_TRY(write_board(given.output, given.sheet));
     const BoardDesign& design = given.sheet.design;
     std::printf("%s: %dx%d squares of %g mm (%g x %g mm); for import: --board %s\n", given.output.string().c_str(),
                 design.squares_x, design.squares_y, design.square_mm, design.squares_x * design.square_mm,

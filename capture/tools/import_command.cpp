@@ -149,8 +149,8 @@ std::string observations_text(const Calibration& found) {
     if (found.observations == 0) return {};
     std::string text = ", ";
     if (found.points > 0) text += std::to_string(found.points) + " points in ";
-    text += std::to_string(found.observations) + " observations, " + with_digits(found.rms_px, 2) + " px RMS";
-    if (found.held_out_rms_px) text += " (" + with_digits(*found.held_out_rms_px, 2) + " px held out)";
+    text += std::to_string(found.observations) + " observations, " + format_fixed(found.rms_px, 2) + " px RMS";
+    if (found.held_out_rms_px) text += " (" + format_fixed(*found.held_out_rms_px, 2) + " px held out)";
     return text;
 }
 
@@ -195,7 +195,7 @@ Status check_frames_usage(const ImportCommandLine& given) {
 
 Status run_import(const ImportCommandLine& given) {
     ImportOptions options = given.import;
-    if (Status status = check_frames_usage(given); !status) return status;
+    RS_TRY(check_frames_usage(given));
     RS_ASSIGN_OR_RETURN(const BackgroundRequest backdrop, parse_background(given.backdrop));
     options.segmentation.background = backdrop;
     options.segmentation.kind = kSegmenters.at(given.segmenter);
@@ -217,6 +217,11 @@ Status run_import(const ImportCommandLine& given) {
     options.calibration = kCalibrations.at(given.calibration);
     if (given.clockwise) options.turning = Turning::kClockwise;
     if (given.counter_clockwise) options.turning = Turning::kCounterClockwise;
+    const std::vector<std::filesystem::path> inputs{options.photos, options.segmentation.masks,
+                                                    options.segmentation.network, given.known, given.parameters};
+    for (const std::filesystem::path& output : {options.output, std::filesystem::path(given.report)}) {
+        if (Status kept = refuse_overwriting_inputs(output, inputs); !kept) return kept;
+    }
     std::optional<StagedFile> page;  // created before the import, so that an unusable path is reported at once
     if (!given.report.empty()) {
         RS_ASSIGN_OR_RETURN(StagedFile created, StagedFile::create(given.report));
@@ -240,8 +245,8 @@ Status run_import(const ImportCommandLine& given) {
     RS_ASSIGN_OR_RETURN(const ImportReport report, import_photos(options, &bar));
     if (page) {
         RS_ASSIGN_OR_RETURN(const std::string text, import_page(options.photos, report));
-        if (Status status = page->write(std::as_bytes(std::span(text))); !status) return status;
-        if (Status status = page->commit(); !status) return status;
+        RS_TRY(page->write(std::as_bytes(std::span(text))));
+        RS_TRY(page->commit());
     }
     for (const std::string& note : report.notes) {
         if (!given.quiet) std::fprintf(stderr, "rs-capture: %s\n", printable(note).c_str());
@@ -317,7 +322,8 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
                      "JSON file with thresholds of segmentation that differ from the defaults, for experiments "
                      "(docs/segmentation.md)")
         ->check(CLI::ExistingFile);
-    command->add_flag("--force", given->import.force, "Write the set even if checks fail");
+    command->add_flag("--force", given->import.force,
+                      "Write the set even if checks fail, and replace an output folder that contains other files");
     command
         ->add_option("--calibration", given->calibration,
                      "auto (the most accurate that succeeds), board, tracks, silhouettes or nominal (equal steps, a "

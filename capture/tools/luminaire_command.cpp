@@ -5,6 +5,7 @@
 #include "rayspace/light/luminaire.hpp"
 #include "rayspace/page/polar_plot.hpp"
 #include "rayspace/page/svg_parts.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -90,11 +91,12 @@ PolarPlot plot_of(const Luminaire& lamp, const Spreads& spreads, const std::stri
 }
 
 Status run_luminaire(const LuminaireCommandLine& given) {
+    if (Status kept = refuse_overwriting_inputs(given.plot, {given.file}); !kept) return kept;
     RS_ASSIGN_OR_RETURN(const Luminaire lamp, read_luminaire(given.file));
     const Spreads spreads{beam_spread(lamp.web, 0), beam_spread(lamp.web, 90)};
     const std::string title = title_of(lamp, given.file);
     if (!given.plot.empty()) {
-        if (Status written = write_file(given.plot, standalone_svg_of(plot_of(lamp, spreads, title))); !written) {
+        if (Status written = write_file(given.plot, draw_standalone_svg(plot_of(lamp, spreads, title))); !written) {
             return written;
         }
     }

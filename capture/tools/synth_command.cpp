@@ -9,12 +9,12 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
+#include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <cstdint>
@@ -30,32 +30,6 @@
 
 namespace rs::capture {
 namespace {
-
-// The path with links resolved, and its location by name, which differs if the path itself is a link. Output folders
-// must not contain their inputs.
-std::vector<std::filesystem::path> locations_of(const std::filesystem::path& path) {
-    std::error_code ignored;
-    const std::filesystem::path plain = path.has_filename() ? path : path.parent_path();  // "set/" is "set"
-    const std::filesystem::path folder = plain.has_parent_path() ? plain.parent_path() : std::filesystem::path(".");
-    return {std::filesystem::weakly_canonical(plain, ignored),
-            std::filesystem::weakly_canonical(folder, ignored) / plain.filename()};
-}
-
-bool is_within(const std::filesystem::path& path, const std::filesystem::path& folder) {
-    return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
-}
-
-Status check_output_excludes(const std::filesystem::path& output, const std::filesystem::path& input) {
-    if (input.empty()) return {};
-    for (const std::filesystem::path& folder : locations_of(output)) {
-        for (const std::filesystem::path& place : locations_of(input)) {
-            if (!is_within(place, folder)) continue;
-            return Error{output.string() + ": writing the set would replace this folder and " + input.string() +
-                         " with it; give another -o"};
-        }
-    }
-    return {};
-}
 
 // Command-line options; empty if the recipe's value applies.
 struct Options {
@@ -76,6 +50,7 @@ struct Options {
     int threads = 0;
     bool list = false;
     bool json = false;
+    bool force = false;
     bool quiet = false;
     AsPhotosOptions as_photos;
 };
@@ -113,7 +88,7 @@ Result<std::uint64_t> parse_seed(const std::string& text) {
 
 // The value; an error becomes a usage error of `option`.
 template <class T>
-T parsed(const std::string& option, const Result<T>& value) {
+T parsed_or_throw(const std::string& option, const Result<T>& value) {
     if (!value) throw CLI::ValidationError(option, value.error().message);
     return *value;
 }
@@ -208,6 +183,7 @@ Result<RunResult> make_set(const Options& options, SceneFile file, Progress& pro
     set.render.filtered = !options.unfiltered;
     set.render.depth = options.depth;
     set.render.threads = options.threads;
+    set.force = options.force;
     if (file.toon) {
         set.render.method = RenderMethod::kToon;
         set.render.toon = *file.toon;
@@ -244,6 +220,7 @@ Result<RunResult> make_photos(const Options& options, const SceneFile& file, Pro
     photos.samples_per_pixel = options.samples_per_pixel.value_or(file.camera.samples_per_pixel);
     photos.filtered = !options.unfiltered;
     photos.threads = options.threads;
+    photos.force = options.force;
     RS_ASSIGN_OR_RETURN(const CaptureSetSummary summary,
                         write_photo_session(file.scene, file.object_radius, photos, options.output, &progress));
     return RunResult{summary, size, file.object_radius, photos.samples_per_pixel};
@@ -256,9 +233,7 @@ Status synthesise(const Options& options) {
 
     std::vector<std::filesystem::path> inputs = input_files(options.as_photos);
     inputs.insert(inputs.end(), {options.scene, options.poses});
-    for (const std::filesystem::path& input : inputs) {
-        if (Status kept = check_output_excludes(options.output, input); !kept) return kept;
-    }
+    RS_TRY(refuse_overwriting_inputs(options.output, inputs));
     RS_ASSIGN_OR_RETURN(SceneFile file, load_scene_file(options.scene, synthetic::generate));
     if (options.as_photos.is_enabled && file.scene.has_surroundings()) {
         return Error{options.scene.string() +
@@ -294,7 +269,8 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
         ->type_name("N");
     synth
         ->add_option_function<std::string>(
-            "--size", [options](const std::string& text) { options->size = parsed("--size", parse_size(text)); },
+            "--size",
+            [options](const std::string& text) { options->size = parsed_or_throw("--size", parse_size(text)); },
             "Image size in pixels (recipe, or 512x512; photos: 640x512)")
         ->type_name("WxH");
     synth->add_option("--spp", options->samples_per_pixel, "Samples per pixel; best a power of two (recipe, or 64)")
@@ -305,23 +281,24 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     synth
         ->add_option("--elevation", options->elevation_deg,
                      "Cameras' height above the horizon (recipe, or 0; photos: 20)")
-        ->check(within(-89.0, 89.0))
+        ->check(range(-89.0, 89.0))
         ->type_name("DEG");
     synth->add_option("--first-angle", options->first_angle_deg, "Rotates the whole ring")
-        ->check(within(-360.0, 360.0))
+        ->check(range(-360.0, 360.0))
         ->type_name("DEG");
     synth
         ->add_option_function<std::string>(
-            "--seed", [options](const std::string& text) { options->seed = parsed("--seed", parse_seed(text)); },
+            "--seed",
+            [options](const std::string& text) { options->seed = parsed_or_throw("--seed", parse_seed(text)); },
             "Seed of the image noise; the object's seed is the recipe's")
         ->type_name("N");
     synth
         ->add_option("--distance", options->distance_radii,
                      "Distance to the axis in bounding radii (recipe, or 3.5; photos: to fit)")
-        ->check(within(1.001, 1000.0))
+        ->check(range(1.001, 1000.0))
         ->type_name("R");
     synth->add_option("--focal-widths", options->focal_widths, "Focal length in image widths (recipe, or 1.4)")
-        ->check(within(0.1, 100.0))
+        ->check(range(0.1, 100.0))
         ->type_name("F");
     synth->add_option("--format", options->format, "png: 8-bit sRGB; exr: linear float")
         ->check(CLI::IsMember({"png", "exr"}))
@@ -333,6 +310,7 @@ void add_synth_command(CLI::App& app, std::function<Status()>& run) {
     synth->add_option("--threads", options->threads, "Number of threads; does not affect the images (0 = all)")
         ->check(CLI::Range(0, 1024))
         ->type_name("N");
+    synth->add_flag("--force", options->force, kForceHelp);
     synth->add_flag("--list", options->list, "List the procedural objects and stop");
     synth->add_flag("--json", options->json, "Summary as JSON");
     synth->add_flag("-q,--quiet", options->quiet, "No progress bar, no warnings");

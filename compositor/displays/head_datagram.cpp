@@ -27,8 +27,7 @@ Result<Head> head_from_datagram(std::span<const std::byte> bytes) {
         static constexpr std::array<const char*, 6> kNames{"x", "y", "z", "yaw", "pitch", "roll"};
         if (!std::isfinite(numbers[i])) return Error{std::string("has a ") + kNames[i] + " that is not finite"};
         const bool is_length = i < 3;
-        if (std::abs(numbers[i]) <= (is_length ? kFarthestTrackedHead_m / kCentimetre_m : kMaxTrackedTurn_deg))
-            continue;
+        if (std::abs(numbers[i]) <= (is_length ? kMaxHeadDistance_m / kCentimetre_m : kMaxTrackedTurn_deg)) continue;
         return Error{std::string("has a ") + kNames[i] +
                      (is_length ? " beyond 100 m; it must be in centimetres" : " beyond a hundred turns")};
     }
@@ -40,8 +39,8 @@ Result<Head> head_from_datagram(std::span<const std::byte> bytes) {
     return head;
 }
 
-Head tracked_in_room(const Head& tracked, const Head& zero) {
-    const RoomPlace axes{.position = zero.position, .heading_rad = zero.heading_rad};
+Head head_in_room(const Head& tracked, const Head& zero) {
+    const RoomPose axes{.position = zero.position, .heading_rad = zero.heading_rad};
     Head head = tracked;
     head.position = axes.in_scene(tracked.position);
     head.heading_rad += zero.heading_rad;

@@ -17,7 +17,7 @@ namespace rs::compositor {
 
 inline constexpr std::size_t kHeadDatagram_bytes = 48;
 /// Maximum of each coordinate of a valid head position.
-inline constexpr double kFarthestTrackedHead_m = 100;
+inline constexpr double kMaxHeadDistance_m = 100;
 
 /// Head pose in the tracker's axes, metres and radians. Fails on a wrong length, values that are not finite, positions
 /// beyond kMaxHeadDistance_m and angles beyond 100 turns.
@@ -25,6 +25,6 @@ Result<Head> head_from_datagram(std::span<const std::byte> bytes);
 
 /// Transforms a tracked head into the room: rotated by the heading of `zero`, the tracker's origin, then translated to
 /// it. Pitch and roll are the tracker's.
-Head tracked_in_room(const Head& tracked, const Head& zero);
+Head head_in_room(const Head& tracked, const Head& zero);
 
 }  // namespace rs::compositor

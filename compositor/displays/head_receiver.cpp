@@ -22,7 +22,7 @@ constexpr int kMaxDatagramsPerCall = 4096;
 constexpr std::size_t kMaxDatagram_bytes = 512;
 static_assert(kMaxDatagram_bytes > kHeadDatagram_bytes);
 
-Error cannot_listen(const UdpPlace& place, const asio::error_code& why) {
+Error cannot_listen(const UdpEndpoint& place, const asio::error_code& why) {
     std::string remedy = "give another port or address";
     if (why == asio::error::address_in_use) {
         remedy = "another program has the port: end it, or give another port here and in the tracker";
@@ -36,20 +36,20 @@ Error cannot_listen(const UdpPlace& place, const asio::error_code& why) {
 
 }  // namespace
 
-std::string UdpPlace::text() const {
+std::string UdpEndpoint::text() const {
     const bool is_v6 = address.find(':') != std::string::npos;
     return std::string(kScheme) + (is_v6 ? "[" + address + "]" : address) + ":" + std::to_string(port);
 }
 
-bool names_udp_port(const std::string& text) {
+bool is_udp_endpoint(const std::string& text) {
     return text.starts_with(kScheme);
 }
 
-Result<UdpPlace> udp_place_from(const std::string& text) {
+Result<UdpEndpoint> parse_udp_endpoint(const std::string& text) {
     const Error wrong{printable(text) + ": must be udp:PORT or udp:ADDRESS:PORT, such as udp:4242 or udp:0.0.0.0:4242"};
-    if (!names_udp_port(text)) return wrong;
+    if (!is_udp_endpoint(text)) return wrong;
     std::string_view port = std::string_view(text).substr(kScheme.size());
-    UdpPlace place;
+    UdpEndpoint place;
     if (const std::size_t colon = port.rfind(':'); colon != std::string_view::npos) {
         std::string_view address = port.substr(0, colon);
         if (address.starts_with('[') && address.ends_with(']')) address = address.substr(1, address.size() - 2);
@@ -69,13 +69,13 @@ struct HeadReceiver::Socket {
     asio::ip::udp::socket udp{context};
 };
 
-HeadReceiver::HeadReceiver(std::unique_ptr<Socket> socket, UdpPlace place)
+HeadReceiver::HeadReceiver(std::unique_ptr<Socket> socket, UdpEndpoint place)
     : socket_(std::move(socket)), place_(std::move(place)) {}
 HeadReceiver::HeadReceiver(HeadReceiver&&) noexcept = default;
 HeadReceiver& HeadReceiver::operator=(HeadReceiver&&) noexcept = default;
 HeadReceiver::~HeadReceiver() = default;
 
-Result<HeadReceiver> HeadReceiver::listen(const UdpPlace& place) {
+Result<HeadReceiver> HeadReceiver::listen(const UdpEndpoint& place) {
     asio::error_code failed;
     const asio::ip::address address = asio::ip::make_address(place.address, failed);
     if (failed) return Error{printable(place.text()) + ": has no IPv4 or IPv6 address"};
@@ -89,7 +89,7 @@ Result<HeadReceiver> HeadReceiver::listen(const UdpPlace& place) {
     socket->udp.open(local.protocol(), failed);
     if (!failed) socket->udp.bind(local, failed);
     if (!failed) socket->udp.non_blocking(true, failed);
-    UdpPlace got = place;
+    UdpEndpoint got = place;
     if (!failed) got.port = socket->udp.local_endpoint(failed).port();
     if (failed) return cannot_listen(place, failed);
     return HeadReceiver(std::move(socket), got);

@@ -42,27 +42,27 @@ glm::dvec3 Head::right() const {
     return std::cos(roll_rad) * level - std::sin(roll_rad) * up;
 }
 
-glm::dvec3 RoomPlace::turned(const glm::dvec3& v) const {
+glm::dvec3 RoomPose::turned(const glm::dvec3& v) const {
     const double s = std::sin(heading_rad), c = std::cos(heading_rad);
     return {c * v.x + s * v.z, v.y, c * v.z - s * v.x};
 }
 
-glm::dvec3 RoomPlace::in_scene(const glm::dvec3& p_in_room) const {
+glm::dvec3 RoomPose::in_scene(const glm::dvec3& p_in_room) const {
     return position + units_per_metre * turned(p_in_room);
 }
 
-RoomPlace place_of(const Camera& camera, const Head& head, double units_per_metre) {
+RoomPose place_of(const Camera& camera, const Head& head, double units_per_metre) {
     // A camera looking straight up or down has its heading from its up vector.
     glm::dvec3 ahead = camera.forward();
     if (std::hypot(ahead.x, ahead.z) < 1e-6) ahead = ahead.y < 0 ? camera.up() : -camera.up();
-    RoomPlace place;
+    RoomPose place;
     place.heading_rad = std::atan2(-ahead.x, -ahead.z) - head.heading_rad;
     place.units_per_metre = units_per_metre;
     place.position = camera.centre() - units_per_metre * place.turned(head.position);
     return place;
 }
 
-Result<Camera> wall_camera(const Wall& wall, const glm::dvec3& eye_in_room, const RoomPlace& place) {
+Result<Camera> wall_camera(const Wall& wall, const glm::dvec3& eye_in_room, const RoomPose& place) {
     RS_CHECK(place.units_per_metre > 0 && wall.width > 0 && wall.height > 0);
     const glm::dvec3 across = wall.lower_right - wall.lower_left;
     const glm::dvec3 along = wall.upper_left - wall.lower_left;

@@ -45,7 +45,7 @@ struct Head {
 
 /// Pose of the room in the scene. The room is never tilted: vertical walls stay vertical, for which engines render
 /// fast.
-struct RoomPlace {
+struct RoomPose {
     glm::dvec3 position{0};      // of the room's origin, scene units
     double heading_rad = 0;      // about Y, counter-clockwise seen from above
     double units_per_metre = 1;  // > 0
@@ -55,13 +55,13 @@ struct RoomPlace {
 };
 
 /// Room pose in which this head sees what the camera sees: same position and heading; the camera's pitch is ignored.
-RoomPlace place_of(const Camera& camera, const Head& head, double units_per_metre);
+RoomPose place_of(const Camera& camera, const Head& head, double units_per_metre);
 
 /// Eyes nearer to a wall's plane count as in the plane, metres.
 inline constexpr double kMinEyeDistance_m = 1e-3;
 
 /// Camera of an eye (room coordinates) through a wall that passed check_wall(). Fails if the eye is behind the wall or
 /// in its plane; the error names the wall.
-Result<Camera> wall_camera(const Wall& wall, const glm::dvec3& eye_in_room, const RoomPlace& place);
+Result<Camera> wall_camera(const Wall& wall, const glm::dvec3& eye_in_room, const RoomPose& place);
 
 }  // namespace rs::compositor

@@ -54,7 +54,7 @@ Wall take_wall(JsonObject object) {
     pixels.list_size(2, 2);
     wall.width = pixels.item(0).whole_number(1, kMaxImageSide_px);
     wall.height = pixels.item(1).whole_number(1, kMaxImageSide_px);
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     if (const Status fine = check_wall(wall); !fine) throw object.wrong(fine.error().message);
     return wall;
 }
@@ -65,7 +65,7 @@ Head take_head(JsonObject object) {
     head.heading_rad = angle(object, "heading_deg");
     head.pitch_rad = angle(object, "pitch_deg");
     head.roll_rad = angle(object, "roll_deg");
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     return head;
 }
 
@@ -73,15 +73,15 @@ Head take_tracker(JsonObject object) {
     Head zero;
     zero.position = corner(object, "position");
     zero.heading_rad = angle(object, "heading_deg");
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     return zero;
 }
 
-RoomPlace take_place(JsonObject object) {
-    RoomPlace place;
+RoomPose take_place(JsonObject object) {
+    RoomPose place;
     place.position = object.take("position").triple(-kMaxRoomPosition, kMaxRoomPosition);
     place.heading_rad = angle(object, "heading_deg");
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     return place;
 }
 
@@ -174,7 +174,7 @@ Result<std::vector<Head>> read_heads(const std::filesystem::path& path) {
     return heads_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
 }
 
-Status keep_walls(WallDisplay& display, const std::string& names) {
+Status select_walls(WallDisplay& display, const std::string& names) {
     std::set<std::string> chosen;
     for (std::size_t begin = 0; begin <= names.size();) {
         const std::size_t end = std::min(names.find(',', begin), names.size());
@@ -192,12 +192,12 @@ Status keep_walls(WallDisplay& display, const std::string& names) {
     return {};
 }
 
-RoomPlace fitted_place(const Wall& table, const BoundingBox& scene_box) {
+RoomPose fit_scene_to_wall(const Wall& table, const BoundingBox& scene_box) {
     const glm::dvec3 across = table.lower_right - table.lower_left;
     const glm::dvec3 along = table.upper_left - table.lower_left;
     const glm::dvec3 size = scene_box.highest - scene_box.lowest;
     const double shorter_m = kFitRatio * std::min(glm::length(across), glm::length(along));
-    RoomPlace place;
+    RoomPose place;
     place.units_per_metre = std::max(std::max(size.x, size.z), 1e-6) / shorter_m;
     const glm::dvec3 foot((scene_box.lowest.x + scene_box.highest.x) / 2, scene_box.lowest.y,
                           (scene_box.lowest.z + scene_box.highest.z) / 2);

@@ -18,8 +18,8 @@ struct WallDisplay {
     std::optional<Head> tracker;  // the tracker's origin: position and heading; default: the head
     double eye_distance_m = 0.065;
     double units_per_metre = 1;
-    std::optional<RoomPlace> place;  // room pose in the scene; default: the initial viewpoint
-    bool fits_scene = false;         // fits the scene to the first wall instead: fit_scene_to_wall()
+    std::optional<RoomPose> place;  // room pose in the scene; default: the initial viewpoint
+    bool fits_scene = false;        // fits the scene to the first wall instead: fit_scene_to_wall()
 };
 
 /// Presets: "cave" (front, left and right wall and a floor, 3 m), "power-wall" (4.8 x 2.7 m), "tabletop" (a table of
@@ -36,10 +36,10 @@ Result<std::vector<Head>> read_heads(const std::filesystem::path& path);
 Result<std::vector<Head>> heads_from_json(const std::string& text, const std::filesystem::path& path);
 
 /// Keeps only the named walls ("front,left"), in the display's order. Fails for unknown names.
-Status keep_walls(WallDisplay& display, const std::string& names);
+Status select_walls(WallDisplay& display, const std::string& names);
 
 /// Places the scene on the centre of the wall, as large as it allows, with the bottom of its box (not empty) on the
 /// wall.
-RoomPlace fitted_place(const Wall& table, const BoundingBox& scene_box);
+RoomPose fit_scene_to_wall(const Wall& table, const BoundingBox& scene_box);
 
 }  // namespace rs::compositor

@@ -198,7 +198,7 @@ std::vector<std::string> Context::take_errors() {
     return state_->take_errors();
 }
 
-std::vector<std::string> Context::names_alive() const {
+std::vector<std::string> Context::live_objects() const {
     return all_names_alive();
 }
 

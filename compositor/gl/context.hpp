@@ -38,7 +38,7 @@ public:
     [[nodiscard]] std::vector<std::string> take_errors();
     /// GL objects that exist, such as "2 textures", including those created elsewhere. Queries some thousand names:
     /// takes milliseconds; for tests.
-    [[nodiscard]] std::vector<std::string> names_alive() const;
+    [[nodiscard]] std::vector<std::string> live_objects() const;
 
 private:
     struct State;

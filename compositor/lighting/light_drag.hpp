@@ -26,11 +26,11 @@ public:
     [[nodiscard]] LightEntry to(const glm::dvec2& at_px, const Camera& camera, const SurfaceAt& surface) const;
 
 private:
-    [[nodiscard]] std::optional<double> along_axis(const glm::dvec2& at_px, const Camera& camera) const;
-    [[nodiscard]] LightEntry over_surfaces(const glm::dvec2& at_px, const Camera& camera,
-                                           const SurfaceAt& surface) const;
-    [[nodiscard]] LightEntry about_dome(const glm::dvec2& at_px, const Camera& camera) const;
-    [[nodiscard]] LightEntry aimed(const glm::dvec2& at_px, const Camera& camera, const SurfaceAt& surface) const;
+    [[nodiscard]] std::optional<double> axis_position(const glm::dvec2& at_px, const Camera& camera) const;
+    [[nodiscard]] LightEntry drag_on_surface(const glm::dvec2& at_px, const Camera& camera,
+                                             const SurfaceAt& surface) const;
+    [[nodiscard]] LightEntry drag_on_dome(const glm::dvec2& at_px, const Camera& camera) const;
+    [[nodiscard]] LightEntry drag_aim(const glm::dvec2& at_px, const Camera& camera, const SurfaceAt& surface) const;
 
     LightEntry entry_;
     HandlePart part_;

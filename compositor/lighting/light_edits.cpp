@@ -8,7 +8,7 @@
 namespace rs::compositor {
 namespace {
 
-constexpr std::size_t kMostSteps = 256;
+constexpr std::size_t kMaxSteps = 256;
 constexpr std::size_t kMaxHistoryLights = 1U << 18U;  // lights in all undo steps: about 100 MiB
 
 }  // namespace
@@ -32,7 +32,7 @@ void LightEdits::push_undo(Step step) {
     after_.clear();
     before_.push_back(std::move(step));
     const std::size_t each = now_.state.entries.size() + 1;
-    while (before_.size() > std::clamp<std::size_t>(kMaxHistoryLights / each, 1, kMostSteps)) before_.pop_front();
+    while (before_.size() > std::clamp<std::size_t>(kMaxHistoryLights / each, 1, kMaxSteps)) before_.pop_front();
 }
 
 void LightEdits::select(std::optional<std::size_t> light) {

@@ -7,11 +7,11 @@
 namespace rs::compositor {
 namespace {
 
-constexpr std::size_t kMostTriangles = 500'000;
+constexpr std::size_t kMaxTriangles = 500'000;
 
 // Solid angle of a triangle over 4 pi, positive as seen from its back: A. van Oosterom and J. Strackee, "The Solid
 // Angle of a Plane Triangle", 1983.
-double share_of_sphere(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+double solid_angle_fraction(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const double la = glm::length(a);
     const double lb = glm::length(b);
     const double lc = glm::length(c);
@@ -28,7 +28,7 @@ double winding_number(const GeometryNode& node, const glm::dvec3& place) {
     };
     double sum = 0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        sum += share_of_sphere(corner(i), corner(i + 1), corner(i + 2));
+        sum += solid_angle_fraction(corner(i), corner(i + 1), corner(i + 2));
     }
     return mirrors ? -sum : sum;
 }
@@ -36,7 +36,7 @@ double winding_number(const GeometryNode& node, const glm::dvec3& place) {
 bool may_be_solid(const GeometryNode& node) {
     const Mesh& mesh = *node.mesh;
     return mesh.topology == Topology::kTriangles && !mesh.two_sided && !is_blended(node.material) &&
-           mesh.indices.size() / 3 <= kMostTriangles;
+           mesh.indices.size() / 3 <= kMaxTriangles;
 }
 
 bool contains(const BoundingBox& box, const glm::dvec3& place) {

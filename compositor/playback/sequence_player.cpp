@@ -46,7 +46,7 @@ SequencePlayer::SequencePlayer(std::shared_ptr<const Sequence> sequence, std::un
 
 Result<SequencePlayer> SequencePlayer::create(std::shared_ptr<const Sequence> sequence, const PlayerOptions& options) {
     const std::optional<Weather> weather = weather_of(*sequence, options);
-    const Scene scene = weather ? in_weather(sequence->scene, *weather) : sequence->scene;
+    const Scene scene = weather ? apply_weather(sequence->scene, *weather) : sequence->scene;
     auto showroom =
         std::make_unique<Showroom>(scene, ShowroomOptions{.memory_bytes = options.memory_bytes, .waits = true});
     RS_TRY(showroom->wait_for_all({0, 0, 0}));
@@ -60,7 +60,7 @@ Result<SequencePlayer> SequencePlayer::create(std::shared_ptr<const Sequence> se
 
 Status show_frame(const Sequence& sequence, std::size_t frame, const std::optional<Weather>& weather,
                   FrameCompositor& compositor, Showroom& showroom) {
-    const MovedSlots moved = moved_slots(sequence, frame);
+    const SlotTransforms moved = slot_transforms(sequence, frame);
     for (std::size_t slot = 0; slot < sequence.slots.size(); ++slot) {
         for (const std::size_t node : sequence.slots[slot].geometry) {
             std::optional<glm::dmat4> matrix = moved.geometry[slot];
@@ -86,7 +86,7 @@ Status SequencePlayer::draw(std::size_t number, const Camera& camera) {
 
 Status SequencePlayer::make_tracer() {
     std::vector<PlacedObject> objects;
-    for (const ShownNode& node : *showroom_->nodes()) {
+    for (const DisplayedNode& node : *showroom_->nodes()) {
         if (node.object && !node.hidden) objects.push_back(*node.object);
     }
     RS_ASSIGN_OR_RETURN(auto tracer, TracedRenderer::create(scene_, objects, *options_.tracing));
@@ -99,7 +99,7 @@ Status SequencePlayer::make_tracer() {
 
 Status SequencePlayer::trace(std::size_t number, const Camera& camera) {
     // Ray-space objects cannot move in a tracer, so it is rebuilt.
-    const MovedSlots moved = moved_slots(*sequence_, number);
+    const SlotTransforms moved = slot_transforms(*sequence_, number);
     if (!tracer_ || !moved.objects.empty()) {
         RS_TRY(make_tracer());
     }

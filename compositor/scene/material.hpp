@@ -3,6 +3,7 @@
 
 #include "rayspace/image/image.hpp"
 
+#include <filesystem>
 #include <glm/glm.hpp>
 
 #include <memory>
@@ -11,7 +12,8 @@
 namespace rs::compositor {
 
 struct SceneTexture {
-    Image<Rgba8> image;  // sRGB, straight alpha; the first row is the top
+    std::filesystem::path file;  // empty: of no file of its own
+    Image<Rgba8> image;          // sRGB, straight alpha; the first row is the top
     bool has_alpha = false;
     bool repeat_s = true;  // else clamp to edge
     bool repeat_t = true;

@@ -18,6 +18,7 @@ int neighbour(int at, int size, bool repeats) {
 
 std::shared_ptr<const NormalMap> normal_map(const SceneTexture& image, float scale) {
     auto map = std::make_shared<NormalMap>();
+    map->file = image.file;
     map->repeat_s = image.repeat_s;
     map->repeat_t = image.repeat_t;
     map->directions = Image<RgbaF>(image.image.width(), image.image.height());
@@ -30,6 +31,7 @@ std::shared_ptr<const NormalMap> normal_map(const SceneTexture& image, float sca
 std::shared_ptr<const NormalMap> normal_map_of_heights(const SceneTexture& image, float multiplier) {
     const Image<Rgba8>& heights = image.image;
     auto map = std::make_shared<NormalMap>();
+    map->file = image.file;
     map->repeat_s = image.repeat_s;
     map->repeat_t = image.repeat_t;
     map->directions = Image<RgbaF>(heights.width(), heights.height());

@@ -11,7 +11,8 @@ namespace rs::compositor {
 /// One direction of any length per texel: r along s, g along t, b away from the surface; a is 1. (0, 0, 1) keeps the
 /// surface's normal bit for bit. Interpolated between texels, then normalised.
 struct NormalMap {
-    Image<RgbaF> directions;  // the first row is the top, at the largest t
+    std::filesystem::path file;  // as SceneTexture::file
+    Image<RgbaF> directions;     // the first row is the top, at the largest t
     bool repeat_s = true;
     bool repeat_t = true;
 };

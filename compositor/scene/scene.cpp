@@ -14,7 +14,7 @@ void include(BoundingBox& all, const BoundingBox& box) {
 
 }  // namespace
 
-void take_lights(const Scene& from, Scene& to) {
+void copy_lights(const Scene& from, Scene& to) {
     RS_CHECK(from.geometry.size() == to.geometry.size());
     to.lights = from.lights;
     to.environment = from.environment;

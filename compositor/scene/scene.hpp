@@ -98,7 +98,7 @@ struct Scene {
 };
 
 /// InstantiationState the lighting of another state of the same scene: lights, their scopes, environment and headlight.
-void take_lights(const Scene& from, Scene& to);
+void copy_lights(const Scene& from, Scene& to);
 
 /// Bounds of all geometry in scene coordinates; empty if there is none.
 BoundingBox bounds_of(const Scene& scene);

@@ -69,6 +69,7 @@ std::shared_ptr<const SceneTexture> SceneImages::read(const std::vector<std::str
             continue;
         }
         auto texture = std::make_shared<SceneTexture>();
+        texture->file = *path;
         texture->image = std::move(*image);
         texture->has_alpha = info->has_alpha;
         texture->repeat_s = repeat_s;

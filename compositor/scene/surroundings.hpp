@@ -41,7 +41,7 @@ struct EnvironmentLight {
 /// Environment entry of a light list.
 struct EnvironmentEntry {
     std::filesystem::path file{};
-    double scale = 1;  // 0..kStrongest
+    double scale = 1;  // 0..kMaxLightStrength
     double turn_deg = 0;
     bool seen = false;
     std::shared_ptr<const Image<RgbaF>> pixels{};  // content of the file; not null

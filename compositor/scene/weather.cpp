@@ -36,7 +36,7 @@ Result<Weather> parse_weather(const std::string& words) {
     return weather;
 }
 
-Scene in_weather(Scene scene, const Weather& weather) {
+Scene apply_weather(Scene scene, const Weather& weather) {
     for (Light& light : scene.lights) {
         if (light.kind != LightKind::kDirectional) continue;
         const glm::vec3 lost = light.colour * (1 - kCloudTransmittance);

@@ -27,6 +27,6 @@ Result<Weather> parse_weather(const std::string& words);
 
 /// Scene under an overcast sky: less sun, grey light from above; exponential fog as in VRML97 (thin in rain), the
 /// background blended towards the fog's colour; Scene::cover. Denser fog of the scene itself is kept.
-Scene in_weather(Scene scene, const Weather& weather);
+Scene apply_weather(Scene scene, const Weather& weather);
 
 }  // namespace rs::compositor

@@ -82,7 +82,7 @@ Result<std::vector<std::string>> parse_converter_command(const std::string& comm
     return words;
 }
 
-Result<Converted> convert_scene(const std::string& command, const std::filesystem::path& in) {
+Result<ConvertedScene> convert_scene(const std::string& command, const std::filesystem::path& in) {
     const std::filesystem::path place =
         std::filesystem::temp_directory_path() / ("rayspace-converted-" + std::to_string(getpid()));
     RS_ASSIGN_OR_RETURN(StagedFolder folder, StagedFolder::create(place, "converted files"));
@@ -102,7 +102,7 @@ Result<Converted> convert_scene(const std::string& command, const std::filesyste
         return Error{printable(in.string()) + ": the converter " + name +
                      " has written nothing to {out}; it must make a folder with a frames.json, or an OBJ, there"};
     }
-    return Converted{std::move(folder), std::move(out)};
+    return ConvertedScene{std::move(folder), std::move(out)};
 }
 
 }  // namespace rs::compositor

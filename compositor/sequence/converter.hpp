@@ -16,13 +16,13 @@ Result<std::vector<std::string>> parse_converter_command(const std::string& comm
                                                          const std::filesystem::path& out);
 
 /// Output of a converter; deleted on destruction.
-struct Converted {
+struct ConvertedScene {
     StagedFolder folder;         // never committed
     std::filesystem::path path;  // {out}: the folder or file that the converter created
 };
 
 /// Runs the command without a shell, stdin closed, stdout redirected to this program's stderr, and waits for it. Fails
 /// if it cannot be run, its exit status is not 0, or {out} does not exist afterwards.
-Result<Converted> convert_scene(const std::string& command, const std::filesystem::path& in);
+Result<ConvertedScene> convert_scene(const std::string& command, const std::filesystem::path& in);
 
 }  // namespace rs::compositor

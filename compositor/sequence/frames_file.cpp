@@ -26,7 +26,7 @@ Background take_background(JsonObject object) {
     Background background;
     const glm::vec3 zenith = take_colour(object, "zenith");
     const glm::vec3 horizon = take_colour(object, "horizon");
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     background.sky = {zenith, glm::mix(zenith, horizon, 0.45F), horizon};
     background.sky_angles_rad = {radians(60), radians(90)};
     return background;

@@ -14,8 +14,8 @@ TransformChain chain_of(const InstancePose& pose) {
 
 }  // namespace
 
-MovedSlots moved_slots(const Sequence& sequence, std::size_t frame) {
-    MovedSlots moved;
+SlotTransforms slot_transforms(const Sequence& sequence, std::size_t frame) {
+    SlotTransforms moved;
     moved.geometry.resize(sequence.slots.size());
     std::vector<bool> shown(sequence.slots.size());
     for (const SlotPose& pose : sequence.frames[frame].poses) {
@@ -36,7 +36,7 @@ std::optional<SequenceCamera> camera_of(const Sequence& sequence, std::size_t fr
 
 Scene scene_at(const Sequence& sequence, std::size_t frame) {
     Scene scene = sequence.scene;
-    const MovedSlots moved = moved_slots(sequence, frame);
+    const SlotTransforms moved = slot_transforms(sequence, frame);
     std::vector<bool> hidden_objects(scene.objects.size());
     for (const auto& [node, chain] : moved.objects) {
         hidden_objects[node] = !chain;

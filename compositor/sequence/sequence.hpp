@@ -58,11 +58,11 @@ struct Sequence {
 Result<Sequence> read_sequence(const std::filesystem::path& folder);
 
 /// Transforms of all moving parts in a frame; nullopt: hidden. Geometry matrices apply before the nodes' own.
-struct MovedSlots {
+struct SlotTransforms {
     std::vector<std::optional<glm::dmat4>> geometry;                             // [slot]
     std::vector<std::pair<std::size_t, std::optional<TransformChain>>> objects;  // indices into Scene::objects
 };
-MovedSlots moved_slots(const Sequence& sequence, std::size_t frame);
+SlotTransforms slot_transforms(const Sequence& sequence, std::size_t frame);
 
 /// Camera of the frame, else of the base scene, else nullopt.
 std::optional<SequenceCamera> camera_of(const Sequence& sequence, std::size_t frame);

@@ -32,10 +32,9 @@ CameraPose pose_that_shows_all(const Scene& scene, const std::vector<PlacedObjec
 // The camera path of --path, else the scene's, if it has one.
 Result<std::optional<CameraPath>> requested_path(const MotionOptions& motion, const Scene& scene) {
     if (!motion.path) return scene.camera;
-    const Result<Scene> walk = read_scene(*motion.path);
-    if (!walk) return walk.error();
-    if (!walk->camera) return Error{*motion.path + ": has no camera path (compositor/README.md, JSON, \"camera\")"};
-    return walk->camera;
+    RS_ASSIGN_OR_RETURN(const Scene walk, read_scene(*motion.path));
+    if (!walk.camera) return Error{*motion.path + ": has no camera path (compositor/README.md, JSON, \"camera\")"};
+    return walk.camera;
 }
 
 }  // namespace
@@ -66,37 +65,33 @@ void add_size_option(CLI::App& command, std::string& size) {
 
 Result<std::vector<Camera>> requested_cameras(const ViewOptions& view, const MotionOptions& motion, const Scene& scene,
                                               const ObjectsToFrame& objects, PixelSize size) {
-    const Result<std::optional<CameraPath>> given_path = requested_path(motion, scene);
-    if (!given_path) return given_path.error();
-    const Result<const Viewpoint*> viewpoint = requested_viewpoint(view, scene);
-    if (!viewpoint) return viewpoint.error();
+    RS_ASSIGN_OR_RETURN(const std::optional<CameraPath> given_path, requested_path(motion, scene));
+    RS_ASSIGN_OR_RETURN(const Viewpoint* viewpoint, requested_viewpoint(view, scene));
     const bool pose_given = view.eye || view.at;
-    const bool at_viewpoint = *viewpoint != nullptr && (!*given_path || view.viewpoint);
+    const bool at_viewpoint = viewpoint != nullptr && (!given_path || view.viewpoint);
     if (at_viewpoint && !pose_given && !motion.orbit_frames) {
-        Viewpoint here = **viewpoint;
+        Viewpoint here = *viewpoint;
         if (view.fov_deg) {
             const double half_x = std::tan(radians(*view.fov_deg) / 2);
             here.field_of_view_rad = 2 * std::atan(half_x * std::min(size.width, size.height) / size.width);
         }
         return std::vector<Camera>{camera_at(here, size.width, size.height)};
     }
-    CameraPath path = at_viewpoint ? CameraPath{} : given_path->value_or(CameraPath{});
+    CameraPath path = at_viewpoint ? CameraPath{} : given_path.value_or(CameraPath{});
     if (view.fov_deg) path.fov_x_rad = radians(*view.fov_deg);
-    if (at_viewpoint) path.keys = {pose_at(**viewpoint, bounds_of(scene))};
+    if (at_viewpoint) path.keys = {pose_at(*viewpoint, bounds_of(scene))};
     if (path.keys.empty()) {
         const double aspect = static_cast<double>(size.width) / size.height;
-        const Result<std::vector<PlacedObject>> framed = objects();
-        if (!framed) return framed.error();
-        path.keys = {pose_that_shows_all(scene, *framed, path.fov_x_rad, aspect)};
+        RS_ASSIGN_OR_RETURN(const std::vector<PlacedObject> framed, objects());
+        path.keys = {pose_that_shows_all(scene, framed, path.fov_x_rad, aspect)};
     }
     if (pose_given) {
         CameraPose pose = path.keys.front();
         for (const auto& [text, option, point] :
              {std::tuple{&view.eye, "--eye", &pose.eye}, std::tuple{&view.at, "--at", &pose.at}}) {
             if (!*text) continue;
-            const Result<Triple> given = parse_triple(**text, option);
-            if (!given) return given.error();
-            *point = {given->x, given->y, given->z};
+            RS_ASSIGN_OR_RETURN(const Triple given, parse_triple(**text, option));
+            *point = {given.x, given.y, given.z};
         }
         path.keys = {pose};
         path.frames = 1;

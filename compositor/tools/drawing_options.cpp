@@ -1,6 +1,6 @@
 #include "compositor/tools/drawing_options.hpp"
 
-#include "engine/executors/executor_table.hpp"
+#include "rayspace/api/types/executor_table.hpp"
 
 #include <utility>
 
@@ -31,8 +31,8 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options) {
         ->default_str("plane");
     command
         .add_option("--object-samples", options.object_samples,
-                    "most samples across a pixel for distant objects, 1.." + std::to_string(kMostSamplesAcross))
-        ->check(CLI::Range(1, kMostSamplesAcross).description(""))
+                    "most samples across a pixel for distant objects, 1.." + std::to_string(kMaxSamplesAcross))
+        ->check(CLI::Range(1, kMaxSamplesAcross).description(""))
         ->type_name("N")
         ->capture_default_str();
 }
@@ -44,7 +44,7 @@ void add_upright_option(CLI::App& command, bool& upright) {
 void add_executor_options(CLI::App& command, ExecutorOptions& options) {
     command
         .add_option("--executor", options.executor,
-                    engine::executor_names() + ": draws the objects; the core draws what it cannot")
+                    engine::ExecutorTable().names() + ": draws the objects; the core draws what it cannot")
         ->type_name("NAME")
         ->capture_default_str();
     add_memory_option(command, options.memory_mib);
@@ -69,17 +69,14 @@ FrameOptions frame_options(const DrawingOptions& options, PixelSize size, double
 }
 
 Result<std::vector<PlacedObject>> LoadedScene::all_objects() const {
-    if (const Status status = showroom->wait_for_all({0, 0, 0}); !status) return status.error();
+    RS_TRY(showroom->wait_for_all({0, 0, 0}));
     return showroom->placed();
 }
 
 Result<LoadedScene> load_objects(Scene scene, ObjectDepth depth, const ExecutorOptions& options, bool waits) {
     std::unique_ptr<engine::Executor> executor;
     if (options.executor != "core") {
-        Result<std::unique_ptr<engine::Executor>> made =
-            engine::make_executor(options.executor, {.instant_loads = true});
-        if (!made) return made.error();
-        executor = std::move(*made);
+        RS_ASSIGN_OR_RETURN(executor, engine::ExecutorTable().create(options.executor));
     }
     LoadedScene loaded;
     loaded.executor = executor ? executor->traits() : engine::ExecutorTraits{.name = "software core"};

@@ -4,7 +4,7 @@
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
-#include "engine/core/definition/executor.hpp"
+#include "rayspace/api/types/executor.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/tool/tool_main.hpp"
 

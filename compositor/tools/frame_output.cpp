@@ -7,19 +7,17 @@
 namespace rs::compositor {
 namespace {
 
-Status write_folder(const std::string& output, const std::vector<Camera>& cameras, const RenderView& render,
+Status write_folder(const std::string& output, bool force, const std::vector<Camera>& cameras, const RenderView& render,
                     Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(output, "composited views");
-    if (!staged) return staged.error();
-    const Rig rig = rig_of_views(cameras);
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "composited views", force));
+    const Rig rig = make_rig_of_views(cameras);
     for (const RigView& view : rig.views) {
-        const Result<Image<Rgba8>> frame = render(view.camera);
-        if (!frame) return frame.error();
-        if (Status status = write_png(staged->temporary_path() / view.file_path, *frame); !status) return status;
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> frame, render(view.camera));
+        RS_TRY(write_png(staged.temporary_path() / view.file_path, frame));
         progress.advance();
     }
-    if (Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
-    return staged->commit();
+    RS_TRY(write_rig(staged.temporary_path() / kRigFileName, rig));
+    return staged.commit();
 }
 
 }  // namespace
@@ -30,13 +28,12 @@ Status check_frame_count(const std::string& output, OutputKind kind, std::size_t
                  " frames do not fit one image; give a folder or an .mp4 to -o"};
 }
 
-Status write_frames(const std::string& output, OutputKind kind, double frames_per_second,
+Status write_frames(const std::string& output, bool force, OutputKind kind, double frames_per_second,
                     const std::vector<Camera>& cameras, const RenderView& render, Progress& progress) {
     if (kind == OutputKind::video) return write_view_video(output, frames_per_second, cameras, render, progress);
-    if (kind == OutputKind::folder) return write_folder(output, cameras, render, progress);
-    const Result<Image<Rgba8>> frame = render(cameras.front());
-    if (!frame) return frame.error();
-    return write_png(output, *frame);
+    if (kind == OutputKind::folder) return write_folder(output, force, cameras, render, progress);
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> frame, render(cameras.front()));
+    return write_png(output, frame);
 }
 
 }  // namespace rs::compositor

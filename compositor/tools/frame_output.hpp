@@ -16,7 +16,8 @@ namespace rs::compositor {
 Status check_frame_count(const std::string& output, OutputKind kind, std::size_t frames);
 
 /// Renders the cameras in order and writes them to `output`. A folder also gets the cameras (transforms.json).
-Status write_frames(const std::string& output, OutputKind kind, double frames_per_second,
+/// \param force of StagedFolder
+Status write_frames(const std::string& output, bool force, OutputKind kind, double frames_per_second,
                     const std::vector<Camera>& cameras, const RenderView& render, Progress& progress);
 
 /// Shows the progress of several frames by frame, and that of a single traced frame by pass.

@@ -11,11 +11,9 @@ namespace rs::compositor {
 
 Result<std::shared_ptr<TracedRenderer>> make_tracer(const LoadedScene& loaded, const RendererOptions& options,
                                                     const std::string& name) {
-    const Result<TracedOptions> traced = traced_options(options);
-    if (!traced) return traced.error();
-    const Result<std::vector<PlacedObject>> objects = loaded.all_objects();
-    if (!objects) return objects.error();
-    Result<TracedRenderer> tracer = TracedRenderer::create(loaded.scene, *objects, *traced);
+    RS_ASSIGN_OR_RETURN(const TracedOptions traced, traced_options(options));
+    RS_ASSIGN_OR_RETURN(const std::vector<PlacedObject> objects, loaded.all_objects());
+    Result<TracedRenderer> tracer = TracedRenderer::create(loaded.scene, objects, traced);
     if (!tracer) return Error{name + ": " + tracer.error().message};
     print_warnings(tracer->warnings());
     return std::make_shared<TracedRenderer>(std::move(*tracer));
@@ -34,12 +32,10 @@ Result<TracedImages> traced_images(const LoadedScene& loaded, const RendererOpti
 
 Result<HeadlessRenderer> HeadlessRenderer::create(const LoadedScene& loaded, const HeadlessOptions& options,
                                                   TracedImages traced) {
-    Result<gl::Context> context = gl::Context::create_surfaceless();
-    if (!context) return context.error();
-    Result<FrameCompositor> compositor =
-        FrameCompositor::create(loaded.scene, loaded.showroom->engine(), loaded.showroom->nodes(), options.frame);
-    if (!compositor) return compositor.error();
-    return HeadlessRenderer(loaded, options, std::move(traced), std::move(*context), std::move(*compositor));
+    RS_ASSIGN_OR_RETURN(gl::Context context, gl::Context::create_surfaceless());
+    RS_ASSIGN_OR_RETURN(FrameCompositor compositor, FrameCompositor::create(loaded.scene, loaded.showroom->engine(),
+                                                                            loaded.showroom->nodes(), options.frame));
+    return HeadlessRenderer(loaded, options, std::move(traced), std::move(context), std::move(compositor));
 }
 
 HeadlessRenderer::HeadlessRenderer(const LoadedScene& loaded, const HeadlessOptions& options, TracedImages traced,
@@ -60,14 +56,13 @@ Result<Image<Rgba8>> HeadlessRenderer::render(const Camera& camera) {
                                           std::chrono::duration<double>(frame_s * static_cast<double>(frame))));
     }
     if (camera.width != compositor_.width() || camera.height != compositor_.height()) {
-        if (Status status = compositor_.resize(camera.width, camera.height); !status) return status.error();
+        RS_TRY(compositor_.resize(camera.width, camera.height));
     }
     if (traced_) {
-        Result<std::shared_ptr<const Image<Rgba8>>> traced = traced_(frame, camera);
-        if (!traced) return traced.error();
-        compositor_.set_traced(std::move(*traced));
+        RS_ASSIGN_OR_RETURN(std::shared_ptr<const Image<Rgba8>> traced, traced_(frame, camera));
+        compositor_.set_traced(std::move(traced));
     }
-    if (Status status = times_.draw(*loaded_->showroom, compositor_, camera, frame_s); !status) return status.error();
+    RS_TRY(times_.draw(*loaded_->showroom, compositor_, camera, frame_s));
     print_warnings(loaded_->showroom->take_warnings());
     most_missing_ = std::max(most_missing_, compositor_.statistics().nodes_missing);
     return compositor_.image();

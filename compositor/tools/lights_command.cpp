@@ -15,10 +15,10 @@ struct LightsOptions {
 };
 
 Status run_lights(const LightsOptions& options) {
-    const Result<Scene> scene = load_scene(options.scene);
-    if (!scene) return scene.error();
-    print_warnings(light_warnings(*scene));
-    return write_light_list(lights_in_force(*scene), options.output);
+    RS_ASSIGN_OR_RETURN(const Scene scene, load_scene(options.scene));
+    print_warnings(light_warnings(scene));
+    RS_TRY(check_outputs(options.scene, scene, {options.output}));
+    return write_light_list(lights_as_list(scene), options.output);
 }
 
 }  // namespace

@@ -26,10 +26,10 @@ struct OpenOptions {
 };
 
 Result<Camera> first_camera(const OpenOptions& options, const LoadedScene& loaded, PixelSize size) {
-    const Result<std::vector<Camera>> cameras = requested_cameras(
-        options.view, MotionOptions{}, loaded.scene, [&] { return loaded.all_objects(); }, size);
-    if (!cameras) return cameras.error();
-    return cameras->front();
+    RS_ASSIGN_OR_RETURN(const std::vector<Camera> cameras,
+                        requested_cameras(
+                            options.view, MotionOptions{}, loaded.scene, [&] { return loaded.all_objects(); }, size));
+    return cameras.front();
 }
 
 Status show_in_window(Window window, const OpenOptions& options, LoadedScene loaded, const Camera& first) {
@@ -40,9 +40,8 @@ Status show_in_window(Window window, const OpenOptions& options, LoadedScene loa
     visit_options.object_depth = options.drawing.object_depth;
     visit_options.object_samples = options.drawing.object_samples;
     visit_options.exposure_ev = options.renderer.exposure_ev;
-    const Result<TracedOptions> tracing = traced_options(options.renderer);
-    if (!tracing) return tracing.error();
-    visit_options.tracing = *tracing;
+    RS_ASSIGN_OR_RETURN(const TracedOptions tracing, traced_options(options.renderer));
+    visit_options.tracing = tracing;
     visit_options.traced = options.renderer.method().has_value();
     if (options.scene.lights) visit_options.lights = *options.scene.lights;
     visit_options.executor = loaded.executor.name;
@@ -60,41 +59,34 @@ Status show_in_window(Window window, const OpenOptions& options, LoadedScene loa
 Status write_first_view(const std::string& file, const OpenOptions& options, const LoadedScene& loaded,
                         const Camera& first) {
     ProgressBar progress;
-    Result<TracedImages> traced =
-        traced_images(loaded, options.renderer, PassOptions{}, scene_name(options.scene), progress);
-    if (!traced) return traced.error();
+    RS_ASSIGN_OR_RETURN(TracedImages traced,
+                        traced_images(loaded, options.renderer, PassOptions{}, scene_name(options.scene), progress));
     const HeadlessOptions headless{.frame = frame_options(options.drawing, {first.width, first.height},
                                                           options.renderer.exposure_ev, !loaded.executor.tilted)};
-    Result<HeadlessRenderer> renderer = HeadlessRenderer::create(loaded, headless, std::move(*traced));
-    if (!renderer) return renderer.error();
-    const Result<Image<Rgba8>> image = renderer->render(first);
-    if (!image) return image.error();
-    if (Status status = write_png(file, *image); !status) return status;
-    renderer->warn_of_missing_objects(options.executor.memory_mib);
+    RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, renderer.render(first));
+    RS_TRY(write_png(file, image));
+    renderer.warn_of_missing_objects(options.executor.memory_mib);
     return {};
 }
 
 Status run_open(const OpenOptions& options) {
-    const Result<PixelSize> size = parse_size(options.size);
-    if (!size) return size.error();
-    Result<Scene> scene = load_scene(options.scene);
-    if (!scene) return scene.error();
-    print_warnings(light_warnings(*scene));
+    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
+    RS_ASSIGN_OR_RETURN(Scene scene, load_scene(options.scene));
+    print_warnings(light_warnings(scene));
     Result<Window> window =
-        Window::create({.title = scene_name(options.scene), .width = size->width, .height = size->height});
+        Window::create({.title = scene_name(options.scene), .width = size.width, .height = size.height});
     std::string file;
     if (!window) {
         int number = 0;
         file = free_name(".", "screenshot", ".png", number).string();
         print_warnings({window.error().message + "; the first view goes to " + file});
     }
-    Result<LoadedScene> loaded =
-        load_objects(std::move(*scene), options.drawing.object_depth, options.executor, !window.ok());
-    if (!loaded) return loaded.error();
-    const Result<Camera> first = first_camera(options, *loaded, *size);
-    if (!first) return first.error();
-    if (!window) return write_first_view(file, options, *loaded, *first);
-    return show_in_window(std::move(*window), options, std::move(*loaded), *first);
+    RS_ASSIGN_OR_RETURN(LoadedScene loaded,
+                        load_objects(std::move(scene), options.drawing.object_depth, options.executor, !window.ok()));
+    RS_ASSIGN_OR_RETURN(const Camera first, first_camera(options, loaded, size));
+    if (!window) return write_first_view(file, options, loaded, first);
+    return show_in_window(std::move(*window), options, std::move(loaded), first);
 }
 
 }  // namespace

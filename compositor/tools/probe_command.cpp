@@ -19,15 +19,14 @@ struct ProbeOptions {
 };
 
 Status run_probe(const ProbeOptions& options) {
-    const Result<Triple> position = parse_triple(options.position, "--position");
-    if (!position) return position.error();
-    const Result<Scene> scene = load_scene(options.scene);
-    if (!scene) return scene.error();
-    const Result<TracedRenderer> tracer = TracedRenderer::create(*scene, {}, {});
+    RS_ASSIGN_OR_RETURN(const Triple position, parse_triple(options.position, "--position"));
+    RS_ASSIGN_OR_RETURN(const Scene scene, load_scene(options.scene));
+    RS_TRY(check_outputs(options.scene, scene, {options.output}));
+    const Result<TracedRenderer> tracer = TracedRenderer::create(scene, {}, {});
     if (!tracer) return Error{scene_name(options.scene) + ": " + tracer.error().message};
     print_warnings(tracer->warnings());
     ProgressBar progress(options.quiet);
-    return write_exr(options.output, tracer->probe({position->x, position->y, position->z}, options.passes, progress));
+    return write_exr(options.output, tracer->probe({position.x, position.y, position.z}, options.passes, progress));
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ struct QuiltOptions {
     ExecutorOptions executor;
     bool upright = false;
     std::string output;
+    bool force = false;
     bool quiet = false;
 };
 
@@ -66,9 +67,8 @@ Result<QuiltFrames> cameras_of_quilts(const QuiltOptions& options, const QuiltLa
                                       const std::vector<Camera>& cameras) {
     QuiltFrames frames;
     for (const Camera& camera : cameras) {
-        const Result<double> depth = zero_parallax_depth(options, scene, camera);
-        if (!depth) return depth.error();
-        frames.push_back(quilt_cameras(camera, layout, radians(options.cone_deg), *depth));
+        RS_ASSIGN_OR_RETURN(const double depth, zero_parallax_depth(options, scene, camera));
+        frames.push_back(quilt_cameras(camera, layout, radians(options.cone_deg), depth));
     }
     return frames;
 }
@@ -77,69 +77,56 @@ Result<Image<Rgba8>> render_quilt(const QuiltLayout& layout, const std::vector<C
                                   HeadlessRenderer& renderer, Progress& progress) {
     Image<Rgba8> quilt(layout.width(), layout.height());
     for (std::size_t view = 0; view < cameras.size(); ++view) {
-        const Result<Image<Rgba8>> tile = renderer.render(cameras[view]);
-        if (!tile) return tile.error();
-        place_tile(layout, static_cast<int>(view), *tile, quilt);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> tile, renderer.render(cameras[view]));
+        place_tile(layout, static_cast<int>(view), tile, quilt);
         progress.advance();
     }
     return quilt;
 }
 
 // Writes one quilt, or a folder of quilts for several frames, with the layout in each file name.
-Status write_quilts(const std::string& output, const QuiltLayout& layout, const QuiltFrames& frames,
+Status write_quilts(const std::string& output, bool force, const QuiltLayout& layout, const QuiltFrames& frames,
                     HeadlessRenderer& renderer, Progress& progress) {
     if (frames.size() == 1) {
-        const Result<Image<Rgba8>> quilt = render_quilt(layout, frames.front(), renderer, progress);
-        if (!quilt) return quilt.error();
-        return write_png(quilt_path(output, layout), *quilt);
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> quilt, render_quilt(layout, frames.front(), renderer, progress));
+        return write_png(quilt_path(output, layout), quilt);
     }
-    Result<StagedFolder> staged = StagedFolder::create(output, "quilts");
-    if (!staged) return staged.error();
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "quilts", force));
     for (std::size_t frame = 0; frame < frames.size(); ++frame) {
-        const Result<Image<Rgba8>> quilt = render_quilt(layout, frames[frame], renderer, progress);
-        if (!quilt) return quilt.error();
-        const std::filesystem::path path = staged->temporary_path() / numbered_image_name(frame);
-        if (Status status = write_png(quilt_path(path, layout), *quilt); !status) return status;
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> quilt, render_quilt(layout, frames[frame], renderer, progress));
+        const std::filesystem::path path = staged.temporary_path() / numbered_image_name(frame);
+        RS_TRY(write_png(quilt_path(path, layout), quilt));
     }
-    return staged->commit();
+    return staged.commit();
 }
 
 Status run_quilt(const QuiltOptions& options) {
-    const Result<PixelSize> tile = parse_size(options.tile_size);
-    if (!tile) return tile.error();
-    const Result<QuiltLayout> layout = parse_quilt(options.layout, tile->width, tile->height, "--layout");
-    if (!layout) return layout.error();
-    Result<Scene> scene = load_scene(options.scene);
-    if (!scene) return scene.error();
-    print_warnings(light_warnings(*scene));
-    const Result<OutputKind> kind = output_kind(options.output);
-    if (!kind) return kind.error();
-    if (*kind == OutputKind::video) return Error{options.output + ": quilts go into a .png or a folder"};
-    const Result<LoadedScene> loaded =
-        load_objects(std::move(*scene), options.drawing.object_depth, options.executor, true);
-    if (!loaded) return loaded.error();
-    const Result<std::vector<Camera>> cameras = requested_cameras(
-        options.view, options.motion, loaded->scene, [&] { return loaded->all_objects(); }, *tile);
-    if (!cameras) return cameras.error();
-    if (Status status = check_frame_count(options.output, *kind, cameras->size()); !status) return status;
-    const Result<QuiltFrames> frames = cameras_of_quilts(options, *layout, loaded->scene, *cameras);
-    if (!frames) return frames.error();
+    RS_ASSIGN_OR_RETURN(const PixelSize tile, parse_size(options.tile_size));
+    RS_ASSIGN_OR_RETURN(const QuiltLayout layout, parse_quilt(options.layout, tile.width, tile.height, "--layout"));
+    RS_ASSIGN_OR_RETURN(Scene scene, load_scene(options.scene));
+    print_warnings(light_warnings(scene));
+    RS_ASSIGN_OR_RETURN(const OutputKind kind, output_kind(options.output));
+    if (kind == OutputKind::video) return Error{options.output + ": quilts go into a .png or a folder"};
+    RS_TRY(check_outputs(options.scene, scene, {options.output}, {options.motion.path.value_or("")}));
+    RS_ASSIGN_OR_RETURN(const LoadedScene loaded,
+                        load_objects(std::move(scene), options.drawing.object_depth, options.executor, true));
+    RS_ASSIGN_OR_RETURN(const std::vector<Camera> cameras,
+                        requested_cameras(
+                            options.view, options.motion, loaded.scene, [&] { return loaded.all_objects(); }, tile));
+    RS_TRY(check_frame_count(options.output, kind, cameras.size()));
+    RS_ASSIGN_OR_RETURN(const QuiltFrames frames, cameras_of_quilts(options, layout, loaded.scene, cameras));
 
-    const std::size_t views = frames->size() * frames->front().size();
+    const std::size_t views = frames.size() * frames.front().size();
     FrameProgress progress(options.quiet, views, options.renderer.method().has_value());
-    Result<TracedImages> traced =
-        traced_images(*loaded, options.renderer, options.passes, scene_name(options.scene), progress.of_passes());
-    if (!traced) return traced.error();
-    const HeadlessOptions headless{.frame = frame_options(options.drawing, *tile, options.renderer.exposure_ev,
-                                                          options.upright || !loaded->executor.tilted)};
-    Result<HeadlessRenderer> renderer = HeadlessRenderer::create(*loaded, headless, std::move(*traced));
-    if (!renderer) return renderer.error();
+    RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, options.renderer, options.passes,
+                                                           scene_name(options.scene), progress.of_passes()));
+    const HeadlessOptions headless{.frame = frame_options(options.drawing, tile, options.renderer.exposure_ev,
+                                                          options.upright || !loaded.executor.tilted)};
+    RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     progress.start();
-    if (Status status = write_quilts(options.output, *layout, *frames, *renderer, progress.of_frames()); !status) {
-        return status;
-    }
+    RS_TRY(write_quilts(options.output, options.force, layout, frames, renderer, progress.of_frames()));
     progress.finish();
-    renderer->warn_of_missing_objects(options.executor.memory_mib);
+    renderer.warn_of_missing_objects(options.executor.memory_mib);
     return {};
 }
 
@@ -173,6 +160,7 @@ void add_quilt_command(CLI::App& app, std::function<Status()>& run) {
     add_drawing_options(*command, options->drawing);
     add_upright_option(*command, options->upright);
     add_executor_options(*command, options->executor);
+    command->add_flag("--force", options->force, kForceHelp);
     command->add_flag("-q,--quiet", options->quiet, "no progress bar");
     command->footer("Example: rs-view quilt hall.wrl --viewpoint shop --layout 5x9 -o shop.png");
     command->callback([command, options, &run] {

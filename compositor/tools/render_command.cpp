@@ -28,46 +28,40 @@ struct RenderOptions {
     double frames_per_second = 30;
     std::string output;
     std::optional<std::string> stats;
+    bool force = false;
     bool quiet = false;
 };
 
 Status run_render(const RenderOptions& options) {
-    const Result<PixelSize> size = parse_size(options.size);
-    if (!size) return size.error();
-    Result<Scene> scene = load_scene(options.scene);
-    if (!scene) return scene.error();
-    print_warnings(light_warnings(*scene));
-    const Result<OutputKind> kind = output_kind(options.output);
-    if (!kind) return kind.error();
-    const Result<LoadedScene> loaded =
-        load_objects(std::move(*scene), options.drawing.object_depth, options.executor, !options.streaming);
-    if (!loaded) return loaded.error();
-    const Result<std::vector<Camera>> cameras = requested_cameras(
-        options.view, options.motion, loaded->scene, [&] { return loaded->all_objects(); }, *size);
-    if (!cameras) return cameras.error();
-    if (Status status = check_frame_count(options.output, *kind, cameras->size()); !status) return status;
+    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
+    RS_ASSIGN_OR_RETURN(Scene scene, load_scene(options.scene));
+    print_warnings(light_warnings(scene));
+    RS_ASSIGN_OR_RETURN(const OutputKind kind, output_kind(options.output));
+    RS_TRY(check_outputs(options.scene, scene, {options.output, options.stats.value_or("")},
+                         {options.motion.path.value_or("")}));
+    RS_ASSIGN_OR_RETURN(const LoadedScene loaded, load_objects(std::move(scene), options.drawing.object_depth,
+                                                               options.executor, !options.streaming));
+    RS_ASSIGN_OR_RETURN(const std::vector<Camera> cameras,
+                        requested_cameras(
+                            options.view, options.motion, loaded.scene, [&] { return loaded.all_objects(); }, size));
+    RS_TRY(check_frame_count(options.output, kind, cameras.size()));
 
-    FrameProgress progress(options.quiet, cameras->size(), options.renderer.method().has_value());
-    Result<TracedImages> traced =
-        traced_images(*loaded, options.renderer, options.passes, scene_name(options.scene), progress.of_passes());
-    if (!traced) return traced.error();
-    const bool upright = options.upright || options.streaming || !loaded->executor.tilted;
-    HeadlessOptions headless{.frame = frame_options(options.drawing, *size, options.renderer.exposure_ev, upright),
+    FrameProgress progress(options.quiet, cameras.size(), options.renderer.method().has_value());
+    RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, options.renderer, options.passes,
+                                                           scene_name(options.scene), progress.of_passes()));
+    const bool upright = options.upright || options.streaming || !loaded.executor.tilted;
+    HeadlessOptions headless{.frame = frame_options(options.drawing, size, options.renderer.exposure_ev, upright),
                              .frames_per_second = options.frames_per_second,
                              .real_time = options.streaming};
     headless.frame.time_parts = options.stats.has_value();
-    Result<HeadlessRenderer> renderer = HeadlessRenderer::create(*loaded, headless, std::move(*traced));
-    if (!renderer) return renderer.error();
+    RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     progress.start();
-    const RenderView render = [&](const Camera& camera) { return renderer->render(camera); };
-    if (Status status =
-            write_frames(options.output, *kind, options.frames_per_second, *cameras, render, progress.of_frames());
-        !status) {
-        return status;
-    }
+    const RenderView render = [&](const Camera& camera) { return renderer.render(camera); };
+    RS_TRY(write_frames(options.output, options.force, kind, options.frames_per_second, cameras, render,
+                        progress.of_frames()));
     progress.finish();
-    if (!options.streaming) renderer->warn_of_missing_objects(options.executor.memory_mib);
-    return options.stats ? write_file(*options.stats, renderer->times().to_json(*loaded->showroom)) : Status();
+    if (!options.streaming) renderer.warn_of_missing_objects(options.executor.memory_mib);
+    return options.stats ? write_file(*options.stats, renderer.times().to_json(*loaded.showroom)) : Status();
 }
 
 }  // namespace
@@ -96,6 +90,7 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
     command->add_option("--stats", options->stats, "write the frames' times, by part, as JSON")
         ->check(ends_in({".json"}))
         ->type_name("FILE.json");
+    command->add_flag("--force", options->force, kForceHelp);
     command->add_flag("-q,--quiet", options->quiet, "no progress bar");
     command->footer("Example: rs-view render hall.wrl --renderer path --lights evening.json --passes 256 -o hall.png");
     command->callback([command, options, &run] {

@@ -1,10 +1,13 @@
 #include "compositor/tools/scene_options.hpp"
 
 #include "compositor/scene/light/scene_lights.hpp"
+#include "compositor/scene/normal_map.hpp"
 #include "compositor/scene/object_argument.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/file/file_output.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -48,26 +51,45 @@ void check_scene_options(const SceneOptions& options) {
 Result<Scene> load_scene(const SceneOptions& options) {
     Scene scene;
     if (options.scene) {
-        Result<Scene> read = read_scene(*options.scene);
-        if (!read) return read.error();
-        scene = std::move(*read);
+        RS_ASSIGN_OR_RETURN(scene, read_scene(*options.scene));
     } else {
         scene.floor = Floor{};
     }
     if (options.lights) {
-        Result<LightList> list = read_light_list(*options.lights);
-        if (!list) return list.error();
-        if (Status added = add_lights(scene, std::move(*list), *options.lights); !added) return added.error();
+        RS_ASSIGN_OR_RETURN(LightList list, read_light_list(*options.lights));
+        RS_TRY(add_lights(scene, std::move(list), *options.lights));
     }
     const auto count = static_cast<double>(options.objects.size());
     for (std::size_t i = 0; i < options.objects.size(); ++i) {
         const double row_x = (static_cast<double>(i) - (count - 1) / 2) * kRowSpacing;
-        Result<RaySpaceNode> node = parse_object_argument(options.objects[i], {row_x, 0, 0});
-        if (!node) return node.error();
-        scene.objects.push_back(std::move(*node));
+        RS_ASSIGN_OR_RETURN(RaySpaceNode node, parse_object_argument(options.objects[i], {row_x, 0, 0}));
+        scene.objects.push_back(std::move(node));
     }
     print_warnings(scene.warnings);
     return scene;
+}
+
+Status check_outputs(const SceneOptions& options, const Scene& scene, const std::vector<std::filesystem::path>& outputs,
+                     std::vector<std::filesystem::path> others) {
+    std::vector<std::filesystem::path> used = std::move(others);
+    for (const auto& file : {options.scene, options.lights}) {
+        if (file) used.emplace_back(*file);
+    }
+    for (const RaySpaceNode& object : scene.objects) used.push_back(object.file);
+    for (const GeometryNode& node : scene.geometry) {
+        if (node.material.texture) used.push_back(node.material.texture->file);
+        if (node.material.normals) used.push_back(node.material.normals->file);
+    }
+    for (const auto& image : scene.background.images) {
+        if (image) used.push_back(image->file);
+    }
+    std::ranges::sort(used);  // nodes share textures
+    used.erase(std::unique(used.begin(), used.end()), used.end());
+    for (const std::filesystem::path& output : outputs) {
+        RS_TRY(refuse_overwriting_inputs(output, used));
+        used.push_back(output);
+    }
+    return {};
 }
 
 std::string scene_name(const SceneOptions& options) {

@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,10 @@ void check_scene_options(const SceneOptions& options);
 /// Reads the scene file and adds the lights and the objects. Without a file, the objects get a floor. Prints the
 /// scene's warnings.
 Result<Scene> load_scene(const SceneOptions& options);
+
+/// Refuses outputs that would overwrite a file of the scene or of its options, one of `others`, or one another.
+Status check_outputs(const SceneOptions& options, const Scene& scene, const std::vector<std::filesystem::path>& outputs,
+                     std::vector<std::filesystem::path> others = {});
 
 /// The scene's file name for messages and titles; "rs-view" if there is none.
 std::string scene_name(const SceneOptions& options);

@@ -48,6 +48,7 @@ struct SequenceOptions {
     DrawingOptions drawing;
     bool upright = false;
     std::int64_t memory_mib = ExecutorOptions{}.memory_mib;
+    bool force = false;
     bool quiet = false;
 };
 
@@ -65,32 +66,28 @@ Result<SequenceOutput> output_of_sequence(const std::string& output) {
 // The weather of --weather; nullopt for the sequence's own.
 Result<std::optional<Weather>> requested_weather(const SequenceOptions& options) {
     if (!options.weather) return std::optional<Weather>();
-    Result<Weather> weather = parse_weather(*options.weather);
-    if (!weather) return weather.error();
-    weather->seed = options.seed;
-    weather->visibility = options.visibility_m;
-    return std::optional<Weather>(*weather);
+    RS_ASSIGN_OR_RETURN(Weather weather, parse_weather(*options.weather));
+    weather.seed = options.seed;
+    weather.visibility = options.visibility_m;
+    return std::optional<Weather>(weather);
 }
 
 Result<PlayerOptions> player_options(const SequenceOptions& options) {
-    const Result<PixelSize> size = parse_size(options.size);
-    if (!size) return size.error();
-    const Result<TracedOptions> tracing = traced_options(options.renderer);
-    if (!tracing) return tracing.error();
-    const Result<std::optional<Weather>> weather = requested_weather(options);
-    if (!weather) return weather.error();
+    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
+    RS_ASSIGN_OR_RETURN(const TracedOptions tracing, traced_options(options.renderer));
+    RS_ASSIGN_OR_RETURN(const std::optional<Weather> weather, requested_weather(options));
     PlayerOptions player;
-    player.frame = frame_options(options.drawing, *size, options.renderer.exposure_ev, options.upright);
-    if (options.renderer.method()) player.tracing = *tracing;
+    player.frame = frame_options(options.drawing, size, options.renderer.exposure_ev, options.upright);
+    if (options.renderer.method()) player.tracing = tracing;
     player.passes = options.passes;
-    player.weather = *weather;
+    player.weather = weather;
     player.memory_bytes = options.memory_mib << 20;
     return player;
 }
 
 // A sequence and its player.
 struct OpenSequence {
-    std::optional<Converted> converted;  // owns the files that --convert made
+    std::optional<ConvertedScene> converted;  // owns the files that --convert made
     std::shared_ptr<const Sequence> sequence;
     std::optional<SequencePlayer> player;
 };
@@ -99,25 +96,21 @@ Result<OpenSequence> open_sequence(const SequenceOptions& options, const std::st
     OpenSequence opened;
     fs::path files = folder;
     if (options.convert) {
-        Result<Converted> converted = convert_scene(*options.convert, folder);
-        if (!converted) return converted.error();
-        files = converted->path;
-        opened.converted.emplace(std::move(*converted));
+        RS_ASSIGN_OR_RETURN(ConvertedScene converted, convert_scene(*options.convert, folder));
+        files = converted.path;
+        opened.converted.emplace(std::move(converted));
     }
-    Result<Sequence> sequence = read_sequence(files);
-    if (!sequence) return sequence.error();
-    if (opened.converted) sequence->name = fs::path(folder).stem().string();
-    print_warnings(sequence->scene.warnings);
-    opened.sequence = std::make_shared<const Sequence>(std::move(*sequence));
+    RS_ASSIGN_OR_RETURN(Sequence sequence, read_sequence(files));
+    if (opened.converted) sequence.name = fs::path(folder).stem().string();
+    print_warnings(sequence.scene.warnings);
+    opened.sequence = std::make_shared<const Sequence>(std::move(sequence));
     return opened;
 }
 
 Status start_player(const SequenceOptions& options, OpenSequence& opened) {
-    const Result<PlayerOptions> player_settings = player_options(options);
-    if (!player_settings) return player_settings.error();
-    Result<SequencePlayer> player = SequencePlayer::create(opened.sequence, *player_settings);
-    if (!player) return player.error();
-    opened.player.emplace(std::move(*player));
+    RS_ASSIGN_OR_RETURN(const PlayerOptions player_settings, player_options(options));
+    RS_ASSIGN_OR_RETURN(SequencePlayer player, SequencePlayer::create(opened.sequence, player_settings));
+    opened.player.emplace(std::move(player));
     return {};
 }
 
@@ -147,21 +140,19 @@ Status write_video(const SequenceOptions& options, OpenSequence& opened, const s
     return status;
 }
 
-Status write_images(OpenSequence& opened, const std::string& output, Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(output, "frames of a sequence");
-    if (!staged) return staged.error();
-    const Rig rig = rig_of_views(cameras_of(opened));
+Status write_images(OpenSequence& opened, const std::string& output, bool force, Progress& progress) {
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "frames of a sequence", force));
+    const Rig rig = make_rig_of_views(cameras_of(opened));
     progress.start("compositing", static_cast<std::int64_t>(rig.views.size()));
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
-        const Result<Image<Rgba8>> frame = opened.player->frame(i);
-        if (!frame) return frame.error();
-        const fs::path file = staged->temporary_path() / rig.views[i].file_path;
-        if (Status status = write_png(file, *frame); !status) return status;
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> frame, opened.player->frame(i));
+        const fs::path file = staged.temporary_path() / rig.views[i].file_path;
+        RS_TRY(write_png(file, frame));
         progress.advance();
     }
     progress.finish();
-    if (Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
-    return staged->commit();
+    RS_TRY(write_rig(staged.temporary_path() / kRigFileName, rig));
+    return staged.commit();
 }
 
 Status write_image(OpenSequence& opened, std::size_t number, const std::string& output) {
@@ -169,69 +160,64 @@ Status write_image(OpenSequence& opened, std::size_t number, const std::string& 
         return Error{"--frame " + std::to_string(number) + ": the sequence has frames 0.." +
                      std::to_string(opened.sequence->frames.size() - 1)};
     }
-    const Result<Image<Rgba8>> frame = opened.player->frame(number);
-    if (!frame) return frame.error();
-    if (lower_case_extension(output) == ".png") return write_png(output, *frame);
-    return write_jpeg(output, *frame, kJpegQuality);
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> frame, opened.player->frame(number));
+    if (lower_case_extension(output) == ".png") return write_png(output, frame);
+    return write_jpeg(output, frame, kJpegQuality);
 }
 
 Status render_sequence(const SequenceOptions& options) {
     const std::string& output = *options.output;
-    const Result<SequenceOutput> kind = output_of_sequence(output);
-    if (!kind) return kind.error();
+    RS_ASSIGN_OR_RETURN(const SequenceOutput kind, output_of_sequence(output));
     const std::string& folder = options.folders.front();
-    Result<OpenSequence> opened = open_sequence(options, folder);
-    if (!opened) return opened.error();
-    if (*kind == SequenceOutput::kVideo) {
-        if (Status status = check_video(*opened, folder); !status) return status;
+    RS_ASSIGN_OR_RETURN(OpenSequence opened, open_sequence(options, folder));
+    if (kind == SequenceOutput::kVideo) {
+        RS_TRY(check_video(opened, folder));
     }
-    Result<gl::Context> context = gl::Context::create_surfaceless();
-    if (!context) return context.error();
-    if (Status status = start_player(options, *opened); !status) return status;
+    RS_TRY(check_outputs({}, opened.sequence->scene, {output}, {folder}));
+    RS_ASSIGN_OR_RETURN(const gl::Context context, gl::Context::create_surfaceless());
+    RS_TRY(start_player(options, opened));
     ProgressBar progress(options.quiet);
-    Status status = *kind == SequenceOutput::kVideo    ? write_video(options, *opened, output, progress)
-                    : *kind == SequenceOutput::kFolder ? write_images(*opened, output, progress)
-                                                       : write_image(*opened, options.frame, output);
-    print_warnings(opened->player->take_warnings());
-    opened->player.reset();
+    Status status = kind == SequenceOutput::kVideo    ? write_video(options, opened, output, progress)
+                    : kind == SequenceOutput::kFolder ? write_images(opened, output, options.force, progress)
+                                                      : write_image(opened, options.frame, output);
+    print_warnings(opened.player->take_warnings());
+    opened.player.reset();
     return status;
 }
 
 // Writes NAME/sequence.mp4 and NAME/snapshot.jpg into the output folder, or nothing if it fails. Returns a summary.
 Result<std::string> render_into_folder(const SequenceOptions& options, const std::string& folder,
                                        std::set<std::string>& names) {
-    Result<OpenSequence> opened = open_sequence(options, folder);
-    if (!opened) return opened.error();
-    if (Status status = check_video(*opened, folder); !status) return status.error();
-    std::string name = opened->sequence->name.empty() ? "sequence" : opened->sequence->name;
-    for (int i = 2; names.contains(name); ++i) name = opened->sequence->name + "-" + std::to_string(i);
+    RS_ASSIGN_OR_RETURN(OpenSequence opened, open_sequence(options, folder));
+    RS_TRY(check_video(opened, folder));
+    std::string name = opened.sequence->name.empty() ? "sequence" : opened.sequence->name;
+    for (int i = 2; names.contains(name); ++i) name = opened.sequence->name + "-" + std::to_string(i);
     names.insert(name);
     const fs::path target = fs::path(*options.output) / name;
-    Result<StagedFolder> staged = StagedFolder::create(target, "videos of a sequence");
-    if (!staged) return staged.error();
-    if (Status status = start_player(options, *opened); !status) return status.error();
+    const std::vector<fs::path> sequences(options.folders.begin(), options.folders.end());
+    RS_TRY(refuse_overwriting_inputs(target, sequences));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(target, "videos of a sequence", options.force));
+    RS_TRY(start_player(options, opened));
     ProgressBar progress(options.quiet);
-    const fs::path temporary = staged->temporary_path();
-    Status status = write_video(options, *opened, (temporary / "sequence.mp4").string(), progress);
-    if (status) status = write_image(*opened, options.frame, (temporary / "snapshot.jpg").string());
-    print_warnings(opened->player->take_warnings());
-    opened->player.reset();
+    const fs::path temporary = staged.temporary_path();
+    Status status = write_video(options, opened, (temporary / "sequence.mp4").string(), progress);
+    if (status) status = write_image(opened, options.frame, (temporary / "snapshot.jpg").string());
+    print_warnings(opened.player->take_warnings());
+    opened.player.reset();
     if (!status) return status.error();
-    if (Status committed = staged->commit(); !committed) return committed.error();
-    return std::to_string(opened->sequence->frames.size()) + " frames -> " + (target / "sequence.mp4").string();
+    RS_TRY(staged.commit());
+    return std::to_string(opened.sequence->frames.size()) + " frames -> " + (target / "sequence.mp4").string();
 }
 
 // Renders several sequences, with a line on stdout for each; goes on after a failure and reports failures at the end.
 Status render_sequences(const SequenceOptions& options) {
     const std::string& output = *options.output;
-    const Result<SequenceOutput> kind = output_of_sequence(output);
-    if (!kind) return kind.error();
-    if (*kind != SequenceOutput::kFolder) {
+    RS_ASSIGN_OR_RETURN(const SequenceOutput kind, output_of_sequence(output));
+    if (kind != SequenceOutput::kFolder) {
         return Error{output + ": " + std::to_string(options.folders.size()) +
                      " sequences do not fit one file; give a folder to -o"};
     }
-    Result<gl::Context> context = gl::Context::create_surfaceless();
-    if (!context) return context.error();
+    RS_ASSIGN_OR_RETURN(const gl::Context context, gl::Context::create_surfaceless());
     std::error_code error;
     const bool created = fs::create_directories(output, error);
     std::set<std::string> names;
@@ -258,20 +244,18 @@ Status show_sequence(const SequenceOptions& options, PixelSize size, const std::
                      std::string& next) {
     auto window = Window::create({.title = sequence->name, .width = size.width, .height = size.height});
     if (!window) return Error{window.error().message + "; give -o to write an image or a video"};
-    const Result<std::optional<Weather>> weather = requested_weather(options);
-    if (!weather) return weather.error();
-    const Result<TracedOptions> tracing = traced_options(options.renderer);
-    if (!tracing) return tracing.error();
+    RS_ASSIGN_OR_RETURN(const std::optional<Weather> weather, requested_weather(options));
+    RS_ASSIGN_OR_RETURN(const TracedOptions tracing, traced_options(options.renderer));
     VisitOptions visit_options;
     visit_options.sequence = sequence;
-    visit_options.weather = *weather ? *weather : sequence->weather;
+    visit_options.weather = weather ? weather : sequence->weather;
     visit_options.samples = options.drawing.samples;
     visit_options.wire_frame = options.drawing.wire_frame;
     visit_options.shadows = options.drawing.shadows;
     visit_options.object_depth = options.drawing.object_depth;
     visit_options.object_samples = options.drawing.object_samples;
     visit_options.exposure_ev = options.renderer.exposure_ev;
-    visit_options.tracing = *tracing;
+    visit_options.tracing = tracing;
     visit_options.traced = options.renderer.method().has_value();
     visit_options.warn = print_warnings;
     visit_options.open = [&next](const std::string& folder) { next = folder; };
@@ -280,14 +264,14 @@ Status show_sequence(const SequenceOptions& options, PixelSize size, const std::
     begin.world_from_camera = first.world_from_camera;
     begin.field_of_view_rad = 2 * std::atan(0.5 * std::min(first.width, first.height) / first.fl_y);
     visit_options.viewpoints = {begin};
-    const Scene scene = visit_options.weather ? in_weather(sequence->scene, *visit_options.weather) : sequence->scene;
+    const Scene scene =
+        visit_options.weather ? apply_weather(sequence->scene, *visit_options.weather) : sequence->scene;
     auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.memory_bytes = options.memory_mib << 20});
     return visit(std::move(*window), scene, std::move(showroom), visit_options);
 }
 
 Status show_sequences(const SequenceOptions& options) {
-    const Result<PixelSize> size = parse_size(options.size);
-    if (!size) return size.error();
+    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
     std::shared_ptr<const Sequence> shown;
     std::string next = options.folders.front();
     while (!next.empty()) {
@@ -300,7 +284,7 @@ Status show_sequences(const SequenceOptions& options) {
         } else {
             return sequence.error();
         }
-        if (Status status = show_sequence(options, *size, shown, next); !status) return status;
+        RS_TRY(show_sequence(options, size, shown, next));
     }
     return {};
 }
@@ -367,6 +351,7 @@ void add_sequence_command(CLI::App& app, std::function<Status()>& run) {
     add_drawing_options(*command, options->drawing);
     add_upright_option(*command, options->upright);
     add_memory_option(*command, options->memory_mib);
+    command->add_flag("--force", options->force, kForceHelp);
     command->add_flag("-q,--quiet", options->quiet, "no progress bar");
     command->footer("Example: rs-view sequence maps/street --weather rain -o street.mp4");
     command->callback([command, options, &run] {

@@ -63,6 +63,7 @@ struct AssembleOptions {
     std::string tiles;  // folder
     double frames_per_second = 30;
     std::string output;
+    bool force = false;
 };
 
 // Rectangle of a frame, px.
@@ -109,41 +110,37 @@ struct OpenFrames {
     std::vector<Camera> cameras;
 };
 
-Result<OpenFrames> open_frames(const TiledFrames& options) {
-    const Result<PixelSize> size = parse_size(options.size);
-    if (!size) return size.error();
-    Result<Scene> scene = load_scene(options.scene);
-    if (!scene) return scene.error();
-    print_warnings(light_warnings(*scene));
-    Result<LoadedScene> loaded = load_objects(std::move(*scene), options.drawing.object_depth, options.executor, true);
-    if (!loaded) return loaded.error();
-    Result<std::vector<Camera>> cameras = requested_cameras(
-        options.view, options.motion, loaded->scene, [&] { return loaded->all_objects(); }, *size);
-    if (!cameras) return cameras.error();
-    return OpenFrames{std::move(*loaded), std::move(*cameras)};
+// Opens the scene of the frames; refuses to write `output` over an input.
+Result<OpenFrames> open_frames(const TiledFrames& options, const std::string& output, const std::string& tiles = "") {
+    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
+    RS_ASSIGN_OR_RETURN(Scene scene, load_scene(options.scene));
+    print_warnings(light_warnings(scene));
+    RS_TRY(check_outputs(options.scene, scene, {output}, {options.motion.path.value_or(""), tiles}));
+    RS_ASSIGN_OR_RETURN(LoadedScene loaded,
+                        load_objects(std::move(scene), options.drawing.object_depth, options.executor, true));
+    RS_ASSIGN_OR_RETURN(std::vector<Camera> cameras,
+                        requested_cameras(
+                            options.view, options.motion, loaded.scene, [&] { return loaded.all_objects(); }, size));
+    return OpenFrames{std::move(loaded), std::move(cameras)};
 }
 
 Status run_plan(const PlanOptions& options) {
-    const Result<OpenFrames> frames = open_frames(options.frames);
-    if (!frames) return frames.error();
-    const nlohmann::json plan{{"frames", frames->cameras.size()},
-                              {"width", frames->cameras.front().width},
-                              {"height", frames->cameras.front().height}};
+    RS_ASSIGN_OR_RETURN(const OpenFrames frames, open_frames(options.frames, options.output));
+    const nlohmann::json plan{{"frames", frames.cameras.size()},
+                              {"width", frames.cameras.front().width},
+                              {"height", frames.cameras.front().height}};
     return write_file(options.output, plan.dump(2) + "\n");
 }
 
 Status run_trace(const TraceOptions& options) {
-    const Result<OpenFrames> frames = open_frames(options.frames);
-    if (!frames) return frames.error();
-    const Result<Tile> tile = parse_tile(options.tile, frames->cameras);
-    if (!tile) return tile.error();
-    const Result<std::shared_ptr<TracedRenderer>> tracer =
-        make_tracer(frames->loaded, options.frames.renderer, scene_name(options.frames.scene));
-    if (!tracer) return tracer.error();
-    (*tracer)->set_part(tile->place);
+    RS_ASSIGN_OR_RETURN(const OpenFrames frames, open_frames(options.frames, options.output));
+    RS_ASSIGN_OR_RETURN(const Tile tile, parse_tile(options.tile, frames.cameras));
+    RS_ASSIGN_OR_RETURN(const std::shared_ptr<TracedRenderer> tracer,
+                        make_tracer(frames.loaded, options.frames.renderer, scene_name(options.frames.scene)));
+    tracer->set_part(tile.place);
     ProgressBar progress(options.frames.quiet);
-    const auto traced = trace_frame(**tracer, options.frames.passes, frames->cameras[tile->frame], progress);
-    const auto& [x0, y0, x1, y1] = tile->place;
+    const auto traced = trace_frame(*tracer, options.frames.passes, frames.cameras[tile.frame], progress);
+    const auto& [x0, y0, x1, y1] = tile.place;
     Image<Rgba8> image(x1 - x0, y1 - y0);
     for (int y = y0; y < y1; ++y) {
         for (int x = x0; x < x1; ++x) image(x - x0, y - y0) = (*traced)(x, y);
@@ -167,23 +164,21 @@ Result<std::vector<fs::path>> tile_files(const std::string& folder, std::size_t 
 
 // The traced image of a frame from its tiles, which must cover each pixel once.
 Result<Image<Rgba8>> read_tiles(const std::string& folder, std::size_t frame, const Camera& camera) {
-    const Result<std::vector<fs::path>> files = tile_files(folder, frame);
-    if (!files) return files.error();
+    RS_ASSIGN_OR_RETURN(const std::vector<fs::path> files, tile_files(folder, frame));
     Image<Rgba8> image(camera.width, camera.height);
     Image<std::uint8_t> covered(camera.width, camera.height);
-    for (const fs::path& path : *files) {
+    for (const fs::path& path : files) {
         const auto place = numbers_between<3>(path.stem().string(), "--");
         if (!place) return Error{path.string() + ": is not named as a tile, such as 0-256-0.png; remove it"};
-        const Result<Image<Rgba8>> tile = read_image(path);
-        if (!tile) return tile.error();
+        RS_ASSIGN_OR_RETURN(const Image<Rgba8> tile, read_image(path));
         const auto [number, x0, y0] = *place;
-        if (x0 > camera.width - tile->width() || y0 > camera.height - tile->height()) {
+        if (x0 > camera.width - tile.width() || y0 > camera.height - tile.height()) {
             return Error{path.string() + ": lies outside of the frame; remove it"};
         }
-        for (int y = 0; y < tile->height(); ++y) {
-            for (int x = 0; x < tile->width(); ++x) {
+        for (int y = 0; y < tile.height(); ++y) {
+            for (int x = 0; x < tile.width(); ++x) {
                 if (++covered(x0 + x, y0 + y) > 1) return Error{path.string() + ": overlaps another tile; remove one"};
-                image(x0 + x, y0 + y) = (*tile)(x, y);
+                image(x0 + x, y0 + y) = tile(x, y);
             }
         }
     }
@@ -196,34 +191,27 @@ Result<Image<Rgba8>> read_tiles(const std::string& folder, std::size_t frame, co
 
 Status run_assemble(const AssembleOptions& options) {
     const TiledFrames& tiled = options.frames;
-    const Result<OutputKind> kind = output_kind(options.output);
-    if (!kind) return kind.error();
-    const Result<OpenFrames> frames = open_frames(tiled);
-    if (!frames) return frames.error();
-    const std::vector<Camera>& cameras = frames->cameras;
-    if (Status status = check_frame_count(options.output, *kind, cameras.size()); !status) return status;
+    RS_ASSIGN_OR_RETURN(const OutputKind kind, output_kind(options.output));
+    RS_ASSIGN_OR_RETURN(const OpenFrames frames, open_frames(tiled, options.output, options.tiles));
+    const std::vector<Camera>& cameras = frames.cameras;
+    RS_TRY(check_frame_count(options.output, kind, cameras.size()));
     const TracedImages from_tiles = [&](std::size_t frame,
                                         const Camera& camera) -> Result<std::shared_ptr<const Image<Rgba8>>> {
-        Result<Image<Rgba8>> image = read_tiles(options.tiles, frame, camera);
-        if (!image) return image.error();
-        return std::make_shared<const Image<Rgba8>>(std::move(*image));
+        RS_ASSIGN_OR_RETURN(Image<Rgba8> image, read_tiles(options.tiles, frame, camera));
+        return std::make_shared<const Image<Rgba8>>(std::move(image));
     };
     const HeadlessOptions headless{
         .frame = frame_options(tiled.drawing, {cameras.front().width, cameras.front().height},
-                               tiled.renderer.exposure_ev, tiled.upright || !frames->loaded.executor.tilted),
+                               tiled.renderer.exposure_ev, tiled.upright || !frames.loaded.executor.tilted),
         .frames_per_second = options.frames_per_second};
-    Result<HeadlessRenderer> renderer = HeadlessRenderer::create(frames->loaded, headless, from_tiles);
-    if (!renderer) return renderer.error();
+    RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(frames.loaded, headless, from_tiles));
     FrameProgress progress(tiled.quiet, cameras.size(), false);
     progress.start();
-    const RenderView render = [&](const Camera& camera) { return renderer->render(camera); };
-    if (Status status =
-            write_frames(options.output, *kind, options.frames_per_second, cameras, render, progress.of_frames());
-        !status) {
-        return status;
-    }
+    const RenderView render = [&](const Camera& camera) { return renderer.render(camera); };
+    RS_TRY(write_frames(options.output, options.force, kind, options.frames_per_second, cameras, render,
+                        progress.of_frames()));
     progress.finish();
-    renderer->warn_of_missing_objects(tiled.executor.memory_mib);
+    renderer.warn_of_missing_objects(tiled.executor.memory_mib);
     return {};
 }
 
@@ -290,6 +278,7 @@ void add_assemble_command(CLI::App& tile, std::function<Status()>& run) {
         ->type_name("RATE")
         ->capture_default_str();
     add_frames_options(*command, options->frames);
+    command->add_flag("--force", options->force, kForceHelp);
     command->footer("Example: rs-view tile assemble hall.wrl --passes 1024 --tiles tiles -o hall.png");
     command->callback([options, &run] {
         check_scene_options(options->frames.scene);

@@ -103,16 +103,15 @@ Result<TracedOptions> traced_options(const RendererOptions& options) {
     traced.soft_shadows = options.soft_shadows;
     traced.line_radius = options.toon_line_length;
     if (!options.lens) return traced;
-    const Result<CameraLens> lens = parse_lens(*options.lens, options.focus);
-    if (!lens) return lens.error();
-    traced.lens = *lens;
+    RS_ASSIGN_OR_RETURN(const CameraLens lens, parse_lens(*options.lens, options.focus));
+    traced.lens = lens;
     return traced;
 }
 
 std::shared_ptr<const Image<Rgba8>> trace_frame(TracedRenderer& tracer, const PassOptions& limit, const Camera& camera,
                                                 Progress& progress) {
     constexpr int kDefaultPasses = 64;
-    tracer.look(camera);
+    tracer.begin_image(camera);
     if (limit.seconds) {
         const auto begin = std::chrono::steady_clock::now();
         const auto is_over = [&] {

@@ -34,41 +34,38 @@ Result<WallDisplay> requested_display(const WallOptions& options) {
     }();
     if (!display) return display;
     if (options.walls) {
-        if (const Status status = keep_walls(*display, *options.walls); !status) {
+        if (const Status status = select_walls(*display, *options.walls); !status) {
             return Error{options.display + ": " + status.error().message};
         }
     }
     if (options.eye_distance_m) display->eye_distance_m = *options.eye_distance_m;
     if (options.size) {
-        const Result<PixelSize> size = parse_size(*options.size);
-        if (!size) return size.error();
+        RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(*options.size));
         for (Wall& wall : display->walls) {
-            wall.width = size->width;
-            wall.height = size->height;
+            wall.width = size.width;
+            wall.height = size.height;
         }
     }
     return display;
 }
 
 Head in_room(const WallViews& views, const Head& tracked) {
-    return tracked_in_room(tracked, views.display.tracker.value_or(views.display.head));
+    return head_in_room(tracked, views.display.tracker.value_or(views.display.head));
 }
 
 // Starts to receive heads. Images of all frames use the first head; windows read the newest one for each frame.
 Status add_tracked_head(const WallOptions& options, WallViews& views) {
-    const Result<UdpPlace> place = udp_place_from(*options.heads);
-    if (!place) return place.error();
-    Result<HeadReceiver> tracker = HeadReceiver::listen(*place);
-    if (!tracker) return tracker.error();
-    views.tracker = std::make_shared<HeadReceiver>(std::move(*tracker));
+    RS_ASSIGN_OR_RETURN(const UdpEndpoint place, parse_udp_endpoint(*options.heads));
+    RS_ASSIGN_OR_RETURN(HeadReceiver tracker, HeadReceiver::listen(place));
+    views.tracker = std::make_shared<HeadReceiver>(std::move(tracker));
     if (!options.output) return {};
     const std::optional<Head> head = views.tracker->wait_for_newest(kFirstHead_s);
     if (head) {
         views.heads = {in_room(views, *head)};
         return {};
     }
-    const std::string& fault = views.tracker->first_fault();
-    return Error{place->text() + ": no head has come in " + std::to_string(static_cast<int>(kFirstHead_s)) +
+    const std::string& fault = views.tracker->first_error();
+    return Error{place.text() + ": no head has come in " + std::to_string(static_cast<int>(kFirstHead_s)) +
                  (fault.empty() ? " s; start the tracker, and let it send to this address and port"
                                 : " s, but a datagram that " + fault)};
 }
@@ -103,26 +100,24 @@ Result<std::vector<Camera>> wall_cameras(const WallViews& views) {
 }
 
 Result<WallViews> requested_walls(const WallOptions& options, const Scene& scene, const std::vector<Camera>& visitor) {
-    Result<WallDisplay> display = requested_display(options);
-    if (!display) return display.error();
+    RS_ASSIGN_OR_RETURN(WallDisplay display, requested_display(options));
     WallViews views;
-    views.display = std::move(*display);
+    views.display = std::move(display);
     for (const NamedStereoForm& named : kStereoForms) {
         if (options.stereo == named.name) views.stereo = named.form;
     }
     views.heads = {views.display.head};
-    if (options.heads && names_udp_port(*options.heads)) {
-        if (const Status tracked = add_tracked_head(options, views); !tracked) return tracked.error();
+    if (options.heads && is_udp_endpoint(*options.heads)) {
+        RS_TRY(add_tracked_head(options, views));
     } else if (options.heads) {
-        Result<std::vector<Head>> heads = read_heads(*options.heads);
-        if (!heads) return heads.error();
-        views.heads = std::move(*heads);
+        RS_ASSIGN_OR_RETURN(std::vector<Head> heads, read_heads(*options.heads));
+        views.heads = std::move(heads);
     }
     if (views.display.fits_scene) {
         const BoundingBox box = bounds_from(scene, 0, 0);
         if (box.empty())
             return Error{options.display + ": the scene is empty, so that it cannot be fitted to the table"};
-        views.places = {fitted_place(views.display.walls.front(), box)};
+        views.places = {fit_scene_to_wall(views.display.walls.front(), box)};
     } else if (views.display.place) {
         views.places = {*views.display.place};
     } else {
@@ -142,47 +137,45 @@ Result<WallViews> requested_walls(const WallOptions& options, const Scene& scene
     return views;
 }
 
-Status write_walls(const WallViews& views, const std::string& output, const RenderView& render, Progress& progress) {
-    Result<StagedFolder> staged = StagedFolder::create(output, "images of walls");
-    if (!staged) return staged.error();
-    const auto cameras = wall_cameras(views);
-    if (!cameras) return cameras.error();
+Status write_walls(const WallViews& views, const std::string& output, bool force, const RenderView& render,
+                   Progress& progress) {
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "images of walls", force));
+    RS_ASSIGN_OR_RETURN(const auto cameras, wall_cameras(views));
     const bool apart = !views.stereo || *views.stereo == StereoForm::kFolders;
     const std::size_t eyes = views.stereo ? 2 : 1;
     Rig rig;
     const auto write = [&](const std::string& name, const Image<Rgba8>& image) -> Status {
-        const fs::path path = staged->temporary_path() / name;
+        const fs::path path = staged.temporary_path() / name;
         std::error_code failed;
         fs::create_directories(path.parent_path(), failed);
         if (failed) return Error{path.parent_path().string() + ": cannot be made: " + failed.message()};
         return write_png(path, image);
     };
-    for (std::size_t at = 0; at < cameras->size();) {
+    for (std::size_t at = 0; at < cameras.size();) {
         const std::size_t wall = at / eyes % views.display.walls.size();
         const std::size_t frame = at / eyes / views.display.walls.size();
         const std::string name = numbered(views.display.walls[wall].name, frame, views.frames());
         std::vector<Image<Rgba8>> images;
         for (std::size_t eye = 0; eye < eyes; ++eye, ++at) {
-            Result<Image<Rgba8>> image = render((*cameras)[at]);
-            if (!image) return image.error();
+            RS_ASSIGN_OR_RETURN(Image<Rgba8> image, render(cameras[at]));
             progress.advance();
             if (!apart) {
-                images.push_back(std::move(*image));
+                images.push_back(std::move(image));
                 continue;
             }
             RigView view;
             view.file_path = eyes == 1 ? name : (eye == 0 ? "left/" : "right/") + name;
-            view.camera = (*cameras)[at];
-            if (Status status = write(view.file_path, *image); !status) return status;
+            view.camera = cameras[at];
+            RS_TRY(write(view.file_path, image));
             rig.views.push_back(std::move(view));
         }
         if (apart) continue;
-        if (Status status = write(name, stereo_image(*views.stereo, images[0], images[1])); !status) return status;
+        RS_TRY(write(name, stereo_image(*views.stereo, images[0], images[1])));
     }
     if (apart) {
-        if (Status status = write_rig(staged->temporary_path() / kRigFileName, rig); !status) return status;
+        RS_TRY(write_rig(staged.temporary_path() / kRigFileName, rig));
     }
-    return staged->commit();
+    return staged.commit();
 }
 
 }  // namespace rs::compositor

@@ -29,14 +29,14 @@ struct WallOptions {
 
 struct WallViews {
     WallDisplay display;
-    std::vector<Head> heads;        // one for all frames, or one per frame
-    std::vector<RoomPlace> places;  // likewise
+    std::vector<Head> heads;       // one for all frames, or one per frame
+    std::vector<RoomPose> places;  // likewise
     std::optional<StereoForm> stereo;
     std::shared_ptr<HeadReceiver> tracker;  // null without a tracker
 
     [[nodiscard]] std::size_t frames() const { return std::max(heads.size(), places.size()); }
     [[nodiscard]] const Head& head(std::size_t frame) const { return heads[heads.size() == 1 ? 0 : frame]; }
-    [[nodiscard]] const RoomPlace& place(std::size_t frame) const { return places[places.size() == 1 ? 0 : frame]; }
+    [[nodiscard]] const RoomPose& place(std::size_t frame) const { return places[places.size() == 1 ? 0 : frame]; }
 };
 
 /// Reads the display and the heads. Fails if an eye of any frame is behind a wall. With an output, waits up to 10 s for
@@ -55,6 +55,7 @@ Result<std::vector<Camera>> wall_cameras(const WallViews& views);
 /// left/ and right/. If each image is that of one eye, transforms.json holds the cameras.
 /// \param render called for the cameras of wall_cameras() in order
 /// \param progress advanced for each camera
-Status write_walls(const WallViews& views, const std::string& output, const RenderView& render, Progress& progress);
+Status write_walls(const WallViews& views, const std::string& output, bool force, const RenderView& render,
+                   Progress& progress);
 
 }  // namespace rs::compositor

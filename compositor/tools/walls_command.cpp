@@ -9,6 +9,7 @@
 #include "compositor/tools/tracing_options.hpp"
 #include "compositor/tools/wall_views.hpp"
 #include "compositor/window/wall_visit.hpp"
+#include "rayspace/file/file_output.hpp"
 #include "rayspace/output/view_output.hpp"
 
 #include <memory>
@@ -27,6 +28,7 @@ struct WallsOptions {
     DrawingOptions drawing;
     ExecutorOptions executor;
     bool upright = false;
+    bool force = false;
     bool quiet = false;
 };
 
@@ -34,7 +36,7 @@ Status show_walls(const WallsOptions& options, const WallViews& views, LoadedSce
     const auto tracked = [&views, warned = false]() mutable {
         const std::optional<Head> head = newest_head(views);
         if (views.tracker->dropped() > 0 && !std::exchange(warned, true)) {
-            print_warnings({views.tracker->place().text() + ": a datagram " + views.tracker->first_fault() +
+            print_warnings({views.tracker->place().text() + ": a datagram " + views.tracker->first_error() +
                             "; it is dropped, as others like it will be"});
         }
         return head;
@@ -60,58 +62,54 @@ Status show_walls(const WallsOptions& options, const WallViews& views, LoadedSce
 }
 
 Status render_walls(const WallsOptions& options, const WallViews& views, const LoadedScene& loaded) {
-    const Result<std::vector<Camera>> cameras = wall_cameras(views);
-    if (!cameras) return cameras.error();
-    FrameProgress progress(options.quiet, cameras->size(), options.renderer.method().has_value());
-    Result<TracedImages> traced =
-        traced_images(loaded, options.renderer, options.passes, scene_name(options.scene), progress.of_passes());
-    if (!traced) return traced.error();
-    const Camera& first = cameras->front();
+    RS_ASSIGN_OR_RETURN(const std::vector<Camera> cameras, wall_cameras(views));
+    FrameProgress progress(options.quiet, cameras.size(), options.renderer.method().has_value());
+    RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, options.renderer, options.passes,
+                                                           scene_name(options.scene), progress.of_passes()));
+    const Camera& first = cameras.front();
     const HeadlessOptions headless{.frame = frame_options(options.drawing, {first.width, first.height},
                                                           options.renderer.exposure_ev,
                                                           options.upright || !loaded.executor.tilted)};
-    Result<HeadlessRenderer> renderer = HeadlessRenderer::create(loaded, headless, std::move(*traced));
-    if (!renderer) return renderer.error();
+    RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     progress.start();
-    const RenderView render = [&](const Camera& camera) { return renderer->render(camera); };
-    if (Status status = write_walls(views, *options.walls.output, render, progress.of_frames()); !status) {
-        return status;
-    }
+    const RenderView render = [&](const Camera& camera) { return renderer.render(camera); };
+    RS_TRY(write_walls(views, *options.walls.output, options.force, render, progress.of_frames()));
     progress.finish();
-    renderer->warn_of_missing_objects(options.executor.memory_mib);
+    renderer.warn_of_missing_objects(options.executor.memory_mib);
     return {};
 }
 
 Status run_walls(const WallsOptions& options) {
     constexpr PixelSize kSizeOfVisitor{1280, 720};  // its aspect matters where the view is framed to show everything
-    Result<Scene> scene = load_scene(options.scene);
-    if (!scene) return scene.error();
-    print_warnings(light_warnings(*scene));
+    RS_ASSIGN_OR_RETURN(Scene scene, load_scene(options.scene));
+    print_warnings(light_warnings(scene));
     if (options.walls.output) {
-        const Result<OutputKind> kind = output_kind(*options.walls.output);
-        if (!kind) return kind.error();
-        if (*kind != OutputKind::folder) {
+        RS_ASSIGN_OR_RETURN(const OutputKind kind, output_kind(*options.walls.output));
+        if (kind != OutputKind::folder) {
             return Error{*options.walls.output + ": walls go into a folder; give a folder to -o"};
         }
+        std::vector<std::filesystem::path> others{options.motion.path.value_or("")};
+        for (const std::string& name : {options.walls.display, options.walls.heads.value_or("")}) {
+            std::error_code ignored;  // or the name of a preset, or a port
+            if (std::filesystem::is_regular_file(name, ignored)) others.emplace_back(name);
+        }
+        RS_TRY(check_outputs(options.scene, scene, {*options.walls.output}, std::move(others)));
     }
-    Result<PixelSize> size = options.walls.size ? parse_size(*options.walls.size) : kSizeOfVisitor;
-    if (!size) return size.error();
-    Result<LoadedScene> loaded = load_objects(std::move(*scene), options.drawing.object_depth, options.executor,
-                                              options.walls.output.has_value());
-    if (!loaded) return loaded.error();
-    const Result<std::vector<Camera>> visitor = requested_cameras(
-        options.view, options.motion, loaded->scene, [&] { return loaded->all_objects(); }, *size);
-    if (!visitor) return visitor.error();
-    const Result<WallViews> views = requested_walls(options.walls, loaded->scene, *visitor);
-    if (!views) return views.error();
-    if (options.walls.output) return render_walls(options, *views, *loaded);
-    return show_walls(options, *views, std::move(*loaded));
+    RS_ASSIGN_OR_RETURN(PixelSize size, options.walls.size ? parse_size(*options.walls.size) : kSizeOfVisitor);
+    RS_ASSIGN_OR_RETURN(LoadedScene loaded, load_objects(std::move(scene), options.drawing.object_depth,
+                                                         options.executor, options.walls.output.has_value()));
+    RS_ASSIGN_OR_RETURN(const std::vector<Camera> visitor,
+                        requested_cameras(
+                            options.view, options.motion, loaded.scene, [&] { return loaded.all_objects(); }, size));
+    RS_ASSIGN_OR_RETURN(const WallViews views, requested_walls(options.walls, loaded.scene, visitor));
+    if (options.walls.output) return render_walls(options, views, loaded);
+    return show_walls(options, views, std::move(loaded));
 }
 
 // Windows move by keys and are rasterized.
 void check_window_options(const CLI::App& command) {
-    for (const char* const name :
-         {"--path", "--orbit", "--passes", "--seconds", "--upright", "--quiet", "--soft-shadows", "--toon-lines"}) {
+    for (const char* const name : {"--path", "--orbit", "--passes", "--seconds", "--upright", "--quiet",
+                                   "--soft-shadows", "--toon-lines", "--force"}) {
         if (command.count(name) == 0) continue;
         throw CLI::ValidationError(std::string(name) + " needs -o: the folder to write images of the walls to");
     }
@@ -159,6 +157,7 @@ void add_walls_command(CLI::App& app, std::function<Status()>& run) {
     add_drawing_options(*command, options->drawing);
     add_upright_option(*command, options->upright);
     add_executor_options(*command, options->executor);
+    command->add_flag("--force", options->force, kForceHelp);
     command->add_flag("-q,--quiet", options->quiet, "no progress bar");
     command->footer("Example: rs-view walls hall.wrl --display cave --stereo side-by-side -o walls");
     command->callback([command, options, &run] {

@@ -29,7 +29,7 @@ Camera one_pixel(const glm::dvec3& eye, const glm::dvec3& direction) {
 
 }  // namespace
 
-ObjectRays::ObjectRays(PlacedObject placed, float brightness)
+ObjectPrimitive::ObjectPrimitive(PlacedObject placed, float brightness)
     : placed_(std::move(placed)), object_from_world_(placed_.world_from_object.inverse()), brightness_(brightness) {
     const BoundingCylinder& cylinder = placed_.object->bounds;
     const double half_height = std::max(0.5 * (cylinder.top - cylinder.bottom), 0.0);
@@ -42,7 +42,8 @@ ObjectRays::ObjectRays(PlacedObject placed, float brightness)
     box_ = {glm::vec3(in_world.lowest), glm::vec3(in_world.highest)};
 }
 
-std::optional<ObjectRays::Answer> ObjectRays::answer(const glm::vec3& origin, const glm::vec3& direction) const {
+std::optional<ObjectPrimitive::Answer> ObjectPrimitive::answer(const glm::vec3& origin,
+                                                               const glm::vec3& direction) const {
     const glm::dvec3 from = object_from_world_.point(glm::dvec3(origin));
     const glm::dvec3 along = glm::normalize(object_from_world_.direction(glm::dvec3(direction)));
     const double to_viewpoint = glm::dot(middle_ - from, along) - kViewpointDistance * reach_;

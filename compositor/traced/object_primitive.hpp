@@ -10,10 +10,10 @@
 
 namespace rs::compositor {
 
-class ObjectRays : public capture::RayPrimitive {
+class ObjectPrimitive : public capture::RayPrimitive {
 public:
     /// Emits the colours of its images times `brightness`; pixels less than half opaque are empty.
-    ObjectRays(PlacedObject placed, float brightness);
+    ObjectPrimitive(PlacedObject placed, float brightness);
     /// Must not be called while rays are traced.
     void set_brightness(float brightness) { brightness_ = brightness; }
     [[nodiscard]] Box bounds() const override { return box_; }

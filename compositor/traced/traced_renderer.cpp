@@ -46,9 +46,9 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
                                               const TracedOptions& options) {
     TracerScene room = make_tracer_scene(scene);
     const auto darker = static_cast<float>(std::exp2(-options.exposure_ev));
-    std::vector<std::shared_ptr<ObjectRays>> rays;
+    std::vector<std::shared_ptr<ObjectPrimitive>> rays;
     for (const PlacedObject& object : objects) {
-        rays.push_back(std::make_shared<ObjectRays>(object, darker));
+        rays.push_back(std::make_shared<ObjectPrimitive>(object, darker));
         room.scene.primitives.push_back(rays.back());
     }
     std::vector<Light> lights = room.scene.lights;
@@ -63,7 +63,7 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
     renderer.render_.toon.edge_radius = static_cast<float>(options.line_radius.value_or(default_line_radius(scene)));
     renderer.render_.toon.shadow_rays = options.soft_shadows ? kToonShadowRays : 0;
     renderer.render_.toon.brightness = darker;  // tones do not depend on the exposure
-    renderer.render_.see_areas = true;
+    renderer.render_.show_areas = true;
     renderer.moving_ = std::move(room.moving);
     renderer.has_emission_ = has_emission;
     renderer.objects_ = std::move(rays);
@@ -93,7 +93,7 @@ bool TracedRenderer::move(std::uint32_t id, const glm::dmat4& moved, const std::
 
 void TracedRenderer::describe_lights(const Scene& scene, std::vector<Light> lights) {
     render_.ambient = ambient_of(scene);
-    render_.see_environment = scene.environment && scene.environment->seen;
+    render_.show_environment = scene.environment && scene.environment->seen;
     headlight_ = scene.navigation.headlight && lights.empty() && !scene.environment && !has_emission_;
     lights_ = std::move(lights);
     environment_ = scene.environment ? scene.environment->pixels : nullptr;
@@ -126,7 +126,8 @@ void TracedRenderer::begin(const Camera& camera) {
 capture::RenderOptions TracedRenderer::render_options(const Camera& camera) const {
     capture::RenderOptions render = render_;
     if (options_.lens) render.lens = options_.lens->of(camera);
-    if (render.part && render.method == TracedMethod::kRadiosity) render.part = capture::within_reach(*render.part);
+    if (render.part && render.method == TracedMethod::kRadiosity)
+        render.part = capture::with_filter_margin(*render.part);
     return render;
 }
 

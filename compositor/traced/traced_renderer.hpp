@@ -43,7 +43,7 @@ struct CameraLens {
     [[nodiscard]] capture::ThinLens of(const Camera& camera) const;
 };
 
-class ObjectRays;
+class ObjectPrimitive;
 
 struct TracedOptions {
     TracedMethod method = TracedMethod::kPath;
@@ -114,9 +114,9 @@ private:
     std::vector<TracerScene::MovableNode> moving_;  // [tracer instance]
     bool has_emission_ = false;                     // some surface is emissive
     bool headlight_ = false;
-    std::vector<Light> lights_;                         // without the headlight
-    std::shared_ptr<const Image<RgbaF>> environment_;   // source of the tracer's environment light
-    std::vector<std::shared_ptr<ObjectRays>> objects_;  // of the tracer's scene
+    std::vector<Light> lights_;                              // without the headlight
+    std::shared_ptr<const Image<RgbaF>> environment_;        // source of the tracer's environment light
+    std::vector<std::shared_ptr<ObjectPrimitive>> objects_;  // of the tracer's scene
     std::vector<std::string> warnings_;
     Camera camera_;
     capture::Accumulation sum_;

@@ -170,8 +170,8 @@ TracerScene make_tracer_scene(const Scene& scene) {
             continue;
         }
         if (!node.moving) {
-            room.scene.meshes.push_back(
-                capture::placed_mesh(converter.convert(node, "node " + std::to_string(n + 1)), node.world_from_node));
+            room.scene.meshes.push_back(capture::transform_mesh(
+                converter.convert(node, "node " + std::to_string(n + 1)), node.world_from_node));
             continue;
         }
         const auto same = [&](const auto& known) {

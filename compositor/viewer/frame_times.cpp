@@ -8,8 +8,8 @@
 namespace rs::compositor {
 namespace {
 
-// The value that `share` of all are not above; 0 of none.
-double at_share(std::vector<double> values, double share) {
+// Quantile, `share` in 0 .. 1; 0 if there are no values.
+double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0;
     const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), values.begin() + at, values.end());
@@ -20,8 +20,8 @@ double at_share(std::vector<double> values, double share) {
 
 Status FrameTimes::draw(Showroom& showroom, FrameCompositor& compositor, const Camera& camera, double seconds) {
     const auto begin = Clock::now();
-    if (Status status = showroom.update(camera.centre(), seconds); !status) return status;
-    if (Status status = compositor.draw(camera); !status) return status;
+    RS_TRY(showroom.update(camera.centre(), seconds));
+    RS_TRY(compositor.draw(camera));
     frames_ms_.push_back(1e3 * std::chrono::duration<double>(Clock::now() - begin).count());
     const FrameStatistics& statistics = compositor.statistics();
     geometry_ms_.push_back(1e3 * statistics.geometry_s);
@@ -32,11 +32,11 @@ Status FrameTimes::draw(Showroom& showroom, FrameCompositor& compositor, const C
     pixels_ += statistics.pixels_rendered;
     nodes_ += statistics.nodes_rendered;
     nodes_by_board_ += statistics.nodes_by_board;
-    note_missing(statistics);
+    update_missing(statistics);
     return {};
 }
 
-void FrameTimes::note_missing(const FrameStatistics& statistics) {
+void FrameTimes::update_missing(const FrameStatistics& statistics) {
     missing_since_.resize(statistics.nodes.size());
     for (std::size_t i = 0; i < statistics.nodes.size(); ++i) {
         Clock::time_point& since = missing_since_[i];
@@ -58,29 +58,29 @@ std::vector<FrameTimes::Missing> FrameTimes::missing() const {
 }
 
 double FrameTimes::median_ms() const {
-    return at_share(frames_ms_, 0.5);
+    return quantile(frames_ms_, 0.5);
 }
 
 double FrameTimes::longest_ms() const {
-    return at_share(frames_ms_, 1);
+    return quantile(frames_ms_, 1);
 }
 
 std::string FrameTimes::to_json(const Showroom& showroom) const {
     const auto frames = static_cast<double>(std::max<std::size_t>(frames_ms_.size(), 1));
-    const StoreStatistics store = showroom.statistics();
+    const CacheStatistics store = showroom.statistics();
     const std::vector<Missing> gaps = missing();
     double longest_gap_s = 0;
     for (const Missing& gap : gaps) longest_gap_s = std::max(longest_gap_s, gap.seconds);
     const nlohmann::json json{{"frames", frames_ms_.size()},
                               {"median_ms", median_ms()},
-                              {"p95_ms", at_share(frames_ms_, 0.95)},
+                              {"p95_ms", quantile(frames_ms_, 0.95)},
                               {"longest_ms", longest_ms()},
                               {"median_parts_ms",
-                               {{"geometry", at_share(geometry_ms_, 0.5)},
-                                {"engine", at_share(engine_ms_, 0.5)},
-                                {"engine_wait", at_share(engine_wait_ms_, 0.5)},
-                                {"upload", at_share(upload_ms_, 0.5)},
-                                {"composite", at_share(composite_ms_, 0.5)}}},
+                               {{"geometry", quantile(geometry_ms_, 0.5)},
+                                {"engine", quantile(engine_ms_, 0.5)},
+                                {"engine_wait", quantile(engine_wait_ms_, 0.5)},
+                                {"upload", quantile(upload_ms_, 0.5)},
+                                {"composite", quantile(composite_ms_, 0.5)}}},
                               {"objects_per_frame", static_cast<double>(nodes_) / frames},
                               {"engine_pixels_per_frame", static_cast<double>(pixels_) / frames},
                               {"views_by_core", nodes_ - nodes_by_board_},

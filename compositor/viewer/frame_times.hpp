@@ -1,5 +1,5 @@
 #pragma once
-// How long frames take, all in all and by part, and how long objects were missing in them.
+// Frame times in total and by part, and the durations for which objects were missing.
 
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
@@ -15,30 +15,30 @@ namespace rs::compositor {
 
 class FrameTimes {
 public:
-    // Brings the showroom to where the camera is, `seconds` after the frame before, draws, and takes the time. Parts
-    // are their own only with FrameOptions::time_parts.
+    /// Updates the showroom for the camera's position, draws, and measures both. The times of parts do not overlap only
+    /// with FrameOptions::time_parts.
+    /// \param seconds since the previous frame
     Status draw(Showroom& showroom, FrameCompositor& compositor, const Camera& camera, double seconds);
 
     [[nodiscard]] std::size_t frames() const { return frames_ms_.size(); }
     [[nodiscard]] double median_ms() const;
     [[nodiscard]] double longest_ms() const;
 
-    // A node that was in view without its object.
+    /// A period in which a node was in view without its object.
     struct Missing {
         std::size_t node = 0;
-        double seconds = 0;  // at a stretch, from frame to frame
+        double seconds = 0;
     };
     [[nodiscard]] std::vector<Missing> missing() const;
 
-    // {"frames", "median_ms", "p95_ms", "longest_ms", "median_parts_ms": {"geometry", "engine", "engine_wait",
-    // "upload", "composite"}, "objects_per_frame", "engine_pixels_per_frame", "views_by_core", "views_by_board",
-    // "missing":
-    // {"times", "longest_ms"}, "memory": {"loads", "evictions", "failures", "budget_bytes", "peak_bytes",
-    // "longest_load_ms"}}
+    /// {"frames", "median_ms", "p95_ms", "longest_ms", "median_parts_ms": {"geometry", "engine", "engine_wait",
+    /// "upload", "composite"}, "objects_per_frame", "engine_pixels_per_frame", "views_by_core", "views_by_board",
+    /// "missing": {"times", "longest_ms"}, "memory": {"loads", "evictions", "failures", "budget_bytes", "peak_bytes",
+    /// "longest_load_ms"}}
     [[nodiscard]] std::string to_json(const Showroom& showroom) const;
 
 private:
-    void note_missing(const FrameStatistics& statistics);
+    void update_missing(const FrameStatistics& statistics);
 
     std::vector<double> frames_ms_;
     std::vector<double> geometry_ms_;
@@ -50,8 +50,8 @@ private:
     std::int64_t nodes_ = 0;
     std::int64_t nodes_by_board_ = 0;
     using Clock = std::chrono::steady_clock;
-    std::vector<Clock::time_point> missing_since_;  // [node]; epoch: it is not missing
-    std::vector<Missing> missing_;                  // that have ended
+    std::vector<Clock::time_point> missing_since_;  // [node]; epoch: not missing
+    std::vector<Missing> missing_;                  // completed periods
 };
 
 }  // namespace rs::compositor

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kFade_s = 0.4;
 constexpr std::size_t kObjectsOfBoard = 20;
-constexpr double kAhead_s = 2;        // how far ahead of the visitor is looked
-constexpr double kSteadying_s = 0.3;  // over which speed is averaged
+constexpr double kPrediction_s = 2;           // of the eye position
+constexpr double kVelocitySmoothing_s = 0.3;  // time constant
 
 }  // namespace
 
@@ -24,10 +24,11 @@ Showroom::Showroom(const Scene& scene, const ShowroomOptions& options, std::uniq
                    std::unique_ptr<ObjectSource> source)
     : plan_(scene),
       waits_(options.waits),
-      engine_(std::make_shared<engine::RenderSession>(limits_of_viewer(), std::move(board))),
-      nodes_(std::make_shared<ShownNodes>(scene.objects.size())),
+      engine_(std::make_shared<engine::RenderSession>(viewer_session_limits(), std::move(board))),
+      nodes_(std::make_shared<DisplayedNodes>(scene.objects.size())),
       handles_(plan_.files().size()),
-      cache_(plan_.files(), source ? std::move(source) : object_files(engine_, !options.waits), options.memory_bytes) {
+      cache_(plan_.files(), source ? std::move(source) : make_file_source(engine_, !options.waits),
+             options.memory_bytes) {
     for (const RaySpaceNode& node : scene.objects) scene_nodes_.push_back({node, std::nullopt, false});
 }
 
@@ -47,12 +48,12 @@ Placeholder Showroom::placeholder_of(std::size_t node) const {
     return placeholder;
 }
 
-Status Showroom::arrive(const CacheEvent& event) {
+Status Showroom::add_loaded(const CacheEvent& event) {
     RS_ASSIGN_OR_RETURN(const engine::ObjectHandle handle, engine_->load(prepared(event.object)));
     handles_[event.file] = handle;
     for (std::size_t i = 0; i < scene_nodes_.size(); ++i) {
         if (plan_.file_of_node(i) != event.file) continue;
-        ShownNode& node = (*nodes_)[i];
+        DisplayedNode& node = (*nodes_)[i];
         scene_nodes_[i].extent = event.object->extent;
         node.object = place(event.object, scene_nodes_[i].description);
         node.handle = handle;
@@ -61,7 +62,7 @@ Status Showroom::arrive(const CacheEvent& event) {
     return {};
 }
 
-void Showroom::leave(CacheEvent event) {
+void Showroom::evict(CacheEvent event) {
     for (std::size_t i = 0; i < scene_nodes_.size(); ++i) {
         if (plan_.file_of_node(i) != event.file) continue;
         (*nodes_)[i].object.reset();
@@ -71,7 +72,7 @@ void Showroom::leave(CacheEvent event) {
     cache_.give_back(std::move(event.object));
 }
 
-Status Showroom::fail(const CacheEvent& event) {
+Status Showroom::record_failure(const CacheEvent& event) {
     warnings_.push_back(event.why + "; shown without this object");
     for (std::size_t i = 0; i < scene_nodes_.size(); ++i) {
         if (plan_.file_of_node(i) != event.file) continue;
@@ -84,12 +85,12 @@ Status Showroom::fail(const CacheEvent& event) {
 Status Showroom::take_events() {
     for (CacheEvent& event : cache_.events()) {
         Status status;
-        if (event.kind == CacheEvent::Kind::kArrived)
-            status = arrive(event);
-        else if (event.kind == CacheEvent::Kind::kLeaves)
-            leave(std::move(event));
+        if (event.kind == CacheEvent::Kind::kLoaded)
+            status = add_loaded(event);
+        else if (event.kind == CacheEvent::Kind::kEvicting)
+            evict(std::move(event));
         else
-            status = fail(event);
+            status = record_failure(event);
         if (!status) return status;
     }
     return {};
@@ -98,7 +99,7 @@ Status Showroom::take_events() {
 Status Showroom::wait() {
     while (!cache_.settled()) {
         cache_.wait_for_events();
-        if (Status status = take_events(); !status) return status;
+        RS_TRY(take_events());
     }
     return {};
 }
@@ -108,7 +109,7 @@ Status Showroom::wait_for_all(const glm::dvec3& eye) {
     return wait();
 }
 
-// What a visitor at `eye` needs most, as many as boards hold.
+// Loads the objects of highest priority at `eye`, up to the capacity of a board.
 void Showroom::load_on_board(const glm::dvec3& eye) {
     if (!engine_->has_board()) return;
     const std::vector<LoadPriority> priorities = plan_.priorities({eye, eye});
@@ -125,24 +126,22 @@ void Showroom::load_on_board(const glm::dvec3& eye) {
 
 void Showroom::fade(double seconds) {
     for (std::size_t i = 0; i < nodes_->size(); ++i) {
-        ShownNode& node = (*nodes_)[i];
+        DisplayedNode& node = (*nodes_)[i];
         if (node.object) node.opacity = std::min(node.opacity + static_cast<float>(seconds / kFade_s), 1.0F);
-        const bool hidden = scene_nodes_[i].failed || (node.object && node.opacity >= 1);
-        if (hidden) {
-            node.placeholder.reset();
-        } else {
-            node.placeholder = placeholder_of(i);
-            if (node.object) node.placeholder->opacity = 1 - node.opacity;
-        }
+        const bool has_placeholder = !(scene_nodes_[i].failed || (node.object && node.opacity >= 1));
+        node.placeholder.reset();
+        if (!has_placeholder) continue;
+        node.placeholder = placeholder_of(i);
+        if (node.object) node.placeholder->opacity = 1 - node.opacity;
     }
 }
 
 Status Showroom::update(const glm::dvec3& eye, double seconds, const std::optional<glm::dvec3>& destination) {
     if (eye_ && seconds > 0) {
-        velocity_ += ((eye - *eye_) / seconds - velocity_) * (1 - std::exp(-seconds / kSteadying_s));
+        velocity_ += ((eye - *eye_) / seconds - velocity_) * (1 - std::exp(-seconds / kVelocitySmoothing_s));
     }
     eye_ = eye;
-    const glm::dvec3 soon = destination.value_or(eye + velocity_ * kAhead_s);
+    const glm::dvec3 soon = destination.value_or(eye + velocity_ * kPrediction_s);
     if (waits_) {
         cache_.set_priorities(plan_.priorities({eye, eye}));
         priorities_taken_ = true;
@@ -156,7 +155,7 @@ Status Showroom::update(const glm::dvec3& eye, double seconds, const std::option
 }
 
 void Showroom::move_object(std::size_t node, const std::optional<TransformChain>& chain) {
-    ShownNode& shown = (*nodes_)[node];
+    DisplayedNode& shown = (*nodes_)[node];
     shown.hidden = !chain;
     if (!chain) return;
     scene_nodes_[node].description.chain = *chain;
@@ -171,7 +170,7 @@ std::string Showroom::absence(std::size_t node) const {
 
 std::vector<PlacedObject> Showroom::placed() const {
     std::vector<PlacedObject> all;
-    for (const ShownNode& node : *nodes_) {
+    for (const DisplayedNode& node : *nodes_) {
         if (node.object) all.push_back(*node.object);
     }
     return all;

@@ -20,11 +20,11 @@ constexpr double kAhead = 3;    // distance if no surface is in view, scene unit
 
 }  // namespace
 
-LightDesk::LightDesk(const Scene& scene, double exposure_ev, const std::filesystem::path& profile_file)
+LightEditor::LightEditor(const Scene& scene, double exposure_ev, const std::filesystem::path& profile_file)
     : profile(profile_file.string()),
       base_(std::make_shared<const Scene>(scene)),
       lit_(base_),
-      edits_(state_of(lights_in_force(scene), exposure_ev)) {
+      edits_(state_of(lights_as_list(scene), exposure_ev)) {
     if (const BoundingBox box = bounds_of(scene); !box.empty()) {
         lift_ = std::clamp(kLift * glm::length(box.highest - box.lowest), 1e-6, 1e3);
     }
@@ -35,7 +35,7 @@ LightDesk::LightDesk(const Scene& scene, double exposure_ev, const std::filesyst
     folder_ = folder.empty() ? "." : folder;
 }
 
-bool LightDesk::take_change() {
+bool LightEditor::take_change() {
     const auto checked = std::pair(edits_.revision(), edits_.selected());
     if (!edits_.in_gesture() && warned_ != checked && open_) {
         warned_ = checked;
@@ -55,20 +55,20 @@ bool LightDesk::take_change() {
     return true;
 }
 
-void LightDesk::open(bool open) {
+void LightEditor::open(bool open) {
     open_ = open;
-    if (open && files_.empty()) look_for_files(folder_);
+    if (open && files_.empty()) scan_folder(folder_);
     if (!open) end_drag();
 }
 
-void LightDesk::end_drag() {
+void LightEditor::end_drag() {
     if (drag_) edits_.end_gesture();
     drag_.reset();
     grab_.reset();
     pressed_outside_.reset();
 }
 
-bool LightDesk::on_event(const Event& event, const DeskView& view) {
+bool LightEditor::on_event(const Event& event, const EditorView& view) {
     if (!open_) return false;
     if (const auto* const move = std::get_if<MoveEvent>(&event)) {
         pointer_ = move->to_px;
@@ -105,7 +105,7 @@ bool LightDesk::on_event(const Event& event, const DeskView& view) {
     return false;
 }
 
-void LightDesk::follow(const DeskView& view) {
+void LightEditor::follow(const EditorView& view) {
     if (!grab_ || grab_->hit.light >= edits_.state().entries.size()) return;
     if (!drag_) {
         if (glm::distance(grab_->at_px, pointer_) <= kHandShakes_px) return;
@@ -115,13 +115,13 @@ void LightDesk::follow(const DeskView& view) {
     edits_.set_light(grab_->hit.light, drag_->to(pointer_, view.camera, view.surface));
 }
 
-void LightDesk::update(const DeskView& view) {
+void LightEditor::update(const EditorView& view) {
     if (!open_ || !std::exchange(pointer_moved_, false)) return;
     follow(view);
     hovered_ = grab_ ? std::optional(grab_->hit) : handle_at(edits_.state(), edits_.selected(), view.camera, pointer_);
 }
 
-bool LightDesk::on_key(Key command) {
+bool LightEditor::on_key(Key command) {
     switch (command) {
         case Key::kLights:
             open(!open_);
@@ -143,11 +143,11 @@ bool LightDesk::on_key(Key command) {
     }
 }
 
-std::vector<HandleStroke> LightDesk::strokes(const Camera& camera) const {
+std::vector<HandleStroke> LightEditor::strokes(const Camera& camera) const {
     return light_strokes(edits_.state(), edits_.selected(), hovered_, camera);
 }
 
-void LightDesk::add(LightKind kind, const DeskView& view) {
+void LightEditor::add(LightKind kind, const EditorView& view) {
     const Camera& camera = view.camera;
     const glm::dvec2 middle(0.5 * camera.width, 0.5 * camera.height);
     const auto seen = view.surface(middle);
@@ -173,7 +173,7 @@ void LightDesk::add(LightKind kind, const DeskView& view) {
     edits_.add(std::move(entry));
 }
 
-Status LightDesk::load() {
+Status LightEditor::load() {
     RS_ASSIGN_OR_RETURN(LightList list, read_light_list(profile));
     Scene tried = *base_;
     LightList whole = list;
@@ -192,11 +192,11 @@ Status LightDesk::load() {
     return {};
 }
 
-Status LightDesk::save() const {
+Status LightEditor::save() const {
     return write_light_list(list_of(edits_.state()), profile);
 }
 
-void LightDesk::look_for_files(const std::filesystem::path& folder) {
+void LightEditor::scan_folder(const std::filesystem::path& folder) {
     folder_ = folder;
     files_.clear();
     std::error_code failed;
@@ -210,7 +210,7 @@ void LightDesk::look_for_files(const std::filesystem::path& folder) {
     if (failed) report(folder.string() + ": " + failed.message() + "; choose another folder");
 }
 
-Status LightDesk::use_file(const std::filesystem::path& file) {
+Status LightEditor::use_file(const std::filesystem::path& file) {
     const auto selected = edits_.selected();
     if (!selected || !model_of(edits_.state().entries[*selected]).words.has_file) return {};
     RS_ASSIGN_OR_RETURN(Luminaire read, read_luminaire(file));
@@ -221,7 +221,7 @@ Status LightDesk::use_file(const std::filesystem::path& file) {
     return {};
 }
 
-std::string LightDesk::take_news() {
+std::string LightEditor::take_message() {
     return printable(std::exchange(news_, {}));
 }
 

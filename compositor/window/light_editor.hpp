@@ -20,14 +20,14 @@
 namespace rs::compositor {
 
 /// View under the pointer.
-struct DeskView {
+struct EditorView {
     Camera camera;
     SurfaceAt surface;
 };
 
-class LightDesk {
+class LightEditor {
 public:
-    LightDesk(const Scene& scene, double exposure_ev, const std::filesystem::path& profile);
+    LightEditor(const Scene& scene, double exposure_ev, const std::filesystem::path& profile);
 
     [[nodiscard]] const LightEdits& edits() const { return edits_; }
     [[nodiscard]] LightEdits& edits() { return edits_; }
@@ -41,17 +41,17 @@ public:
 
     /// Handles pointer events.
     /// \return false if the event was not consumed.
-    bool on_event(const Event& event, const DeskView& view);
+    bool on_event(const Event& event, const EditorView& view);
     /// Handles undo, redo, delete, duplicate and open.
     /// \return false for other keys.
     bool on_key(Key command);
     /// Updates a drag with the pointer; call it after the events of a frame.
-    void update(const DeskView& view);
+    void update(const EditorView& view);
 
     [[nodiscard]] std::vector<HandleStroke> strokes(const Camera& camera) const;
 
     /// Adds a light at the centre of the view and selects it. Luminaires use the first of files().
-    void add(LightKind kind, const DeskView& view);
+    void add(LightKind kind, const EditorView& view);
 
     /// Loads `profile` as one undo step, replacing all lights if the list has "replace". Changes nothing on failure.
     Status load();
@@ -59,7 +59,7 @@ public:
     std::string profile;  // file name of the light list
 
     /// Lists the photometric files of a folder by name; at most 500.
-    void look_for_files(const std::filesystem::path& folder);
+    void scan_folder(const std::filesystem::path& folder);
     [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
     [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
     /// Reads a photometric file into the selected luminaire as one undo step.
@@ -68,12 +68,12 @@ public:
     /// Warning about the selected light or the loaded list; may be empty.
     [[nodiscard]] const std::string& warning() const { return warning_; }
     /// Message for the user since the last call; may be empty.
-    std::string take_news();
+    std::string take_message();
     void report(const std::string& news) { news_ = news; }
 
 private:
     void end_drag();
-    void follow(const DeskView& view);
+    void follow(const EditorView& view);
 
     std::shared_ptr<const Scene> base_;  // original scene
     std::shared_ptr<const Scene> lit_;

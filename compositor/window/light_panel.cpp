@@ -26,9 +26,9 @@ struct Range {
     double lowest;
     double highest;
 };
-constexpr Range kPlaces{-kMostDistant, kMostDistant};
-constexpr Range kPowers{0, kStrongest};
-constexpr Range kLengths{kShortest, kMostDistant};
+constexpr Range kPlaces{-kMaxLightDistance, kMaxLightDistance};
+constexpr Range kPowers{0, kMaxLightStrength};
+constexpr Range kLengths{kShortest, kMaxLightDistance};
 
 bool step_button(const char* text) {
     const bool pressed = ImGui::Button(text, {kButton_px, 0});
@@ -101,7 +101,7 @@ std::string label_of(const LightEntry& entry, std::size_t number) {
     return label;
 }
 
-void draw_list(LightDesk& desk) {
+void draw_list(LightEditor& desk) {
     LightEdits& edits = desk.edits();
     if (ImGui::BeginListBox("##lights", {-1, kListRows * ImGui::GetTextLineHeightWithSpacing()})) {
         for (std::size_t i = 0; i < edits.state().entries.size(); ++i) {
@@ -116,7 +116,7 @@ void draw_list(LightDesk& desk) {
     }
 }
 
-void draw_list_buttons(LightDesk& desk, const DeskView& view) {
+void draw_list_buttons(LightEditor& desk, const EditorView& view) {
     ImGui::SetNextItemWidth(kField_px);
     if (ImGui::BeginCombo("##add", "add ...")) {
         for (std::size_t i = 0; i < kLightKinds; ++i) {
@@ -151,7 +151,7 @@ void edit_colour(LightEntry& entry) {
     glm::vec3 colour(entry.colour);
     ImGui::SetNextItemWidth(3 * kField_px);
     if (ImGui::ColorEdit3("colour", &colour.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR)) {
-        entry.colour = glm::clamp(glm::dvec3(colour), 0.0, kStrongest);
+        entry.colour = glm::clamp(glm::dvec3(colour), 0.0, kMaxLightStrength);
     }
 }
 
@@ -192,7 +192,7 @@ void edit_light(LightEntry& entry) {
     edit_shape(entry);
 }
 
-void draw_files(LightDesk& desk, const LightEntry& entry) {
+void draw_files(LightEditor& desk, const LightEntry& entry) {
     ImGui::SetNextItemWidth(3 * kField_px);
     if (ImGui::BeginCombo("file", printable(entry.file.filename().string()).c_str())) {
         for (const std::filesystem::path& file : desk.files()) {
@@ -205,7 +205,7 @@ void draw_files(LightDesk& desk, const LightEntry& entry) {
     std::snprintf(folder, sizeof folder, "%s", desk.folder().c_str());
     ImGui::SetNextItemWidth(3 * kField_px);
     if (ImGui::InputText("folder", folder, sizeof folder, ImGuiInputTextFlags_EnterReturnsTrue)) {
-        desk.look_for_files(folder);
+        desk.scan_folder(folder);
     }
 }
 
@@ -218,7 +218,7 @@ void edit_surroundings(LightingState& state) {
     ImGui::Checkbox("environment visible", &state.environment->seen);
 }
 
-void draw_profile(LightDesk& desk) {
+void draw_profile(LightEditor& desk) {
     char profile[1024];
     std::snprintf(profile, sizeof profile, "%s", desk.profile.c_str());
     ImGui::SetNextItemWidth(2 * kField_px);
@@ -236,7 +236,7 @@ void draw_profile(LightDesk& desk) {
 
 }  // namespace
 
-void LightPanel::draw(LightDesk& desk, const DeskView& view) {
+void LightPanel::draw(LightEditor& desk, const EditorView& view) {
     const ImGuiIO& io = ImGui::GetIO();
     LightEdits& edits = desk.edits();
     ImGui::SetNextWindowPos({io.DisplaySize.x - kPanelMargin_px, kPanelMargin_px}, ImGuiCond_Always, {1, 0});

@@ -9,7 +9,7 @@ namespace rs::compositor {
 /// Dragging, typing into a field, or holding a button is one undo step.
 class LightPanel {
 public:
-    void draw(LightDesk& desk, const DeskView& view);
+    void draw(LightEditor& desk, const EditorView& view);
 
 private:
     bool changing_ = false;  // a gesture of the panel is in progress

@@ -176,11 +176,11 @@ Overlay::~Overlay() {
     ImGui::DestroyContext();
 }
 
-bool Overlay::takes_mouse() const {
+bool Overlay::captures_mouse() const {
     return ImGui::GetIO().WantCaptureMouse;
 }
 
-bool Overlay::takes_keys() const {
+bool Overlay::captures_keys() const {
     return ImGui::GetIO().WantTextInput;
 }
 

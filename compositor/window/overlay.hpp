@@ -63,8 +63,8 @@ public:
     ~Overlay();
 
     /// True while the pointer is over the panel, or text is typed into it: events then belong to the panel.
-    [[nodiscard]] bool takes_mouse() const;
-    [[nodiscard]] bool takes_keys() const;
+    [[nodiscard]] bool captures_mouse() const;
+    [[nodiscard]] bool captures_keys() const;
 
     /// Draws into the window; call it after the image, before swap(). `more` draws other panels.
     void draw(PanelState& state, const std::function<void()>& more = nullptr);

@@ -41,7 +41,7 @@ std::optional<Camera> Playback::camera(int width, int height) const {
 
 Scene Playback::scene() const {
     Scene scene = scene_at(*sequence_, frame_);
-    return weather_ ? in_weather(std::move(scene), *weather_) : scene;
+    return weather_ ? apply_weather(std::move(scene), *weather_) : scene;
 }
 
 void Playback::draw_controls() {

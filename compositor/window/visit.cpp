@@ -19,14 +19,6 @@ constexpr double kRecordedFrames_per_s = 30;
 
 }  // namespace
 
-std::filesystem::path free_name(const std::filesystem::path& folder, const char* prefix, const char* ending,
-                                int& number) {
-    for (;;) {
-        std::filesystem::path path = folder / (std::string(prefix) + "-" + std::to_string(++number) + ending);
-        if (!std::filesystem::exists(path)) return path;
-    }
-}
-
 Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor compositor, const Scene& scene,
              const VisitOptions& options)
     : window_(std::move(window)),
@@ -34,7 +26,9 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
       compositor_(std::move(compositor)),
       overlay_(std::make_unique<Overlay>(window_)),
       options_(options),
+      traced_view_(options.tracing),
       desk_(scene, options.exposure_ev, options.lights),
+      recorder_(options.images),
       last_(std::chrono::steady_clock::now()) {
     navigation_.speed = scene.navigation.speed;
     if (const BoundingBox bounds = bounds_of(scene); !bounds.empty()) middle_ = bounds.middle();
@@ -54,10 +48,6 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
     if (options.sequence) playback_.emplace(options.sequence, options.weather);
     panel_.playback = playback_ ? &*playback_ : nullptr;
     report("press H for help");
-}
-
-Visit::~Visit() {
-    if (video_) static_cast<void>(video_->finish());
 }
 
 Result<std::unique_ptr<Visit>> Visit::create(Window window, const Scene& scene, std::unique_ptr<Showroom> showroom,
@@ -111,9 +101,9 @@ void Visit::pick(const glm::dvec2& at_px) {
     report(names_[*object]);
 }
 
-Status Visit::obey(Key command) {
+void Visit::on_key(Key command) {
     const std::size_t count = options_.viewpoints.size();
-    if (desk_.obey(command)) return {};
+    if (desk_.on_key(command)) return;
     switch (command) {
         case Key::kWalk:
             panel_.mode = NavigationMode::kWalk;
@@ -170,10 +160,9 @@ Status Visit::obey(Key command) {
         default:
             break;
     }
-    return {};
 }
 
-// Whether another frame of the sequence is shown.
+// Advances the sequence; true if another frame of it is shown.
 Result<bool> Visit::play(double seconds) {
     if (!playback_) return false;
     if (panel_.traced && !playback_->saving()) playback_->stop();
@@ -188,49 +177,31 @@ Result<bool> Visit::play(double seconds) {
     const bool other = playback_->advance(seconds);
     if (!other) return false;
     RS_TRY(playback_->show(compositor_, *showroom_));
-    if (refined_) compositor_.set_traced(nullptr);
-    refined_.reset();
-    refinement_.reset();
+    traced_view_.drop(compositor_);
     return true;
 }
 
-Status Visit::take_images() {
-    if (playback_ && playback_->take_jpeg()) {
-        constexpr int kQuality = 92;
-        const std::filesystem::path path = free_name(options_.images, "screenshot", ".jpg", shots_);
-        const Status written = write_jpeg(path, compositor_.image(), kQuality);
-        report(written ? path.string() : written.error().message);
-    }
-    if (!panel_.take_screenshot) return {};
-    panel_.take_screenshot = false;
-    const std::filesystem::path path = free_name(options_.images, "screenshot", ".png", shots_);
-    const Status written = write_png(path, compositor_.image());
-    report(written ? path.string() : written.error().message);
-    return {};
+void Visit::take_screenshots() {
+    if (playback_ && playback_->take_jpeg()) report(recorder_.write_jpeg_screenshot(compositor_.image()));
+    if (std::exchange(panel_.take_screenshot, false)) report(recorder_.write_png_screenshot(compositor_.image()));
 }
 
-Status Visit::record() {
-    if (panel_.recording && !video_) {
-        int number = 0;
-        const std::filesystem::path path = free_name(options_.images, "recording", ".mp4", number);
+void Visit::record() {
+    if (panel_.recording && !recorder_.is_recording()) {
         const double rate = playback_ && playback_->saving() ? playback_->frames_per_second() : kRecordedFrames_per_s;
-        Result<VideoWriter> video = VideoWriter::open(path, compositor_.width(), compositor_.height(), rate);
-        if (!video) {
-            panel_.recording = false;
-            report(video.error().message);
-            return {};
-        }
-        video_.emplace(std::move(*video));
-        report("recording " + path.string());
+        const Result<std::string> begun = recorder_.begin_video(compositor_.width(), compositor_.height(), rate);
+        report(begun ? *begun : begun.error().message);
+        panel_.recording = begun.ok();
     }
-    if (!video_) return {};
-    Status status = panel_.recording ? video_->add(compositor_.image()) : video_->finish();
-    if (!panel_.recording || !status) {
-        video_.reset();
+    if (!recorder_.is_recording()) return;
+    if (!panel_.recording) {
+        report(recorder_.end_video());
+        return;
+    }
+    if (Status status = recorder_.add_frame(compositor_.image()); !status) {
         panel_.recording = false;
-        report(status ? "recording finished" : status.error().message);
+        report(status.error().message);
     }
-    return {};
 }
 
 void Visit::refresh_panel(double seconds) {
@@ -250,20 +221,24 @@ void Visit::refresh_panel(double seconds) {
     }
     panel_.views_by_board = statistics.nodes_by_board;
     panel_.views_by_core = statistics.nodes_rendered - statistics.nodes_by_board;
-    const StoreStatistics store = showroom_->statistics();
+    const CacheStatistics store = showroom_->statistics();
     panel_.memory_mib = static_cast<double>(store.used_bytes) / (1 << 20);
     panel_.budget_mib = static_cast<double>(store.budget_bytes) / (1 << 20);
     if ((news_seconds_ -= seconds) <= 0) panel_.news.clear();
 }
 
-void Visit::hear_showroom() {
+// Loads and drops objects for the camera's position, and reports those that cannot be shown.
+Status Visit::poll_streaming(double seconds) {
+    const std::optional<glm::dvec3> destination = travel_ ? std::optional(travel_->to.eye) : std::nullopt;
+    if (Status status = showroom_->update(visitor_.eye, seconds, destination); !status) return status;
     const std::vector<std::string> warnings = showroom_->take_warnings();
-    if (warnings.empty()) return;
+    if (warnings.empty()) return {};
     if (options_.warn) options_.warn(warnings);
     report(warnings.back());
+    return {};
 }
 
-// True where an object was turned.
+// Moves the camera; true if an object was turned.
 bool Visit::move(double seconds) {
     navigation_.speed = panel_.speed;
     const NavigationInput movement = input_.movement(seconds);
@@ -284,60 +259,81 @@ bool Visit::move(double seconds) {
     return turned;
 }
 
-Result<bool> Visit::step(std::optional<double> seconds) {
-    const auto now = std::chrono::steady_clock::now();
-    const double passed = seconds.value_or(std::chrono::duration<double>(now - last_).count());
-    last_ = now;
+EditorView Visit::desk_view() {
+    return {camera(), [this](const glm::dvec2& at) {
+                return compositor_.surface_at(static_cast<int>(at.x), static_cast<int>(at.y));
+            }};
+}
+
+void Visit::handle_events() {
     for (const Event& event : window_.poll()) {
         const bool of_mouse = std::holds_alternative<WheelEvent>(event) ||
                               (std::holds_alternative<ButtonEvent>(event) && std::get<ButtonEvent>(event).down);
-        if (of_mouse && overlay_->takes_mouse()) continue;
-        if (std::holds_alternative<KeyEvent>(event) && overlay_->takes_keys()) continue;
-        if (!desk_.take(event, desk_view())) input_.take(event);
+        if (of_mouse && overlay_->captures_mouse()) continue;
+        if (std::holds_alternative<KeyEvent>(event) && overlay_->captures_keys()) continue;
+        if (!desk_.on_event(event, desk_view())) input_.take(event);
     }
-    for (const Key command : input_.commands()) {
-        RS_TRY(obey(command));
-    }
-    if (window_.should_close()) return false;
-    const glm::ivec2 size = window_.framebuffer_px();
-    if (size.x < 1 || size.y < 1) return true;  // an icon
-    if (size.x != compositor_.width() || size.y != compositor_.height()) {
-        RS_TRY(compositor_.resize(size.x, size.y));
-        if (video_) panel_.recording = false;  // a video has one size
-    }
+    for (const Key command : input_.commands()) on_key(command);
+}
 
-    RS_TRY(relight());
-    const bool turned = move(passed);
-    RS_ASSIGN_OR_RETURN(const bool played, play(passed));
-    if (playback_) {
-        const std::string folder = playback_->take_folder();
-        if (!folder.empty() && options_.open) {
-            options_.open(folder);
-            return false;
-        }
+Status Visit::resize_if_needed(const glm::ivec2& size) {
+    if (size.x == compositor_.width() && size.y == compositor_.height()) return {};
+    if (recorder_.is_recording()) panel_.recording = false;  // a video has one size
+    return compositor_.resize(size.x, size.y);
+}
+
+// Gives edited lights to both renderers.
+Status Visit::apply_light_edits() {
+    desk_.update(desk_view());
+    if (std::string news = desk_.take_message(); !news.empty()) report(news);
+    if (!desk_.take_change()) return {};
+    const double exposure_ev = desk_.edits().state().exposure_ev;
+    traced_view_.set_lights({desk_.scene(), exposure_ev});
+    return compositor_.set_lights(*desk_.scene(), exposure_ev);
+}
+
+void Visit::apply_shadow_setting() {
+    const Status status = compositor_.set_shadows(panel_.shadows);
+    if (status) return;
+    panel_.shadows = compositor_.shadows();
+    report(status.error().message);
+}
+
+// The scene of the sequence's frame, or the one that was loaded, with the edited lights.
+Refinement::Lighting Visit::lighting_to_trace() const {
+    const double exposure_ev = desk_.edits().state().exposure_ev;
+    if (!playback_) return {desk_.scene(), exposure_ev};
+    auto scene = std::make_shared<Scene>(playback_->scene());
+    copy_lights(*desk_.scene(), *scene);
+    return {std::move(scene), exposure_ev};
+}
+
+// Updates the traced image; true if a frame must be drawn for it, or if light is not traced.
+bool Visit::refine(const Camera& here) {
+    if (!panel_.traced) {
+        traced_view_.stop(compositor_);
+        return true;
     }
-    compositor_.set_wire_frame(panel_.wire_frame);
-    if (const Status status = compositor_.set_shadows(panel_.shadows); !status) {
-        panel_.shadows = compositor_.shadows();
-        report(status.error().message);
+    const Result<bool> changed = traced_view_.refine(
+        here, panel_.method, *showroom_, [this] { return lighting_to_trace(); }, compositor_);
+    panel_.passes = traced_view_.passes();
+    if (changed) return *changed;
+    panel_.traced = false;
+    report(changed.error().message);
+    return true;
+}
+
+Status Visit::show(const glm::ivec2& size) {
+    if (!desk_.is_open()) {
+        compositor_.show_in_window(size.x, size.y);
+        return {};
     }
-    const std::optional<glm::dvec3> destination = travel_ ? std::optional(travel_->to.eye) : std::nullopt;
-    RS_TRY(showroom_->update(visitor_.eye, passed, destination));
-    hear_showroom();
-    const Camera here = camera();
-    expect_tracing(here, passed);
-    // A view that stands still is drawn again when it is better, or something in it may have changed.
-    const bool changed = refine(here) || turned || played || !showroom_->settled();
-    if (changed) {
-        RS_TRY(compositor_.draw(refined_ ? shown_from_ : here));
-    } else {
-        std::this_thread::sleep_for(kPauseWhileTracing);
-    }
-    if (const auto click = input_.click()) pick(*click);
-    RS_TRY(take_images());
-    RS_TRY(record());
-    refresh_panel(passed);
-    RS_TRY(show(size));
+    if (Status drawn = compositor_.draw_handles(desk_.strokes(camera())); !drawn) return drawn;
+    compositor_.handles()->shown().show_in_window(size.x, size.y);
+    return {};
+}
+
+void Visit::draw_panels() {
     const int picked_before = panel_.picked;
     overlay_->draw(panel_, [this] {
         if (desk_.is_open()) light_panel_.draw(desk_, desk_view());
@@ -345,6 +341,44 @@ Result<bool> Visit::step(std::optional<double> seconds) {
     if (panel_.picked != picked_before && panel_.picked >= 0) {
         panel_.turn_rad = turns_rad_[static_cast<std::size_t>(panel_.picked)];
     }
+}
+
+Result<bool> Visit::step(std::optional<double> seconds) {
+    const auto now = std::chrono::steady_clock::now();
+    const double passed = seconds.value_or(std::chrono::duration<double>(now - last_).count());
+    last_ = now;
+    handle_events();
+    if (window_.should_close()) return false;
+    const glm::ivec2 size = window_.framebuffer_px();
+    if (size.x < 1 || size.y < 1) return true;  // the window is minimized
+    RS_TRY(resize_if_needed(size));
+    RS_TRY(apply_light_edits());
+    const bool turned = move(passed);
+    RS_ASSIGN_OR_RETURN(const bool played, play(passed));
+    if (const std::string folder = playback_ ? playback_->take_folder() : ""; !folder.empty() && options_.open) {
+        options_.open(folder);
+        return false;
+    }
+    compositor_.set_wire_frame(panel_.wire_frame);
+    apply_shadow_setting();
+    RS_TRY(poll_streaming(passed));
+
+    const Camera here = camera();
+    if (!playback_) {
+        traced_view_.prepare_when_idle(here, passed, *showroom_, names_.size(), [this] { return lighting_to_trace(); });
+    }
+    // A traced view is drawn again only if it has improved, or if something in it may have changed.
+    if (refine(here) || turned || played || !showroom_->settled()) {
+        RS_TRY(compositor_.draw(traced_view_.camera_of_image().value_or(here)));
+    } else {
+        std::this_thread::sleep_for(kPauseWhileTracing);
+    }
+    if (const auto click = input_.click()) pick(*click);
+    take_screenshots();
+    record();
+    refresh_panel(passed);
+    RS_TRY(show(size));
+    draw_panels();
     window_.swap();
     return true;
 }

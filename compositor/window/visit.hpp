@@ -1,10 +1,11 @@
 #pragma once
-// A visit to a scene in a window: walk, fly, look around, pick and turn objects, take images home.
+// A scene in a window: walk, fly and look around, pick and turn objects, edit lights, record images and videos.
 //
-// For the main thread only. The scene is read before; objects come while the visit goes on.
+// For the main thread only. The scene is loaded; its objects are read in the background.
+//
+//     events -> input -> camera -> traced view, if any -> frame -> recorder -> panels -> window
 
 #include "compositor/scene/scene.hpp"
-#include "compositor/traced/refinement.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/viewer/views/navigation.hpp"
@@ -12,10 +13,11 @@
 #include "compositor/window/light_panel.hpp"
 #include "compositor/window/overlay.hpp"
 #include "compositor/window/playback.hpp"
+#include "compositor/window/traced_view.hpp"
+#include "compositor/window/view_recorder.hpp"
 #include "compositor/window/visitor_input.hpp"
 #include "compositor/window/window.hpp"
 #include "rayspace/base/result.hpp"
-#include "rayspace/image_io/image_io.hpp"
 
 #include <chrono>
 #include <filesystem>
@@ -28,71 +30,68 @@
 namespace rs::compositor {
 
 struct VisitOptions {
-    std::vector<Viewpoint> viewpoints;   // at least one; the first is where the visit begins
-    std::filesystem::path images = ".";  // where screenshots and recordings go
+    std::vector<Viewpoint> viewpoints;   // at least one; the camera starts at the first
+    std::filesystem::path images = ".";  // folder of screenshots and recordings
     int samples = 4;
     bool wire_frame = false;
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples = FrameOptions{}.object_samples;
     double exposure_ev = 0;
-    std::filesystem::path lights = "lights.json";  // the profile that edited light is saved to
+    std::filesystem::path lights = "lights.json";  // the file that edited lights are saved to
     bool shadows = true;
-    bool traced = false;                       // from the beginning
+    bool traced = false;                       // at the start
     TracedOptions tracing{};                   // with the exposure above
     std::string executor = "software core";    // of the engine, for the panel
-    std::shared_ptr<const Sequence> sequence;  // to be played, in this weather
+    std::shared_ptr<const Sequence> sequence;  // to play, in this weather
     std::optional<Weather> weather;
-    std::function<void(const std::string&)> open;               // another sequence is requested; the visit ends
-    std::function<void(const std::vector<std::string>&)> warn;  // of objects that cannot be shown; may be empty
+    std::function<void(const std::string&)> open;  // called when another sequence is requested; the visit then ends
+    std::function<void(const std::vector<std::string>&)> warn;  // for objects that cannot be shown; may be empty
 };
 
 class Visit {
 public:
     static Result<std::unique_ptr<Visit>> create(Window window, const Scene& scene, std::unique_ptr<Showroom> showroom,
                                                  const VisitOptions& options);
-    ~Visit();  // finishes a recording
 
-    // A frame: what happened since the last, the image, the overlay. False when the visitor wants to leave.
-    // `seconds`: since the last frame, by a clock on the wall if not given.
+    /// Handles the events since the last frame, draws the next frame and shows it.
+    /// \param seconds since the last frame; measured if not given
+    /// \return false if the user closes the window
     Result<bool> step(std::optional<double> seconds = std::nullopt);
 
     [[nodiscard]] Window& window() { return window_; }
     [[nodiscard]] const Visitor& visitor() const { return visitor_; }
     [[nodiscard]] const PanelState& panel() const { return panel_; }
-    // Whether traced light has its trees, or will have them soon: for who has stood still for a second, or traces.
-    [[nodiscard]] bool has_tracer() const { return refinement_.has_value(); }
-    // Traced light follows whoever moves, by coarse images; else the view stands still.
+    /// The tracer exists or is being built: after a second without movement, or with traced light.
+    [[nodiscard]] bool has_tracer() const { return traced_view_.has_tracer(); }
+    /// Traced light follows the camera with coarse images; else the camera does not move while it is on.
     void walk_on(bool on) { panel_.walk_on = on; }
-    [[nodiscard]] LightDesk& lights() { return desk_; }
-    // Of the last frame, without the overlay.
+    [[nodiscard]] LightEditor& lights() { return desk_; }
+    /// The last frame, without the overlay.
     [[nodiscard]] Image<Rgba8> image() const { return compositor_.image(); }
 
 private:
     Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor compositor, const Scene& scene,
           const VisitOptions& options);
 
-    Status obey(Key command);
+    void handle_events();
+    void on_key(Key command);
     void go_to_viewpoint(std::size_t number);
     void begin_travel(const Visitor& to);
     bool move(double seconds);
     void pick(const glm::dvec2& at_px);
-    [[nodiscard]] DeskView desk_view();
-    // Gives light that was edited to both renderers.
-    Status relight();
-    Status show(const glm::ivec2& size);
-    // As it is lit and stands now.
-    [[nodiscard]] std::shared_ptr<const Scene> scene_to_trace() const;
-    // Makes the tracer of what stands there now, if there is none or it has another number of objects.
-    void make_tracer();
-    // Makes it ahead for whoever stands still, so that it is there, or soon will be, when traced light is switched on.
-    void expect_tracing(const Camera& here, double seconds);
-    // Whether there is a new image to show.
-    bool refine(const Camera& here);
+    [[nodiscard]] EditorView desk_view();
+    Status resize_if_needed(const glm::ivec2& size);
+    Status apply_light_edits();
+    void apply_shadow_setting();
     Result<bool> play(double seconds);
-    Status take_images();
-    Status record();
+    [[nodiscard]] Refinement::Lighting lighting_to_trace() const;
+    bool refine(const Camera& here);
+    void take_screenshots();
+    void record();
+    Status show(const glm::ivec2& size);
+    void draw_panels();
     void refresh_panel(double seconds);
-    void hear_showroom();
+    Status poll_streaming(double seconds);
     void report(const std::string& news);
     [[nodiscard]] Camera camera() const;
 
@@ -103,7 +102,7 @@ private:
     VisitOptions options_;
     NavigationSettings navigation_;
     std::vector<std::string> names_;  // of the objects
-    glm::dvec3 middle_{0};            // of the scene
+    glm::dvec3 middle_{0};            // of the scene's bounds
     VisitorInput input_;
     PanelState panel_;
     Visitor visitor_;
@@ -116,28 +115,16 @@ private:
     std::size_t viewpoint_ = 0;
     std::vector<double> turns_rad_;  // [object]
     std::vector<double> frame_seconds_;
-    std::optional<Refinement> refinement_;
-    Camera still_at_;                // of the last frame
-    double still_s_ = 0;             // for which nobody has moved
-    std::optional<Camera> refined_;  // what is traced now
-    Camera shown_from_;              // of the traced image, which is behind where one walks on
-    TracedMethod refined_by_ = TracedMethod::kPath;
-    bool relit_ = false;  // since the tracer began
-    LightDesk desk_;
+    TracedView traced_view_;
+    LightEditor desk_;
     LightPanel light_panel_;
-    std::size_t traced_objects_ = 0;
     std::optional<Playback> playback_;
-    std::optional<VideoWriter> video_;
-    int shots_ = 0;
+    ViewRecorder recorder_;
     double news_seconds_ = 0;
     std::chrono::steady_clock::time_point last_;
 };
 
-// The first name of PREFIX-1.ENDING, PREFIX-2.ENDING, ... behind `number` that is free in the folder; sets its number.
-std::filesystem::path free_name(const std::filesystem::path& folder, const char* prefix, const char* ending,
-                                int& number);
-
-// Until the visitor leaves.
+/// Creates a visit and runs it until the user closes the window.
 Status visit(Window window, const Scene& scene, std::unique_ptr<Showroom> showroom, const VisitOptions& options);
 
 }  // namespace rs::compositor

@@ -12,13 +12,13 @@ namespace {
 constexpr double kHeadSpeed_m_per_s = 0.3;
 
 // Head pose in the scene.
-Visitor as_visitor(const Head& head, const RoomPlace& place) {
+Visitor as_visitor(const Head& head, const RoomPose& place) {
     return {.eye = place.in_scene(head.position), .heading_rad = place.heading_rad + head.heading_rad};
 }
 
 // Room pose around a head with this pose in the scene.
-RoomPlace place_around(const Visitor& visitor, const Head& head, double units_per_metre) {
-    RoomPlace place;
+RoomPose place_around(const Visitor& visitor, const Head& head, double units_per_metre) {
+    RoomPose place;
     place.units_per_metre = units_per_metre;
     place.heading_rad = visitor.heading_rad - head.heading_rad;
     place.position = visitor.eye - units_per_metre * place.turned(head.position);
@@ -59,7 +59,7 @@ Result<std::unique_ptr<WallVisit>> WallVisit::create(const Scene& scene, std::un
         window.width = wall.width * (options.stereo == StereoForm::kSideBySide ? 2 : 1);
         window.height = wall.height * (options.stereo == StereoForm::kTopBottom ? 2 : 1);
         // Only one window waits for vertical synchronisation.
-        window.wait_for_screen = options.window.wait_for_screen && windows.size() + 1 == options.display.walls.size();
+        window.vertical_sync = options.window.vertical_sync && windows.size() + 1 == options.display.walls.size();
         RS_ASSIGN_OR_RETURN(Window opened, Window::create(window));
         windows.push_back(std::move(opened));
     }
@@ -174,7 +174,7 @@ Result<bool> WallVisit::step(std::optional<double> seconds) {
         quits_ = quits_ || window.should_close();
     }
     for (const Key command : input_.commands()) on_key(command);
-    if (quits_) return false;
+    if (leaves_) return false;
     move(passed);
     RS_TRY(showroom_->update(place_.in_scene(head_.position), passed));
     if (const std::vector<std::string> warnings = showroom_->take_warnings(); !warnings.empty() && options_.warn) {

@@ -30,7 +30,7 @@ namespace rs::compositor {
 struct WallVisitOptions {
     WallDisplay display;      // windows have the walls' sizes
     std::vector<Head> heads;  // one pose, or one per frame, repeated
-    RoomPlace place;          // initial room pose
+    RoomPose place;           // initial room pose
     /// Tracked head pose in the room; nullopt if unchanged. Called once per frame; poses with an eye behind a wall are
     /// ignored.
     std::function<std::optional<Head>()> tracked = nullptr;
@@ -60,7 +60,7 @@ public:
 
     [[nodiscard]] std::vector<Window>& windows() { return windows_; }
     [[nodiscard]] const Head& head() const { return head_; }
-    [[nodiscard]] const RoomPlace& place() const { return place_; }
+    [[nodiscard]] const RoomPose& place() const { return place_; }
     /// Last frame by wall, as displayed.
     [[nodiscard]] const std::vector<Image<Rgba8>>& images() const { return images_; }
 
@@ -86,7 +86,7 @@ private:
     NavigationMode mode_ = NavigationMode::kWalk;
     Head head_;
     std::size_t next_head_ = 0;
-    RoomPlace place_;
+    RoomPose place_;
     std::vector<Image<Rgba8>> images_;
     bool save_requested_ = false;
     bool quits_ = false;

@@ -159,7 +159,7 @@ Result<Window> Window::create(const WindowOptions& options) {
     state->window = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
     if (state->window == nullptr) return no_window("no window with OpenGL 4.5 core can be created");
     glfwMakeContextCurrent(state->window);
-    glfwSwapInterval(options.wait_for_screen ? 1 : 0);
+    glfwSwapInterval(options.vertical_sync ? 1 : 0);
     RS_ASSIGN_OR_RETURN(gl::Context context, gl::Context::adopt_current(options.context));
     state->context.emplace(std::move(context));
     state->listen();

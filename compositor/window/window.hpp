@@ -18,7 +18,7 @@ struct WindowOptions {
     std::string title = "Rayspace";
     int width = 1280;  // screen units
     int height = 720;
-    bool wait_for_screen = true;  // vertical synchronisation
+    bool vertical_sync = true;  // vertical synchronisation
     gl::ContextOptions context = {};
 };
 

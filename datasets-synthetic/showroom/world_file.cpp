@@ -182,8 +182,8 @@ std::string walk_text(const World& world) {
 }
 
 Status write_world(const World& world, const std::filesystem::path& output, const std::string& name,
-                   const std::string& objects) {
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "rooms of a showroom"));
+                   const std::string& objects, bool force) {
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "rooms of a showroom", force));
     const auto write_text = [&](const std::string& file, const std::string& text) -> Status {
         return write_file(staged.temporary_path() / file, text);
     };

@@ -17,8 +17,8 @@ std::string vrml_text(const World& world, const std::string& objects);
 std::string walk_text(const World& world);
 
 // Writes the folder OUTPUT with NAME.wrl, NAME-walk.json, evening.json with its luminaire, and the textures. An
-// existing folder is replaced only if it was written by this function (StagedFolder).
+// existing folder is replaced as StagedFolder states.
 Status write_world(const World& world, const std::filesystem::path& output, const std::string& name,
-                   const std::string& objects);
+                   const std::string& objects, bool force = false);
 
 }  // namespace rs::synthetic

@@ -28,7 +28,7 @@ TrafficSource take_source(JsonObject object) {
     object.read("every_s", source.every_s, 0.5, 3600);
     object.read("count", source.count, 1, 1000);
     object.read("speed_mps", source.speed_mps, 1, 40);
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     return source;
 }
 
@@ -47,10 +47,10 @@ void read_camera(JsonObject object, Scenario& scenario) {
             JsonObject view(path.item(i));
             scenario.path.push_back({take_point(view, "eye"), take_point(view, "at")});
             if (scenario.path.back().eye == scenario.path.back().at) throw view.wrong("at is the eye; move one");
-            view.expect_all_taken();
+            view.expect_no_unknown_keys();
         }
     }
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ Result<Scenario> scenario_from_json(const std::string& text, const std::string& 
             JsonObject lights(top.take("lights"));
             lights.read("main_green_s", scenario.main_green_s, 2, 600);
             lights.read("cross_green_s", scenario.cross_green_s, 2, 600);
-            lights.expect_all_taken();
+            lights.expect_no_unknown_keys();
         }
         const JsonValue sources = top.take("sources");
         const std::size_t count = sources.list_size(0, 100);

@@ -301,7 +301,7 @@ std::size_t triangles_of(const World& world, const std::string& object) {
 }  // namespace
 
 Result<StreetStatistics> write_street(const StreetOptions& options, const fs::path& output) {
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "files of a street"));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "files of a street", options.force));
     const fs::path map = staged.temporary_path() / "maps" / options.name / "anim";
     const fs::path models = staged.temporary_path() / "models";
     std::error_code error;

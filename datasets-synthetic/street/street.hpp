@@ -22,6 +22,7 @@ struct StreetOptions {
     std::string name = "street";  // of the map
     std::string objects;          // folder of vase.rso etc., relative to OUT; empty: shops without objects
     float texture_scale = 1;      // (0, 1]
+    bool force = false;           // replace an existing folder whatever it holds (StagedFolder)
 };
 
 struct StreetStatistics {

@@ -2,6 +2,7 @@
 
 #include "datasets-synthetic/showroom/showroom.hpp"
 #include "datasets-synthetic/showroom/world_file.hpp"
+#include "rayspace/file/file_output.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <CLI/CLI.hpp>
@@ -16,13 +17,18 @@ struct Options {
     std::filesystem::path output;
     std::string objects = "..";
     bool small = false;
+    bool force = false;
 };
 
 rs::Status run_showroom(const Options& options) {
+    const std::filesystem::path objects = options.output / options.objects;
+    if (rs::Status kept = rs::refuse_overwriting_inputs(options.output, {objects}); !kept) return kept;
     rs::synthetic::ShowroomOptions showroom;
     if (options.small) showroom.texture_scale = 0.25F;
     const rs::synthetic::World world = rs::synthetic::make_showroom(showroom);
-    if (rs::Status written = rs::synthetic::write_world(world, options.output, "showroom", options.objects); !written) {
+    if (rs::Status written =
+            rs::synthetic::write_world(world, options.output, "showroom", options.objects, options.force);
+        !written) {
         return written;
     }
     std::size_t triangles = 0;
@@ -47,6 +53,7 @@ int main(int argc, char** argv) {
                    "output folder")
         ->capture_default_str();
     app.add_flag("--small", options.small, "Write the textures at a quarter of the resolution");
+    app.add_flag("--force", options.force, rs::kForceHelp);
     app.footer(
         "Examples:\n  rs-showroom -o showroom && rs-view render showroom/showroom.wrl --viewpoint museum -o "
         "museum.png\n  rs-view render showroom/showroom.wrl --lights showroom/evening.json --exposure 3 --renderer "

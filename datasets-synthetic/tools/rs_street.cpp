@@ -2,6 +2,7 @@
 
 #include "datasets-synthetic/street/street.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/file/file_output.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <CLI/CLI.hpp>
@@ -21,14 +22,18 @@ struct Options {
     std::string time;
     double seconds = 0;
     bool small = false;
+    bool force = false;
 };
 
 rs::Status run_street(const Options& options) {
     rs::synthetic::StreetOptions street;
     street.name = options.name;
     street.objects = options.objects;
+    street.force = options.force;
     street.scenario = rs::synthetic::default_scenario();
     if (options.small) street.texture_scale = 0.25F;
+    const auto objects = options.objects.empty() ? std::filesystem::path() : options.output / options.objects;
+    if (auto kept = rs::refuse_overwriting_inputs(options.output, {options.scenario, objects}); !kept) return kept;
     if (!options.scenario.empty()) {
         RS_ASSIGN_OR_RETURN(const auto scenario, rs::synthetic::read_scenario(options.scenario));
         street.scenario = scenario;
@@ -68,6 +73,7 @@ int main(int argc, char** argv) {
                    "relative to the output folder; without it, the windows are empty");
     app.add_option("--name", options.name, "Name of the map")->capture_default_str();
     app.add_flag("--small", options.small, "Textures at a quarter of the resolution");
+    app.add_flag("--force", options.force, rs::kForceHelp);
     app.footer(
         "Examples:\n  rs-street -o town --objects .. && rs-view sequence town/maps/street -o street.mp4\n"
         "  rs-street -o evening --time night --seconds 4 && rs-view sequence evening --weather rain -o rain.mp4");

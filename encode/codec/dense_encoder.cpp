@@ -129,7 +129,7 @@ private:
         work.decisions.resize(tiles);
         for (auto& motions : work.motions) motions.resize(tiles);
         for (std::size_t t = 0; t < tiles; ++t) {
-            const codec::TilePlace place = codec::place_of_tile(coded_, t);
+            const codec::TileRect place = codec::tile_rect(coded_, t);
             for (int y = place.top; y < place.top + place.height && !coded.tiles[t].present; ++y) {
                 const std::uint8_t* const row = sources_[static_cast<std::size_t>(view)].valid.row(y) + place.left;
                 coded.tiles[t].present = std::any_of(row, row + place.width, [](std::uint8_t m) { return m != 0; });
@@ -179,7 +179,7 @@ private:
                 DenseWorkImage& work = work_[v];
                 work.decisions[t].clear();
                 std::array<std::vector<MotionVector>, 2> motions;
-                encode_tile(tasks[v], costs, codec::place_of_tile(coded_, t), work.decisions[t], motions);
+                encode_tile(tasks[v], costs, codec::tile_rect(coded_, t), work.decisions[t], motions);
                 for (std::size_t r = 0; r < 2; ++r) work.motions[r][t] = std::move(motions[r]);
                 if (progress_ != nullptr) progress_->advance();
             });
@@ -212,8 +212,7 @@ private:
         for (std::size_t v = 0; v < tasks.size(); ++v) {
             if (tasks[v].source == nullptr) continue;
             for (std::size_t t = 0; t < coded_.images[v].tiles.size(); ++t) {
-                if (!coded_.images[v].tiles[t].present)
-                    codec::clear_tile(codec::place_of_tile(coded_, t), tasks[v].out);
+                if (!coded_.images[v].tiles[t].present) codec::clear_tile(codec::tile_rect(coded_, t), tasks[v].out);
             }
         }
     }

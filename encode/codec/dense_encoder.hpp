@@ -22,7 +22,7 @@ struct DenseSettings {
     int alpha_bits = 2;
     int tile_width_log2 = 6;
     int tile_height_log2 = 6;
-    int effort = kDefaultEffort;                      // kLeastEffort .. kMaxEffort
+    int effort = kDefaultEffort;                      // kMinEffort .. kMaxEffort
     std::array<int, 4> level_offset = {-3, 0, 1, 2};  // added to the step index, by progressive level
     float lambda_factor = 0.12F;
     std::array<int, 2> chroma_offset = {0, 1};

@@ -30,7 +30,7 @@ constexpr float kNothingToCode = 0.25F;
 
 // Target of one transform of a plane: source samples, prediction, and the mask of valid samples.
 struct TransformTarget {
-    MaskedSamples samples;
+    SampleBlock samples;
     const std::uint8_t* predicted = nullptr;
     std::ptrdiff_t stride = 0;
     bool all_valid = true;
@@ -130,7 +130,7 @@ void ModeDecision::commit(const PredictionUnit& unit, const UnitChoice& choice) 
     codec::record_unit(state_.grid, unit, choice);
 }
 
-MaskedSamples ModeDecision::target_samples(const UnitPosition& place, int plane) const {
+SampleBlock ModeDecision::target_samples(const UnitPosition& place, int plane) const {
     const Image<std::uint8_t>& wanted = task_.source->planes[static_cast<std::size_t>(plane)];
     return {wanted.row(place.y) + place.x, task_.source->valid.row(place.y) + place.x, wanted.width(), place.size};
 }
@@ -223,7 +223,7 @@ void ModeDecision::evaluate(const PredictionUnit& unit, const Candidate& candida
 void ModeDecision::add_intra(const PredictionUnit& unit, UnitChoice& trial, Candidates& candidates) const {
     const UnitPosition place = position_of(unit);
     trial.source = Source::kIntra;
-    const MaskedSamples wanted = target_samples(place, 0);
+    const SampleBlock wanted = target_samples(place, 0);
     std::array<std::pair<int, int>, codec::kIntraModes> ranked;
     std::uint8_t predicted[codec::kIntraModes][kMacroblockSamples];
     const auto predict = [&](int plane, std::uint8_t* out) {

@@ -66,7 +66,7 @@ private:
     enum class Transforms : std::uint8_t { kLarge, kSmall, kBoth };  // kLarge: as large as the unit
 
     [[nodiscard]] codec::UnitPosition position_of(const codec::PredictionUnit& unit) const;
-    [[nodiscard]] MaskedSamples target_samples(const codec::UnitPosition& place, int plane) const;
+    [[nodiscard]] SampleBlock target_samples(const codec::UnitPosition& place, int plane) const;
     // The sum of absolute differences equivalent to one bit.
     [[nodiscard]] float bit_cost() const { return std::sqrt(task_.lambda / kPlaneWeights[0]); }
     void estimate_cost(const codec::PredictionUnit& unit, codec::UnitChoice& trial, Candidate& candidate) const;

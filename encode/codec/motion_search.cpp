@@ -35,7 +35,7 @@ public:
              search_.reference.stride());
     }
 
-    void try_exact(MotionVector vector) {
+    void try_full_sample(MotionVector vector) {
         if (std::abs(vector.x) > codec::kMaxMotion_q2 || std::abs(vector.y) > codec::kMaxMotion_q2) return;
         std::uint8_t samples[kLargestBlock * kLargestBlock];
         codec::predict_from_image(search_.reference, search_.x, search_.y, vector, search_.size, samples, search_.size);
@@ -61,7 +61,7 @@ private:
     const MotionSearch& search_;
     MotionVector from_;
     const std::uint8_t* other_;
-    MaskedSamples target_;
+    SampleBlock target_;
     MotionMatch best_;
     bool any_ = false;
 };
@@ -72,8 +72,8 @@ MotionMatch search_motion(const MotionSearch& search, std::span<const MotionVect
                           const std::uint8_t* other) {
     Searcher searcher(search, from, other);
     if (search.fractions) {
-        for (const MotionVector start : starts) searcher.try_exact(start);
-        searcher.try_exact(from);
+        for (const MotionVector start : starts) searcher.try_full_sample(start);
+        searcher.try_full_sample(from);
     }
     const auto look_around = [&](MotionVector start, int reach_x, int reach_y, int step) {
         const int x = (start.x + 2) >> 2;
@@ -90,7 +90,7 @@ MotionMatch search_motion(const MotionSearch& search, std::span<const MotionVect
         for (int dy = -step; dy <= step; dy += step) {
             for (int dx = -step; dx <= step; dx += step) {
                 if ((dx == 0 && dy == 0) || (search.neighbours < 8 && dx != 0 && dy != 0)) continue;
-                searcher.try_exact(
+                searcher.try_full_sample(
                     {static_cast<std::int16_t>(centre.x + dx), static_cast<std::int16_t>(centre.y + dy)});
             }
         }

@@ -80,7 +80,7 @@ public:
 
     void hide() {
         for (int begin = last_ & ~(codec::syntax::kSignGroup - 1); begin >= 0; begin -= codec::syntax::kSignGroup) {
-            if (!agrees(begin)) mend(begin);
+            if (!is_parity_right(begin)) adjust_parity(begin);
         }
     }
 
@@ -88,7 +88,7 @@ private:
     std::int16_t& at(int i) { return levels_.at[quantiser_.scan[i].at]; }
 
     // True if the group hides no sign, or its parity matches the hidden sign.
-    bool agrees(int begin) {
+    bool is_parity_right(int begin) {
         int highest = -1;
         int lowest = -1;
         int sum = 0;
@@ -102,7 +102,7 @@ private:
         return (sum & 1) == (at(lowest) < 0 ? 1 : 0);
     }
 
-    void mend(int begin) {
+    void adjust_parity(int begin) {
         const int end = std::min(begin + codec::syntax::kSignGroup - 1, last_);
         float best_cost = std::numeric_limits<float>::max();
         int best_place = -1;
@@ -122,7 +122,7 @@ private:
                 const int level = quantiser_.coefficients[quantiser_.scan[i].place] < 0 ? -changed : changed;
                 // Any change flips the parity; adding or removing a level may also change which sign is hidden.
                 at(i) = static_cast<std::int16_t>(level);
-                if ((size != 0 && changed != 0) || agrees(begin)) {
+                if ((size != 0 && changed != 0) || is_parity_right(begin)) {
                     best_cost = cost;
                     best_place = i;
                     best_level = level;

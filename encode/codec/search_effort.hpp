@@ -6,7 +6,7 @@
 
 namespace rs::encode {
 
-inline constexpr int kLeastEffort = 1;
+inline constexpr int kMinEffort = 1;
 inline constexpr int kMaxEffort = 9;
 inline constexpr int kDefaultEffort = 5;
 
@@ -44,7 +44,7 @@ constexpr SearchEffort search_effort(int effort) {
                                                                 {kMore, kSome, 2},
                                                                 {kMuch, kUsual, 1},
                                                                 {kAll, kAll, 1}}};
-    return kEfforts[static_cast<std::size_t>(std::clamp(effort, kLeastEffort, kMaxEffort) - 1)];
+    return kEfforts[static_cast<std::size_t>(std::clamp(effort, kMinEffort, kMaxEffort) - 1)];
 }
 
 }  // namespace rs::encode

@@ -41,7 +41,7 @@ void forward(const std::int16_t* residual, std::int32_t* coefficients) {
 }
 
 template <int kSize>
-int absolute(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
+int absolute(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
     int sum = 0;
     for (int y = 0; y < kSize; ++y) {
         const std::uint8_t* const wanted = target.wanted + y * target.stride;
@@ -54,7 +54,7 @@ int absolute(const MaskedSamples& target, const std::uint8_t* samples, std::ptrd
 }
 
 template <int kSize>
-int absolute_of_mean(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride,
+int absolute_of_mean(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride,
                      const std::uint8_t* other) {
     int sum = 0;
     for (int y = 0; y < kSize; ++y) {
@@ -69,7 +69,7 @@ int absolute_of_mean(const MaskedSamples& target, const std::uint8_t* samples, s
 }
 
 template <int kSize>
-int squared(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
+int squared(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
     int sum = 0;
     for (int y = 0; y < kSize; ++y) {
         const std::uint8_t* const wanted = target.wanted + y * target.stride;
@@ -99,7 +99,7 @@ HWY_INLINE void butterflies(std::int16_t* lines) {
 }
 
 template <int kSize>
-int hadamard(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
+int hadamard(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
     int sum = 0;
     for (int block = 0; block < kSize * kSize / 64; ++block) {
         const std::ptrdiff_t down = 8 * (block / 2);
@@ -132,18 +132,18 @@ void forward_8(const std::int16_t* residual, std::int32_t* coefficients) {
 void forward_16(const std::int16_t* residual, std::int32_t* coefficients) {
     forward<16>(residual, coefficients);
 }
-int absolute_any(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
+int absolute_any(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
     return target.size == 8 ? absolute<8>(target, samples, stride) : absolute<16>(target, samples, stride);
 }
-int absolute_of_mean_any(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride,
+int absolute_of_mean_any(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride,
                          const std::uint8_t* other) {
     return target.size == 8 ? absolute_of_mean<8>(target, samples, stride, other)
                             : absolute_of_mean<16>(target, samples, stride, other);
 }
-int squared_any(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
+int squared_any(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
     return target.size == 8 ? squared<8>(target, samples, stride) : squared<16>(target, samples, stride);
 }
-int hadamard_any(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
+int hadamard_any(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
     return target.size == 8 ? hadamard<8>(target, samples, stride) : hadamard<16>(target, samples, stride);
 }
 
@@ -168,20 +168,20 @@ void forward_transform(const std::int16_t* residual, int size, std::int32_t* coe
     }
 }
 
-int absolute_differences(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
+int absolute_differences(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
     return HWY_DYNAMIC_DISPATCH(absolute_any)(target, samples, stride);
 }
 
-int absolute_differences_of_mean(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride,
+int absolute_differences_of_mean(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride,
                                  const std::uint8_t* other) {
     return HWY_DYNAMIC_DISPATCH(absolute_of_mean_any)(target, samples, stride, other);
 }
 
-int squared_differences(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
+int squared_differences(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
     return HWY_DYNAMIC_DISPATCH(squared_any)(target, samples, stride);
 }
 
-int hadamard_differences(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
+int hadamard_differences(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride) {
     return HWY_DYNAMIC_DISPATCH(hadamard_any)(target, samples, stride);
 }
 

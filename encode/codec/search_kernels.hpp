@@ -13,7 +13,7 @@ void forward_transform(const std::int16_t* residual, int size, std::int32_t* coe
 
 /// A square block of samples to compare with: `size` (8 or 16) rows of `size`. The mask is 255 where a sample is valid,
 /// else 0.
-struct MaskedSamples {
+struct SampleBlock {
     const std::uint8_t* wanted = nullptr;
     const std::uint8_t* mask = nullptr;
     std::ptrdiff_t stride = 0;  // of samples and mask
@@ -21,17 +21,17 @@ struct MaskedSamples {
 };
 
 /// Sum of absolute differences over the valid samples.
-int absolute_differences(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride);
+int absolute_differences(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride);
 
 /// Sum of absolute differences from the mean of two predictions; `other` has rows of the target's size.
-int absolute_differences_of_mean(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride,
+int absolute_differences_of_mean(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride,
                                  const std::uint8_t* other);
 
 /// Sum of squared differences over the valid samples.
-int squared_differences(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride);
+int squared_differences(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride);
 
 /// Sum of the magnitudes of the orthonormal 8x8 Hadamard transforms of the differences, which are 0 at invalid samples:
 /// an estimate of the residual's coding cost.
-int hadamard_differences(const MaskedSamples& target, const std::uint8_t* samples, std::ptrdiff_t stride);
+int hadamard_differences(const SampleBlock& target, const std::uint8_t* samples, std::ptrdiff_t stride);
 
 }  // namespace rs::encode

@@ -20,7 +20,7 @@ using codec::UnitChoice;
 
 class TileEncoder {
 public:
-    TileEncoder(const ImageTask& task, const CostTable& costs, const codec::TilePlace& place,
+    TileEncoder(const ImageTask& task, const CostTable& costs, const codec::TileRect& place,
                 std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>& motions)
         : task_(task),
           costs_(costs),
@@ -35,8 +35,8 @@ public:
         for (int y = 0; y < place_.height; y += kMacroblock) {
             for (int x = 0; x < place_.width; x += kMacroblock) macroblock(x / kBlock, y / kBlock);
         }
-        codec::AlphaFinish(recorder_, *task_.code, state_.grid, state_.alpha, state_.depths, task_.references, place_,
-                           task_.out[3])
+        codec::AlphaFinisher(recorder_, *task_.code, state_.grid, state_.alpha, state_.depths, task_.references, place_,
+                             task_.out[3])
             .finish();
         codec::filter_edges(state_.grid, *task_.code, task_.head.step, place_, task_.out);
     }
@@ -131,7 +131,7 @@ private:
 
     const ImageTask& task_;
     const CostTable& costs_;
-    codec::TilePlace place_;
+    codec::TileRect place_;
     int left_;
     int top_;
     SymbolBuffer recorder_;
@@ -146,7 +146,7 @@ private:
 
 }  // namespace
 
-void encode_tile(const ImageTask& task, const CostTable& costs, const codec::TilePlace& place,
+void encode_tile(const ImageTask& task, const CostTable& costs, const codec::TileRect& place,
                  std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>& motions) {
     TileEncoder(task, costs, place, decisions, motions).encode();
 }

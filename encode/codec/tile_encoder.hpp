@@ -26,7 +26,7 @@ struct ImageTask {
 
 /// Encodes the tile at `place`, which must have a valid sample. Appends its decisions, and the vectors used per
 /// reference to `motions`.
-void encode_tile(const ImageTask& task, const CostTable& costs, const codec::TilePlace& place,
+void encode_tile(const ImageTask& task, const CostTable& costs, const codec::TileRect& place,
                  std::vector<Decision>& decisions, std::array<std::vector<codec::MotionVector>, 2>& motions);
 
 }  // namespace rs::encode

@@ -25,8 +25,7 @@ Result<CapturedView> captured_view(const Camera& camera, int planes) {
     if (!is_below(lateral_px, kMostLateral)) {
         return Error{
             "its optical axis passes too far from the Y axis for its distance and focal length; bring the axis nearer "
-            "to the "
-            "middle of the image, or scale the images down"};
+            "to the middle of the image, or scale the images down"};
     }
     if (!is_below(camera.centre().y, kMostRadii) || !is_below(depth, kMostRadii)) {
         return Error{"it is 256 object radii away or more; check the object radius"};

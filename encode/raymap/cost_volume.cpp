@@ -75,14 +75,14 @@ void for_each_level(CostVolume& volume, const WorkView& view, const DepthRange& 
 }
 
 // Projections of a column's points at one depth into a neighbor: one column, and rows that are linear in the row.
-struct SeenRows {
+struct ProjectedRows {
     ProjectedColumn column;
     std::int32_t position_q16 = 0;
     std::int32_t step_q16 = 0;
 };
 
-std::optional<SeenRows> see_rows(const WorkView& view, const WorkView& neighbour, const HorizontalRay& ray,
-                                 double depth, int top, int rows) {
+std::optional<ProjectedRows> project_rows(const WorkView& view, const WorkView& neighbour, const HorizontalRay& ray,
+                                          double depth, int top, int rows) {
     const double axial = ray.axial_at(depth);
     if (axial <= kNearest) return std::nullopt;
     const ProjectedColumn seen = neighbour.see(ray.place_at(depth));
@@ -91,15 +91,15 @@ std::optional<SeenRows> see_rows(const WorkView& view, const WorkView& neighbour
     const double at_top = neighbour.row_of(view.height_of(top + 0.5, axial), seen.axial);
     const double at_bottom = at_top + step * rows;
     if (!(std::abs(at_top) < kFarthestRow && std::abs(at_bottom) < kFarthestRow)) return std::nullopt;
-    return SeenRows{seen, static_cast<std::int32_t>(std::lround(std::ldexp(at_top, 16))),
-                    static_cast<std::int32_t>(std::lround(std::ldexp(step, 16)))};
+    return ProjectedRows{seen, static_cast<std::int32_t>(std::lround(std::ldexp(at_top, 16))),
+                         static_cast<std::int32_t>(std::lround(std::ldexp(step, 16)))};
 }
 
 // Matching costs of `rows` rows from `top` of one column, at one depth, against one neighbor.
 void compare_column(const WorkView& view, const WorkView& neighbour, const HorizontalRay& ray, double depth, int column,
                     int top, int rows, std::uint8_t* costs) {
     std::fill(costs, costs + rows, kUnknownMatch);
-    const std::optional<SeenRows> seen = see_rows(view, neighbour, ray, depth, top, rows);
+    const std::optional<ProjectedRows> seen = project_rows(view, neighbour, ray, depth, top, rows);
     if (!seen) return;
     // Interpolated between two columns of the neighbor, in 1/32 px.
     const double left = seen->column.column - 0.5;
@@ -117,8 +117,8 @@ void compare_column(const WorkView& view, const WorkView& neighbour, const Horiz
 }
 
 // A neighbor's depth map with the rays of its columns.
-struct FoundSurface {
-    explicit FoundSurface(const DepthView& found) : view(found.view), depth(found.depth) {
+struct NeighbourSurface {
+    explicit NeighbourSurface(const DepthView& found) : view(found.view), depth(found.depth) {
         for (int column = 0; column < view.width; ++column) rays.push_back(view.ray_of(column + 0.5));
     }
 
@@ -127,9 +127,9 @@ struct FoundSurface {
     std::vector<HorizontalRay> rays;
 };
 
-void compare_depths(const WorkView& view, const FoundSurface& found, const HorizontalRay& ray, double depth,
+void compare_depths(const WorkView& view, const NeighbourSurface& found, const HorizontalRay& ray, double depth,
                     float cost_per_unit, int top, int rows, std::uint8_t* least) {
-    const std::optional<SeenRows> seen = see_rows(view, found.view, ray, depth, top, rows);
+    const std::optional<ProjectedRows> seen = project_rows(view, found.view, ray, depth, top, rows);
     if (!seen || !(seen->column.column >= 0 && seen->column.column < found.view.width)) return;
     const auto column = static_cast<int>(seen->column.column);
     const HorizontalRay& their_ray = found.rays[static_cast<std::size_t>(column)];
@@ -291,7 +291,7 @@ void add_inconsistency(CostVolume& volume, const WorkView& view, const Neighbour
                        const DepthRange& range) {
     const ObjectBox& box = volume.box;
     if (box.empty()) return;
-    std::vector<FoundSurface> surfaces;
+    std::vector<NeighbourSurface> surfaces;
     for (const auto* const kind : {&neighbours.beside, &neighbours.across}) {
         for (const DepthView* const neighbour : *kind) surfaces.emplace_back(*neighbour);
     }
@@ -299,7 +299,7 @@ void add_inconsistency(CostVolume& volume, const WorkView& view, const Neighbour
     std::vector<std::uint8_t> least(static_cast<std::size_t>(box.height()));
     const auto approach = [&](int, const HorizontalRay& ray, double depth, const Rows& rows) {
         std::fill(least.begin(), least.end(), kUnknownMatch);
-        for (const FoundSurface& surface : surfaces) {
+        for (const NeighbourSurface& surface : surfaces) {
             compare_depths(view, surface, ray, depth, cost_per_unit, box.top + rows.begin, rows.count(), least.data());
         }
     };

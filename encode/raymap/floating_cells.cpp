@@ -75,7 +75,7 @@ private:
 
 }  // namespace
 
-void remove_outside_hull(const LineGrid& grid, const std::vector<std::uint8_t>& meets_hull, ShapeCell* cells) {
+void remove_cells_outside_hull(const LineGrid& grid, const std::vector<std::uint8_t>& meets_hull, ShapeCell* cells) {
     const auto meets_nearby = [&](int p, int h) {
         for (int x = std::max(p - 1, 0); x <= std::min(p + 1, grid.p_cells - 1); ++x) {
             for (int y = std::max(h - 1, 0); y <= std::min(h + 1, grid.bands - 1); ++y) {

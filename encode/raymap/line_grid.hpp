@@ -1,9 +1,9 @@
 #pragma once
-// Geometry of a shape map's line (rayspace/object/shape_map.hpp): its cells and their rays, in object radii.
+// Geometry of a shape map's line (rayspace/api/types/shape_map.hpp): its cells and their rays, in object radii.
 
 #include "encode/raymap/silhouettes/visual_hull.hpp"
 #include "encode/raymap/silhouettes/work_view.hpp"
-#include "rayspace/object/shape_map.hpp"
+#include "rayspace/api/types/shape_map.hpp"
 
 #include <glm/vec2.hpp>
 

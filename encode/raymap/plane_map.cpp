@@ -49,7 +49,7 @@ std::vector<Candidate> rays_through(const Rig& upright, const ViewRing& ring, co
 // A viewpoint halfway between two captured ones follows the border between their cells. With the border exactly
 // halfway, rounding would assign its columns to both photos in turn, and stripes would be visible from such viewpoints.
 // The border is therefore slightly beyond halfway.
-bool goes_to_next(const Candidate& now, const Candidate& next, double angle_rad, double cell_rad) {
+bool is_next_nearer(const Candidate& now, const Candidate& next, double angle_rad, double cell_rad) {
     const double apart_rad = next.angle_rad - now.angle_rad;
     const double favour_rad = std::min(kFavour_cells * cell_rad, apart_rad / 8);
     return angle_rad - now.angle_rad > apart_rad / 2 + favour_rad;
@@ -85,7 +85,7 @@ Ring make_plane_map(const Rig& upright, const ViewRing& view_ring, const PlaneMa
             const double u = -u_half + (ui + 0.5) * 2 * u_half / options.u_cells;
             const double angle = std::atan(u);
             const double cell_rad = 2 * u_half / options.u_cells / (1 + u * u);
-            while (nearest + 1 < rays.size() && goes_to_next(rays[nearest], rays[nearest + 1], angle, cell_rad))
+            while (nearest + 1 < rays.size() && is_next_nearer(rays[nearest], rays[nearest + 1], angle, cell_rad))
                 ++nearest;
             ring.cells[ring.cell_index(k, xi, ui)] = rays[nearest].view;
         }

@@ -55,7 +55,7 @@ Image<float> depths_at(Image<float> levels, const DepthRange& range) {
 }
 
 double contradicted_by(const VisualHull& hull, const std::vector<const WorkView*>& views) {
-    return contradicted_share(views, hull, range_of(kHullLevels));
+    return inconsistent_share(views, hull, range_of(kHullLevels));
 }
 
 bool agree_with(const std::vector<const WorkView*>& views, const VisualHull& hull) {
@@ -85,8 +85,8 @@ void RingDepthEstimator::set_photo(std::size_t n, const Image<Rgba8>& image) {
     WorkView& view = views_[n].view;
     view = make_work_view(camera, image, reduction_);
     soft_[n] = soft_pixels(view);
-    if (layer_ == Layer::kSoft) cover_soft(view, soft_[n]);
-    weaken_shading(view);
+    if (layer_ == Layer::kSoft) make_soft_opaque(view, soft_[n]);
+    attenuate_shading(view);
     texture_[n] = measure_texture(view);
 }
 

@@ -162,7 +162,7 @@ public:
             clamp_to_hull(grid_, CellRay(grid_, photos.viewpoint, p), hull, cells_.data() + column,
                           meets_hull.data() + column);
         }
-        if (layer.silhouettes_agree) remove_outside_hull(grid_, meets_hull, cells_.data());
+        if (layer.silhouettes_agree) remove_cells_outside_hull(grid_, meets_hull, cells_.data());
         if (layer.in_front) remove_small_components(grid_, floating_share, cells_.data());
         for (int p = 0; p < grid_.p_cells; ++p) {
             ShapeCell* const column = cells_.data() + p * grid_.bands;

@@ -1,11 +1,11 @@
 #pragma once
-// Computes the cells of a shape map (rayspace/object/shape_map.hpp) from the photos' depth maps: the depth maps on
+// Computes the cells of a shape map (rayspace/api/types/shape_map.hpp) from the photos' depth maps: the depth maps on
 // either side of each line of rays are reprojected to the line's viewpoint and merged.
 
 #include "encode/raymap/silhouettes/visual_hull.hpp"
 #include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/image/image.hpp"
-#include "rayspace/object/shape_map.hpp"
+#include "rayspace/api/types/shape_map.hpp"
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 #pragma once
-// Computes the shape maps of an object (rayspace/object/shape_map.hpp) from its photos.
+// Computes the shape maps of an object (rayspace/api/types/shape_map.hpp) from its photos.
 //
 // For each photo of a ring: the visual hull of all silhouettes, including those of the rings next below and above,
 // bounds the depths, after parts that single masks lack are restored (silhouette_repair.hpp, lost_parts.hpp); matching

@@ -9,7 +9,7 @@
 #include "encode/raymap/line_grid.hpp"
 #include "encode/raymap/silhouettes/work_view.hpp"
 #include "rayspace/image/image.hpp"
-#include "rayspace/object/shape_map.hpp"
+#include "rayspace/api/types/shape_map.hpp"
 
 #include <glm/vec2.hpp>
 

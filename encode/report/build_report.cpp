@@ -13,7 +13,7 @@ namespace {
 constexpr int kThumbnail_px = 150;
 constexpr int kCompared_px = 260;
 
-void add_what_was_built(HtmlPage& page, const BuildReport& report) {
+void add_build_facts(HtmlPage& page, const BuildReport& report) {
     std::vector<std::vector<std::string>> rows;
     for (const ReportFact& fact : report.facts) rows.push_back({fact.name, fact.value});
     if (!rows.empty()) page.table({"", ""}, rows);
@@ -68,7 +68,7 @@ void add_score_tables(HtmlPage& page, const std::vector<MethodScores>& scores) {
                            two_decimals(method.mean_ssim * 100), two_decimals(method.build_seconds)});
     }
     page.table({"method", "mean PSNR, dB", "PSNR of all pixels, dB", "mean SSIM, %", "build, s"}, summary);
-    page.drawing(svg_of(plot_of_scores(scores)));
+    page.drawing(draw_svg(plot_of_scores(scores)));
 
     std::vector<std::string> header{"view", "image"};
     for (const MethodScores& method : scores) header.push_back(method.method + ", dB");
@@ -106,7 +106,7 @@ Status add_scores(HtmlPage& page, const BuildReport& report) {
     }
     for (const ImageRow& row : report.held_out) {
         page.paragraph(row.caption);
-        if (Status status = page.images(row.images, kCompared_px, ImageLayout::kLine); !status) return status;
+        RS_TRY(page.images(row.images, kCompared_px, ImageLayout::kLine));
     }
     return {};
 }
@@ -144,7 +144,7 @@ void add_accounts(HtmlPage& page, const BuildReport& report) {
 
 Result<std::string> build_report_page(const BuildReport& report) {
     HtmlPage page(report.name);
-    add_what_was_built(page, report);
+    add_build_facts(page, report);
     RS_TRY(add_captured(page, report));
     add_rings(page, report);
     RS_TRY(add_scores(page, report));

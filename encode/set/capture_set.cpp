@@ -72,7 +72,7 @@ Status check_views(const CaptureSet& set) {
 }
 
 // Upright cameras with one focal length; their principal points are set by frame_upright_cameras.
-void turn_upright(Rig& rig) {
+void make_cameras_upright(Rig& rig) {
     const double fl_px = rig.views.front().camera.fl_x;
     for (RigView& view : rig.views) {
         view.camera = upright_camera(view.camera);
@@ -183,7 +183,7 @@ Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress*
     set.resampled = !std::all_of(set.captured.views.begin(), set.captured.views.end(),
                                  [](const RigView& view) { return is_upright(view.camera); });
 
-    if (set.resampled) turn_upright(set.upright);
+    if (set.resampled) make_cameras_upright(set.upright);
     if (set.resampled || set.captured.object_radius <= 0) {
         RS_ASSIGN_OR_RETURN(std::vector<PixelBox> occupied, measure_images(set, progress));
         if (set.resampled) {

@@ -62,7 +62,7 @@ Result<BuildOptions> options_of(const BuildArguments& arguments) {
                      ": is not a kind of RS map; use shape or plane (--cells sets its size)"};
     }
     options.raymap = *kind;
-    options.map = usual_plane_map(*kind);
+    options.map = default_plane_map(*kind);
     options.map.planes = arguments.planes;
     if (!arguments.cells.empty()) {
         const Result<PixelSize> cells = parse_size(arguments.cells);
@@ -133,6 +133,7 @@ Status run_build(const BuildArguments& arguments) {
     StageClock progress(bar);
     RS_ASSIGN_OR_RETURN(BuildOptions options, options_of(arguments));
 
+    if (Status kept = refuse_overwriting_inputs(arguments.output, {arguments.set}); !kept) return kept;
     RS_ASSIGN_OR_RETURN(CaptureSet set, open_capture_set(arguments.set, &progress));
     // Check that the output files can be written before the long build.
     RS_TRY(StagedFile::create(arguments.output));
@@ -155,7 +156,7 @@ Status run_build(const BuildArguments& arguments) {
         summary.psnr_db = encoded.psnr_db;
         built.object.coded = std::make_shared<codec::CodedImages>(std::move(encoded.coded));
     }
-    if (Status status = write_object(arguments.output, built.object, &progress); !status) return status;
+    RS_TRY(write_object(arguments.output, built.object, &progress));
     for (const std::string& warning : built.warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
 
     summary.bytes = std::filesystem::file_size(arguments.output);
@@ -171,10 +172,10 @@ Status run_build(const BuildArguments& arguments) {
         report.warnings = built.warnings;
         report.rig = set.upright;
         built.object.images.clear();  // frees memory for the objects to be scored
-        if (Status status = add_captured_images(set, report); !status) return status;
+        RS_TRY(add_captured_images(set, report));
         add_depth_images(set, built.depths, report);
-        if (Status status = add_evaluation(set, options.map.planes, report, &bar); !status) return status;
-        if (Status status = write_report(*page, report); !status) return status;
+        RS_TRY(add_evaluation(set, options.map.planes, report, &bar));
+        RS_TRY(write_report(*page, report));
     }
     print_summary(arguments, options, built.object, summary);
     return {};

@@ -1,6 +1,6 @@
 #include "encode/tools/commands.hpp"
 
-#include "encode/tools/evaluation.hpp"
+#include "encode/evaluation/evaluation.hpp"
 #include "encode/tools/report_contents.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
@@ -31,14 +31,15 @@ struct EvaluateArguments {
     bool views = false;
     bool quiet = false;
     bool json = false;
+    bool force = false;
 };
 
 // Writes FOLDER/truth/0001.png, FOLDER/plane/0001.png and FOLDER/plane-error/0001.png, named by the view's index in the
 // set.
 class EvaluationFolder {
 public:
-    static Result<EvaluationFolder> create(const std::string& path, const std::vector<Method>& methods) {
-        RS_ASSIGN_OR_RETURN(StagedFolder folder, StagedFolder::create(path, "answers of methods"));
+    static Result<EvaluationFolder> create(const std::string& path, bool force, const std::vector<Method>& methods) {
+        RS_ASSIGN_OR_RETURN(StagedFolder folder, StagedFolder::create(path, "answers of methods", force));
         EvaluationFolder made(std::move(folder), methods.front());
         std::vector<std::string> names{"truth"};
         for (const Method method : methods) {
@@ -54,16 +55,16 @@ public:
         return made;
     }
 
-    [[nodiscard]] Status write(const EvaluatedView& answered) const {
-        const std::string name = numbered_image_name(static_cast<std::size_t>(answered.view));
-        const std::string method = to_string(answered.method);
+    [[nodiscard]] Status write(const EvaluatedView& evaluated) const {
+        const std::string name = numbered_image_name(static_cast<std::size_t>(evaluated.view));
+        const std::string method = to_string(evaluated.method);
         const std::filesystem::path& root = folder_.temporary_path();
-        if (answered.method == first_) {
-            if (Status status = write_png(root / "truth" / name, answered.truth); !status) return status;
+        if (evaluated.method == first_) {
+            RS_TRY(write_png(root / "truth" / name, evaluated.truth));
         }
-        if (Status status = write_png(root / method / name, answered.answer); !status) return status;
+        RS_TRY(write_png(root / method / name, evaluated.rendering));
         return write_png(root / (method + "-error") / name,
-                         error_image(answered.truth, answered.answer, kErrorFullScale));
+                         error_image(evaluated.truth, evaluated.rendering, kErrorFullScale));
     }
 
     Status commit() { return folder_.commit(); }
@@ -117,17 +118,17 @@ void print_table(const EvaluateArguments& arguments, const HoldOut& hold_out, co
 }
 
 Status write_page(const EvaluateArguments& arguments, const CaptureSet& set, const HoldOut& hold_out,
-                  const std::vector<MethodScores>& scores, EvaluationThumbnails answers, StagedFile& file) {
+                  const std::vector<MethodScores>& scores, EvaluationThumbnails thumbnails, StagedFile& file) {
     BuildReport report;
     report.name = name_of(set);
     report.facts = {{"capture set", arguments.set},
                     {"images", std::to_string(set.upright.views.size()) + (set.resampled ? ", resampled upright" : "")},
                     {"reference planes", std::to_string(arguments.planes)}};
     report.rig = set.upright;
-    if (Status status = add_captured_images(set, report); !status) return status;
+    RS_TRY(add_captured_images(set, report));
     std::string which = arguments.hold_out;  // every-3rd
     std::ranges::replace(which, '-', ' ');
-    add_scores(set, hold_out, which, scores, std::move(answers), report);
+    add_scores(set, hold_out, which, scores, std::move(thumbnails), report);
     return write_report(file, report);
 }
 
@@ -141,9 +142,13 @@ Status run_evaluate(const EvaluateArguments& arguments) {
     ProgressBar progress(arguments.quiet);
     RS_ASSIGN_OR_RETURN(const CaptureSet set, open_capture_set(arguments.set, &progress));
     RS_ASSIGN_OR_RETURN(const HoldOut hold_out, choose_hold_out(set.upright, every, arguments.set));
+    std::vector<std::filesystem::path> inputs{arguments.set, arguments.report};
+    for (const RigView& view : set.captured.views) inputs.push_back(image_path(set.folder, view));
+    RS_TRY(refuse_overwriting_inputs(arguments.output, inputs));
     std::optional<EvaluationFolder> folder;
     if (!arguments.output.empty()) {
-        RS_ASSIGN_OR_RETURN(EvaluationFolder created, EvaluationFolder::create(arguments.output, options.methods));
+        RS_ASSIGN_OR_RETURN(EvaluationFolder created,
+                            EvaluationFolder::create(arguments.output, arguments.force, options.methods));
         folder = std::move(created);
     }
     std::optional<StagedFile> page;
@@ -151,21 +156,19 @@ Status run_evaluate(const EvaluateArguments& arguments) {
         RS_ASSIGN_OR_RETURN(StagedFile created, StagedFile::create(arguments.report));
         page = std::move(created);
     }
-    EvaluationThumbnails answers(hold_out, options.methods);
-    const EvaluationSink look = [&](const EvaluatedView& answered) -> Status {
+    EvaluationThumbnails thumbnails(hold_out, options.methods);
+    const EvaluationSink sink = [&](const EvaluatedView& evaluated) -> Status {
         if (page) {
-            if (Status status = answers.keep(answered); !status) return status;
+            RS_TRY(thumbnails.keep(evaluated));
         }
-        return folder ? folder->write(answered) : Status{};
+        return folder ? folder->write(evaluated) : Status{};
     };
-    RS_ASSIGN_OR_RETURN(const std::vector<MethodScores> scores, evaluate(set, hold_out, options, look, &progress));
+    RS_ASSIGN_OR_RETURN(const std::vector<MethodScores> scores, evaluate(set, hold_out, options, sink, &progress));
     if (folder) {
-        if (Status status = folder->commit(); !status) return status;
+        RS_TRY(folder->commit());
     }
     if (page) {
-        if (Status status = write_page(arguments, set, hold_out, scores, std::move(answers), *page); !status) {
-            return status;
-        }
+        RS_TRY(write_page(arguments, set, hold_out, scores, std::move(thumbnails), *page));
     }
     if (arguments.json) {
         print_json(arguments, hold_out, scores);
@@ -201,6 +204,7 @@ void add_evaluate_command(CLI::App& app, std::function<Status()>& run) {
                      "also write a report, PAGE.html: scores, some renderings beside ground truth, the cameras")
         ->check(ends_in({".html", ".htm"}));
     command->add_flag("--views", arguments->views, "also print the PSNR of every view");
+    command->add_flag("--force", arguments->force, kForceHelp);
     command->add_flag("-q,--quiet", arguments->quiet, "suppress the progress bar");
     command->add_flag("--json", arguments->json, "print all results as JSON");
     command->footer(

@@ -4,6 +4,7 @@
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/codec/stream/byte_account.hpp"
+#include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
 
 #include <nlohmann/json.hpp>
@@ -20,6 +21,7 @@ namespace {
 struct ObjectArguments {
     std::string object;
     std::string output;
+    bool force = false;
     bool quiet = false;
     bool json = false;
 };
@@ -100,9 +102,10 @@ Status run_verify(const ObjectArguments& arguments) {
 }
 
 Status run_extract(const ObjectArguments& arguments) {
+    if (Status kept = refuse_overwriting_inputs(arguments.output, {arguments.object}); !kept) return kept;
     RS_ASSIGN_OR_RETURN(const RaySpaceObject object, read_object(arguments.object));
     ProgressBar progress(arguments.quiet);
-    if (Status status = extract_images(object, arguments.output, &progress); !status) return status;
+    RS_TRY(extract_images(object, arguments.output, &progress, arguments.force));
     std::printf("%s: %zu images\n", arguments.output.c_str(), object.images.size());
     return {};
 }
@@ -138,6 +141,7 @@ void add_extract_command(CLI::App& app, std::function<Status()>& run) {
     CLI::App* command = add_object_command(
         app, run, "extract", "Write the stored images and their rig as a capture set", arguments, run_extract);
     command->add_option("-o,--output", arguments->output, "capture set to write")->required();
+    command->add_flag("--force", arguments->force, kForceHelp);
     command->add_flag("-q,--quiet", arguments->quiet, "suppress the progress bar");
     command->footer("Example:\n  rs-encode extract vase.rso -o vase-images");
 }

@@ -70,7 +70,7 @@ Result<std::optional<ImageGoal>> parse_goal(const ProfileArguments& arguments) {
         return Error{"--alpha-bits " + std::to_string(*arguments.alpha_bits) + ": must be 1.." +
                      std::to_string(codec::kMaxAlphaBits)};
     }
-    if (arguments.effort < kLeastEffort || arguments.effort > kMaxEffort) {
+    if (arguments.effort < kMinEffort || arguments.effort > kMaxEffort) {
         return Error{"--effort " + std::to_string(arguments.effort) + ": must be 1..9"};
     }
     ImageGoal goal;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kCapturedShown = 8;
 constexpr int kHeldOutShown = 5;
-constexpr int kKept_px = 400;  // longer side of a thumbnail
+constexpr int kThumbnailSide_px = 400;  // longer side of a thumbnail
 
 std::string caption_of(const CaptureSet& set, int view) {
     return "view " + std::to_string(view) + ", " + set.upright.views[static_cast<std::size_t>(view)].file_path;
@@ -25,7 +25,7 @@ std::string with_db(const std::string& text, double psnr_db) {
 }
 
 // Transposes a map stored by columns.
-Image<float> transposed(const Image<float>& columns) {
+Image<float> transpose(const Image<float>& columns) {
     Image<float> image(columns.height(), columns.width());
     for (int y = 0; y < image.height(); ++y) {
         for (int x = 0; x < image.width(); ++x) image(x, y) = columns(y, x);
@@ -36,50 +36,51 @@ Image<float> transposed(const Image<float>& columns) {
 }  // namespace
 
 EvaluationThumbnails::EvaluationThumbnails(const HoldOut& hold_out, const std::vector<Method>& methods) {
-    for (const int n : evenly_spread(static_cast<int>(hold_out.held.size()), kHeldOutShown)) {
-        for (const Method method : methods) kept_[{static_cast<std::size_t>(n), method}] = {};
+    for (const int n : select_evenly(static_cast<int>(hold_out.held.size()), kHeldOutShown)) {
+        for (const Method method : methods) thumbnails_[{static_cast<std::size_t>(n), method}] = {};
     }
 }
 
-Status EvaluationThumbnails::keep(const EvaluatedView& answered) {
-    const auto place = kept_.find({answered.number, answered.method});
-    if (place == kept_.end()) return {};
-    const std::string name = to_string(answered.method);
-    place->second.view = answered.view;
-    place->second.truth = scaled_down(answered.truth, kKept_px);
-    place->second.answer = {scaled_down(answered.answer, kKept_px), with_db(name, answered.psnr_db)};
-    place->second.error = {scaled_down(error_image(answered.truth, answered.answer, kErrorFullScale), kKept_px),
-                           "error of " + name};
+Status EvaluationThumbnails::keep(const EvaluatedView& evaluated) {
+    const auto entry = thumbnails_.find({evaluated.number, evaluated.method});
+    if (entry == thumbnails_.end()) return {};
+    const std::string name = to_string(evaluated.method);
+    entry->second.view = evaluated.view;
+    entry->second.truth = downscale(evaluated.truth, kThumbnailSide_px);
+    entry->second.rendering = {downscale(evaluated.rendering, kThumbnailSide_px), with_db(name, evaluated.psnr_db)};
+    entry->second.error = {
+        downscale(error_image(evaluated.truth, evaluated.rendering, kErrorFullScale), kThumbnailSide_px),
+        "error of " + name};
     return {};
 }
 
 std::vector<ImageRow> EvaluationThumbnails::rows(const CaptureSet& set) && {
     std::vector<ImageRow> rows;
     std::size_t row_of = 0;
-    for (auto& [key, kept] : kept_) {
+    for (auto& [key, kept] : thumbnails_) {
         if (rows.empty() || key.first != row_of) {
             row_of = key.first;
             rows.push_back({caption_of(set, kept.view), {}});
             rows.back().images.push_back({std::move(kept.truth), "truth"});
         }
-        rows.back().images.push_back(std::move(kept.answer));
+        rows.back().images.push_back(std::move(kept.rendering));
         rows.back().images.push_back(std::move(kept.error));
     }
     return rows;
 }
 
 void add_scores(const CaptureSet& set, const HoldOut& hold_out, const std::string& which,
-                std::vector<MethodScores> scores, EvaluationThumbnails answers, BuildReport& report) {
+                std::vector<MethodScores> scores, EvaluationThumbnails thumbnails, BuildReport& report) {
     report.scores = std::move(scores);
     report.hold_out = "Of " + std::to_string(set.upright.views.size()) + " views, " + which + " was held out, " +
                       std::to_string(hold_out.held.size()) + " in total.";
-    report.held_out = std::move(answers).rows(set);
+    report.held_out = std::move(thumbnails).rows(set);
 }
 
 Status add_captured_images(const CaptureSet& set, BuildReport& report) {
-    for (const int view : evenly_spread(static_cast<int>(set.upright.views.size()), kCapturedShown)) {
+    for (const int view : select_evenly(static_cast<int>(set.upright.views.size()), kCapturedShown)) {
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, read_upright_image(set, view));
-        report.captured.push_back({scaled_down(image, kKept_px), caption_of(set, view)});
+        report.captured.push_back({downscale(image, kThumbnailSide_px), caption_of(set, view)});
     }
     return {};
 }
@@ -92,12 +93,12 @@ Status add_evaluation(const CaptureSet& set, int planes, BuildReport& report, Pr
     }
     EvaluationOptions options;
     options.planes = planes;
-    EvaluationThumbnails answers(*hold_out, options.methods);
-    RS_ASSIGN_OR_RETURN(
-        std::vector<MethodScores> scores,
-        evaluate(
-            set, *hold_out, options, [&](const EvaluatedView& answered) { return answers.keep(answered); }, progress));
-    add_scores(set, *hold_out, "every 2nd", std::move(scores), std::move(answers), report);
+    EvaluationThumbnails thumbnails(*hold_out, options.methods);
+    RS_ASSIGN_OR_RETURN(std::vector<MethodScores> scores,
+                        evaluate(
+                            set, *hold_out, options,
+                            [&](const EvaluatedView& evaluated) { return thumbnails.keep(evaluated); }, progress));
+    add_scores(set, *hold_out, "every 2nd", std::move(scores), std::move(thumbnails), report);
     return {};
 }
 
@@ -106,15 +107,15 @@ void add_depth_images(const CaptureSet& set, const std::vector<DepthPreview>& de
     for (const DepthPreview& found : depths) {
         const std::string caption = caption_of(set, found.view);
         report.hull_images.push_back(
-            {scaled_down(depth_image(transposed(found.hull), -kShown, kShown), kKept_px), caption});
+            {downscale(depth_image(transpose(found.hull), -kShown, kShown), kThumbnailSide_px), caption});
         report.depth_images.push_back(
-            {scaled_down(depth_image(transposed(found.depth), -kShown, kShown), kKept_px), caption});
+            {downscale(depth_image(transpose(found.depth), -kShown, kShown), kThumbnailSide_px), caption});
     }
 }
 
 Status write_report(StagedFile& file, const BuildReport& report) {
     RS_ASSIGN_OR_RETURN(const std::string page, build_report_page(report));
-    if (Status status = file.write(std::as_bytes(std::span(page))); !status) return status;
+    RS_TRY(file.write(std::as_bytes(std::span(page))));
     return file.commit();
 }
 

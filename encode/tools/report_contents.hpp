@@ -4,7 +4,7 @@
 #include "encode/raymap/shape_map.hpp"
 #include "encode/report/build_report.hpp"
 #include "encode/set/capture_set.hpp"
-#include "encode/tools/evaluation.hpp"
+#include "encode/evaluation/evaluation.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -24,24 +24,24 @@ public:
     EvaluationThumbnails(const HoldOut& hold_out, const std::vector<Method>& methods);
 
     /// A EvaluationSink. Thread-safe.
-    Status keep(const EvaluatedView& answered);
+    Status keep(const EvaluatedView& evaluated);
 
     /// One row per view.
     [[nodiscard]] std::vector<ImageRow> rows(const CaptureSet& set) &&;
 
 private:
-    struct Kept {
+    struct ViewThumbnails {
         int view = 0;
         Image<Rgba8> truth;
-        CaptionedImage answer;
+        CaptionedImage rendering;
         CaptionedImage error;
     };
-    std::map<std::pair<std::size_t, Method>, Kept> kept_;  // keys are inserted by the constructor
+    std::map<std::pair<std::size_t, Method>, ViewThumbnails> thumbnails_;  // keys are inserted by the constructor
 };
 
 /// Adds scores and thumbnails.
 void add_scores(const CaptureSet& set, const HoldOut& hold_out, const std::string& which,
-                std::vector<MethodScores> scores, EvaluationThumbnails answers, BuildReport& report);
+                std::vector<MethodScores> scores, EvaluationThumbnails thumbnails, BuildReport& report);
 
 /// Builds objects from every second view, scores the other views and adds thumbnails. A set with too few views is not
 /// an error: the report states the reason.

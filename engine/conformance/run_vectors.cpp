@@ -10,7 +10,7 @@
 namespace rs::engine {
 namespace {
 
-// What differs from the expected view; "" for nothing.
+// Describes the difference to the expected view; "" if equal.
 std::string difference(const ConformanceView& expected, const ExecutedView& found) {
     const ViewRegisters& r = expected.registers;
     if (found.image.width() != r.width || found.image.height() != r.height) {
@@ -27,35 +27,35 @@ std::string difference(const ConformanceView& expected, const ExecutedView& foun
     return "";
 }
 
-Status check_views(const ConformanceCase& of_case, const RaySpaceObject& object) {
-    for (std::size_t v = 0; v < of_case.views.size(); ++v) {
-        if (Status status = check_registers(object, of_case.views[v].registers); !status) {
-            return Error{"case '" + of_case.name + "', view " + std::to_string(v) + ": " + status.error().message};
+Status check_views(const ConformanceCase& test_case, const RaySpaceObject& object) {
+    for (std::size_t v = 0; v < test_case.views.size(); ++v) {
+        if (Status status = check_registers(object, test_case.views[v].registers); !status) {
+            return Error{"case '" + test_case.name + "', view " + std::to_string(v) + ": " + status.error().message};
         }
     }
     return {};
 }
 
-CaseResult run_case(const ConformanceCase& of_case, const RaySpaceObject& object, const Implementation& implementation,
-                    const std::filesystem::path& write_folder) {
+CaseResult run_case(const ConformanceCase& test_case, const RaySpaceObject& object,
+                    const Implementation& implementation, const std::filesystem::path& write_folder) {
     CaseResult result;
-    const Result<ExecuteView> render = implementation.open(of_case, object);
+    const Result<ExecuteView> render = implementation.open(test_case, object);
     if (!render) {
         result.declined = render.error().message;
         return result;
     }
-    for (std::size_t v = 0; v < of_case.views.size(); ++v) {
+    for (std::size_t v = 0; v < test_case.views.size(); ++v) {
         const Result<ExecutedView> view = (*render)(v);
         if (!view) {
             result.declined = view.error().message;
             result.failed = result.same + result.different > 0;
             return result;
         }
-        const std::string differs = difference(of_case.views[v], *view);
+        const std::string differs = difference(test_case.views[v], *view);
         ++(differs.empty() ? result.same : result.different);
         if (!differs.empty() && result.first.empty()) result.first = "view " + std::to_string(v) + ": " + differs;
         if (write_folder.empty()) continue;
-        if (Status written = write_view_files(write_folder, of_case.name, v, *view); !written) {
+        if (Status written = write_view_files(write_folder, test_case.name, v, *view); !written) {
             result.declined = written.error().message;
             result.failed = true;
             return result;
@@ -69,21 +69,21 @@ CaseResult run_case(const ConformanceCase& of_case, const RaySpaceObject& object
 Implementation implementation_of(std::shared_ptr<Executor> executor) {
     const std::string name = executor->traits().name;
     return {name,
-            [executor = std::move(executor)](const ConformanceCase& of_case,
+            [executor = std::move(executor)](const ConformanceCase& test_case,
                                              const RaySpaceObject& object) -> Result<ExecuteView> {
-                RS_TRY(executor->takes(object));
-                if (executor->as_drawn(object).images != object.images) {
-                    return Error{"its alpha has values that " + executor->traits().name + " does not hold"};
+                RS_TRY(executor->supports(object));
+                if (executor->as_rendered(object).images != object.images) {
+                    return Error{"its alpha has values that " + executor->traits().name + " cannot store"};
                 }
                 RS_ASSIGN_OR_RETURN(const std::optional<int> slot, executor->load(object));
-                if (!slot) return Error{"there is no room for it"};
+                if (!slot) return Error{"not enough memory in " + executor->traits().name};
                 const std::shared_ptr<const int> loaded(new int(*slot), [executor](const int* held) {
                     static_cast<void>(executor->evict(*held));
                     delete held;
                 });
-                return ExecuteView([executor, loaded, &of_case](std::size_t v) -> Result<ExecutedView> {
-                    const ViewRegisters& registers = of_case.views[v].registers;
-                    RS_TRY(executor->draws(registers));
+                return ExecuteView([executor, loaded, &test_case](std::size_t v) -> Result<ExecutedView> {
+                    const ViewRegisters& registers = test_case.views[v].registers;
+                    RS_TRY(executor->can_render(registers));
                     RS_ASSIGN_OR_RETURN(std::vector<ExecutedView> drawn, executor->render({{*loaded, registers}}));
                     return std::move(drawn.front());
                 });
@@ -92,13 +92,13 @@ Implementation implementation_of(std::shared_ptr<Executor> executor) {
 
 Implementation implementation_in_files(const std::filesystem::path& folder) {
     return {"files:" + folder.filename().string(),
-            [folder](const ConformanceCase& of_case, const RaySpaceObject&) -> Result<ExecuteView> {
-                if (!std::filesystem::is_directory(folder / of_case.name)) {
-                    return Error{(folder / of_case.name).string() + ": is not there"};
+            [folder](const ConformanceCase& test_case, const RaySpaceObject&) -> Result<ExecuteView> {
+                if (!std::filesystem::is_directory(folder / test_case.name)) {
+                    return Error{(folder / test_case.name).string() + ": does not exist"};
                 }
-                return ExecuteView([folder, &of_case](std::size_t v) {
-                    return read_view_files(folder, of_case.name, v, of_case.views[v].registers.width,
-                                           of_case.views[v].registers.height);
+                return ExecuteView([folder, &test_case](std::size_t v) {
+                    return read_view_files(folder, test_case.name, v, test_case.views[v].registers.width,
+                                           test_case.views[v].registers.height);
                 });
             }};
 }
@@ -121,13 +121,13 @@ Result<ConformanceMatrix> run_vectors(const VectorSet& set, const std::vector<Im
     if (progress != nullptr) {
         progress->start("conformance", static_cast<std::int64_t>(set.cases.size() * implementations.size()));
     }
-    for (const ConformanceCase& of_case : set.cases) {
-        RS_ASSIGN_OR_RETURN(const RaySpaceObject object, read_object(set.folder / of_case.object, {.decode = false}));
-        RS_TRY(check_views(of_case, object));
+    for (const ConformanceCase& test_case : set.cases) {
+        RS_ASSIGN_OR_RETURN(const RaySpaceObject object, read_object(set.folder / test_case.object, {.decode = false}));
+        RS_TRY(check_views(test_case, object));
         std::vector<CaseResult>& row = matrix.results.emplace_back();
         for (std::size_t e = 0; e < implementations.size(); ++e) {
             row.push_back(
-                run_case(of_case, object, implementations[e], e == 0 ? write_folder : std::filesystem::path()));
+                run_case(test_case, object, implementations[e], e == 0 ? write_folder : std::filesystem::path()));
             if (progress != nullptr) progress->advance();
         }
     }

@@ -1,9 +1,8 @@
 #pragma once
-// The conformance set: every implementation that turns an object and view registers into an image is compared with
-// what the definition gave.
+// Runs the conformance set: compares the images of implementations with the hashes of the scalar definition.
 
 #include "engine/conformance/vectors.hpp"
-#include "engine/core/definition/executor.hpp"
+#include "rayspace/api/types/executor.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/object/ray_space_object.hpp"
@@ -16,35 +15,36 @@
 
 namespace rs::engine {
 
-// Renders the views of one object. Fails, with the reason, where the implementation does not do such objects.
+// Renders a view of one case. Returns an error with the reason if the implementation does not support it.
 using ExecuteView = std::function<Result<ExecutedView>(std::size_t view)>;
 struct Implementation {
     std::string name;
-    // `object` is read with its images as the file holds them (coded ones are not unpacked).
-    std::function<Result<ExecuteView>(const ConformanceCase& of_case, RaySpaceObject object)> open;
+    // `object` has its images as stored in the file (coded images are not unpacked).
+    std::function<Result<ExecuteView>(const ConformanceCase& test_case, RaySpaceObject object)> open;
 };
 
-// Declines objects and views that the executor does not draw as they are.
+/// Runs an executor. Declines objects and views that it does not render unchanged.
 Implementation implementation_of(std::shared_ptr<Executor> executor);
-// Images that another implementation wrote: FOLDER/CASE/VIEW.rgba and, where there is one, VIEW.depth
-// (engine/conformance/PROTOCOL.md).
+/// Reads images that another implementation wrote: FOLDER/CASE/VIEW.rgba and optionally VIEW.depth
+/// (engine/conformance/PROTOCOL.md).
 Implementation implementation_in_files(const std::filesystem::path& folder);
 
 struct CaseResult {
     int same = 0;
     int different = 0;     // in colour or depth
-    std::string declined;  // not "": why the implementation did not take the case
-    std::string first;     // the first view that differs, and how
-    bool failed = false;   // something went wrong; `declined` holds what
+    std::string declined;  // reason why the implementation declined the case; "" if it did not
+    std::string first;     // first view that differs, and its difference
+    bool failed = false;   // an error occurred; `declined` is its message
 };
 
 struct ConformanceMatrix {
     std::vector<std::string> names;
     std::vector<std::vector<CaseResult>> results;  // [case][implementation]
-    [[nodiscard]] bool passed() const;             // nothing different, nothing failed, and nobody declined all
+    [[nodiscard]] bool passed() const;             // no difference, no failure, and an equal view of each
 };
 
-// `write_folder`, if not empty: also writes what the first implementation renders, in the protocol's form.
+/// Runs all cases. If `write_folder` is not empty, also writes the views of the first implementation to it
+/// (engine/conformance/PROTOCOL.md).
 Result<ConformanceMatrix> run_vectors(const VectorSet& set, const std::vector<Implementation>& implementations,
                                       const std::filesystem::path& write_folder = {}, Progress* progress = nullptr);
 

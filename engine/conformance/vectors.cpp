@@ -64,13 +64,13 @@ bool is_file_name(const std::string& name) {
     return !name.empty() && name.front() != '.' && name.find_first_of("/\\") == std::string::npos;
 }
 
-// The first thing that is wrong with a case; "" for none.
+// Describes the first defect of a case; "" if it is valid.
 std::string defect_of(const ConformanceCase& c) {
     const bool plain = !c.name.empty() && std::all_of(c.name.begin(), c.name.end(), [](char letter) {
         return std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '-';
     });
-    if (!plain) return "has a name that is not letters, digits and '-'";
-    if (!is_file_name(c.object)) return "names no object file of the folder";
+    if (!plain) return "must have a name of letters, digits and '-'";
+    if (!is_file_name(c.object)) return "must name an object file in the folder";
     return c.views.empty() ? "has no views" : "";
 }
 
@@ -82,11 +82,11 @@ std::string hash_text(std::uint64_t hash) {
     return text;
 }
 
-std::uint64_t hash_of(ConstImageView<Rgba8> picture) {
+std::uint64_t hash_of(ConstImageView<Rgba8> image) {
     ByteWriter bytes;
-    for (int y = 0; y < picture.height(); ++y) {
-        for (int x = 0; x < picture.width(); ++x) {
-            const Rgba8 p = picture(x, y);
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            const Rgba8 p = image(x, y);
             for (const std::uint8_t channel : {p.r, p.g, p.b, p.a}) bytes.put(channel);
         }
     }
@@ -112,8 +112,8 @@ Result<VectorSet> read_vectors(const std::filesystem::path& folder) {
     try {
         const int version = root.at("version").get<int>();
         if (version != kVectorsVersion) {
-            return Error{file.string() + ": is of version " + std::to_string(version) + "; these tools know " +
-                         std::to_string(kVectorsVersion)};
+            return Error{file.string() + ": has version " + std::to_string(version) +
+                         "; supported version: " + std::to_string(kVectorsVersion)};
         }
         set.edition = root.at("edition").get<std::string>();
         for (const json& from : root.at("cases")) {
@@ -131,9 +131,9 @@ Result<VectorSet> read_vectors(const std::filesystem::path& folder) {
             set.cases.push_back(std::move(c));
         }
     } catch (const std::exception& e) {
-        return Error{file.string() + ": is no list of conformance vectors: " + e.what()};
+        return Error{file.string() + ": not a list of conformance vectors: " + e.what()};
     }
-    if (set.cases.empty()) return Error{file.string() + ": holds no cases"};
+    if (set.cases.empty()) return Error{file.string() + ": has no cases"};
     return set;
 }
 

@@ -7,7 +7,7 @@ namespace rs::engine {
 
 namespace {
 
-// What a driver throws, such as std::bad_alloc, is a failure of what it was to do.
+// Converts exceptions of a driver, such as std::bad_alloc, into errors.
 template <class Outcome, class Call>
 Outcome guarded(const Call& call) {
     try {
@@ -34,15 +34,15 @@ BoardThread::~BoardThread() {
 
 void BoardThread::add(std::uint32_t number, std::shared_ptr<const RaySpaceObject> object) {
     const std::lock_guard lock(mutex_);
-    known_[number].object = std::move(object);
+    objects_[number].object = std::move(object);
 }
 
 void BoardThread::remove(std::uint32_t number) {
     const std::lock_guard lock(mutex_);
-    const auto found = known_.find(number);
-    if (found == known_.end()) return;
+    const auto found = objects_.find(number);
+    if (found == objects_.end()) return;
     if (found->second.slot) slots_to_free_.push_back(*found->second.slot);
-    known_.erase(found);
+    objects_.erase(found);
     changed_.notify_all();
 }
 
@@ -50,8 +50,8 @@ void BoardThread::request(const std::vector<std::uint32_t>& numbers) {
     const std::lock_guard lock(mutex_);
     ++now_;
     for (const std::uint32_t number : numbers) {
-        const auto found = known_.find(number);
-        if (found == known_.end()) continue;
+        const auto found = objects_.find(number);
+        if (found == objects_.end()) continue;
         found->second.last_requested = now_;
         found->second.waits = !found->second.slot && !found->second.failed;
     }
@@ -72,8 +72,8 @@ bool BoardThread::reserve() {
 
 bool BoardThread::holds(std::uint32_t number) const {
     const std::lock_guard lock(mutex_);
-    const auto found = known_.find(number);
-    return found != known_.end() && found->second.slot;
+    const auto found = objects_.find(number);
+    return found != objects_.end() && found->second.slot;
 }
 
 void BoardThread::draw(std::vector<ObjectView> views) {
@@ -83,11 +83,10 @@ void BoardThread::draw(std::vector<ObjectView> views) {
     if (views.empty()) return;
     std::vector<SlotView> cycle;
     for (ObjectView& view : views) {
-        // An object may have been removed since: its slot is not free before this cycle is drawn, but then it is
-        // unknown here.
-        const auto found = known_.find(view.object);
-        if (found == known_.end() || !found->second.slot) {
-            drawn_.emplace(Error{"object " + std::to_string(view.object) + " has left the board"});
+        // The object may have been removed after holds().
+        const auto found = objects_.find(view.object);
+        if (found == objects_.end() || !found->second.slot) {
+            drawn_.emplace(Error{"object " + std::to_string(view.object) + " was removed from the board"});
             return;
         }
         cycle.push_back({*found->second.slot, std::move(view.registers)});
@@ -109,20 +108,20 @@ BoardThreadCounts BoardThread::counts() const {
     return counts_;
 }
 
-// The object that was requested last of those that wait.
+// Most recently requested object of those that wait.
 std::optional<std::uint32_t> BoardThread::next_to_load() const {
     std::optional<std::uint32_t> best;
-    for (const auto& [number, known] : known_) {
-        if (known.waits && (!best || known.last_requested > known_.at(*best).last_requested)) best = number;
+    for (const auto& [number, object] : objects_) {
+        if (object.waits && (!best || object.last_requested > objects_.at(*best).last_requested)) best = number;
     }
     return best;
 }
 
 std::optional<std::uint32_t> BoardThread::least_requested(std::uint64_t before) const {
     std::optional<std::uint32_t> best;
-    for (const auto& [number, known] : known_) {
-        if (!known.slot || known.last_requested >= before) continue;
-        if (!best || known.last_requested < known_.at(*best).last_requested) best = number;
+    for (const auto& [number, object] : objects_) {
+        if (!object.slot || object.last_requested >= before) continue;
+        if (!best || object.last_requested < objects_.at(*best).last_requested) best = number;
     }
     return best;
 }
@@ -138,28 +137,28 @@ void BoardThread::evict_slot(std::unique_lock<std::mutex>& lock, int slot) {
     if (!evicted) note_failure(evicted.error());
 }
 
-// Loads the next object, if need be in the place of others that were not requested as lately. Drops the request where
-// all of them were.
+// Loads the next object and evicts less recently requested objects if there is no room. Drops the request if no such
+// object is left.
 void BoardThread::load_one(std::unique_lock<std::mutex>& lock) {
     const std::uint32_t number = *next_to_load();
-    const std::shared_ptr<const RaySpaceObject> object = known_.at(number).object;
-    const std::uint64_t requested = known_.at(number).last_requested;
+    const std::shared_ptr<const RaySpaceObject> object = objects_.at(number).object;
+    const std::uint64_t requested = objects_.at(number).last_requested;
     loading_ = true;
     for (;;) {
         lock.unlock();
         const auto slot = guarded<Result<std::optional<int>>>([&] { return device_->load(*object); });
         lock.lock();
-        const auto found = known_.find(number);
+        const auto found = objects_.find(number);
         if (!slot) {
             ++counts_.failed_loads;
             note_failure(slot.error());
-            if (found != known_.end()) found->second.failed = true;
-            if (found != known_.end()) found->second.waits = false;
+            if (found != objects_.end()) found->second.failed = true;
+            if (found != objects_.end()) found->second.waits = false;
             break;
         }
         if (*slot) {
             ++counts_.loads;
-            if (found == known_.end()) {
+            if (found == objects_.end()) {
                 slots_to_free_.push_back(**slot);
             } else {
                 found->second.slot = **slot;
@@ -168,11 +167,11 @@ void BoardThread::load_one(std::unique_lock<std::mutex>& lock) {
             break;
         }
         const std::optional<std::uint32_t> victim = least_requested(requested);
-        if (!victim || found == known_.end()) {
-            if (found != known_.end()) found->second.waits = false;
+        if (!victim || found == objects_.end()) {
+            if (found != objects_.end()) found->second.waits = false;
             break;
         }
-        const int freed = *std::exchange(known_.at(*victim).slot, std::nullopt);
+        const int freed = *std::exchange(objects_.at(*victim).slot, std::nullopt);
         ++counts_.evictions;
         evict_slot(lock, freed);
     }

@@ -1,11 +1,11 @@
 #pragma once
-// The thread that owns a board: draws its part of rendering cycles, one at a time, and between them keeps the objects
-// that views need in the board's memory, evicting those that were not needed for the longest time.
+// Thread that owns a board. It renders the board's part of each rendering cycle, one cycle at a time. Between cycles it
+// loads requested objects into the board's memory and evicts the least recently requested ones.
 //
-// Thread-safety: every member function may be called from any thread, but reserve(), draw() and wait() belong together,
-// from one.
+// Thread-safety: every member function may be called from any thread, but reserve(), draw() and wait() must be called
+// in this order from one thread.
 
-#include "engine/core/definition/executor.hpp"
+#include "rayspace/api/types/executor.hpp"
 
 #include <condition_variable>
 #include <cstdint>
@@ -31,46 +31,45 @@ struct BoardThreadCounts {
 class BoardThread {
 public:
     explicit BoardThread(std::unique_ptr<Executor> device);
-    ~BoardThread();  // finishes the cycle being drawn
+    ~BoardThread();  // finishes the current cycle
     BoardThread(const BoardThread&) = delete;
     BoardThread& operator=(const BoardThread&) = delete;
 
     [[nodiscard]] const Executor& device() const { return *device_; }
 
-    // Objects are known by numbers that are never used twice. An object that the board takes; it is loaded when
-    // requested.
+    /// Adds an object that the board supports; it is loaded when requested. Numbers are never reused.
     void add(std::uint32_t number, std::shared_ptr<const RaySpaceObject> object);
     void remove(std::uint32_t number);
 
-    // The objects are needed now: those in the board's memory stay there; those that are not are loaded soon.
+    /// Requests objects: those in the board's memory are kept there, the others are queued for loading.
     void request(const std::vector<std::uint32_t>& numbers);
 
-    // Waits until what is requested is in the board's memory, or does not go there.
+    /// Waits until every requested object is in the board's memory or cannot be loaded.
     void wait_for_loads();
 
-    // Keeps the board from loading until draw(). False, and nothing is kept, where it is loading already.
+    /// Suspends loading until draw(). Returns false without any effect if the board is loading already.
     [[nodiscard]] bool reserve();
-    // Whether the object is in the board's memory.
+    /// True if the object is in the board's memory.
     [[nodiscard]] bool holds(std::uint32_t number) const;
 
     struct ObjectView {
         std::uint32_t object = 0;
         ViewRegisters registers;
     };
-    // After reserve(): begins to draw views of objects that it holds. No views: the board is free again.
+    /// After reserve(): starts rendering views of objects in the board's memory. An empty list only releases the board.
     void draw(std::vector<ObjectView> views);
-    // Waits for them. Fails, too, where an object was removed since.
+    /// Waits for the views of draw(). \return error if rendering failed or an object was removed after holds()
     Result<std::vector<ExecutedView>> wait();
 
     [[nodiscard]] BoardThreadCounts counts() const;
 
 private:
-    struct Known {
+    struct BoardObject {
         std::shared_ptr<const RaySpaceObject> object;
         std::optional<int> slot;
         std::uint64_t last_requested = 0;
-        bool waits = false;   // to be loaded
-        bool failed = false;  // could not be; not tried again
+        bool waits = false;   // queued for loading
+        bool failed = false;  // loading failed; not retried
     };
     void work();
     void load_one(std::unique_lock<std::mutex>& lock);
@@ -82,9 +81,9 @@ private:
     std::unique_ptr<Executor> device_;
     mutable std::mutex mutex_;
     std::condition_variable changed_;
-    std::map<std::uint32_t, Known> known_;
+    std::map<std::uint32_t, BoardObject> objects_;
     std::vector<int> slots_to_free_;
-    std::uint64_t now_ = 0;  // counts request()
+    std::uint64_t now_ = 0;  // number of request() calls
     std::optional<std::vector<SlotView>> cycle_;
     std::optional<Result<std::vector<ExecutedView>>> drawn_;
     BoardThreadCounts counts_;

@@ -16,10 +16,10 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-DrawnView drawn_by_core(const PreparedView& view) {
+DrawnView render_on_core(const PreparedView& view) {
     const auto begin = std::chrono::steady_clock::now();
     CoreExecutor core;
-    const int slot = core.hold(view.renderer);
+    const int slot = core.add(view.renderer);
     Result<std::vector<ExecutedView>> drawn = core.render({{slot, view.registers, view.depth}});
     return {std::move(drawn.value().front()), seconds_since(begin)};
 }
@@ -30,29 +30,29 @@ CycleExecutor::CycleExecutor(std::unique_ptr<Executor> board) {
     if (board) board_ = std::make_unique<BoardThread>(std::move(board));
 }
 
-// The views, by their places in the cycle, that the board is to draw. The board is reserved.
-std::vector<std::size_t> CycleExecutor::share_of_board(const std::vector<PreparedView>& views) const {
+// Indices of the views that the board renders. Requires a reserved board.
+std::vector<std::size_t> CycleExecutor::select_board_views(const std::vector<PreparedView>& views) const {
     std::vector<std::size_t> share;
     for (std::size_t v = 0; v < views.size(); ++v) {
-        if (!views[v].board_draws || !board_->holds(views[v].object)) continue;
+        if (!views[v].board_can_render || !board_->holds(views[v].object)) continue;
         if (share.size() == static_cast<std::size_t>(board_->device().traits().views_per_cycle)) break;
         share.push_back(v);
     }
     return share;
 }
 
-// Whatever is not on the board is loaded behind the cycle that it draws now.
+// Objects that are not on the board are loaded after the current cycle.
 void CycleExecutor::request_objects(const std::vector<PreparedView>& views) {
     std::vector<std::uint32_t> requested;
     for (const PreparedView& view : views) {
-        if (view.board_draws) requested.push_back(view.object);
+        if (view.board_can_render) requested.push_back(view.object);
     }
     board_->request(requested);
 }
 
-bool CycleExecutor::take_from_board(const std::vector<PreparedView>& views, const std::vector<std::size_t>& share,
-                                    double seconds, std::vector<DrawnView>& drawn,
-                                    Result<std::vector<ExecutedView>> images) {
+bool CycleExecutor::store_board_images(const std::vector<PreparedView>& views, const std::vector<std::size_t>& share,
+                                       double seconds, std::vector<DrawnView>& drawn,
+                                       Result<std::vector<ExecutedView>> images) {
     if (!images) return false;
     std::int64_t all = 0;
     for (const std::size_t v : share) all += views[v].pixels();
@@ -69,11 +69,11 @@ bool CycleExecutor::take_from_board(const std::vector<PreparedView>& views, cons
 
 Result<std::vector<DrawnView>> CycleExecutor::draw(const std::vector<PreparedView>& views) {
     const bool reserved = board_ && board_->reserve();
-    const std::vector<std::size_t> share = reserved ? share_of_board(views) : std::vector<std::size_t>();
-    std::vector<bool> of_board(views.size());
+    const std::vector<std::size_t> share = reserved ? select_board_views(views) : std::vector<std::size_t>();
+    std::vector<bool> on_board(views.size());
     std::vector<BoardThread::ObjectView> for_board;
     for (const std::size_t v : share) {
-        of_board[v] = true;
+        on_board[v] = true;
         for_board.push_back({views[v].object, views[v].registers});
     }
     const auto begin = std::chrono::steady_clock::now();
@@ -81,21 +81,21 @@ Result<std::vector<DrawnView>> CycleExecutor::draw(const std::vector<PreparedVie
     if (board_) request_objects(views);
     std::vector<DrawnView> drawn(views.size());
     std::optional<Error> failure;
-    const auto draw_by_core = [&](std::size_t v) {
+    const auto draw_on_core = [&](std::size_t v) {
         try {
-            if (!failure) drawn[v] = drawn_by_core(views[v]);
+            if (!failure) drawn[v] = render_on_core(views[v]);
         } catch (const std::exception& escaped) {  // such as std::bad_alloc for fifteen very large views
-            failure = Error{std::string("the cycle could not be rendered: ") + escaped.what()};
+            failure = Error{std::string("cannot render the cycle: ") + escaped.what()};
         }
     };
     for (std::size_t v = 0; v < views.size(); ++v) {
-        if (!of_board[v]) draw_by_core(v);
+        if (!on_board[v]) draw_on_core(v);
     }
     if (!share.empty()) {
         Result<std::vector<ExecutedView>> images = board_->wait();
         const double seconds = seconds_since(begin);
-        if (!take_from_board(views, share, seconds, drawn, std::move(images))) {
-            for (const std::size_t v : share) draw_by_core(v);  // stands in
+        if (!store_board_images(views, share, seconds, drawn, std::move(images))) {
+            for (const std::size_t v : share) draw_on_core(v);  // the board failed
         }
     }
     if (failure) return *failure;

@@ -1,6 +1,6 @@
 #pragma once
-// Draws rendering cycles: what the board holds and can draw on the board, at the same time the rest on the software
-// core (data_module.hpp).
+// Renders rendering cycles (render_session.hpp): views that the board can render on the board, concurrently all other
+// views on the software core.
 
 #include "engine/core/fast/renderer.hpp"
 #include "engine/driver/board_thread.hpp"
@@ -13,9 +13,9 @@
 
 namespace rs::engine {
 
-// A view as an executor has drawn it.
-struct DrawnView : ExecutedView {  // depth: empty where nobody needs it
-    // It took the core; of a view that the board drew, its share of the cycle by its pixels.
+// A rendered view; depth is empty unless requested.
+struct DrawnView : ExecutedView {
+    // Rendering time on the core; on the board, the view's share of the cycle's time by its pixels.
     double seconds = 0;
     bool by_board = false;
 };
@@ -24,8 +24,8 @@ struct PreparedView {
     std::uint32_t object = 0;
     std::shared_ptr<const Renderer> renderer;
     ViewRegisters registers;
-    bool depth = false;        // is needed
-    bool board_draws = false;  // if it holds the object
+    bool depth = false;             // depth is requested
+    bool board_can_render = false;  // once the object is in its memory
     [[nodiscard]] std::int64_t pixels() const { return std::int64_t{registers.width} * registers.height; }
 };
 
@@ -33,18 +33,19 @@ class CycleExecutor {
 public:
     explicit CycleExecutor(std::unique_ptr<Executor> board);
 
-    // Null where the core draws everything. May be used from any thread.
+    /// Null without a board. Thread-safe.
     [[nodiscard]] BoardThread* board() const { return board_.get(); }
 
-    // From one thread. One result for each view, in their order; fails as a whole where there is no memory.
+    /// Renders a cycle. Must be called from one thread at a time.
+    /// \return one result per view, in the same order; an error if memory is exhausted
     Result<std::vector<DrawnView>> draw(const std::vector<PreparedView>& views);
 
 private:
-    [[nodiscard]] std::vector<std::size_t> share_of_board(const std::vector<PreparedView>& views) const;
+    [[nodiscard]] std::vector<std::size_t> select_board_views(const std::vector<PreparedView>& views) const;
     void request_objects(const std::vector<PreparedView>& views);
-    // False where the board has failed.
-    bool take_from_board(const std::vector<PreparedView>& views, const std::vector<std::size_t>& share, double seconds,
-                         std::vector<DrawnView>& drawn, Result<std::vector<ExecutedView>> images);
+    // Moves the images of the board to `drawn`; returns false if the board failed.
+    bool store_board_images(const std::vector<PreparedView>& views, const std::vector<std::size_t>& share,
+                            double seconds, std::vector<DrawnView>& drawn, Result<std::vector<ExecutedView>> images);
 
     std::unique_ptr<BoardThread> board_;
 };

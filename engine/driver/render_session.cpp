@@ -16,17 +16,17 @@ namespace {
 
 struct LoadedObject {
     std::shared_ptr<const Renderer> renderer;
-    bool on_board = false;  // known to the board
+    bool on_board = false;  // added to the board
 };
 
 struct Cycle {
     std::vector<PreparedView> views;
-    std::optional<Result<std::vector<DrawnView>>> drawn;  // once it is done
-    bool claimed = false;                                 // somebody waits in retrieve() for it
+    std::optional<Result<std::vector<DrawnView>>> drawn;  // empty until rendered
+    bool claimed = false;                                 // a thread waits for it in retrieve()
 };
 
 Error not_loaded(ObjectHandle object) {
-    return Error{"object " + std::to_string(object.number) + " is not loaded; load it before asking for its views"};
+    return Error{"object " + std::to_string(object.number) + " is not loaded; load it first"};
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ struct RenderSession::State {
             const std::shared_ptr<Cycle> cycle = next_cycle();
             lock.unlock();
             Result<std::vector<DrawnView>> drawn = executor.draw(cycle->views);
-            cycle->views.clear();  // lets go of evicted objects
+            cycle->views.clear();  // releases evicted objects
             lock.lock();
             ++statistics.cycles;
             if (drawn) {
@@ -115,8 +115,8 @@ Result<ObjectHandle> RenderSession::load_checked(RaySpaceObject object) {
 
 std::shared_ptr<const RaySpaceObject> RenderSession::as_board_draws(RaySpaceObject& object) const {
     const BoardThread* const board = state_->executor.board();
-    if (board == nullptr || !board->device().takes(object)) return nullptr;
-    object = board->device().as_drawn(std::move(object));
+    if (board == nullptr || !board->device().supports(object)) return nullptr;
+    object = board->device().as_rendered(std::move(object));
     return std::make_shared<const RaySpaceObject>(object);
 }
 
@@ -174,13 +174,13 @@ Result<CycleHandle> RenderSession::submit(const std::vector<ViewRequest>& views)
         Result<ViewRegisters> registers =
             prepare_view(object, view.camera, is_filtered ? std::nullopt : std::optional(TexelFilter::kBilinear));
         if (!registers) return Error{object.name + ": " + registers.error().message};
-        const bool board_draws = found->second.on_board && (!view.depth || board->device().traits().depth) &&
-                                 board->device().draws(*registers).ok();
+        const bool board_can_render = found->second.on_board && (!view.depth || board->device().traits().depth) &&
+                                      board->device().can_render(*registers).ok();
         cycle->views.push_back(
-            {view.object.number, found->second.renderer, std::move(*registers), view.depth, board_draws});
+            {view.object.number, found->second.renderer, std::move(*registers), view.depth, board_can_render});
     }
     if (state_->cycles.size() >= static_cast<std::size_t>(state_->limits.cycles_in_flight)) {
-        return Error{std::to_string(state_->cycles.size()) + " cycles are under way; retrieve one first"};
+        return Error{std::to_string(state_->cycles.size()) + " cycles are not yet retrieved; retrieve one first"};
     }
     const CycleHandle handle{++state_->last_cycle};
     state_->cycles.emplace(handle.number, cycle);
@@ -198,7 +198,7 @@ Result<std::vector<DrawnView>> RenderSession::retrieve_views(CycleHandle handle)
     std::unique_lock lock(state_->mutex);
     const auto found = state_->cycles.find(handle.number);
     if (found == state_->cycles.end() || found->second->claimed) {
-        return Error{"cycle " + std::to_string(handle.number) + " was never submitted or is retrieved already"};
+        return Error{"cycle " + std::to_string(handle.number) + " was never submitted or was retrieved already"};
     }
     const std::shared_ptr<Cycle> cycle = found->second;
     cycle->claimed = true;

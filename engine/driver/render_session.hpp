@@ -1,14 +1,14 @@
 #pragma once
-// The ray-space data module: the interface between an application and whatever renders (paper, section 6). Objects are
-// loaded and evicted, views are requested a cycle at a time, images are handed out when they are ready.
+// Rendering session: the interface between an application and the executors (the paper's data module, section 6).
+// Objects are loaded and evicted, views are submitted in rendering cycles, and images are retrieved.
 //
-// A *rendering cycle* is a list of views that are rendered together. Cycles wait in a queue and are rendered in order
-// on threads of the module, so submit() does not block while an image is drawn.
+// A *rendering cycle* is a list of views that are rendered together. Cycles are queued and rendered in order on threads
+// of the session, so submit() does not block while images are rendered.
 //
-// Two executors: the software core, which draws everything, and, if the module is given one, a board. The board's
-// memory holds the objects that were requested last; the core draws what the board does not hold or cannot draw, at the
-// same time, and stands in for the board when it fails. Either gives the same bits: with a board,
-// objects that it takes are drawn as it holds them (Executor::as_drawn).
+// A session has one or two executors: the software core, which supports everything, and an optional board. The board's
+// memory holds the most recently requested objects. The core concurrently renders the views that the board cannot
+// render, and replaces the board if it fails. Both give the same bits: with a board, objects that it supports are
+// rendered in the board's representation (Executor::as_rendered).
 //
 // Thread-safety: every member function may be called from any thread.
 
@@ -27,14 +27,14 @@
 namespace rs::engine {
 
 struct ObjectHandle {
-    std::uint32_t number = 0;  // 0 = none; numbers are never used twice
+    std::uint32_t number = 0;  // 0: none; numbers are never reused
     bool operator==(const ObjectHandle&) const = default;
 };
 
 struct ViewRequest {
     ObjectHandle object;
     Camera camera;       // in the units of the object's rig
-    bool depth = false;  // axial depth is needed too
+    bool depth = false;  // also compute axial depth
 };
 
 struct CycleHandle {
@@ -42,16 +42,15 @@ struct CycleHandle {
 };
 
 struct RenderSessionLimits {
-    int objects = 20;          // loaded at a time
-    int views_per_cycle = 15;  // the board's; see model/limits/board_limits.hpp
+    int objects = 20;          // loaded at the same time
+    int views_per_cycle = 15;  // limit of the board, see model/limits/board_limits.hpp
     int cycles_in_flight = 2;  // queued, being rendered, or rendered and not yet retrieved: double buffering
 };
 
-// An object that costs nothing more to load: made beforehand, on whatever thread, for objects that must not keep one
-// waiting.
+// Object prepared in advance, on any thread, so that load() takes no time.
 struct PreparedObject {
     std::shared_ptr<const Renderer> renderer;         // not null
-    std::shared_ptr<const RaySpaceObject> for_board;  // of the same object, RenderSession::as_board_draws(); or null
+    std::shared_ptr<const RaySpaceObject> for_board;  // from RenderSession::as_board_draws(), or null
 };
 
 struct RenderSessionStatistics {
@@ -64,42 +63,44 @@ struct RenderSessionStatistics {
 class RenderSession {
 public:
     explicit RenderSession(const RenderSessionLimits& limits = {}, std::unique_ptr<Executor> board = nullptr);
-    ~RenderSession();  // waits for the cycle being rendered; drops queued ones
+    ~RenderSession();  // waits for the current cycle; drops queued ones
     RenderSession(const RenderSession&) = delete;
     RenderSession& operator=(const RenderSession&) = delete;
 
-    // Reads, checks and prepares an object. Fails when the file does, or when too many are loaded.
+    /// Reads, validates and prepares an object. \return error if the file is invalid or too many objects are loaded
     Result<ObjectHandle> load(const std::filesystem::path& path);
     Result<ObjectHandle> load(RaySpaceObject object);
     Result<ObjectHandle> load(PreparedObject object);
 
-    // For a PreparedObject: where the module's board takes the object, a copy for it, and `object` becomes as the board
-    // draws it; else null. The object has passed validate_object.
+    /// Converts a valid object (validate_object) to the board's representation, if the session has a board that
+    /// supports it. \return copy for PreparedObject::for_board; null, with `object` unchanged, otherwise
     [[nodiscard]] std::shared_ptr<const RaySpaceObject> as_board_draws(RaySpaceObject& object) const;
 
     [[nodiscard]] const RenderSessionLimits& limits() const;
     [[nodiscard]] bool has_board() const;
 
-    // The object takes no new views; its memory goes when the cycles that use it are done.
+    /// Removes an object. Its memory is freed when the cycles that use it are finished.
     Status evict(ObjectHandle object);
 
-    // Waits until the objects are in the board's memory, as far as they go there: for those who must see what it
-    // draws from the first image on. Without a board, nothing happens. While nobody else submits.
+    /// Waits until the objects are in the board's memory or cannot be loaded, so that the board renders from the first
+    /// cycle on. No effect without a board. Requires that no other thread submits.
     void load_on_board(const std::vector<ObjectHandle>& objects);
 
-    // The object without its images, while it is loaded.
+    /// Loaded object without its images.
     Result<std::shared_ptr<const RaySpaceObject>> describe(ObjectHandle object) const;
 
-    // Queues a cycle. Fails, with nothing queued, when a view's object is not loaded or its camera cannot be rendered
-    // (prepare_view), when there are too many views, or when cycles_in_flight are already under way: retrieve one
-    // first.
+    /// Queues a cycle.
+    /// \return error, with nothing queued, if a view's object is not loaded, its camera cannot be rendered
+    /// (prepare_view),
+    ///         there are too many views, or cycles_in_flight cycles are not yet retrieved
     Result<CycleHandle> submit(const std::vector<ViewRequest>& views);
 
+    /// True if the cycle is rendered and not yet retrieved.
     [[nodiscard]] bool ready(CycleHandle cycle) const;
 
-    // Waits for a cycle and hands out its images, one per view in the order of submit(). Each cycle once.
+    /// Waits for a cycle and returns its views in the order of submit(). Each cycle can be retrieved once.
     Result<std::vector<DrawnView>> retrieve_views(CycleHandle cycle);
-    // The images alone.
+    /// Images of retrieve_views().
     Result<std::vector<Image<Rgba8>>> retrieve(CycleHandle cycle);
 
     [[nodiscard]] RenderSessionStatistics statistics() const;

@@ -1,47 +1,50 @@
-#include "engine/executors/executor_table.hpp"
+#include "rayspace/api/types/executor_table.hpp"
 
-#include "engine/executors/software_executors.hpp"
-#include "engine/model/simulated_board.hpp"
+#include "engine/core/fast/core_executor.hpp"
+#include "engine/executors/entries.hpp"
+
+#include <algorithm>
 
 namespace rs::engine {
-namespace {
 
-using Made = Result<std::unique_ptr<Executor>>;
-
-struct Row {
-    const char* name;
-    const char* argument;  // after a colon; null where it takes none
-    Made (*make)(const std::string& argument, const ExecutorOptions& options);
-};
-
-constexpr Row kRows[] = {
-    {"scalar", nullptr, [](const std::string&, const ExecutorOptions&) { return Made(make_scalar_executor()); }},
-    {"core", nullptr, [](const std::string&, const ExecutorOptions&) { return Made(make_core_executor()); }},
-    {"board", "CONFIG",
-     [](const std::string& argument, const ExecutorOptions& options) -> Made {
-         RS_ASSIGN_OR_RETURN(const model::BoardConfig config, model::read_board_config(argument));
-         return Made(model::make_simulated_board(config, options.instant_loads));
-     }},
-};
-
-}  // namespace
-
-Result<std::unique_ptr<Executor>> make_executor(const std::string& name, const ExecutorOptions& options) {
-    const std::size_t colon = name.find(':');
-    for (const Row& row : kRows) {
-        if (name.substr(0, colon) != row.name || (colon == std::string::npos) != (row.argument == nullptr)) continue;
-        return row.make(colon == std::string::npos ? "" : name.substr(colon + 1), options);
-    }
-    return Error{"--executor " + name + ": there is no such executor; give one of " + executor_names()};
+ExecutorEntry core_entry() {
+    return {"core", "", [](const std::string&) -> Result<std::unique_ptr<Executor>> {
+                return std::unique_ptr<Executor>(std::make_unique<CoreExecutor>());
+            }};
 }
 
-std::string executor_names() {
-    std::string names;
-    for (const Row& row : kRows) {
-        names += (names.empty() ? "" : ", ") + std::string(row.name) +
-                 (row.argument != nullptr ? ":" + std::string(row.argument) : "");
+ExecutorTable::ExecutorTable() : entries_{scalar_entry(), core_entry()} {
+    for (ExecutorEntry& entry : hardware_entries()) entries_.push_back(std::move(entry));
+}
+
+Status ExecutorTable::add(ExecutorEntry entry) {
+    if (entry.name.empty() || entry.name.find(':') != std::string::npos) {
+        return Error{"executor \"" + entry.name + "\": the name must not be empty or contain a colon"};
     }
-    return names;
+    if (!entry.create) return Error{"executor " + entry.name + ": has no create function; set ExecutorEntry::create"};
+    const auto same = [&](const ExecutorEntry& other) { return other.name == entry.name; };
+    if (std::ranges::any_of(entries_, same)) {
+        return Error{"executor " + entry.name + ": exists already; use another name"};
+    }
+    entries_.push_back(std::move(entry));
+    return {};
+}
+
+Result<std::unique_ptr<Executor>> ExecutorTable::create(const std::string& name) const {
+    const std::size_t colon = name.find(':');
+    for (const ExecutorEntry& entry : entries_) {
+        if (name.substr(0, colon) != entry.name || (colon == std::string::npos) != entry.argument.empty()) continue;
+        return entry.create(colon == std::string::npos ? "" : name.substr(colon + 1));
+    }
+    return Error{"executor " + name + ": no such executor; use one of " + names()};
+}
+
+std::string ExecutorTable::names() const {
+    std::string all;
+    for (const ExecutorEntry& entry : entries_) {
+        all += (all.empty() ? "" : ", ") + entry.name + (entry.argument.empty() ? "" : ":" + entry.argument);
+    }
+    return all;
 }
 
 }  // namespace rs::engine

@@ -34,7 +34,7 @@ std::array<Block*, 5> blocks_of(HopBlocks& b) {
 
 }  // namespace
 
-HopBlocks::HopBlocks(int hop, const RegisterFile& registers, HopFifos& f, Fifo<BlockAsk>* next_asks,
+HopBlocks::HopBlocks(int hop, const RegisterFile& registers, HopFifos& f, Fifo<BlockRequest>* next_asks,
                      Fifo<CodedPixel>& next_pixels)
     : tile_finder(hop, registers, f.asks, f.table_reads, f.found),
       tile_reader(hop, f.found, f.table_words, f.tile_reads, f.tiles),
@@ -43,7 +43,7 @@ HopBlocks::HopBlocks(int hop, const RegisterFile& registers, HopFifos& f, Fifo<B
       record_select(hop, registers, f.pixels, f.records, next_pixels) {}
 
 RecordChains::RecordChains(const RegisterFile& registers, const std::string& suffix)
-    : FifoRack(suffix), hop_fifos(all_fifos(suffix)), hops(all_blocks(registers, hop_fifos, complete)) {
+    : FifoGroup(suffix), hop_fifos(all_fifos(suffix)), hops(all_blocks(registers, hop_fifos, complete)) {
     for (const auto& hop : hops) {
         for (Block* block : blocks_of(*hop)) block->append_to_name(suffix);
     }

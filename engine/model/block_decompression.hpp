@@ -1,14 +1,14 @@
 #pragma once
-// Block decompression: from a column's walk to its samples, out of images of profile `board`. Constructs FIFOs and
-// blocks and wires them, a chain of readers for each hop of a prediction:
+// Block decompression: computes the samples of a column's walk from images of profile `board`. Constructs and wires
+// FIFOs and blocks, with a chain of readers for each hop of a prediction:
 //
 //     block_scan --asks_0--> [tile_finder -> tile_reader -> record_reader -> block_motion]_0 --asks_1--> [..]_1 -> ..
 //          |                                                              | records_0
 //          +-------------------------- pixels_0 ------------------> [record_select]_0 --pixels_1--> [..]_1 -> ..
 //          book_lookup
 //
-// Asks run ahead of their pixels, so that several blocks are under way in every chain. No chain waits for a later one:
-// what a later hop needs has been requested when the record that leads there can be taken.
+// Requests run ahead of their pixels, so that several blocks are in flight in every chain. No chain waits for a later
+// one: data of a later hop are requested before the record that refers to it can be taken.
 
 #include "engine/model/blocks/decompression/block_motion.hpp"
 #include "engine/model/blocks/decompression/block_scan.hpp"
@@ -24,30 +24,30 @@
 
 namespace rs::engine::model {
 
-struct HopFifos : FifoRack {
+struct HopFifos : FifoGroup {
     HopFifos(int hop, const std::string& suffix)
-        : FifoRack("_" + std::to_string(hop) + suffix), depth(is_common(hop) ? 8 : 2), its_hop(hop) {}
-    // The encoder predicts over one hop; the chains behind it are as long as they must be for records to come.
+        : FifoGroup("_" + std::to_string(hop) + suffix), depth(is_common(hop) ? 8 : 2), hop_index(hop) {}
+    // The encoder predicts over one hop; chains of later hops have the minimum depth.
     static constexpr bool is_common(int hop) { return hop < 2; }
 
     const int depth;
-    const int its_hop;
-    Fifo<BlockAsk> asks{*this, "asks", std::max(depth, 4), BlockAsk::kBits};
+    const int hop_index;
+    Fifo<BlockRequest> asks{*this, "asks", std::max(depth, 4), BlockRequest::kBits};
     Fifo<MemoryRead> table_reads{*this, "table_reads", 2, MemoryRead::kBits};
     Fifo<MemoryWord> table_words{*this, "table_words", depth, MemoryWord::kBits};
     Fifo<FoundTile> found{*this, "found", depth, FoundTile::kBits};
     Fifo<MemoryRead> tile_reads{*this, "tile_reads", 2, MemoryRead::kBits};
     Fifo<MemoryWord> tile_words{*this, "tile_words", depth, MemoryWord::kBits};
-    Fifo<AskedTile> tiles{*this, "tiles", depth, AskedTile::kBits};
+    Fifo<RequestedTile> tiles{*this, "tiles", depth, RequestedTile::kBits};
     Fifo<MemoryRead> record_reads{*this, "record_reads", 4, MemoryRead::kBits};
-    Fifo<MemoryWord> record_words{*this, "record_words", is_common(its_hop) ? 16 : 4, MemoryWord::kBits};
-    Fifo<AskedRecord> asked_records{*this, "asked_records", depth, AskedRecord::kBits};
+    Fifo<MemoryWord> record_words{*this, "record_words", is_common(hop_index) ? 16 : 4, MemoryWord::kBits};
+    Fifo<RequestedRecord> asked_records{*this, "asked_records", depth, RequestedRecord::kBits};
     Fifo<BlockRecord> records{*this, "records", std::max(depth, 4), BlockRecord::kBits};
-    Fifo<CodedPixel> pixels{*this, "pixels", is_common(its_hop) ? 128 >> its_hop : 4, CodedPixel::bits(its_hop)};
+    Fifo<CodedPixel> pixels{*this, "pixels", is_common(hop_index) ? 128 >> hop_index : 4, CodedPixel::bits(hop_index)};
 };
 
 struct HopBlocks {
-    HopBlocks(int hop, const RegisterFile& registers, HopFifos& fifos, Fifo<BlockAsk>* next_asks,
+    HopBlocks(int hop, const RegisterFile& registers, HopFifos& fifos, Fifo<BlockRequest>* next_asks,
               Fifo<CodedPixel>& next_pixels);
     TileFinder tile_finder;
     TileReader tile_reader;
@@ -56,14 +56,13 @@ struct HopBlocks {
     RecordSelect record_select;
 };
 
-// The chains of all hops: requests and pixels go into those of hop 0, pixels with all their records come out of
-// `complete`.
-struct RecordChains : FifoRack {
+// Chains of all hops: requests and pixels enter at hop 0, pixels with all their records leave through `complete`.
+struct RecordChains : FifoGroup {
     // `suffix` is appended to the names of FIFOs and blocks.
     explicit RecordChains(const RegisterFile& registers, const std::string& suffix = "");
     void add_to(Simulator& simulator);
-    // The memory ports in order of service: the last hop first, for others wait for it; of a hop, records first, which
-    // stand in the row of the record before.
+    // Memory ports in order of service: the last hop first, because the others wait for it; within a hop records first,
+    // which are in the same row as the previous record.
     void add_chain_ports(std::vector<ReadPort>& ports);
 
     std::vector<std::unique_ptr<HopFifos>> hop_fifos;  // [hop]

@@ -38,7 +38,7 @@ Result<int> Board::take_slot(const RaySpaceObject& object) {
         return Error{object.name + ": all " + std::to_string(slots_.size()) +
                      " object slots of the board are taken; evict an object first"};
     }
-    RS_ASSIGN_OR_RETURN(const Placement placement, map_.take(layout_.words(object), object.name));
+    RS_ASSIGN_OR_RETURN(const Placement placement, map_.allocate(layout_.words(object), object.name));
     *free = {true, placement};
     return static_cast<int>(free - slots_.begin());
 }
@@ -82,13 +82,13 @@ Status Board::finish_loads() {
         const DiskController::Load& load = loads[collected_loads_];
         if (!load.failed) continue;
         Slot& slot = slots_[static_cast<std::size_t>(load.slot)];
-        map_.give_back(slot.placement);
+        map_.release(slot.placement);
         slot = {};
         failed += (failed.empty() ? "slot " : ", ") + std::to_string(load.slot);
     }
     if (failed.empty()) return {};
-    return Error{"the board's disk gave nothing for too long while it loaded " + failed +
-                 "; the slot is empty again, load the object once more"};
+    return Error{"the board's disk delivered no data before the timeout while loading " + failed +
+                 "; the slot is empty again; load the object once more"};
 }
 
 Status Board::evict(int slot) {
@@ -107,7 +107,7 @@ Status Board::evict(int slot) {
                      " is being drawn; evict it when its rendering cycles are done"};
     }
     top_->registers.objects[static_cast<std::size_t>(slot)] = {};
-    map_.give_back(slots_[static_cast<std::size_t>(slot)].placement);
+    map_.release(slots_[static_cast<std::size_t>(slot)].placement);
     slots_[static_cast<std::size_t>(slot)] = {};
     return {};
 }
@@ -139,7 +139,7 @@ RenderedCycle Board::collect(std::uint64_t cycle) {
                          static_cast<std::uint64_t>(top_->config.clock_period);
         arrived.pop_front();
     }
-    top_->programs.forget_before(done.program + 1);
+    top_->programs.drop_before(done.program + 1);
     return result;
 }
 
@@ -153,7 +153,7 @@ Result<BoardRun> Board::render(const std::vector<std::vector<BoardView>>& cycles
         const bool is_drawing = !control.cycles().empty() && control.cycles().back().rendered == 0;
         return static_cast<std::size_t>(control.cycles_begun() - first) - static_cast<std::size_t>(is_drawing);
     };
-    // The images of a cycle are collected when its last has come, so what stands last is of the cycle being
+    // The images of a cycle are collected after its last image, so the last image present belongs to the cycle being
     // delivered.
     const std::deque<HostImage>& at_host = top_->host_bus.images();
     const auto arrived = [&] {
@@ -179,7 +179,7 @@ Result<BoardRun> Board::render(const std::vector<std::vector<BoardView>>& cycles
         if (arrived()) run.cycles.push_back(collect(first + run.cycles.size()));
     }
     run.end = snapshot();
-    // The board learns that its buffer is free.
+    // Lets the board process the release of its buffer.
     const auto quiet = [&] {
         return top_->host_dma.last_activity() == Activity::idle && top_->buffer_free.count() == 0;
     };

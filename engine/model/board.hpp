@@ -1,6 +1,6 @@
 #pragma once
-// The board as its driver sees it: objects in, rendering cycles in, images in the host's memory out, and where the
-// cycles went. Drives the clock of board_top.
+// The board as seen by its driver: objects and rendering cycles in, images in host memory out, with cycle statistics.
+// Drives the clock of board_top.
 //
 // Not thread-safe. The same calls give the same bits and the same cycles.
 
@@ -17,7 +17,7 @@
 
 namespace rs::engine::model {
 
-// Where the cycles of every block went up to a moment.
+// Cycle counts of every block up to a point in time.
 struct Snapshot {
     std::uint64_t board_cycles = 0;
     std::uint64_t pci_cycles = 0;
@@ -25,9 +25,9 @@ struct Snapshot {
 };
 
 struct RenderedCycle {
-    std::uint64_t started = 0;   // board cycles: the first view was begun
+    std::uint64_t started = 0;   // board cycle in which the first view was begun
     std::uint64_t rendered = 0;  // the last word was in the image buffer
-    std::uint64_t arrived = 0;   // and in the host's memory
+    std::uint64_t arrived = 0;   // the last word was in host memory
     std::vector<Image<Rgba8>> images;
     [[nodiscard]] std::uint64_t render_cycles() const { return rendered - started; }
 };
@@ -35,39 +35,38 @@ struct RenderedCycle {
 struct BoardRun {
     std::vector<RenderedCycle> cycles;
     Snapshot begin;
-    Snapshot first_rendered;  // when the first cycle was rendered, and its transfer could begin
-    Snapshot rendered;        // when the last cycle was rendered
-    Snapshot end;             // when its images had arrived
+    Snapshot first_rendered;  // first cycle rendered; its transfer can begin
+    Snapshot rendered;        // last cycle rendered
+    Snapshot end;             // images of the last cycle arrived
 };
 
 class Board {
 public:
-    // `shuffle_seed` other than 0: blocks are ticked in random order (for tests; nothing may change).
+    // `shuffle_seed` other than 0: blocks are ticked in random order (for tests; results must not change).
     explicit Board(const BoardConfig& config, std::uint64_t shuffle_seed = 0);
 
-    // Puts the object into memory without a clock, as if loaded long ago. Fails where the board cannot draw it
-    // (drawable), or where slots or memory are full. Returns its slot.
+    // Writes the object into memory without a clock, as if loaded earlier. Fails if the board cannot render it
+    // (drawable), or if slots or memory are full. Returns its slot.
     Result<int> place(const RaySpaceObject& object);
 
-    // Has the controller load it from its disk; the slot becomes valid when finish_loads() returns without error.
+    // Starts loading the object from the board's disk; the slot becomes valid when finish_loads() succeeds.
     Result<int> start_load(const RaySpaceObject& object);
 
     // Runs until the disk controller is idle. Fails with the slot of a load that failed; that slot is free again.
     Status finish_loads();
 
-    // Frees the slot. Fails where it is empty, still loading, or used by a cycle that is submitted and not
-    // drawn yet.
+    // Frees the slot. Fails if it is empty, still loading, or used by a submitted cycle that is not yet drawn.
     Status evict(int slot);
 
     // Registers of a view of the object in `slot`; fails for a view that is not upright.
     Result<BoardView> view(int slot, const engine::ViewRegisters& registers) const;
 
-    // Gives a cycle to the board whatever its state, as a careless driver would; a refusal stands in
-    // top().render_control.refusals(). render() below does it with care.
+    // Submits a cycle without checking the state of the board; top().render_control.refusals() lists refusals. render()
+    // below checks it.
     void submit(std::vector<BoardView> views);
 
-    // Renders the cycles one behind the other, two in flight, until all images are in the host's memory. Fails where
-    // the board refuses one (bad registers), or stands still.
+    // Renders the cycles in order, two in flight, until all images are in host memory. Fails if the board refuses a
+    // cycle (bad registers) or makes no progress.
     Result<BoardRun> render(const std::vector<std::vector<BoardView>>& cycles);
 
     [[nodiscard]] BoardTop& top() { return *top_; }
@@ -90,7 +89,7 @@ private:
     MemoryMap map_;
     std::vector<Slot> slots_;
     std::size_t collected_loads_ = 0;
-    std::uint32_t loads_ = 0;  // placed or begun: the serial numbers of the objects
+    std::uint32_t loads_ = 0;  // loads placed or started; gives the serial numbers of the objects
 };
 
 }  // namespace rs::engine::model

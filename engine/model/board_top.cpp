@@ -9,7 +9,7 @@ Simulator::Options simulator_options(const BoardConfig& config, std::uint64_t sh
     return {config.clock_period, config.pci.period, config.no_progress_cycles, shuffle_seed};
 }
 
-// The order of the list is the order of service.
+// Read ports in order of service.
 template <class Reading>
 std::vector<ReadPort> read_ports(SingleBoard<Reading>& board) {
     PipeFifos& f = board.fifos;
@@ -30,7 +30,7 @@ RegisterFile register_file(const BoardConfig& config) {
     file.words_per_view = side * ((side + 1) / 2);
     file.views_per_cycle = config.limits.views_per_cycle;
     file.words_per_buffer = static_cast<WordAddress>(file.views_per_cycle * file.words_per_view);
-    // What is drawn does not meet what is delivered where the two buffers lie in banks of their own.
+    // If the two buffers have banks of their own, drawing and delivering use different banks.
     if (const MemoryRegions& regions = config.memory.regions; regions.image_parts > 1) {
         const auto banks = static_cast<std::uint64_t>(regions.images.count / regions.image_parts);
         file.words_per_buffer = static_cast<WordAddress>(banks * config.memory.shape.words_per_bank());

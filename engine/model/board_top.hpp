@@ -1,5 +1,5 @@
 #pragma once
-// The board: constructs the FIFOs and the blocks and wires them. Nothing else happens here; DIAGRAM.md shows it.
+// The board: constructs and wires the FIFOs and blocks (see DIAGRAM.md), and nothing else.
 
 #include "engine/model/block_decompression.hpp"
 #include "engine/model/blocks/host/host_bus.hpp"
@@ -25,9 +25,9 @@
 
 namespace rs::engine::model {
 
-// The FIFOs between a column's start and its pixels, and the blocks that they join: a pipe. What lies between `walks`
-// and `samples` depends on the images: SampleReading, or block decompression.
-struct PipeFifos : FifoRack {
+// A pipe: FIFOs from a column's start to its pixels. The part between `walks` and `samples` depends on the images:
+// SampleReading, or block decompression.
+struct PipeFifos : FifoGroup {
     explicit PipeFifos(int sample_bits) : samples(*this, "samples", 4, sample_bits) {}
     Fifo<ViewJob> jobs{*this, "jobs", 2, ViewJob::kBits};
     Fifo<ColumnRay> columns{*this, "columns", 2, ColumnRay::kBits};
@@ -46,8 +46,8 @@ struct PipeFifos : FifoRack {
     Fifo<Done> view_written{*this, "view_written", 2, Done::kBits};
 };
 
-// Of images that are not compressed: from a column's walk to its samples, pixel by pixel.
-struct SampleReading : FifoRack {
+// Uncompressed images: reads the samples of a column's walk, pixel by pixel.
+struct SampleReading : FifoGroup {
     static constexpr int kSampleBits = YuvaPixel::kBits;
     SampleReading(const RegisterFile& registers, Fifo<ColumnWalk>& walks, Fifo<YuvaPixel>& samples);
     void add_to(Simulator& simulator);
@@ -64,21 +64,22 @@ struct SampleReading : FifoRack {
     SampleSelect sample_select;
 };
 
-// What draws: pipes with their memory channels. Views go in, and come out when they are in the image buffer.
-struct BoardBody : FifoRack {
+// Rendering part of a board: pipes with their memory channels. Views enter, and leave when they are in the image
+// buffer.
+struct BoardBody : FifoGroup {
     virtual ~BoardBody() = default;
     virtual Fifo<ViewJob>& views_in() = 0;
     virtual Fifo<Done>& views_out() = 0;
     virtual std::vector<DmaPort> dma_ports() = 0;
     virtual void add_pipes(Simulator& simulator) = 0;
-    virtual void add_loading(Simulator& /*simulator*/) {}  // what stands between the disk and several channels
+    virtual void add_loading(Simulator& /*simulator*/) {}  // adds the block between the disk and several channels
     [[nodiscard]] virtual int channels() const = 0;
-    [[nodiscard]] virtual const MemoryController& memory_of(int channel) const = 0;
+    [[nodiscard]] virtual const MemoryController& object_memory_bytes(int channel) const = 0;
     [[nodiscard]] virtual Sdram& sdram_of(int channel) = 0;
     [[nodiscard]] virtual std::optional<PipeMemoryBits> memory_of_a_pipe() const { return std::nullopt; }
 };
 
-// One pipe and one memory channel: the boards of 2000. `Reading`: SampleReading or BlockDecompression.
+// One pipe and one memory channel: boards of 2000. `Reading`: SampleReading or BlockDecompression.
 template <class Reading>
 struct SingleBoard final : BoardBody {
     SingleBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
@@ -88,7 +89,7 @@ struct SingleBoard final : BoardBody {
     std::vector<DmaPort> dma_ports() override { return {{&host_reads, &host_words}}; }
     void add_pipes(Simulator& simulator) override;
     [[nodiscard]] int channels() const override { return 1; }
-    [[nodiscard]] const MemoryController& memory_of(int) const override { return memory; }
+    [[nodiscard]] const MemoryController& object_memory_bytes(int) const override { return memory; }
     [[nodiscard]] Sdram& sdram_of(int) override { return sdram; }
 
     Sdram sdram;
@@ -106,7 +107,7 @@ struct SingleBoard final : BoardBody {
     MemoryController memory;
 };
 
-// Several pipes, each with a channel of its own: the parallel board.
+// The parallel board: several pipes, each with its own channel.
 struct ParallelBoard final : BoardBody {
     ParallelBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
                   Fifo<Done>& object_loaded);
@@ -116,7 +117,9 @@ struct ParallelBoard final : BoardBody {
     void add_pipes(Simulator& simulator) override;
     void add_loading(Simulator& simulator) override { simulator.add(Domain::board, load_broadcast); }
     [[nodiscard]] int channels() const override { return static_cast<int>(pipes.size()); }
-    [[nodiscard]] const MemoryController& memory_of(int channel) const override { return pipe(channel).memory; }
+    [[nodiscard]] const MemoryController& object_memory_bytes(int channel) const override {
+        return pipe(channel).memory;
+    }
     [[nodiscard]] Sdram& sdram_of(int channel) override { return pipe(channel).sdram; }
     [[nodiscard]] std::optional<PipeMemoryBits> memory_of_a_pipe() const override { return pipe_memory_bits(pipe(0)); }
     [[nodiscard]] ParallelPipe& pipe(int n) const { return *pipes[static_cast<std::size_t>(n)]; }
@@ -128,7 +131,7 @@ struct ParallelBoard final : BoardBody {
     LoadBroadcast load_broadcast;
 };
 
-struct BoardTop : FifoRack {
+struct BoardTop : FifoGroup {
     explicit BoardTop(const BoardConfig& config, std::uint64_t shuffle_seed = 0);
 
     const BoardConfig config;
@@ -152,7 +155,7 @@ struct BoardTop : FifoRack {
     Simulator simulator;
 
     [[nodiscard]] int channels() const { return body->channels(); }
-    [[nodiscard]] const MemoryController& memory(int channel = 0) const { return body->memory_of(channel); }
+    [[nodiscard]] const MemoryController& memory(int channel = 0) const { return body->object_memory_bytes(channel); }
     [[nodiscard]] Sdram& sdram(int channel = 0) { return body->sdram_of(channel); }
 };
 

@@ -3,8 +3,8 @@
 namespace rs::engine::model {
 namespace {
 
-// The order of the list is the order of service: the host, whose bus is slow; the columns, of which there are few; then
-// blocks of texels, what others wait for first; books last, which are read ahead.
+// Read ports in order of service: the host, whose bus is slow; the columns, which are few; blocks of texels, those
+// first that others wait for; codebooks last, which are prefetched.
 std::vector<ReadPort> read_ports(ParallelPipe& pipe) {
     ParallelFifos& f = pipe.fifos;
     std::vector<ReadPort> ports = {{"host_dma", &f.host_reads, &f.host_words},
@@ -89,7 +89,7 @@ void ParallelPipe::add_to(Simulator& simulator) {
 }
 
 PipeMemoryBits pipe_memory_bits(ParallelPipe& pipe) {
-    constexpr int kShortest = 64;  // FIFOs below are of logic cells
+    constexpr int kShortest = 64;  // shallower FIFOs are built from logic cells
     PipeMemoryBits bits;
     bits.books = DoubleBufferedCodebook::kBits;
     bits.cells = CellMarch::kCellBits;

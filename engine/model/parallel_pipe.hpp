@@ -1,6 +1,6 @@
 #pragma once
 // A pipe of the parallel board with its memory channel: from the columns of its stripes to their pixels in its part of
-// the image buffer. N of them stand side by side and share nothing but the registers, the private bus and the host.
+// the image buffer. N pipes run side by side and share only the registers, the private bus and the host.
 //
 //     raster_generator -> ray_position -> map_reader -> bracket_finder -> image_reader -> column_setup -> band_reader
 //                                                                                   columns, cells |
@@ -37,8 +37,8 @@
 
 namespace rs::engine::model {
 
-struct ParallelFifos : FifoRack {
-    using FifoRack::FifoRack;
+struct ParallelFifos : FifoGroup {
+    using FifoGroup::FifoGroup;
 
     Fifo<ViewJob> jobs{*this, "jobs", 16, ViewJob::kBits};
     Fifo<ViewJob> scan_jobs{*this, "scan_jobs", 16, ViewJob::kBits};
@@ -53,7 +53,7 @@ struct ParallelFifos : FifoRack {
     Fifo<BracketedRay> bracketed{*this, "bracketed", 2, BracketedRay::kBits};
     Fifo<MemoryRead> line_reads{*this, "line_reads", 4, MemoryRead::kBits};
     Fifo<MemoryWord> line_words{*this, "line_words", 8, MemoryWord::kBits};
-    Fifo<LinedRay> lined{*this, "lined", 2, LinedRay::kBits};
+    Fifo<RayWithLines> lined{*this, "lined", 2, RayWithLines::kBits};
     Fifo<ColumnSetup> set_up{*this, "set_up", 2, ColumnSetup::kBits};
     Fifo<MemoryRead> band_reads{*this, "band_reads", 4, MemoryRead::kBits};
     Fifo<MemoryWord> band_words{*this, "band_words", 8, MemoryWord::kBits};
@@ -66,10 +66,10 @@ struct ParallelFifos : FifoRack {
     Fifo<Done> view_done_scan{*this, "view_done_scan", 2, Done::kBits};
     Fifo<Done> view_done_books{*this, "view_done_books", 2, Done::kBits};
     Fifo<ScannedPixel> scanned{*this, "scanned", 4, ScannedPixel::kBits};
-    Fifo<RisenPixel> risen{*this, "risen", 4, RisenPixel::kBits};
-    Fifo<MarchAgain> again{*this, "again", 512, MarchAgain::kBits};
+    Fifo<PixelBandRay> risen{*this, "risen", 4, PixelBandRay::kBits};
+    Fifo<ReturnedPixel> again{*this, "again", 512, ReturnedPixel::kBits};
     Fifo<FinishedPixel> empty{*this, "empty", 4, FinishedPixel::kBitsOfEmpty};
-    Fifo<MetSurface> met{*this, "met", 8, MetSurface::kBits};
+    Fifo<SurfaceHit> met{*this, "met", 8, SurfaceHit::kBits};
     Fifo<PlacedSample> placed{*this, "placed", 4, PlacedSample::kBits};
     Fifo<TexelFill> fills{*this, "fills", 8, TexelFill::kBits};
     Fifo<WaitingSample> waiting{*this, "waiting", 512, WaitingSample::kBits};
@@ -94,12 +94,12 @@ struct ParallelFifos : FifoRack {
 };
 
 struct ParallelPipe {
-    // Pipe `share.pipe` of `share.pipes`; its names end in "_p" and that number.
+    // Pipe `share.pipe` of `share.pipes`; the names of its blocks and FIFOs end in "_p" and its number.
     ParallelPipe(const BoardConfig& config, const RegisterFile& registers, const StripeShare& share);
     ParallelPipe(const ParallelPipe&) = delete;
     ParallelPipe& operator=(const ParallelPipe&) = delete;
     void add_to(Simulator& simulator);
-    std::vector<Block*> blocks();  // but those of the record chains
+    std::vector<Block*> blocks();  // without the blocks of the record chains
 
     ParallelFifos fifos;
     RecordChains chains;
@@ -127,7 +127,7 @@ struct ParallelPipe {
     MemoryController memory;
 };
 
-// Bits of block RAM in a pipe: codebooks, cells, texels, patches, and the FIFOs that are long enough to be one.
+// Bits of block RAM in a pipe: codebooks, cells, texels, patches, and the FIFOs that are deep enough to use block RAM.
 struct PipeMemoryBits {
     std::size_t books = 0, cells = 0, held_words = 0, march_pixels = 0, rim_pixels = 0, texels = 0, patches = 0,
                 columns = 0, fifos = 0;

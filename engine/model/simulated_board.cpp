@@ -22,11 +22,11 @@ public:
 
     [[nodiscard]] const ExecutorTraits& traits() const override { return traits_; }
 
-    [[nodiscard]] Status takes(const RaySpaceObject& object) const override {
+    [[nodiscard]] Status supports(const RaySpaceObject& object) const override {
         return layout_.drawable(object, limits_);
     }
 
-    [[nodiscard]] Status draws(const ViewRegisters& registers) const override {
+    [[nodiscard]] Status can_render(const ViewRegisters& registers) const override {
         RS_TRY(board_view(registers, 0));
         if (registers.width > limits_.image_buffer_side_px || registers.height > limits_.image_buffer_side_px) {
             return Error{"the view is larger than the board's image buffer"};
@@ -34,13 +34,13 @@ public:
         return {};
     }
 
-    [[nodiscard]] RaySpaceObject as_drawn(RaySpaceObject object) const override {
-        return layout_.as_drawn(std::move(object));
+    [[nodiscard]] RaySpaceObject as_rendered(RaySpaceObject object) const override {
+        return layout_.as_rendered(std::move(object));
     }
 
     Result<std::optional<int>> load(const RaySpaceObject& object) override {
         const Result<int> slot = instant_loads_ ? board_.place(object) : board_.start_load(object);
-        if (!slot) return std::optional<int>();  // takes() was checked before: only room can be missing
+        if (!slot) return std::optional<int>();  // supports() was checked before: only lack of memory or slots can fail
         if (instant_loads_) return std::optional<int>(*slot);
         RS_TRY(board_.finish_loads());
         return std::optional<int>(*slot);

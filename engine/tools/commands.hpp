@@ -1,5 +1,5 @@
 #pragma once
-// The commands of rs-engine. Each adds itself to `app`, and sets `run` where it is the one that is called.
+// Commands of rs-engine. Each function adds a subcommand to `app`; its callback sets `run`.
 
 #include "rayspace/base/result.hpp"
 
@@ -9,14 +9,17 @@
 
 namespace rs::engine {
 
-// Does an implementation compute what the definition states?
+// Compares implementations with the definition.
 void add_conformance_command(CLI::App& app, std::function<Status()>& run);
-// How good and how large an object is.
+// Compares views with the photos of a capture set.
 void add_compare_command(CLI::App& app, std::function<Status()>& run);
-void add_board_command(CLI::App& app, std::function<Status()>& run);
-// Views of an object as images, a contact sheet or a video.
+// Renders views of an object as images, a contact sheet or a video.
 void add_render_command(CLI::App& app, std::function<Status()>& run);
-// Views drawn by the cycle-accurate model of a board, and where its cycles went.
+// Adds the commands of the hardware models, board and simulate; empty in builds without RAYSPACE_HARDWARE.
+void add_hardware_commands(CLI::App& app, std::function<Status()>& run);
+// Prints the memory that objects take on the published board.
+void add_board_command(CLI::App& app, std::function<Status()>& run);
+// Renders views with the cycle-accurate model of a board and prints the utilization of its blocks.
 void add_simulate_command(CLI::App& app, std::function<Status()>& run);
 
 }  // namespace rs::engine

@@ -2,7 +2,7 @@
 
 #include "engine/conformance/run_vectors.hpp"
 #include "engine/core/views/conformance.hpp"
-#include "engine/executors/executor_table.hpp"
+#include "rayspace/api/types/executor_table.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/format/object_file.hpp"
 
@@ -29,7 +29,7 @@ struct ConformanceArguments {
 Result<Implementation> implementation_from(const std::string& name) {
     constexpr std::string_view kFiles = "files:";
     if (name.starts_with(kFiles)) return implementation_in_files(name.substr(kFiles.size()));
-    Result<std::unique_ptr<Executor>> executor = make_executor(name, {.instant_loads = true});
+    Result<std::unique_ptr<Executor>> executor = ExecutorTable().create(name);
     if (!executor) return Error{executor.error().message + " or files:FOLDER"};
     return implementation_of(std::move(*executor));
 }
@@ -94,7 +94,7 @@ Status run_set(const ConformanceArguments& arguments) {
         print_matrix(set, matrix);
     }
     if (matrix.passed()) return {};
-    return Error{arguments.target + ": not everything is as the definition says; see the table"};
+    return Error{arguments.target + ": an implementation differs from the definition; see the table"};
 }
 
 Status run_random_views(const ConformanceArguments& arguments) {
@@ -110,7 +110,7 @@ Status run_random_views(const ConformanceArguments& arguments) {
         static_cast<long long>(report.different_pixels));
     if (report.different_pixels != 0) {
         return Error{arguments.target +
-                     ": the core's images are not those of the definition; this is a defect of the renderer"};
+                     ": the core's images differ from the definition; this is a defect of the renderer"};
     }
     return {};
 }
@@ -121,23 +121,22 @@ void add_conformance_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<ConformanceArguments>();
     CLI::App* command = app.add_subcommand(
         "conformance",
-        "Compare implementations with the definition bit for bit: on the conformance set (a folder with a\n"
-        "vectors.json), or, given an object, the core on random views of it");
-    command->add_option("TARGET", arguments->target, "the folder of the conformance set, or an object, .rso")
-        ->required();
+        "Compare implementations with the definition bit for bit on the conformance set (a folder with a\n"
+        "vectors.json), or the core on random views of an object");
+    command->add_option("TARGET", arguments->target, "folder of the conformance set, or an object, .rso")->required();
     command->add_option("--executor", arguments->executors,
-                        "of the set: " + executor_names() +
-                            " (a configuration of `simulate`), or files:FOLDER, "
-                            "images that another implementation wrote; may be given several times; scalar and core if "
-                            "not given");
-    command->add_option("--write", arguments->write_folder,
-                        "of the set: also write what the first executor renders, as files:FOLDER would be read");
-    command->add_option("--views", arguments->views, "of an object: how many views")
+                        "with a set: " + ExecutorTable().names() +
+                            " (CONFIG as in `simulate`), or files:FOLDER, images that another implementation wrote; "
+                            "may be repeated; default: scalar and core");
+    command->add_option(
+        "--write", arguments->write_folder,
+        "with a set: also write the views of the first executor to this folder, in the format of files:FOLDER");
+    command->add_option("--views", arguments->views, "with an object: number of views")
         ->check(CLI::Range(1, 100000))
         ->capture_default_str();
-    command->add_option("--seed", arguments->seed, "of an object: which views")->capture_default_str();
+    command->add_option("--seed", arguments->seed, "with an object: seed of the random views")->capture_default_str();
     command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
-    command->add_flag("--json", arguments->json, "of the set: the table as JSON");
+    command->add_flag("--json", arguments->json, "with a set: print the table as JSON");
     command->footer(
         "Examples:\n  rs-engine conformance engine/conformance/vectors --executor core --executor "
         "board:prototype-2000\n"

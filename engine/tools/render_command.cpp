@@ -26,7 +26,7 @@
 namespace rs::engine {
 namespace {
 
-// Many views on one image, to look at an object at a glance.
+// Arranges views in a grid on one image.
 Image<Rgba8> contact_sheet(const std::vector<Image<Rgba8>>& images, int columns, Rgba8 backdrop) {
     RS_CHECK(!images.empty() && columns > 0);
     const int count = static_cast<int>(images.size());
@@ -54,7 +54,8 @@ struct RenderArguments {
     double frames_per_second = 30;
     int level = kProgressiveLevels - 1;
     bool depth = false;
-    std::optional<TexelFilter> filter;  // else by the size of the views
+    std::optional<TexelFilter> filter;  // default: by the scale of the views
+    bool force = false;
     bool quiet = false;
 };
 
@@ -63,22 +64,22 @@ Result<Renderer> open_renderer(const std::string& path, int level) {
     return Renderer::create(std::move(object));
 }
 
-// Counts views that show nothing of the object; from several threads.
+// Counts views without any visible pixel. Thread-safe.
 class EmptyViews {
 public:
-    void look_at(const Image<Rgba8>& image) {
+    void add(const Image<Rgba8>& image) {
         ++views_;
         if (std::ranges::all_of(image.pixels(), [](const Rgba8& p) { return p.a == 0; })) ++empty_;
     }
     void warn() const {
         if (empty_ == 0) return;
-        const std::string which =
+        const std::string subject =
             views_ == 1 ? "the view shows" : std::to_string(empty_) + " of " + std::to_string(views_) + " views show";
         std::fprintf(
             stderr,
-            "rs-engine: warning: %s nothing of the object; is the eye inside it, straight above it, or does it "
-            "look past it?\n",
-            which.c_str());
+            "rs-engine: warning: %s nothing of the object; the camera may be inside the object, directly above it, or "
+            "point past it; move the camera\n",
+            subject.c_str());
     }
 
 private:
@@ -91,7 +92,7 @@ Result<Image<Rgba8>> render_camera(const Renderer& renderer, const Camera& camer
     RS_ASSIGN_OR_RETURN(const ViewRegisters registers, prepare_view(renderer.object(), camera, filter));
     Image<Rgba8> image(camera.width, camera.height);
     renderer.render(registers, image);
-    empty.look_at(image);
+    empty.add(image);
     return image;
 }
 
@@ -100,40 +101,39 @@ std::filesystem::path depth_name(std::filesystem::path image) {
     return image.replace_extension(".depth.exr");
 }
 
-// The view as PNG and, beside it, its depth.
+// Writes the view as PNG and its depth to depth_name(path).
 Status write_view_with_depth(const Renderer& renderer, const Camera& camera, std::optional<TexelFilter> filter,
                              const std::filesystem::path& path, EmptyViews& empty) {
     RS_ASSIGN_OR_RETURN(const ViewRegisters registers, prepare_view(renderer.object(), camera, filter));
     Image<Rgba8> image(camera.width, camera.height);
     Image<std::int32_t> lambda_q20(camera.width, camera.height);
     renderer.render(registers, image, lambda_q20);
-    empty.look_at(image);
-    if (Status status = write_png(path, image); !status) return status;
+    empty.add(image);
+    RS_TRY(write_png(path, image));
     return write_exr_channel(depth_name(path), depth_image(renderer.object(), camera, lambda_q20));
 }
 
 Status write_folder(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
                     EmptyViews& empty, Progress& progress) {
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(arguments.output, "rendered views"));
-    Rig rig = rig_of_views(cameras);
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(arguments.output, "rendered views", arguments.force));
+    Rig rig = make_rig_of_views(cameras);
     rig.object_radius = renderer.object().units_per_radius;
     for (RigView& view : rig.views) {
         if (arguments.depth) view.depth_file_path = depth_name(view.file_path).string();
     }
     const int count = static_cast<int>(cameras.size());
-    Status written = for_each_in_parallel(count, "rendering", &progress, [&](int i) -> Status {
+    RS_TRY(for_each_in_parallel(count, "rendering", &progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
         const std::filesystem::path path = staged.temporary_path() / rig.views[n].file_path;
         if (arguments.depth) return write_view_with_depth(renderer, cameras[n], arguments.filter, path, empty);
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, render_camera(renderer, cameras[n], arguments.filter, empty));
         return write_png(path, image);
-    });
-    if (!written) return written;
-    if (Status status = write_rig(staged.temporary_path() / kRigFileName, rig); !status) return status;
+    }));
+    RS_TRY(write_rig(staged.temporary_path() / kRigFileName, rig));
     return staged.commit();
 }
 
-// Views as captured may be as large as photographs are; a sheet of them is to be looked at.
+// Reduces views so that a sheet of them has at most 4096 pixels a side.
 void fit_on_sheet(std::vector<Camera>& cameras, std::size_t columns) {
     constexpr double kSheetSide_px = 4096;
     columns = std::min(columns, cameras.size());
@@ -148,12 +148,12 @@ void fit_on_sheet(std::vector<Camera>& cameras, std::size_t columns) {
     for (Camera& camera : cameras) camera = resized(camera, scaled(camera.width), scaled(camera.height));
 }
 
-// Fails before anything is rendered where the views cannot become one image.
+// Checks before rendering that the views can be written as one image.
 Status check_one_image(const std::vector<Camera>& cameras, const RenderArguments& arguments) {
     if (arguments.sheet_columns == 0) {
         if (cameras.size() == 1) return {};
         return Error{arguments.output + ": " + std::to_string(cameras.size()) +
-                     " views do not fit one image; give --sheet COLUMNS, or a folder or an .mp4 to -o"};
+                     " views do not fit in one image; use --sheet COLUMNS, or give a folder or an .mp4 to -o"};
     }
     const auto columns = std::min(static_cast<std::size_t>(arguments.sheet_columns), cameras.size());
     const std::size_t rows = (cameras.size() + columns - 1) / columns;
@@ -165,7 +165,7 @@ Status check_one_image(const std::vector<Camera>& cameras, const RenderArguments
     }
     for (const Camera& camera : cameras) {
         if (camera.width != cameras.front().width || camera.height != cameras.front().height) {
-            return Error{arguments.output + ": a sheet needs views of one size; give --size"};
+            return Error{arguments.output + ": a sheet needs views of the same size; use --size"};
         }
     }
     return {};
@@ -173,7 +173,7 @@ Status check_one_image(const std::vector<Camera>& cameras, const RenderArguments
 
 Status write_image(const Renderer& renderer, const std::vector<Camera>& cameras, const RenderArguments& arguments,
                    EmptyViews& empty) {
-    if (Status status = check_one_image(cameras, arguments); !status) return status;
+    RS_TRY(check_one_image(cameras, arguments));
     if (arguments.depth)
         return write_view_with_depth(renderer, cameras.front(), arguments.filter, arguments.output, empty);
     std::vector<Image<Rgba8>> images;
@@ -206,13 +206,14 @@ Status write_views(OutputKind kind, const Renderer& renderer, const std::vector<
 Status run_render(const RenderArguments& arguments) {
     RS_ASSIGN_OR_RETURN(const OutputKind kind, output_kind(arguments.output));
     if (arguments.sheet_columns > 0 && kind != OutputKind::image) {
-        return Error{arguments.output + ": --sheet makes one image; give a name that ends in .png to -o"};
+        return Error{arguments.output + ": --sheet writes one image; give a name that ends in .png to -o"};
     }
     if (arguments.depth && (kind == OutputKind::video || arguments.sheet_columns > 0)) {
         return Error{arguments.output +
-                     ": a video or a sheet has no depth; give a folder or one view's FILE.png to -o, "
+                     ": --depth cannot be written with a video or a sheet; give a folder or one view's FILE.png to -o, "
                      "or leave out --depth"};
     }
+    RS_TRY(refuse_overwriting_inputs(arguments.output, {arguments.object, arguments.views.poses}));
     RS_ASSIGN_OR_RETURN(const Renderer renderer, open_renderer(arguments.object, arguments.level));
     RS_ASSIGN_OR_RETURN(std::vector<Camera> cameras, requested_cameras(renderer.object(), arguments.views));
     if (arguments.sheet_columns > 0 && arguments.views.size.empty()) {
@@ -233,22 +234,23 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<RenderArguments>();
     CLI::App* command = app.add_subcommand("render", "Render views of an object: PNG with straight alpha, or a video");
     command->add_option("OBJECT", arguments->object, "ray-space object, .rso")->required();
-    command->add_option("-o,--output", arguments->output, "a folder, FILE.png or FILE.mp4")->required();
+    command->add_option("-o,--output", arguments->output, "output: a folder, FILE.png or FILE.mp4")->required();
     add_view_options(*command, arguments->views);
     command->add_option("--fps", arguments->frames_per_second, "frames per second of an .mp4")
         ->check(CLI::Range(1.0, 240.0))
         ->capture_default_str();
     command
-        ->add_option("--sheet", arguments->sheet_columns,
-                     "with FILE.png: all views on one sheet, so many in a row; of at most 4096 pixels a side where "
-                     "no --size is given")
+        ->add_option(
+            "--sheet", arguments->sheet_columns,
+            "with FILE.png: write all views as one contact sheet with this many columns; at most 4096 pixels a "
+            "side unless --size is given")
         ->check(CLI::Range(1, 100));
-    command->add_option("--level", arguments->level, "load only every 8th (0), 4th (1), 2nd (2) image or all (3)")
+    command->add_option("--level", arguments->level, "load only every 8th (0), 4th (1), 2nd (2) photo, or all (3)")
         ->check(CLI::Range(0, kProgressiveLevels - 1))
         ->capture_default_str();
     command->add_flag("--depth", arguments->depth,
-                      "also write NAME.depth.exr beside each image: axial depth in the units of the object's rig, 0 "
-                      "where nothing is shown");
+                      "also write NAME.depth.exr for each image: axial depth in the units of the object's rig, 0 where "
+                      "alpha is 0");
     static const std::map<std::string, std::optional<TexelFilter>> kFilters = {
         {"auto", std::nullopt},
         {"bilinear", TexelFilter::kBilinear},
@@ -258,10 +260,11 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
     command
         ->add_option_function<std::string>(
             "--filter", [arguments](const std::string& name) { arguments->filter = kFilters.at(name); },
-            "how an object with a shape map samples its images: sharp, smooth (for views smaller than the images), "
-            "bilinear (as boards do), or auto: by the size of the views")
+            "sampling of the photos of an object with a shape map: sharp, smooth (for views smaller than the photos), "
+            "bilinear (as the boards do), or auto (by the scale of the view)")
         ->check(CLI::IsMember(kFilters))
         ->default_str("auto");
+    command->add_flag("--force", arguments->force, kForceHelp);
     command->add_flag("-q,--quiet", arguments->quiet, "no progress bar");
     command->footer(
         "Examples:\n  rs-engine render vase.rso --orbit 120 -o vase.mp4\n"

@@ -21,7 +21,7 @@ Result<ViewShape> view_shape(const RequestedViews& views) {
 
 Result<std::vector<Camera>> cameras_of_rig(const std::string& path, const ViewShape& shape) {
     RS_ASSIGN_OR_RETURN(const Rig rig, read_rig(path));
-    if (rig.views.empty()) return Error{path + ": holds no frames to render"};
+    if (rig.views.empty()) return Error{path + ": has no frames to render"};
     std::vector<Camera> cameras;
     for (const RigView& view : rig.views) {
         cameras.push_back(shape.width > 0 ? resized(view.camera, shape.width, shape.height) : view.camera);
@@ -52,17 +52,18 @@ Result<std::vector<Camera>> requested_cameras(const RaySpaceObject& object, cons
 }
 
 void add_view_options(CLI::App& command, RequestedViews& views, bool required) {
-    CLI::Option_group* what = command.add_option_group("views", "What to render");
-    what->add_option("--orbit", views.orbit, "N views once around, as captured")->check(CLI::Range(1, 100000));
-    CLI::Option* poses = what->add_option("--poses", views.poses, "the cameras of a transforms.json");
+    CLI::Option_group* selection = command.add_option_group("views", "Views to render");
+    selection->add_option("--orbit", views.orbit, "N views around the object, as captured")
+        ->check(CLI::Range(1, 100000));
+    CLI::Option* poses = selection->add_option("--poses", views.poses, "cameras of a transforms.json");
     CLI::Option* eye =
-        what->add_option("--eye", views.eye, "one view from X,Y,Z, in object radii; Y is the turntable's axis");
-    what->require_option(required ? 1 : 0, 1);
-    command.add_option("--at", views.at, "with --eye: the point looked at, in object radii")
+        selection->add_option("--eye", views.eye, "one view from X,Y,Z, in object radii; Y is the turntable axis");
+    selection->require_option(required ? 1 : 0, 1);
+    command.add_option("--at", views.at, "with --eye: target point X,Y,Z, in object radii")
         ->capture_default_str()
         ->needs(eye);
-    command.add_option("--size", views.size, "size of the views, WxH; as captured where not given");
-    command.add_option("--fov", views.fov_deg, "horizontal field of view in degrees; as captured where not given")
+    command.add_option("--size", views.size, "size of the views, WxH in pixels; default: as captured");
+    command.add_option("--fov", views.fov_deg, "horizontal field of view in degrees; default: as captured")
         ->check(CLI::Range(0.01, 159.0))
         ->excludes(poses);
 }

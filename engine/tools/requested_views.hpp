@@ -1,5 +1,5 @@
 #pragma once
-// The options of the commands that choose what to look at: an orbit, the cameras of a rig, or one view from an eye.
+// Options that select the views to render: an orbit, the cameras of a rig, or one view from an eye.
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -21,13 +21,13 @@ struct RequestedViews {
     double fov_deg = 0;
 };
 
-// Adds --orbit, --poses, --eye (at most one of them; exactly one where `required`), --at, --size and --fov.
+// Adds --orbit, --poses, --eye (at most one of them; exactly one if `required`), --at, --size and --fov.
 void add_view_options(CLI::App& command, RequestedViews& views, bool required = true);
 
-// The same view in an image of another size.
+// Scales the image of a camera to another size.
 Camera resized(Camera camera, int width, int height);
 
-// The requested cameras, in the units of the object's rig.
+// Cameras of the requested views, in the units of the object's rig.
 Result<std::vector<Camera>> requested_cameras(const RaySpaceObject& object, const RequestedViews& views);
 
 }  // namespace rs::engine

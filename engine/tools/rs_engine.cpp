@@ -13,7 +13,6 @@ int main(int argc, char** argv) {
     add_render_command(app, run);
     add_compare_command(app, run);
     add_conformance_command(app, run);
-    add_board_command(app, run);
-    add_simulate_command(app, run);
+    add_hardware_commands(app, run);
     return rs::tool_main(app, argc, argv, run);
 }

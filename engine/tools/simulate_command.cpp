@@ -16,6 +16,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 namespace rs::engine {
@@ -35,48 +36,49 @@ struct SimulateArguments {
     bool load = false;
     bool diagram = false;
     bool print_config = false;
+    bool force = false;
 };
 
-// A view of one of the objects, as the definition and as the board take it.
-struct Drawing {
+// View of one of the objects.
+struct SimulatedView {
     std::size_t object = 0;
     Camera camera;
     ViewRegisters registers;
 };
 
-// The upright camera in whose image the object's centre keeps its row.
-Camera stood_upright(const Camera& camera) {
+// Upright camera whose image shows the object's centre in the same row.
+Camera make_upright(const Camera& camera) {
     Camera upright = upright_camera(camera);
     const auto row = [](const Camera& c) { return c.project({0, 0, 0}).y; };
     upright.cy += row(camera) - row(upright);
     return upright;
 }
 
-// View by view, of each view all objects: so a rendering cycle shows the objects side by side.
-Result<std::vector<Drawing>> requested_drawings(const std::vector<RaySpaceObject>& objects,
-                                                const SimulateArguments& arguments) {
+// Views in the order of cameras, then objects, so that a rendering cycle shows several objects from one camera.
+Result<std::vector<SimulatedView>> simulated_views(const std::vector<RaySpaceObject>& objects,
+                                                   const SimulateArguments& arguments) {
     std::vector<std::vector<Camera>> cameras;
     for (const RaySpaceObject& object : objects) {
-        RS_ASSIGN_OR_RETURN(std::vector<Camera> asked, requested_cameras(object, arguments.views));
-        cameras.push_back(std::move(asked));
+        RS_ASSIGN_OR_RETURN(std::vector<Camera> object_cameras, requested_cameras(object, arguments.views));
+        cameras.push_back(std::move(object_cameras));
     }
-    std::vector<Drawing> drawings;
+    std::vector<SimulatedView> views;
     for (std::size_t v = 0; v < cameras.front().size(); ++v) {
         for (std::size_t n = 0; n < objects.size(); ++n) {
-            const Camera camera = arguments.upright ? stood_upright(cameras[n][v]) : cameras[n][v];
+            const Camera camera = arguments.upright ? make_upright(cameras[n][v]) : cameras[n][v];
             RS_ASSIGN_OR_RETURN(const ViewRegisters registers,
                                 prepare_view(objects[n], camera, TexelFilter::kBilinear));
-            drawings.push_back({n, camera, registers});
+            views.push_back({n, camera, registers});
         }
     }
-    return drawings;
+    return views;
 }
 
-// What an object takes of the board, and how many like it the board would hold.
+// Prints the board memory of an object, and the number of such objects that fit.
 void print_footprint(const RaySpaceObject& object, const model::Board& board) {
     const BoardLimits& limits = board.top().config.limits;
     const model::ObjectLayout& layout = model::layout_of(limits.kind);
-    if (!layout.drawable(object, limits)) return;  // refused, with the reason, when it is loaded
+    if (!layout.drawable(object, limits)) return;  // loading reports the reason
     const auto words = layout.words(object);
     std::uint64_t all = 0;
     for (const std::uint64_t n : words) all += 8 * n;
@@ -85,7 +87,7 @@ void print_footprint(const RaySpaceObject& object, const model::Board& board) {
                 static_cast<unsigned long long>(board.memory_map().copies(words)), limits.objects);
 }
 
-Result<std::vector<int>> put_on_board(model::Board& board, const std::vector<RaySpaceObject>& objects, bool load) {
+Result<std::vector<int>> load_objects(model::Board& board, const std::vector<RaySpaceObject>& objects, bool load) {
     std::vector<int> slots;
     for (const RaySpaceObject& object : objects) {
         RS_ASSIGN_OR_RETURN(const int slot, load ? board.start_load(object) : board.place(object));
@@ -103,22 +105,22 @@ Result<std::vector<int>> put_on_board(model::Board& board, const std::vector<Ray
 }
 
 Result<std::vector<std::vector<model::BoardView>>> rendering_cycles(const model::Board& board,
-                                                                    const std::vector<Drawing>& drawings,
+                                                                    const std::vector<SimulatedView>& views,
                                                                     const std::vector<int>& slots, int per_cycle) {
     std::vector<std::vector<model::BoardView>> cycles;
-    for (const Drawing& drawing : drawings) {
+    for (const SimulatedView& simulated : views) {
         if (cycles.empty() || cycles.back().size() == static_cast<std::size_t>(per_cycle)) cycles.emplace_back();
-        const Result<model::BoardView> view = board.view(slots[drawing.object], drawing.registers);
+        const Result<model::BoardView> view = board.view(slots[simulated.object], simulated.registers);
         if (!view) {
-            return Error{view.error().message + "; --upright does so for the views asked for"};
+            return Error{view.error().message + "; use --upright to make the requested views upright"};
         }
         cycles.back().push_back(*view);
     }
     return cycles;
 }
 
-void print_interval(const char* what, const model::Interval& interval) {
-    std::printf("\n%s: %llu board cycles, %.3f ms; limited by %s\n", what,
+void print_interval(const char* title, const model::Interval& interval) {
+    std::printf("\n%s: %llu board cycles, %.3f ms; limited by %s\n", title,
                 static_cast<unsigned long long>(interval.board_cycles), interval.seconds * 1e3,
                 interval.limiting_block.c_str());
     for (const model::BlockShare& block : interval.blocks) {
@@ -133,7 +135,7 @@ void print_interval(const char* what, const model::Interval& interval) {
     }
 }
 
-// What each channel carried since the board was made, and how much of its time that took while rendering.
+// Prints the traffic of each memory channel since construction and its utilization while rendering.
 void print_channels(const model::BoardReport& report) {
     const double peak = report.clock_mhz * 8;
     std::printf("\n");
@@ -169,16 +171,16 @@ void print_report(const model::BoardReport& report) {
                 static_cast<unsigned long long>(report.bus.register_writes));
 }
 
-// All images against the definition, and into a folder where one is given.
-Status use_images(const model::BoardRun& run, const std::vector<Drawing>& drawings,
-                  const std::vector<RaySpaceObject>& stored, const std::string& output) {
+// Compares all images with the definition, and writes them to the folder `output` unless it is empty.
+Status check_and_write_images(const model::BoardRun& run, const std::vector<SimulatedView>& views,
+                              const std::vector<RaySpaceObject>& stored, const std::string& output, bool force) {
     std::vector<Camera> cameras;
-    cameras.reserve(drawings.size());
-    for (const Drawing& drawing : drawings) cameras.push_back(drawing.camera);
-    Rig rig = rig_of_views(cameras);
+    cameras.reserve(views.size());
+    for (const SimulatedView& view : views) cameras.push_back(view.camera);
+    Rig rig = make_rig_of_views(cameras);
     std::optional<StagedFolder> folder;
     if (!output.empty()) {
-        RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "rendered views"));
+        RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "rendered views", force));
         folder.emplace(std::move(staged));
     }
     std::size_t n = 0;
@@ -186,19 +188,18 @@ Status use_images(const model::BoardRun& run, const std::vector<Drawing>& drawin
     for (const model::RenderedCycle& cycle : run.cycles) {
         for (const Image<Rgba8>& image : cycle.images) {
             Image<Rgba8> defined(image.width(), image.height());
-            reconstruct_scalar(stored[drawings[n].object], drawings[n].registers, defined);
+            reconstruct_scalar(stored[views[n].object], views[n].registers, defined);
             equal += static_cast<std::size_t>(image == defined);
             if (folder) {
-                Status status = write_png(folder->temporary_path() / rig.views[n].file_path, image);
-                if (!status) return status;
+                RS_TRY(write_png(folder->temporary_path() / rig.views[n].file_path, image));
             }
             ++n;
         }
     }
     std::printf("%zu of %zu images equal the definition bit for bit\n", equal, n);
-    if (equal != n) return Error{"the board's images are not those of the definition; this is a defect of the model"};
+    if (equal != n) return Error{"the board's images differ from the definition; this is a defect of the model"};
     if (!folder) return {};
-    if (Status status = write_rig(folder->temporary_path() / kRigFileName, rig); !status) return status;
+    RS_TRY(write_rig(folder->temporary_path() / kRigFileName, rig));
     return folder->commit();
 }
 
@@ -213,16 +214,23 @@ Status run_simulate(const SimulateArguments& arguments) {
         std::printf("%s", model::diagram_tables(board.top()).c_str());
         return {};
     }
+    std::vector<std::filesystem::path> used(arguments.objects.begin(), arguments.objects.end());
+    used.emplace_back(arguments.views.poses);
+    if (std::filesystem::is_regular_file(arguments.config)) used.emplace_back(arguments.config);
+    for (const std::string& output : {arguments.output, arguments.stats, arguments.chart, arguments.trace}) {
+        RS_TRY(refuse_overwriting_inputs(output, used));
+        used.emplace_back(output);
+    }
     std::vector<RaySpaceObject> objects;
     for (const std::string& path : arguments.objects) {
         RS_ASSIGN_OR_RETURN(RaySpaceObject object, read_object(path));
-        objects.push_back(model::layout_of(config.limits.kind).as_drawn(std::move(object)));
+        objects.push_back(model::layout_of(config.limits.kind).as_rendered(std::move(object)));
     }
     for (const RaySpaceObject& object : objects) print_footprint(object, board);
-    RS_ASSIGN_OR_RETURN(const std::vector<int> slots, put_on_board(board, objects, arguments.load));
-    RS_ASSIGN_OR_RETURN(const std::vector<Drawing> drawings, requested_drawings(objects, arguments));
+    RS_ASSIGN_OR_RETURN(const std::vector<int> slots, load_objects(board, objects, arguments.load));
+    RS_ASSIGN_OR_RETURN(const std::vector<SimulatedView> views, simulated_views(objects, arguments));
     const int per_cycle = arguments.per_cycle > 0 ? arguments.per_cycle : config.limits.views_per_cycle;
-    RS_ASSIGN_OR_RETURN(const auto cycles, rendering_cycles(board, drawings, slots, per_cycle));
+    RS_ASSIGN_OR_RETURN(const auto cycles, rendering_cycles(board, views, slots, per_cycle));
 
     std::unique_ptr<model::Waveform> waveform;
     if (!arguments.trace.empty()) {
@@ -233,19 +241,19 @@ Status run_simulate(const SimulateArguments& arguments) {
     RS_ASSIGN_OR_RETURN(const model::BoardRun run, board.render(cycles));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (waveform) {
-        if (Status status = waveform->finish(); !status) return status;
+        RS_TRY(waveform->finish());
     }
     const model::BoardReport report = model::make_report(board, run);
     print_report(report);
     std::printf("simulated at %.2f million board cycles a second\n", double(report.board_cycles) / seconds / 1e6);
     if (!arguments.stats.empty()) {
-        if (Status status = write_file(arguments.stats, model::report_json(report)); !status) return status;
+        RS_TRY(write_file(arguments.stats, model::report_json(report)));
     }
     if (!arguments.chart.empty()) {
         const std::string title = report.config + ", " + std::to_string(report.images) + " images";
-        if (Status status = write_file(arguments.chart, model::report_chart_svg(report, title)); !status) return status;
+        RS_TRY(write_file(arguments.chart, model::report_chart_svg(report, title)));
     }
-    return use_images(run, drawings, objects, arguments.output);
+    return check_and_write_images(run, views, objects, arguments.output, arguments.force);
 }
 
 }  // namespace
@@ -253,30 +261,34 @@ Status run_simulate(const SimulateArguments& arguments) {
 void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
     auto arguments = std::make_shared<SimulateArguments>();
     CLI::App* command = app.add_subcommand(
-        "simulate", "Draw views with the cycle-accurate model of the board, and say where its cycles went");
+        "simulate", "Render views with the cycle-accurate model of a board, and print the utilization of its blocks");
     command
         ->add_option("CONFIG", arguments->config,
-                     "prototype-2000, compressed-2000, parallel, or a JSON file with settings that differ from one of "
-                     "them")
+                     "prototype-2000, compressed-2000, parallel, or a JSON file that overrides settings of one of them")
         ->required();
-    command->add_option("OBJECT", arguments->objects, "ray-space objects, .rso; with a shape map for parallel only");
+    command->add_option("OBJECT", arguments->objects, "ray-space objects, .rso; shape maps only with parallel");
     add_view_options(*command, arguments->views, false);
-    command->add_flag("--upright", arguments->upright, "stand tilted cameras upright: the board draws no others");
+    command->add_flag("--upright", arguments->upright, "make tilted cameras upright, as the boards require");
     command
         ->add_option("--per-cycle", arguments->per_cycle,
-                     "views of a rendering cycle; as many as it takes if not given")
+                     "views per rendering cycle; default: as many as the board supports")
         ->check(CLI::Range(1, 15));
-    command->add_flag("--load", arguments->load, "have the board load the objects from its disk first");
-    command->add_option("-o,--output", arguments->output, "a folder for the images");
-    command->add_option("--stats", arguments->stats, "a JSON file for the cycles of every block")
+    command->add_flag("--load", arguments->load, "simulate loading of the objects from the board's disk first");
+    command->add_option("-o,--output", arguments->output, "folder for the images");
+    command->add_flag("--force", arguments->force, kForceHelp);
+    command->add_option("--stats", arguments->stats, "write the cycle counts of every block to this JSON file")
         ->check(ends_in({".json"}));
-    command->add_option("--chart", arguments->chart, "an SVG file: where the cycles went")->check(ends_in({".svg"}));
-    command->add_option("--trace", arguments->trace, "a VCD file, for GTKWave")->check(ends_in({".vcd"}));
-    command->add_option("--trace-cycles", arguments->trace_cycles, "board cycles in it")->capture_default_str();
-    command->add_flag("--diagram", arguments->diagram, "print blocks, ports and FIFOs as in model/DIAGRAM.md, and end");
-    command->add_flag("--print-config", arguments->print_config, "print all settings of CONFIG as JSON, and end");
+    command->add_option("--chart", arguments->chart, "write a chart of the cycle counts to this SVG file")
+        ->check(ends_in({".svg"}));
+    command->add_option("--trace", arguments->trace, "write a waveform to this VCD file, for GTKWave")
+        ->check(ends_in({".vcd"}));
+    command->add_option("--trace-cycles", arguments->trace_cycles, "board cycles in the waveform")
+        ->capture_default_str();
+    command->add_flag("--diagram", arguments->diagram,
+                      "print blocks, ports and FIFOs as in model/DIAGRAM.md, and exit");
+    command->add_flag("--print-config", arguments->print_config, "print all settings of CONFIG as JSON, and exit");
     command->footer(
-        "Examples (prototype-2000 draws objects that rs-encode built with --profile raw --raymap plane):\n"
+        "Examples (prototype-2000 renders objects encoded with --profile raw --raymap plane):\n"
         "  rs-engine simulate prototype-2000 vase-raw.rso --orbit 15 --size 256x256 -o drawn --stats vase.json\n"
         "  rs-engine simulate prototype-2000 a.rso b.rso c.rso --orbit 12 --per-cycle 3 --chart cycles.svg\n"
         "  rs-engine simulate compressed-2000 vase-board.rso --orbit 15 --size 256x256 --stats vase.json\n"

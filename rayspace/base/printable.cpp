@@ -28,7 +28,7 @@ std::string printable(std::string_view text) {
     return shown;
 }
 
-std::string with_digits(double value, int digits) {
+std::string format_fixed(double value, int digits) {
     char text[512];  // the largest double has 309 digits before the point
     std::snprintf(text, sizeof text, "%.*f", digits, value);
     return text;

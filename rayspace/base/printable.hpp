@@ -13,7 +13,7 @@ namespace rs {
 std::string printable(std::string_view text);
 
 /// Formats a number with a fixed number of digits after the decimal point.
-std::string with_digits(double value, int digits);
+std::string format_fixed(double value, int digits);
 
 /// "a, b and 3 more": the first `most` names and the number of the others.
 std::string listed(std::span<const std::string> names, std::size_t most);

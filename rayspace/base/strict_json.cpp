@@ -162,7 +162,7 @@ nlohmann::json JsonObject::take_rest() {
     return rest;
 }
 
-void JsonObject::expect_all_taken() const {
+void JsonObject::expect_no_unknown_keys() const {
     for (const auto& [name, value] : json().items()) {
         if (taken_.contains(name)) continue;
         std::string known;

@@ -76,7 +76,7 @@ public:
     /// All unread keys, which then count as read.
     [[nodiscard]] nlohmann::json take_rest();
     /// Fails on the first unread key, and lists the keys that are allowed. Must be called last.
-    void expect_all_taken() const;
+    void expect_no_unknown_keys() const;
 
 private:
     std::set<std::string> taken_;
@@ -92,7 +92,7 @@ auto read_json(std::string_view text, const std::string& file, const Read& read)
         const nlohmann::json json = parse_json_text(text, file);
         JsonObject top(JsonValue(json, file, ""));
         auto made = read(top);
-        top.expect_all_taken();
+        top.expect_no_unknown_keys();
         return made;
     } catch (const MalformedJson& malformed) {
         return Error{malformed.message};

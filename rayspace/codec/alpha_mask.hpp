@@ -26,13 +26,13 @@ inline int mask_sum(const AlphaLevels& mask, int x, int y, int width, int height
 }
 
 /// The weight in `sum` of samples that differ from the centre: 0 .. 12.
-constexpr int unlike_weight(int mask, int sum) {
+constexpr int differing_weight(int mask, int sum) {
     return mask != 0 ? 16 - sum : sum;
 }
 
 /// Alpha reconstructed from the mask only, with the object's mean edge softness.
 inline int smooth_alpha(const EdgeAlpha& edge, int mask, int sum) {
-    const int weight = unlike_weight(mask, sum);
+    const int weight = differing_weight(mask, sum);
     const int off = weight == 0 ? 0 : edge[static_cast<std::size_t>(kEdgeWeights * mask + weight - 1)];
     return mask != 0 ? 255 - off : off;
 }
@@ -51,11 +51,11 @@ constexpr int mask_context(int alpha) {
 /// Finishes a tile's alpha after its masks and units are known: smooths it, or codes the further bits.
 /// \param depths  values for syntax::alpha_depth if the coder writes; filled in.
 template <class Coder>
-class AlphaFinish {
+class AlphaFinisher {
 public:
-    AlphaFinish(Coder& coder, const DenseCode& code, const TileGrid& grid, const AlphaLevels& mask, AlphaLevels& depths,
-                const std::array<ConstPlaneViews, 2>& references, const TilePlace& place,
-                const ImageView<std::uint8_t>& out)
+    AlphaFinisher(Coder& coder, const DenseCode& code, const TileGrid& grid, const AlphaLevels& mask,
+                  AlphaLevels& depths, const std::array<ConstPlaneViews, 2>& references, const TileRect& place,
+                  const ImageView<std::uint8_t>& out)
         : coder_(coder),
           bits_(code.alpha_bits),
           edge_(code.edge_alpha),
@@ -102,21 +102,21 @@ private:
     }
 
     // The depth at (x, y) relative to the mask `own`. A sample with the other mask counts as deeper than all depths.
-    [[nodiscard]] int depth_as_seen(int x, int y, int own) const {
+    [[nodiscard]] int depth_relative_to(int x, int y, int own) const {
         return mask_.at(x, y) == own ? depths_.at(x, y) : (1 << (bits_ - 1)) - 1;
     }
 
     int code_depth(int x, int y, int mask, int sum, int predicted) {
         const bool has_west = x > 0;
         const bool has_north = y > 0;
-        int west = has_west ? depth_as_seen(x - 1, y, mask) : 0;
-        int north = has_north ? depth_as_seen(x, y - 1, mask) : west;
+        int west = has_west ? depth_relative_to(x - 1, y, mask) : 0;
+        int north = has_north ? depth_relative_to(x, y - 1, mask) : west;
         if (!has_west) west = north;
-        const int north_west = has_west && has_north ? depth_as_seen(x - 1, y - 1, mask) : west;
+        const int north_west = has_west && has_north ? depth_relative_to(x - 1, y - 1, mask) : west;
         // Gradient prediction, clamped to the range of both neighbours.
         const int guess = std::clamp(west + north - north_west, std::min(west, north), std::max(west, north));
         const int activity = std::abs(west - north_west) + std::abs(north - north_west);
-        const int beside = unlike_weight(mask, sum) != 0 ? 1 : 0;
+        const int beside = differing_weight(mask, sum) != 0 ? 1 : 0;
         return syntax::alpha_depth(coder_, bits_, guess, activity, beside, predicted, depths_.at(x, y));
     }
 
@@ -148,7 +148,7 @@ private:
     const AlphaLevels& mask_;
     AlphaLevels& depths_;
     const std::array<ConstPlaneViews, 2>& references_;
-    const TilePlace& place_;
+    const TileRect& place_;
     const ImageView<std::uint8_t>& out_;
 };
 

@@ -111,8 +111,7 @@ void filter_segment(std::uint8_t* first, std::ptrdiff_t across, std::ptrdiff_t a
 
 }  // namespace
 
-void filter_edges(const TileGrid& grid, const DenseCode& code, int step, const TilePlace& place,
-                  const PlaneViews& out) {
+void filter_edges(const TileGrid& grid, const DenseCode& code, int step, const TileRect& place, const PlaneViews& out) {
     if (!code.deblocking) return;
     for (int plane = 0; plane < kPlanes; ++plane) {
         const Strength strength = strength_of(code.plane_step(step, plane));

@@ -11,6 +11,6 @@ namespace rs::codec {
 
 /// Filters Y, U and V of the tile at `place` after all its units are decoded. `step`: the image's quantiser step. Does
 /// nothing if deblocking is off.
-void filter_edges(const TileGrid& grid, const DenseCode& code, int step, const TilePlace& place, const PlaneViews& out);
+void filter_edges(const TileGrid& grid, const DenseCode& code, int step, const TileRect& place, const PlaneViews& out);
 
 }  // namespace rs::codec

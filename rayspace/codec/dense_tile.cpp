@@ -27,13 +27,13 @@ private:
 }  // namespace
 
 void decode_dense_tile(const DenseCode& code, const ImageHead& head, std::span<const std::byte> bytes,
-                       const TilePlace& place, const std::array<ConstPlaneViews, 2>& references,
+                       const TileRect& place, const std::array<ConstPlaneViews, 2>& references,
                        ReferenceListener* listener, const PlaneViews& out) {
     Reader reader(bytes, code);
     DenseTileDecoder(reader, code, head, place, references, listener, out).decode();
 }
 
-void clear_tile(const TilePlace& place, const PlaneViews& out) {
+void clear_tile(const TileRect& place, const PlaneViews& out) {
     for (std::size_t plane = 0; plane < out.size(); ++plane) {
         for (int y = place.top; y < place.top + place.height; ++y) {
             std::memset(out[plane].row(y) + place.left, plane == 3 ? 0 : kEmptySample,

@@ -36,7 +36,7 @@ public:
     virtual void need(int reference, int left, int top, int right, int bottom) = 0;
 };
 
-struct TilePlace {
+struct TileRect {
     int left = 0;  // first sample in the image
     int top = 0;
     int width = 0;  // samples, clipped to the coded size
@@ -47,11 +47,11 @@ struct TilePlace {
 /// head.reference[r]. Any bytes decode to some samples: there are no errors. Cost: about a microsecond per 64 samples
 /// of each plane.
 void decode_dense_tile(const DenseCode& code, const ImageHead& head, std::span<const std::byte> bytes,
-                       const TilePlace& place, const std::array<ConstPlaneViews, 2>& references,
+                       const TileRect& place, const std::array<ConstPlaneViews, 2>& references,
                        ReferenceListener* listener, const PlaneViews& out);
 
 /// Clears a tile without bytes: transparent.
-void clear_tile(const TilePlace& place, const PlaneViews& out);
+void clear_tile(const TileRect& place, const PlaneViews& out);
 inline constexpr std::uint8_t kEmptySample = 128;  // Y, U and V of transparent samples
 
 }  // namespace rs::codec

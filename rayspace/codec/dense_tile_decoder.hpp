@@ -17,7 +17,7 @@ namespace rs::codec {
 template <class Coder>
 class DenseTileDecoder {
 public:
-    DenseTileDecoder(Coder& reader, const DenseCode& code, const ImageHead& head, const TilePlace& place,
+    DenseTileDecoder(Coder& reader, const DenseCode& code, const ImageHead& head, const TileRect& place,
                      const std::array<ConstPlaneViews, 2>& references, ReferenceListener* listener,
                      const PlaneViews& out)
         : code_(code),
@@ -36,7 +36,7 @@ public:
             for (int x = 0; x < place_.width; x += kMacroblock) macroblock(x / kBlock, y / kBlock);
         }
         if (code_.has_masks) {
-            AlphaFinish(reader_, code_, grid_, alpha_, depths_, references_, place_, out_[3]).finish();
+            AlphaFinisher(reader_, code_, grid_, alpha_, depths_, references_, place_, out_[3]).finish();
         }
         filter_edges(grid_, code_, head_.step, place_, out_);
     }
@@ -117,7 +117,7 @@ private:
         }
     }
 
-    // Decodes the unit's mask. Alpha of blocks that are not mixed is written now; AlphaFinish changes the blocks near
+    // Decodes the unit's mask. Alpha of blocks that are not mixed is written now; AlphaFinisher changes the blocks near
     // an edge.
     void mask(const PredictionUnit& unit, const UnitChoice& choice) {
         for (int i = 0; i < unit.blocks() * unit.blocks(); ++i) {
@@ -151,7 +151,7 @@ private:
     const DenseCode& code_;
     const ImageHead& head_;
     Coder& reader_;
-    TilePlace place_;
+    TileRect place_;
     int left_;
     int top_;
     const std::array<ConstPlaneViews, 2>& references_;

@@ -1,7 +1,11 @@
 #pragma once
-// Output that is never seen half-written: a temporary name beside the target, then a rename.
+// Output of files and folders: written under a temporary name beside the target, synced, and renamed, so that a reader
+// sees the old or the new contents, whatever ends the writer. Temporaries are named ".NAME.partial-RANDOM.EXT" and
+// locked (flock) while they are written; those that a killed process left are removed by the next writer of the same
+// target.
 
 #include "rayspace/base/result.hpp"
+#include "rayspace/file/temporary.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -12,69 +16,71 @@
 
 namespace rs {
 
-// A file that appears under `path` only when commit() succeeds. write() reports a full disk at once; commit() flushes
-// to the disk before it renames. Dropped before commit(), it removes its temporary file. Not thread-safe.
+/// File that appears under its name when commit() succeeds. Without commit() the temporary file is removed.
+/// Not thread-safe.
 class StagedFile {
 public:
-    // Fails when the folder does not exist or cannot be written.
+    /// \return an error if the folder of `path` does not exist or cannot be written, or if `path` is a folder, a
+    ///     device or a pipe.
     static Result<StagedFile> create(const std::filesystem::path& path);
-    StagedFile(StagedFile&& other) noexcept;
-    StagedFile& operator=(StagedFile&& other) noexcept;
-    ~StagedFile();
 
+    /// Reports a full disk at once.
     Status write(std::span<const std::byte> bytes);
-    // Overwrites bytes already written; [offset, offset + size) must lie inside them.
+    /// Overwrites bytes that are written already; [offset, offset + size) must lie inside them.
     Status write_at(std::uint64_t offset, std::span<const std::byte> bytes);
     [[nodiscard]] std::uint64_t size_bytes() const { return size_bytes_; }
     [[nodiscard]] const std::filesystem::path& target() const { return path_; }
-    // Where the bytes stand until commit(); for libraries that write the file themselves.
-    [[nodiscard]] const std::filesystem::path& temporary_path() const { return temporary_; }
+    /// File to write, for libraries that open it by name.
+    [[nodiscard]] const std::filesystem::path& temporary_path() const { return temporary_.path(); }
+    /// Syncs the file and renames it; an older file of that name is replaced.
     Status commit();
 
 private:
-    StagedFile() = default;
+    StagedFile(std::filesystem::path path, Temporary temporary);
     std::filesystem::path path_;
-    std::filesystem::path temporary_;
-    int descriptor_ = -1;
+    Temporary temporary_;
     std::uint64_t size_bytes_ = 0;
 };
 
-// A folder that appears under `path` only when commit() succeeds. It carries a list of its files (.rayspace-files),
-// which says what it holds, too: `contents`, in the plural, as "imported photographs". What stands at `path` already is
-// replaced as a whole only where it is empty, or a folder of ours in which nobody has added or changed a file and that
-// holds the same kind of thing, or does not say what it holds, as those of versions before 0.38; create() refuses
-// anything else at once, naming what would be lost. Dropped before commit(), the temporary folder is removed with all
-// it holds.
+/// Folder that appears under its name when commit() succeeds. Without commit() the temporary folder is removed with its
+/// files. commit() adds the file ".rayspace-folder": the kind of contents, such as "imported photographs", in the first
+/// line and the name of a file in each further one.
+///
+/// An existing folder is replaced as a whole if it is empty, or if it has the same kind of contents and only files
+/// that its ".rayspace-folder" names. Anything else is refused by create(), and again by commit(), unless `force` is
+/// set. Changed contents of the named files are not detected.
 class StagedFolder {
 public:
-    static Result<StagedFolder> create(const std::filesystem::path& path, std::string contents);
-    StagedFolder(StagedFolder&& other) noexcept;
-    StagedFolder& operator=(StagedFolder&& other) noexcept;
-    ~StagedFolder();
+    /// \param contents kind of contents, a noun in the plural
+    /// \param force replace an existing folder whatever it holds, but not one with the current folder inside
+    static Result<StagedFolder> create(const std::filesystem::path& path, std::string contents, bool force = false);
 
-    // Write files here.
-    [[nodiscard]] const std::filesystem::path& temporary_path() const { return temporary_; }
+    /// Folder to write the files to.
+    [[nodiscard]] const std::filesystem::path& temporary_path() const { return temporary_.path(); }
     Status commit();
 
 private:
-    StagedFolder() = default;
+    StagedFolder(std::filesystem::path path, std::string contents, bool force, Temporary temporary);
     std::filesystem::path path_;
     std::string contents_;
-    std::filesystem::path temporary_;
+    bool force_;
+    Temporary temporary_;
 };
 
-// Gives a finished file, or a folder that a StagedFolder has finished, another name on the same file system, with the
-// checks and in the way of commit(): whatever stood at `to` is replaced whole, or stays.
-Status move_into_place(const std::filesystem::path& from, const std::filesystem::path& to);
+/// Description of the option --force of tools that write folders.
+inline constexpr const char* kForceHelp = "Replace the output folder even if it holds other files";
 
-// Removes every temporary file and folder of this process that is not committed yet. For the moment before a process is
-// ended from outside (interruption.hpp): whoever still writes to them will fail. Thread-safe.
-void remove_staged_output();
+/// Refuses an output that would overwrite an input or another output of the same command. Tools call it before they
+/// write. Links are followed, and hard links are recognised.
+/// \param output file or folder to be written, which need not exist; empty: no output
+/// \param others files and folders that the command reads or writes besides; empty ones are skipped
+/// \return an error that names both if `output` is one of `others`, or a folder that contains one.
+Status refuse_overwriting_inputs(const std::filesystem::path& output, const std::vector<std::filesystem::path>& others);
 
-// The whole file, refused when it is larger than `cap_bytes`.
+/// \return the whole file, or an error if it is larger than `cap_bytes`.
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t cap_bytes);
 
-// Fails as StagedFile does; what stood under the name then still stands.
+/// Writes a StagedFile in one call; an older file stays as it is if this fails.
 Status write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Status write_file(const std::filesystem::path& path, const std::string& text);
 

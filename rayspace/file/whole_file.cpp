@@ -1,6 +1,5 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
-#include "rayspace/file/staging.hpp"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -11,12 +10,8 @@
 
 namespace rs {
 
-namespace {
-
-Result<std::vector<std::byte>> read_whole(const std::filesystem::path& path, std::uint64_t cap_bytes, bool is_input) {
-    const Result<int> opened = open_input(path, is_input);
-    if (!opened) return opened.error();
-    const int descriptor = *opened;
+Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t cap_bytes) {
+    RS_ASSIGN_OR_RETURN(const int descriptor, open_input(path));
     struct Closer {
         int descriptor;
         ~Closer() { ::close(descriptor); }
@@ -55,21 +50,10 @@ Result<std::vector<std::byte>> read_whole(const std::filesystem::path& path, std
     }
 }
 
-}  // namespace
-
-Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t cap_bytes) {
-    return read_whole(path, cap_bytes, true);
-}
-
-Result<std::vector<std::byte>> staging::read_old_file(const std::filesystem::path& path, std::uint64_t cap_bytes) {
-    return read_whole(path, cap_bytes, false);
-}
-
 Status write_file(const std::filesystem::path& path, std::span<const std::byte> bytes) {
-    Result<StagedFile> file = StagedFile::create(path);
-    if (!file) return file.error();
-    if (Status status = file->write(bytes); !status) return status;
-    return file->commit();
+    RS_ASSIGN_OR_RETURN(StagedFile file, StagedFile::create(path));
+    RS_TRY(file.write(bytes));
+    return file.commit();
 }
 
 Status write_file(const std::filesystem::path& path, const std::string& text) {

@@ -83,7 +83,7 @@ Status check_magic(std::span<const std::byte> start, const std::string& where) {
 
 Status ContainerReader::Source::read_header(std::uint32_t& chunk_count, std::uint64_t& table_checksum) const {
     RS_ASSIGN_OR_RETURN(const auto start, bytes_at(0, std::min(size_bytes, kHeader_bytes)));
-    if (Status status = check_magic(start, where); !status) return status;
+    RS_TRY(check_magic(start, where));
     if (start.size() < kHeader_bytes) return wrong("ends inside its header" + std::string(kDamaged));
 
     ByteReader header(start);

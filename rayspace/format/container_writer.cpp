@@ -35,7 +35,7 @@ Status ContainerWriter::add(ChunkName name, std::uint32_t index, std::span<const
                      " would make it larger than the format allows; use fewer or smaller images"};
     }
     table_.push_back({name, index, file_.size_bytes(), payload.size(), XXH64(payload.data(), payload.size(), 0)});
-    if (Status status = file_.write(payload); !status) return status;
+    RS_TRY(file_.write(payload));
     static constexpr std::array<std::byte, kAlignment_bytes> kZeros{};
     return file_.write(std::span(kZeros).first(static_cast<std::size_t>(padded_bytes - payload.size())));
 }
@@ -61,8 +61,8 @@ Status ContainerWriter::commit() {
     RS_CHECK(header.size() == kHeaderChecked_bytes);
     header.put(std::uint64_t{XXH64(header.bytes().data(), header.size(), 0)});
 
-    if (Status status = file_.write_at(0, header.bytes()); !status) return status;
-    if (Status status = file_.write_at(kTableOffset_bytes, table.bytes()); !status) return status;
+    RS_TRY(file_.write_at(0, header.bytes()));
+    RS_TRY(file_.write_at(kTableOffset_bytes, table.bytes()));
     return file_.commit();
 }
 

@@ -33,7 +33,7 @@ public:
 
     // Measures without reading large chunks. The memory of small ones is bounded by their size; the worst case is the
     // parsed text of a rig.
-    Result<ReadingMemory> measure() {
+    Result<ReadMemory> measure() {
         constexpr std::uint64_t kParsedOverText = 24;
         constexpr std::uint64_t kSmallThings_bytes = 1U << 20;
         RS_TRY(read_stage(ReadStage::geometry));
@@ -57,7 +57,7 @@ public:
             largest_chunk + largest_passing + kParsedOverText * partial_.object.rig_json.size();
         const std::uint64_t images = wanted_images();
         const std::uint64_t passing_planes = partial_.coded && options_.decode ? images * coded_planes_bytes() : 0;
-        ReadingMemory memory;
+        ReadMemory memory;
         memory.most_bytes = static_cast<std::int64_t>(kept + needed_bytes_ + kept_by_maps + passing);
         memory.object_bytes = static_cast<std::int64_t>(kept + needed_bytes_ + kept_by_maps - passing_planes);
         memory.width = partial_.object.width;
@@ -68,7 +68,7 @@ public:
 
 private:
     [[nodiscard]] std::uint64_t memory_of_geometry() const {
-        std::uint64_t bytes = static_cast<std::uint64_t>(memory_of(partial_.object));
+        std::uint64_t bytes = static_cast<std::uint64_t>(object_memory_bytes(partial_.object));
         for (const Ring& ring : partial_.object.rings)
             bytes += sizeof(NormalLine) * ring.views.size() * static_cast<std::uint64_t>(ring.planes);
         return bytes;
@@ -108,7 +108,7 @@ private:
         if (stage == ReadStage::images) return read_images();
         for (const ChunkScope each : {ChunkScope::object, ChunkScope::ring}) {
             for (std::uint32_t index = 0; index < max_chunk_count(each, partial_.object); ++index) {
-                if (Status status = read_each(each, stage, index); !status) return status;
+                RS_TRY(read_each(each, stage, index));
             }
         }
         return {};
@@ -131,13 +131,13 @@ private:
     Status read_each(ChunkScope each, ReadStage stage, std::uint32_t index) {
         for (const ChunkKind& kind : chunk_table()) {
             if (kind.each != each || kind.stage != stage) continue;
-            if (Status status = read_chunk(kind, index); !status) return status;
+            RS_TRY(read_chunk(kind, index));
         }
         return {};
     }
 
     Status check_geometry() {
-        if (Status status = check_chunks(); !status) return status;
+        RS_TRY(check_chunks());
         return check_memory();
     }
 
@@ -219,7 +219,7 @@ private:
 }  // namespace
 
 Status write_object(const std::filesystem::path& path, const RaySpaceObject& object, Progress* progress) {
-    if (Status status = validate_object(object, path.string()); !status) return status;
+    RS_TRY(validate_object(object, path.string()));
     for (std::size_t i = 0; i < object.images.size(); ++i) {
         if (object.coded ? !object.coded->images[i].loaded() : object.images[i].empty()) {
             return Error{path.string() + ": image " + std::to_string(i) + " is not loaded; an object is written whole"};
@@ -229,7 +229,7 @@ Status write_object(const std::filesystem::path& path, const RaySpaceObject& obj
     RS_ASSIGN_OR_RETURN(auto writer, ContainerWriter::create(path, static_cast<std::uint32_t>(order.size())));
     if (progress != nullptr) progress->start("writing", static_cast<std::int64_t>(order.size()));
     for (const ChunkKey key : order) {
-        if (Status status = writer.add(key.name, key.index, chunk_payload(object, key)); !status) return status;
+        RS_TRY(writer.add(key.name, key.index, chunk_payload(object, key)));
         if (progress != nullptr) progress->advance();
     }
     Status status = writer.commit();
@@ -246,7 +246,7 @@ Result<RaySpaceObject> read_object(const std::filesystem::path& path, const Read
     return read_object(container, options);
 }
 
-Result<ReadingMemory> memory_to_read(const ContainerReader& container, const ReadObjectOptions& options) {
+Result<ReadMemory> estimate_read_memory(const ContainerReader& container, const ReadObjectOptions& options) {
     return ObjectReader(container, options).measure();
 }
 

@@ -4,7 +4,7 @@
 
 namespace rs {
 
-std::int64_t memory_of(const RaySpaceObject& object) {
+std::int64_t object_memory_bytes(const RaySpaceObject& object) {
     std::int64_t bytes = sizeof(RaySpaceObject);
     for (const object_chunks::ChunkKind& kind : object_chunks::chunk_table()) {
         if (kind.heap_bytes == nullptr) continue;

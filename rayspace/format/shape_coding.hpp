@@ -1,7 +1,7 @@
 #pragma once
 // Entropy coding of a shape map's cells with a binary arithmetic coder: encode/FORMAT.md, section "shap", "Cells".
 
-#include "rayspace/object/shape_map.hpp"
+#include "rayspace/api/types/shape_map.hpp"
 
 #include <cstddef>
 #include <span>

@@ -172,7 +172,7 @@ ordered_json frame_to_json(const RigView& view, bool own_intrinsics) {
     return frame;
 }
 
-std::string dumped(const ordered_json& value) {
+std::string dump_json(const ordered_json& value) {
     // Names that are not UTF-8 must not throw here; write_rig() rejects them before.
     return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
@@ -213,10 +213,10 @@ std::string rig_to_json(const Rig& rig) {
     top.erase("frames");
 
     std::string text = "{\n";
-    for (const auto& [key, value] : top.items()) text += "  " + dumped(key) + ": " + dumped(value) + ",\n";
+    for (const auto& [key, value] : top.items()) text += "  " + dump_json(key) + ": " + dump_json(value) + ",\n";
     text += "  \"frames\": [";
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
-        text += (i == 0 ? "\n    " : ",\n    ") + dumped(frame_to_json(rig.views[i], !shared));
+        text += (i == 0 ? "\n    " : ",\n    ") + dump_json(frame_to_json(rig.views[i], !shared));
     }
     return text + "\n  ]\n}\n";
 }

@@ -26,7 +26,7 @@ std::array<double, 2 * kWindowRadius + 1> gaussian_window() {
 }
 
 // Separable Gaussian, clipped at the edges and renormalised there.
-Image<float> blurred(const Image<float>& source) {
+Image<float> gaussian_blur(const Image<float>& source) {
     static const auto kWindow = gaussian_window();
     Image<float> across(source.width(), source.height());
     Image<float> result(source.width(), source.height());
@@ -71,8 +71,8 @@ double mean_ssim(ConstImageView<Rgba8> a, ConstImageView<Rgba8> b, std::int64_t 
                 pab(x, y) = va * vb;
             }
         }
-        const Image<float> ma = blurred(pa), mb = blurred(pb), maa = blurred(paa), mbb = blurred(pbb),
-                           mab = blurred(pab);
+        const Image<float> ma = gaussian_blur(pa), mb = gaussian_blur(pb), maa = gaussian_blur(paa),
+                           mbb = gaussian_blur(pbb), mab = gaussian_blur(pab);
         for (int y = 0; y < height; ++y) {
             for (int x = 0; x < width; ++x) {
                 if (a(x, y).a == 0 && b(x, y).a == 0) continue;

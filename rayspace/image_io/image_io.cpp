@@ -78,12 +78,12 @@ Status check_size(const std::string& shown, int width, int height) {
 // Writes an image. `encode` returns the file's bytes from the backend.
 template <class Pixel, class Encode>
 Status write_encoded(const fs::path& path, ConstImageView<Pixel> image, const Encode& encode) {
-    if (Status status = check_size(path.string(), image.width(), image.height()); !status) return status;
+    RS_TRY(check_size(path.string(), image.width(), image.height()));
     RS_ASSIGN_OR_RETURN(const auto backend, backend_for(path));
     // Check that the file can be written before encoding.
     RS_ASSIGN_OR_RETURN(auto file, StagedFile::create(path));
     RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, encode(*backend));
-    if (Status status = file.write(bytes); !status) return status;
+    RS_TRY(file.write(bytes));
     return file.commit();
 }
 
@@ -198,7 +198,7 @@ Status VideoWriter::add(ConstImageView<Rgba8> frame) {
 
 Status VideoWriter::finish() {
     RS_CHECK(backend_ != nullptr && backend_->encoder != nullptr);
-    if (Status status = backend_->encoder->finish(); !status) return status;
+    RS_TRY(backend_->encoder->finish());
     backend_->encoder.reset();
     return backend_->file.commit();
 }

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kLinesOfHead = 26;
 constexpr std::size_t kLinesOfSet = 6;
 constexpr std::size_t kRatios = 10;
-constexpr int kMostSets = 20;
+constexpr int kMaxSets = 20;
 
 class Lines {
 public:
@@ -100,7 +100,7 @@ Result<Luminaire> parse_eulumdat(std::string_view text, const std::string& name)
                                   "must be a multiple of " +
                                   std::to_string(divisor));
     }
-    RS_ASSIGN_OR_RETURN(const int sets, lines.whole(26, "the number of lamp sets", 1, kMostSets));
+    RS_ASSIGN_OR_RETURN(const int sets, lines.whole(26, "the number of lamp sets", 1, kMaxSets));
     // Lamp sets are alternatives; the first is used.
     RS_ASSIGN_OR_RETURN(const double lamps, lines.number(kLinesOfHead + 1, "the number of lamps"));
     RS_ASSIGN_OR_RETURN(const double lumens, lines.number(kLinesOfHead + 3, "the lamps' luminous flux"));

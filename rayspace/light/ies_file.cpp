@@ -16,7 +16,7 @@ namespace rs {
 namespace {
 
 constexpr double kMetresPerFoot = 0.3048;
-constexpr int kMostTiltAngles = 1024;
+constexpr int kMaxTiltAngles = 1024;
 
 enum class Edition { k1986, k1991, k1995, k2002, k2019 };
 
@@ -89,7 +89,7 @@ Result<TiltTable> read_tilt(NumberStream& numbers) {
     TiltTable tilt;
     RS_ASSIGN_OR_RETURN(const int geometry, numbers.next_integer("the lamp-to-luminaire geometry of TILT", 1, 3));
     tilt.lamp_to_luminaire = geometry;
-    RS_ASSIGN_OR_RETURN(const int count, numbers.next_integer("the number of tilt angles", 1, kMostTiltAngles));
+    RS_ASSIGN_OR_RETURN(const int count, numbers.next_integer("the number of tilt angles", 1, kMaxTiltAngles));
     RS_ASSIGN_OR_RETURN(std::vector<double> angles, numbers.next(static_cast<std::size_t>(count), "tilt angle"));
     if (!std::is_sorted(angles.begin(), angles.end())) return numbers.error("tilt angles must ascend");
     RS_ASSIGN_OR_RETURN(std::vector<double> factors, numbers.next(static_cast<std::size_t>(count), "tilt factor"));

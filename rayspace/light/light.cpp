@@ -24,7 +24,7 @@ glm::vec3 irradiance_at(const Light& light, const glm::dvec3& position) {
     return model_of(light).irradiance_at(light, position);
 }
 
-Light punctual_of(const Light& light) {
+Light to_punctual_light(const Light& light) {
     Light punctual = model_of(light).punctual(light);
     punctual.everywhere = light.everywhere;
     punctual.name = light.name;

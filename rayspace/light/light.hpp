@@ -71,7 +71,7 @@ glm::vec3 irradiance_at(const Light& light, const glm::dvec3& position);
 
 /// Approximates a light by a point, spot or directional light, for renderers without other kinds: area lights and
 /// luminaires become spots with the same intensity along the aim and about the same width, without emission backwards.
-Light punctual_of(const Light& light);
+Light to_punctual_light(const Light& light);
 
 /// Rotates a light about Y; positive angles from +Z towards +X.
 Light rotate_about_y(const Light& light, double angle_rad);

@@ -5,7 +5,7 @@
 
 namespace rs {
 
-// A single rounding to float, so that entry_of() can invert it exactly.
+// A single rounding to float, so that entry_from_light() can invert it exactly.
 glm::vec3 colour_of(const LightEntry& entry, double unit) {
     return glm::vec3(entry.radiance ? *entry.radiance * entry.colour : entry.power / unit * entry.colour);
 }
@@ -45,7 +45,7 @@ Light light_of(const LightEntry& entry) {
     return light;
 }
 
-LightEntry entry_of(const Light& light) {
+LightEntry entry_from_light(const Light& light) {
     const LightModel& model = model_of(light);
     LightEntry entry;
     entry.kind = light.kind;

@@ -17,15 +17,15 @@
 namespace rs {
 
 // Limits of numbers in light lists.
-inline constexpr double kMostDistant = 1e6;
+inline constexpr double kMaxLightDistance = 1e6;
 inline constexpr double kShortest = 1e-6;
-inline constexpr double kStrongest = 1e12;
+inline constexpr double kMaxLightStrength = 1e12;
 inline constexpr double kMinCutOff_deg = 0.1;
 
 struct LightEntry {
     LightKind kind = LightKind::kPoint;
     std::string name{};    // may be empty
-    glm::dvec3 colour{1};  // factor in linear light, 0..kStrongest
+    glm::dvec3 colour{1};  // factor in linear light, 0..kMaxLightStrength
     // Used without `radiance`. Directional: lux on a surface that faces it; point and spot: candela; area: lumens;
     // luminaire: factor on the file's intensity (dimmer).
     double power = 1;
@@ -57,7 +57,7 @@ Light light_of(const LightEntry& entry);
 /// Converts a light to an entry. light_of() restores colours, locations and directions bit-exactly, and angles within
 /// rounding, for directional lights, and for point and spot lights with a beam not wider than the cut-off, a radius
 /// within the limits, and either inverse-square falloff or a maximum of `colour`.
-LightEntry entry_of(const Light& light);
+LightEntry entry_from_light(const Light& light);
 
 // Axes perpendicular to the aim, rotated about it by `turn_rad`: along x across = -aim, so that an area light with
 // these half sides emits towards its aim. Without rotation, across is the projection of +X, or of +Z for an aim close

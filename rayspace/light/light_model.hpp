@@ -89,7 +89,7 @@ public:
     // Radiant flux, W. kPoint: of an inverse-square light with the same irradiance at `distance`, or at the radius if
     // that is smaller. kDistant: 0.
     [[nodiscard]] virtual glm::dvec3 flux(const Light& light, double distance) const;
-    // See rs::punctual_of().
+    // See rs::to_punctual_light().
     [[nodiscard]] virtual Light punctual(const Light& light) const { return light; }
 
     // kDistant and kPoint: see rs::irradiance_at().
@@ -105,7 +105,7 @@ public:
     [[nodiscard]] virtual bool covers(const glm::vec2& at) const;
     [[nodiscard]] virtual glm::vec2 point(const glm::vec2& u) const;
 
-    // Parts of light_of() and entry_of() specific to the kind.
+    // Parts of light_of() and entry_from_light() specific to the kind.
     virtual void describe(const LightEntry& entry, Light& light) const = 0;
     virtual void describe(const Light& light, LightEntry& entry) const = 0;
     // Default for a new light.

@@ -17,7 +17,7 @@ bool is_angle(double found, double target) {
     return std::abs(found - target) <= kAngleTolerance_deg;
 }
 
-std::string shown(double value) {
+std::string format_number(double value) {
     std::string text = std::to_string(value);
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();
@@ -27,12 +27,12 @@ std::string shown(double value) {
 Status check_angles(const std::vector<double>& angles, const std::string& name, double least, double most) {
     if (angles.empty()) return Error{"there are no " + name + " angles"};
     for (std::size_t i = 0; i < angles.size(); ++i) {
-        const std::string which = name + " angle " + std::to_string(i + 1) + " is " + shown(angles[i]);
+        const std::string subject = name + " angle " + std::to_string(i + 1) + " is " + format_number(angles[i]);
         if (!(angles[i] >= least - kAngleTolerance_deg && angles[i] <= most + kAngleTolerance_deg)) {
-            return Error{which + "; it must be " + shown(least) + ".." + shown(most)};
+            return Error{subject + "; it must be " + format_number(least) + ".." + format_number(most)};
         }
         if (i > 0 && !(angles[i] > angles[i - 1])) {
-            return Error{which + ", after " + shown(angles[i - 1]) + "; angles must ascend"};
+            return Error{subject + ", after " + format_number(angles[i - 1]) + "; angles must ascend"};
         }
     }
     return {};
@@ -61,7 +61,7 @@ Status check_table(const PhotometricTable& table) {
     }
     for (const double value : table.candela) {
         if (!std::isfinite(value) || value < 0)
-            return Error{"an intensity is " + shown(value) + "; it must be 0 or more"};
+            return Error{"an intensity is " + format_number(value) + "; it must be 0 or more"};
     }
     if (!round) return {};
     const double first = table.horizontal_deg.front();
@@ -69,7 +69,7 @@ Status check_table(const PhotometricTable& table) {
     const bool known = (is_angle(first, 0) && (is_angle(last, 0) || is_angle(last, 90) || last >= 180)) ||
                        (is_angle(first, 90) && is_angle(last, 270));
     if (known) return {};
-    return Error{"horizontal angles go from " + shown(first) + " to " + shown(last) +
+    return Error{"horizontal angles go from " + format_number(first) + " to " + format_number(last) +
                  "; they must end at 0, 90, 180 or 360, or go from 90 to 270"};
 }
 
@@ -106,7 +106,7 @@ std::vector<Plane> planes_of_circle(const std::vector<double>& horizontal_deg) {
 }
 
 // Mirrors angles that start at 0 to negative ones.
-std::vector<Plane> angles_of_half(const std::vector<double>& angles_deg) {
+std::vector<Plane> mirrored_angles(const std::vector<double>& angles_deg) {
     std::vector<Plane> all;
     for (std::size_t i = 0; i < angles_deg.size(); ++i) all.emplace_back(angles_deg[i], i);
     if (!is_angle(angles_deg.front(), 0)) return all;
@@ -151,8 +151,8 @@ Result<PhotometricWeb> PhotometricWeb::create(const PhotometricTable& table) {
         for (std::size_t v = 0; v < rows; ++v) polars.emplace_back(table.vertical_deg[v], v);
     } else {
         web.zero_ = {0, -1, 0};
-        azimuths = angles_of_half(table.type == Goniometer::kTypeA ? table.horizontal_deg : table.vertical_deg);
-        polars = angles_of_half(table.type == Goniometer::kTypeA ? table.vertical_deg : table.horizontal_deg);
+        azimuths = mirrored_angles(table.type == Goniometer::kTypeA ? table.horizontal_deg : table.vertical_deg);
+        polars = mirrored_angles(table.type == Goniometer::kTypeA ? table.vertical_deg : table.horizontal_deg);
         std::reverse(polars.begin(), polars.end());
         for (auto& [angle, number] : polars) angle = 90 - angle;
         const glm::dvec3 across(1, 0, 0), upwards(0, 0, -1);

@@ -77,7 +77,7 @@ public:
             entry.radiance = glm::dvec3(light.colour);
             entry.attenuation = glm::dvec3(light.attenuation);
         }
-        if (light.radius <= kMostDistant) entry.reach = std::max(light.radius, kShortest);
+        if (light.radius <= kMaxLightDistance) entry.reach = std::max(light.radius, kShortest);
     }
     [[nodiscard]] LightEntry example() const override {
         LightEntry lamp;

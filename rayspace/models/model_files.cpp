@@ -72,7 +72,7 @@ bool is_whole_glb(std::span<const std::byte> bytes) {
 
 // The material file from its first newmtl on, since earlier statements crash Assimp, without leading spaces, which hide
 // statements from it; a single comment if there is no newmtl, since Assimp rejects files of fewer than 8 bytes.
-std::vector<std::byte> plain_materials(std::vector<std::byte> bytes) {
+std::vector<std::byte> extract_materials(std::vector<std::byte> bytes) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     std::size_t kept = 0;
     for (std::size_t line = 0; line < text.size();) {
@@ -143,7 +143,7 @@ Assimp::IOStream* ModelFiles::Open(const char* path, const char* mode) {
         refusal_ = std::string(path) + ": is a damaged .glb file; export it again";
         return nullptr;
     }
-    return new MemoryFile(lower_case_extension(path) == ".mtl" ? plain_materials(std::move(*bytes))
+    return new MemoryFile(lower_case_extension(path) == ".mtl" ? extract_materials(std::move(*bytes))
                                                                : std::move(*bytes));
 }
 
@@ -151,7 +151,7 @@ void ModelFiles::Close(Assimp::IOStream* stream) {
     delete stream;
 }
 
-ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes) {
+ModelFiles& restrict_to_models(Assimp::Importer& importer, std::uint64_t cap_bytes) {
     constexpr std::array<const char*, 3> kWanted = {" obj ", " gltf ", " glb "};
     std::vector<Assimp::BaseImporter*> others;
     for (std::size_t i = 0; i < importer.GetImporterCount(); ++i) {
@@ -170,14 +170,14 @@ ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes
     return *files;
 }
 
-std::string shown_error(const char* words) {
+std::string single_line_error(const char* words) {
     std::string text = words;
     std::ranges::replace_if(
         text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
     return printable(text);
 }
 
-Result<const aiScene*> post_processed(Assimp::Importer& importer, unsigned steps, const std::string& file) {
+Result<const aiScene*> post_process(Assimp::Importer& importer, unsigned steps, const std::string& file) {
     const aiScene* const model = importer.GetScene();
     if (model == nullptr) return model;
     RS_TRY(check_finite(*model, file));

@@ -36,15 +36,15 @@ private:
 /// Restricts `importer` to OBJ, glTF and GLB, and to the returned file access, which it owns. By default Assimp guesses
 /// the format from a file's contents, so that all its readers can be reached. In files without normals, edges of more
 /// than 60 degrees stay sharp.
-ModelFiles& read_models_only(Assimp::Importer& importer, std::uint64_t cap_bytes);
+ModelFiles& restrict_to_models(Assimp::Importer& importer, std::uint64_t cap_bytes);
 
 /// Assimp's message in one line.
-std::string shown_error(const char* words);
+std::string single_line_error(const char* words);
 
 /// Applies the aiProcess `steps` to the scene just read by `importer` without post-processing, and validates its
 /// structure. Faces of two corners are marked as lines, which Assimp's OBJ reader omits. Vertices or texture
 /// coordinates that are not finite are an error, since post-processing would merge them with their neighbours. `file`
 /// names the scene in errors. Null if Assimp rejects it.
-Result<const aiScene*> post_processed(Assimp::Importer& importer, unsigned steps, const std::string& file);
+Result<const aiScene*> post_process(Assimp::Importer& importer, unsigned steps, const std::string& file);
 
 }  // namespace rs

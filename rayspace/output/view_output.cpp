@@ -28,7 +28,7 @@ std::string numbered_image_name(std::size_t number) {
     return name;
 }
 
-Rig rig_of_views(const std::vector<Camera>& cameras) {
+Rig make_rig_of_views(const std::vector<Camera>& cameras) {
     Rig rig;
     for (const Camera& camera : cameras) {
         RigView view;
@@ -50,7 +50,7 @@ Status write_view_video(const std::string& output, double frames_per_second, con
         if ((frame.width() & ~1) != width || (frame.height() & ~1) != height) {
             return Error{output + ": a video needs views of one size; use --size"};
         }
-        if (Status status = video.add(frame.view().crop(0, 0, width, height)); !status) return status;
+        RS_TRY(video.add(frame.view().crop(0, 0, width, height)));
         progress.advance();
     }
     return video.finish();

@@ -23,7 +23,7 @@ Result<OutputKind> output_kind(const std::string& output);
 std::string numbered_image_name(std::size_t number);
 
 /// The rig of a folder whose images have numbered names.
-Rig rig_of_views(const std::vector<Camera>& cameras);
+Rig make_rig_of_views(const std::vector<Camera>& cameras);
 
 /// Renders one view; the image has the camera's size.
 using RenderView = std::function<Result<Image<Rgba8>>(const Camera&)>;

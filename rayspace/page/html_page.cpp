@@ -136,7 +136,7 @@ void HtmlPage::table(const std::vector<std::string>& header, const std::vector<s
 Status HtmlPage::images(std::span<const CaptionedImage> row, int longest_side_px, ImageLayout layout) {
     std::string markup = layout == ImageLayout::kLine ? "<div class=\"images line\">\n" : "<div class=\"images\">\n";
     for (const CaptionedImage& captioned : row) {
-        const Image<Rgba8> small = scaled_down(captioned.image, longest_side_px);
+        const Image<Rgba8> small = downscale(captioned.image, longest_side_px);
         RS_ASSIGN_OR_RETURN(const auto png, encode_png(small, captioned.caption));
         const std::string caption = escaped(captioned.caption);
         markup += "<figure><img alt=\"" + caption + "\" width=\"" + std::to_string(small.width()) + "\" height=\"" +

@@ -62,8 +62,8 @@ std::string curve(const PlotSeries& series, const PlotFrame& frame, const std::s
 
 }  // namespace
 
-std::string standalone_svg_of(const LinePlot& plot) {
-    return standalone_svg(svg_of(plot));
+std::string draw_standalone_svg(const LinePlot& plot) {
+    return standalone_svg(draw_svg(plot));
 }
 
 int AxisTicks::count() const {
@@ -117,7 +117,7 @@ PlotFrame plot_frame(const LinePlot& plot) {
     return frame;
 }
 
-std::string svg_of(const LinePlot& plot) {
+std::string draw_svg(const LinePlot& plot) {
     const PlotFrame frame = plot_frame(plot);
     std::string svg = svg_head(plot.width_px, plot.height_px, plot.title);
     svg += axes(plot, frame);

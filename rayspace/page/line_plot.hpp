@@ -43,9 +43,9 @@ struct PlotFrame {
 PlotFrame plot_frame(const LinePlot& plot);
 
 /// Draws a plot. Colours are the variables --s0 .. --s4 of HtmlPage's style, in turn. Text is escaped.
-std::string svg_of(const LinePlot& plot);
+std::string draw_svg(const LinePlot& plot);
 
 /// Draws a plot as a standalone SVG file with colours, on white.
-std::string standalone_svg_of(const LinePlot& plot);
+std::string draw_standalone_svg(const LinePlot& plot);
 
 }  // namespace rs

@@ -60,7 +60,7 @@ std::uint8_t byte_of(float value) {
 
 }  // namespace
 
-Image<Rgba8> scaled_down(ConstImageView<Rgba8> image, int longest_side_px) {
+Image<Rgba8> downscale(ConstImageView<Rgba8> image, int longest_side_px) {
     RS_CHECK(longest_side_px >= 1);
     const int longest = std::max(image.width(), image.height());
     const double scale = longest > longest_side_px ? static_cast<double>(longest_side_px) / longest : 1.0;
@@ -125,7 +125,7 @@ Image<Rgba8> error_image(ConstImageView<Rgba8> a, ConstImageView<Rgba8> b, int f
     return image;
 }
 
-std::vector<int> evenly_spread(int count, int wanted) {
+std::vector<int> select_evenly(int count, int wanted) {
     const int taken = std::min(count, wanted);
     std::vector<int> numbers;
     numbers.reserve(static_cast<std::size_t>(std::max(taken, 0)));

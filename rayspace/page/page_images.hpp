@@ -15,7 +15,7 @@ struct CaptionedImage {
 
 /// Reduces an image to fit into longest_side_px x longest_side_px (>= 1) with its proportions kept, by area averages in
 /// linear light weighted by alpha. Smaller images are copied.
-Image<Rgba8> scaled_down(ConstImageView<Rgba8> image, int longest_side_px);
+Image<Rgba8> downscale(ConstImageView<Rgba8> image, int longest_side_px);
 
 /// Perceptual colour maps, opaque; `value` is clamped to 0..1, NaN counts as 0.
 Rgba8 depth_colour(float value);  // Turbo: blue near 0, green, red near 1
@@ -32,6 +32,6 @@ Image<Rgba8> error_image(ConstImageView<Rgba8> a, ConstImageView<Rgba8> b, int f
 inline constexpr int kErrorFullScale = 64;
 
 /// `wanted` evenly spaced numbers of 0 .. count - 1 (all if there are fewer), including 0.
-std::vector<int> evenly_spread(int count, int wanted);
+std::vector<int> select_evenly(int count, int wanted);
 
 }  // namespace rs

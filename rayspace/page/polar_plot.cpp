@@ -15,7 +15,7 @@ constexpr double kLine_px = 18;
 constexpr double kMargin_px = 34;
 
 // Shortens a title to the plot's width, at a UTF-8 character boundary.
-std::string shortened(const std::string& title) {
+std::string shorten(const std::string& title) {
     std::size_t most = 58;
     if (title.size() <= most) return title;
     while (most > 0 && (static_cast<unsigned char>(title[most]) & 0xC0U) == 0x80) --most;
@@ -60,7 +60,7 @@ std::string rings_and_spokes(const PolarFrame& frame, const AxisTicks& ticks) {
 
 }  // namespace
 
-std::string standalone_svg_of(const PolarPlot& plot) {
+std::string draw_standalone_svg(const PolarPlot& plot) {
     double most = 0;
     for (const PolarCurve& curve : plot.curves) {
         RS_CHECK(curve.angle_rad.size() == curve.radius.size());
@@ -75,7 +75,7 @@ std::string standalone_svg_of(const PolarPlot& plot) {
     frame.most = ticks.high;
     std::string svg = svg_head(plot.side_px, static_cast<int>(std::ceil(head_px)) + plot.side_px, plot.title);
     double y = kLine_px + 4;
-    svg += svg_text(16, y, "start", shortened(plot.title), " style=\"font-weight:600\"");
+    svg += svg_text(16, y, "start", shorten(plot.title), " style=\"font-weight:600\"");
     for (const std::string& note : plot.notes) svg += svg_text(16, y += kLine_px, "start", note);
     for (std::size_t n = 0; n < plot.curves.size(); ++n) {
         y += kLine_px;

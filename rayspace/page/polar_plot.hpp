@@ -22,6 +22,6 @@ struct PolarPlot {
 };
 
 /// Draws the plot in black on white, with rings at round numbers and spokes every 30 degrees. Text is escaped.
-std::string standalone_svg_of(const PolarPlot& plot);
+std::string draw_standalone_svg(const PolarPlot& plot);
 
 }  // namespace rs

@@ -1,6 +1,6 @@
 #include "rayspace/tool/interruption.hpp"
 
-#include "rayspace/file/file_output.hpp"
+#include "rayspace/file/temporary.hpp"
 
 #include <pthread.h>
 
@@ -37,7 +37,7 @@ void InterruptionGuard::watch() {
     do {
         if (sigwait(&watched_, &received) != 0 || done_) return;
     } while (received == kWake);
-    remove_staged_output();
+    remove_temporaries();
     // Ends by the signal's default action, so that the shell sees the usual status.
     std::signal(received, SIG_DFL);
     pthread_sigmask(SIG_UNBLOCK, &watched_, nullptr);

@@ -7,7 +7,7 @@
 
 namespace rs {
 
-/// During its lifetime, SIGINT, SIGTERM and SIGHUP remove the staged output of this process (file_output.hpp) before
+/// During its lifetime, SIGINT, SIGTERM and SIGHUP remove the temporary output of this process (temporary.hpp) before
 /// they end it in the default way. Must be created on the main thread before any other thread, so that all threads
 /// inherit its signal mask.
 class InterruptionGuard {

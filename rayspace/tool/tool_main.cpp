@@ -81,7 +81,6 @@ int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run
     }
     const InterruptionGuard guard;
     std::signal(SIGXFSZ, SIG_IGN);  // writes beyond the limit return an error instead
-    keep_inputs();
     try {
         const Status status = run();
         if (!status) return fail(app, status.error().message);

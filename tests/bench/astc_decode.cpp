@@ -1,5 +1,5 @@
-// How fast astcenc unpacks whole images, beside what bench_core measures of the engine: it prints the time of its
-// decoder alone. Left out, with a message, where the command is not there.
+// Decoding speed of astcenc on whole images, for comparison with the engine's in bench_core. Uses the decoding time
+// that astcenc prints. Skipped, with a message, if the command is not installed.
 
 #include "rayspace/geometry/rig.hpp"
 #include "tests/bench/ball_image.hpp"
@@ -20,7 +20,7 @@ namespace {
 constexpr int kSide = 512;
 constexpr const char* kThreads = "2";
 
-// A folder that goes when it is done with.
+// Temporary folder, removed by the destructor.
 class Folder {
 public:
     Folder() : path_(std::filesystem::temp_directory_path() / ("rayspace-astc-" + std::to_string(getpid()))) {
@@ -38,7 +38,7 @@ private:
     std::filesystem::path path_;
 };
 
-// From "    Decoding time:               0.0331 s".
+// Parses "    Decoding time:               0.0331 s".
 std::optional<double> decoding_seconds(const std::string& printed) {
     const std::string label = "Decoding time:";
     const std::size_t at = printed.find(label);
@@ -51,7 +51,7 @@ void astc_decode(benchmark::State& state, const char* block) {
     const Rig rig = make_ring(
         {.count = 4, .distance = 3.5, .fl_px = 1.4 * kSide, .width = kSide, .height = kSide, .first_rad = 0.01});
     const Image<Rgba8> ball = ball_image(rig.views.front().camera);
-    const cv::Mat bytes(kSide, kSide, CV_8UC4, const_cast<Rgba8*>(ball.data()));  // written from only
+    const cv::Mat bytes(kSide, kSide, CV_8UC4, const_cast<Rgba8*>(ball.data()));  // read only
     if (!cv::imwrite(folder.file("ball.png"), bytes)) return state.SkipWithError("the image could not be written");
     const auto coded =
         run_tool({"astcenc", "-cs", folder.file("ball.png"), folder.file("ball.astc"), block, "-medium", "-silent"});
@@ -60,7 +60,7 @@ void astc_decode(benchmark::State& state, const char* block) {
         const auto printed =
             run_tool({"astcenc", "-ds", folder.file("ball.astc"), folder.file("out.png"), "-j", kThreads});
         const auto seconds = printed ? decoding_seconds(*printed) : std::nullopt;
-        if (!seconds) return state.SkipWithError("astcenc -ds does not tell its decoding time");
+        if (!seconds) return state.SkipWithError("astcenc -ds does not print its decoding time");
         state.SetIterationTime(*seconds);
     }
     state.SetItemsProcessed(state.iterations() * kSide * kSide);

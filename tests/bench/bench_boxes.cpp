@@ -2,9 +2,9 @@
 //
 //     bench_boxes FOLDER [--size PX] [--passes N] [--paths N] [--only NAME]
 //
-// FOLDER holds CornellBox-Original.obj, -Sphere, -Glossy and -Mirror. Prints for each box the mean of both images'
-// luminance, their ratio, and the root of the mean squared difference over the mean; beside it the same for a second
-// path-traced image of as many samples, which is the noise of the reference twice over.
+// FOLDER holds CornellBox-Original.obj, -Sphere, -Glossy and -Mirror. Prints for each box the mean
+// luminance of both images, their ratio, and the RMS difference relative to the mean. The same numbers for a second
+// path-traced image of as many samples show the noise: twice the variance of the reference.
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "capture/tracer/scene/mesh_file.hpp"
@@ -83,11 +83,11 @@ Status run(const Arguments& arguments) {
 int main(int argc, char** argv) {
     CLI::App app("Instant radiosity against path tracing in Cornell boxes", "bench_boxes");
     rs::capture::Arguments arguments;
-    app.add_option("folder", arguments.folder, "of the boxes")->required();
-    app.add_option("--only", arguments.only, "of them: Original, Sphere, Glossy or Mirror");
-    app.add_option("--size", arguments.side_px, "of the images, px")->capture_default_str();
-    app.add_option("--passes", arguments.passes, "of radiosity")->capture_default_str();
-    app.add_option("--paths", arguments.paths, "per pixel")->capture_default_str();
+    app.add_option("folder", arguments.folder, "folder of the boxes")->required();
+    app.add_option("--only", arguments.only, "one box: Original, Sphere, Glossy or Mirror");
+    app.add_option("--size", arguments.side_px, "width and height of the images, px")->capture_default_str();
+    app.add_option("--passes", arguments.passes, "passes of radiosity")->capture_default_str();
+    app.add_option("--paths", arguments.paths, "paths per pixel")->capture_default_str();
     std::function<rs::Status()> action;
     app.callback([&] { action = [&] { return rs::capture::run(arguments); }; });
     return rs::tool_main(app, argc, argv, action);

@@ -1,12 +1,12 @@
-// How long a frame of a showroom takes: nine objects of about 256x256 pixels before some 10,000 triangles, textured and
-// lit by three lights, seen by a visitor whose eyes are a little above them. Then the same with 91 more objects behind
-// the visitor. Drawn without a window by whatever OpenGL there is; a frame is done when its image has been read back.
+// Frame times of a showroom: nine objects of about 256x256 pixels in front of some 10,000 textured triangles with three
+// lights, viewed from slightly above. Then the same with 91 more objects behind the viewer. Drawn without a window;
+// times include reading back the image.
 //
 //     bench_frames vase.rso lamp.rso doll.rso
 //
-// "cpu" is the processor time of a frame, of all threads: divided by the number of processors it is what a frame takes
-// at best, whatever else the machine does. Parts are from runs of their own, for which each is waited for: their sum is
-// more than a frame, in which the engine and OpenGL draw at the same time.
+// "cpu" is the CPU time per frame, summed over all threads: divided by the number of cores, a lower bound of the frame
+// time on an idle machine. Times of parts come from separate runs that wait for each part; their sum exceeds the
+// frame time, since the engine and OpenGL normally draw in parallel.
 
 #include "compositor/gl/context.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
@@ -35,11 +35,11 @@ using compositor::PlacedObject;
 using compositor::Scene;
 using compositor::Similarity;
 
-constexpr int kSeen = 9;
-constexpr int kNotSeen = 91;
-constexpr double kObjectRadius = 0.272;  // their images are 256x256 pixels of a screen of 1280x720
+constexpr int kVisible = 9;
+constexpr int kHidden = 91;
+constexpr double kObjectRadius = 0.272;  // images of 256x256 px on a screen of 1280x720
 
-// Soft stains of a colour, 512x512.
+// Smooth procedural texture of a base colour, 512x512.
 std::shared_ptr<const compositor::SceneTexture> stained(const glm::vec3& colour, unsigned seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> phase(0, 6.28F);
@@ -59,7 +59,7 @@ std::shared_ptr<const compositor::SceneTexture> stained(const glm::vec3& colour,
     return texture;
 }
 
-// A square of side 1 in the plane z = 0, seen from +Z.
+// Unit square in the plane z = 0, facing +Z.
 std::shared_ptr<const Mesh> square() {
     auto mesh = std::make_shared<Mesh>();
     for (const glm::vec2 at : {glm::vec2(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
@@ -70,7 +70,7 @@ std::shared_ptr<const Mesh> square() {
     return mesh;
 }
 
-// A ball of radius 1 of 2 * columns * (rows - 1) triangles.
+// Unit sphere of 2 * columns * (rows - 1) triangles.
 std::shared_ptr<const Mesh> ball(int columns, int rows) {
     auto mesh = std::make_shared<Mesh>();
     mesh->two_sided = false;
@@ -96,7 +96,7 @@ glm::dmat4 placed(const glm::dvec3& at, const glm::dvec3& right, const glm::dvec
     return {glm::dvec4(right, 0), glm::dvec4(up, 0), glm::dvec4(back, 0), glm::dvec4(at, 1)};
 }
 
-// A room of 8 x 3 x 8 with two shelves along the back wall and balls on them, lit.
+// Room of 8 x 3 x 8 scene units with three lights, two shelves along the back wall and balls on them.
 Scene room() {
     Scene scene;
     scene.lights = {
@@ -136,7 +136,7 @@ std::vector<PlacedObject> placed_objects(const std::vector<std::shared_ptr<const
                                          int unseen) {
     std::vector<PlacedObject> placed;
     const auto next = [&] { return objects[placed.size() % objects.size()]; };
-    for (int n = 0; n < kSeen; ++n) {
+    for (int n = 0; n < kVisible; ++n) {
         const bool upper = n < 5;
         const double x = upper ? (n - 2) * 0.84 : (n - 6.5) * 0.84;
         placed.push_back({next(), standing(x, (upper ? 1.63 : 0.63) + kObjectRadius, -2.9, 0.7 * n, kObjectRadius)});
@@ -153,7 +153,7 @@ struct Options {
     std::string size = "1280x720";
     int width = 0;
     int height = 0;
-    int object_samples = compositor::kUsualSamplesAcross;
+    int object_samples = compositor::kDefaultSamplesAcross;
     bool direct = false;
 };
 
@@ -164,7 +164,7 @@ struct Times {
     double engine_ms = 0;
     double upload_ms = 0;
     double composite_ms = 0;
-    double side_px = 0;  // of a square as large as the mean image that the engine drew
+    double side_px = 0;  // side of a square with the engine's mean pixel count per object
     int nodes = 0;
 };
 
@@ -218,7 +218,7 @@ Status run(Options options) {
     for (const std::string& file : options.files) {
         Result<RaySpaceObject> object = read_object(file);
         if (!object) return object.error();
-        object->coded.reset();  // unpacked by now, as the viewer has it
+        object->coded.reset();  // decoded already, as in the viewer
         auto viewable = compositor::make_viewable(std::move(*object));
         if (!viewable) return viewable.error();
         objects.push_back(std::make_shared<const compositor::ViewableObject>(std::move(*viewable)));
@@ -230,7 +230,7 @@ Status run(Options options) {
                 options.width, options.height, triangles, options.frames);
     std::printf("samples objects  seen  image      frame     fps     cpu  | geometry  engine  upload  composite\n");
     for (const int samples : {1, 4}) {
-        for (const int unseen : {0, kNotSeen}) {
+        for (const int unseen : {0, kHidden}) {
             const std::vector<PlacedObject> placed = placed_objects(objects, unseen);
             const Result<Times> whole = timed(scene, placed, options, samples, false);
             if (!whole) return whole.error();
@@ -249,17 +249,17 @@ Status run(Options options) {
 
 int main(int argc, char** argv) {
     rs::bench::Options options;
-    CLI::App app("How long a frame takes: nine objects before 10,000 triangles, then with 91 behind the viewer.",
+    CLI::App app("Frame times: nine objects in front of 10,000 triangles, then with 91 more behind the viewer.",
                  "bench_frames");
-    app.add_option("OBJECT", options.files, "objects, .rso; taken in turns")->required();
-    app.add_option("--frames", options.frames, "for each row of the table")
+    app.add_option("OBJECT", options.files, ".rso files, used in turn")->required();
+    app.add_option("--frames", options.frames, "frames per row of the table")
         ->capture_default_str()
         ->check(CLI::Range(1, 10000));
-    app.add_option("--size", options.size, "of the frames, WxH")->capture_default_str();
-    app.add_option("--object-samples", options.object_samples, "across a pixel, at most, where objects are far")
+    app.add_option("--size", options.size, "frame size, WxH")->capture_default_str();
+    app.add_option("--object-samples", options.object_samples, "maximum samples across a pixel for distant objects")
         ->capture_default_str()
-        ->check(CLI::Range(1, rs::compositor::kMostSamplesAcross));
-    app.add_flag("--direct", options.direct, "objects by tilted cameras");
+        ->check(CLI::Range(1, rs::compositor::kMaxSamplesAcross));
+    app.add_flag("--direct", options.direct, "render objects with tilted cameras");
     app.footer("Example:\n  bench_frames vase.rso lamp.rso doll.rso");
     std::function<rs::Status()> run = [&] { return rs::bench::run(options); };
     return rs::tool_main(app, argc, argv, run);

@@ -1,13 +1,12 @@
-// How near the renderers of traced light come to a converged path-traced image, after a time or a number of passes.
+// Error of the tracing renderers against a converged path-traced image, after a given time or number of passes.
 //
 //     bench_light SCENE --eye X,Y,Z --at X,Y,Z [--fov DEG] [--size WxH] [--lights L.json] [--exposure EV]
 //                 [--reference PASSES] [--seconds S] [--passes N]
 //
-// The reference is traced first, with random numbers of its own. Then each renderer gets S seconds, and if asked N
-// passes. "mean" is over that of the reference, "error" the root of the mean squared difference of luminance over the
-// reference's mean, "dB" the PSNR of the 8-bit images (of radiosity: filtered), "cpu" the processor
-// time of all threads: on a machine that does other things, too, seconds should be chosen so that it is what they stand
-// for.
+// The reference is traced first, with different random numbers. Then each renderer runs for S seconds and, if --passes
+// is given, for N passes. "mean" is relative to the reference's mean luminance; "error" is the RMS luminance difference
+// relative to that mean; "dB" is the PSNR of the 8-bit images (radiosity: filtered); "cpu" is the CPU time of all
+// threads. On a loaded machine, choose S by the CPU time.
 
 #include "compositor/traced/traced_renderer.hpp"
 #include "rayspace/light/directions.hpp"
@@ -76,12 +75,12 @@ Status run(const Arguments& arguments) {
     const Camera& camera = lit->camera;
     auto renderer = TracedRenderer::create(lit->scene, {}, {.exposure_ev = arguments.lit.exposure_ev});
     if (!renderer) return renderer.error();
-    // A hair's breadth aside, so that its noise is not that of the others.
+    // A minimal offset decorrelates its noise from that of the others.
     Camera aside = camera;
     aside.world_from_camera[3].x += 1e-7;
     ProgressBar progress(false);
     progress.start("reference", arguments.reference);
-    renderer->look(aside);
+    renderer->begin_image(aside);
     while (renderer->passes() < arguments.reference) {
         renderer->add_pass();
         progress.advance();
@@ -91,7 +90,7 @@ Status run(const Arguments& arguments) {
 
     const auto trace = [&](const NamedMethod& named, double seconds, int passes) {
         renderer->set_method(named.method);
-        renderer->look(camera);
+        renderer->begin_image(camera);
         const bench::Stopwatch watch;
         Taken taken;
         do {
@@ -113,12 +112,12 @@ Status run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     using namespace rs::compositor;
-    CLI::App app("Renderers of traced light against a converged image", "bench_light");
+    CLI::App app("Error of tracing renderers against a converged image", "bench_light");
     Arguments arguments;
     arguments.lit.add_to(app);
     app.add_option("--reference", arguments.reference, "passes of the reference")->capture_default_str();
-    app.add_option("--seconds", arguments.seconds, "for each renderer")->capture_default_str();
-    app.add_option("--passes", arguments.passes, "and as many passes, if given");
+    app.add_option("--seconds", arguments.seconds, "seconds per renderer")->capture_default_str();
+    app.add_option("--passes", arguments.passes, "measure each renderer after N passes, too");
     std::function<rs::Status()> action;
     app.callback([&] { action = [&] { return run(arguments); }; });
     return rs::tool_main(app, argc, argv, action);

@@ -1,15 +1,15 @@
-// Whether lines and other edges of an object's views stand where truth has them, and whether the views have steps that
-// truth has not.
+// Compares edges of an object's rendered views with ground truth: their positions, and steps that the truth lacks.
 //
 //     rs-engine render OBJECT --poses TRUTH -o DRAWN && bench_lines DRAWN TRUTH
 //
-// Both are sets of the same cameras. Prints the means over all views:
-//   steps   isolated ones per 1000 px, where neighbouring pixels differ by more than 6 codes of grey and both sides are
-//           flat (less than 2), 6 px inside the object at least; of the drawn views and of truth
-//   found   share of truth's edges (Canny, thresholds 100 and 250 of grey over white) that have one of the drawn views
-//           within 1 px. An edge of half that strength will do: where edges are is asked, not how sharp
-//   real    likewise, of the drawn views' edges those near one of truth
-// Canny's thresholds are of the gradient, 4 times a step of grey.
+// Both sets have the same cameras. Prints means over all views:
+//   steps   isolated steps per 1000 px, for the rendered views and the truth: adjacent pixels that differ by more than
+//   6
+//           grey levels between flat neighbours (less than 2), at least 6 px inside the object
+//   found   recall: share of true edges (Canny, thresholds 100 and 250, grey over white) with a rendered edge within
+//           1 px. Rendered edges of half that strength count, since positions are compared, not sharpness
+//   real    precision: likewise, the share of rendered edges near a true one
+// Canny thresholds refer to the gradient, which is 4 times a step of grey.
 
 #include "capture/opencv/opencv_image.hpp"
 #include "rayspace/geometry/rig.hpp"
@@ -34,7 +34,7 @@ constexpr double kWeak = kStrong / 2;
 
 struct View {
     cv::Mat1b grey;    // over white
-    cv::Mat1b inside;  // 255 where the object is for 6 px around
+    cv::Mat1b inside;  // 255 at least 6 px inside the object
 };
 
 View view_of(ConstImageView<Rgba8> image) {
@@ -78,7 +78,7 @@ cv::Mat1b edges_of(const View& view, double strength) {
 
 struct Share {
     double found = 0, all = 0;
-    // Of the edges that have one of `others` within a pixel.
+    // Counts the pixels of `edges` with one of `others` within 1 px.
     void add(const cv::Mat1b& edges, const cv::Mat1b& others) {
         cv::Mat1f distance;
         cv::distanceTransform(255 - others, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
@@ -106,14 +106,15 @@ Status run(const fs::path& drawn_folder, const fs::path& truth_folder) {
     Share found, real;
     const std::size_t count = truth_rig->views.size();
     for (std::size_t i = 0; i < count; ++i) {
-        const auto drawn_image = read_image(drawn_folder / drawn_rig->views[i].file_path);
-        if (!drawn_image) return drawn_image.error();
+        const auto draw_image = read_image(drawn_folder / drawn_rig->views[i].file_path);
+        if (!draw_image) return draw_image.error();
         const auto truth_image = read_image(truth_folder / truth_rig->views[i].file_path);
         if (!truth_image) return truth_image.error();
-        if (drawn_image->width() != truth_image->width() || drawn_image->height() != truth_image->height()) {
-            return Error{drawn_folder.string() + ": its images are of another size than truth's"};
+        if (draw_image->width() != truth_image->width() || draw_image->height() != truth_image->height()) {
+            return Error{drawn_folder.string() +
+                         ": its images differ in size from the true ones; render it with the same cameras"};
         }
-        const View drawn = view_of(*drawn_image), truth = view_of(*truth_image);
+        const View drawn = view_of(*draw_image), truth = view_of(*truth_image);
         drawn_steps += steps_per_1000(drawn);
         truth_steps += steps_per_1000(truth);
         found.add(edges_of(truth, kStrong), edges_of(drawn, kWeak));
@@ -131,8 +132,8 @@ Status run(const fs::path& drawn_folder, const fs::path& truth_folder) {
 
 int main(int argc, char** argv) {
     std::string drawn, truth;
-    CLI::App app("Edges and isolated steps of an object's views against truth.", "bench_lines");
-    app.add_option("DRAWN", drawn, "what rs-engine render OBJECT --poses TRUTH -o DRAWN wrote")->required();
+    CLI::App app("Edges and isolated steps of an object's views against ground truth.", "bench_lines");
+    app.add_option("DRAWN", drawn, "output of rs-engine render OBJECT --poses TRUTH -o DRAWN")->required();
     app.add_option("TRUTH", truth, "capture set of the true images")->required();
     app.footer("Example:\n  bench_lines blocks-drawn blocks-truth");
     std::function<rs::Status()> run = [&] { return rs::bench::run(drawn, truth); };

@@ -1,12 +1,11 @@
-// Ray-space objects in a mirror: what rays find of them that a mirror sends, and what the viewer draws of them, beside
-// the objects' meshes.
+// Compares ray-space objects seen by rays reflected in a mirror, and drawn by the viewer, with the objects' meshes.
 //
 //     bench_mirror --objects FOLDER [--size 256] [--samples 16] [-o IMAGES]
 //
-// The mirror stands so that it shows what the viewer's camera sees; so the mesh in the mirror is the mesh before the
-// camera, turned over. Objects that FOLDER does not hold are captured and encoded first, as bench_truth does. Prints
-// for each object and direction the PSNR, over what shows something of the object, of the viewer's frame, of the
-// mirror's image, and their difference; with -o frame, mirror and truth are written side by side.
+// The mirror is placed so that it shows the viewer camera's view; the mesh in the mirror is the directly visible mesh,
+// flipped. Objects that are missing in FOLDER are captured and encoded first, as in bench_truth. Prints for each object
+// and direction the PSNR of the viewer's frame, the PSNR of the mirror's image, and their difference, over pixels that
+// are not black in all images. With -o, frame, mirror and truth are written side by side.
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "compositor/gl/context.hpp"
@@ -24,7 +23,7 @@
 namespace rs::test {
 namespace {
 
-constexpr double kDistance = 3.4;  // of the camera, in object radii; the mirror stands halfway
+constexpr double kDistance = 3.4;  // of the camera, in object radii; the mirror is halfway
 constexpr double kElevation_deg = 7;
 
 struct Arguments {
@@ -33,18 +32,18 @@ struct Arguments {
     TruthOptions truth;
 };
 
-struct Looked {
-    glm::dvec3 towards;  // the camera, from the object
+struct MirrorView {
+    glm::dvec3 towards;  // from the object to the camera
     Camera camera;
 };
-Looked look_from(double turn_deg, int side_px) {
+MirrorView view_from(double turn_deg, int side_px) {
     const double e = radians(kElevation_deg), a = radians(turn_deg);
     const glm::dvec3 towards(std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a));
     return {towards, look_at_camera(kDistance * towards, {0, 0, 0}, radians(38), side_px, side_px)};
 }
 
-// What `looked` shows, by way of a mirror across the middle of the line of sight.
-Result<Image<Rgba8>> in_mirror(const compositor::PlacedObject& placed, const Looked& looked, int samples) {
+// Traces the view by a mirror perpendicular to the line of sight, halfway along it.
+Result<Image<Rgba8>> in_mirror(const compositor::PlacedObject& placed, const MirrorView& looked, int samples) {
     const glm::dvec3 n = looked.towards, middle = 0.5 * kDistance * n;
     const auto mirrored = [&](const glm::dvec3& v) { return v - 2 * glm::dot(v, n) * n; };
     capture::Scene scene;
@@ -59,7 +58,7 @@ Result<Image<Rgba8>> in_mirror(const compositor::PlacedObject& placed, const Loo
     }
     glass.triangles = {{0, 2, 1}, {0, 3, 2}};
     scene.meshes = {glass};
-    scene.primitives = {std::make_shared<compositor::ObjectRays>(placed, 1.0F)};
+    scene.primitives = {std::make_shared<compositor::ObjectPrimitive>(placed, 1.0F)};
     const Result<capture::Tracer> tracer = capture::Tracer::create(std::move(scene));
     if (!tracer) return tracer.error();
 
@@ -112,7 +111,7 @@ Status compare(const std::string& name, const Arguments& arguments) {
 
     Sums all;
     for (const double turn_deg : {3.0, 123.0, 243.0}) {
-        const Looked looked = look_from(turn_deg, arguments.side_px);
+        const MirrorView looked = view_from(turn_deg, arguments.side_px);
         const Result<TruthDifference> direct = comparison->compare(looked.camera, arguments.truth);
         if (!direct) return direct.error();
         const Result<Image<Rgba8>> mirror = in_mirror(placed, looked, arguments.truth.samples);
@@ -171,14 +170,14 @@ Status run_bench(const Arguments& arguments) {
 }  // namespace rs::test
 
 int main(int argc, char** argv) {
-    CLI::App app("Ray-space objects in a mirror beside their meshes", "bench_mirror");
+    CLI::App app("Ray-space objects in a mirror, compared with their meshes", "bench_mirror");
     rs::test::Arguments arguments;
-    app.add_option("--objects", arguments.objects, "folder of the objects; those that it lacks are captured first")
+    app.add_option("--objects", arguments.objects, "folder of the objects; missing ones are captured first")
         ->required();
     app.add_option("-o,--output", arguments.output, "folder for frame, mirror and truth");
-    app.add_option("--size", arguments.side_px, "of the images, px")->capture_default_str();
-    app.add_option("--samples", arguments.truth.samples, "per pixel")->capture_default_str();
-    app.add_option("--paths", arguments.truth.paths_per_sample, "of samples of the truth that meet objects")
+    app.add_option("--size", arguments.side_px, "width and height of the images, px")->capture_default_str();
+    app.add_option("--samples", arguments.truth.samples, "samples per pixel")->capture_default_str();
+    app.add_option("--paths", arguments.truth.paths_per_sample, "paths per sample of the truth that hits an object")
         ->capture_default_str();
     std::function<rs::Status()> run;
     app.callback([&] { run = [&] { return rs::test::run_bench(arguments); }; });

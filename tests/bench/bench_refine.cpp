@@ -1,12 +1,12 @@
-// How soon traced images are there: after the switch to traced light, and after each of some moves.
+// Latency of traced images: after switching to a tracing renderer, and after camera moves.
 //
 //     bench_refine SCENE --eye X,Y,Z --at X,Y,Z [--fov DEG] [--size WxH] [--lights L.json] [--exposure EV]
 //                  [--moves N] [--still S]
 //
-// Prints how long the tracer takes to be made, and for each method the milliseconds from the wish for a view to its
-// first image: the first ever, after moves with a pause of S seconds between them, and while one moves all the time;
-// with them, cells along the first images, and what it takes to draw one into the frame. By a clock on the wall:
-// nothing else should run beside it.
+// Prints the construction time of the tracer and, for each method, the milliseconds from the request of a view to its
+// first image: for the very first view, after moves with pauses of S seconds, and while the camera moves continuously.
+// Also prints the number of cells along a row of the first images, and the time to draw one into the frame. Wall-clock
+// times: nothing else should run on the machine.
 
 #include "compositor/gl/context.hpp"
 #include "compositor/traced/refinement.hpp"
@@ -34,7 +34,8 @@ double ms_since(WallClock::time_point begin) {
     return std::chrono::duration<double, std::milli>(WallClock::now() - begin).count();
 }
 
-// Along a row, by changes between neighbours: cells may look the same, so the row with the most counts.
+// Number of cells along a row, from colour changes between neighbours. The row with the most changes counts, since
+// adjacent cells may have equal colours.
 int cells_of(const Image<Rgba8>& image) {
     int most = 0;
     for (int y = 0; y < image.height(); ++y) {
@@ -51,7 +52,7 @@ struct First {
     std::shared_ptr<const Image<Rgba8>> image;
 };
 
-// Of the view that was begun at `begin`.
+// First image of the view requested at `begin`.
 First wait_for_first(Refinement& refinement, const Camera& camera, WallClock::time_point begin) {
     for (;;) {
         const auto step = refinement.take();
@@ -97,7 +98,7 @@ Status run(const Arguments& arguments) {
         refinement.begin(lit->camera, named.method);
         const First first = wait_for_first(refinement, lit->camera, begin);
         if (!first.image) return *refinement.failure();
-        std::printf("%-10s tracer made in %.0f ms, first image after %.0f ms\n", named.name, made_ms, first.ms);
+        std::printf("%-10s tracer created in %.0f ms, first image after %.0f ms\n", named.name, made_ms, first.ms);
         const auto keep = [&](const First& next) {
             ms.push_back(next.ms);
             cells.push_back(next.cells);
@@ -124,7 +125,7 @@ Status run(const Arguments& arguments) {
             refinement.begin(camera, named.method);
             keep(wait_for_first(refinement, camera, begin));
         }
-        print(named.name, "while one moves", ms, cells);
+        print(named.name, "while moving", ms, cells);
         std::printf("%-10s %-22s median %7.1f ms\n", named.name, "drawn into the frame", median(draw_ms));
     }
     return {};
@@ -135,10 +136,10 @@ Status run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     using namespace rs::compositor;
-    CLI::App app("How soon traced images are there", "bench_refine");
+    CLI::App app("Latency of traced images", "bench_refine");
     Arguments arguments;
     arguments.lit.add_to(app);
-    app.add_option("--moves", arguments.moves, "of each kind")->check(CLI::Range(1, 1000))->capture_default_str();
+    app.add_option("--moves", arguments.moves, "moves of each kind")->check(CLI::Range(1, 1000))->capture_default_str();
     app.add_option("--still", arguments.still_s, "seconds between moves")->capture_default_str();
     std::function<rs::Status()> action;
     app.callback([&] { action = [&] { return run(arguments); }; });

@@ -1,10 +1,10 @@
-// A walk in real time through six rooms of eight objects each, of which two rooms fit into memory: what streaming costs
-// the frames, and what a visitor misses of the room around.
+// Streaming benchmark: a walk in real time through six rooms of eight objects each, of which two rooms fit into memory.
+// Measures frame times, and the objects that are missing in the visitor's room.
 //
 //     bench_rooms [--size WxH] [--speed UNITS_PER_S] [--views N] [--side PX]
 //
 // Draws without a window. Prints a table of two walks: with all objects in memory, and with a budget of two rooms.
-// Nothing else should run beside it.
+// Nothing else should run on the machine.
 
 #include "compositor/gl/context.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
@@ -39,7 +39,7 @@ struct Arguments {
 
 constexpr double kFrames_per_s = 30;
 
-// A ball with a texture and a shape map, its images coded.
+// Textured ball with a shape map and coded images.
 RaySpaceObject make_object(const Arguments& arguments) {
     test::RingObjectOptions options;
     options.views = arguments.views;
@@ -70,14 +70,14 @@ double mebibytes(std::int64_t bytes) {
     return static_cast<double>(bytes) / (1 << 20);
 }
 
-// What one object takes: in memory, and while it is read.
+// Memory of one object: when loaded, and while it is read.
 struct ObjectBytes {
     std::int64_t object = 0;
     std::int64_t reading = 0;
 };
 Result<ObjectBytes> measure_object(const std::filesystem::path& file) {
     const auto engine = std::make_shared<engine::RenderSession>();
-    const std::unique_ptr<ObjectSource> source = object_files(engine, false);
+    const std::unique_ptr<ObjectSource> source = make_file_source(engine, false);
     const Result<std::int64_t> most = source->most_bytes(file);
     if (!most) return most.error();
     const Result<ViewableObject> object = source->read(file, *most, [](float) {});
@@ -85,11 +85,11 @@ Result<ObjectBytes> measure_object(const std::filesystem::path& file) {
     return ObjectBytes{object->memory_bytes(), *most};
 }
 
-// What is missing of the room that the visitor is in. Of rooms farther ahead, seen through their doors, placeholders
-// are all that the budget allows.
-class OwnRoom {
+// Missing objects in the visitor's room. Rooms that are visible through doors do not count: the budget allows only
+// placeholders there.
+class MissingInRoom {
 public:
-    void look(const Camera& camera, const FrameStatistics& statistics) {
+    void add_frame(const Camera& camera, const FrameStatistics& statistics) {
         const auto now = std::chrono::steady_clock::now();
         const double seconds =
             last_ == std::chrono::steady_clock::time_point() ? 0 : std::chrono::duration<double>(now - last_).count();
@@ -100,7 +100,7 @@ public:
             if (statistics.nodes[i].missing) missing_s_[i] += seconds;
         }
     }
-    // How many objects were missing, and the longest time.
+    // Number of objects that were missing, and the longest time in seconds.
     [[nodiscard]] std::pair<std::size_t, double> result() const {
         std::pair<std::size_t, double> result;
         for (const double seconds : missing_s_) {
@@ -128,25 +128,25 @@ Status walk(const char* name, const Scene& scene, const ShowroomOptions& options
     const auto frames = static_cast<int>(length / arguments.speed * kFrames_per_s);
     const std::vector<Camera> cameras = test::walk_through(frames, size->width, size->height);
     FrameTimes times;
-    OwnRoom own_room;
-    // A visitor waits at the entrance until the first room is there and has faded in.
+    MissingInRoom missing_objects;
+    // Starts when the first room is loaded and has faded in.
     if (Status status = showroom.wait_for_all(cameras.front().centre()); !status) return status;
     for (int n = 0; n < 15; ++n) {
         FrameTimes before;
         if (Status status = before.draw(showroom, *compositor, cameras.front(), 1 / kFrames_per_s); !status)
             return status;
     }
-    const StoreStatistics at_start = showroom.statistics();
+    const CacheStatistics at_start = showroom.statistics();
     const auto begin = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < cameras.size(); ++i) {
         const std::chrono::duration<double> due(static_cast<double>(i) / kFrames_per_s);
         std::this_thread::sleep_until(begin + std::chrono::duration_cast<std::chrono::steady_clock::duration>(due));
         if (Status status = times.draw(showroom, *compositor, cameras[i], 1 / kFrames_per_s); !status) return status;
         resident_most = std::max(resident_most, resident_bytes());
-        own_room.look(cameras[i], compositor->statistics());
+        missing_objects.add_frame(cameras[i], compositor->statistics());
     }
-    const StoreStatistics store = showroom.statistics();
-    const auto [missing, missing_s] = own_room.result();
+    const CacheStatistics store = showroom.statistics();
+    const auto [missing, missing_s] = missing_objects.result();
     std::printf("%-12s %6zu %7.1f %7.1f %6.2f %9zu %9.0f %6d %6d %8.0f %9.1f %9.1f %9.1f\n", name, times.frames(),
                 times.median_ms(), times.longest_ms(), times.longest_ms() / times.median_ms(), missing, 1e3 * missing_s,
                 store.loads - at_start.loads, store.evictions, 1e3 * store.longest_load_s,
@@ -184,7 +184,7 @@ Status run(const Arguments& arguments) {
     std::printf("%-12s %6s %7s %7s %6s %9s %9s %6s %6s %8s %9s %9s %9s\n", "", "", "ms", "ms", "", "times", "ms", "",
                 "", "load ms", "MiB", "MiB", "+MiB");
     if (Status status =
-            walk("all there", scene, {.memory_bytes = 49 * bytes->object + bytes->reading, .waits = true}, arguments);
+            walk("all loaded", scene, {.memory_bytes = 49 * bytes->object + bytes->reading, .waits = true}, arguments);
         !status)
         return status;
     return walk("two rooms", scene, {.memory_bytes = 2 * test::kObjectsInRoom * bytes->object + bytes->reading},
@@ -197,11 +197,11 @@ Status run(const Arguments& arguments) {
 int main(int argc, char** argv) {
     CLI::App app("Walks through six rooms whose objects are read on the way.", "bench_rooms");
     rs::compositor::Arguments arguments;
-    app.add_option("--size", arguments.size, "of the frames, WxH")->capture_default_str();
-    app.add_option("--speed", arguments.speed, "of the visitor, units per second; a room is 6 long")
+    app.add_option("--size", arguments.size, "frame size, WxH")->capture_default_str();
+    app.add_option("--speed", arguments.speed, "walking speed, units per second; a room is 6 units long")
         ->capture_default_str();
-    app.add_option("--views", arguments.views, "captured images of an object")->capture_default_str();
-    app.add_option("--side", arguments.side, "of a captured image, px")->capture_default_str();
+    app.add_option("--views", arguments.views, "captured images per object")->capture_default_str();
+    app.add_option("--side", arguments.side, "width and height of a captured image, px")->capture_default_str();
     std::function<rs::Status()> run;
     app.callback([&] { run = [&] { return rs::compositor::run(arguments); }; });
     return rs::tool_main(app, argc, argv, run);

@@ -1,11 +1,11 @@
-// Sequences: what a frame costs, and what of it is done again.
+// Frame times of sequences, and the work repeated per frame.
 //
-//     bench_sequence thousand                   1000 boxes that move over 150,000 triangles that do not
+//     bench_sequence thousand                   1000 moving boxes over 150,000 static triangles
 //     bench_sequence play FOLDER                a sequence's frames at 1280x720
 //     bench_sequence play FOLDER --renderer whitted --size 640x360 --passes 1
 //
-// "cpu" is the processor time of a frame, of all threads: divided by the number of processors it is what a frame takes
-// at best, whatever else the machine does.
+// "cpu" is the CPU time per frame, summed over all threads: divided by the number of cores, a lower bound of the frame
+// time on an idle machine.
 
 #include "compositor/gl/context.hpp"
 #include "compositor/playback/sequence_player.hpp"
@@ -45,7 +45,7 @@ struct Options {
     bool parts = false;
 };
 
-// Hills of 150,000 triangles.
+// Terrain of 150,000 triangles.
 std::shared_ptr<const Mesh> hills() {
     constexpr int kSide = 274;
     auto mesh = std::make_shared<Mesh>();
@@ -129,7 +129,7 @@ void print_times(const char* what, std::vector<double> wall_ms, std::vector<doub
                 longest, median(cpu_ms));
 }
 
-// Frames from the second on; with `parts` what they consist of, each waited for.
+// Times the frames from the second on; with `parts`, also their parts, waiting for each.
 Status time_frames(SequencePlayer& player, int frames, const char* what, bool parts) {
     std::vector<double> wall_ms;
     std::vector<double> cpu_ms;
@@ -153,7 +153,7 @@ Status time_frames(SequencePlayer& player, int frames, const char* what, bool pa
     }
     print_times(what, wall_ms, cpu_ms);
     if (parts) {
-        std::printf("  of it %.2f ms for drawing on %d shadow maps, %.2f ms geometry, %.2f ms objects and blending\n",
+        std::printf("  including %.2f ms for %d shadow maps, %.2f ms geometry, %.2f ms objects and blending\n",
                     median(maps_ms), median(maps), median(geometry_ms), median(objects_ms));
     }
     return {};
@@ -185,7 +185,7 @@ Status run_thousand(const Options& options) {
     std::vector<double> ms;
     for (std::size_t i = 0; i < 40; ++i) {
         const Stopwatch watch;
-        const auto moved = moved_slots(*sequence, i % 12);
+        const auto moved = slot_transforms(*sequence, i % 12);
         ms.push_back(watch.wall_ms());
     }
     std::printf("matrices of 1000 instances: median %.3f ms\n", median(ms));
@@ -214,17 +214,17 @@ int main(int argc, char** argv) {
     std::function<rs::Status()> run;
     CLI::App* thousand = app.add_subcommand("thousand", "1000 instances over 150,000 triangles");
     CLI::App* play = app.add_subcommand("play", "a sequence");
-    play->add_option("FOLDER", options.folder, "that holds the sequence")->required();
-    play->add_option("--frames", options.frames, "that are timed")->capture_default_str();
-    play->add_option("--weather", options.weather, "as of rs-view");
+    play->add_option("FOLDER", options.folder, "folder of the sequence")->required();
+    play->add_option("--frames", options.frames, "number of timed frames")->capture_default_str();
+    play->add_option("--weather", options.weather, "weather, as for rs-view");
     for (CLI::App* command : {thousand, play}) {
-        command->add_option("--size", options.size, "of the frames, WxH")->capture_default_str();
-        command->add_option("--renderer", options.renderer, "raster, or one of traced light")->capture_default_str();
-        command->add_option("--passes", options.passes, "of traced light")->capture_default_str();
-        command->add_option("--samples", options.samples, "per pixel, of raster")->capture_default_str();
-        command->add_flag("--shadows", options.shadows, "in raster");
-        command->add_flag("--parts", options.parts, "of raster's frames, each waited for");
-        command->add_flag("--upright", options.upright, "objects by upright images, as in a window");
+        command->add_option("--size", options.size, "frame size, WxH")->capture_default_str();
+        command->add_option("--renderer", options.renderer, "raster, or a tracing renderer")->capture_default_str();
+        command->add_option("--passes", options.passes, "passes of a tracing renderer")->capture_default_str();
+        command->add_option("--samples", options.samples, "samples per pixel of raster")->capture_default_str();
+        command->add_flag("--shadows", options.shadows, "shadows in raster");
+        command->add_flag("--parts", options.parts, "times of the parts of raster frames, waiting for each");
+        command->add_flag("--upright", options.upright, "render objects with upright cameras, as in a window");
     }
     thousand->callback([&] { run = [&] { return rs::bench::run_thousand(options); }; });
     play->callback([&] { run = [&] { return rs::bench::run_play(options); }; });

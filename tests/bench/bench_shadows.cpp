@@ -1,10 +1,10 @@
-// What shadows cost: a walk of a few steps at viewpoints of a scene, each frame drawn without and with them in turns,
-// so that whatever else the machine does weighs on both alike. A frame is done when its image has been read back.
+// Cost of shadows: a walk of a few steps at viewpoints of a scene. Each frame is drawn alternately without and with
+// shadows, so that other load on the machine affects both alike. Times include reading back the image.
 //
 //     bench_shadows showroom.wrl --viewpoint shop --viewpoint museum
 //
-// "cpu" is the processor time of a frame, of all threads: divided by the number of processors it is what a frame takes
-// at best. "first" is the frame that draws the maps.
+// "cpu" is the CPU time per frame, summed over all threads: divided by the number of cores, a lower bound of the frame
+// time on an idle machine. "first" is the frame that draws the maps.
 
 #include "compositor/gl/context.hpp"
 #include "compositor/scene/light/lights_file.hpp"
@@ -123,15 +123,15 @@ Status run(const Options& options) {
 
 int main(int argc, char** argv) {
     rs::bench::Options options;
-    CLI::App app("What shadows cost in a scene: frames without and with them, in turns.", "bench_shadows");
-    app.add_option("SCENE", options.scene, "as rs-view reads it")->required();
-    app.add_option("--viewpoint", options.viewpoints, "descriptions of viewpoints (all)");
-    app.add_option("--lights", options.lights, "list of lights, as rs-view reads it");
-    app.add_option("--frames", options.frames, "for each viewpoint")
+    CLI::App app("Cost of shadows in a scene: frames alternately without and with them.", "bench_shadows");
+    app.add_option("SCENE", options.scene, "scene, as for rs-view")->required();
+    app.add_option("--viewpoint", options.viewpoints, "descriptions of viewpoints (default: all)");
+    app.add_option("--lights", options.lights, "list of lights, as for rs-view");
+    app.add_option("--frames", options.frames, "frames per viewpoint")
         ->capture_default_str()
         ->check(CLI::Range(1, 10000));
-    app.add_option("--samples", options.samples, "per pixel")->capture_default_str()->check(CLI::Range(1, 16));
-    app.add_option("--size", options.size, "of the frames, WxH")->capture_default_str();
+    app.add_option("--samples", options.samples, "samples per pixel")->capture_default_str()->check(CLI::Range(1, 16));
+    app.add_option("--size", options.size, "frame size, WxH")->capture_default_str();
     app.footer("Example:\n  bench_shadows showroom.wrl --viewpoint shop --viewpoint museum");
     std::function<rs::Status()> run = [&] { return rs::bench::run(options); };
     return rs::tool_main(app, argc, argv, run);

@@ -1,11 +1,13 @@
-// Whitted's ray tracing of the halls, beside Embree's packets alone in the same run.
+// Whitted ray tracing of the halls, compared with bare Embree packets in the same run.
 //
 //     bench_traced [--scene hall|great-hall] [--width PX] [--height PX] [--frames N] [--threads N]
 //
-// Prints milliseconds for a frame, of a clock and of the processors: of Whitted, whole frames; of its rays alone, ray
-// by ray and in packets; of bare Embree on the same camera rays and the rays to the lights from what they meet, as
-// lists that it makes packets of, and as packets made beforehand; of Whitted where everything is an instance; of a grid
-// of 16x16 pixels; and of moving 1000 instances. Ratios are of processor time, so that what runs beside it counts less.
+// Prints wall and CPU milliseconds per frame of:
+//   - Whitted, whole frames; its rays one by one and in packets
+//   - bare Embree on the same camera and shadow rays, as lists that are packed on the fly, and as prepared packets
+//   - Whitted on a scene of instances only, and on a grid of 16x16 pixels
+//   - moving 1000 instances
+// Ratios are of CPU time, which depends less on other load.
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
@@ -45,7 +47,7 @@ struct Arguments {
     int threads = 0;
 };
 
-// As rs-view takes it from glTF: a coat over a matte surface.
+// Materials as rs-view reads them from glTF: a specular coat over a diffuse surface.
 Scene scene_of(const synthetic::Model& model) {
     Scene scene;
     scene.name = model.name;
@@ -95,7 +97,7 @@ Scene scene_of(const synthetic::Model& model) {
 struct Cost {
     double wall_ms, processor_ms;
 };
-// The least of so many frames.
+// Minimum over the frames.
 Cost measure(const char* what, int frames, const std::function<void()>& frame) {
     std::vector<double> wall_ms, processor_ms;
     for (int i = 0; i < frames; ++i) {
@@ -106,23 +108,23 @@ Cost measure(const char* what, int frames, const std::function<void()>& frame) {
     }
     std::ranges::sort(wall_ms);
     std::ranges::sort(processor_ms);
-    std::printf("%-40s %8.2f ms, median %8.2f; processors %8.2f, median %8.2f\n", what, wall_ms.front(),
+    std::printf("%-40s %8.2f ms, median %8.2f; CPU %8.2f, median %8.2f\n", what, wall_ms.front(),
                 wall_ms[wall_ms.size() / 2], processor_ms.front(), processor_ms[processor_ms.size() / 2]);
     std::fflush(stdout);
     return {wall_ms.front(), processor_ms.front()};
 }
 
-// The camera's rays in squares of 4 x 4, and the rays to the lights from what they meet, light by light for 256 of
-// them: what a frame of Whitted asks, tile by tile.
-struct Asked {
+// Rays of a tile of 16x16 pixels, in the order in which Whitted traces them: camera rays in squares of 4x4, then the
+// shadow rays from their hits, light by light.
+struct TileRays {
     std::vector<RayScene::Ray> camera;
     std::vector<RayScene::Ray> to_lights;
 };
-std::vector<Asked> rays_of_frame(const RayScene& rays, const Scene& scene, const Camera& camera) {
-    std::vector<Asked> tiles;
+std::vector<TileRays> rays_of_frame(const RayScene& rays, const Scene& scene, const Camera& camera) {
+    std::vector<TileRays> tiles;
     for (int top = 0; top < camera.height; top += 16) {
         for (int left = 0; left < camera.width; left += 16) {
-            Asked asked;
+            TileRays asked;
             for (int i = 0; i < 256; ++i) {
                 const int x = left + i / 16 % 4 * 4 + i % 4, y = top + i / 64 * 4 + i / 4 % 4;
                 if (x >= camera.width || y >= camera.height) continue;
@@ -149,9 +151,9 @@ std::vector<Asked> rays_of_frame(const RayScene& rays, const Scene& scene, const
     return tiles;
 }
 
-// The same rays as Embree's packets.
+// The same rays as Embree packets.
 struct Packets {
-    std::vector<std::pair<MaskLanes, MetLanes>> camera;
+    std::vector<std::pair<MaskLanes, RayHitLanes>> camera;
     std::vector<std::pair<MaskLanes, RayLanes>> to_lights;
 };
 void fill(std::span<const RayScene::Ray> rays, MaskLanes& asked, RayLanes& lanes) {
@@ -164,7 +166,7 @@ void fill(std::span<const RayScene::Ray> rays, MaskLanes& asked, RayLanes& lanes
         lanes.mask[i] = ~0U;
     }
 }
-Packets packets_of(const Asked& asked) {
+Packets packets_of(const TileRays& asked) {
     Packets packets;
     const auto part = [](const std::vector<RayScene::Ray>& rays, std::size_t first) {
         return std::span(rays).subspan(first, std::min(kLanes, rays.size() - first));
@@ -202,9 +204,9 @@ Status run(const Arguments& arguments) {
     options.samples_per_pixel = 1;
     options.ambient = glm::vec3(0.1F);
     options.threads = arguments.threads;
-    const std::vector<Asked> tiles = rays_of_frame(*rays, flat, camera);
+    const std::vector<TileRays> tiles = rays_of_frame(*rays, flat, camera);
     std::size_t count = 0;
-    for (const Asked& asked : tiles) count += asked.camera.size() + asked.to_lights.size();
+    for (const TileRays& asked : tiles) count += asked.camera.size() + asked.to_lights.size();
 
     const Cost whitted = measure("Whitted", arguments.frames, [&] { (void)tracer->render(camera, options); });
     const LightSet lights(flat, flat.environment, {0.5F * (rays->upper() + rays->lower()), glm::length(rays->upper())});
@@ -230,7 +232,7 @@ Status run(const Arguments& arguments) {
     const Cost single = of_rays(false), packets = of_rays(true);
     const Cost bare = measure("bare Embree, packets, the same rays", arguments.frames, [&] {
         for_each_index(static_cast<std::int64_t>(tiles.size()), arguments.threads, [&](std::int64_t i) {
-            const Asked& asked = tiles[static_cast<std::size_t>(i)];
+            const TileRays& asked = tiles[static_cast<std::size_t>(i)];
             std::vector<RayScene::Hit> hits(asked.camera.size());
             std::vector<std::uint8_t> hidden(asked.to_lights.size());
             rays->intersect_many(asked.camera, hits);
@@ -238,12 +240,12 @@ Status run(const Arguments& arguments) {
         });
     });
     std::vector<Packets> made;
-    for (const Asked& asked : tiles) made.push_back(packets_of(asked));
-    const Cost beforehand = measure("bare Embree, packets made beforehand", arguments.frames, [&] {
+    for (const TileRays& asked : tiles) made.push_back(packets_of(asked));
+    const Cost beforehand = measure("bare Embree, prepared packets", arguments.frames, [&] {
         for_each_index(static_cast<std::int64_t>(made.size()), arguments.threads, [&](std::int64_t i) {
             const Packets& tile = made[static_cast<std::size_t>(i)];
             for (const auto& [mask, met] : tile.camera) {
-                MetLanes found = met;
+                RayHitLanes found = met;
                 rays->intersect(mask, found);
             }
             for (const auto& [mask, ray] : tile.to_lights) {
@@ -276,11 +278,11 @@ Status run(const Arguments& arguments) {
         }
         moving->commit();
     });
-    std::printf("%.1f frames/s; %.2f rays a pixel; %.2f Mray/s a processor\n", 1000 / whitted.wall_ms,
+    std::printf("%.1f frames/s; %.2f rays per pixel; %.2f Mray/s per core\n", 1000 / whitted.wall_ms,
                 static_cast<double>(count) / camera.width / camera.height,
                 static_cast<double>(count) / whitted.processor_ms / 1000);
     std::printf(
-        "of bare Embree: frames %.2f, rays in packets %.2f (of packets made beforehand %.2f), one by one %.2f; "
+        "of bare Embree: frames %.2f, rays in packets %.2f (prepared packets %.2f), one by one %.2f; "
         "flattened %.2f times as fast as "
         "instances\n",
         bare.processor_ms / whitted.processor_ms, bare.processor_ms / packets.processor_ms,
@@ -300,8 +302,8 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--width", arguments.width, "px")->capture_default_str();
     app.add_option("--height", arguments.height, "px")->capture_default_str();
-    app.add_option("--frames", arguments.frames, "of each kind")->capture_default_str();
-    app.add_option("--threads", arguments.threads, "0: all")->capture_default_str();
+    app.add_option("--frames", arguments.frames, "frames per measurement")->capture_default_str();
+    app.add_option("--threads", arguments.threads, "threads; 0: all cores")->capture_default_str();
     std::function<rs::Status()> action;
     app.callback([&] { action = [&] { return rs::capture::run(arguments); }; });
     return rs::tool_main(app, argc, argv, action);

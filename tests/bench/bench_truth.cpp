@@ -1,11 +1,10 @@
-// Composited frames against the truth: the showroom's viewer beside a tracer that has the objects' meshes in the same
-// room (tests/compositor/truth_image.hpp).
+// Compares the viewer's frames of the showroom with ground truth, traced with the objects' meshes in the same rooms
+// (tests/compositor/truth_image.hpp).
 //
 //     bench_truth --objects FOLDER [--size 960x540] [--samples 16] [-o IMAGES]
 //
-// Objects that FOLDER does not hold are captured and encoded first, as rs-capture and rs-encode do (a quarter of an
-// hour on two cores). Prints a row for each viewpoint; with -o every viewpoint's frame, truth and eightfold difference
-// are written side by side.
+// Objects that are missing in FOLDER are captured and encoded first, as with rs-capture and rs-encode (15 minutes on
+// two cores). Prints a row per viewpoint. With -o, frame, truth and difference times 8 are written side by side.
 
 #include "compositor/gl/context.hpp"
 #include "rayspace/image_io/image_io.hpp"
@@ -30,7 +29,7 @@ struct Arguments {
     std::vector<int> only;
 };
 
-// Frame, truth, and how they differ around grey.
+// Frame, truth, and their difference around mid-grey.
 Image<Rgba8> side_by_side(const TruthDifference& difference) {
     const Image<Rgba8>& frame = difference.frame;
     const Image<Rgba8>& truth = difference.truth.image;
@@ -50,7 +49,7 @@ Image<Rgba8> side_by_side(const TruthDifference& difference) {
     return sheet;
 }
 
-// What frames of the walk cost, on average.
+// Mean frame times of the walk.
 Status print_costs(const compositor::Scene& scene, const std::vector<compositor::PlacedObject>& placed,
                    PixelSize size) {
     struct Way {
@@ -58,10 +57,10 @@ Status print_costs(const compositor::Scene& scene, const std::vector<compositor:
         compositor::ObjectDepth depth;
         int samples;
     };
-    std::printf("\n%-28s %9s %9s %9s %12s\n", "ms a frame", "whole", "engine", "upload", "pixels");
+    std::printf("\n%-28s %9s %9s %9s %12s\n", "ms per frame", "whole", "engine", "upload", "pixels");
     for (const Way& way : {Way{"plane, one sample", compositor::ObjectDepth::kPlane, 1},
-                           {"plane", compositor::ObjectDepth::kPlane, compositor::kUsualSamplesAcross},
-                           {"pixel", compositor::ObjectDepth::kPixel, compositor::kUsualSamplesAcross}}) {
+                           {"plane", compositor::ObjectDepth::kPlane, compositor::kDefaultSamplesAcross},
+                           {"pixel", compositor::ObjectDepth::kPixel, compositor::kDefaultSamplesAcross}}) {
         auto frames = compositor::FrameCompositor::create(scene, placed,
                                                           {.width = size.width,
                                                            .height = size.height,
@@ -119,7 +118,7 @@ Status run_bench(Arguments arguments) {
         auto object = traced_object(std::move(*recipe));
         if (!object) return object.error();
         const double foot = static_cast<double>((*object)->rays().lower().y) / (*object)->object_radius();
-        std::fprintf(stderr, "%s: foot %.3f radii below its middle, taken as %.3f\n",
+        std::fprintf(stderr, "%s: foot %.3f radii below its centre, estimated as %.3f\n",
                      scene->objects[i].file.stem().c_str(), -foot, -(*placed)[i].object->extent.bottom);
         traced.push_back({std::move(*object), (*placed)[i].world_from_object});
     }
@@ -160,18 +159,20 @@ Status run_bench(Arguments arguments) {
 int main(int argc, char** argv) {
     CLI::App app("Composited frames against the same scene traced with the objects' meshes", "bench_truth");
     rs::test::Arguments arguments;
-    app.add_option("--objects", arguments.objects, "folder of the objects; those that it lacks are captured first")
+    app.add_option("--objects", arguments.objects, "folder of the objects; missing ones are captured first")
         ->required();
     app.add_option("-o,--output", arguments.output, "folder for frame, truth and difference of every viewpoint");
-    app.add_option("--size", arguments.size, "of the frames")->capture_default_str();
+    app.add_option("--size", arguments.size, "frame size, WxH")->capture_default_str();
     app.add_flag_callback(
         "--pixel-depth", [&] { arguments.frame.object_depth = rs::compositor::ObjectDepth::kPixel; },
-        "frames whose objects have a depth for each pixel");
-    app.add_option("--object-samples", arguments.frame.object_samples, "across a pixel, at most, where objects are far")
+        "draw objects with per-pixel depth");
+    app.add_option("--object-samples", arguments.frame.object_samples,
+                   "maximum samples across a pixel for distant objects")
         ->capture_default_str();
-    app.add_flag("--upright", arguments.frame.upright_images, "objects by level cameras");
-    app.add_option("--samples", arguments.truth.samples, "per pixel of the truth")->capture_default_str();
-    app.add_option("--paths", arguments.truth.paths_per_sample, "of samples that meet objects")->capture_default_str();
+    app.add_flag("--upright", arguments.frame.upright_images, "render objects with upright cameras");
+    app.add_option("--samples", arguments.truth.samples, "samples per pixel of the truth")->capture_default_str();
+    app.add_option("--paths", arguments.truth.paths_per_sample, "paths per sample that hits an object")
+        ->capture_default_str();
     app.add_option("--only", arguments.only, "numbers of viewpoints, from 1");
     app.footer("Example: bench_truth --objects objects -o images");
     std::function<rs::Status()> run;

@@ -1,11 +1,11 @@
-// How long the images of a display take: three upright walls of 3 m for two eyes, and the tiles of a quilt beside the
-// same views one by one. Drawn without a window by whatever OpenGL there is, each image read back.
+// Frame times of displays: three upright walls of 3 m for two eyes, and a quilt compared with the same views drawn
+// separately. Drawn without a window; times include reading back each image.
 //
 //     bench_walls demo-out/showroom/showroom.wrl --viewpoint shop
 //     bench_walls --object demo-out/vase.rso
 //
-// "cpu" is the processor time of all threads: divided by the number of processors it is what a frame takes at best,
-// whatever else the machine does.
+// "cpu" is the CPU time per frame, summed over all threads: divided by the number of cores, a lower bound of the frame
+// time on an idle machine.
 
 #include "compositor/displays/quilt.hpp"
 #include "compositor/displays/walls_file.hpp"
@@ -45,9 +45,9 @@ Result<FrameCompositor> compositor_of(const Scene& scene, Showroom& showroom, in
 
 Status bench_walls(const Scene& scene, Showroom& showroom, const Camera& visitor, const Options& options) {
     WallDisplay cave = *preset_display("cave");
-    if (Status status = keep_walls(cave, "left,front,right"); !status) return status;
+    if (Status status = select_walls(cave, "left,front,right"); !status) return status;
     for (Wall& wall : cave.walls) wall.width = wall.height = options.side;
-    const RoomPlace place = place_of(visitor, cave.head, 1);
+    const RoomPose place = place_of(visitor, cave.head, 1);
     auto frames = compositor_of(scene, showroom, options.side, options.side, options.samples);
     if (!frames) return frames.error();
     std::vector<double> wall_ms, cpu_ms;
@@ -66,7 +66,7 @@ Status bench_walls(const Scene& scene, Showroom& showroom, const Camera& visitor
         wall_ms.push_back(watch.wall_ms());
         cpu_ms.push_back(watch.cpu_ms());
     }
-    std::printf("three walls x two eyes, %dx%d: %.0f ms a frame (%.1f frames/s), cpu %.0f ms\n", options.side,
+    std::printf("three walls x two eyes, %dx%d: %.0f ms per frame (%.1f frames/s), cpu %.0f ms\n", options.side,
                 options.side, median(wall_ms), 1e3 / median(wall_ms), median(cpu_ms));
     return {};
 }
@@ -109,9 +109,10 @@ Status bench_quilt(const Scene& scene, Showroom& showroom, const Camera& middle,
             }
         }
     }
-    std::printf("quilt of 45 views of %dx%d: %.2f times the time of 45 views alone (cpu %.2f), %.0f ms a view; %s\n",
-                middle.width, middle.height, quilt_ms / single_ms, quilt_cpu / single_cpu, single_ms / 3 / 45,
-                equal ? "all equal" : "NOT EQUAL");
+    std::printf(
+        "quilt of 45 views of %dx%d: %.2f times the time of 45 separate views (cpu %.2f), %.0f ms per view; %s\n",
+        middle.width, middle.height, quilt_ms / single_ms, quilt_cpu / single_cpu, single_ms / 3 / 45,
+        equal ? "all equal" : "NOT EQUAL");
     return {};
 }
 
@@ -149,14 +150,14 @@ Status run(const Options& options) {
 }  // namespace rs::bench
 
 int main(int argc, char** argv) {
-    CLI::App app("Times of walls and quilts.", "bench_walls");
+    CLI::App app("Frame times of walls and quilts.", "bench_walls");
     rs::bench::Options options;
     app.add_option("SCENE", options.scene, "scene; without it, a floor");
-    app.add_option("--object", options.object, "FILE.rso on it");
-    app.add_option("--viewpoint", options.viewpoint, "of the scene");
-    app.add_option("--side", options.side, "of a wall, px")->check(CLI::Range(16, 4096));
-    app.add_option("--frames", options.frames, "to take the middle of")->check(CLI::Range(1, 1000));
-    app.add_option("--samples", options.samples, "per pixel")->check(CLI::Range(1, 16));
+    app.add_option("--object", options.object, "FILE.rso to place in the scene");
+    app.add_option("--viewpoint", options.viewpoint, "viewpoint of the scene");
+    app.add_option("--side", options.side, "width and height of a wall, px")->check(CLI::Range(16, 4096));
+    app.add_option("--frames", options.frames, "frames whose median is printed")->check(CLI::Range(1, 1000));
+    app.add_option("--samples", options.samples, "samples per pixel")->check(CLI::Range(1, 16));
     std::function<rs::Status()> run;
     app.callback([&] { run = [&] { return rs::bench::run(options); }; });
     return rs::tool_main(app, argc, argv, run);

@@ -1,10 +1,10 @@
-// Corners of the calibration board, found by detect_board and by OpenCV (cv::aruco::detectMarkers and
-// interpolateCornersCharuco), in drawn photographs whose corners are known.
+// Accuracy of calibration board corners detected by detect_board and by OpenCV (cv::aruco::detectMarkers and
+// interpolateCornersCharuco) in rendered photos with known corners.
 //
 //     bench_charuco [--views N]
 //
-// Prints CSV per height of the camera: of each finder the corners per view, the root mean square error of those less
-// than 2 px off, those farther off, and the milliseconds per view.
+// Prints CSV, a row per camera elevation: for each detector the corners per view, the RMS error of corners less than 2
+// px off, the number of corners farther off, and the milliseconds per view.
 
 #include "capture/calibration/board/aruco_dictionary.hpp"
 #include "tests/bench/stopwatch.hpp"
@@ -37,7 +37,7 @@ capture::BoardCorners found_by_opencv(const Image<Rgba8>& image, const capture::
     std::vector<cv::Point2f> corners;
     std::vector<int> ids;
     cv::aruco::interpolateCornersCharuco(markers, marker_ids, grey, board, corners, ids);
-    // Centres of pixels at +0.5, as ours.
+    // Pixel centres are at +0.5, as in detect_board.
     for (std::size_t i = 0; i < ids.size(); ++i) seen.corners.push_back({ids[i], {corners[i].x, corners[i].y}});
     return seen;
 }
@@ -53,7 +53,7 @@ void add(Sum& sum, const Image<Rgba8>& image, const capture::BoardTurn& turn, st
     const bench::Stopwatch watch;
     const capture::BoardCorners seen = find(image);
     sum.seconds += watch.wall_s();
-    for (const capture::SeenCorner& one : seen.corners) {
+    for (const capture::DetectedCorner& one : seen.corners) {
         const auto p =
             capture::project(turn.model.lens, turn.model.pose, test::corner_in_table(turn, {}, one.corner, view));
         const double off_px = p ? glm::length(*p - one.p) : kFar_px;

@@ -1,21 +1,21 @@
-// The core's speed beside cv::remap (8UC4) at the same output size, in one run, on two threads: by reference planes
-// beside nearest, with a shape map beside linear.
+// Speed of the software core compared with cv::remap (8UC4) at the same output size, in one run, on two threads:
+// reference planes against nearest, a shape map against linear interpolation.
 //
 //     bench_core --benchmark_repetitions=5 --benchmark_report_aggregates_only=true
 //
-// Both write 1024x1024 pixels of four bytes from 512x512 images. The core renders an orbit around a 90-view object,
-// so that every frame reads other images; cv::remap reads one image through a fixed-point map of the same scale,
-// its fastest form. core_shape orbits at the captured distance, between the captured views; core_shape_near goes
-// nearer, where every ray passes many bands of the map; their images have alpha of all sizes everywhere, those of
-// core_shape_opaque none but 0 and 255. Compare items_per_second (pixels).
+// Both write 1024x1024 pixels of four bytes from 512x512 images. The core renders an orbit around a 90-view object, so
+// that every frame reads different images; cv::remap reads one image through a fixed-point map of the same scale, its
+// fastest form. core_shape orbits at the captured distance, between the captured views; core_shape_near is closer,
+// where every ray passes many bands of the map. Their images have fractional alpha everywhere; core_shape_opaque has
+// only 0 and 255. Compare items_per_second (pixels).
 //
-// coded_*/PROFILE: the same from a coded object (a textured ball on the same ring), decoded as views need it. Orbits go
-// in steps of 1 degree, so that neighbouring frames share tiles: `warm` holds everything, `evicting` ten images, so
-// that there is always something to decode; `cold_frame` decodes all that one frame needs. coded_random_pixel decodes
-// one tile with what it is predicted from, by one thread, nothing being there: items are pixels, `bytes` those read for
-// a pixel.
+// coded_*/PROFILE: the same from a coded object (a textured ball on the same ring), decoded on demand. Orbits advance
+// by 1 degree, so that consecutive frames share tiles. `warm` caches everything; `evicting` caches ten images, so that
+// every frame decodes some tiles; `cold_frame` decodes everything that a frame needs. coded_random_pixel decodes one
+// tile and the tiles that it is predicted from, on one thread with an empty cache: items are pixels, `bytes` the bytes
+// read per pixel.
 //
-// astc_decode/BLOCK (astc_decode.cpp): how fast the command astcenc unpacks a whole image of that ball.
+// astc_decode/BLOCK (astc_decode.cpp): decoding speed of the command astcenc on a whole image of that ball.
 
 #include "encode/codec/board/board_encoder.hpp"
 #include "encode/codec/dense_encoder.hpp"
@@ -51,7 +51,7 @@ const RaySpaceObject& object() {
     return kObject;
 }
 
-// Two balls that fill half of the image; the lines of the encoder's maps at 4 degrees: one a gap.
+// Two balls that fill half of the image; one map line per gap of 4 degrees, as in the encoder's maps.
 const RaySpaceObject& object_with_shape() {
     static const RaySpaceObject kObject = [] {
         RaySpaceObject with_shape = object();
@@ -61,7 +61,7 @@ const RaySpaceObject& object_with_shape() {
     return kObject;
 }
 
-// The same with images that are opaque wherever they show anything, as those of most objects are.
+// The same with binary alpha, as in the images of most objects.
 const RaySpaceObject& opaque_object_with_shape() {
     static const RaySpaceObject kObject = [] {
         RaySpaceObject opaque = object_with_shape();
@@ -216,7 +216,7 @@ BENCHMARK_CAPTURE(coded_shape_evicting, board, codec::Profile::kBoard)->UseRealT
 void coded_cold_frame(benchmark::State& state, codec::Profile profile) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, kThreads);
     const std::vector<engine::ViewRegisters> views = orbit(3.5, 360);
-    // With nothing allowed to stay, every frame is the first one.
+    // With a cache of 0 bytes, every frame is cold.
     const engine::Renderer renderer = *engine::Renderer::create(coded_object(profile), {.decoded_budget_bytes = 0});
     Image<Rgba8> out(kSide, kSide);
     std::size_t next = 0;

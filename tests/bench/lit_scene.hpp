@@ -1,5 +1,5 @@
 #pragma once
-// Where a bench of traced light stands: a scene, its lights and a camera, from the command line.
+// Command-line arguments of benchmarks of tracing renderers: a scene, its lights and a camera.
 
 #include "compositor/scene/light/lights_file.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
@@ -20,11 +20,11 @@ struct LitSceneArguments {
     void add_to(CLI::App& app) {
         app.add_option("scene", scene, "scene file")->required();
         app.add_option("--lights", lights, "list of lights");
-        app.add_option("--eye", eye, "X,Y,Z")->required();
-        app.add_option("--at", at, "X,Y,Z")->required();
-        app.add_option("--fov", fov_deg, "horizontal, degrees")->capture_default_str();
-        app.add_option("--size", size, "WxH")->capture_default_str();
-        app.add_option("--exposure", exposure_ev, "EV")->capture_default_str();
+        app.add_option("--eye", eye, "eye position, X,Y,Z")->required();
+        app.add_option("--at", at, "point to look at, X,Y,Z")->required();
+        app.add_option("--fov", fov_deg, "horizontal field of view, degrees")->capture_default_str();
+        app.add_option("--size", size, "image size, WxH")->capture_default_str();
+        app.add_option("--exposure", exposure_ev, "exposure, EV")->capture_default_str();
     }
 };
 

@@ -1,4 +1,4 @@
-// make_bench_scene: writes a room that renderers are measured with (glTF, textures, a list of lights).
+// make_bench_scene: writes a benchmark scene for renderers (glTF, textures, a list of lights).
 //
 //     make_bench_scene hall -o hall && rs-view render hall/hall.gltf --lights hall/lights.json -o hall.png
 
@@ -29,7 +29,7 @@ rs::Status write_bench_scene(const std::string& scene, const std::filesystem::pa
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Writes a room that renderers are measured with: SCENE.gltf, SCENE.bin, lights.json, textures",
+    CLI::App app("Writes a benchmark scene for renderers: SCENE.gltf, SCENE.bin, lights.json, textures",
                  "make_bench_scene");
     std::string scene;
     std::filesystem::path output;

@@ -1,9 +1,9 @@
-// How much a shape map costs and what it brings: held-out dB over the map's size, by the size of its cells.
+// Size and benefit of a shape map: held-out PSNR over the map's size, for several cell sizes.
 //
 //     bench_map_size SET HELD_OUT [-o curve.svg]
 //
-// HELD_OUT is a second set of the same object, from other places (rs-capture synth --first-angle). Prints a table as
-// CSV: cell side in pixels, bytes in the file, share of the raw images, bytes in memory, dB.
+// HELD_OUT is a second set of the same object with other cameras (rs-capture synth --first-angle). Prints CSV: cell
+// side in pixels, bytes in the file and their share of the raw images, bytes in memory and their share, PSNR in dB.
 
 #include "encode/build.hpp"
 #include "engine/core/fast/renderer.hpp"
@@ -26,13 +26,13 @@ struct Arguments {
 };
 
 struct Measured {
-    double share = 0;  // of the raw images, in the file
+    double share = 0;  // file size of the map over that of the raw images
     double psnr_db = 0;
 };
 
 Result<Measured> measure(const CaptureSet& set, const std::string& held_out, double cell_px) {
     BuildOptions options;
-    options.map = usual_plane_map(MapKind::kShape);
+    options.map = default_plane_map(MapKind::kShape);
     options.shape.lines.cell_px = cell_px;
     Result<BuiltObject> built = build_object(set, options);
     if (!built) return built.error();
@@ -65,7 +65,7 @@ Status write_plot(const std::string& path, const std::vector<Measured>& measured
         plot.series[0].x.push_back(100 * point.share);
         plot.series[0].y.push_back(point.psnr_db);
     }
-    const std::string svg = standalone_svg_of(plot);
+    const std::string svg = draw_standalone_svg(plot);
     return write_file(path, svg);
 }
 
@@ -87,7 +87,7 @@ Status run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     rs::encode::Arguments arguments;
-    CLI::App app("Held-out dB over the size of the shape map.", "bench_map_size");
+    CLI::App app("Held-out PSNR over the size of the shape map.", "bench_map_size");
     app.add_option("SET", arguments.set, "capture set to build from")->required();
     app.add_option("HELD_OUT", arguments.held_out, "capture set to score on")->required();
     app.add_option("-o,--output", arguments.plot, "plot to write, SVG");

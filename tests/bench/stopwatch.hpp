@@ -1,5 +1,5 @@
 #pragma once
-// What something took since the stopwatch was made: on the clock, and of the processors by all threads of the process.
+// Stopwatch for wall time and the CPU time of all threads of the process, since construction.
 
 #include <chrono>
 #include <ctime>

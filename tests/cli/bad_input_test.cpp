@@ -14,6 +14,7 @@
 #include <iterator>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace rs {
 namespace {
@@ -55,7 +56,7 @@ protected:
         const Rig rig = make_ring({.count = 6, .fl_px = 60, .width = 48, .height = 40});
         for (std::size_t i = 0; i < 6; ++i) {
             const auto path = work_ / name / ("p" + std::to_string(i) + ".png");
-            ASSERT_TRUE(write_png(path, test::drawn_image(rig.views[i].camera)).ok());
+            ASSERT_TRUE(write_png(path, test::draw_image(rig.views[i].camera)).ok());
         }
     }
 
@@ -173,8 +174,38 @@ TEST_F(BadInput, OutputThatCannotBe) {
     // A folder that is not ours is not replaced.
     std::filesystem::create_directories(work_ / "mine");
     write_text("mine/letter.txt", "dear");
-    expect_failure("rs-encode", {"extract", object, "-o", in("mine"), "-q"}, {"mine"});
+    expect_failure("rs-encode", {"extract", object, "-o", in("mine"), "-q"}, {"mine", "letter.txt", "--force"});
     EXPECT_TRUE(std::filesystem::exists(work_ / "mine" / "letter.txt"));
+    // Every command that writes a folder has --force; a new file in its folder needs it again.
+    write_text("room.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    write_photographs("photos");
+    const std::vector<std::pair<std::string, std::vector<std::string>>> commands = {
+        {"rs-encode", {"extract", object, "-q"}},
+        {"rs-encode", {"evaluate", in("object-set"), "--methods", "photo", "-q"}},
+        {"rs-engine", {"render", object, "--orbit", "2", "-q"}},
+        {"rs-capture", {"synth", in("room.obj"), "--views", "2", "--size", "8x8", "--spp", "1", "-q"}},
+        {"rs-capture", {"import", in("photos"), "--calibration", "nominal", "-q"}},
+        {"rs-street", {"--seconds", "0.1", "--small"}},
+        {"rs-showroom", {"--scene", "hall", "--small"}},
+        {"rs-view", {in("room.obj"), "--orbit", "2", "--size", "32x24", "-q"}},
+    };
+    for (const auto& [tool, arguments] : commands) {
+        SCOPED_TRACE(tool + " " + arguments.front());
+        auto command = arguments;
+        command.insert(command.end(), {"-o", in("mine")});
+        const test::ToolRun refused = test::run_tool(scratch_.path(), tool, command);
+        if (refused.err.find("OpenGL: ") != std::string::npos) continue;
+        EXPECT_EQ(refused.exit_code, 1);
+        EXPECT_NE(refused.err.find("letter.txt"), std::string::npos) << refused.err;
+        EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
+        command.emplace_back("--force");
+        const test::ToolRun forced = test::run_tool(scratch_.path(), tool, command);
+        EXPECT_EQ(forced.exit_code, 0) << forced.err;
+        EXPECT_FALSE(std::filesystem::exists(work_ / "mine" / "letter.txt"));
+        command.pop_back();
+        EXPECT_EQ(test::run_tool(scratch_.path(), tool, command).exit_code, 0) << "a folder of ours is replaced";
+        write_text("mine/letter.txt", "dear");
+    }
 }
 
 TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
@@ -198,7 +229,7 @@ TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
         std::string kept;
         std::string tool;
         std::vector<std::string> arguments;
-        std::string mention = "is an input";
+        std::string mention = "would overwrite";
         int exit_code = 1;
     };
     const std::vector<Case> cases = {
@@ -216,6 +247,13 @@ TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
          "rs-engine",
          {"render", in("object.rso"), "--poses", in("set/transforms.json"), "-o", in("set/transforms.json"), "-q"},
          ""},
+        {"set/transforms.json",
+         "rs-engine",
+         {"render", in("object.rso"), "--poses", in("set/transforms.json"), "-o", in("set"), "--force", "-q"}},
+        {"set/0.png", "rs-encode", {"evaluate", in("set"), "-o", in("set"), "--force", "-q"}},
+        {"object.rso", "rs-encode", {"extract", in("object.rso"), "-o", work_.path().string(), "--force", "-q"}},
+        {"photos/p0.png", "rs-capture", {"import", in("photos"), "-o", in("photos"), "--force", "-q"}},
+        {"scene.wrl", "rs-capture", {"synth", in("scene.wrl"), "-o", work_.path().string(), "--force", "-q"}},
         {"object.png", "rs-engine", {"render", in("object.png"), "--eye", "3,0,0", "-o", in("object.png"), "-q"}},
         {"texture.png", "rs-view", {"render", in("scene.wrl"), "-o", in("texture.png")}},
         {"imported/transforms.json",
@@ -240,8 +278,8 @@ TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
         scratch_.path(), "rs-view",
         {"render", in("scene.wrl"), "--size", "64x48", "-o", in("new.png"), "--stats", in("times.json")});
     EXPECT_EQ(run.exit_code, 1);
-    EXPECT_NE(run.err.find("was just written"), std::string::npos) << run.err;
-    EXPECT_TRUE(read_image(in("new.png")).ok());
+    EXPECT_NE(run.err.find("would overwrite"), std::string::npos) << run.err;
+    EXPECT_FALSE(std::filesystem::exists(in("new.png")));
 }
 
 TEST_F(BadInput, LimitsOfTheProcessAreOnePlainLine) {

@@ -70,13 +70,13 @@ TEST_F(ImportFilm, MakesASetOfAFilm) {
     EXPECT_EQ(names, (std::set<std::string>{"turn.mp4", "set", "page.html", "stdout.txt", "stderr.txt"}));
     for (const auto& entry : fs::directory_iterator(folder_ / "set")) {
         const std::string name = entry.path().filename().string();
-        EXPECT_TRUE(name == "images" || name == kRigFileName || name == ".rayspace-files") << name;
+        EXPECT_TRUE(name == "images" || name == kRigFileName || name == ".rayspace-folder") << name;
     }
 }
 
 TEST_F(ImportFilm, RefusesADamagedFile) {
     std::ofstream(folder_ / "turn.mp4") << "no film";
-    expect_refused(import({"-q"}), "turn.mp4: cannot be read as a film");
+    expect_refused(import({"-q"}), "turn.mp4: cannot be read as a video");
 }
 
 TEST_F(ImportFilm, RefusesAFilmInWhichNothingTurns) {

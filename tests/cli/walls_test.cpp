@@ -122,7 +122,7 @@ TEST_F(Displays, ImagesAreOfTheHeadThatIsTracked) {
     test::ToolRun run = view(
         {"walls", in("hall.wrl"), "--display", in("walls.json"), "--heads", in("heads.json"), "-o", in("by-file")});
     ASSERT_EQ(run.exit_code, 0) << run.err;
-    const std::uint16_t port = test::TakenPort().number();
+    const std::uint16_t port = test::OccupiedPort().number();
     const std::string udp = "udp:" + std::to_string(port);
     {
         const Tracker tracker(port, {40, 10, 50, 0, 0, 0});
@@ -147,10 +147,10 @@ TEST_F(Displays, ATrackerThatSaysNothingIsNamed) {
         EXPECT_FALSE(exists("none"));
         return run.err;
     };
-    const test::TakenPort taken;
+    const test::OccupiedPort taken;
     const std::string udp = "udp:127.0.0.1:" + std::to_string(taken.number());
     EXPECT_THAT(fault(udp), HasSubstr("another program has the port: end it, or give another port"));
-    const std::uint16_t free = test::TakenPort().number();
+    const std::uint16_t free = test::OccupiedPort().number();
     EXPECT_THAT(fault("udp:" + std::to_string(free)), HasSubstr("no head has come in 10 s; start the tracker"));
     EXPECT_THAT(fault("udp:here:1"), HasSubstr("udp:here:1: must be udp:PORT"));
 }

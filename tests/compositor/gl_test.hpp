@@ -22,7 +22,7 @@ protected:
     void TearDown() override {
         if (!context_) return;
         EXPECT_THAT(context_->take_errors(), ::testing::IsEmpty());
-        EXPECT_THAT(context_->names_alive(), ::testing::IsEmpty());
+        EXPECT_THAT(context_->live_objects(), ::testing::IsEmpty());
     }
 
     std::optional<gl::Context> context_;

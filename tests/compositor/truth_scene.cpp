@@ -234,7 +234,7 @@ Status write_captured_object(const std::string& name, capture::SceneFile object,
     Result<encode::CaptureSet> set = encode::open_capture_set(set_folder, progress);
     if (!set) return set.error();
     encode::BuildOptions build;
-    build.map = encode::usual_plane_map(build.raymap);
+    build.map = encode::default_plane_map(build.raymap);
     build.name = name;
     build.raw_images = false;
     Result<encode::BuiltObject> built = encode::build_object(*set, build, progress);

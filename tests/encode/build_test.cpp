@@ -32,7 +32,7 @@ TEST(Build, UprightImagesAreStoredAsTheyAreAndComeBackFromTheFile) {
     ASSERT_TRUE(built.ok()) << built.error().message;
     EXPECT_TRUE(built->warnings.empty());
     for (std::size_t i = 0; i < 8; ++i) {
-        const Image<Rgba8> truth = test::drawn_image(set->captured.views[i].camera);
+        const Image<Rgba8> truth = test::draw_image(set->captured.views[i].camera);
         EXPECT_EQ(built->object.images[i], planar_from_rgba(truth));
     }
     ASSERT_TRUE(write_object(folder / "balls.rso", built->object).ok());
@@ -93,7 +93,7 @@ TEST(Build, CamerasThatLookDownAreMadeUpright) {
         const Result<Image<Rgba8>> image = read_upright_image(*set, i);
         ASSERT_TRUE(image.ok());
         ASSERT_EQ(image->width(), set->width);
-        worst = std::min(worst, compare_images_psnr(*image, test::drawn_image(camera)).psnr_db());
+        worst = std::min(worst, compare_images_psnr(*image, test::draw_image(camera)).psnr_db());
     }
     EXPECT_GT(worst, 26);  // resampling softens edges; a wrong homography gives below 15
 }
@@ -125,7 +125,7 @@ TEST(BuildErrors, AImageThatShowsWhatIsStraightBelowIsRefused) {
 
 TEST(UprightResampling, TheSameCameraGivesTheSameImage) {
     const Camera camera = test::drawn_ring(8).views[1].camera;
-    const Image<Rgba8> image = test::drawn_image(camera);
+    const Image<Rgba8> image = test::draw_image(camera);
     EXPECT_GT(compare_images_psnr(resample_image(camera, camera, image), image).psnr_db(), 55);
 }
 

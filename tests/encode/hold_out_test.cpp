@@ -2,8 +2,8 @@
 
 #include "encode/hold_out.hpp"
 #include "encode/build.hpp"
+#include "encode/evaluation/evaluation.hpp"
 #include "encode/set/capture_set.hpp"
-#include "encode/tools/evaluation.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/image_metrics.hpp"
 #include "tests/support/drawn_set.hpp"
@@ -136,16 +136,16 @@ TEST(Evaluation, ScoresOnlyWhatWasHeldOutAgainstItsOwnImage) {
 
     std::mutex mutex;
     std::multiset<int> looked;
-    const auto look = [&](const EvaluatedView& answered) -> Status {
+    const auto look = [&](const EvaluatedView& evaluated) -> Status {
         const std::lock_guard lock(mutex);
-        looked.insert(answered.view);
-        EXPECT_EQ(answered.view, hold_out.held[answered.number]);
-        EXPECT_EQ(answered.truth,
-                  test::drawn_image(set->upright.views[static_cast<std::size_t>(answered.view)].camera));
-        EXPECT_EQ(answered.psnr_db, compare_images_psnr(answered.truth, answered.answer).psnr_db());
-        if (answered.method == Method::kPhoto) {
-            const auto photo = read_upright_image(*set, nearest_kept_view(set->upright, hold_out, answered.view));
-            EXPECT_TRUE(photo.ok() && *photo == answered.answer);
+        looked.insert(evaluated.view);
+        EXPECT_EQ(evaluated.view, hold_out.held[evaluated.number]);
+        EXPECT_EQ(evaluated.truth,
+                  test::draw_image(set->upright.views[static_cast<std::size_t>(evaluated.view)].camera));
+        EXPECT_EQ(evaluated.psnr_db, compare_images_psnr(evaluated.truth, evaluated.rendering).psnr_db());
+        if (evaluated.method == Method::kPhoto) {
+            const auto photo = read_upright_image(*set, nearest_kept_view(set->upright, hold_out, evaluated.view));
+            EXPECT_TRUE(photo.ok() && *photo == evaluated.rendering);
         }
         return {};
     };

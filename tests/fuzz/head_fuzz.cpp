@@ -15,10 +15,10 @@ int fuzz_head(const std::uint8_t* data, std::size_t size) {
     }
     RS_CHECK(size == compositor::kHeadDatagram_bytes);
     for (int axis = 0; axis < 3; ++axis) {
-        RS_CHECK(std::abs(head->position[axis]) <= compositor::kFarthestTrackedHead_m * (1 + 1e-12));
+        RS_CHECK(std::abs(head->position[axis]) <= compositor::kMaxHeadDistance_m * (1 + 1e-12));
     }
     const compositor::Head zero{.position = {1, 2, 3}, .heading_rad = 1};
-    const compositor::Head in_room = compositor::tracked_in_room(*head, zero);
+    const compositor::Head in_room = compositor::head_in_room(*head, zero);
     RS_CHECK(std::abs(glm::length(in_room.right()) - 1) < 1e-9);
     RS_CHECK(std::abs(glm::distance(in_room.position, zero.position) - glm::length(head->position)) < 1e-9);
     return 0;

@@ -24,7 +24,7 @@ int fuzz_lights(const std::uint8_t* data, std::size_t size) {
     compositor::Scene scene;
     if (!compositor::add_lights(scene, *list, "fuzz")) return 0;
     RS_CHECK(scene.lights.size() >= list->lights.size());
-    RS_CHECK(compositor::lights_in_force(scene).entries.size() == scene.lights.size());
+    RS_CHECK(compositor::lights_as_list(scene).entries.size() == scene.lights.size());
     return 0;
 }
 

@@ -20,7 +20,7 @@ int fuzz_walls(const std::uint8_t* data, std::size_t size) {
         for (const compositor::Wall& wall : display->walls) {
             RS_CHECK(compositor::check_wall(wall).ok());
             const auto camera = compositor::wall_camera(wall, display->head.eye(display->eye_distance_m),
-                                                        display->place.value_or(compositor::RoomPlace{}));
+                                                        display->place.value_or(compositor::RoomPose{}));
             RS_CHECK(!camera || (camera->fl_x > 0 && std::isfinite(camera->cx) && rotation_error(*camera) < 1e-9));
         }
     } else {

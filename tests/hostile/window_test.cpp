@@ -80,8 +80,7 @@ TEST(HostileWindow, TheVisitGoesOn) {
     options.samples = 1;
     auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.waits = true}, nullptr,
                                                std::make_unique<test::ObjectsInMemory>());
-    auto window =
-        Window::create({.title = "test", .width = 320, .height = 240, .wait_for_screen = false, .context = {}});
+    auto window = Window::create({.title = "test", .width = 320, .height = 240, .vertical_sync = false, .context = {}});
     ASSERT_TRUE(window.ok()) << window.error().message;
     auto visit = Visit::create(std::move(*window), scene, std::move(showroom), options);
     ASSERT_TRUE(visit.ok()) << visit.error().message;

@@ -64,11 +64,13 @@ expect_all_stated() {
 case "$2" in
   library) # find_package(Rayspace) in somebody else's project
     cmake --install "$BUILD" --prefix "$WORK/there" >"$WORK/install.log"
-    cmake -S "$HERE/consumer" -B "$WORK/consumer" -DCMAKE_PREFIX_PATH="$WORK/there" -DCMAKE_BUILD_TYPE=Release >"$WORK/log" || { cat "$WORK/log"; fail "find_package"; }
-    cmake --build "$WORK/consumer" >"$WORK/log" || { cat "$WORK/log"; fail "the consumer does not build"; }
-    "$WORK/consumer/consumer" "$OBJECT" "$WORK/view.png"
-    expect_same "$WORK/there/bin/rs-engine" "$WORK/view.png"
-    ! "$WORK/consumer/consumer" "$WORK/none.rso" "$WORK/none.png" 2>"$WORK/error" || fail "an object that is not there was drawn"
+    cmake -S "$HERE/../../examples" -B "$WORK/examples" -DCMAKE_PREFIX_PATH="$WORK/there" -DCMAKE_BUILD_TYPE=Release >"$WORK/log" || { cat "$WORK/log"; fail "find_package"; }
+    cmake --build "$WORK/examples" >"$WORK/log" || { cat "$WORK/log"; fail "the examples do not build"; }
+    foreign=$(cd "$WORK/there/include/"* && find . -name '*.hpp' ! -path './rayspace/api/*')
+    [ -z "$foreign" ] || fail "other headers than those of rayspace/api are installed: $foreign"
+    "$WORK/examples/render_orbit" "$OBJECT" "$WORK/views" 1
+    expect_same "$WORK/there/bin/rs-engine" "$WORK/views/0000.png"
+    ! "$WORK/examples/render_orbit" "$WORK/none.rso" "$WORK/none" 2>"$WORK/error" || fail "an object that does not exist was rendered"
     grep -q 'none.rso: ' "$WORK/error" || fail "the error does not name the file: $(cat "$WORK/error")"
     ;;
   python)
@@ -78,6 +80,7 @@ case "$2" in
     "$WORK/there/bin/rs-engine" render "$OBJECT" --poses "$WORK/set/transforms.json" -o "$WORK/drawn" -q
     cp -r "$WORK/drawn/." "$WORK/set"
     PYTHONPATH=$WORK/there/lib/python3/dist-packages /usr/bin/python3 "$HERE/use_module.py" "$OBJECT" "$WORK/set"
+    [ -e "$WORK/there/lib/python3/dist-packages/rayspace.pyi" ] || fail "the type stub is not installed"
     ;;
   package) # a .deb, installed by dpkg beside a copy of this system's database, used from there, and removed
     (cd "$BUILD" && cpack -G DEB -B "$WORK/packed" >"$WORK/log" 2>&1) || { cat "$WORK/log"; fail "cpack"; }

@@ -1,31 +1,38 @@
-"""Uses the Python module as its users do: use_module.py OBJECT.rso CAPTURE_SET, the pictures of the set being what the tools draw of it."""
+"""Uses the Python module as its users do: use_module.py OBJECT.rso CAPTURE_SET; the set's photos are what the tools render."""
 import sys
 
 import numpy as np
 import rayspace
 
-thing = rayspace.open(sys.argv[1])
-assert thing.info["views"] == 9 and thing.info["width"] == 128, thing.info
-rig = thing.rig
-lens = {key: rig[key] for key in ("fl_x", "fl_y", "cx", "cy")}
-views = [thing.render(np.array(f["transform_matrix"]), rig["w"], rig["h"], **lens) for f in rig["frames"]]
-assert all(v.shape == (rig["h"], rig["w"], 4) and v.dtype == np.uint8 for v in views)
+thing = rayspace.Object.open(sys.argv[1])
+assert thing.photos == 9 and thing.width == 128 and thing.has_all_photos, thing.name
+captured = thing.captured_cameras()
+renderer = rayspace.Renderer.create(thing)
+views = [renderer.render(c.camera).image for c in captured]
+height, width = captured[0].camera.height, captured[0].camera.width
+assert all(v.shape == (height, width, 4) and v.dtype == np.uint8 for v in views)
 assert all(v[..., 3].max() == 255 for v in views) and (views[0] != views[4]).any()
 
-# Depth is there where something is shown, and only there; the camera stands 3.5 units away.
-picture, depth = thing.render(rig["frames"][0]["transform_matrix"], 64, 48, fov_deg=45, depth=True)
-assert depth.dtype == np.float32 and ((depth > 0) == (picture[..., 3] > 0)).all()
-assert 0.5 < depth[depth > 0].mean() < 6, depth[depth > 0].mean()
+# Depth is there where something is shown, and only there; the camera is 3.5 units away.
+near = rayspace.Camera(captured[0].camera.world_from_camera, 64, 48, fov_x_rad=0.785)
+view = renderer.render(near, depth=True)
+assert view.depth.dtype == np.float32 and ((view.depth > 0) == (view.image[..., 3] > 0)).all()
+assert 0.5 < view.depth[view.depth > 0].mean() < 6, view.depth[view.depth > 0].mean()
+assert renderer.render(near).depth is None
 
-compared = thing.compare(sys.argv[2])
-assert len(compared["views"]) == 9 and compared["mean_psnr_db"] >= 99, compared
+compared = rayspace.compare_with_photos(renderer, sys.argv[2])
+assert len(compared.views) == 9 and compared.mean_psnr_db >= 99, compared.mean_psnr_db
 
-for wrong, word in ((lambda: rayspace.open("none.rso"), "none.rso"),
-                    (lambda: thing.render(np.eye(3), 8, 8, fov_deg=40), "4x4"),
-                    (lambda: thing.render(2 * np.eye(4), 8, 8, fov_deg=40), "rigid"),
-                    (lambda: thing.render(np.eye(4), 8, 8), "fov_deg"),
-                    (lambda: thing.render(np.eye(4), -8, 8, fov_deg=40), "8192"),
-                    (lambda: thing.compare("nowhere"), "nowhere")):
+scalar = rayspace.Renderer.create(thing, executor="scalar")
+assert (scalar.render(captured[4].camera).image == views[4]).all()
+
+for wrong, word in ((lambda: rayspace.Object.open("none.rso"), "none.rso"),
+                    (lambda: rayspace.Camera(np.eye(3), 8, 8, fov_x_rad=0.7), "4x4"),
+                    (lambda: renderer.render(rayspace.Camera(2 * np.eye(4), 8, 8, fov_x_rad=0.7)), "rotation"),
+                    (lambda: rayspace.Camera(np.eye(4), 8, 8), "fov_x_rad"),
+                    (lambda: renderer.render(rayspace.Camera(np.eye(4), -8, 8, fl_x=40)), "8192"),
+                    (lambda: rayspace.Renderer.create(thing, executor="none"), "scalar, core"),
+                    (lambda: rayspace.compare_with_photos(renderer, "nowhere"), "nowhere")):
     try:
         wrong()
     except rayspace.Error as error:

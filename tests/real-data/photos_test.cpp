@@ -2,8 +2,8 @@
 
 #include "capture/photos/import.hpp"
 #include "capture/photos/rig/turning.hpp"
+#include "encode/evaluation/evaluation.hpp"
 #include "encode/hold_out.hpp"
-#include "encode/tools/evaluation.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image_io/image_io.hpp"
@@ -110,7 +110,7 @@ void expect_one_object_in_every_view(const Imported& imported) {
 
 // As a nominal rig asks for it.
 std::optional<Turning> turning_by_images(const ImportReport& report) {
-    const std::vector<Image<Rgba8>>& turn = report.small_cut_outs;
+    const std::vector<Image<Rgba8>>& turn = report.small_foregrounds;
     const double axis_px = report.nominal.axis_x_px * turn.front().width() / report.folder.width;
     double half_width_px = 0;
     for (const Image<Rgba8>& cut : turn) {

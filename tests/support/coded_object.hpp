@@ -19,7 +19,7 @@ inline std::vector<Image<Rgba8>> drawn_images(const RaySpaceObject& object) {
                          .width = object.width,
                          .height = object.height});
     std::vector<Image<Rgba8>> images;
-    for (const RigView& view : rig.views) images.push_back(drawn_image(view.camera));
+    for (const RigView& view : rig.views) images.push_back(draw_image(view.camera));
     return images;
 }
 

@@ -14,7 +14,7 @@
 namespace rs::test {
 
 /// Three balls, nearest first; edges smooth over about a pixel.
-inline Image<Rgba8> drawn_image(const Camera& camera) {
+inline Image<Rgba8> draw_image(const Camera& camera) {
     struct Ball {
         glm::dvec3 centre;
         double radius;
@@ -61,7 +61,7 @@ inline Rig drawn_ring(int count, double elevation_deg = 0) {
 
 /// Draws every view of `rig` into `folder`.
 inline void write_drawn_set(const std::filesystem::path& folder, Rig rig,
-                            Image<Rgba8> (*draw)(const Camera&) = drawn_image) {
+                            Image<Rgba8> (*draw)(const Camera&) = draw_image) {
     std::filesystem::create_directories(folder);
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
         rig.views[i].file_path = std::to_string(i) + ".png";

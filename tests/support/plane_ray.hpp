@@ -17,7 +17,7 @@ struct Ray {
 };
 
 /// The plane most perpendicular to a ray: the largest -direction . n_k (lowest k among equals).
-inline int most_square_plane(const glm::dvec3& direction, int count) {
+inline int most_perpendicular_plane(const glm::dvec3& direction, int count) {
     int best = 0;
     double best_squareness = -glm::dot(direction, reference_plane(0, count).normal);
     for (int k = 1; k < count; ++k) {

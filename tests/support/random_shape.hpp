@@ -1,7 +1,7 @@
 #pragma once
 // Valid random shape maps for ring objects (ring_object.hpp) and small ones, to compare renderers.
 
-#include "rayspace/object/shape_map.hpp"
+#include "rayspace/api/types/shape_map.hpp"
 #include "tests/support/small_shape.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 // A ray-space object of exactly known shape: a ball beside the axis with a grey texture, ray-cast into the images and
-// the shape map of a ring_object(), by the formulas of rayspace/object/shape_map.hpp.
+// the shape map of a ring_object(), by the formulas of rayspace/api/types/shape_map.hpp.
 
 #include "rayspace/geometry/ray_space.hpp"
 #include "tests/support/ring_object.hpp"

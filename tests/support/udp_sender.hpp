@@ -38,7 +38,7 @@ private:
 };
 
 /// Occupies a free local port during its lifetime.
-class TakenPort {
+class OccupiedPort {
 public:
     [[nodiscard]] std::uint16_t number() const { return socket_.local_endpoint().port(); }
 

@@ -181,7 +181,7 @@ class Workflow(unittest.TestCase):
         outputs["raster.png"] = "hall.wrl --size 64x48"
         for name, options in outputs.items():
             try:
-                self.tool("rs-view", *options.split(), "-q", "-o", f"direct-{name}")
+                self.tool("rs-view", "render", *options.split(), "-q", "-o", f"direct-{name}")
             except subprocess.CalledProcessError as failed:
                 if "OpenGL: " in failed.stderr:
                     self.skipTest(failed.stderr)

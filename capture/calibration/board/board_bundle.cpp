@@ -89,8 +89,8 @@ struct Unknowns {
 };
 
 // Fills `problem`; the parameter blocks are owned by `unknowns`.
-void pose_problem(ceres::Problem& problem, Unknowns& unknowns, const Lens& lens, std::span<const BoardObservation> seen,
-                  const BoardBundleOptions& options) {
+void build_problem(ceres::Problem& problem, Unknowns& unknowns, const Lens& lens,
+                   std::span<const BoardObservation> seen, const BoardBundleOptions& options) {
     const bool common = options.free.angles == AngleFreedom::kCommonStep;
     const BundleFreedom& free = options.free;
     auto* loss = new ceres::HuberLoss(3);
@@ -140,7 +140,7 @@ std::optional<double> adjust(BoardTurn& turn, std::span<const BoardObservation> 
     Unknowns unknowns(turn, options.free.angles);
     try {
         ceres::Problem problem;
-        pose_problem(problem, unknowns, turn.model.lens, seen, options);
+        build_problem(problem, unknowns, turn.model.lens, seen, options);
         ceres::Solver::Options how;
         how.linear_solver_type = ceres::DENSE_SCHUR;  // each observation depends on one angle
         how.max_num_iterations = options.max_iterations;
@@ -165,7 +165,7 @@ ModelDeviations board_standard_deviations(const BoardTurn& turn, std::span<const
     if (seen.empty()) return deviations;
     Unknowns unknowns(turn, options.free.angles);
     ceres::Problem problem;
-    pose_problem(problem, unknowns, turn.model.lens, seen, options);
+    build_problem(problem, unknowns, turn.model.lens, seen, options);
 
     ceres::Problem::EvaluateOptions order;
     std::vector<bool> is_seen(views, false);

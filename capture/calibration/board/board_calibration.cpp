@@ -49,13 +49,13 @@ std::vector<std::size_t> views_without_board(const Task& task) {
 }
 
 Status check(const Task& task) {
-    if (Status valid = check_board_design(task.design); !valid) return valid;
+    RS_TRY(check_board_design(task.design));
     if (task.known.angles_rad && task.known.angles_rad->size() != task.views.size()) {
         return Error{"board: " + std::to_string(task.known.angles_rad->size()) + " angles for " +
                      std::to_string(task.views.size()) + " views; give one for each"};
     }
     for (const BoardCorners& view : task.views) {
-        for (const SeenCorner& seen : view.corners) {
+        for (const DetectedCorner& seen : view.corners) {
             if (seen.corner < 0 || seen.corner >= corner_count(task.design) || !std::isfinite(seen.p.x + seen.p.y)) {
                 return Error{"board: corner " + std::to_string(seen.corner) + " is not on it; detect again with " +
                              to_string(task.design)};
@@ -78,11 +78,11 @@ Status check(const Task& task) {
     return {};
 }
 
-void collect(Task& task) {
+void split_observations(Task& task) {
     int count = 0;
     for (std::size_t i = 0; i < task.views.size(); ++i) {
         if (!has_board(task.views[i], task.design)) continue;
-        for (const SeenCorner& seen : task.views[i].corners) {
+        for (const DetectedCorner& seen : task.views[i].corners) {
             const bool out = ++count % kCornerHeldOutEvery == 0;
             (out ? task.held_out : task.used)
                 .push_back({static_cast<int>(i), corner_mm(task.design, seen.corner), seen.p});
@@ -114,7 +114,7 @@ Status apply_known_angles(const Task& task, BoardTurn& turn) {
             return Error{"board: no two neighbouring views show it, so the step is unknown; give the step"};
         }
     }
-    turn.model = apply_known_angles(std::move(turn.model), known);
+    turn.model = apply_known(std::move(turn.model), known);
     if (!known.angles_rad && !known.step_rad) return {};
     const std::vector<double>& angles = turn.model.angles_rad;
     std::size_t first = 0;
@@ -186,7 +186,8 @@ double robust_noise_px(const BoardTurn& turn, std::span<const BoardObservation> 
     return std::max(kLeastNoise_px, median(std::move(lengths)) / 1.1774);
 }
 
-std::vector<BoardObservation> within(const BoardTurn& turn, std::span<const BoardObservation> seen, double limit_px) {
+std::vector<BoardObservation> inliers_within(const BoardTurn& turn, std::span<const BoardObservation> seen,
+                                             double limit_px) {
     std::vector<BoardObservation> kept;
     for (const BoardObservation& one : seen) {
         const auto r = residual(turn, one);
@@ -237,19 +238,19 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
                                               std::span<const std::string> names) {
     Task task{views, design, known, names, {}, {}, {}, {}};
     const double assumed_f_px = 1.3 * std::max(width, height);
-    task.lens = apply_known_angles(Lens{width, height, assumed_f_px, 0.5 * width, 0.5 * height, 0, 0}, known);
+    task.lens = apply_known(Lens{width, height, assumed_f_px, 0.5 * width, 0.5 * height, 0, 0}, known);
     BundleFreedom& free = task.options.free;
     free = free_parameters_beside(known);
     free.k1 = free.k2 = !known.distortion;
     RS_TRY(check(task));
-    collect(task);
+    split_observations(task);
     RS_ASSIGN_OR_RETURN(BoardTurn turn, best_start(task));
 
     std::vector<BoardObservation> used = task.used;
     for (int round = 0; round < 4; ++round) {
         task.options.noise_px = robust_noise_px(turn, used);
         // Observations rejected because of a poor start are reconsidered.
-        used = within(turn, task.used, kCornerOutlierDeviations * task.options.noise_px);
+        used = inliers_within(turn, task.used, kCornerOutlierDeviations * task.options.noise_px);
         if (!adjust(turn, used, task.options)) {
             return Error{"board: the adjustment fails; check that the images are of one turn and in order"};
         }
@@ -280,12 +281,12 @@ Result<BoardCalibration> calibrate_with_board(std::span<const BoardCorners> view
     c.model = turn.model;
     c.deviations = board_standard_deviations(turn, used, task.options);
     for (const BoardCorners& view : views) {
-        for (const SeenCorner& seen : view.corners) corners.insert(seen.corner);
+        for (const DetectedCorner& seen : view.corners) corners.insert(seen.corner);
     }
     c.points = static_cast<int>(corners.size());
     c.observations = static_cast<int>(used.size());
     c.rms_px = fitted;
-    const auto held_out = within(turn, task.held_out, kCornerOutlierDeviations * task.options.noise_px);
+    const auto held_out = inliers_within(turn, task.held_out, kCornerOutlierDeviations * task.options.noise_px);
     c.held_out_rms_px = rms_px(turn, held_out);
     c.step_rad = median_step(c.model.angles_rad);
     for (std::size_t i = 0; i < views.size(); ++i) {

@@ -21,14 +21,14 @@
 
 namespace rs::capture {
 
-struct SeenCorner {
+struct DetectedCorner {
     int corner = 0;  // number as in charuco_board.hpp
     glm::dvec2 p;    // px, centres at +0.5
 };
 
 /// The corners of one view in ascending order of their numbers; empty if no board is detected.
 struct BoardCorners {
-    std::vector<SeenCorner> corners;
+    std::vector<DetectedCorner> corners;
 };
 
 /// Fails only if OpenCV throws or the design is invalid; a view without a board is not an error. Thread-safe.

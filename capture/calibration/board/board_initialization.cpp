@@ -27,7 +27,7 @@ std::optional<Eigen::Matrix3d> homography(const BoardCorners& view, const BoardD
                                           double unit_px, double unit_mm) {
     if (!has_board(view, design)) return std::nullopt;
     std::vector<cv::Point2d> from, to;
-    for (const SeenCorner& seen : view.corners) {
+    for (const DetectedCorner& seen : view.corners) {
         const glm::dvec2 at = corner_mm(design, seen.corner) / unit_mm;
         glm::dvec2 p = (seen.p - glm::dvec2(lens.cx, lens.cy)) / unit_px;
         if (lens.k1 != 0 || lens.k2 != 0) {
@@ -127,7 +127,7 @@ bool has_board(const BoardCorners& view, const BoardDesign& design) {
     Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
     Eigen::Vector2d mean = Eigen::Vector2d::Zero();
     std::vector<Eigen::Vector2d> points;
-    for (const SeenCorner& seen : view.corners) {
+    for (const DetectedCorner& seen : view.corners) {
         const glm::dvec2 p = corner_mm(design, seen.corner) / design.square_mm;
         points.emplace_back(p.x, p.y);
         mean += points.back() / static_cast<double>(view.corners.size());

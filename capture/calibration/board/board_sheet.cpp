@@ -133,7 +133,7 @@ std::string pdf_file(double width_mm, double height_mm, const std::string& conte
 
 Status write_text(const std::filesystem::path& path, const std::string& text) {
     RS_ASSIGN_OR_RETURN(StagedFile file, StagedFile::create(path));
-    if (Status written = file.write(std::as_bytes(std::span(text))); !written) return written;
+    RS_TRY(file.write(std::as_bytes(std::span(text))));
     return file.commit();
 }
 

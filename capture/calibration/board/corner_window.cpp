@@ -31,7 +31,7 @@ cv::Point2d apply_homography(const cv::Matx33d& h, double x, double y) {
 }
 
 // Samples the window around `centre` (in squares); false if it leaves the image.
-bool fill(Window& window, const cv::Mat1f& grey, const cv::Matx33d& h, const glm::dvec2& centre) {
+bool sample_window(Window& window, const cv::Mat1f& grey, const cv::Matx33d& h, const glm::dvec2& centre) {
     const int n = 2 * window.half + 1;
     window.grey.resize(static_cast<std::size_t>(n * n));
     auto out = window.grey.begin();
@@ -92,7 +92,7 @@ bool matches_chessboard(const Window& window, bool first_is_black, double band) 
 }
 
 // Offset from the window's centre to the corner, in squares.
-std::optional<glm::dvec2> offset(const Window& window, double band) {
+std::optional<glm::dvec2> corner_offset(const Window& window, double band) {
     double a = 0, b = 0, c = 0, u = 0, v = 0;
     for (int y = -window.half + 1; y < window.half; ++y) {
         for (int x = -window.half + 1; x < window.half; ++x) {
@@ -129,14 +129,15 @@ std::optional<glm::dvec2> refine_corner(const cv::Mat1f& grey, const cv::Matx33d
 
     glm::dvec2 centre(0);
     for (int i = 0; i < kMostRefinements; ++i) {
-        if (!fill(window, grey, h, centre)) return std::nullopt;
-        const auto step = offset(window, band);
+        if (!sample_window(window, grey, h, centre)) return std::nullopt;
+        const auto step = corner_offset(window, band);
         if (!step) return std::nullopt;
         centre += *step;
         if (!(glm::length(centre) < kMost)) return std::nullopt;
         if (glm::length(*step) * longest < 2e-3) break;
     }
-    if (!fill(window, grey, h, centre) || !matches_chessboard(window, first_is_black, band)) return std::nullopt;
+    if (!sample_window(window, grey, h, centre) || !matches_chessboard(window, first_is_black, band))
+        return std::nullopt;
     const cv::Point2d p = apply_homography(h, centre.x, centre.y);
     return glm::dvec2(p.x, p.y);
 }

@@ -154,11 +154,9 @@ Result<glm::dvec2> distortion_of(const nlohmann::json& extras, const std::string
                          " is not supported, only k1 and k2; calibrate with those alone or undistort the images"};
         }
     }
-    const auto k1 = coefficient("k1");
-    const auto k2 = coefficient("k2");
-    if (!k1) return k1.error();
-    if (!k2) return k2.error();
-    return glm::dvec2(*k1, *k2);
+    RS_ASSIGN_OR_RETURN(const double k1, coefficient("k1"));
+    RS_ASSIGN_OR_RETURN(const double k2, coefficient("k2"));
+    return glm::dvec2(k1, k2);
 }
 
 }  // namespace
@@ -248,7 +246,7 @@ Result<KnownFile> read_known_file(const std::filesystem::path& path, ImagePixels
                  "*.xml (OpenCV)"};
 }
 
-Result<KnownInputs> known_inputs_of(const KnownFile& file, const std::vector<std::string>& photographs) {
+Result<KnownInputs> known_inputs_of(const KnownFile& file, const std::vector<std::string>& photos) {
     KnownInputs known = file.known;
     if (!known.angles_rad || file.images.empty()) return known;
     std::map<std::string, double> angle_of;
@@ -256,16 +254,16 @@ Result<KnownInputs> known_inputs_of(const KnownFile& file, const std::vector<std
         angle_of[std::filesystem::path(file.images[i]).stem().string()] = (*known.angles_rad)[i];
     }
     std::vector<double> angles;
-    for (const std::string& photograph : photographs) {
-        const auto found = angle_of.find(std::filesystem::path(photograph).stem().string());
+    for (const std::string& photo : photos) {
+        const auto found = angle_of.find(std::filesystem::path(photo).stem().string());
         if (found == angle_of.end()) {
-            return Error{photograph + ": is not among the " + std::to_string(angle_of.size()) +
+            return Error{photo + ": is not among the " + std::to_string(angle_of.size()) +
                          " images of the given rig; remove it from the folder, or give its rig"};
         }
         angles.push_back(found->second);
     }
     // Angles are relative to the first photo; the pose of the camera in the table frame does not change.
-    for (double& angle : angles) angle -= angle_of.at(std::filesystem::path(photographs.front()).stem().string());
+    for (double& angle : angles) angle -= angle_of.at(std::filesystem::path(photos.front()).stem().string());
     known.angles_rad = std::move(angles);
     return known;
 }

@@ -61,6 +61,6 @@ Result<KnownFile> read_known_file(const std::filesystem::path& path, ImagePixels
 
 /// The file's angles for the photos of these names, in their order; names are compared without folder and extension.
 /// Returns `file.known` unchanged if the file names no images or has no angles. Error: a photo that is not in the file.
-Result<KnownInputs> known_inputs_of(const KnownFile& file, const std::vector<std::string>& photographs);
+Result<KnownInputs> known_inputs_of(const KnownFile& file, const std::vector<std::string>& photos);
 
 }  // namespace rs::capture

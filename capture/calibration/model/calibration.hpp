@@ -50,7 +50,7 @@ struct Calibration {
     TurntableModel model;
     /// [view]; empty unless the photos were shifted and scaled individually. The model, points and residuals refer to
     /// the photos with this undone.
-    std::vector<ImagePlace> places;
+    std::vector<ImagePlacement> places;
     ModelDeviations deviations;
     int points = 0;
     int observations = 0;

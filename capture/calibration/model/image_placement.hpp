@@ -8,7 +8,7 @@ namespace rs::capture {
 
 /// A point p (px) in the image of the fixed camera appears at middle + scale * (p - middle) + shift_px, where middle is
 /// the centre of the frame, which both images share.
-struct ImagePlace {
+struct ImagePlacement {
     glm::dvec2 shift_px{0.0};
     double scale = 1;
 
@@ -19,7 +19,7 @@ struct ImagePlace {
         return middle + (p - middle - shift_px) / scale;
     }
     /// Composition: the placement `inner` followed by this one.
-    [[nodiscard]] ImagePlace of(const ImagePlace& inner) const {
+    [[nodiscard]] ImagePlacement of(const ImagePlacement& inner) const {
         return {shift_px + scale * inner.shift_px, scale * inner.scale};
     }
 };

@@ -14,13 +14,13 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-struct Placed {
+struct PlacedCamera {
     Matrix3d orientation;  // world_from_camera
     Vector3d centre;
 };
 
-Placed placed(const glm::dmat4& world_from_camera) {
-    Placed camera;
+PlacedCamera placed_camera(const glm::dmat4& world_from_camera) {
+    PlacedCamera camera;
     for (int column = 0; column < 3; ++column) {
         for (int row = 0; row < 3; ++row) camera.orientation(row, column) = world_from_camera[column][row];
         camera.centre(column) = world_from_camera[3][column];
@@ -28,17 +28,17 @@ Placed placed(const glm::dmat4& world_from_camera) {
     return camera;
 }
 
-Matrix3d about(const Vector3d& axis, double angle_rad) {
+Matrix3d rotation_about(const Vector3d& axis, double angle_rad) {
     return Eigen::AngleAxisd(angle_rad, axis).toRotationMatrix();
 }
 
 // World direction that is most constant in all camera frames, pointing up in the images. Nothing if a second direction
 // is as constant: then the cameras do not rotate.
-std::optional<Vector3d> common_axis(const std::vector<Placed>& cameras) {
+std::optional<Vector3d> common_axis(const std::vector<PlacedCamera>& cameras) {
     Matrix3d mean = Matrix3d::Zero();
-    for (const Placed& camera : cameras) mean += camera.orientation / static_cast<double>(cameras.size());
+    for (const PlacedCamera& camera : cameras) mean += camera.orientation / static_cast<double>(cameras.size());
     Matrix3d scatter = Matrix3d::Zero();
-    for (const Placed& camera : cameras) {
+    for (const PlacedCamera& camera : cameras) {
         const Matrix3d apart = camera.orientation - mean;
         scatter += apart * apart.transpose() / static_cast<double>(cameras.size());
     }
@@ -62,12 +62,13 @@ struct Circle {
     Vector3d arm = Vector3d::Zero();  // from the axis to the camera at angle 0, perpendicular to the axis
     double misfit = 0;                // relative to the arm's length, heights included
 };
-Circle fitted_circle(const std::vector<Placed>& cameras, const Vector3d& axis, const std::vector<double>& angles_rad) {
+Circle fitted_circle(const std::vector<PlacedCamera>& cameras, const Vector3d& axis,
+                     const std::vector<double>& angles_rad) {
     using Complex = std::complex<double>;
     const Vector3d first = axis.unitOrthogonal();
     const Vector3d second = axis.cross(first);
     Vector3d mean = Vector3d::Zero();
-    for (const Placed& camera : cameras) mean += camera.centre / static_cast<double>(cameras.size());
+    for (const PlacedCamera& camera : cameras) mean += camera.centre / static_cast<double>(cameras.size());
     const auto n = static_cast<double>(cameras.size());
     Complex sum_turn = 0;
     Complex sum_turned_back = 0;
@@ -115,8 +116,8 @@ Result<TurntableFit> fit_turn_to_cameras(std::span<const glm::dmat4> world_from_
         return Error{where + ": has " + std::to_string(world_from_camera.size()) +
                      " cameras; at least 3 are needed to find the axis that they turn about"};
     }
-    std::vector<Placed> cameras;
-    for (const glm::dmat4& each : world_from_camera) cameras.push_back(placed(each));
+    std::vector<PlacedCamera> cameras;
+    for (const glm::dmat4& each : world_from_camera) cameras.push_back(placed_camera(each));
     const auto axis = common_axis(cameras);
     if (!axis)
         return Error{where + ": its cameras have no rotation relative to each other; check that it is of a turntable"};
@@ -130,13 +131,14 @@ Result<TurntableFit> fit_turn_to_cameras(std::span<const glm::dmat4> world_from_
         turn.angles_rad.push_back(before + std::remainder(angle - before, 2 * kPi));
     }
     Matrix3d sum = Matrix3d::Zero();
-    for (std::size_t i = 0; i < cameras.size(); ++i) sum += about(*axis, turn.angles_rad[i]) * cameras[i].orientation;
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        sum += rotation_about(*axis, turn.angles_rad[i]) * cameras[i].orientation;
     const Matrix3d at_zero = nearest_rotation(sum);
     double squares = 0;
     std::size_t worst = 0;
     double most = 0;
     for (std::size_t i = 0; i < cameras.size(); ++i) {
-        const Matrix3d off = about(*axis, turn.angles_rad[i]) * cameras[i].orientation * at_zero.transpose();
+        const Matrix3d off = rotation_about(*axis, turn.angles_rad[i]) * cameras[i].orientation * at_zero.transpose();
         const double misfit_rad = Eigen::AngleAxisd(nearest_rotation(off)).angle();
         squares += misfit_rad * misfit_rad;
         if (misfit_rad > most) worst = i;
@@ -148,15 +150,15 @@ Result<TurntableFit> fit_turn_to_cameras(std::span<const glm::dmat4> world_from_
     // Negated comparisons refuse NaN, too.
     if (!(turn.orientation_misfit_deg <= kMaxOrientationMisfit_deg)) {
         return Error{where + ": is not of a turntable: its cameras' directions are off a turn about a single axis by " +
-                     with_digits(turn.orientation_misfit_deg, 2) + " degrees, most in view " +
-                     std::to_string(worst + 1) + "; at most " + with_digits(kMaxOrientationMisfit_deg, 0) +
+                     format_fixed(turn.orientation_misfit_deg, 2) + " degrees, most in view " +
+                     std::to_string(worst + 1) + "; at most " + format_fixed(kMaxOrientationMisfit_deg, 0) +
                      " is allowed"};
     }
     if (!(turn.place_misfit <= kMaxPlaceMisfit)) {
         return Error{where +
                      ": is not of a turntable: its cameras' positions are off a circle about a single axis by " +
-                     with_digits(100 * turn.place_misfit, 1) + " % of their distance; at most " +
-                     with_digits(100 * kMaxPlaceMisfit, 0) + " % is allowed"};
+                     format_fixed(100 * turn.place_misfit, 1) + " % of their distance; at most " +
+                     format_fixed(100 * kMaxPlaceMisfit, 0) + " % is allowed"};
     }
 
     Matrix3d world_from_table;

@@ -41,24 +41,24 @@ std::optional<glm::dvec2> residual(const TurnProjection& turn, const glm::dvec3&
 namespace {
 
 // An observation and its viewing ray; nothing if the distortion cannot be inverted.
-struct Sighting {
+struct ViewingRay {
     const Observation* seen = nullptr;
     std::optional<glm::dvec3> ray;  // in the object's frame
 };
 
-std::vector<Sighting> sightings_of(const TurnProjection& turn, const Track& track) {
-    std::vector<Sighting> sightings;
-    sightings.reserve(track.seen.size());
+std::vector<ViewingRay> viewing_rays_of(const TurnProjection& turn, const Track& track) {
+    std::vector<ViewingRay> viewing_rays;
+    viewing_rays.reserve(track.seen.size());
     for (const Observation& seen : track.seen) {
-        sightings.push_back({&seen, turn.ray(seen.p, static_cast<std::size_t>(seen.view))});
+        viewing_rays.push_back({&seen, turn.ray(seen.p, static_cast<std::size_t>(seen.view))});
     }
-    return sightings;
+    return viewing_rays;
 }
 
-std::optional<glm::dvec3> triangulate_from(const TurnProjection& turn, std::span<const Sighting> sightings) {
+std::optional<glm::dvec3> triangulate_from(const TurnProjection& turn, std::span<const ViewingRay> viewing_rays) {
     glm::dmat3 normal(0.0);
     glm::dvec3 right_side(0.0);
-    for (const Sighting& each : sightings) {
+    for (const ViewingRay& each : viewing_rays) {
         if (!each.ray) return std::nullopt;
         const glm::dmat3 across = glm::dmat3(1.0) - glm::outerProduct(*each.ray, *each.ray);
         normal += across;
@@ -72,7 +72,7 @@ std::optional<glm::dvec3> triangulate_from(const TurnProjection& turn, std::span
     for (int round = 0; round < 4; ++round) {
         glm::dmat3 hessian(0.0);
         glm::dvec3 gradient(0.0);
-        for (const Sighting& each : sightings) {
+        for (const ViewingRay& each : viewing_rays) {
             const auto there = turn.project_with_jacobian(p, static_cast<std::size_t>(each.seen->view));
             if (!there) return std::nullopt;
             const glm::dvec2 r = there->px - each.seen->p;
@@ -86,23 +86,23 @@ std::optional<glm::dvec3> triangulate_from(const TurnProjection& turn, std::span
         if (glm::dot(step, step) < kSettled * kSettled) break;
     }
     if (!(glm::length(glm::dvec2(p.x, p.z)) < 0.95)) return std::nullopt;
-    for (const Sighting& each : sightings) {
+    for (const ViewingRay& each : viewing_rays) {
         if (!turn.project(p, static_cast<std::size_t>(each.seen->view))) return std::nullopt;
     }
     return p;
 }
 
 // The largest set of observations within limit_px of the point triangulated from two of them.
-Track agreeing(const TurnProjection& turn, const Track& track, double limit_px) {
+Track largest_consensus(const TurnProjection& turn, const Track& track, double limit_px) {
     constexpr std::size_t kMostPairs = 24;
     const std::size_t count = track.seen.size();
-    const std::vector<Sighting> sightings = sightings_of(turn, track);
+    const std::vector<ViewingRay> viewing_rays = viewing_rays_of(turn, track);
     Track best;
     std::size_t tried = 0;
     // Neighbours in the track first, then more distant pairs: near views share the most matches.
     for (std::size_t apart = 1; apart < count && tried < kMostPairs; ++apart) {
         for (std::size_t i = 0; i + apart < count && tried < kMostPairs; ++i, ++tried) {
-            const std::array<Sighting, 2> pair{sightings[i], sightings[i + apart]};
+            const std::array<ViewingRay, 2> pair{viewing_rays[i], viewing_rays[i + apart]};
             const auto p = triangulate_from(turn, pair);
             if (!p) continue;
             Track kept;
@@ -119,7 +119,7 @@ Track agreeing(const TurnProjection& turn, const Track& track, double limit_px) 
 
 // Applies `make` to each track in parallel and collects the results in order; tracks without a result are dropped.
 template <class Make>
-Bundle gathered(const TurntableModel& model, std::span<const Track> tracks, const Make& make) {
+Bundle collect_tracks(const TurntableModel& model, std::span<const Track> tracks, const Make& make) {
     std::vector<std::optional<std::pair<Track, glm::dvec3>>> made(tracks.size());
     constexpr std::size_t kGrain = 64;
     for_each_range(tracks.size(), kGrain, [&](std::size_t begin, std::size_t end) {
@@ -138,13 +138,13 @@ Bundle gathered(const TurntableModel& model, std::span<const Track> tracks, cons
 
 std::optional<glm::dvec3> triangulate(const TurntableModel& model, const Track& track) {
     const TurnProjection turn(model);
-    return triangulate_from(turn, sightings_of(turn, track));
+    return triangulate_from(turn, viewing_rays_of(turn, track));
 }
 
 Bundle make_bundle(const TurntableModel& model, std::span<const Track> tracks) {
     const TurnProjection turn(model);
-    return gathered(model, tracks, [&](const Track& track) -> std::optional<std::pair<Track, glm::dvec3>> {
-        const auto point = triangulate_from(turn, sightings_of(turn, track));
+    return collect_tracks(model, tracks, [&](const Track& track) -> std::optional<std::pair<Track, glm::dvec3>> {
+        const auto point = triangulate_from(turn, viewing_rays_of(turn, track));
         if (!point) return std::nullopt;
         return std::pair{track, *point};
     });
@@ -152,14 +152,15 @@ Bundle make_bundle(const TurntableModel& model, std::span<const Track> tracks) {
 
 Bundle make_robust_bundle(const TurntableModel& model, std::span<const Track> tracks, double limit_px) {
     const TurnProjection turn(model);
-    Bundle bundle = gathered(model, tracks, [&](const Track& track) -> std::optional<std::pair<Track, glm::dvec3>> {
-        // A point from two rays is less accurate than one from all.
-        Track kept = agreeing(turn, track, 1.5 * limit_px);
-        if (kept.seen.size() < 3) return std::nullopt;
-        const auto point = triangulate_from(turn, sightings_of(turn, kept));
-        if (!point) return std::nullopt;
-        return std::pair{std::move(kept), *point};
-    });
+    Bundle bundle =
+        collect_tracks(model, tracks, [&](const Track& track) -> std::optional<std::pair<Track, glm::dvec3>> {
+            // A point from two rays is less accurate than one from all.
+            Track kept = largest_consensus(turn, track, 1.5 * limit_px);
+            if (kept.seen.size() < 3) return std::nullopt;
+            const auto point = triangulate_from(turn, viewing_rays_of(turn, kept));
+            if (!point) return std::nullopt;
+            return std::pair{std::move(kept), *point};
+        });
     drop_outliers(bundle, limit_px);
     return bundle;
 }

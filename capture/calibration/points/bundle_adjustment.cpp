@@ -28,9 +28,9 @@ constexpr double kShortestFocalLength = 0.1;  // relative to the image width
 
 // Parameter blocks for Ceres: the free camera numbers as one block, so that no block is partly constant; angles are
 // those of the model itself.
-class FreeNumbers {
+class ParameterBlocks {
 public:
-    FreeNumbers(TurntableModel& model, const BundleFreedom& free)
+    ParameterBlocks(TurntableModel& model, const BundleFreedom& free)
         : model_(model), angles_(free.angles), camera_{&model.lens.f_px,     &model.lens.cx,      &model.lens.cy,
                                                        &model.lens.k1,       &model.lens.k2,      &model.pose.pan_rad,
                                                        &model.pose.tilt_rad, &model.pose.roll_rad} {
@@ -46,7 +46,7 @@ public:
     }
 
     // Indices of the free camera numbers, in the order of their parameter block.
-    [[nodiscard]] const std::vector<std::size_t>& camera_places() const { return places_; }
+    [[nodiscard]] const std::vector<std::size_t>& camera_indices() const { return places_; }
     [[nodiscard]] double* camera() { return values_.data(); }
 
     // Null if the view's angle is constant.
@@ -76,37 +76,37 @@ private:
 };
 
 // State shared by all observations, computed before each evaluation.
-class ModelNow final : public ceres::EvaluationCallback {
+class EvaluatedModel final : public ceres::EvaluationCallback {
 public:
-    ModelNow(const TurntableModel& model, FreeNumbers& numbers, bool f_is_free)
+    EvaluatedModel(const TurntableModel& model, ParameterBlocks& numbers, bool f_is_free)
         : model_(model), numbers_(numbers), f_is_free_(f_is_free) {}
 
     void PrepareForEvaluation(bool /*evaluate_jacobians*/, bool new_evaluation_point) override {
         if (!new_evaluation_point) return;
         numbers_.write_to_model();
         reprojections_.emplace(model_);
-        is_lens_ = !f_is_free_ || model_.lens.f_px >= kShortestFocalLength * model_.lens.width;
+        is_valid_lens_ = !f_is_free_ || model_.lens.f_px >= kShortestFocalLength * model_.lens.width;
     }
 
     // False if a step has led to an invalid lens. Used instead of a bound, which would make Ceres do a line search at
     // each step.
-    [[nodiscard]] bool is_lens() const { return is_lens_; }
+    [[nodiscard]] bool is_valid_lens() const { return is_valid_lens_; }
     [[nodiscard]] const Lens& lens() const { return model_.lens; }
     [[nodiscard]] const Reprojections& reprojections() const { return *reprojections_; }
 
 private:
     const TurntableModel& model_;
-    FreeNumbers& numbers_;
+    ParameterBlocks& numbers_;
     bool f_is_free_;
     std::optional<Reprojections> reprojections_;
-    bool is_lens_ = true;
+    bool is_valid_lens_ = true;
 };
 
 // Parameter blocks are the free camera numbers, the view's angle and the point; the first two only if they exist.
 class ReprojectionCost final : public ceres::CostFunction {
 public:
-    ReprojectionCost(const ModelNow& now, FreeNumbers& numbers, const Observation& seen)
-        : now_(now), places_(numbers.camera_places()), seen_(seen), turns_(numbers.turns(seen.view)) {
+    ReprojectionCost(const EvaluatedModel& now, ParameterBlocks& numbers, const Observation& seen)
+        : now_(now), places_(numbers.camera_indices()), seen_(seen), turns_(numbers.turns(seen.view)) {
         if (!places_.empty()) mutable_parameter_block_sizes()->push_back(static_cast<int>(places_.size()));
         has_angle_ = numbers.angle(seen.view) != nullptr;
         if (has_angle_) mutable_parameter_block_sizes()->push_back(1);
@@ -115,7 +115,7 @@ public:
     }
 
     bool Evaluate(const double* const* parameters, double* residuals, double** jacobians) const override {
-        if (!now_.is_lens()) return false;
+        if (!now_.is_valid_lens()) return false;
         const double* at = parameters[parameter_block_sizes().size() - 1];
         const glm::dvec3 point(at[0], at[1], at[2]);
         if (jacobians == nullptr) {
@@ -149,7 +149,7 @@ private:
         column[row] = v.y;
     }
 
-    const ModelNow& now_;
+    const EvaluatedModel& now_;
     const std::vector<std::size_t>& places_;
     const Observation& seen_;
     double turns_;
@@ -159,7 +159,7 @@ private:
 // Lens prior. The parameter block is the free camera numbers; constants are included, so that costs are comparable.
 class LensPrior final : public ceres::CostFunction {
 public:
-    LensPrior(const ModelNow& now, const Lens& lens, const std::vector<std::size_t>& places, double noise_px)
+    LensPrior(const EvaluatedModel& now, const Lens& lens, const std::vector<std::size_t>& places, double noise_px)
         : now_(now), places_(places), middle_(lens.width / 2.0, lens.height / 2.0) {
         const double per_middle = noise_px / (kPriorPrincipalPoint * lens.width);
         per_deviation_ = {per_middle, per_middle, noise_px / kPriorK1, noise_px / kPriorK2};
@@ -183,7 +183,7 @@ public:
     }
 
 private:
-    const ModelNow& now_;
+    const EvaluatedModel& now_;
     const std::vector<std::size_t>& places_;
     glm::dvec2 middle_;
     std::array<double, 4> per_deviation_{};
@@ -194,10 +194,10 @@ private:
 std::optional<double> adjust(Bundle& bundle, const BundleOptions& options) {
     const int observations = observation_count(bundle);
     if (observations == 0) return std::nullopt;
-    FreeNumbers numbers(bundle.model, options.free);
-    ModelNow now(bundle.model, numbers, options.free.f);
+    ParameterBlocks numbers(bundle.model, options.free);
+    EvaluatedModel now(bundle.model, numbers, options.free.f);
     ceres::CauchyLoss loss(options.loss_px);
-    LensPrior prior(now, bundle.model.lens, numbers.camera_places(), options.loss_px);
+    LensPrior prior(now, bundle.model.lens, numbers.camera_indices(), options.loss_px);
     std::deque<ReprojectionCost> costs;
 
     ceres::Problem::Options ownership;
@@ -211,7 +211,7 @@ std::optional<double> adjust(Bundle& bundle, const BundleOptions& options) {
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
         for (const Observation& seen : bundle.tracks[i].seen) {
             blocks.clear();
-            if (!numbers.camera_places().empty()) blocks.push_back(numbers.camera());
+            if (!numbers.camera_indices().empty()) blocks.push_back(numbers.camera());
             if (double* angle = numbers.angle(seen.view)) {
                 blocks.push_back(angle);
                 ordering->AddElementToGroup(angle, 1);
@@ -221,7 +221,7 @@ std::optional<double> adjust(Bundle& bundle, const BundleOptions& options) {
         }
         if (!bundle.tracks[i].seen.empty()) ordering->AddElementToGroup(&bundle.points[i].x, 0);
     }
-    if (!numbers.camera_places().empty()) {
+    if (!numbers.camera_indices().empty()) {
         // In a group of its own: within a group, Ceres orders the blocks by their addresses.
         ordering->AddElementToGroup(numbers.camera(), 2);
         problem.AddResidualBlock(&prior, nullptr, numbers.camera());

@@ -78,9 +78,9 @@ ViewFeatures features_of(const CalibrationImage& image, const TrackingOptions& o
 }
 
 // Disjoint sets of features with at most one per view.
-class Chains {
+class DisjointTracks {
 public:
-    explicit Chains(const std::vector<int>& view_of) : parent_(view_of.size()), views_(view_of.size()) {
+    explicit DisjointTracks(const std::vector<int>& view_of) : parent_(view_of.size()), views_(view_of.size()) {
         std::iota(parent_.begin(), parent_.end(), std::size_t{0});
         for (std::size_t i = 0; i < view_of.size(); ++i) views_[i] = {view_of[i]};
     }
@@ -157,7 +157,8 @@ struct TwoBest {
     std::int32_t next = 0;
 };
 
-std::vector<FeatureMatch> mutual(const std::vector<TwoBest>& of_first, const BestOfSecond& of_second, double ratio) {
+std::vector<FeatureMatch> mutual_matches(const std::vector<TwoBest>& of_first, const BestOfSecond& of_second,
+                                         double ratio) {
     std::vector<FeatureMatch> matches;
     for (std::size_t i = 0; i < of_first.size(); ++i) {
         const TwoBest& two = of_first[i];
@@ -209,7 +210,7 @@ std::vector<FeatureMatch> match_features(const ViewFeatures& first, const ViewFe
             }
         }
     }
-    return mutual(of_first, of_second, ratio);
+    return mutual_matches(of_first, of_second, ratio);
 }
 
 std::vector<FeatureMatch> match_guided(const ViewFeatures& first, const ViewFeatures& second, double ratio,
@@ -257,7 +258,7 @@ std::vector<FeatureMatch> match_guided(const ViewFeatures& first, const ViewFeat
             if (product > two.next && is_distinct(second, j, two.best)) two.next = product;
         }
     }
-    return mutual(of_first, of_second, ratio);
+    return mutual_matches(of_first, of_second, ratio);
 }
 
 std::vector<Track> build_tracks(std::span<const ViewFeatures> views, std::span<const MatchedPair> pairs,
@@ -283,13 +284,13 @@ std::vector<Track> build_tracks(std::span<const ViewFeatures> views, std::span<c
     }
     std::stable_sort(links.begin(), links.end(),
                      [](const Link& a, const Link& b) { return a.similarity > b.similarity; });
-    Chains chains(view_of);
-    for (const Link& link : links) chains.join(link.a, link.b);
+    DisjointTracks sets(view_of);
+    for (const Link& link : links) sets.join(link.a, link.b);
 
     std::vector<Track> by_root(view_of.size());
     for (std::size_t i = 0; i < view_of.size(); ++i) {
         const auto view = static_cast<std::size_t>(view_of[i]);
-        by_root[chains.root(i)].seen.push_back({view_of[i], views[view].positions[i - first_of_view[view]]});
+        by_root[sets.root(i)].seen.push_back({view_of[i], views[view].positions[i - first_of_view[view]]});
     }
     std::vector<Track> tracks;
     for (Track& track : by_root) {

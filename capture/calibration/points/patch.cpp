@@ -39,7 +39,7 @@ const std::array<PatchRow, kPatchSide_px> kWindow = [] {
 
 // Subtracts the plane that fits a patch's values best: illumination changes slowly over a patch as the object turns,
 // and is not texture.
-void level(Patch& patch) {
+void subtract_plane(Patch& patch) {
     Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
     Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
     const auto each = [&](auto&& visit) {
@@ -139,7 +139,7 @@ glm::dmat2 whitening(const Eigen::Matrix2d& information) {
 }
 
 template <int kUnknowns>
-std::optional<Alignment> aligned(const PatchImage& image, const Patch& patch, Warp warp) {
+std::optional<Alignment> align_with(const PatchImage& image, const Patch& patch, Warp warp) {
     const Warp start = warp;
     constexpr double kEnough_px = kUnknowns == kFlatPatchUnknowns ? 0.003 : 0.02;
     std::optional<Round<kUnknowns>> round;
@@ -189,14 +189,14 @@ std::optional<Patch> extract_patch(const PatchImage& image, glm::dvec2 centre) {
         patch.counts[row] = seen.counts;
     }
     if (samples(patch) < kFewestSamples) return std::nullopt;
-    level(patch);
+    subtract_plane(patch);
     if (contrast(patch) < kLeastPatchContrast) return std::nullopt;
     return patch;
 }
 
 std::optional<Alignment> align(const PatchImage& image, const Patch& patch, const Warp& warp, bool curvature_is_known) {
-    return curvature_is_known ? aligned<kFlatPatchUnknowns>(image, patch, warp)
-                              : aligned<kPatchUnknowns>(image, patch, warp);
+    return curvature_is_known ? align_with<kFlatPatchUnknowns>(image, patch, warp)
+                              : align_with<kPatchUnknowns>(image, patch, warp);
 }
 
 }  // namespace rs::capture

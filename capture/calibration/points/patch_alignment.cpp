@@ -53,7 +53,8 @@ std::optional<Facet> facet_of(const Bundle& bundle, std::size_t i, int reduction
 }
 
 // Predicted warp of the facet in a view, px of the reduced images.
-std::optional<Warp> expected(const TurnProjection& projection, const Facet& facet, std::size_t view, int reduction) {
+std::optional<Warp> predict_warp(const TurnProjection& projection, const Facet& facet, std::size_t view,
+                                 int reduction) {
     const auto seen = [&](const glm::dvec3& p) { return projection.project(p, view); };
     // Differences over a few px, about the extent of the patch: gives the quadratic that the patch observes.
     constexpr double kReach_px = 4;
@@ -96,7 +97,7 @@ std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const Cal
             }
             const double apart = nearest_turn(model.angles_rad[view] - model.angles_rad[reference]);
             if (std::abs(apart) > kFarthest_rad) continue;
-            const auto warp = expected(projection, *facets[i], view, reduction);
+            const auto warp = predict_warp(projection, *facets[i], view, reduction);
             if (warp) here = align(image, *patches[i], *warp, curvature_is_known);
             if (here) {
                 here->seen.p *= static_cast<double>(reduction);
@@ -108,8 +109,8 @@ std::vector<std::vector<std::optional<Alignment>>> align_all(std::span<const Cal
 }
 
 // Estimates the facet's slope and curvature from its alignments in all views.
-void shape(Facet& facet, const TurnProjection& projection, int reduction,
-           const std::vector<std::vector<std::optional<Alignment>>>& found, std::size_t point) {
+void estimate_shape(Facet& facet, const TurnProjection& projection, int reduction,
+                    const std::vector<std::vector<std::optional<Alignment>>>& found, std::size_t point) {
     constexpr double kSlopeInformation = 1e-3;  // towards facing the camera
     glm::dvec2 slope(0.0);
     glm::dvec3 curvature(0.0), information(1 / (kTypicalCurvature * kTypicalCurvature));
@@ -117,7 +118,7 @@ void shape(Facet& facet, const TurnProjection& projection, int reduction,
     for (std::size_t view = 0; view < found.size(); ++view) {
         const auto& seen = found[view][point];
         if (!seen || seen->seen.view == facet.reference.view) continue;
-        const auto warp = expected(projection, facet, view, reduction);
+        const auto warp = predict_warp(projection, facet, view, reduction);
         if (!warp) continue;
         for (int k = 0; k < 2; ++k) slope[k] += glm::dot(seen->matrix[k] - warp->matrix[k], warp->deeper);
         moved += glm::dot(warp->deeper, warp->deeper);
@@ -163,7 +164,7 @@ std::vector<Track> align_tracks(std::span<const CalibrationImage> turn, int redu
         align_all(turn, reduction, model, facets, patches, false);
     const TurnProjection projection(model);
     for_each_index(points, [&](std::size_t i) {
-        if (facets[i]) shape(*facets[i], projection, reduction, found, i);
+        if (facets[i]) estimate_shape(*facets[i], projection, reduction, found, i);
     });
     found = align_all(turn, reduction, model, facets, patches, true);
 

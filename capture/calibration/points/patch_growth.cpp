@@ -59,7 +59,7 @@ std::optional<Track> expected_track(const TurnProjection& turn, const glm::dvec3
 
 }  // namespace
 
-void grow(Bundle& bundle, int reduction, int most) {
+void grow_patches(Bundle& bundle, int reduction, int most) {
     const int room = most - observation_count(bundle);
     if (room <= 0) return;
     const TurntableModel& model = bundle.model;

@@ -12,6 +12,6 @@ namespace rs::capture {
 /// in the middle of its arc (reference_observation): at the same depth in that view, and with observations predicted by
 /// the model in the same views. Skips positions that already have a point or are outside the image. If the bundle would
 /// exceed `most` tracks, an evenly spaced selection of the candidates is added. `reduction` as in patch_alignment.hpp.
-void grow(Bundle& bundle, int reduction, int most);
+void grow_patches(Bundle& bundle, int reduction, int most);
 
 }  // namespace rs::capture

@@ -62,8 +62,8 @@ struct PlacePrior {
 
 using PlaceNumbers = std::array<double, 4>;
 
-std::vector<Track> undone(std::span<const Track> tracks, const std::vector<ImagePlace>& places,
-                          const glm::dvec2& middle) {
+std::vector<Track> undo_placements_of(std::span<const Track> tracks, const std::vector<ImagePlacement>& places,
+                                      const glm::dvec2& middle) {
     std::vector<Track> result(tracks.begin(), tracks.end());
     for (Track& track : result) {
         for (Observation& seen : track.seen) {
@@ -74,7 +74,7 @@ std::vector<Track> undone(std::span<const Track> tracks, const std::vector<Image
 }
 
 // Refines model, points and placements; `bundle` holds observations with their placements undone.
-bool adjust_places(Bundle& bundle, std::vector<ImagePlace>& places, double loss_px, const KnownInputs& known) {
+bool adjust_places(Bundle& bundle, std::vector<ImagePlacement>& places, double loss_px, const KnownInputs& known) {
     TurntableModel& model = bundle.model;
     const glm::dvec2 middle(model.lens.width / 2.0, model.lens.height / 2.0);
     std::array<double, 5> lens{model.lens.f_px, model.lens.cx, model.lens.cy, model.lens.k1, model.lens.k2};
@@ -151,7 +151,7 @@ bool adjust_places(Bundle& bundle, std::vector<ImagePlace>& places, double loss_
 
 struct Attempt {
     TurntableModel model;
-    std::vector<ImagePlace> places;
+    std::vector<ImagePlacement> places;
     int agreeing = 0;
 };
 
@@ -160,17 +160,17 @@ bool improve(Attempt& attempt, std::span<const Track> tracks, double first_px, d
              const KnownInputs& known) {
     const glm::dvec2 middle(attempt.model.lens.width / 2.0, attempt.model.lens.height / 2.0);
     for (double limit = first_px; limit > 0.7 * last_px; limit *= 0.5) {
-        Bundle bundle = make_robust_bundle(attempt.model, undone(tracks, attempt.places, middle), limit);
+        Bundle bundle = make_robust_bundle(attempt.model, undo_placements_of(tracks, attempt.places, middle), limit);
         if (!adjust_places(bundle, attempt.places, 0.5 * limit, known)) return false;
         attempt.model = bundle.model;
     }
-    attempt.agreeing =
-        observation_count(make_robust_bundle(attempt.model, undone(tracks, attempt.places, middle), last_px));
+    attempt.agreeing = observation_count(
+        make_robust_bundle(attempt.model, undo_placements_of(tracks, attempt.places, middle), last_px));
     return true;
 }
 
 // Equal steps in both directions, which differ little without perspective; several focal lengths and tilts.
-std::vector<Attempt> attempts(const Lens& lens, std::size_t views, const KnownInputs& known) {
+std::vector<Attempt> initial_attempts(const Lens& lens, std::size_t views, const KnownInputs& known) {
     std::vector<Attempt> all;
     for (const bool counter_clockwise : {false, true}) {
         if (known.counter_clockwise && *known.counter_clockwise != counter_clockwise) continue;
@@ -204,7 +204,7 @@ std::optional<PlacementEstimate> estimate_placements(std::span<const Track> trac
     for (std::size_t i = 0; i < most; ++i) few.push_back(tracks[i * tracks.size() / most]);
     const double coarsest = kCoarsest * lens.width;
     const double finest = kFinestPlaces_px * reduction;
-    std::vector<Attempt> tried = attempts(lens, views, known);
+    std::vector<Attempt> tried = initial_attempts(lens, views, known);
     for_each_index(tried.size(), [&](std::size_t i) { improve(tried[i], few, coarsest, finest, known); });
     Attempt& best = *std::max_element(tried.begin(), tried.end(),
                                       [](const Attempt& a, const Attempt& b) { return a.agreeing < b.agreeing; });
@@ -214,20 +214,20 @@ std::optional<PlacementEstimate> estimate_placements(std::span<const Track> trac
     return PlacementEstimate{std::move(best.places), std::move(best.model), best.agreeing / std::max(1.0, offered)};
 }
 
-std::optional<std::vector<ImagePlace>> estimate_remaining_placements(const Bundle& bundle, double limit_px,
-                                                                     const KnownInputs& known) {
+std::optional<std::vector<ImagePlacement>> estimate_remaining_placements(const Bundle& bundle, double limit_px,
+                                                                         const KnownInputs& known) {
     Bundle own = bundle;
-    std::vector<ImagePlace> places(bundle.model.angles_rad.size());
+    std::vector<ImagePlacement> places(bundle.model.angles_rad.size());
     if (!adjust_places(own, places, 0.5 * limit_px, known)) return std::nullopt;
     return places;
 }
 
-TurnImages undo_placements(const TurnImages& turn, std::span<const ImagePlace> places) {
+TurnImages undo_placements(const TurnImages& turn, std::span<const ImagePlacement> places) {
     TurnImages back = turn;
     const double reduction = turn.reduction;
     const glm::dvec2 middle = glm::dvec2(turn.width, turn.height) / (2 * reduction);
     for_each_index(places.size(), [&](std::size_t i) {
-        const ImagePlace place{places[i].shift_px / reduction, places[i].scale};
+        const ImagePlacement place{places[i].shift_px / reduction, places[i].scale};
         const glm::dvec2 origin = place.seen({0.5, 0.5}, middle) - 0.5;  // position of the first pixel's centre
         const cv::Matx23d seen(place.scale, 0, origin.x, 0, place.scale, origin.y);
         const auto warp = [&](Image<std::uint8_t>& plane) {

@@ -15,9 +15,9 @@
 namespace rs::capture {
 
 struct PlacementEstimate {
-    std::vector<ImagePlace> places;  // [view]
-    TurntableModel model;            // of the images with their placements undone, with equal steps
-    double agreeing = 0;             // share of the observations within a few pixels of the model
+    std::vector<ImagePlacement> places;  // [view]
+    TurntableModel model;                // of the images with their placements undone, with equal steps
+    double agreeing = 0;                 // share of the observations within a few pixels of the model
 };
 
 /// `tracks` in px of the photos; `lens` gives the frame and its centre. Several focal lengths, tilts and both
@@ -29,10 +29,10 @@ std::optional<PlacementEstimate> estimate_placements(std::span<const Track> trac
 /// Estimates the remaining error of the placements from `bundle`, whose images have them undone: result[view], to be
 /// composed with the current ones as the inner placement. `limit_px`: inlier limit of the observations. Nothing if the
 /// adjustment fails.
-std::optional<std::vector<ImagePlace>> estimate_remaining_placements(const Bundle& bundle, double limit_px,
-                                                                     const KnownInputs& known);
+std::optional<std::vector<ImagePlacement>> estimate_remaining_placements(const Bundle& bundle, double limit_px,
+                                                                         const KnownInputs& known);
 
 /// Warps the images to those of a fixed camera; pixels that an image does not cover are transparent.
-TurnImages undo_placements(const TurnImages& turn, std::span<const ImagePlace> places);
+TurnImages undo_placements(const TurnImages& turn, std::span<const ImagePlacement> places);
 
 }  // namespace rs::capture

@@ -20,7 +20,7 @@ constexpr std::size_t kFinalists = 4;     // of each direction of turning
 constexpr std::array<double, 3> kLimits_px{8, 5, 3};
 
 // An evenly spaced selection: the longest tracks would be those of highlights, or of jumps along a repetitive pattern.
-std::vector<Track> sampled(std::span<const Track> tracks, std::size_t count) {
+std::vector<Track> sample_tracks(std::span<const Track> tracks, std::size_t count) {
     std::vector<Track> chosen;
     const std::size_t most = std::min(count, tracks.size());
     for (std::size_t i = 0; i < most; ++i) chosen.push_back(tracks[i * tracks.size() / most]);
@@ -88,10 +88,10 @@ std::vector<Hypothesis> hypotheses(std::span<const Track> tracks, std::span<cons
 
 }  // namespace
 
-std::optional<Start> find_initial_model(std::span<const Track> tracks, std::span<const MatchedPair> pairs, int views,
-                                        const Lens& middle, const KnownInputs& known) {
-    const std::vector<Track> few = sampled(tracks, kMostTracks);
-    const std::vector<Track> fewest = sampled(tracks, kFewTracks);
+std::optional<InitialModel> find_initial_model(std::span<const Track> tracks, std::span<const MatchedPair> pairs,
+                                               int views, const Lens& middle, const KnownInputs& known) {
+    const std::vector<Track> few = sample_tracks(tracks, kMostTracks);
+    const std::vector<Track> fewest = sample_tracks(tracks, kFewTracks);
     std::vector<Hypothesis> tried = hypotheses(few, pairs, views, middle, known);
     BundleOptions options;
     // Errors grow with the size of the photos.
@@ -141,7 +141,7 @@ std::optional<Start> find_initial_model(std::span<const Track> tracks, std::span
     if (order.empty()) return std::nullopt;
     const auto best = static_cast<std::size_t>(std::max_element(agreeing.begin(), agreeing.end()) - agreeing.begin());
     if (agreeing[best] == 0) return std::nullopt;
-    Start start{bundles[order[best]].model, agreeing[best], 0};
+    InitialModel start{bundles[order[best]].model, agreeing[best], 0};
     for (std::size_t k = 0; k < order.size(); ++k) {
         if (tried[order[k]].counter_clockwise != tried[order[best]].counter_clockwise) {
             start.agreeing_opposite = std::max(start.agreeing_opposite, agreeing[k]);

@@ -8,7 +8,7 @@
 
 namespace rs::capture {
 
-struct Start {
+struct InitialModel {
     TurntableModel model;  // after bundles with one common step
     int agreeing = 0;      // observations within a few pixels of it
     int agreeing_opposite =
@@ -16,7 +16,7 @@ struct Start {
 };
 
 /// `tracks` in px of the photos. Nothing if no start explains them.
-std::optional<Start> find_initial_model(std::span<const Track> tracks, std::span<const MatchedPair> pairs, int views,
-                                        const Lens& middle, const KnownInputs& known);
+std::optional<InitialModel> find_initial_model(std::span<const Track> tracks, std::span<const MatchedPair> pairs,
+                                               int views, const Lens& middle, const KnownInputs& known);
 
 }  // namespace rs::capture

@@ -21,8 +21,8 @@ constexpr double kEpipolarBand_px = 1.5;  // at 1000 px of the longer side; prop
 constexpr int kFewestMatches = 12;        // pairs with fewer are ignored
 
 // Inliers of one epipolar geometry (RANSAC with OpenCV's fixed seed).
-std::vector<FeatureMatch> consistent(const std::vector<FeatureMatch>& matches, const ViewFeatures& a,
-                                     const ViewFeatures& b, double band_px) {
+std::vector<FeatureMatch> epipolar_inliers(const std::vector<FeatureMatch>& matches, const ViewFeatures& a,
+                                           const ViewFeatures& b, double band_px) {
     if (static_cast<int>(matches.size()) < kFewestMatches) return {};
     std::vector<cv::Point2d> in_a, in_b;
     for (const FeatureMatch& match : matches) {
@@ -74,8 +74,8 @@ std::vector<MatchedPair> near_pairs(int count, int max_view_distance) {
 
 // Segment in the second view where a point seen at `p` in the first may appear: the projection of the part of its ray
 // within the object's cylinder, nearly straight.
-std::optional<Segment> ray_piece(const TurntableModel& model, int first, int second, const glm::dvec2& p,
-                                 double radius) {
+std::optional<Segment> epipolar_segment(const TurntableModel& model, int first, int second, const glm::dvec2& p,
+                                        double radius) {
     const auto ray = table_ray(model.lens, model.pose, p);
     if (!ray) return std::nullopt;
     // (0, 0, 1) + s * ray meets the cylinder where (s ray.x)^2 + (1 + s ray.z)^2 = radius^2.
@@ -95,7 +95,7 @@ std::optional<Segment> ray_piece(const TurntableModel& model, int first, int sec
 }
 
 // Converts positions to px of the photos.
-ViewFeatures enlarged(ViewFeatures view, int reduction) {
+ViewFeatures scale_to_photo(ViewFeatures view, int reduction) {
     for (glm::dvec2& p : view.positions) p *= static_cast<double>(reduction);
     return view;
 }
@@ -144,7 +144,7 @@ Result<PointTracker> PointTracker::detect(std::span<const CalibrationImage> turn
     state->pairs = near_pairs(static_cast<int>(turn.size()), options.max_view_distance);
     try {
         for (ViewFeatures& view : find_features(turn, options, progress)) {
-            state->views.push_back(enlarged(std::move(view), reduction));
+            state->views.push_back(scale_to_photo(std::move(view), reduction));
         }
     } catch (const cv::Exception& escaped) {
         return Error{std::string("the images' features cannot be detected (OpenCV: ") + escaped.what() + ")"};
@@ -162,7 +162,7 @@ Result<TrackedPoints> PointTracker::track(Progress* progress) const {
             MatchedPair& pair = found.pairs[i];
             const ViewFeatures& a = state_->views[static_cast<std::size_t>(pair.first)];
             const ViewFeatures& b = state_->views[static_cast<std::size_t>(pair.second)];
-            matches[i] = consistent(match_features(a, b, kRatio), a, b, state_->band_px);
+            matches[i] = epipolar_inliers(match_features(a, b, kRatio), a, b, state_->band_px);
             measure_motion(a, b, matches[i], pair);
             const auto count = static_cast<int>(state_->views.size());
             if (progress != nullptr && pair.second == (pair.first + 1) % count) progress->advance();
@@ -183,7 +183,7 @@ Result<std::vector<Track>> PointTracker::track_guided(const TurntableModel& mode
             const ViewFeatures& a = state_->views[static_cast<std::size_t>(pair.first)];
             const ViewFeatures& b = state_->views[static_cast<std::size_t>(pair.second)];
             const auto search_segment = [&](const glm::dvec2& p) {
-                return ray_piece(model, pair.first, pair.second, p, radius);
+                return epipolar_segment(model, pair.first, pair.second, p, radius);
             };
             matches[i] = match_guided(a, b, kGuidedRatio, search_segment, band_px);
         });

@@ -21,7 +21,7 @@ double residual_px(double best_px) {
     return std::clamp(-best_px, 0.0, kNoRay_px);
 }
 
-// The rays of all views that count, in a model's table frame.
+// Rays of all selected views, in the table frame of a model.
 class SelectedRays {
 public:
     SelectedRays(const SilhouetteTurn& turn, const TurntableModel& model, const RaySelection& rays)
@@ -43,10 +43,10 @@ public:
     }
 
     [[nodiscard]] std::size_t count() const { return count_; }
-    // How far from the axis the object may reach: as far as the ray farthest from it.
+    // Upper bound of the object's radius: the distance of the farthest ray from the axis.
     [[nodiscard]] double reach() const { return reach_; }
 
-    // visit(probe, direction or nothing, number) for all rays, on several threads; the probe is the ray's view's.
+    // Calls visit(probe of the ray's view, direction or nullopt, ray number) for all rays, on several threads.
     template <typename Visit>
     void visit(const Visit& visit) const {
         for_each_index(views_.size(), [&](std::size_t i) {
@@ -61,7 +61,7 @@ public:
 
 private:
     struct View {
-        std::size_t first = 0;  // of its rays
+        std::size_t first = 0;  // number of its first ray
         std::vector<std::optional<glm::dvec3>> directions;
     };
     const SilhouetteTurn& turn_;

@@ -50,8 +50,8 @@ Eigen::MatrixXd FreeParameters::updated_covariance(const Eigen::MatrixXd& covari
                                                    const Eigen::MatrixXd& information, double common_errors,
                                                    double prior_scale, double most) const {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(information);
-    const Eigen::ArrayXd tell = prior_scale * parts.eigenvalues().array().max(0);
-    const Eigen::ArrayXd variance = (1 + common_errors * common_errors * tell) / (1 + tell).square();
+    const Eigen::ArrayXd gain = prior_scale * parts.eigenvalues().array().max(0);
+    const Eigen::ArrayXd variance = (1 + common_errors * common_errors * gain) / (1 + gain).square();
     const Eigen::VectorXd change = prior_scale * variance.min(most) - 1;
     return covariance + columns_ * parts.eigenvectors() * change.asDiagonal() * parts.eigenvectors().transpose() *
                             columns_.transpose();

@@ -35,8 +35,8 @@ std::array<double, SilhouetteParameters::kCount> unknown_deviations(const Turnta
     return all;
 }
 
-Eigen::MatrixXd expected(const TurntableModel& model, const ParameterIndices& places, const ModelDeviations& deviations,
-                         double image_px) {
+Eigen::MatrixXd prior_covariance(const TurntableModel& model, const ParameterIndices& places,
+                                 const ModelDeviations& deviations, double image_px) {
     using Name = SilhouetteParameters;
     const auto unknown = unknown_deviations(model, image_px);
     Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(places.count, places.count);
@@ -59,7 +59,8 @@ Eigen::MatrixXd expected(const TurntableModel& model, const ParameterIndices& pl
 }
 
 // Sets the deviations of numbers to infinity that were not estimated or that are hardly better than their prior.
-void admit(ModelDeviations& deviations, const TurntableModel& model, const KnownInputs& known, double image_px) {
+void mark_undetermined(ModelDeviations& deviations, const TurntableModel& model, const KnownInputs& known,
+                       double image_px) {
     const auto unknown = unknown_deviations(model, image_px);
     const auto limited = [](double deviation, double before) {
         return deviation < kUndeterminedShare * before ? deviation : kInfinity;
@@ -82,7 +83,7 @@ void admit(ModelDeviations& deviations, const TurntableModel& model, const Known
 std::optional<SilhouetteAngles> estimate_angles(std::span<const Image<std::uint8_t>> masks, const TurntableModel& model,
                                                 const ModelDeviations& deviations, const KnownInputs& known) {
     if (known.angles_rad || known.step_rad || known.equal_steps) return std::nullopt;
-    const auto turn = SilhouetteTurn::of(masks, kDetail);
+    const auto turn = SilhouetteTurn::create(masks, kDetail);
     if (!turn || turn->touches_border()) return std::nullopt;
     const double image_px = turn->reduction() * static_cast<double>(model.lens.width) / masks[0].width();
     BundleFreedom free;
@@ -92,11 +93,11 @@ std::optional<SilhouetteAngles> estimate_angles(std::span<const Image<std::uint8
     const ParameterIndices places(free, std::vector<bool>(model.angles_rad.size(), true));
     const CoherenceOptions options{kWorst_px * image_px, places.count, kCommonErrorFactor};
     const auto fit =
-        fit_coherence(model, places, expected(model, places, deviations, image_px), *turn, image_px, options);
+        fit_coherence(model, places, prior_covariance(model, places, deviations, image_px), *turn, image_px, options);
     if (!fit) return std::nullopt;
     const double at_px = 0.5 * (has_sideways_axis(fit->model.pose) ? model.lens.width : model.lens.height);
     SilhouetteAngles found{fit->model, standard_deviations(fit->model, places, fit->covariance, at_px)};
-    admit(found.deviations, model, known, image_px);
+    mark_undetermined(found.deviations, model, known, image_px);
     return found;
 }
 

@@ -45,7 +45,7 @@ FittedNumbers numbers_of(const SilhouetteProblem& problem, const SilhouetteParam
         return all;
     };
     const auto residuals = [&problem, &rays, at](const Eigen::VectorXd& z) {
-        return consistency_residuals_px(*problem.turn, changed(problem.start, at(z)), rays);
+        return consistency_residuals_px(*problem.turn, apply_changes(problem.start, at(z)), rays);
     };
     const auto left_out = std::count_if(rays.left_out.begin(), rays.left_out.end(), [](char is) { return is != 0; });
     const double views = static_cast<double>(problem.turn->views()) - static_cast<double>(left_out);
@@ -55,7 +55,7 @@ FittedNumbers numbers_of(const SilhouetteProblem& problem, const SilhouetteParam
 
 }  // namespace
 
-TurntableModel changed(const TurntableModel& start, const SilhouetteParameters& by) {
+TurntableModel apply_changes(const TurntableModel& start, const SilhouetteParameters& by) {
     TurntableModel model = start;
     model.lens.f_px = start.lens.f_px * std::exp(by.value[SilhouetteParameters::kLogF]);
     model.pose.tilt_rad += by.value[SilhouetteParameters::kTilt];

@@ -32,7 +32,7 @@ struct SilhouetteProblem {
     double outlier_px = 3;  // larger residuals have little weight
 };
 
-TurntableModel changed(const TurntableModel& start, const SilhouetteParameters& by);
+TurntableModel apply_changes(const TurntableModel& start, const SilhouetteParameters& by);
 
 /// Robust sum of squares in units of the assumed error, plus the priors.
 double silhouette_cost(const SilhouetteProblem& problem, const SilhouetteParameters& at, const RaySelection& rays);

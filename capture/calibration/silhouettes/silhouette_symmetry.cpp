@@ -105,7 +105,7 @@ private:
 };
 
 // Weights rows by the slope of their edge: the less upright an edge, the less accurate its position in the row.
-void weigh(std::vector<RimRow>& rows) {
+void weight_rows(std::vector<RimRow>& rows) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const RimRow& above = rows[i > 0 ? i - 1 : i];
         const RimRow& below = rows[i + 1 < rows.size() ? i + 1 : i];
@@ -185,13 +185,14 @@ double missed_rim_deviation(const std::vector<double>& gaps_rad) {
 }
 
 // Measurement of the edges for one model.
-struct Reading {
+struct RimMeasurement {
     Offset offset;
     double v = 0;       // the middle of the rows
     double radius = 0;  // weighted mean, in u
 };
 
-std::optional<Reading> read_rims(ConstImageView<std::uint8_t> covered, int reduction, const TurntableModel& model) {
+std::optional<RimMeasurement> measure_rims(ConstImageView<std::uint8_t> covered, int reduction,
+                                           const TurntableModel& model) {
     const Extent extent = extent_of(covered, reduction, model);
     if (!(extent.most_u > 0) || !(extent.most_u < 10)) return std::nullopt;
     const double pixel = reduction / model.lens.f_px;  // in u and v
@@ -204,21 +205,21 @@ std::optional<Reading> read_rims(ConstImageView<std::uint8_t> covered, int reduc
         if (left && right && *left < *right) rows.push_back({v, *left, *right, 0});
     }
     if (rows.size() < kFewestRows) return std::nullopt;
-    weigh(rows);
-    Reading reading{robust_offset(rows, kLeastScatter_px * pixel)};
+    weight_rows(rows);
+    RimMeasurement rims{robust_offset(rows, kLeastScatter_px * pixel)};
     double weights = 0;
     for (const RimRow& row : rows) {
         weights += row.weight;
-        reading.v += row.weight * row.v;
-        reading.radius += row.weight * 0.5 * (row.right - row.left);
+        rims.v += row.weight * row.v;
+        rims.radius += row.weight * 0.5 * (row.right - row.left);
     }
-    reading.v /= weights;
-    reading.radius /= weights;
-    return reading;
+    rims.v /= weights;
+    rims.radius /= weights;
+    return rims;
 }
 
 // The model with its axis moved by u to the side.
-TurntableModel moved(TurntableModel model, double u) {
+TurntableModel shift_axis(TurntableModel model, double u) {
     model.pose.pan_rad -= std::atan(u);
     return model;
 }
@@ -242,21 +243,21 @@ std::optional<AxisPosition> axis_from_silhouettes(ConstImageView<std::uint8_t> c
     // For a camera that looks down, an axis at a wrong position also seems inclined, so the measurement is repeated
     // after moving it.
     TurntableModel model = start;
-    std::optional<Reading> reading;
+    std::optional<RimMeasurement> rims;
     for (int round = 0; round < kMoves; ++round) {
-        reading = read_rims(covered, reduction, model);
-        if (!reading) return std::nullopt;
-        model = moved(std::move(model), reading->offset.u);
+        rims = measure_rims(covered, reduction, model);
+        if (!rims) return std::nullopt;
+        model = shift_axis(std::move(model), rims->offset.u);
     }
-    const glm::dvec3 middle = camera_rotation(model.pose) * direction(0, reading->v);
+    const glm::dvec3 middle = camera_rotation(model.pose) * direction(0, rims->v);
     if (!(middle.z < -1e-3)) return std::nullopt;
     const Lens& lens = model.lens;
     AxisPosition place;
     place.at_px = has_sideways_axis(model.pose) ? lens.cx - lens.f_px * middle.x / middle.z
                                                 : lens.cy + lens.f_px * middle.y / middle.z;
-    const double deviation = std::hypot(reading->offset.deviation, missed_rim_deviation(gaps_rad) * reading->radius);
+    const double deviation = std::hypot(rims->offset.deviation, missed_rim_deviation(gaps_rad) * rims->radius);
     const auto here = axis_position(lens, model.pose, place.at_px);
-    const auto beside = axis_position(lens, moved(model, deviation).pose, place.at_px);
+    const auto beside = axis_position(lens, shift_axis(model, deviation).pose, place.at_px);
     if (!here || !beside || !std::isfinite(deviation)) return std::nullopt;
     place.position_px = *here;
     place.deviation_px = std::abs(*beside - *here);

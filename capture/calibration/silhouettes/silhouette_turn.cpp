@@ -132,7 +132,8 @@ std::string view_name(std::size_t i) {
 
 }  // namespace
 
-Result<SilhouetteTurn> SilhouetteTurn::of(std::span<const Image<std::uint8_t>> masks, const SilhouetteDetail& detail) {
+Result<SilhouetteTurn> SilhouetteTurn::create(std::span<const Image<std::uint8_t>> masks,
+                                              const SilhouetteDetail& detail) {
     if (masks.size() < kFewestSilhouettes) {
         return Error{"silhouettes: " + std::to_string(masks.size()) + " views are too few; take at least " +
                      std::to_string(kFewestSilhouettes)};

@@ -23,7 +23,8 @@ class SilhouetteTurn {
 public:
     /// Coverage 0..255, all views of one size. They are reduced by the integer factor that `detail` requires, and
     /// cropped to the turn's box. Errors: fewer than 6 views, different sizes, a view that is empty or full.
-    static Result<SilhouetteTurn> of(std::span<const Image<std::uint8_t>> masks, const SilhouetteDetail& detail = {});
+    static Result<SilhouetteTurn> create(std::span<const Image<std::uint8_t>> masks,
+                                         const SilhouetteDetail& detail = {});
 
     [[nodiscard]] std::size_t views() const { return distances_.size(); }
     [[nodiscard]] int reduction() const { return reduction_; }                  // mask px per px of the positions below
@@ -40,14 +41,14 @@ public:
         x -= origin_.x + 0.5F;
         y -= origin_.y + 0.5F;
         const DistanceField& field = distances_[view];
-        x = held(x, static_cast<float>(field.width() - 1), open_[0], open_[1], outside);
-        y = held(y, static_cast<float>(field.height() - 1), open_[2], open_[3], outside);
+        x = clamp_position(x, static_cast<float>(field.width() - 1), open_[0], open_[1], outside);
+        y = clamp_position(y, static_cast<float>(field.height() - 1), open_[2], open_[3], outside);
         return field.at(x, y) - outside;
     }
 
 private:
     // Clamps to 0 .. `last`; the distance beyond is added to `outside` if that side is closed. NaN becomes 0.
-    static float held(float position, float last, bool open_before, bool open_behind, float& outside) {
+    static float clamp_position(float position, float last, bool open_before, bool open_behind, float& outside) {
         if (position >= 0 && position <= last) return position;
         if (position > last) {
             if (!open_behind) outside += position - last;

@@ -55,7 +55,7 @@ Status check_start(std::span<const Image<std::uint8_t>> masks, const TurntableMo
 }
 
 // Fits each point of a coarse grid over axis and tilt with few rays, then refines the best with all.
-SilhouetteFit search(SilhouetteProblem problem) {
+SilhouetteFit search_start(SilhouetteProblem problem) {
     const double width_px = problem.turn->width_px();
     std::vector<SilhouetteFit> tries;
     problem.outlier_px = kSearchOutlier_px;
@@ -185,7 +185,7 @@ std::vector<ViewFit> fits_by_view(const SilhouetteTurn& turn, const std::vector<
     return views;
 }
 
-void warn(Calibration& calibration, const SilhouetteTurn& turn) {
+void add_warnings(Calibration& calibration, const SilhouetteTurn& turn) {
     const ModelDeviations& d = calibration.deviations;
     auto& warnings = calibration.warnings;
     if (std::isinf(d.tilt_rad)) {
@@ -222,7 +222,7 @@ bool is_seen_from_below(const Calibration& found) {
 
 Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_t>> masks, const TurntableModel& start,
                                                const KnownInputs& known) {
-    RS_ASSIGN_OR_RETURN(auto turn, SilhouetteTurn::of(masks));
+    RS_ASSIGN_OR_RETURN(auto turn, SilhouetteTurn::create(masks));
     const TurntableModel held = apply_known(start, known);
     RS_TRY(check_start(masks, held));
 
@@ -239,7 +239,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
         return Error{"silhouettes: the silhouettes disagree by " + std::to_string(std::lround(apart_px * image_px)) +
                      " pixels with every single turn; check the steps, the direction of turning and the masks"};
     };
-    const SilhouetteFit best = search(problem);
+    const SilhouetteFit best = search_start(problem);
     const double start_rms = rms_px(consistency_residuals_px(turn, problem.start, {}));
     if (start_rms > kGoodEnough_px && !(best.cost < kImprovement * silhouette_cost(problem, {}, {}))) {
         return Error{
@@ -247,7 +247,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
             "better; check the steps, the direction of turning and the masks"};
     }
     // The following steps estimate the accuracy; they cannot repair silhouettes that disagree so much.
-    const double best_rms = rms_px(consistency_residuals_px(turn, changed(problem.start, best.at), {}));
+    const double best_rms = rms_px(consistency_residuals_px(turn, apply_changes(problem.start, best.at), {}));
     if (best_rms > kDisagree_px) return disagreement(best_rms);
     const RaySelection half{2, {}};
     const double best_cost = silhouette_cost(problem, best.at, half);
@@ -255,7 +255,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     SilhouetteFit fit = nearest_to_start(best, best_cost, along);
     Calibration calibration;
     calibration.method = CalibrationMethod::kSilhouettes;
-    TurntableModel of_turn = changed(problem.start, fit.at);
+    TurntableModel of_turn = apply_changes(problem.start, fit.at);
     std::vector<double> residuals = consistency_residuals_px(turn, of_turn, {});
     calibration.model = of_turn;
     calibration.model.lens = scaled(calibration.model.lens, image_px);
@@ -281,7 +281,7 @@ Result<Calibration> calibrate_with_silhouettes(std::span<const Image<std::uint8_
     calibration.rms_px = fit_rms * image_px;
     calibration.views = fits_by_view(turn, residuals, image_px);
     calibration.step_rad = median_step(calibration.model.angles_rad);
-    warn(calibration, turn);
+    add_warnings(calibration, turn);
     return calibration;
 }
 

@@ -95,8 +95,8 @@ std::vector<int> repeated_views(std::span<const double> angles_rad) {
     return repeated;
 }
 
-Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span<const int> candidates,
-              std::span<const std::string> names) {
+Status check_plausibility(const Bundle& bundle, const ModelDeviations& deviations, std::span<const int> candidates,
+                          std::span<const std::string> names) {
     const TurntableModel& model = bundle.model;
     double offered = 0;
     for (const int count : candidates) offered += count;
@@ -104,7 +104,7 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
     const std::vector<std::size_t> apart = disagreeing_views(bundle, candidates);
     const auto views = static_cast<double>(names.size());
     if (share < kFewestAgreeing || static_cast<double>(apart.size()) > kMostViewsApart * views) {
-        std::string text = "the images do not show one turn before a fixed camera: " + with_digits(100 * share, 0) +
+        std::string text = "the images do not show one turn before a fixed camera: " + format_fixed(100 * share, 0) +
                            " % of the observations agree with the best one";
         if (!apart.empty()) text += ", and not those of " + list_of(apart, names);
         if (const auto moment = first_view_after_change(inlier_shares(bundle, candidates))) {
@@ -116,7 +116,7 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
     }
     const double longer = std::max(model.lens.width, model.lens.height);
     if (rms_px(bundle) > kLargestRms * longer) {
-        return Error{"the best turn misses the observations by " + with_digits(rms_px(bundle), 1) +
+        return Error{"the best turn misses the observations by " + format_fixed(rms_px(bundle), 1) +
                      " px; are the images in the order they were taken, from one fixed camera?"};
     }
     const double usual = median_step(model.angles_rad);
@@ -125,13 +125,13 @@ Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span
         if ((model.angles_rad[i] - model.angles_rad[i - 1]) * usual < -kRepeat * usual * usual) ++against;
     }
     if (std::abs(degrees(usual)) < 0.05 || against > 0.1 * views) {
-        return Error{"the angles make no turn (median step " + with_digits(degrees(usual), 2) + " degrees, " +
+        return Error{"the angles make no turn (median step " + format_fixed(degrees(usual), 2) + " degrees, " +
                      std::to_string(against) +
                      " steps against it); are the images in the order they were taken? Names are sorted naturally"};
     }
     const double turn_deg = std::abs(degrees(model.angles_rad.back() - model.angles_rad.front()));
     if (turn_deg < 15 || turn_deg > 400) {
-        return Error{"the images cover " + with_digits(turn_deg, 1) +
+        return Error{"the images cover " + format_fixed(turn_deg, 1) +
                      " degrees of turn; 15 to 400 are needed (one turn, without repeats)"};
     }
     if (!(deviations.f_px < kMostUncertainLens * model.lens.f_px)) {
@@ -161,35 +161,35 @@ std::vector<std::string> step_warnings(std::span<const double> angles, const Mod
         const double step = step_to(i);
         if (std::abs(off(i)) <= tolerance(i)) continue;
         if (std::abs(step) < kRepeat * std::abs(usual)) {
-            lines.push_back(names[i] + " is at the angle of " + names[i - 1] + " (" + with_digits(step, 2) +
+            lines.push_back(names[i] + " is at the angle of " + names[i - 1] + " (" + format_fixed(step, 2) +
                             " degrees on); the turntable had not turned");
         } else if (i + 1 < angles.size() && std::abs(off(i) + off(i + 1)) <= tolerance(i)) {
-            lines.push_back(names[i] + " is " + with_digits(std::abs(off(i)), 1) + " degrees off (" +
+            lines.push_back(names[i] + " is " + format_fixed(std::abs(off(i)), 1) + " degrees off (" +
                             (off(i) > 0 ? "too far" : "not far enough") + "); its true angle is used");
             ++i;
         } else if (step > kGap * std::abs(usual)) {
-            lines.push_back("there is a gap of " + with_digits(step, 1) + " degrees between " + names[i - 1] + " and " +
-                            names[i] + " where other steps are " + with_digits(std::abs(usual), 1));
+            lines.push_back("there is a gap of " + format_fixed(step, 1) + " degrees between " + names[i - 1] +
+                            " and " + names[i] + " where other steps are " + format_fixed(std::abs(usual), 1));
         } else {
             uneven.push_back(i);
         }
     }
     const std::string others =
-        " degrees where others are " + with_digits(std::abs(usual), 1) + "; the true angles are used";
+        " degrees where others are " + format_fixed(std::abs(usual), 1) + "; the true angles are used";
     if (uneven.size() <= kFewUneven) {
         for (const std::size_t i : uneven) {
-            lines.push_back("the step from " + names[i - 1] + " to " + names[i] + " is " + with_digits(step_to(i), 1) +
+            lines.push_back("the step from " + names[i - 1] + " to " + names[i] + " is " + format_fixed(step_to(i), 1) +
                             others);
         }
     } else {
         const auto [least, most] = std::ranges::minmax(uneven, {}, step_to);
-        const std::string from = with_digits(step_to(least), 1), to = with_digits(step_to(most), 1);
+        const std::string from = format_fixed(step_to(least), 1), to = format_fixed(step_to(most), 1);
         lines.push_back(std::to_string(uneven.size()) + " of " + std::to_string(angles.size() - 1) + " steps are " +
                         from + (from == to ? "" : " to " + to) + others);
     }
     const double closing = 360 - std::abs(degrees(angles.back() - angles.front()));
     if (closing > kGap * std::abs(usual) && closing < 90) {
-        lines.push_back("the turn does not close: " + with_digits(closing, 1) + " degrees are missing between " +
+        lines.push_back("the turn does not close: " + format_fixed(closing, 1) + " degrees are missing between " +
                         names.back() + " and " + names.front());
     }
     return lines;
@@ -203,7 +203,7 @@ std::vector<std::string> image_warnings(const Bundle& bundle, std::span<const in
     for (std::size_t i = 0; i < names.size(); ++i) {
         if (features[i] < 0.25 * ordinary) {
             lines.push_back(names[i] + " shows " + std::to_string(features[i]) + " features where others show " +
-                            with_digits(ordinary, 0) + "; is it blurred?");
+                            format_fixed(ordinary, 0) + "; is it blurred?");
         }
     }
     const std::vector<int> kept = observations_per_view(bundle.tracks, bundle.model.angles_rad.size());
@@ -221,16 +221,16 @@ std::vector<std::string> image_warnings(const Bundle& bundle, std::span<const in
     return lines;
 }
 
-std::string place_warning(std::span<const ImagePlace> places) {
+std::string place_warning(std::span<const ImagePlacement> places) {
     double shift_px = 0;
     double least = places.front().scale, most = least;
-    for (const ImagePlace& place : places) {
+    for (const ImagePlacement& place : places) {
         shift_px = std::max(shift_px, glm::length(place.shift_px - places.front().shift_px));
         least = std::min(least, place.scale);
         most = std::max(most, place.scale);
     }
-    return "the images were moved (by up to " + with_digits(shift_px, 0) + " px) and scaled (by up to " +
-           with_digits(100 * (most / least - 1), 0) + " %) individually, as shops do; this is undone";
+    return "the images were moved (by up to " + format_fixed(shift_px, 0) + " px) and scaled (by up to " +
+           format_fixed(100 * (most / least - 1), 0) + " %) individually, as shops do; this is undone";
 }
 
 std::optional<std::string> axis_warning(const AxisPosition& of_tracks, const AxisPosition& of_silhouettes,
@@ -238,7 +238,7 @@ std::optional<std::string> axis_warning(const AxisPosition& of_tracks, const Axi
     const double apart = std::abs(of_tracks.position_px - of_silhouettes.position_px);
     const double believed = 3 * std::hypot(of_tracks.deviation_px, of_silhouettes.deviation_px);
     if (!(apart > std::max(believed, kAxesApart_px * reduction))) return std::nullopt;
-    return "the object's texture turns about an axis " + with_digits(apart, 1) +
+    return "the object's texture turns about an axis " + format_fixed(apart, 1) +
            " px beside that of its silhouettes, which is used; stripes wound around the object have this effect, and "
            "so "
            "have masks that lack the same side in all images: check those, or put a printed board under the "

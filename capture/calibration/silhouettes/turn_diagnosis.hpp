@@ -20,8 +20,8 @@ inline constexpr int kFewestObservations = 6;
 /// Refuses images that do not determine a rig: most observations disagree with any single turn, too many views
 /// disagree, the angles are not a turn, or the focal length is undetermined. `candidates`: number of observations of
 /// each view given to the bundle, wrong matches included.
-Status accept(const Bundle& bundle, const ModelDeviations& deviations, std::span<const int> candidates,
-              std::span<const std::string> names);
+Status check_plausibility(const Bundle& bundle, const ModelDeviations& deviations, std::span<const int> candidates,
+                          std::span<const std::string> names);
 
 /// True if the observations before some view agree with the bundle about equally well, and those after it at another
 /// level: the camera was moved there.
@@ -36,7 +36,7 @@ std::vector<std::string> image_warnings(const Bundle& bundle, std::span<const in
                                         std::span<const int> features, std::span<const std::string> names);
 
 /// Reports that images were shifted and scaled individually, and by how much.
-std::string place_warning(std::span<const ImagePlace> places);
+std::string place_warning(std::span<const ImagePlacement> places);
 
 /// Warning if the axis of the texture and that of the silhouettes differ by more than their errors. Nothing if they
 /// agree to half a px of the reduced images.

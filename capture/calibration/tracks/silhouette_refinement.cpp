@@ -20,7 +20,7 @@ constexpr double kWorstPairs_px = 0.15;
 constexpr double kWorstTogether_px = 0.5;  // of all views; silhouettes of real photos deviate by 0.3
 
 // Applies the model and triangulates the points again; returns false if fewer than `fewest_tracks` remain.
-bool move_to(const TurntableModel& model, Bundle& bundle, std::size_t fewest_tracks) {
+bool apply_model(const TurntableModel& model, Bundle& bundle, std::size_t fewest_tracks) {
     Bundle moved = make_bundle(model, bundle.tracks);
     if (moved.tracks.size() < fewest_tracks) return false;
     bundle = std::move(moved);
@@ -29,9 +29,9 @@ bool move_to(const TurntableModel& model, Bundle& bundle, std::size_t fewest_tra
 
 // Applies the result of a fit. The deviation of the axis' position does not decrease, because it was estimated from the
 // same silhouettes before.
-void take(const TurntableModel& model, const Eigen::MatrixXd& covariance, TrackSolution& solution,
-          std::size_t fewest_tracks) {
-    if (!move_to(model, solution.bundle, fewest_tracks)) return;
+void apply_fit(const TurntableModel& model, const Eigen::MatrixXd& covariance, TrackSolution& solution,
+               std::size_t fewest_tracks) {
+    if (!apply_model(model, solution.bundle, fewest_tracks)) return;
     const double before_px = solution.deviations.axis_position_px;
     solution.deviations = standard_deviations(solution.bundle.model, solution.places, covariance, solution.at_px);
     solution.deviations.axis_position_px = std::max(solution.deviations.axis_position_px, before_px);
@@ -55,7 +55,7 @@ std::optional<std::string> refine_axis(TrackSolution& solution, const TurnImages
     const AxisPosition of_tracks{of_silhouettes->at_px, *position, deviation_px};
     const AxisPosition agreed = combine_axes(of_tracks, *of_silhouettes);
     const auto model = move_axis_to(found, agreed);
-    if (!model || !move_to(*model, solution.bundle, fewest_tracks)) return std::nullopt;
+    if (!model || !apply_model(*model, solution.bundle, fewest_tracks)) return std::nullopt;
     ModelDeviations& deviations = solution.deviations;
     deviations.axis_position_px =
         std::hypot(agreed.deviation_px, deviations.roll_rad * (agreed.at_px - solution.at_px));
@@ -75,7 +75,7 @@ void refine_by_pairs(TrackSolution& solution, const TurnImages& turn, std::size_
     }
     const std::vector<SilhouetteHull> hulls = silhouette_hulls(turn.images, turn.reduction, found);
     const auto fit = fit_tangency(found, solution.places, covariance, hulls, kWorstPairs_px * turn.reduction);
-    if (fit) take(fit->model, fit->covariance, solution, fewest_tracks);
+    if (fit) apply_fit(fit->model, fit->covariance, solution, fewest_tracks);
 }
 
 // Resolution at which all silhouettes are compared: the cost grows with the square of the number of views.
@@ -88,12 +88,12 @@ SilhouetteDetail detail_of(std::size_t views) {
 void refine_by_all(TrackSolution& solution, const TurnImages& turn, std::size_t fewest_tracks) {
     std::vector<Image<std::uint8_t>> masks;
     for (const CalibrationImage& image : turn.images) masks.push_back(image.alpha);
-    const auto silhouettes = SilhouetteTurn::of(masks, detail_of(masks.size()));
+    const auto silhouettes = SilhouetteTurn::create(masks, detail_of(masks.size()));
     if (!silhouettes || silhouettes->touches_border()) return;
     const double image_px = silhouettes->reduction() * turn.reduction;
     const auto fit = fit_coherence(solution.bundle.model, solution.places, solution.covariance, *silhouettes, image_px,
                                    {.worst_px = kWorstTogether_px * turn.reduction, .few_rays_first = true});
-    if (fit) take(fit->model, fit->covariance, solution, fewest_tracks);
+    if (fit) apply_fit(fit->model, fit->covariance, solution, fewest_tracks);
 }
 
 }  // namespace

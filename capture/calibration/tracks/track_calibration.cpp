@@ -49,7 +49,7 @@ double outlier_limit(const Bundle& bundle, int reduction) {
     return std::max(kLeastOutlierLimit_px * reduction, kTrackOutlierDeviations * robust_deviation_px(bundle));
 }
 
-std::vector<ViewFit> fits(const Bundle& bundle) {
+std::vector<ViewFit> view_fits(const Bundle& bundle) {
     const TurnProjection turn(bundle.model);
     std::vector<ViewFit> views(bundle.model.angles_rad.size());
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
@@ -65,7 +65,7 @@ std::vector<ViewFit> fits(const Bundle& bundle) {
     return views;
 }
 
-// Of the two equivalent models with opposite axis directions, takes the one whose camera looks down if the axis is
+// Takes from the two equivalent models with opposite axis directions the one whose camera looks down if the axis is
 // sideways, because the image does not define an upper end then.
 void choose_axis_direction(Bundle& bundle) {
     CameraPose& pose = bundle.model.pose;
@@ -92,7 +92,7 @@ Lens known_lens(const TurnImages& turn, const KnownInputs& known) {
     return apply_known(Lens{turn.width, turn.height, 0, turn.width / 2.0, turn.height / 2.0, 0, 0}, known);
 }
 
-BundleOptions rough(BundleOptions options) {
+BundleOptions rough_options(BundleOptions options) {
     options.max_iterations = kRoughIterations;
     options.function_tolerance = kRoughlyEnough;
     return options;
@@ -100,13 +100,14 @@ BundleOptions rough(BundleOptions options) {
 
 // Iterates adjustment and outlier rejection from an approximate start, with the detected features; accurate enough for
 // plausibility checks. Sets the loss in `options` to fit the residuals.
-bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k1_is_free, BundleOptions& options) {
+bool adjust_robustly(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k1_is_free,
+                     BundleOptions& options) {
     constexpr int kMostRounds = 5;
     constexpr double kSameLoss = 0.02;
     options.loss_px = 2.0 * reduction;
     for (int round = 0; round < kMostRounds; ++round) {
         options.free.k1 = round > 0 && k1_is_free;
-        if (!adjust(bundle, rough(options))) return false;
+        if (!adjust(bundle, rough_options(options))) return false;
         const double limit = outlier_limit(bundle, reduction);
         // Observations rejected because of a poor start are reconsidered.
         if (round + 1 < kMostRounds) {
@@ -118,7 +119,7 @@ bool settle(Bundle& bundle, std::span<const Track> tracks, int reduction, bool k
         options.loss_px = std::max(0.3 * reduction, 2 * robust_deviation_px(bundle));
         if (round > 1 && std::abs(options.loss_px / before_px - 1) < kSameLoss) break;
     }
-    return adjust(bundle, rough(options)).has_value();
+    return adjust(bundle, rough_options(options)).has_value();
 }
 
 // Range of angles in which a track is seen, rad.
@@ -134,7 +135,7 @@ double arc_rad(const TurntableModel& model, const Track& track) {
 }
 
 template <class Condition>
-void keep(Bundle& bundle, Condition condition) {
+void filter_tracks(Bundle& bundle, Condition condition) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
         if (!condition(i)) continue;
@@ -156,30 +157,31 @@ void drop_short_arcs(Bundle& bundle) {
     std::vector<double> sorted = arcs;
     std::sort(sorted.begin(), sorted.end(), std::greater<>());
     if (sorted.size() <= kEnoughWideTracks) return;
-    keep(bundle,
-         [&, least = std::min(kWideArc_rad, sorted[kEnoughWideTracks])](std::size_t i) { return arcs[i] >= least; });
+    filter_tracks(bundle, [&, least = std::min(kWideArc_rad, sorted[kEnoughWideTracks])](std::size_t i) {
+        return arcs[i] >= least;
+    });
 }
 
 // Limits the number of tracks by an even selection; the longest alone would be those with oblique views.
 void limit_track_count(Bundle& bundle) {
     const std::size_t count = bundle.tracks.size();
     if (count <= kEnoughTracks) return;
-    keep(bundle, [&](std::size_t i) { return i * kEnoughTracks / count != (i + 1) * kEnoughTracks / count; });
+    filter_tracks(bundle, [&](std::size_t i) { return i * kEnoughTracks / count != (i + 1) * kEnoughTracks / count; });
 }
 
 // Refines all points by patch alignment, and adds points beside them until there are `most` observations; sets the loss
 // in `options` to fit the residuals. Nothing if the adjustment fails.
-std::optional<Bundle> refined(Bundle bundle, const TurnImages& turn, BundleOptions& options, int most) {
+std::optional<Bundle> refine_by_alignment(Bundle bundle, const TurnImages& turn, BundleOptions& options, int most) {
     for (int round = 0; round < kMostAlignmentRounds; ++round) {
         const std::size_t known = bundle.tracks.size();
-        grow(bundle, turn.reduction, most);
+        grow_patches(bundle, turn.reduction, most);
         if (round >= kAlignmentRounds && bundle.tracks.size() == known) break;
         const std::vector<Track> tracks = align_tracks(turn.images, turn.reduction, bundle, known);
         bundle = make_robust_bundle(bundle.model, tracks, kAlignedLimit_px * turn.reduction);
         drop_short_arcs(bundle);
         for (int again = 0; again < 2; ++again) {
             options.loss_px = std::max(0.05 * turn.reduction, kLossDeviations * robust_deviation_px(bundle));
-            if (!adjust(bundle, rough(options))) return std::nullopt;
+            if (!adjust(bundle, rough_options(options))) return std::nullopt;
             drop_outliers(bundle,
                           std::max(0.2 * turn.reduction, kTrackOutlierDeviations * robust_deviation_px(bundle)));
         }
@@ -194,7 +196,7 @@ Bundle evaluate_held_out(const TurntableModel& model, const Bundle& unseen, cons
     if (!aligned) return bundle;
     BundleOptions held;
     held.free = {.f = false, .pan = false, .tilt = false, .roll = false, .angles = AngleFreedom::kConstant};
-    return refined(bundle, turn, held, 0).value_or(bundle);
+    return refine_by_alignment(bundle, turn, held, 0).value_or(bundle);
 }
 
 // Calibrates for a fixed camera. If the points are explained neither by a turn nor by a tripod that was moved once,
@@ -230,12 +232,13 @@ Result<TrackCalibration> calibrate_fixed_images(const TurnImages& turn, const Kn
     BundleOptions options;
     options.free = free_parameters_beside(known);
     Bundle bundle = make_robust_bundle(start->model, part, 4.0 * turn.reduction);
-    if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
+    if (!adjust_robustly(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
     choose_axis_direction(bundle);
     if (progress != nullptr) progress->advance();
     const double at_px = 0.5 * (has_sideways_axis(bundle.model.pose) ? turn.width : turn.height);
     const std::vector<int> candidates = observations_per_view(part, views);
-    Status accepted = accept(bundle, bundle_standard_deviations(bundle, options, at_px), candidates, turn.names);
+    Status accepted =
+        check_plausibility(bundle, bundle_standard_deviations(bundle, options, at_px), candidates, turn.names);
     if (!accepted) {
         if (placed != nullptr && !has_single_change(bundle, candidates)) {
             *placed = estimate_placements(tracks, known_lens(turn, known), views, turn.reduction, known);
@@ -252,10 +255,11 @@ Result<TrackCalibration> calibrate_fixed_images(const TurnImages& turn, const Kn
     held_out.clear();
     split(guided, part, held_out);
     bundle = make_robust_bundle(bundle.model, part, outlier_limit(bundle, turn.reduction));
-    if (!settle(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
+    if (!adjust_robustly(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
     const Bundle unseen = make_robust_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
     limit_track_count(bundle);
-    std::optional<Bundle> finest = refined(bundle, turn, options, kObservationsPerView * static_cast<int>(views));
+    std::optional<Bundle> finest =
+        refine_by_alignment(bundle, turn, options, kObservationsPerView * static_cast<int>(views));
     const bool is_aligned = finest && finest->tracks.size() >= kFewestTracks / 2;
     if (is_aligned) {
         bundle = *std::move(finest);
@@ -291,7 +295,7 @@ Result<TrackCalibration> calibrate_fixed_images(const TurnImages& turn, const Kn
     calibration.observations = observation_count(bundle);
     calibration.rms_px = rms_px(bundle);
     calibration.held_out_rms_px = rms_px(evaluate_held_out(bundle.model, unseen, turn, is_aligned));
-    calibration.views = fits(bundle);
+    calibration.views = view_fits(bundle);
     result.bundle = std::move(bundle);
     return result;
 }
@@ -300,7 +304,7 @@ Result<TrackCalibration> calibrate_placed(const TurnImages& turn, const KnownInp
     std::optional<PlacementEstimate> placed;
     Result<TrackCalibration> still = calibrate_fixed_images(turn, known, progress, &placed);
     if (!placed || placed->agreeing < kFewestAgreeingPlaced) return still;
-    std::vector<ImagePlace> places = std::move(placed->places);
+    std::vector<ImagePlacement> places = std::move(placed->places);
     for (int round = 0;; ++round) {
         Result<TrackCalibration> found =
             calibrate_fixed_images(undo_placements(turn, places), known, progress, nullptr);

@@ -66,7 +66,7 @@ struct BackgroundModel {
     Image<float> noise_delta_e{};
 };
 
-/// How an alpha channel of the photos is treated.
+/// Handling of an alpha channel of the photos.
 enum class AlphaUse { kPrefer, kIgnore };
 
 /// Estimates the background of a turn. Automatic choice of its kind: alpha where at least 1 % of the pixels are

@@ -34,7 +34,7 @@ std::size_t extension_of(const std::filesystem::path& name) {
 
 // Keeps one of the files that differ only in their extension, the one in the most frequent format: a phone's HEIC and
 // the JPEG converted from it are the same photo.
-void take_one_format(PhotoFolder& found) {
+void keep_one_format(PhotoFolder& found) {
     std::array<int, kExtensions.size()> having{};  // [extension]: number of image files
     std::map<std::string, std::filesystem::path> by_stem;
     for (const std::filesystem::path& photo : found.photos) ++having[extension_of(photo)];
@@ -110,7 +110,7 @@ Status choose_orientations(PhotoFolder& found, const std::vector<ImageInfo>& inf
 Status read_headers(PhotoFolder& found) {
     std::vector<ImageInfo> infos;
     for (const std::filesystem::path& photo : found.photos) {
-        RS_ASSIGN_OR_RETURN(const ImageInfo info, read_image_info(photo, kMaxPhotographSide_px));
+        RS_ASSIGN_OR_RETURN(const ImageInfo info, read_image_info(photo, kMaxPhotoSide_px));
         infos.push_back(info);
     }
     const auto all = [&](const auto& holds) { return std::ranges::all_of(infos, holds); };
@@ -123,7 +123,7 @@ Status read_headers(PhotoFolder& found) {
 void set_reduction(PhotoFolder& found, int max_side_px) {
     found.width = found.shown_width;
     found.height = found.shown_height;
-    found.reduction = photograph_reduction(found.width, found.height, max_side_px);
+    found.reduction = photo_reduction(found.width, found.height, max_side_px);
     if (found.reduction == 1) return;
     // The reduction of a thin photo is limited so that each side keeps at least one pixel.
     found.reduction = std::min(found.reduction, static_cast<double>(std::min(found.width, found.height)));
@@ -204,7 +204,7 @@ Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int m
     }
     std::sort(found.photos.begin(), found.photos.end(),
               [](const auto& a, const auto& b) { return natural_less(a.filename().string(), b.filename().string()); });
-    take_one_format(found);
+    keep_one_format(found);
     if (found.photos.size() > static_cast<std::size_t>(kMaxViews)) {
         return Error{folder.string() + ": holds " + std::to_string(found.photos.size()) + " images; at most " +
                      std::to_string(kMaxViews) + " can be imported"};

@@ -91,9 +91,9 @@ std::vector<std::string> file_names(const PhotoFolder& folder);
 inline constexpr int kMinSide_px = 64;
 
 /// Lists the folder and reads the headers of the image files, not their pixels. The working size of large photos is
-/// reduced to max_side_px (kMinSide_px .. kMaxImageSide_px) on the longer side (photograph_reduction()); a side of a
+/// reduced to max_side_px (kMinSide_px .. kMaxImageSide_px) on the longer side (photo_reduction()); a side of a
 /// thin photo keeps at least one pixel. Errors: a folder that cannot be listed; no image files, or more than kMaxViews;
-/// an unreadable header; a side longer than kMaxPhotographSide_px; two sizes that differ after EXIF orientation (the
+/// an unreadable header; a side longer than kMaxPhotoSide_px; two sizes that differ after EXIF orientation (the
 /// message has both files and sizes).
 Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int max_side_px = kMaxImageSide_px);
 

@@ -36,7 +36,7 @@ Image<Rgba8> to_working_size(Image<Rgba8> upright, const PhotoFolder& folder) {
 }
 
 Result<Image<Rgba8>> read_photo(const PhotoFolder& folder, std::size_t i) {
-    Result<Image<Rgba8>> stored = read_image(folder.photos[i], kMaxPhotographSide_px);
+    Result<Image<Rgba8>> stored = read_image(folder.photos[i], kMaxPhotoSide_px);
     if (!stored) return stored;
     Image<Rgba8> upright = apply_orientation(std::move(*stored), folder.orientation_of(i));
     if (upright.width() != folder.shown_width || upright.height() != folder.shown_height) {

@@ -20,7 +20,7 @@ FrameRequest frame_request(const std::optional<int>& frames, int by_default) {
 }
 
 Result<PhotoFolder> open_film(const PhotoRequest& request, Progress* progress) {
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(request.output, "imported photos"));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(request.output, "imported photos", request.force));
     const auto frames = std::make_shared<const StagedFolder>(std::move(staged));
     RS_ASSIGN_OR_RETURN(VideoFrames video,
                         write_video_frames(request.photos, frames->temporary_path(),

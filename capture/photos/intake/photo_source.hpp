@@ -17,6 +17,7 @@ inline constexpr std::size_t kMaxPhotosWithoutSelection = 150;
 struct PhotoRequest {
     std::filesystem::path photos;  // folder or video
     std::filesystem::path output;  // extracted frames of a video are stored beside it during the import
+    bool force = false;            // of StagedFolder, for the output
     int max_side_px = kMaxImageSide_px;
     std::optional<int> frames;  // number of photos or frames to select
     /// True if options describe single photos (masks, angles, steps), so that none may be left out.

@@ -110,7 +110,7 @@ Status MaskFolder::find_files(const std::filesystem::path& folder, const PhotoFo
 
 Status MaskFolder::check_sizes(const std::filesystem::path& folder, const PhotoFolder& photos) {
     for (std::size_t i = 0; i < files_.size(); ++i) {
-        RS_ASSIGN_OR_RETURN(const ImageInfo info, read_image_info(files_[i], kMaxPhotographSide_px));
+        RS_ASSIGN_OR_RETURN(const ImageInfo info, read_image_info(files_[i], kMaxPhotoSide_px));
         sizes_.push_back({info.width, info.height});
         if (is_scaled_photo(info.width, info.height, shown_.width, shown_.height)) continue;
         const bool is_turned = info.width == shown_.height && info.height == shown_.width;
@@ -227,7 +227,7 @@ Result<MaskFolder> MaskFolder::open(const std::filesystem::path& folder, const P
     const double bytes_per_px = std::ceil(kReadBytesPerPixel * most_pixels / (1.0 * photos.width * photos.height));
     RS_TRY(for_each_photo(photos, static_cast<int>(std::min(bytes_per_px, 1e9)), "reading masks", progress,
                           [&](std::size_t i) -> Status {
-                              RS_ASSIGN_OR_RETURN(const auto mask, read_image(masks.files_[i], kMaxPhotographSide_px));
+                              RS_ASSIGN_OR_RETURN(const auto mask, read_image(masks.files_[i], kMaxPhotoSide_px));
                               survey.masks[i] = mask_statistics(mask);
                               return {};
                           }));
@@ -240,7 +240,7 @@ Result<MaskFolder> MaskFolder::open(const std::filesystem::path& folder, const P
 
 Result<Image<std::uint8_t>> MaskFolder::read(std::size_t i) const {
     RS_CHECK(i < files_.size());
-    RS_ASSIGN_OR_RETURN(const Image<Rgba8> stored, read_image(files_[i], kMaxPhotographSide_px));
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> stored, read_image(files_[i], kMaxPhotoSide_px));
     if (stored.width() != sizes_[i].width || stored.height() != sizes_[i].height) {
         return Error{printable(files_[i].string() + ": has changed its size to " +
                                size_text(stored.width(), stored.height()) + " while it was in use; run again")};

@@ -218,8 +218,8 @@ Status make_probability(cv::Mat1f& map, NetworkOutput meaning, const std::string
     }
     if (meaning == NetworkOutput::kProbability && (lowest < -kSlack || highest > 1 + kSlack)) {
         constexpr int kDigits = 2;
-        return Error{file + ": its output goes from " + with_digits(lowest, kDigits) + " to " +
-                     with_digits(highest, kDigits) +
+        return Error{file + ": its output goes from " + format_fixed(lowest, kDigits) + " to " +
+                     format_fixed(highest, kDigits) +
                      ", which is no probability; write \"output\": \"logits\" or \"minmax\" into its settings file"};
     }
     const float range = highest > lowest ? highest - lowest : 1;

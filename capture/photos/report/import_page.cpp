@@ -86,7 +86,7 @@ void draw_points(cv::Mat& image, const TrackCalibration& tracks, int view, doubl
 }  // namespace
 
 Image<Rgba8> annotated_photo(ConstImageView<Rgba8> photo, const ImportReport& report, int view) {
-    Image<Rgba8> small = scaled_down(photo, kAnnotatedSide_px);
+    Image<Rgba8> small = downscale(photo, kAnnotatedSide_px);
     for (Rgba8& p : small.pixels()) p = over(p, {128, 128, 128, 255});
     const double scale = static_cast<double>(small.width()) / photo.width();
     cv::Mat image = writable_mat_view(small);
@@ -102,7 +102,7 @@ constexpr int kMattes = 18;
 constexpr Rgba8 kMagenta{255, 0, 255, 255};
 
 std::string number(double value, int digits) {
-    return std::isfinite(value) ? with_digits(value, digits) : "unknown";
+    return std::isfinite(value) ? format_fixed(value, digits) : "unknown";
 }
 
 std::string deviation(double value, int digits) {
@@ -199,15 +199,15 @@ void add_plots(HtmlPage& page, const Calibration& found) {
         count.y.push_back(found.views[i].observations);
     }
     page.heading("Angles and residuals");
-    page.drawing(svg_of({"Angles against equal steps", "photo", "degrees", {value, above, below}}));
+    page.drawing(draw_svg({"Angles against equal steps", "photo", "degrees", {value, above, below}}));
     if (found.observations == 0) return;
-    page.drawing(svg_of({"Residuals", "photo", "px", {rms}, 900, 220}));
-    page.drawing(svg_of({"Observations", "photo", "", {count}, 900, 220}));
+    page.drawing(draw_svg({"Residuals", "photo", "px", {rms}, 900, 220}));
+    page.drawing(draw_svg({"Observations", "photo", "", {count}, 900, 220}));
 }
 
 Status add_photos(HtmlPage& page, const ImportReport& report) {
     std::vector<CaptionedImage> row;
-    for (const int view : evenly_spread(static_cast<int>(report.folder.photos.size()), kAnnotated)) {
+    for (const int view : select_evenly(static_cast<int>(report.folder.photos.size()), kAnnotated)) {
         const auto i = static_cast<std::size_t>(view);
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> photo, read_photo(report.folder, i));
         row.push_back({annotated_photo(photo, report, view), source_name(report, i)});
@@ -222,8 +222,8 @@ Status add_photos(HtmlPage& page, const ImportReport& report) {
 
 Status add_alpha_mattes(HtmlPage& page, const ImportReport& report) {
     std::vector<CaptionedImage> row;
-    for (const int view : evenly_spread(static_cast<int>(report.small_cut_outs.size()), kMattes)) {
-        Image<Rgba8> matte = report.small_cut_outs[static_cast<std::size_t>(view)];
+    for (const int view : select_evenly(static_cast<int>(report.small_foregrounds.size()), kMattes)) {
+        Image<Rgba8> matte = report.small_foregrounds[static_cast<std::size_t>(view)];
         for (Rgba8& p : matte.pixels()) p = over(p, kMagenta);
         row.push_back({std::move(matte), source_name(report, static_cast<std::size_t>(view))});
     }

@@ -25,8 +25,8 @@ struct ImportReport : FoundRig {
     std::string dropped_repeat{};  ///< name of the last photo if it repeated the first; else empty
     /// Coverage of a photo: fraction of its pixels with an alpha of 128 or more, 0..1. Minimum over all photos.
     double min_coverage = 0;
-    double max_coverage = 0;                     ///< maximum over all photos
-    std::vector<Image<Rgba8>> small_cut_outs{};  ///< [photo], the longer side at most 512 px
+    double max_coverage = 0;                        ///< maximum over all photos
+    std::vector<Image<Rgba8>> small_foregrounds{};  ///< [photo], the longer side at most 512 px
 
     int views = 0;         ///< of the capture set
     UprightFrame frame{};  ///< of the images in the capture set, if they were rectified

@@ -40,8 +40,8 @@ Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFold
         if (is_left_out(report, i)) return {};
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, foregrounds.get(i));
         const Image<Rgba8> upright = rectified(calibration.model, report.frame, image,
-                                               calibration.places.empty() ? ImagePlace{} : calibration.places[i]);
-        if (Status status = write_png(set / set_image_name(number[i]), upright); !status) return status;
+                                               calibration.places.empty() ? ImagePlacement{} : calibration.places[i]);
+        RS_TRY(write_png(set / set_image_name(number[i]), upright));
         TurnSilhouette own(upright.width(), upright.height());
         own.add(upright);
         const std::lock_guard lock(mutex);
@@ -53,8 +53,8 @@ Result<TurnSilhouette::Box> write_rectified(const fs::path& set, const PhotoFold
     return silhouette.visible();
 }
 
-Status write_as_they_are(const fs::path& set, const PhotoFolder& folder, const ForegroundCache& foregrounds,
-                         Progress* progress) {
+Status write_unchanged(const fs::path& set, const PhotoFolder& folder, const ForegroundCache& foregrounds,
+                       Progress* progress) {
     const auto write = [&](std::size_t i) -> Status {
         const Result<Image<Rgba8>> image = foregrounds.get(i);
         return image ? write_png(set / set_image_name(i), *image) : Status(image.error());
@@ -76,7 +76,7 @@ Result<ImportReport> write_import_set(const fs::path& set, const PhotoFolder& fo
                             write_rectified(set, folder, foregrounds, report, progress));
         rig = calibrated_import_rig(report, visible);
     } else {
-        RS_TRY(write_as_they_are(set, folder, foregrounds, progress));
+        RS_TRY(write_unchanged(set, folder, foregrounds, progress));
         rig = nominal_import_rig(report, turn.silhouette.visible());
     }
     report.fl_px = rig.views.front().camera.fl_x;

@@ -66,7 +66,7 @@ void leave_out_repeats(FoundRig& rig, const PhotoFolder& folder) {
                                                        : " repeats another image and is left out of the set"));
 }
 
-void take_nominal(FoundRig& rig, const KnownInputs& given) {
+void use_nominal_rig(FoundRig& rig, const KnownInputs& given) {
     add_notes(rig, rig.nominal.notes);
     if (given.f_px || given.pose || given.angles_rad) {
         rig.notes.emplace_back(
@@ -111,7 +111,7 @@ Result<FoundRig> find_rig(const RigRequest& given, const PhotoFolder& folder, co
         take_calibrated(rig, folder);
     } else {
         nominal();
-        take_nominal(rig, request.known.known);
+        use_nominal_rig(rig, request.known.known);
     }
     return rig;
 }

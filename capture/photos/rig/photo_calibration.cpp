@@ -127,7 +127,7 @@ Result<Calibration> from_silhouettes(const TurnImages& turn, const CalibrationRe
 }
 
 // Calibration from known values alone, nullopt if one is missing. Nothing is estimated, so all deviations are 0.
-std::optional<Calibration> given(const CalibrationRequest& request, std::size_t views) {
+std::optional<Calibration> calibration_from_known(const CalibrationRequest& request, std::size_t views) {
     const KnownInputs& known = request.known;
     if (!known.f_px || !known.pose || !(known.angles_rad || known.step_rad)) return std::nullopt;
     Calibration calibration;
@@ -171,7 +171,7 @@ Result<PhotoCalibration> calibrate_photos(const PhotoFolder& folder, const Foreg
         result.notes.push_back("no calibration from the board: " + board.error().message);
     }
     if (choice == CalibrationChoice::kAuto) {
-        if (auto calibration = given(request, views)) {
+        if (auto calibration = calibration_from_known(request, views)) {
             result.calibration = std::move(*calibration);
             return result;
         }

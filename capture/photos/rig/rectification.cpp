@@ -145,7 +145,7 @@ Result<UprightFrame> plan_upright_frame(const TurntableModel& model,
 }
 
 Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, ConstImageView<Rgba8> cut_out,
-                       const ImagePlace& place) {
+                       const ImagePlacement& place) {
     RS_CHECK(cut_out.width() == model.lens.width && cut_out.height() == model.lens.height);
     const glm::dmat3 camera_from_table = camera_rotation(model.pose);
     const double fold = fold_radius(model.lens);

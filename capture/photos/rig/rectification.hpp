@@ -42,7 +42,7 @@ Result<UprightFrame> plan_upright_frame(const TurntableModel& model, std::span<c
 /// colours under alpha 0. `place` is the displacement of the photo from the image of the model's fixed camera. About
 /// 0.2 s per megapixel of the frame. Thread-safe.
 Image<Rgba8> rectified(const TurntableModel& model, const UprightFrame& frame, ConstImageView<Rgba8> cut_out,
-                       const ImagePlace& place = {});
+                       const ImagePlacement& place = {});
 
 /// Makes the rig of the rectified images: one upright camera per view of the model, without file names. The unit of
 /// length is the object radius: object_radius is 1, the radius of the circle about the axis that contains all of

@@ -20,7 +20,7 @@ constexpr float kUnmixMinAlpha = 0.1F;
 constexpr float kUnmixFullAlpha = 0.6F;
 
 // Composites the foreground image over a black layer of the given opacity, straight alpha.
-void lay_over_shadow(Image<Rgba8>& foreground, const Image<std::uint8_t>& shadow) {
+void composite_over_shadow(Image<Rgba8>& foreground, const Image<std::uint8_t>& shadow) {
     RS_CHECK(foreground.width() == shadow.width() && foreground.height() == shadow.height());
     for (int y = 0; y < foreground.height(); ++y) {
         for (int x = 0; x < foreground.width(); ++x) {
@@ -121,7 +121,7 @@ Image<Rgba8> make_foreground_image(ConstImageView<Rgba8> photo, const Segmentati
         const int edge_width_px = expected_edge_width_px(photo.width(), photo.height(), parameters.alpha);
         foreground = unmix(photo, estimate_alpha(photo, mask, edge_width_px, parameters.alpha));
     }
-    if (!segmentation.shadow.empty()) lay_over_shadow(foreground, segmentation.shadow);
+    if (!segmentation.shadow.empty()) composite_over_shadow(foreground, segmentation.shadow);
     bleed_colours(foreground);
     return foreground;
 }

@@ -69,7 +69,7 @@ Result<SegmentedTurn> segment_turn(const PhotoFolder& folder, const Segmenter& s
             !status) {
             return status;
         }
-        if (Status status = foregrounds.put(i, foreground); !status) return status;
+        RS_TRY(foregrounds.put(i, foreground));
         turn.small[i] = reduced(foreground, kSmallSide_px);
         TurnSilhouette silhouette(folder.width, folder.height);
         silhouette.add(foreground);

@@ -22,7 +22,7 @@ constexpr std::array<float, 2> kAround = {2, 1};       // weights for averaging 
 constexpr std::array<float, 3> kPattern = {2, 2, 1};
 static_assert((1 << kLevels) - 1 + kPatternLevels * (static_cast<int>(kPattern.size()) - 1) +
                   static_cast<int>(kNoise.size()) - 1 <=
-              kFilterReach_px);
+              kFilterRadius_px);
 // Scales of the differences that reduce a weight.
 constexpr float kNormal = 0.3F;      // length of the difference vector
 constexpr float kColour = 0.4F;      // length of the difference vector
@@ -254,8 +254,9 @@ Image<RgbaF> filter_image(const Accumulation& accumulation) {
 
 }  // namespace
 
-PixelRectangle within_reach(const PixelRectangle& part) {
-    return {part.x0 - kFilterReach_px, part.y0 - kFilterReach_px, part.x1 + kFilterReach_px, part.y1 + kFilterReach_px};
+PixelRectangle with_filter_margin(const PixelRectangle& part) {
+    return {part.x0 - kFilterRadius_px, part.y0 - kFilterRadius_px, part.x1 + kFilterRadius_px,
+            part.y1 + kFilterRadius_px};
 }
 
 Image<RgbaF> filtered_mean(const Accumulation& accumulation) {
@@ -267,10 +268,10 @@ Image<RgbaF> filtered_mean(const Accumulation& accumulation, const PixelRectangl
     const PixelRectangle whole{0, 0, image.width(), image.height()};
     const PixelRectangle shown = overlap(whole, part);
     if (accumulation.guides.empty() || accumulation.samples < 1 || shown.x0 >= shown.x1) return image;
-    const int rows = std::max(kFilterReach_px, kStrip_px / (shown.x1 - shown.x0));
+    const int rows = std::max(kFilterRadius_px, kStrip_px / (shown.x1 - shown.x0));
     for (int top = shown.y0; top < shown.y1; top += rows) {
         const PixelRectangle strip{shown.x0, top, shown.x1, std::min(top + rows, shown.y1)};
-        const PixelRectangle around = overlap(whole, within_reach(strip));
+        const PixelRectangle around = overlap(whole, with_filter_margin(strip));
         const Image<RgbaF> filtered = filter_image(accumulation.crop(around));
         for (int y = strip.y0; y < strip.y1; ++y) {
             for (int x = strip.x0; x < strip.x1; ++x) image(x, y) = filtered(x - around.x0, y - around.y0);

@@ -15,13 +15,13 @@
 namespace rs::capture {
 
 // Radius of the filter's support along x and y.
-inline constexpr int kFilterReach_px = 40;
+inline constexpr int kFilterRadius_px = 40;
 
 /// Filters Accumulation::mean() where the accumulation has guides. The result does not depend on the thread count.
 Image<RgbaF> filtered_mean(const Accumulation& accumulation);
-/// Filters only `part`, with the same result as for the whole image. within_reach(part) must have samples.
+/// Filters only `part`, with the same result as for the whole image. with_filter_margin(part) must have samples.
 Image<RgbaF> filtered_mean(const Accumulation& accumulation, const PixelRectangle& part);
 /// `part` enlarged by the filter's support.
-PixelRectangle within_reach(const PixelRectangle& part);
+PixelRectangle with_filter_margin(const PixelRectangle& part);
 
 }  // namespace rs::capture

@@ -59,8 +59,8 @@ Image<RgbaF> light_probe(const Tracer& tracer, const glm::dvec3& position, const
     RenderOptions render;
     render.samples_per_pixel = options.samples_per_pixel;
     render.max_bounces = options.max_bounces;
-    render.see_areas = true;
-    render.see_environment = true;
+    render.show_areas = true;
+    render.show_environment = true;
     Image<RgbaF> map = tracer.render(all_directions(position, options.width), render, progress).image;
     for (const Light& light : tracer.lights()) add_light(light, tracer, position, map);
     return map;

@@ -24,7 +24,7 @@ struct RadiosityTracer::Packet {
     GatherPacket vertices;
     PacketLight light;
     MaskLanes active;
-    MetLanes hits;
+    RayHitLanes hits;
 
     [[nodiscard]] bool empty() const {
         return std::ranges::none_of(paths, [](const PathState& path) { return path.ray != nullptr; });

@@ -9,7 +9,7 @@ namespace rs::capture {
 
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kInfiniteDistance = std::numeric_limits<float>::infinity();
 
 // Point `index` of a shifted low-discrepancy sequence in the unit square (M. Roberts, "The Unreasonable Effectiveness
 // of Quasirandom Sequences", 2018).
@@ -33,7 +33,7 @@ void ToonTracer::find_sky_light() {
     constexpr int kDirections = 2048;
     constexpr float kGoldenAngle_rad = 2.39996323F;
     constexpr float kMinDifference = 0.05F;
-    float smallest = kInfinity, largest = 0;
+    float smallest = kInfiniteDistance, largest = 0;
     for (int i = 0; i < kDirections; ++i) {
         const float height = 1.0F - 2.0F * (static_cast<float>(i) + 0.5F) / kDirections;
         const float across = std::sqrt(1.0F - height * height), turn = kGoldenAngle_rad * static_cast<float>(i);
@@ -83,7 +83,7 @@ float ToonTracer::intensity(const LightTransport::Vertex& vertex, Sampler& sampl
         if (!transport().rays().occluded(start, direction, distance * (1.0F - 1e-4F), vertex.point.time))
             lit += strength * received;
     };
-    if (sky_irradiance_ > 0.0F) add(sky_irradiance_, sky_direction_, kInfinity);
+    if (sky_irradiance_ > 0.0F) add(sky_irradiance_, sky_direction_, kInfiniteDistance);
     const LightSet& lights = transport().lights();
     const glm::vec3 position = vertex.ray_origin(vertex.point.geometric_normal, true);
     const int rays = std::max(style_.shadow_rays, 1);

@@ -15,7 +15,7 @@ constexpr int kMinDiameters = 4, kMaxDiameters = 64;
 constexpr float kNarrower_px = 0.4F;   // tolerated narrowing of a line between two diameters
 constexpr float kHidden_px = 0.3F;     // tolerated narrowing of a line whose crease lies within the last chord
 constexpr float kMaxAngle_rad = 3.1F;  // of a crease; keeps the tangent of its half finite
-constexpr float kMinCos = 0.01F;       // lower bound for the cosine between a ray and a normal
+constexpr float kMinRayCos = 0.01F;    // lower bound for the cosine between a ray and a normal
 
 // Distance from the ray origins to the disc, in radii: in front of the facet's plane over the whole disc.
 float ray_offset(float cos_ray) {
@@ -90,7 +90,7 @@ ToonEdges::ToonEdges(const RayScene& rays, const ToonStyle& style, float pixel_r
 
 bool ToonEdges::is_near_edge(const SurfacePoint& point, const glm::vec3& direction, float previous_distance) const {
     if (!(radius_ > 0.0F)) return false;
-    const float cos_ray = std::max(-glm::dot(point.geometric_normal, direction), kMinCos);
+    const float cos_ray = std::max(-glm::dot(point.geometric_normal, direction), kMinRayCos);
     const float before = std::min(radius_ * ray_offset(cos_ray), 0.999F * point.distance);
     const glm::vec3 centre = point.position - direction * before;
     glm::vec3 u, v;
@@ -151,7 +151,8 @@ bool ToonEdges::has_crease(const Diameter& diameter, const Extent& extent, const
     // Compares adjacent chords, and chords with one between them, which may lie across the edge.
     for (int gap = 1; gap <= 2; ++gap) {
         for (int i = extent.first; i + gap + 1 <= extent.last; ++i) {
-            if (slopes_turn(spacing_, rise(i), rise(i + gap)) && normals_turn(diameter, i, i + gap + 1, ray)) {
+            if (slope_angle_exceeds(spacing_, rise(i), rise(i + gap)) &&
+                normal_angle_exceeds(diameter, i, i + gap + 1, ray)) {
                 return true;
             }
         }
@@ -169,16 +170,17 @@ bool ToonEdges::has_crease_at_end(const Diameter& diameter, const Extent& extent
         const float bend = (depth(outer) - depth(inner)) - (depth(inner) - depth(before));
         if (std::abs(bend) * ray.radius_px < min_bend_px_ * spacing_) return false;
     }
-    return normals_turn(diameter, outer, inner, ray, true);
+    return normal_angle_exceeds(diameter, outer, inner, ray, true);
 }
 
-bool ToonEdges::slopes_turn(float run, float a, float b) const {
+bool ToonEdges::slope_angle_exceeds(float run, float a, float b) const {
     // Compares tangents without division.
     const float sine = run * std::abs(b - a), cosine = run * run + a * b;
     return sine * cos_angle_ > cosine * sin_angle_;
 }
 
-bool ToonEdges::normals_turn(const Diameter& diameter, int first, int last, const Ray& ray, bool and_facets) const {
+bool ToonEdges::normal_angle_exceeds(const Diameter& diameter, int first, int last, const Ray& ray,
+                                     bool and_facets) const {
     SurfacePoint here, there;
     if (!rays_.intersect(diameter.origins[static_cast<std::size_t>(first)], ray.direction, ray.time, here) ||
         !rays_.intersect(diameter.origins[static_cast<std::size_t>(last)], ray.direction, ray.time, there)) {
@@ -186,9 +188,9 @@ bool ToonEdges::normals_turn(const Diameter& diameter, int first, int last, cons
     }
     const auto slope = [&](const SurfacePoint& point) {
         return glm::dot(point.geometric_normal, diameter.direction) /
-               std::max(-glm::dot(point.geometric_normal, ray.direction), kMinCos);
+               std::max(-glm::dot(point.geometric_normal, ray.direction), kMinRayCos);
     };
-    if (and_facets && !slopes_turn(1.0F, slope(here), slope(there))) return false;
+    if (and_facets && !slope_angle_exceeds(1.0F, slope(here), slope(there))) return false;
     return glm::dot(here.shading_normal, there.shading_normal) < cos_angle_;
 }
 

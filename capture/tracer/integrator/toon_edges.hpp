@@ -61,11 +61,11 @@ private:
     [[nodiscard]] bool has_crease_at_end(const Diameter& diameter, const Extent& extent, int outer, int inner,
                                          const Ray& ray) const;
     // Returns true if the angle between (run, a) and (run, b) exceeds the style's angle.
-    [[nodiscard]] bool slopes_turn(float run, float a, float b) const;
+    [[nodiscard]] bool slope_angle_exceeds(float run, float a, float b) const;
     // Returns true if the angle between the normals at two rays, and optionally between the slopes of their facets,
     // exceeds the style's angle.
-    [[nodiscard]] bool normals_turn(const Diameter& diameter, int first, int last, const Ray& ray,
-                                    bool and_facets = false) const;
+    [[nodiscard]] bool normal_angle_exceeds(const Diameter& diameter, int first, int last, const Ray& ray,
+                                            bool and_facets = false) const;
 
     const RayScene& rays_;
     float radius_, spacing_, jump_, pixel_rad_;

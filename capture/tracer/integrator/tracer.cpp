@@ -154,7 +154,7 @@ void Tracer::turn_lights(double angle_rad) {
 
 Tracer::Frame Tracer::make_frame(const Camera& camera, const RenderOptions& options) const {
     // Defocus extends the scene beyond its projected bounds.
-    const bool whole = options.see_areas || options.see_environment || options.lens.aperture > 0;
+    const bool whole = options.show_areas || options.show_environment || options.lens.aperture > 0;
     return {whole ? PixelRectangle{0, 0, camera.width, camera.height} : visible_rectangle(camera, *state_->rays),
             image_key(options.seed, camera)};
 }
@@ -223,7 +223,7 @@ bool Tracer::accumulate(const RayImage& rays, const Frame& frame, const RenderOp
     if (into.samples == 0) sum.sum = Image<RgbaF>(rays.width, rays.height);
 
     const LightTransport transport(state_->scene, *state_->rays, *state_->lights, state_->models,
-                                   {options.see_areas, options.see_environment});
+                                   {options.show_areas, options.show_environment});
     const std::unique_ptr<const Integrator> integrator =
         make_integrator(transport, rays, frame.key, options, into.samples, count);
     if (into.samples == 0 && integrator->has_guides()) sum.guides = Image<GuideSum>(rays.width, rays.height);

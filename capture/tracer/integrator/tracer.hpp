@@ -40,8 +40,8 @@ struct RenderOptions {
     // samples are added, so filtered and unfiltered images converge to the same result.
     bool filtered = false;
     // Visible to camera rays; otherwise visible in reflections and through glass only.
-    bool see_areas = false;
-    bool see_environment = false;
+    bool show_areas = false;
+    bool show_environment = false;
     glm::vec3 ambient{0.0F};    // whitted, toon: approximates indirect light; radiance of a white diffuse surface
     bool soft_shadows = false;  // whitted: samples area lights; ToonStyle has its own setting
     ToonStyle toon{};

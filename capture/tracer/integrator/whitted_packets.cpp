@@ -11,7 +11,7 @@ namespace rs::capture {
 
 struct WhittedTracer::Packet {
     MaskLanes active;  // lanes that have a ray
-    MetLanes hits;
+    RayHitLanes hits;
     std::array<const PacketMaterial*, kLanes> material{};  // null: no hit
     TriangleLanes triangles;
     SurfaceLanes surfaces;

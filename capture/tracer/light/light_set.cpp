@@ -185,7 +185,7 @@ void LightSet::gather_emitters() {
             if (!(brightness_[static_cast<std::size_t>(mesh.material)] > 0.0F)) continue;
             has_emissive_instances_ = true;
             if (instance.at_close) continue;
-            placed_.push_back(std::make_unique<const Mesh>(placed_mesh(mesh, instance.world_from_part)));
+            placed_.push_back(std::make_unique<const Mesh>(transform_mesh(mesh, instance.world_from_part)));
             gather_emitter(*placed_.back());
         }
     }

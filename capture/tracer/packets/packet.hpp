@@ -64,7 +64,7 @@ struct HitLanes {
     LanesOf<std::uint32_t> triangle, mesh, instance;  // mesh ~0: no hit; instance ~0: static mesh
 };
 // Memory layout of Embree's RTCRayHit16.
-struct MetLanes {
+struct RayHitLanes {
     RayLanes ray;  // `reach` becomes the distance of the hit
     HitLanes hit;
 

@@ -12,15 +12,15 @@ HWY_BEFORE_NAMESPACE();
 namespace rs::capture::HWY_NAMESPACE {
 
 void orient(const Lanes3& directions, const float* tables, SurfaceLanes& surfaces) {
-    constexpr float kLeastCos = 0.01F;  // facing_normal()
+    constexpr float kMinCos = 0.01F;  // facing_normal()
     const Floats one = number(1.0F);
     for (std::size_t i = 0; i < kLanes; i += lanes_at_once()) {
         const Floats3 to_viewer = negated(load(directions, i));
         Floats3 n = load(surfaces.normal, i);
         const Floats cos_viewer = dot(n, to_viewer);
-        const Mask away = hn::Not(hn::Ge(cos_viewer, number(kLeastCos)));
+        const Mask away = hn::Not(hn::Ge(cos_viewer, number(kMinCos)));
         if (any(away)) {
-            n = either(away, normalised(n + to_viewer * (number(kLeastCos) - cos_viewer)), n);
+            n = either(away, normalised(n + to_viewer * (number(kMinCos) - cos_viewer)), n);
             store(n, surfaces.normal, i);
         }
 

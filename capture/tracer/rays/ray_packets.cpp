@@ -103,8 +103,9 @@ bool RayScene::primitive_occludes(const glm::vec3& origin, const glm::vec3& dire
     return ray.tfar < 0.0F;
 }
 
-void RayScene::intersect(const MaskLanes& active, MetLanes& met) const {
-    static_assert(sizeof(MetLanes) == sizeof(RTCRayHit16) && offsetof(MetLanes, hit) == offsetof(RTCRayHit16, hit));
+void RayScene::intersect(const MaskLanes& active, RayHitLanes& met) const {
+    static_assert(sizeof(RayHitLanes) == sizeof(RTCRayHit16) &&
+                  offsetof(RayHitLanes, hit) == offsetof(RTCRayHit16, hit));
     static_assert(offsetof(RayLanes, reach) == offsetof(RTCRay16, tfar));
     static_assert(offsetof(HitLanes, instance) == offsetof(RTCHit16, instID));
     auto* packet = reinterpret_cast<RTCRayHit16*>(&met);
@@ -133,7 +134,7 @@ void RayScene::occluded(const MaskLanes& active, RayLanes& rays) const {
     }
 }
 
-const Mesh& RayScene::gather_triangle(const MetLanes& met, std::size_t lane, TriangleLanes& triangles) const {
+const Mesh& RayScene::gather_triangle(const RayHitLanes& met, std::size_t lane, TriangleLanes& triangles) const {
     const HitLanes& hit = met.hit;
     const unsigned instance = hit.instance[lane];
     const Mesh& mesh = mesh_of(hit.mesh[lane], instance);

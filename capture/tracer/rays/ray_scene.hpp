@@ -79,7 +79,7 @@ public:
         unsigned instance = ~0U;  // ~0: static mesh
         [[nodiscard]] bool met() const { return distance >= 0.0F; }
     };
-    [[nodiscard]] static Hit hit_of(const MetLanes& met, std::size_t lane) {
+    [[nodiscard]] static Hit hit_of(const RayHitLanes& met, std::size_t lane) {
         const HitLanes& hit = met.hit;
         return {met.ray.reach[lane], hit.u[lane], hit.v[lane], hit.mesh[lane], hit.triangle[lane], hit.instance[lane]};
     }
@@ -87,11 +87,11 @@ public:
     void intersect_many(std::span<const Ray> rays, std::span<Hit> hits) const;
     /// \param hidden one per ray: 1 if occluded, primitives included, else 0
     void occluded_many(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
-    // The active lanes of a packet, initialised by MetLanes::begin(); other lanes are unchanged.
-    void intersect(const MaskLanes& active, MetLanes& met) const;
+    // The active lanes of a packet, initialised by RayHitLanes::begin(); other lanes are unchanged.
+    void intersect(const MaskLanes& active, RayHitLanes& met) const;
     void occluded(const MaskLanes& active, RayLanes& rays) const;
     // Copies the triangle hit by a lane to `triangles` and returns its mesh.
-    const Mesh& gather_triangle(const MetLanes& met, std::size_t lane, TriangleLanes& triangles) const;
+    const Mesh& gather_triangle(const RayHitLanes& met, std::size_t lane, TriangleLanes& triangles) const;
     // Surface properties at a hit.
     void surface_at(const Hit& hit, const glm::vec3& direction, float time, SurfacePoint& point) const;
     // Nearest primitive hit within `distance`.

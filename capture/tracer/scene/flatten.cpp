@@ -4,7 +4,7 @@
 
 namespace rs::capture {
 
-Mesh placed_mesh(const Mesh& mesh, const glm::dmat4& world_from_mesh) {
+Mesh transform_mesh(const Mesh& mesh, const glm::dmat4& world_from_mesh) {
     Mesh placed = mesh;
     for (glm::vec3& p : placed.positions) p = glm::vec3(world_from_mesh * glm::dvec4(p, 1));
     const glm::dmat3 turned = glm::transpose(glm::inverse(glm::dmat3(world_from_mesh)));
@@ -22,7 +22,7 @@ Mesh placed_mesh(const Mesh& mesh, const glm::dmat4& world_from_mesh) {
 Scene flattened(Scene scene) {
     for (const Instance& instance : scene.instances) {
         for (const Mesh& mesh : scene.parts[instance.part].meshes) {
-            scene.meshes.push_back(placed_mesh(mesh, instance.world_from_part));
+            scene.meshes.push_back(transform_mesh(mesh, instance.world_from_part));
         }
     }
     scene.instances.clear();

@@ -7,7 +7,7 @@ namespace rs::capture {
 
 /// Transforms a mesh by an invertible affine matrix. The winding is reversed for mirroring matrices, so that outer
 /// sides stay outer.
-Mesh placed_mesh(const Mesh& mesh, const glm::dmat4& world_from_mesh);
+Mesh transform_mesh(const Mesh& mesh, const glm::dmat4& world_from_mesh);
 
 /// The scene at time 0 with meshes in place of parts and instances.
 Scene flattened(Scene scene);

@@ -105,7 +105,7 @@ bool is_mesh_file(const std::filesystem::path& path) {
 }
 
 Error missing_texture(const std::filesystem::path& path, const std::filesystem::path& referrer) {
-    return Error{referrer.string() + ": asks for the texture " + path.string() + ", which is not there; put it there"};
+    return Error{referrer.string() + ": texture " + path.string() + " does not exist; add the file"};
 }
 
 Result<Texture> read_texture(const std::filesystem::path& path, const std::filesystem::path& referrer) {
@@ -125,7 +125,7 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
         return Error{path.string() + ": there is no such file; check the path"};
     try {
         Assimp::Importer importer;
-        const ModelFiles& files = read_models_only(importer, kMaxModelFile_bytes);
+        const ModelFiles& files = restrict_to_models(importer, kMaxModelFile_bytes);
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         if (lower_case_extension(path) == ".ply") {
             RS_ASSIGN_OR_RETURN(std::unique_ptr<aiScene> ply, read_ply_file(path));
@@ -135,18 +135,18 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
             importer.ReadFile(path.string(), 0);
         }
         RS_ASSIGN_OR_RETURN(const aiScene* read,
-                            post_processed(importer,
-                                           aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
-                                               aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices,
-                                           path.string()));
+                            post_process(importer,
+                                         aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
+                                             aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices,
+                                         path.string()));
         const aiScene* const source = read;
         if (!files.refusal().empty()) return Error{files.refusal()};
         if (source == nullptr) {
-            return Error{path.string() + ": cannot be read as a mesh: " + shown_error(importer.GetErrorString())};
+            return Error{path.string() + ": cannot be read as a mesh: " + single_line_error(importer.GetErrorString())};
         }
         return convert_scene(*source, path);
     } catch (const std::exception& problem) {
-        return Error{path.string() + ": cannot be read as a mesh: " + shown_error(problem.what())};
+        return Error{path.string() + ": cannot be read as a mesh: " + single_line_error(problem.what())};
     }
 }
 

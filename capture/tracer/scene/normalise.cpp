@@ -8,7 +8,7 @@ namespace rs::capture {
 
 namespace {
 
-constexpr double kLeastWidth = 1e-6;  // per radius
+constexpr double kMinWidth = 1e-6;  // per radius
 
 template <class Visit>
 void for_each_used_vertex(const Scene& scene, Visit visit) {
@@ -21,14 +21,14 @@ void for_each_used_vertex(const Scene& scene, Visit visit) {
 
 }  // namespace
 
-Result<double> normalise_meshes(Scene& scene, ObjectCentre which) {
+Result<double> normalise_meshes(Scene& scene, ObjectCentre origin) {
     glm::dvec3 lower(std::numeric_limits<double>::infinity());
     glm::dvec3 upper(-std::numeric_limits<double>::infinity());
     for_each_used_vertex(scene, [&](const glm::dvec3& p) {
         lower = glm::min(lower, p);
         upper = glm::max(upper, p);
     });
-    const glm::dvec3 centre = which == ObjectCentre::bounding_box ? 0.5 * (lower + upper) : glm::dvec3(0);
+    const glm::dvec3 centre = origin == ObjectCentre::bounding_box ? 0.5 * (lower + upper) : glm::dvec3(0);
     double radius = 0;
     double width = 0;  // from the Y axis
     for_each_used_vertex(scene, [&](const glm::dvec3& p) {
@@ -36,10 +36,11 @@ Result<double> normalise_meshes(Scene& scene, ObjectCentre which) {
         width = std::max(width, std::hypot(p.x - centre.x, p.z - centre.z));
     });
     if (!(radius > 0.0) || !std::isfinite(radius)) {
-        return Error{scene.name + ": the meshes have no size; give it a mesh with triangles"};
+        return Error{scene.name + ": the meshes have no size; use a mesh with triangles"};
     }
-    if (!(width > kLeastWidth * radius)) {
-        return Error{scene.name + ": the meshes have no width: all their vertices stand on a vertical line; repair it"};
+    if (!(width > kMinWidth * radius)) {
+        return Error{scene.name +
+                     ": the meshes have no width: all their vertices lie on a vertical line; repair the mesh"};
     }
     for (Mesh& mesh : scene.meshes) {
         for (glm::vec3& p : mesh.positions) p = glm::vec3((glm::dvec3(p) - centre) / radius);

@@ -16,7 +16,7 @@ enum class ObjectCentre {
 /// from it. Ignores vertices that no triangle uses. Lights and environment are unchanged. \return the object radius in
 /// the new units: the largest distance of a vertex from the Y axis; an error if the triangles have no extent, or none
 /// across the Y axis
-Result<double> normalise_meshes(Scene& scene, ObjectCentre which = ObjectCentre::bounding_box);
+Result<double> normalise_meshes(Scene& scene, ObjectCentre origin = ObjectCentre::bounding_box);
 
 /// Y of the lowest vertex used by a triangle; there must be one.
 double ground_height(const Scene& scene);

@@ -156,7 +156,7 @@ public:
         choose_targets(element);
         for (std::uint64_t i = 0; i < element.count; ++i) {
             Problem problem = read_instance(element);
-            if (!problem && faces && !vertices_exist(strips)) problem = "a face names a vertex that does not exist";
+            if (!problem && faces && !vertices_exist(strips)) problem = "a face refers to a vertex that does not exist";
             if (problem) return element.name + " " + std::to_string(i) + ": " + *problem;
             if (element.name == "vertex") append_vertex();
             if (element.name == "material" && !material_) material_ = row_;
@@ -229,7 +229,7 @@ private:
         if (values != nullptr) values->clear();
         for (double i = 0; i < *count; ++i) {
             const auto value = body_.next(property.type);
-            if (!value) return "a list ends too early or holds something that is no number";
+            if (!value) return "a list is too short or contains a value that is not a number";
             if (values != nullptr) values->push_back(*value);
         }
         return std::nullopt;
@@ -247,7 +247,7 @@ private:
                 continue;
             }
             const auto value = body_.next(property.type);
-            if (!value) return property.name + " is missing or no number of its type; the file may be cut off";
+            if (!value) return property.name + " is missing or not a number of its type; the file may be truncated";
             row_[targets_[i].at] = static_cast<float>(*value) / targets_[i].one;
         }
         return std::nullopt;

@@ -96,7 +96,7 @@ Problem check_face_element(const PlyElement& element) {
     const auto lists = std::ranges::count_if(element.properties, &PlyProperty::is_vertex_list);
     const auto list = std::ranges::find_if(element.properties, &PlyProperty::is_vertex_list);
     if (lists != 1 || !list->count_type || !is_integer(*list->count_type) || !is_integer(list->type)) {
-        return "element " + element.name + " needs one list of whole numbers named vertex_indices";
+        return "element " + element.name + " needs one integer list named vertex_indices";
     }
     return std::nullopt;
 }
@@ -142,7 +142,7 @@ std::optional<std::string> parse_ply_header(std::string_view file, PlyHeader& he
             if (line != "ply") return "is not a PLY file";
         } else if (line == "end_header") {
             header.size_bytes = at;
-            return header.encoding ? check_elements(header) : Problem("the header names no format");
+            return header.encoding ? check_elements(header) : Problem("the header has no format line");
         } else if (Problem problem = parse_line(line, header)) {
             return problem;
         }

@@ -14,7 +14,7 @@ namespace rs::capture {
 
 namespace {
 
-constexpr std::size_t kMostEntries = 100'000;  // of lights and softboxes
+constexpr std::size_t kMaxEntries = 100'000;  // of lights and softboxes
 // In the order of SurfaceKind.
 const std::vector<std::string> kSurfaceKinds{"diffuse", "glossy", "metal", "mirror", "glass"};
 
@@ -22,7 +22,7 @@ void read_environment_file(const JsonValue& file, const std::filesystem::path& f
     const std::filesystem::path path = folder / file.text();
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) {
-        throw file.wrong(path.string() + " is not there; put it there");
+        throw file.wrong(path.string() + " does not exist; check the path");
     }
     Result<Image<RgbaF>> pixels = read_radiance(path);
     if (!pixels) throw file.wrong(pixels.error().message);
@@ -37,7 +37,7 @@ Softbox read_softbox(JsonObject object) {
     object.read("height_deg", box.height_deg, 0, 180);
     object.read("edge_deg", box.edge_deg, 0, 90);
     object.read("radiance", box.radiance, 0, 1e6);
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     return box;
 }
 
@@ -47,11 +47,11 @@ void read_studio(JsonObject object, Environment& environment) {
     object.read("horizon", studio.horizon, 0, 1e6);
     object.read("floor", studio.floor, 0, 1e6);
     if (const auto boxes = object.find("softboxes")) {
-        const std::size_t count = boxes->list_size(0, kMostEntries);
+        const std::size_t count = boxes->list_size(0, kMaxEntries);
         studio.softboxes.clear();
         for (std::size_t i = 0; i < count; ++i) studio.softboxes.push_back(read_softbox(JsonObject(boxes->item(i))));
     }
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     environment = make_studio_environment(studio);
 }
 
@@ -79,14 +79,14 @@ void read_light(JsonObject object, Scene& scene) {
         }
         scene.lights.push_back(rectangle_light(corner, edge_u, edge_v, radiance));
     }
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
 }
 
 // Replaces `values` by a list of numbers in 0..1.
 void read_shares(JsonObject& object, const char* key, std::vector<float>& values) {
     const auto list = object.find(key);
     if (!list) return;
-    values.resize(list->list_size(0, ToonStyle::kMostTones));
+    values.resize(list->list_size(0, ToonStyle::kMaxTones));
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(list->item(i).number(0, 1));
 }
 
@@ -101,7 +101,7 @@ void read_toon(JsonObject object, ToonStyle& style) {
     object.read("edge_angle_deg", angle_deg, 1, 180);
     object.read("edge_colour", style.edge_colour, 0, 1);
     object.read("shadow_rays", style.shadow_rays, 0, 1024);
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     style.edge_angle_rad = static_cast<float>(radians(angle_deg));
     if (style.values.size() != style.thresholds.size() + 1) {
         throw object.wrong("values must be one more than \"thresholds\": a tone for what is less than all of them");
@@ -119,7 +119,7 @@ void read_material(JsonObject object, Material& material) {
     object.read("emission", material.emission, 0, 1e6);
     object.read("two_sided", material.two_sided);
     object.read("translucency", material.translucency, 0, 1);
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
 }
 
 void read_camera(JsonObject object, CameraRecipe& camera) {
@@ -133,11 +133,11 @@ void read_camera(JsonObject object, CameraRecipe& camera) {
     object.read("spp", camera.samples_per_pixel, 1, 65536);
     object.read("aperture_radii", camera.aperture_radii, 0, 10);
     object.read("focus_radii", camera.focus_radii, 0.001, 1000);
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
 }
 
 void read_lights(const JsonValue& list, Scene& scene) {
-    const std::size_t count = list.list_size(0, kMostEntries);
+    const std::size_t count = list.list_size(0, kMaxEntries);
     for (std::size_t i = 0; i < count; ++i) read_light(JsonObject(list.item(i)), scene);
 }
 
@@ -157,7 +157,7 @@ void read_environment(JsonObject object, const std::filesystem::path& folder, En
     object.read("scale", environment.scale, 0, 1e6);
     object.read("turn_deg", turn_deg, -3600, 3600);
     environment.turn_rad = static_cast<float>(radians(turn_deg));
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
 }
 
 }  // namespace rs::capture

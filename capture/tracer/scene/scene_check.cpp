@@ -12,7 +12,7 @@ namespace {
 bool finite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
-bool is_light(const glm::vec3& v) {
+bool is_radiance(const glm::vec3& v) {
     return finite(v) && v.x >= 0.0F && v.y >= 0.0F && v.z >= 0.0F;
 }
 bool in_range(float v, float low, float high) {
@@ -28,16 +28,16 @@ Problem check_mesh(const Mesh& mesh, std::size_t material_count) {
                std::to_string(material_count);
     }
     if (!mesh.normals.empty() && mesh.normals.size() != mesh.positions.size()) {
-        return name + "as many normals as vertices are needed, or none";
+        return name + "the number of normals must be 0 or the number of vertices";
     }
     if (!mesh.uvs.empty() && mesh.uvs.size() != mesh.positions.size()) {
-        return name + "as many texture coordinates as vertices are needed, or none";
+        return name + "the number of texture coordinates must be 0 or the number of vertices";
     }
     if (!mesh.colours.empty() && mesh.colours.size() != mesh.positions.size()) {
-        return name + "as many colours as vertices are needed, or none";
+        return name + "the number of colours must be 0 or the number of vertices";
     }
     for (const glm::vec3& colour : mesh.colours) {
-        if (!is_light(colour)) return name + "vertex colours must be finite and not negative";
+        if (!is_radiance(colour)) return name + "vertex colours must be finite and not negative";
     }
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         if (!finite(mesh.positions[i])) return name + "vertex " + std::to_string(i) + " is not finite; repair the mesh";
@@ -50,14 +50,14 @@ Problem check_mesh(const Mesh& mesh, std::size_t material_count) {
     }
     for (const glm::uvec3& t : mesh.triangles) {
         if (std::max({t.x, t.y, t.z}) >= mesh.positions.size()) {
-            return name + "a triangle names vertex " + std::to_string(std::max({t.x, t.y, t.z})) + ", there are " +
+            return name + "a triangle refers to vertex " + std::to_string(std::max({t.x, t.y, t.z})) + ", there are " +
                    std::to_string(mesh.positions.size());
         }
     }
     return std::nullopt;
 }
 
-bool can_be_undone(const glm::dmat4& m) {
+bool is_invertible(const glm::dmat4& m) {
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) {
             if (!std::isfinite(static_cast<float>(m[column][row]))) return false;
@@ -76,7 +76,7 @@ Problem check_instances(const Scene& scene) {
             return name + "part " + std::to_string(instance.part) + " does not exist; there are " +
                    std::to_string(scene.parts.size());
         }
-        if (Status fine = check_placement(instance); !fine) return name + fine.error().message;
+        if (Status status = check_placement(instance); !status) return name + status.error().message;
     }
     return std::nullopt;
 }
@@ -91,26 +91,26 @@ Problem check_material(const Material& material, std::size_t texture_count, std:
     if (material.relief < -1 || (material.relief >= 0 && static_cast<std::size_t>(material.relief) >= relief_count)) {
         return name + "relief " + std::to_string(material.relief) + " does not exist";
     }
-    if (!is_light(material.colour) || glm::any(glm::greaterThan(material.colour, glm::vec3(1.0F)))) {
+    if (!is_radiance(material.colour) || glm::any(glm::greaterThan(material.colour, glm::vec3(1.0F)))) {
         return name + "colour must be within 0..1";
     }
     if (!in_range(material.roughness, 0.0F, 1.0F)) return name + "roughness must be within 0..1";
     if (!in_range(material.ior, 1.0F, 10.0F)) return name + "ior must be within 1..10";
     if (!in_range(material.translucency, 0.0F, 1.0F)) return name + "translucency must be within 0..1";
-    if (!is_light(material.emission)) return name + "emission must be finite and not negative";
+    if (!is_radiance(material.emission)) return name + "emission must be finite and not negative";
     return std::nullopt;
 }
 
-bool pixels_are_light(const Image<RgbaF>& pixels) {
+bool has_valid_pixels(const Image<RgbaF>& pixels) {
     return std::ranges::all_of(pixels.pixels(), [](const RgbaF& p) {
-        return is_light({p.r, p.g, p.b}) && std::isfinite(p.a);
+        return is_radiance({p.r, p.g, p.b}) && std::isfinite(p.a);
     });
 }
 
 Problem check_lights(const Scene& scene) {
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        if (Status fine = check_light(scene.lights[i]); !fine) {
-            return "light " + std::to_string(i + 1) + ": " + fine.error().message;
+        if (Status status = check_light(scene.lights[i]); !status) {
+            return "light " + std::to_string(i + 1) + ": " + status.error().message;
         }
     }
     return std::nullopt;
@@ -119,7 +119,7 @@ Problem check_lights(const Scene& scene) {
 Problem check_parts(const Scene& scene) {
     for (const Texture& texture : scene.textures) {
         if (texture.pixels.empty()) return "texture \"" + texture.name + "\" has no pixels";
-        if (!pixels_are_light(texture.pixels)) {
+        if (!has_valid_pixels(texture.pixels)) {
             return "texture \"" + texture.name + "\" has pixels that are negative or not finite";
         }
     }
@@ -127,7 +127,7 @@ Problem check_parts(const Scene& scene) {
         const bool finite = std::ranges::all_of(relief.pixels.pixels(), [](const RgbaF& p) {
             return std::isfinite(p.r) && std::isfinite(p.g) && std::isfinite(p.b);
         });
-        if (relief.pixels.empty() || !finite) return "relief \"" + relief.name + "\" needs pixels that are finite";
+        if (relief.pixels.empty() || !finite) return "relief \"" + relief.name + "\" must have finite pixels";
     }
     for (const Material& material : scene.materials) {
         if (Problem problem = check_material(material, scene.textures.size(), scene.reliefs.size())) return problem;
@@ -146,14 +146,14 @@ Problem check_parts(const Scene& scene) {
     if (Problem problem = check_lights(scene)) return problem;
     if (!in_range(scene.environment.scale, 0.0F, 1e9F)) return "environment: scale must be within 0..1e9";
     if (!std::isfinite(scene.environment.turn_rad)) return "environment: the turn must be finite";
-    if (!pixels_are_light(scene.environment.pixels)) return "environment: pixels must be finite and not negative";
+    if (!has_valid_pixels(scene.environment.pixels)) return "environment: pixels must be finite and not negative";
     return std::nullopt;
 }
 
 }  // namespace
 
 Status check_placement(const Instance& instance) {
-    if (can_be_undone(instance.world_from_part) && (!instance.at_close || can_be_undone(*instance.at_close))) return {};
+    if (is_invertible(instance.world_from_part) && (!instance.at_close || is_invertible(*instance.at_close))) return {};
     return Error{"its matrix must be affine and finite and have an inverse; no axis may be scaled to 0"};
 }
 

@@ -51,7 +51,7 @@ void load_mesh_object(JsonObject& object, const std::filesystem::path& recipe, S
     const JsonValue mesh = object.take("mesh");
     const auto texture = object.find("texture");
     const auto material = object.find("material");
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     Result<Scene> loaded = read_mesh_file(recipe.parent_path() / mesh.text());
     if (!loaded) throw mesh.wrong(loaded.error().message);
     scene = std::move(loaded).value();
@@ -63,8 +63,8 @@ void load_mesh_object(JsonObject& object, const std::filesystem::path& recipe, S
 void generate_object(JsonObject& object, const Generator& generator, std::uint64_t seed, Scene& scene) {
     const JsonValue name = object.take("generator");
     const auto parameters = object.find("parameters");
-    object.expect_all_taken();
-    if (!generator) throw name.wrong("there are no generators here; name a \"mesh\"");
+    object.expect_no_unknown_keys();
+    if (!generator) throw name.wrong("generators are not available; use a \"mesh\"");
     Result<Scene> made = generator(name.text(), parameters ? parameters->json() : nlohmann::json::object(), seed);
     if (!made) throw name.wrong(made.error().message);
     scene = std::move(made).value();
@@ -98,7 +98,7 @@ void read_look(JsonObject& top, SceneFile& file) {
     if (is_toon) file.toon.emplace();
     if (!top.has("toon")) return;
     const JsonValue style = top.take("toon");
-    if (!is_toon) throw style.wrong("is for \"look\": \"toon\"; add that");
+    if (!is_toon) throw style.wrong("requires \"look\": \"toon\"; add it");
     read_toon(JsonObject(style), *file.toon);
 }
 
@@ -119,13 +119,13 @@ struct Room {
 
 Room read_room(JsonObject object, const std::filesystem::path& folder) {
     Room room;
-    if (!object.has("file")) throw object.wrong("file is missing; name the room's mesh (.obj, .ply, .gltf, .glb)");
-    if (!object.has("radius")) throw object.wrong("radius is missing; give the object's, in the room's units");
+    if (!object.has("file")) throw object.wrong("file is missing; add the room's mesh (.obj, .ply, .gltf, .glb)");
+    if (!object.has("radius")) throw object.wrong("radius is missing; add the object's radius in the room's units");
     const JsonValue file = object.take("file");
     object.read("at", room.at);
     object.read("turn_deg", room.turn_deg, -360, 360);
     object.read("radius", room.radius, 1e-6);
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     Result<Scene> loaded = read_mesh_file(folder / file.text());
     if (!loaded) throw file.wrong(loaded.error().message);
     room.scene = std::move(*loaded);
@@ -144,7 +144,7 @@ Result<SceneFile> finish_scene(SceneFile file, const std::filesystem::path& path
     file.object_radius = *radius;
     file.ground_height = ground_height(file.scene);
     if (!room) return file;
-    surround(file.scene, std::move(room->scene), room->object_from_room(file.ground_height));
+    add_surroundings(file.scene, std::move(room->scene), room->object_from_room(file.ground_height));
     if (Status checked = check_scene(file.scene); !checked)
         return Error{path.string() + ": with its room: " + checked.error().message};
     return file;
@@ -168,9 +168,9 @@ Recipe read_recipe(JsonObject& top, const std::filesystem::path& path, const Gen
     const auto lights = top.find("lights");
     const auto room = top.find("room");
     read_look(top, file);
-    if (room && file.toon) throw room->wrong("does not go with \"look\": \"toon\"; leave out one");
+    if (room && file.toon) throw room->wrong("cannot be combined with \"look\": \"toon\"; remove one of them");
     const auto object = top.find("object");
-    top.expect_all_taken();
+    top.expect_no_unknown_keys();
     if (!object) throw top.wrong("object is missing; give {\"mesh\": ...} or {\"generator\": ...}");
     if (camera) read_camera(JsonObject(*camera), file.camera);
     load_object(JsonObject(*object), path, generator, file.seed, file.scene, recipe.centre);

@@ -10,14 +10,14 @@ namespace rs::capture {
 
 namespace {
 
-template <class Thing>
-void append(std::vector<Thing>& to, std::vector<Thing> from) {
+template <class Element>
+void append(std::vector<Element>& to, std::vector<Element> from) {
     to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
 
 }  // namespace
 
-void surround(Scene& object, Scene room, const glm::dmat4& object_from_room) {
+void add_surroundings(Scene& object, Scene room, const glm::dmat4& object_from_room) {
     RS_CHECK(!object.has_surroundings());
     room = flattened(std::move(room));
     const auto materials = static_cast<int>(object.materials.size());
@@ -29,7 +29,7 @@ void surround(Scene& object, Scene room, const glm::dmat4& object_from_room) {
         if (material.relief >= 0) material.relief += reliefs;
     }
     for (const Mesh& mesh : room.meshes) {
-        object.meshes.push_back(placed_mesh(mesh, object_from_room));
+        object.meshes.push_back(transform_mesh(mesh, object_from_room));
         object.meshes.back().material += materials;
     }
     object.first_surrounding_material = materials;

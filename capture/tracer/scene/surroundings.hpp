@@ -9,6 +9,6 @@ namespace rs::capture {
 
 /// Adds the meshes, materials and textures of `room` as surroundings of an object without surroundings.
 /// \param object_from_room affine and invertible
-void surround(Scene& object, Scene room, const glm::dmat4& object_from_room);
+void add_surroundings(Scene& object, Scene room, const glm::dmat4& object_from_room);
 
 }  // namespace rs::capture

@@ -10,7 +10,7 @@
 namespace rs::capture {
 
 struct ToonStyle {
-    static constexpr std::size_t kMostTones = 16;
+    static constexpr std::size_t kMaxTones = 16;
 
     // Intensities in [thresholds[i], thresholds[i - 1]) have the tone values[i], intensities below all thresholds the
     // last value. Thresholds descend within 1..0; there is one more value than thresholds.

@@ -21,11 +21,11 @@ double coverage(ConstImageView<RgbaF> image) {
 }
 
 bool touches_edge(ConstImageView<RgbaF> image) {
-    const auto seen = [](const RgbaF& p) { return p.a > 0.0F; };
-    if (std::ranges::any_of(image.row_span(0), seen)) return true;
-    if (std::ranges::any_of(image.row_span(image.height() - 1), seen)) return true;
+    const auto is_covered = [](const RgbaF& p) { return p.a > 0.0F; };
+    if (std::ranges::any_of(image.row_span(0), is_covered)) return true;
+    if (std::ranges::any_of(image.row_span(image.height() - 1), is_covered)) return true;
     for (int y = 0; y < image.height(); ++y) {
-        if (seen(image(0, y)) || seen(image(image.width() - 1, y))) return true;
+        if (is_covered(image(0, y)) || is_covered(image(image.width() - 1, y))) return true;
     }
     return false;
 }
@@ -35,7 +35,7 @@ bool touches_edge(ConstImageView<RgbaF> image) {
 Result<CaptureSetSummary> write_capture_set(const Tracer& tracer, Rig rig, const CaptureSetOptions& options,
                                             const std::filesystem::path& folder, Progress* progress) {
     using Clock = std::chrono::steady_clock;
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, "traced images"));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, "traced images", options.force));
     if (progress != nullptr) {
         std::int64_t steps = 0;
         for (const RigView& view : rig.views) steps += Tracer::step_count(view.camera);

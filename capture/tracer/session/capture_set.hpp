@@ -25,6 +25,7 @@ enum class ImageFormat { png, exr };
 struct CaptureSetOptions {
     RenderOptions render;  // with depth, a NNN.depth.exr is written for each image
     ImageFormat format = ImageFormat::png;
+    bool force = false;  // replace an existing folder whatever it holds (StagedFolder)
 };
 
 struct CaptureSetSummary {
@@ -35,7 +36,7 @@ struct CaptureSetSummary {
 };
 
 /// Renders and writes all views of `rig`; file names are 000.png, 001.png, ... (or .exr). The folder is created
-/// atomically; an existing one is replaced only if it is a capture set (file_output.hpp).
+/// atomically; an existing one is replaced as StagedFolder states (file_output.hpp).
 /// \param rig cameras and top-level keys
 /// \param progress covers all views; may be null
 /// \return an error also if no view shows the object

@@ -75,20 +75,20 @@ nlohmann::json turntable_json(const SessionPlan& plan, const Turntable& turntabl
 // Ground-truth rig. `dimming` is the factor on the scene's lights; `photo_of_view` are the photos' paths relative to
 // transforms.json. `places` is empty without recentring.
 Rig truth_rig(const SessionPlan& plan, const Turntable& turntable, double object_radius, const PhotoOptions& options,
-              double dimming, const std::vector<std::string>& photo_of_view, std::span<const ImagePlace> places) {
+              double dimming, const std::vector<std::string>& photo_of_view, std::span<const ImagePlacement> places) {
     Rig rig;
     rig.object_radius = object_radius;
     rig.foot_height = turntable.top;
     for (std::size_t i = 0; i < photo_of_view.size(); ++i) {
         RigView view;
-        view.camera = pinhole_of(plan, i);
+        view.camera = pinhole_camera(plan, i);
         view.file_path = photo_of_view[i];
         rig.views.push_back(std::move(view));
     }
     rig.extras["turntable"] = turntable_json(plan, turntable, options, dimming);
     if (!places.empty()) {
         nlohmann::json& listed = rig.extras["turntable"]["places"] = nlohmann::json::array();
-        for (const ImagePlace& place : places) {
+        for (const ImagePlacement& place : places) {
             listed.push_back({{"scale", place.scale}, {"shift_px", {place.shift_px.x, place.shift_px.y}}});
         }
     }
@@ -98,7 +98,7 @@ Rig truth_rig(const SessionPlan& plan, const Turntable& turntable, double object
 namespace fs = std::filesystem;
 
 // Circles about the axis through the outermost vertices at each height, and the disc's.
-std::vector<AxisCircle> shown_circles(const Scene& object, const Turntable& turntable) {
+std::vector<AxisCircle> visible_circles(const Scene& object, const Turntable& turntable) {
     constexpr double kBands_per_unit = 100;
     std::map<int, AxisCircle> widest;  // [height band]
     for (const Mesh& mesh : object.meshes) {
@@ -119,17 +119,17 @@ std::vector<AxisCircle> shown_circles(const Scene& object, const Turntable& turn
 Result<Image<RgbaF>> make_backdrop(const PhotoOptions& options, const SessionPlan& plan, const Turntable& turntable) {
     const Lens& lens = plan.model.lens;
     if (options.backdrop == "wall") return wall_backdrop(plan, turntable, options.session.seed);
-    if (options.backdrop == "blue") return even_backdrop(lens, {0.04F, 0.12F, 0.45F});
-    if (options.backdrop == "white") return even_backdrop(lens, glm::vec3(0.88F));
+    if (options.backdrop == "blue") return uniform_backdrop(lens, {0.04F, 0.12F, 0.45F});
+    if (options.backdrop == "white") return uniform_backdrop(lens, glm::vec3(0.88F));
     RS_ASSIGN_OR_RETURN(Image<RgbaF> image, read_image_linear(options.backdrop));
     return image_backdrop(lens, std::move(image));
 }
 
 // Factor on the lights that avoids clipping of bright parts of object and disc, metered in a small first view.
-double metered_dimming(const Tracer& tracer, const SessionPlan& plan, const PhotoOptions& options) {
+double meter_dimming(const Tracer& tracer, const SessionPlan& plan, const PhotoOptions& options) {
     constexpr int kCoarse = 8;
     constexpr float kBright = 0.85F;  // linear; limit for 99 % of the pixels
-    RayImage rays = lens_rays_of(plan, 0);
+    RayImage rays = lens_rays(plan, 0);
     rays.width = std::max(1, rays.width / kCoarse);
     rays.height = std::max(1, rays.height / kCoarse);
     rays.ray = [whole = rays.ray](double x, double y) { return whole(x * kCoarse, y * kCoarse); };
@@ -149,7 +149,7 @@ double metered_dimming(const Tracer& tracer, const SessionPlan& plan, const Phot
 }
 
 // Composites `front`, multiplied by `dimming`, over the backdrop.
-Image<RgbaF> over(const Image<RgbaF>& front, double dimming, const Image<RgbaF>& backdrop) {
+Image<RgbaF> composite_over(const Image<RgbaF>& front, double dimming, const Image<RgbaF>& backdrop) {
     const auto factor = static_cast<float>(dimming);
     Image<RgbaF> result(front.width(), front.height());
     for (std::size_t i = 0; i < result.pixels().size(); ++i) {
@@ -161,7 +161,7 @@ Image<RgbaF> over(const Image<RgbaF>& front, double dimming, const Image<RgbaF>&
     return result;
 }
 
-Image<Rgba8> grey_image(const Image<float>& shares) {
+Image<Rgba8> to_grey_image(const Image<float>& shares) {
     Image<Rgba8> image(shares.width(), shares.height());
     for (std::size_t i = 0; i < shares.pixels().size(); ++i) {
         const auto code = static_cast<std::uint8_t>(std::lround(shares.pixels()[i] * 255.0F));
@@ -199,15 +199,15 @@ struct Session {
 struct View {
     Image<Rgba8> photo;
     Image<float> alpha;
-    ImagePlace place;
+    ImagePlacement place;
 };
 
 View take_photo(Session& session, std::size_t view, const PhotoOptions& options, Progress* progress) {
-    RayImage rays = lens_rays_of(session.plan, view);
-    ImagePlace place;
+    RayImage rays = lens_rays(session.plan, view);
+    ImagePlacement place;
     if (options.recentred) {
-        place = recentred_place(trace_coverage(session.silhouettes, rays, options.threads));
-        rays = rays_at(std::move(rays), place);
+        place = recentring_placement(trace_coverage(session.silhouettes, rays, options.threads));
+        rays = apply_placement(std::move(rays), place);
     }
     RenderOptions render;
     render.samples_per_pixel = options.samples_per_pixel;
@@ -218,8 +218,8 @@ View take_photo(Session& session, std::size_t view, const PhotoOptions& options,
     const Rendering traced = session.tracer.render(rays, render, progress);
     const Sensor sensor{session.plan.exposures[view], options.noise_codes,
                         mix_bits(options.session.seed) + static_cast<std::uint64_t>(view)};
-    const Image<RgbaF> light =
-        over(traced.image, session.dimming, options.recentred ? image_at(session.backdrop, place) : session.backdrop);
+    const Image<RgbaF> light = composite_over(
+        traced.image, session.dimming, options.recentred ? apply_placement(session.backdrop, place) : session.backdrop);
     return {expose(light, sensor), trace_coverage(session.silhouettes, rays, options.threads), place};
 }
 
@@ -239,27 +239,27 @@ bool is_procedural_backdrop(const std::string& name) {
 Result<CaptureSetSummary> write_photo_session(const Scene& object, double object_radius, const PhotoOptions& options,
                                               const fs::path& folder, Progress* progress) {
     using Clock = std::chrono::steady_clock;
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, "traced photographs"));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(folder, "traced photographs", options.force));
 
     Turntable turntable = fit_turntable(object, object_radius, options.disc, options.session.seed);
     if (!options.board.empty()) {
         RS_ASSIGN_OR_RETURN(Image<RgbaF> image, read_image_linear(options.board));
         lay_board(turntable, std::move(image), options.board_width * object_radius);
     }
-    RS_ASSIGN_OR_RETURN(SessionPlan plan, plan_session(options.session, shown_circles(object, turntable)));
+    RS_ASSIGN_OR_RETURN(SessionPlan plan, plan_session(options.session, visible_circles(object, turntable)));
     RS_ASSIGN_OR_RETURN(Image<RgbaF> backdrop, make_backdrop(options, plan, turntable));
     Scene whole = object;
     add_turntable(whole, turntable);
     RS_ASSIGN_OR_RETURN(Tracer tracer, Tracer::create(std::move(whole)));
     RS_ASSIGN_OR_RETURN(RayScene silhouettes, RayScene::create(object));
-    const double dimming = metered_dimming(tracer, plan, options);
+    const double dimming = meter_dimming(tracer, plan, options);
     Session session{std::move(plan),   std::move(turntable),   std::move(backdrop),
                     std::move(tracer), std::move(silhouettes), dimming};
 
     const auto views = session.plan.model.angles_rad.size();
     if (progress != nullptr) {
-        progress->start("photographing " + std::to_string(views) + " views",
-                        static_cast<std::int64_t>(views) * Tracer::step_count(lens_rays_of(session.plan, 0)));
+        progress->start("rendering " + std::to_string(views) + " photos",
+                        static_cast<std::int64_t>(views) * Tracer::step_count(lens_rays(session.plan, 0)));
     }
     const fs::path photos = staged.temporary_path() / "photos";
     const fs::path truth = staged.temporary_path() / "truth";
@@ -269,7 +269,7 @@ Result<CaptureSetSummary> write_photo_session(const Scene& object, double object
 
     CaptureSetSummary summary;
     std::vector<std::string> names;
-    std::vector<ImagePlace> places;
+    std::vector<ImagePlacement> places;
     for (std::size_t i = 0; i < views; ++i) {
         const Clock::time_point begun = Clock::now();
         const View view = take_photo(session, i, options, progress);
@@ -283,7 +283,7 @@ Result<CaptureSetSummary> write_photo_session(const Scene& object, double object
         names.push_back("../photos/" + name);
         Status written = options.jpeg_quality > 0 ? write_jpeg(photos / name, view.photo, options.jpeg_quality)
                                                   : write_png(photos / name, view.photo);
-        if (written) written = write_png(truth / "alpha" / (view_number(i) + ".png"), grey_image(view.alpha));
+        if (written) written = write_png(truth / "alpha" / (view_number(i) + ".png"), to_grey_image(view.alpha));
         if (!written) return written.error();
     }
     if (!(summary.mean_coverage > 0)) {

@@ -43,16 +43,17 @@ struct PhotoOptions {
     double board_width = 1.2;       // object radii
     bool recentred = false;         // shift and scale each photo to its object, like web shops do (recentring.hpp)
     std::string backdrop = "wall";  // "wall", "blue", "white", or the name of an image
+    bool force = false;             // replace an existing folder whatever it holds (StagedFolder)
 };
 
 /// Returns true for the names of procedural backdrops.
 bool is_procedural_backdrop(const std::string& name);
 
-/// Renders and writes a session. The disc lies under the object's lowest vertex. The folder is created atomically and
-/// replaces only one written by this function (file_output.hpp). The same options give the same bytes with any number
-/// of threads. \param object_radius largest distance of the object from the axis \param progress covers all views; may
-/// be null \return an error if an image cannot be read, if lens or camera are infeasible (session_plan.hpp), or if no
-/// view shows the object
+/// Renders and writes a session. The disc lies under the object's lowest vertex. The folder is created atomically; an
+/// existing one is replaced as StagedFolder states (file_output.hpp). The same options give the same bytes with any
+/// number of threads. \param object_radius largest distance of the object from the axis \param progress covers all
+/// views; may be null \return an error if an image cannot be read, if lens or camera are infeasible (session_plan.hpp),
+/// or if no view shows the object
 Result<CaptureSetSummary> write_photo_session(const Scene& object, double object_radius, const PhotoOptions& options,
                                               const std::filesystem::path& folder, Progress* progress = nullptr);
 

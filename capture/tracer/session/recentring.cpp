@@ -14,7 +14,7 @@ glm::dvec2 middle_of(int width, int height) {
 
 }  // namespace
 
-ImagePlace recentred_place(const Image<float>& coverage) {
+ImagePlacement recentring_placement(const Image<float>& coverage) {
     glm::dvec2 low(coverage.width(), coverage.height());
     glm::dvec2 high(0.0);
     for (int y = 0; y < coverage.height(); ++y) {
@@ -25,13 +25,13 @@ ImagePlace recentred_place(const Image<float>& coverage) {
         }
     }
     if (!(high.x > low.x)) return {};
-    ImagePlace place;
+    ImagePlacement place;
     place.scale = kRecentredFill * std::min(coverage.width() / (high.x - low.x), coverage.height() / (high.y - low.y));
     place.shift_px = place.scale * (middle_of(coverage.width(), coverage.height()) - (low + high) / 2.0);
     return place;
 }
 
-RayImage rays_at(RayImage rays, const ImagePlace& place) {
+RayImage apply_placement(RayImage rays, const ImagePlacement& place) {
     const glm::dvec2 middle = middle_of(rays.width, rays.height);
     rays.ray = [whole = std::move(rays.ray), place, middle](double x, double y) {
         const glm::dvec2 p = place.undone({x, y}, middle);
@@ -40,7 +40,7 @@ RayImage rays_at(RayImage rays, const ImagePlace& place) {
     return rays;
 }
 
-Image<RgbaF> image_at(const Image<RgbaF>& image, const ImagePlace& place) {
+Image<RgbaF> apply_placement(const Image<RgbaF>& image, const ImagePlacement& place) {
     const int width = image.width();
     const int height = image.height();
     const glm::dvec2 middle = middle_of(width, height);

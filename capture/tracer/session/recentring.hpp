@@ -10,12 +10,12 @@ namespace rs::capture {
 inline constexpr double kRecentredFill = 0.88;  // size of the object over the frame's size, along the limiting axis
 
 /// Placement that recentres the object in `coverage` (0..1, of the frame's size); the identity if it is empty.
-ImagePlace recentred_place(const Image<float>& coverage);
+ImagePlacement recentring_placement(const Image<float>& coverage);
 
 /// Applies a placement to rays, as if the sensor had moved: without resampling.
-RayImage rays_at(RayImage rays, const ImagePlace& place);
+RayImage apply_placement(RayImage rays, const ImagePlacement& place);
 
 /// Resamples an image bilinearly at a placement; the border is extended.
-Image<RgbaF> image_at(const Image<RgbaF>& image, const ImagePlace& place);
+Image<RgbaF> apply_placement(const Image<RgbaF>& image, const ImagePlacement& place);
 
 }  // namespace rs::capture

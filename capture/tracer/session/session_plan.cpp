@@ -13,7 +13,7 @@ namespace rs::capture {
 namespace {
 
 constexpr double kMargin = 0.03;  // free border around the circles, in image heights
-constexpr double kFarthest = 1000;
+constexpr double kMaxDistance = 1000;
 
 enum SessionPurpose : std::uint64_t { kAim = 1, kAngles, kExposure };
 
@@ -49,7 +49,7 @@ void place_camera(SessionPlan& plan, const SessionOptions& options, double to_ta
     plan.camera_height = options.look_at_height + to_target * std::sin(elevation);
 }
 
-bool shows(const SessionPlan& plan, const std::vector<AxisCircle>& circles) {
+bool are_visible(const SessionPlan& plan, const std::vector<AxisCircle>& circles) {
     const Lens& lens = plan.model.lens;
     const double margin = kMargin * lens.height;
     for (const AxisCircle& circle : circles) {
@@ -58,9 +58,9 @@ bool shows(const SessionPlan& plan, const std::vector<AxisCircle>& circles) {
             const double a = 2 * kPi * i / 64;
             const glm::dvec3 p(circle.radius * std::sin(a), circle.height - plan.camera_height,
                                circle.radius * std::cos(a));
-            const auto seen = project(lens, plan.model.pose, p / plan.distance);
-            if (!seen || seen->x < margin || seen->y < margin || seen->x > lens.width - margin ||
-                seen->y > lens.height - margin) {
+            const auto projected = project(lens, plan.model.pose, p / plan.distance);
+            if (!projected || projected->x < margin || projected->y < margin || projected->x > lens.width - margin ||
+                projected->y > lens.height - margin) {
                 return false;
             }
         }
@@ -100,26 +100,26 @@ Result<SessionPlan> plan_session(const SessionOptions& options, const std::vecto
         place_camera(plan, options, *options.distance);
         return plan;
     }
-    double near = 0, far = kFarthest;
+    double near = 0, far = kMaxDistance;
     place_camera(plan, options, far);
-    if (!shows(plan, shown)) {
+    if (!are_visible(plan, shown)) {
         return Error{"camera: no distance up to 1000 shows the whole turntable; use a shorter focal length"};
     }
     for (int i = 0; i < 60; ++i) {
         const double middle = (near + far) / 2;
         place_camera(plan, options, middle);
-        (shows(plan, shown) ? far : near) = middle;
+        (are_visible(plan, shown) ? far : near) = middle;
     }
     place_camera(plan, options, far);
     return plan;
 }
 
-Camera pinhole_of(const SessionPlan& plan, std::size_t view) {
+Camera pinhole_camera(const SessionPlan& plan, std::size_t view) {
     return object_camera(plan.model, view, plan.distance, -plan.camera_height / plan.distance);
 }
 
-RayImage lens_rays_of(const SessionPlan& plan, std::size_t view) {
-    const Camera camera = pinhole_of(plan, view);
+RayImage lens_rays(const SessionPlan& plan, std::size_t view) {
+    const Camera camera = pinhole_camera(plan, view);
     return {camera.width, camera.height, camera.centre(), camera.forward(),
             [lens = plan.model.lens, camera](double x, double y) {
                 // plan_session() has checked that the distortion is invertible at the corners, hence everywhere.

@@ -51,9 +51,9 @@ struct AxisCircle {
 Result<SessionPlan> plan_session(const SessionOptions& options, const std::vector<AxisCircle>& shown);
 
 /// Pinhole camera of a view in the object's frame.
-Camera pinhole_of(const SessionPlan& plan, std::size_t view);
+Camera pinhole_camera(const SessionPlan& plan, std::size_t view);
 
 /// Distorted rays of a view in the object's frame.
-RayImage lens_rays_of(const SessionPlan& plan, std::size_t view);
+RayImage lens_rays(const SessionPlan& plan, std::size_t view);
 
 }  // namespace rs::capture

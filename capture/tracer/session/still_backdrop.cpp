@@ -117,7 +117,7 @@ Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Turntable& turntable, 
     return image;
 }
 
-Image<RgbaF> even_backdrop(const Lens& lens, const glm::vec3& colour) {
+Image<RgbaF> uniform_backdrop(const Lens& lens, const glm::vec3& colour) {
     Image<RgbaF> image(lens.width, lens.height);
     const double corner2 = lens.cx * lens.cx + lens.cy * lens.cy;
     for (int y = 0; y < lens.height; ++y) {

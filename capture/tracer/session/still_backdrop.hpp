@@ -20,7 +20,7 @@ inline double soft_step(double t) {
 Image<RgbaF> wall_backdrop(const SessionPlan& plan, const Turntable& turntable, std::uint64_t seed);
 
 /// Uniform backdrop with vignetting of one seventh at the corners.
-Image<RgbaF> even_backdrop(const Lens& lens, const glm::vec3& colour);
+Image<RgbaF> uniform_backdrop(const Lens& lens, const glm::vec3& colour);
 
 /// Stretches `image` to the frame.
 Image<RgbaF> image_backdrop(const Lens& lens, Image<RgbaF> image);

@@ -22,7 +22,7 @@ enum class DiscSurface {
 // An image lying face up; corners at angle 0.
 struct Board {
     Image<RgbaF> image;  // linear light, opaque
-    // Of the image: top left, top right, bottom right, bottom left.
+    // Order: top left, top right, bottom right, bottom left of the image.
     std::array<glm::dvec3, 4> corners{};
 };
 

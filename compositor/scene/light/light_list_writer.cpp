@@ -68,12 +68,13 @@ bool is_within_limits(const LightEntry& entry) {
     const auto within = [](const glm::dvec3& v, double most) {
         return glm::all(glm::lessThanEqual(glm::abs(v), glm::dvec3(most)));
     };
-    return within(entry.location, kMostDistant) && within(entry.aim, kMostDistant) &&
-           within(entry.colour, kStrongest) && within(entry.radiance.value_or(glm::dvec3(0)), kStrongest) &&
-           within(entry.ambient, kStrongest) && within(entry.attenuation, kStrongest) &&
-           within({entry.size, entry.power / kStrongest}, kMostDistant) && entry.power <= kStrongest &&
-           glm::all(glm::greaterThanEqual(entry.size, glm::dvec2(kShortest))) &&
-           ((entry.reach >= kShortest && entry.reach <= kMostDistant) || std::isinf(entry.reach));
+    return within(entry.location, kMaxLightDistance) && within(entry.aim, kMaxLightDistance) &&
+           within(entry.colour, kMaxLightStrength) &&
+           within(entry.radiance.value_or(glm::dvec3(0)), kMaxLightStrength) &&
+           within(entry.ambient, kMaxLightStrength) && within(entry.attenuation, kMaxLightStrength) &&
+           within({entry.size, entry.power / kMaxLightStrength}, kMaxLightDistance) &&
+           entry.power <= kMaxLightStrength && glm::all(glm::greaterThanEqual(entry.size, glm::dvec2(kShortest))) &&
+           ((entry.reach >= kShortest && entry.reach <= kMaxLightDistance) || std::isinf(entry.reach));
 }
 
 std::string text_of(const Json& json) {

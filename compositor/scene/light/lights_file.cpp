@@ -26,21 +26,22 @@ public:
         LightEntry entry;
         entry.kind = kind_of(object.take("kind"));
         const LightWords& words = model_of(entry).words;
-        if (object.has("colour")) entry.colour = object.take("colour").triple(0, kStrongest);
-        if (words.has_place) entry.location = object.take("location").triple(-kMostDistant, kMostDistant);
+        if (object.has("colour")) entry.colour = object.take("colour").triple(0, kMaxLightStrength);
+        if (words.has_place) entry.location = object.take("location").triple(-kMaxLightDistance, kMaxLightDistance);
         if (words.has_aim && (!words.aims_down || object.has("aim"))) entry.aim = aim_of(object);
         if (words.turns) entry.turn_deg = turn_of(object);
         read_size(object, words, entry);
         read_power(object, words, entry);
-        if (words.falls_off && object.has("reach")) entry.reach = object.take("reach").number(kShortest, kMostDistant);
+        if (words.falls_off && object.has("reach"))
+            entry.reach = object.take("reach").number(kShortest, kMaxLightDistance);
         read_numbers(object, words, entry);
         if (words.has_file) read_file(object, entry);
-        if (object.has("ambient")) entry.ambient = object.take("ambient").triple(0, kStrongest);
+        if (object.has("ambient")) entry.ambient = object.take("ambient").triple(0, kMaxLightStrength);
         if (object.has("scope")) {
             entry.scope = static_cast<std::uint32_t>(object.take("scope").whole_number(0, kMaxScope));
         }
         if (object.has("name")) entry.name = object.take("name").text();
-        object.expect_all_taken();
+        object.expect_no_unknown_keys();
         if (Status fine = check_light(light_of(entry)); !fine) throw object.wrong(fine.error().message);
         return entry;
     }
@@ -52,10 +53,10 @@ public:
         Result<Image<RgbaF>> pixels = read_radiance(entry.file);
         if (!pixels) throw file.wrong(pixels.error().message);
         entry.pixels = std::make_shared<const Image<RgbaF>>(std::move(*pixels));
-        object.read("scale", entry.scale, 0, kStrongest);
+        object.read("scale", entry.scale, 0, kMaxLightStrength);
         entry.turn_deg = turn_of(object);
         object.read("seen", entry.seen);
-        object.expect_all_taken();
+        object.expect_no_unknown_keys();
         return entry;
     }
 
@@ -75,7 +76,7 @@ private:
     static glm::dvec3 aim_of(JsonObject& object) {
         const JsonValue aim = object.take("aim");
         static_cast<void>(aim.direction());  // throws if not a direction
-        return aim.triple(-kMostDistant, kMostDistant);
+        return aim.triple(-kMaxLightDistance, kMaxLightDistance);
     }
 
     static double turn_of(JsonObject& object) {
@@ -86,10 +87,11 @@ private:
         if (words.sizes.empty()) return;
         const JsonValue size = object.take("size");
         if (words.sizes.size() == 1) {
-            entry.size = glm::dvec2(size.number(kShortest, kMostDistant));
+            entry.size = glm::dvec2(size.number(kShortest, kMaxLightDistance));
         } else {
             size.list_size(2, 2);
-            entry.size = {size.item(0).number(kShortest, kMostDistant), size.item(1).number(kShortest, kMostDistant)};
+            entry.size = {size.item(0).number(kShortest, kMaxLightDistance),
+                          size.item(1).number(kShortest, kMaxLightDistance)};
         }
     }
 
@@ -99,13 +101,13 @@ private:
             throw object.wrong(std::string("must have either ") + words.power + " or " + words.radiance);
         }
         if (words.radiance == nullptr || object.has(words.power)) {
-            entry.power = object.take(words.power).number(0, kStrongest);
+            entry.power = object.take(words.power).number(0, kMaxLightStrength);
             return;
         }
-        entry.radiance = object.take(words.radiance).triple(0, kStrongest);
+        entry.radiance = object.take(words.radiance).triple(0, kMaxLightStrength);
         if (!words.falls_off || !object.has("attenuation")) return;
         const JsonValue attenuation = object.take("attenuation");
-        entry.attenuation = attenuation.triple(0, kStrongest);
+        entry.attenuation = attenuation.triple(0, kMaxLightStrength);
         if (entry.attenuation == glm::dvec3(0)) throw attenuation.wrong("is nowhere above 0; give [1, 0, 0]");
     }
 

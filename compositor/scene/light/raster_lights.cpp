@@ -43,13 +43,13 @@ Light ambient_light(const char* name, const glm::vec3& radiance) {
     return light;
 }
 
-// Caches punctual_of() per luminaire, which samples the beam in steps of 0.01 degrees.
+// Caches to_punctual_light() per luminaire, which samples the beam in steps of 0.01 degrees.
 class PunctualLights {
 public:
     Light of(const Light& light) {
-        if (light.luminaire == nullptr) return punctual_of(light);
+        if (light.luminaire == nullptr) return to_punctual_light(light);
         const auto [known, is_new] = spots_.try_emplace({light.kind, light.luminaire.get()});
-        if (is_new) known->second = punctual_of(light);
+        if (is_new) known->second = to_punctual_light(light);
         const LightModel& model = model_of(light);
         Light spot = known->second;
         spot.name = light.name;

@@ -20,7 +20,7 @@ std::map<std::uint32_t, std::vector<std::uint32_t>> scopes_of(const Scene& scene
 
 }  // namespace
 
-LightList lights_in_force(const Scene& scene) {
+LightList lights_as_list(const Scene& scene) {
     LightList list;
     list.replace = true;
     list.headlight = scene.navigation.headlight;
@@ -31,7 +31,7 @@ LightList lights_in_force(const Scene& scene) {
             list.entries.push_back(scene.listed.entries[i - own]);
         } else {
             if (!check_light(light)) continue;
-            list.entries.push_back(entry_of(light));
+            list.entries.push_back(entry_from_light(light));
             if (!light.everywhere) list.entries.back().scope = static_cast<std::uint32_t>(i);
         }
         list.lights.push_back(light_of(list.entries.back()));

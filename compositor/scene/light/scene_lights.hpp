@@ -9,7 +9,7 @@ namespace rs::compositor {
 
 /// All current lights as a list with "replace", which reproduces the scene's lighting when loaded. Lights from lists
 /// keep their entries. Lights that are not finite are omitted.
-LightList lights_in_force(const Scene& scene);
+LightList lights_as_list(const Scene& scene);
 
 /// Adds a list's lights to the scene, or replaces its own. Fails, with the scene unchanged, if a "scope" does not exist
 /// in the scene.

@@ -153,7 +153,7 @@ private:
         if (object.description.empty() && node.contains("name") && node["name"].is_string()) {
             object.description = node["name"].get<std::string>();
         }
-        fields.expect_all_taken();
+        fields.expect_no_unknown_keys();
         chain.push_back(size);
         object.chain = std::move(chain);
         if (!even_) {
@@ -173,7 +173,7 @@ private:
         const glm::dvec3 half = fields.take("size").triple(0, kMaxNodePosition) * 0.5;
         Room room;
         if (fields.has("description")) room.description = fields.take("description").text();
-        fields.expect_all_taken();
+        fields.expect_no_unknown_keys();
         room.box = BoundingBox{centre - half, centre + half}.moved(world_from_node);
         room_ = scene_.rooms.size();
         scene_.rooms.push_back(std::move(room));

@@ -126,18 +126,19 @@ Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
     scene.navigation.headlight = scene.lights.empty();
     try {
         Assimp::Importer importer;
-        const ModelFiles& files = read_models_only(importer, kMaxModel_bytes);
+        const ModelFiles& files = restrict_to_models(importer, kMaxModel_bytes);
         importer.ReadFile(path.string(), 0);
         if (!files.refusal().empty()) return Error{files.refusal()};
         RS_ASSIGN_OR_RETURN(const aiScene* read,
-                            post_processed(importer,
-                                           aiProcess_Triangulate | aiProcess_GenSmoothNormals |
-                                               aiProcess_JoinIdenticalVertices | aiProcess_SortByPType,
-                                           path.string()));
+                            post_process(importer,
+                                         aiProcess_Triangulate | aiProcess_GenSmoothNormals |
+                                             aiProcess_JoinIdenticalVertices | aiProcess_SortByPType,
+                                         path.string()));
         const aiScene* const model = read;
         if (model == nullptr || model->mRootNode == nullptr) {
-            const std::string message =
-                path.string() + ": cannot be read: " + shown_error(importer.GetErrorString()) + "; export it again";
+            const std::string message = path.string() +
+                                        ": cannot be read: " + single_line_error(importer.GetErrorString()) +
+                                        "; export it again";
             // Scenes of objects alone are valid, but Assimp rejects files without meshes.
             if (is_gltf && !scene.objects.empty() && !has_meshes) return parts;
             return Error{message};
@@ -151,7 +152,7 @@ Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
         }
         scene.warnings.insert(scene.warnings.end(), materials.warnings.begin(), materials.warnings.end());
     } catch (const std::exception& exception) {
-        return Error{path.string() + ": cannot be read: " + shown_error(exception.what()) + "; export it again"};
+        return Error{path.string() + ": cannot be read: " + single_line_error(exception.what()) + "; export it again"};
     }
     return parts;
 }

@@ -38,7 +38,7 @@ NodeTransform take_transform(JsonObject& node) {
         JsonObject rotate(node.take("rotate"));
         if (rotate.has("axis")) transform.axis = rotate.take("axis").direction();
         transform.angle_rad = radians(rotate.take("degrees").number(-36000, 36000));
-        rotate.expect_all_taken();
+        rotate.expect_no_unknown_keys();
     }
     return transform;
 }
@@ -69,7 +69,7 @@ private:
         if (is_group) read_list(node.take("group"));
         if (is_room) read_room(node);
         chain_.pop_back();
-        node.expect_all_taken();
+        node.expect_no_unknown_keys();
     }
 
     void read_object_node(JsonObject& node) {
@@ -96,7 +96,7 @@ private:
         JsonObject bounds(node.take("bounds"));
         const glm::dvec3 centre = take_position(bounds, "centre");
         const glm::dvec3 half = bounds.take("size").triple(kMinPositive, kMaxCoordinate) * 0.5;
-        bounds.expect_all_taken();
+        bounds.expect_no_unknown_keys();
         scene_.rooms[room].box = BoundingBox{centre - half, centre + half}.moved(world_from_node(chain_).matrix());
     }
 
@@ -132,7 +132,7 @@ Floor read_floor(JsonObject object) {
         floor.colour_a = colour(colours.item(0));
         floor.colour_b = colour(colours.item(1));
     }
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     return floor;
 }
 
@@ -141,7 +141,7 @@ void read_lights(JsonObject object, Light& light) {
     if (object.has("towards")) light.towards = object.take("towards").direction();
     if (object.has("directional")) light.colour = glm::vec3(object.take("directional").triple(0, kMaxRadiance));
     if (object.has("ambient")) light.ambient = glm::vec3(object.take("ambient").triple(0, kMaxRadiance));
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
 }
 
 CameraPose take_pose(JsonObject& object) {
@@ -159,14 +159,14 @@ CameraPath read_camera(JsonObject object) {
         for (std::size_t i = 0; i < count; ++i) {
             JsonObject key(keys.item(i));
             path.keys.push_back(take_pose(key));
-            key.expect_all_taken();
+            key.expect_no_unknown_keys();
         }
         path.frames = object.take("frames").whole_number(1, 100000);
         object.read("closed", path.closed);
     } else {
         path.keys.push_back(take_pose(object));
     }
-    object.expect_all_taken();
+    object.expect_no_unknown_keys();
     return path;
 }
 

@@ -10,7 +10,7 @@
 namespace rs::compositor::vrml1 {
 
 using vrml::MalformedVrml;
-using vrml::shown;
+using vrml::quote;
 using vrml::Token;
 using vrml::TokenKind;
 

@@ -12,9 +12,9 @@ engine::PreparedObject prepared(const std::shared_ptr<const ViewableObject>& obj
     return result;
 }
 
-Result<std::shared_ptr<const ShownNodes>> show_all(const std::vector<PlacedObject>& objects,
-                                                   engine::RenderSession& engine) {
-    const auto nodes = std::make_shared<ShownNodes>();
+Result<std::shared_ptr<const DisplayedNodes>> load_all_nodes(const std::vector<PlacedObject>& objects,
+                                                             engine::RenderSession& engine) {
+    const auto nodes = std::make_shared<DisplayedNodes>();
     std::map<const ViewableObject*, engine::ObjectHandle> loaded;
     for (const PlacedObject& placed : objects) {
         const auto [known, is_new] = loaded.try_emplace(placed.object.get());
@@ -24,10 +24,10 @@ Result<std::shared_ptr<const ShownNodes>> show_all(const std::vector<PlacedObjec
         }
         nodes->push_back({.object = placed, .handle = known->second, .placeholder = std::nullopt});
     }
-    return std::shared_ptr<const ShownNodes>(nodes);
+    return std::shared_ptr<const DisplayedNodes>(nodes);
 }
 
-engine::RenderSessionLimits limits_of_viewer() {
+engine::RenderSessionLimits viewer_session_limits() {
     engine::RenderSessionLimits limits;
     limits.objects = std::numeric_limits<int>::max();
     return limits;

@@ -20,23 +20,23 @@ struct Placeholder {
     float progress = 0;  // load progress, 0 .. 1: filled part of the shape
 };
 
-struct ShownNode {
+struct DisplayedNode {
     std::optional<PlacedObject> object;
     engine::ObjectHandle handle;  // handle of the object in the frame's render session
     float opacity = 1;            // of the object, 0 .. 1
     std::optional<Placeholder> placeholder;
     bool hidden = false;  // not drawn in this frame
 };
-using ShownNodes = std::vector<ShownNode>;
+using DisplayedNodes = std::vector<DisplayedNode>;
 
 /// Object for RenderSession::load(): shares ownership, copies nothing.
 engine::PreparedObject prepared(const std::shared_ptr<const ViewableObject>& object);
 
 /// Displays all objects at full opacity, loaded into `engine`.
-Result<std::shared_ptr<const ShownNodes>> show_all(const std::vector<PlacedObject>& objects,
-                                                   engine::RenderSession& engine);
+Result<std::shared_ptr<const DisplayedNodes>> load_all_nodes(const std::vector<PlacedObject>& objects,
+                                                             engine::RenderSession& engine);
 
 /// Any number of objects; other limits are the defaults.
-engine::RenderSessionLimits limits_of_viewer();
+engine::RenderSessionLimits viewer_session_limits();
 
 }  // namespace rs::compositor

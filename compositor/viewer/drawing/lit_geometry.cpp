@@ -6,9 +6,9 @@ namespace rs::compositor {
 namespace {
 
 // Caster bounds of the scene and of all displayed objects.
-BoundingBox bounds_with_objects(const Scene& scene, const ShownNodes& nodes) {
+BoundingBox bounds_with_objects(const Scene& scene, const DisplayedNodes& nodes) {
     BoundingBox all = compositor::bounds_of_casters(scene);
-    for (const ShownNode& node : nodes) {
+    for (const DisplayedNode& node : nodes) {
         if (!node.object || node.object->object->bounds.empty()) continue;
         const Similarity& place = node.object->world_from_object;
         const glm::dvec3 reach(1.1 * place.scale);
@@ -19,7 +19,7 @@ BoundingBox bounds_with_objects(const Scene& scene, const ShownNodes& nodes) {
 }
 
 // nullopt without shadows.
-Result<std::optional<ShadowMaps>> create_maps(const Scene& scene, const ShownNodes& nodes, bool shadows) {
+Result<std::optional<ShadowMaps>> create_maps(const Scene& scene, const DisplayedNodes& nodes, bool shadows) {
     if (!shadows) return std::optional<ShadowMaps>();
     RS_ASSIGN_OR_RETURN(auto made, ShadowMaps::create(plan_shadows(scene, bounds_with_objects(scene, nodes))));
     return std::optional<ShadowMaps>(std::move(made));
@@ -31,7 +31,7 @@ ShadowPlan plan_of(const std::optional<ShadowMaps>& maps) {
 
 }  // namespace
 
-Result<LitGeometry> LitGeometry::create(const Scene& scene, const ShownNodes& nodes, bool shadows) {
+Result<LitGeometry> LitGeometry::create(const Scene& scene, const DisplayedNodes& nodes, bool shadows) {
     RS_ASSIGN_OR_RETURN(auto maps, create_maps(scene, nodes, shadows));
     RS_ASSIGN_OR_RETURN(auto surfaces, SurfaceRenderer::create(scene, plan_of(maps)));
     LitGeometry lit(scene, std::move(surfaces));
@@ -48,7 +48,7 @@ Status LitGeometry::create_floor(const ShadowPlan& plan) {
 }
 
 // Rebuilds maps, surface tables and floor from scene_.
-Status LitGeometry::rebuild_lighting(bool shadows, const ShownNodes& nodes) {
+Status LitGeometry::rebuild_lighting(bool shadows, const DisplayedNodes& nodes) {
     RS_ASSIGN_OR_RETURN(auto maps, create_maps(scene_, nodes, shadows));
     const ShadowPlan plan = plan_of(maps);
     RS_TRY(surfaces_.set_lights(scene_, plan));
@@ -58,12 +58,12 @@ Status LitGeometry::rebuild_lighting(bool shadows, const ShownNodes& nodes) {
     return {};
 }
 
-Status LitGeometry::set_lights(const Scene& scene, const ShownNodes& nodes) {
-    take_lights(scene, scene_);
+Status LitGeometry::set_lights(const Scene& scene, const DisplayedNodes& nodes) {
+    copy_lights(scene, scene_);
     return rebuild_lighting(shadows(), nodes);
 }
 
-Status LitGeometry::set_shadows(bool shadows, const ShownNodes& nodes) {
+Status LitGeometry::set_shadows(bool shadows, const DisplayedNodes& nodes) {
     return shadows == this->shadows() ? Status() : rebuild_lighting(shadows, nodes);
 }
 

@@ -21,12 +21,12 @@ namespace rs::compositor {
 /// (raster_lights.hpp).
 class LitGeometry {
 public:
-    static Result<LitGeometry> create(const Scene& scene, const ShownNodes& nodes, bool shadows);
+    static Result<LitGeometry> create(const Scene& scene, const DisplayedNodes& nodes, bool shadows);
 
     /// Copies lights, environment and headlight from `scene`, which must have the same geometry as the scene passed to
     /// create(). Fails if the driver rejects a shader.
-    Status set_lights(const Scene& scene, const ShownNodes& nodes);
-    Status set_shadows(bool shadows, const ShownNodes& nodes);
+    Status set_lights(const Scene& scene, const DisplayedNodes& nodes);
+    Status set_shadows(bool shadows, const DisplayedNodes& nodes);
     [[nodiscard]] bool shadows() const { return shadows_.has_value(); }
     /// See SurfaceRenderer::move().
     Status move(std::size_t node, const std::optional<glm::dmat4>& world_from_node);
@@ -42,7 +42,7 @@ public:
 
 private:
     LitGeometry(const Scene& scene, SurfaceRenderer surfaces) : scene_(scene), surfaces_(std::move(surfaces)) {}
-    Status rebuild_lighting(bool shadows, const ShownNodes& nodes);
+    Status rebuild_lighting(bool shadows, const DisplayedNodes& nodes);
     Status create_floor(const ShadowPlan& plan);
 
     Scene scene_;

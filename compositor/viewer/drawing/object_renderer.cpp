@@ -59,7 +59,7 @@ std::optional<gl::VertexArray> triangles(const std::vector<glm::vec3>& corners,
 Result<ObjectRenderer> ObjectRenderer::create(std::size_t nodes, ObjectDepth depth) {
     Programs programs;
     for (const bool opaque : {false, true}) {
-        for (int samples = 0; samples <= kMostSamplesAcross; ++samples) {
+        for (int samples = 0; samples <= kMaxSamplesAcross; ++samples) {
             const std::string constants = "#version 450 core\n" +
                                           shaders::shader_constant("kPixelDepth", depth == ObjectDepth::kPixel) +
                                           shaders::shader_constant("kOpaque", opaque) +

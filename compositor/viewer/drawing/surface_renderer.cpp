@@ -211,7 +211,7 @@ Status SurfaceRenderer::move(std::size_t node, const std::optional<glm::dmat4>& 
 }
 
 Status SurfaceRenderer::set_lights(const Scene& scene, const ShadowPlan& shadows) {
-    take_lights(scene, scene_);
+    copy_lights(scene, scene_);
     shadows_ = shadows;
     RS_TRY(create_caster_programs());
     summarize_lights();
@@ -274,7 +274,7 @@ SurfaceRenderer::VisibleItems SurfaceRenderer::collect_visible(const FrameView& 
     VisibleItems seen;
     for (std::size_t i = 0; i < items_.size(); ++i) {
         const Item& item = items_[i];
-        if (item.hidden || !may_be_seen(item.bounds, view.clip_from_world)) continue;
+        if (item.hidden || !can_be_visible(item.bounds, view.clip_from_world)) continue;
         if (item.transparent) {
             seen.transparent.push_back({i, glm::distance(item.bounds.middle(), view.camera.centre())});
         } else {
@@ -295,13 +295,13 @@ SurfaceRenderer::VisibleItems SurfaceRenderer::collect_visible(const FrameView& 
 }
 
 std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const FrameView& view, bool wire_frame,
-                                                                       OpaquePass pass) {
+                                                                       OpaqueMode mode) {
     set_frame(view);
     VisibleItems seen = collect_visible(view);
-    if (pass == OpaquePass::kNone) seen.opaque.clear();
+    if (mode == OpaqueMode::kNone) seen.opaque.clear();
     for (const std::size_t i : seen.opaque) {
         const Item& item = items_[i];
-        draw(item, pass == OpaquePass::kDepthOnly ? *item.fog_program : *item.program, view,
+        draw(item, mode == OpaqueMode::kDepthOnly ? *item.fog_program : *item.program, view,
              {.culling = item.two_sided || wire_frame ? gl::Culling::kNone : gl::Culling::kBack,
               .wire_frame = wire_frame});
     }
@@ -311,7 +311,7 @@ std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const Fra
 void SurfaceRenderer::draw_fog(const FrameView& view) const {
     if (!scene_.fog) return;
     for (const Item& item : items_) {
-        if (item.hidden || item.transparent || !may_be_seen(item.bounds, view.clip_from_world)) continue;
+        if (item.hidden || item.transparent || !can_be_visible(item.bounds, view.clip_from_world)) continue;
         draw(item, *item.fog_program, view,
              {.depth_write = false,
               .blending = gl::Blending::kOverPremultiplied,
@@ -322,7 +322,7 @@ void SurfaceRenderer::draw_fog(const FrameView& view) const {
 void SurfaceRenderer::draw_casters(const ShadowPass& pass) const {
     const ShadowFace& face = pass.face;
     for (const Item& item : items_) {
-        if (!item.casts_shadows || item.hidden || !may_be_seen(item.bounds, pass.area_from_world, face.perspective))
+        if (!item.casts_shadows || item.hidden || !can_be_visible(item.bounds, pass.area_from_world, face.perspective))
             continue;
         const bool moving = scene_.geometry[item.node].moving.has_value();
         if (pass.casters == (moving ? Casters::kStatic : Casters::kMoving)) continue;

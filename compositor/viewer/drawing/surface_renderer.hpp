@@ -22,7 +22,7 @@
 
 namespace rs::compositor {
 
-enum class OpaquePass {
+enum class OpaqueMode {
     kLit,
     kDepthOnly,  // same depths with undefined colours; fast
     kNone,       // the framebuffer already contains the depths
@@ -44,7 +44,7 @@ public:
     };
     /// Draws opaque surfaces.
     /// \return visible transparent surfaces, to be drawn in order of decreasing distance.
-    std::vector<Transparent> draw_opaque(const FrameView& view, bool wire_frame, OpaquePass pass = OpaquePass::kLit);
+    std::vector<Transparent> draw_opaque(const FrameView& view, bool wire_frame, OpaqueMode mode = OpaqueMode::kLit);
     /// Draws the fog in front of opaque surfaces over an image without fog. Does nothing if the scene has no fog.
     void draw_fog(const FrameView& view) const;
     void draw_transparent(const Transparent& item, const FrameView& view, bool wire_frame) const;

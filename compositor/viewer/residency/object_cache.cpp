@@ -63,7 +63,7 @@ struct ObjectCache::State {
     std::vector<LoadPriority> priorities;  // [file]; empty before the first call
     std::vector<CacheEvent> events;
     std::vector<std::shared_ptr<const ViewableObject>> released_objects;
-    StoreStatistics statistics;
+    CacheStatistics statistics;
     bool idle = false;  // the thread waits for calls
     bool stopping = false;
     std::thread thread;
@@ -306,9 +306,9 @@ void ObjectCache::wait_for_events() {
     state_->for_user.wait(lock, [&] { return state_->idle || !state_->events.empty(); });
 }
 
-StoreStatistics ObjectCache::statistics() const {
+CacheStatistics ObjectCache::statistics() const {
     const std::lock_guard lock(state_->mutex);
-    StoreStatistics statistics = state_->statistics;
+    CacheStatistics statistics = state_->statistics;
     statistics.used_bytes = state_->memory.used_bytes();
     statistics.peak_bytes = state_->memory.peak_bytes();
     return statistics;

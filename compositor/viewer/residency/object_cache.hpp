@@ -34,7 +34,7 @@ struct CacheEvent {
     std::string why;
 };
 
-struct StoreStatistics {
+struct CacheStatistics {
     int loads = 0;
     int evictions = 0;
     int failures = 0;
@@ -73,7 +73,7 @@ public:
     /// Blocks until there are events or the cache is settled.
     void wait_for_events();
 
-    [[nodiscard]] StoreStatistics statistics() const;
+    [[nodiscard]] CacheStatistics statistics() const;
 
 private:
     struct State;

@@ -29,7 +29,7 @@ public:
 
     Result<std::int64_t> most_bytes(const std::filesystem::path& file) override {
         RS_ASSIGN_OR_RETURN(const auto container, ContainerReader::open(file));
-        RS_ASSIGN_OR_RETURN(const ReadingMemory reading, memory_to_read(container));
+        RS_ASSIGN_OR_RETURN(const ReadMemory reading, estimate_read_memory(container));
         const std::int64_t texels = engine::TexelStore::bytes_of_images(reading.width, reading.height, reading.images);
         // A board gets a copy of its own, made from a possibly modified object.
         const int copies = engine_->has_board() ? 3 : 1;
@@ -75,7 +75,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<ObjectSource> object_files(std::shared_ptr<const engine::RenderSession> engine, bool background) {
+std::unique_ptr<ObjectSource> make_file_source(std::shared_ptr<const engine::RenderSession> engine, bool background) {
     return std::make_unique<FileObjectSource>(std::move(engine), background);
 }
 

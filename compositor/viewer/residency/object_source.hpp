@@ -31,6 +31,6 @@ public:
 
 /// Source of .rso files, prepared for `engine`.
 /// \param background one low-priority reader thread; otherwise all threads are used.
-std::unique_ptr<ObjectSource> object_files(std::shared_ptr<const engine::RenderSession> engine, bool background);
+std::unique_ptr<ObjectSource> make_file_source(std::shared_ptr<const engine::RenderSession> engine, bool background);
 
 }  // namespace rs::compositor

@@ -212,7 +212,7 @@ UprightExtent estimated_extent(const RaySpaceObject& object) {
 }
 
 std::int64_t ViewableObject::memory_bytes() const {
-    const std::int64_t board = for_board ? memory_of(*for_board) : 0;
+    const std::int64_t board = for_board ? object_memory_bytes(*for_board) : 0;
     return static_cast<std::int64_t>(sizeof(ViewableObject)) + renderer.memory_bytes() + board;
 }
 

@@ -35,7 +35,7 @@ bool box_contains(const BoundingBox& box, const glm::dvec3& p) {
 }
 
 bool affects_map(const BoundingBox& box, const ShadowFace& face) {
-    return may_be_seen(box, face.clip_from_world, face.perspective) &&
+    return can_be_visible(box, face.clip_from_world, face.perspective) &&
            (face.scope.empty() || box_contains(face.scope, box.middle()));
 }
 
@@ -169,7 +169,7 @@ void ShadowMaps::invalidate(const BoundingBox& box) {
 void ShadowMaps::draw_objects(const ShadowPass& pass) const {
     for (const CasterState& state : objects_) {
         if (!state.shell || !affects_map(state.box, pass.face) ||
-            !may_be_seen(state.box, pass.area_from_world, pass.face.perspective)) {
+            !can_be_visible(state.box, pass.area_from_world, pass.face.perspective)) {
             continue;
         }
         program_.set("clip_from_node", glm::mat4(pass.face.clip_from_world * state.world_from_object));

@@ -81,7 +81,7 @@ std::optional<ObjectView> view_of_object(const PlacedObject& placed, const Camer
     const double scale = placed.world_from_object.scale;
     ObjectView view;
     view.rectangle = *rectangle;
-    const int most = std::min({options.max_samples_across, kMostSamplesAcross,
+    const int most = std::min({options.max_samples_across, kMaxSamplesAcross,
                                kMaxImageSide_px / std::max(rectangle->width, rectangle->height)});
     const double samples =
         std::clamp(captured_pixels_per_pixel(object, camera, glm::length(eye)), 1.0, std::max<double>(most, 1));

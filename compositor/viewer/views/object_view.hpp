@@ -21,8 +21,8 @@
 
 namespace rs::compositor {
 
-inline constexpr int kMostSamplesAcross = 4;
-inline constexpr int kUsualSamplesAcross = 2;  // for screens; more samples are hardly visible
+inline constexpr int kMaxSamplesAcross = 4;
+inline constexpr int kDefaultSamplesAcross = 2;  // for screens; more samples are hardly visible
 
 struct ObjectView {
     ScreenRectangle rectangle;
@@ -48,8 +48,8 @@ struct ObjectView {
 };
 
 struct ObjectViewOptions {
-    int max_samples_across = kUsualSamplesAcross;  // 1 (no averaging) .. kMaxSamplesAcross
-    bool upright = false;                          // renders images of upright cameras where possible
+    int max_samples_across = kDefaultSamplesAcross;  // 1 (no averaging) .. kMaxSamplesAcross
+    bool upright = false;                            // renders images of upright cameras where possible
 };
 
 /// \return nullopt if the object is off screen, smaller than half a pixel, viewed from its own axis, or so far off axis

@@ -76,7 +76,7 @@ FrameView view_of_frame(const Camera& camera) {
     return {camera, m * glm::inverse(camera.world_from_camera)};
 }
 
-bool may_be_seen(const BoundingBox& box, const glm::dmat4& clip_from_world, bool perspective) {
+bool can_be_visible(const BoundingBox& box, const glm::dmat4& clip_from_world, bool perspective) {
     if (box.empty()) return false;
     // A box is outside if all of its corners are outside of the same plane.
     int outside = 0x1f;

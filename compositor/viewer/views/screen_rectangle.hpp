@@ -38,6 +38,6 @@ FrameView view_of_frame(const Camera& camera);
 
 /// Conservative frustum test: false only if the box is outside of the projection's image.
 /// \param perspective the projection is a perspective one with near plane kNear; otherwise orthographic.
-bool may_be_seen(const BoundingBox& box_in_world, const glm::dmat4& clip_from_world, bool perspective = true);
+bool can_be_visible(const BoundingBox& box_in_world, const glm::dmat4& clip_from_world, bool perspective = true);
 
 }  // namespace rs::compositor

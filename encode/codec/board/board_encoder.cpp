@@ -2,7 +2,6 @@
 
 #include "encode/codec/board/board_alpha.hpp"
 #include "encode/codec/board/board_block.hpp"
-#include "encode/codec/board/board_classes.hpp"
 #include "encode/codec/board/board_stages.hpp"
 #include "encode/codec/motion_search.hpp"
 #include "encode/codec/ring_references.hpp"
@@ -20,6 +19,25 @@ namespace {
 
 using codec::BoardMotion;
 using codec::RecordClass;
+
+// Record classes, [0] being the empty block; chosen by experiments on captured objects. They are written into the file;
+// decoders accept any classes. Members: predicted, alpha, block stages, quarter stages
+constexpr std::array<codec::RecordClass, codec::kBoardClasses> kFlatClasses = {{{},
+                                                                                {false, false, 1, 0},
+                                                                                {false, false, 1, 1},
+                                                                                {false, false, 1, 2},
+                                                                                {false, false, 1, 4},
+                                                                                {false, true, 1, 1},
+                                                                                {false, true, 1, 2},
+                                                                                {false, true, 1, 4}}};
+constexpr std::array<codec::RecordClass, codec::kBoardClasses> kPredictedClasses = {{{},
+                                                                                     {true, false, 2, 0},
+                                                                                     {true, false, 2, 1},
+                                                                                     {true, false, 2, 2},
+                                                                                     {true, false, 2, 3},
+                                                                                     {true, true, 2, 1},
+                                                                                     {true, true, 2, 2},
+                                                                                     {false, true, 1, 1}}};
 
 constexpr std::size_t kTrainingBlocks = 24000;  // per kind, at most
 constexpr int kReachDown_px = 6;
@@ -53,7 +71,7 @@ public:
         coded_.images.resize(object.views.size());
         lambda_ = settings.lambda_factor * kIntegerPlaneWeights[0] * settings.step * settings.step * 8;
         plan();
-        for_images([](std::size_t) { return true; }, [&](std::size_t v) { look_at_blocks(v); });
+        for_images([](std::size_t) { return true; }, [&](std::size_t v) { classify_blocks(v); });
     }
 
     EncodedImages encode() {
@@ -125,7 +143,7 @@ private:
             .blocks[static_cast<std::size_t>(y / codec::kBoardBlock * block_columns() + x / codec::kBoardBlock)];
     }
 
-    void look_at_blocks(std::size_t v) {
+    void classify_blocks(std::size_t v) {
         for (auto& plane : work_[v].reconstruction) {
             plane = Image<std::uint8_t>(coded_.coded_width(), coded_.coded_height());
         }
@@ -281,7 +299,7 @@ private:
         const auto tiles = static_cast<std::size_t>(coded_.tile_columns() * coded_.tile_rows());
         image.tiles.resize(tiles);
         for (std::size_t t = 0; t < tiles; ++t) {
-            const codec::TilePlace place = codec::place_of_tile(coded_, t);
+            const codec::TileRect place = codec::tile_rect(coded_, t);
             std::uint64_t classes = 0;
             std::vector<std::byte> bytes(codec::kBoardTileHeadBytes);
             for (int b = 0; b < codec::kBoardTileBlocks; ++b) {

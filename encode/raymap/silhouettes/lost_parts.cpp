@@ -37,7 +37,7 @@ void for_each_pixel(const WorkView& view, const Each& each) {
 }
 
 // Median filter of the depths at the pixels of `mask`; kNoDepth elsewhere.
-Image<float> smoothed(const WorkView& view, const Image<float>& depths, const Image<std::uint8_t>& mask) {
+Image<float> median_filter(const WorkView& view, const Image<float>& depths, const Image<std::uint8_t>& mask) {
     Image<float> smooth(depths.width(), depths.height(), kNoDepth);
     std::vector<float> near;
     for_each_pixel(view, [&](int column, int row) {
@@ -87,7 +87,7 @@ Image<std::uint8_t> beside_object(const WorkView& view, const Image<std::uint8_t
 }
 
 // Smooths a contour with a majority filter.
-Image<std::uint8_t> straightened(const WorkView& view, Image<std::uint8_t> mask) {
+Image<std::uint8_t> smooth_contour(const WorkView& view, Image<std::uint8_t> mask) {
     for (int round = 0; round < kStraightenings; ++round) {
         const Image<std::uint8_t> near = dilated(mask, 1);
         Image<std::uint8_t> straight(mask.width(), mask.height(), 0);
@@ -106,7 +106,7 @@ Image<std::uint8_t> straightened(const WorkView& view, Image<std::uint8_t> mask)
 }
 
 // Blends two colours by coverage.
-std::uint8_t mixed(std::uint8_t own, double other, double share_of_own) {
+std::uint8_t blend_by_coverage(std::uint8_t own, double other, double share_of_own) {
     return static_cast<std::uint8_t>(std::lround(own * share_of_own + other * (1 - share_of_own)));
 }
 
@@ -165,7 +165,7 @@ Image<float> select_lost_part(const WorkView& view, const Image<float>& missing)
     });
     const auto large = dilated(middles, 2 * kHalfSide_px);
     const auto part = mask_of([&](int c, int r) { return large(r, c) != 0 && lost(r, c) != 0; });
-    return smoothed(view, missing, straightened(view, beside_object(view, part, middles)));
+    return median_filter(view, missing, smooth_contour(view, beside_object(view, part, middles)));
 }
 
 double share_of(const Image<float>& part, const WorkView& view) {
@@ -206,7 +206,7 @@ LostPartPainter::LostPartPainter(const WorkView& view, const Image<float>& part,
     all_ = left_.size();
 }
 
-std::optional<glm::dvec3> LostPartPainter::seen_by(const Painter& from, const Spot& spot, bool hidden) const {
+std::optional<glm::dvec3> LostPartPainter::seen_by(const Painter& from, const PaintPixel& spot, bool hidden) const {
     const WorkView& view = from.seen->view;
     const std::optional<ProjectedPoint> at = view.see(spot.place, spot.height);
     if (!at) return std::nullopt;
@@ -220,17 +220,18 @@ std::optional<glm::dvec3> LostPartPainter::seen_by(const Painter& from, const Sp
 
 std::size_t LostPartPainter::shown_by(const Painter& from, bool hidden) const {
     return static_cast<std::size_t>(
-        std::ranges::count_if(left_, [&](const Spot& spot) { return seen_by(from, spot, hidden).has_value(); }));
+        std::ranges::count_if(left_, [&](const PaintPixel& spot) { return seen_by(from, spot, hidden).has_value(); }));
 }
 
 void LostPartPainter::paint_from(const Painter& from) {
     const bool most = static_cast<double>(shown_by(from, false)) >= kMost * static_cast<double>(shown_by(from, true));
-    std::erase_if(left_, [&](const Spot& spot) {
+    std::erase_if(left_, [&](const PaintPixel& spot) {
         const auto colour = seen_by(from, spot, most);
         if (!colour) return false;
         Rgba8& pixel = image_(spot.x, spot.y);
         const double share = pixel.a / (255 * spot.cover);
-        pixel = {mixed(pixel.r, colour->r, share), mixed(pixel.g, colour->g, share), mixed(pixel.b, colour->b, share),
+        pixel = {blend_by_coverage(pixel.r, colour->r, share), blend_by_coverage(pixel.g, colour->g, share),
+                 blend_by_coverage(pixel.b, colour->b, share),
                  static_cast<std::uint8_t>(std::lround(255 * spot.cover))};
         return true;
     });

@@ -49,18 +49,18 @@ public:
 
 private:
     // A pixel to paint, and its surface point.
-    struct Spot {
+    struct PaintPixel {
         int x = 0, y = 0;
         double cover = 0;  // alpha, 0..1
         glm::dvec2 place{0, 0};
         double height = 0;
     };
 
-    [[nodiscard]] std::optional<glm::dvec3> seen_by(const Painter& from, const Spot& spot, bool hidden) const;
+    [[nodiscard]] std::optional<glm::dvec3> seen_by(const Painter& from, const PaintPixel& spot, bool hidden) const;
 
     Image<Rgba8> image_;
     int scale_;
-    std::vector<Spot> left_;
+    std::vector<PaintPixel> left_;
     std::size_t all_ = 0;  // number of pixels to paint at the start
 };
 

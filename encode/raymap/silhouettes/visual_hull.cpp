@@ -185,7 +185,7 @@ void SampledHull::sample(int t) const {
     });
 }
 
-double contradicted_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range) {
+double inconsistent_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range) {
     constexpr int kEveryColumn = 8;
     std::vector<std::int64_t> pixels(views.size(), 0);
     std::vector<std::int64_t> contradicted(views.size(), 0);

@@ -105,6 +105,6 @@ private:
 
 /// The share of object pixels (0..1, sampled) whose rays miss the hull: a measure of the silhouettes' inconsistency.
 /// `range` covers the object.
-double contradicted_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range);
+double inconsistent_share(const std::vector<const WorkView*>& views, const VisualHull& hull, const DepthRange& range);
 
 }  // namespace rs::encode

@@ -83,7 +83,7 @@ Image<std::uint8_t> soft_pixels(const WorkView& view) {
     return soft;
 }
 
-void cover_soft(WorkView& view, const Image<std::uint8_t>& soft) {
+void make_soft_opaque(WorkView& view, const Image<std::uint8_t>& soft) {
     const auto before_white = [](int value, int alpha) {
         return static_cast<std::uint8_t>((value * alpha + 255 * (255 - alpha) + 127) / 255);
     };
@@ -138,7 +138,7 @@ Image<std::uint8_t> measure_texture(const WorkView& view) {
     return texture;
 }
 
-void weaken_shading(WorkView& view) {
+void attenuate_shading(WorkView& view) {
     constexpr int kRadius_px = 4;
     constexpr int kGrey = 128;
     constexpr int kReduction = 4;  // of the mean's distance from grey

@@ -131,7 +131,7 @@ WorkView halve(const WorkView& view);
 Image<std::uint8_t> soft_pixels(const WorkView& view);
 
 /// Makes soft pixels opaque, in their colours composited over white.
-void cover_soft(WorkView& view, const Image<std::uint8_t>& soft);
+void make_soft_opaque(WorkView& view, const Image<std::uint8_t>& soft);
 
 /// Measures texture: the standard deviation of luma over the object's pixels among the 9x9 around each pixel, in codes,
 /// rounded down, 0..127; transposed as WorkView::columns is. 0 outside of the silhouette (alpha below kInside).
@@ -139,6 +139,6 @@ Image<std::uint8_t> measure_texture(const WorkView& view);
 
 /// High-pass filter: reduces the contrast of the local mean colour (9x9 pixels, weighted by alpha) to a quarter, since
 /// gloss and shading differ between photos, and keeps each pixel's difference from it. Alpha is not changed.
-void weaken_shading(WorkView& view);
+void attenuate_shading(WorkView& view);
 
 }  // namespace rs::encode

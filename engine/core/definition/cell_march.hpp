@@ -1,10 +1,10 @@
 #pragma once
-// Section 6 of engine/RECONSTRUCTION.md: which surfaces of a shape map a view ray meets.
+// Section 6 of engine/RECONSTRUCTION.md: intersects a view ray with the surfaces of a shape map.
 
 #include "engine/core/definition/fixed_point.hpp"
 #include "engine/core/definition/shape_cells.hpp"
 #include "engine/core/definition/shape_setup.hpp"
-#include "rayspace/object/shape_map.hpp"
+#include "rayspace/api/types/shape_map.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -13,14 +13,17 @@
 
 namespace rs::engine {
 
-// A ray with the slope of the reference viewpoint's stays in one band. Any other passes from band to band, linearly in
-// depth: band = zero + d * per_depth. It is followed away from the viewer in steps of half a band, and gives the
-// surfaces that it meets, or passes less than the map's thickness behind the deepest cell around, one after the other;
-// at the end the one that a ray of reference slope would meet, and what may lie behind it.
+// Marches a view ray through the bands of a shape map and enumerates the surfaces that it meets.
+//
+// A ray with the slope of the reference viewpoint's ray stays in one band. Any other ray crosses bands, linearly in
+// depth: band = zero + d * per_depth. The march goes away from the viewer in steps of half a band. A step meets the
+// surface of its band if the surface is in front of the end of the step, and the step begins at most the map's
+// thickness behind the deepest surrounding cell. The march ends with the surface that a ray of reference slope would
+// meet, and the surfaces that may lie behind it.
 class CellMarch {
 public:
-    static constexpr int kMostSteps = 64;
-    static constexpr std::int32_t kMostPerDepth_q20 = 1 << 22;
+    static constexpr int kMaxSteps = 64;
+    static constexpr std::int32_t kMaxPerDepth_q20 = 1 << 22;
 
     CellMarch(const ShapeMap& shape, const ShapeSetup& setup, std::int32_t b_q20, std::int32_t rise_q24)
         : cells_(setup.cells), bands_(shape.bands), jump_(shape.jump), thickness_(shape.thickness) {
@@ -32,13 +35,13 @@ public:
         foot_q12_ = multiply_shift(h_q16 - (shape.h_low_q20 >> 4), shape.bands_per_unit_q12, 16);
         zero_q12_ = foot_q12_ + multiply_shift(per_radius_q20, shape.depth_low_q20, 28);
         per_depth_q20_ =
-            std::clamp(multiply_shift(per_radius_q20, shape.depth_step_q24, 24), -kMostPerDepth_q20, kMostPerDepth_q20);
-        const int steps = std::min((std::abs(per_depth_q20_) >> 11) + 1, kMostSteps);
+            std::clamp(multiply_shift(per_radius_q20, shape.depth_step_q24, 24), -kMaxPerDepth_q20, kMaxPerDepth_q20);
+        const int steps = std::min((std::abs(per_depth_q20_) >> 11) + 1, kMaxSteps);
         step_ = 256 / steps;
         if (steps == 1) begin_ = 256;
     }
 
-    // The next surface; none behind the last.
+    /// Next surface along the ray; exists() is false after the last one.
     SurfaceCell next() {
         while (begin_ < 256) {
             const int begin = begin_;
@@ -59,11 +62,11 @@ public:
         return last.first;
     }
 
-    // Whether next() has given a surface of the end of the march.
+    /// True once next() has reached the surfaces at the end of the march.
     [[nodiscard]] bool at_end() const { return ended_; }
 
 private:
-    // Cells are samples at the middles of their bands.
+    // Surfaces at a band coordinate. Cells are samples at the centres of their bands.
     [[nodiscard]] SurfaceStack surfaces_at(std::int32_t at_q12) const {
         const std::int32_t from_middle_q12 = at_q12 - (1 << 11);
         const std::int32_t band = from_middle_q12 >> 12;
@@ -89,7 +92,7 @@ private:
     int step_ = 256;
     int begin_ = 0;
     bool ended_ = false;
-    SurfaceCell behind_, farthest_;  // still to come
+    SurfaceCell behind_, farthest_;  // returned after the last surface of the march
 };
 
 }  // namespace rs::engine

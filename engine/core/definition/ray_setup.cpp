@@ -5,8 +5,8 @@
 namespace rs::engine {
 namespace {
 
-constexpr std::int64_t kMostEdgeOn_q28 = std::int64_t{1} << 24;
-constexpr std::int64_t kFarthestPlane_q20 = std::int64_t{1} << 29;
+constexpr std::int64_t kMinNormalComponent_q28 = std::int64_t{1} << 24;
+constexpr std::int64_t kMaxPlaneDepth_q20 = std::int64_t{1} << 29;
 
 int clamped(std::int64_t cell, int cells) {
     return static_cast<int>(std::clamp<std::int64_t>(cell, 0, cells - 1));
@@ -27,14 +27,14 @@ PlanePoint plane_point(const Ring& ring, const ViewRegisters& registers, int i, 
     }
     const PlaneRegisters& plane = registers.planes[static_cast<std::size_t>(point.plane)];
     point.n_q28 = -smallest;
-    if (plane.c_q20 <= 0 || point.n_q28 < kMostEdgeOn_q28) return kNone;
+    if (plane.c_q20 <= 0 || point.n_q28 < kMinNormalComponent_q28) return kNone;
     point.t_q28 = plane.along_tangent.at(i, j) >> 4;
     const std::int64_t c_q20 = plane.c_q20;
     point.u_q28 = floor_divide(point.t_q28 * (std::int64_t{1} << 28), point.n_q28);
     point.x_q20 = plane.a_q20 + ((point.u_q28 * c_q20) >> 28);
     point.lambda_q20 = (c_q20 << 28) / point.n_q28;
     point.exists =
-        point.x_q20 >= -ring.x_half_q20 && point.x_q20 < ring.x_half_q20 && point.lambda_q20 < kFarthestPlane_q20;
+        point.x_q20 >= -ring.x_half_q20 && point.x_q20 < ring.x_half_q20 && point.lambda_q20 < kMaxPlaneDepth_q20;
     return point;
 }
 
@@ -47,7 +47,7 @@ std::uint16_t map_answer(const Ring& ring, const PlanePoint& point) {
 namespace {
 
 constexpr std::int64_t kOne_q20 = std::int64_t{1} << 20;
-constexpr std::int64_t kNearestDepth_q20 = std::int64_t{1} << 17;
+constexpr std::int64_t kMinDepth_q20 = std::int64_t{1} << 17;
 constexpr std::int64_t kLargestRowScale_q16 = std::int64_t{1} << 30;
 constexpr std::int64_t kLargestRise_q24 = std::int64_t{1} << 28;
 
@@ -62,11 +62,11 @@ RaySetup set_up_ray(const RaySpaceObject& object, const ViewRegisters& registers
     const std::uint16_t image = map_answer(ring, point);
     if (image == kNoImage) return kNoRay;
 
-    // Section 3: the image's column, and the rows along it.
+    // Section 3: column of the captured image and rows along it.
     const CapturedView& view = object.views[image];
     const CapturedLine& line = view.lines[static_cast<std::size_t>(point.plane)];
     const std::int64_t l_q20 = line.l0_q20 + ((point.x_q20 * line.l1_q30) >> 30);
-    if (l_q20 < kNearestDepth_q20) return kNoRay;
+    if (l_q20 < kMinDepth_q20) return kNoRay;
     const std::int64_t lateral_q16 = line.q0_q16 + ((point.x_q20 * line.q1_q16) >> 20);
     const std::int64_t column = (view.cx_q16 + floor_divide(lateral_q16 * kOne_q20, l_q20)) >> 16;
     if (column < 0 || column >= object.width) return kNoRay;

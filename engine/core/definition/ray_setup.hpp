@@ -1,6 +1,6 @@
 #pragma once
-// Sections 2 and 3 of engine/RECONSTRUCTION.md: from a pixel of the view to a column of a captured image and the walk
-// of rows along it. There is one piece of code for it, shared by the scalar definition and the fast core.
+// Sections 2 and 3 of engine/RECONSTRUCTION.md: maps a pixel of the view to a column of a captured image and the rows
+// along it. Shared by the scalar definition and the fast core.
 
 #include "engine/core/definition/view_registers.hpp"
 #include "rayspace/object/ray_space_object.hpp"
@@ -9,36 +9,35 @@
 
 namespace rs::engine {
 
-// Section 2 of engine/RECONSTRUCTION.md: the reference plane of a view ray, and the ray's place (x, u) on it.
-
+/// Intersection of a view ray with its reference plane (section 2 of engine/RECONSTRUCTION.md).
 struct PlanePoint {
     bool exists = false;
     int plane = 0;
-    std::int64_t n_q28 = 0;  // the direction's components against the normal and along the tangent
-    std::int64_t t_q28 = 0;
-    std::int64_t u_q28 = 0;
-    std::int64_t x_q20 = 0;
+    std::int64_t n_q28 = 0;       // component of the direction against the normal
+    std::int64_t t_q28 = 0;       // component of the direction along the tangent
+    std::int64_t u_q28 = 0;       // tangent of the angle to the normal
+    std::int64_t x_q20 = 0;       // position along the tangent, object radii
     std::int64_t lambda_q20 = 0;  // axial distance to the plane
 };
 
 PlanePoint plane_point(const Ring& ring, const ViewRegisters& registers, int i, int j);
 
-// What the RS map holds for the ray: a view, or kNoImage.
+/// Looks up the ray in the RS map. \return index of a view, or kNoImage
 std::uint16_t map_answer(const Ring& ring, const PlanePoint& point);
 
 struct RaySetup {
-    int image = -1;  // -1: there is no ray
+    int image = -1;  // -1: no ray
     int column = 0;
     std::int64_t row_0_q16 = 0;
     std::int64_t row_step_q16 = 0;
     std::int32_t lambda_q20 = 0;  // axial depth of the reference plane
 
-    // Row of the image for view row j; may lie outside of the image.
+    /// Row of the captured image for view row j; may lie outside of the image.
     [[nodiscard]] std::int64_t row(int j) const { return (row_0_q16 + j * row_step_q16) >> 16; }
 };
 
-// `registers` was prepared for `object`; 0 <= i < width, 0 <= j < height. In an upright view the result is the same for
-// every j.
+/// Computes the set-up of pixel (i, j); `registers` was prepared for `object`; 0 <= i < width, 0 <= j < height. In an
+/// upright view the result is the same for every j.
 RaySetup set_up_ray(const RaySpaceObject& object, const ViewRegisters& registers, int i, int j);
 
 }  // namespace rs::engine

@@ -8,7 +8,7 @@
 namespace rs::engine {
 namespace {
 
-// The texels of unpacked images, as shape_pixel() reads them.
+// Texel source of shape_pixel() for unpacked images.
 struct StoredTexels {
     const RaySpaceObject& object;
 

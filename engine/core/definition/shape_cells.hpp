@@ -1,9 +1,10 @@
 #pragma once
-// Section 6 of engine/RECONSTRUCTION.md, "The surface between cells": cells of a shape map are samples, and the surface
-// between them is continuous where they lie on one, and steps where they do not. First between the two lines beside a
-// ray, which serves a whole column of an upright view; then between two cells along p and two along height.
+// Section 6 of engine/RECONSTRUCTION.md, "The surface between cells": interpolates the depth samples of a shape map.
+// The surface is continuous between cells that lie on the same surface and has a step between cells that do not. Cells
+// are interpolated first between the two lines beside a ray, which is the same for a whole column of an upright view,
+// then between two cells along p and two along height.
 
-#include "rayspace/object/shape_map.hpp"
+#include "rayspace/api/types/shape_map.hpp"
 
 #include <algorithm>
 #include <cstdint>
@@ -11,42 +12,41 @@
 
 namespace rs::engine {
 
-// How far the blend of two images leans: 0, the first alone; 16, the second alone.
+// Lean (visibility weight) of a surface that both images show. 0: only the first image shows it; 16: only the second.
 inline constexpr std::int32_t kBothShow = 8;
 
-// A surface beside or between cells.
+// Surface at a cell or interpolated between cells.
 struct SurfaceCell {
-    std::int32_t depth_q3 = -1;  // eighths of a depth step; -1: there is none
+    std::int32_t depth_q3 = -1;  // eighths of a depth step; -1: no surface
     std::int32_t lean = kBothShow;
-    // Of the cells around, on either line, whatever their weights.
-    std::int32_t deepest = -1;  // greatest depth, whole steps; -1 where none has a surface
-    bool all_have_one = false;
+    // Over all surrounding cells on both lines, including those of weight 0.
+    std::int32_t deepest = -1;  // greatest depth, whole steps; -1 if no cell has a surface
+    bool all_have_one = false;  // every cell has a surface
 
     [[nodiscard]] bool exists() const { return depth_q3 >= 0; }
     bool operator==(const SurfaceCell&) const = default;
 };
 
-// What a ray may meet between cells, one after the other: their surface; where they lie on two and that is the nearer
-// one, the farther one; and, where all eight cells have a surface, one at the depth of the farthest.
+// Surfaces that a ray may meet between cells, in this order.
 struct SurfaceStack {
-    SurfaceCell first;
-    SurfaceCell behind;
-    SurfaceCell farthest;
+    SurfaceCell first;     // interpolated surface
+    SurfaceCell behind;    // the farther of two surfaces, if `first` is the nearer one
+    SurfaceCell farthest;  // at the depth of the deepest of the eight cells, if all have a surface
 };
 
-// The columns of cells around a ray and its place between them.
+// Columns of cells around a ray and its position between them.
 struct CellColumns {
-    const ShapeCell* at[2][2] = {};  // [p][line], each `bands` long; null: there is no shape
-    std::int32_t p_part = 0;         // of the second in p, eighths: 0..7
-    std::int32_t line_part = 0;      // of the second line, likewise
+    const ShapeCell* at[2][2] = {};  // [p][line], each `bands` long; null: no shape
+    std::int32_t p_part = 0;         // weight of the second column along p, eighths: 0..7
+    std::int32_t line_part = 0;      // weight of the second line, eighths: 0..7
 };
 
-// Of a cell: 0 where the first image alone shows it, 1 where both do, 2.
+// SurfaceCell::lean / 8 of a cell: 0 if only the first image shows it, 1 if both do, 2 if only the second.
 inline int lean_of(ShapeCell cell) {
     return cell.shown == ShapeCell::kByFirst ? 0 : cell.shown == ShapeCell::kBySecond ? 2 : 1;
 }
 
-// `part` of the second line, in eighths.
+// Interpolates between a cell of either line; `part`: weight of the second line, eighths.
 inline SurfaceCell between_lines(ShapeCell first, ShapeCell second, int part, int jump) {
     SurfaceCell cell;
     cell.all_have_one = first.has_surface() && second.has_surface();
@@ -66,8 +66,8 @@ inline SurfaceCell between_lines(ShapeCell first, ShapeCell second, int part, in
     return cell;
 }
 
-// cells[p][h] around a point at p_part and h_part eighths between them. Where they lie on one surface, its mean;
-// elsewhere that of the nearer ones or of the farther ones, whichever have more weight.
+// Bilinear interpolation at p_part and h_part eighths between cells[p][h]. If the cells lie on two surfaces, averages
+// only the nearer or only the farther cells, whichever have more weight.
 inline SurfaceStack surfaces_between(const SurfaceCell (&cells)[2][2], int p_part, int h_part, int jump) {
     int nearest = 1 << 12;
     int farthest = -1;
@@ -83,7 +83,7 @@ inline SurfaceStack surfaces_between(const SurfaceCell (&cells)[2][2], int p_par
         }
     }
     const bool steps = farthest - nearest > 8 * jump;
-    int weight[2] = {};  // of the nearer group, of the farther one
+    int weight[2] = {};  // [0]: nearer group, [1]: farther group
     int sum[2] = {};
     int lean[2] = {};
     for (int p = 0; p < 2; ++p) {

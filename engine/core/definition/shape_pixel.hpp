@@ -1,6 +1,6 @@
 #pragma once
-// Sections 6 to 8 of engine/RECONSTRUCTION.md: one pixel of a view ray that set_up_shape() has set up. The readable
-// definition; shape_walk.hpp is its fast twin.
+// Sections 6 to 8 of engine/RECONSTRUCTION.md: computes the pixel of a view ray from its set_up_shape(). Readable
+// definition; shape_walk.hpp is the SIMD implementation.
 
 #include "engine/core/definition/cell_march.hpp"
 #include "engine/core/definition/fixed_point.hpp"
@@ -19,15 +19,15 @@ struct ShapePixel {
     std::int32_t lambda_q20 = 0;  // axial depth in the view, object radii; only where colour.a > 0
 };
 
-// A surface of less alpha does not cover its pixel: at the end of a march those behind it are needed, too.
+// A surface with less alpha does not cover its pixel: at the end of a march the surfaces behind it are blended, too.
 inline constexpr int kCoveringAlpha = 230;
-inline constexpr std::int32_t kNearest_q20 = 1 << 17;  // axial depth in a captured image
+inline constexpr std::int32_t kNearest_q20 = 1 << 17;  // least axial depth in a captured image
 
-// A bilinear sample: sums over four texels of weight * alpha (the weights add up to 64) and of weight * alpha * colour.
+// Bilinear sample: sums over four texels of weight * alpha (weights add up to 64) and of weight * alpha * colour.
 struct SampleSum {
-    bool exists = false;  // the point lies in the image's frame
+    bool exists = false;  // the point projects into the image
     std::int32_t a = 0, r = 0, g = 0, b = 0;
-    std::int32_t detail = 0;  // to be added to r, g and b; 0 with the bilinear filter
+    std::int32_t detail = 0;  // added to r, g and b by resolve(); 0 with the bilinear filter
 };
 
 inline SampleSum mix(const SampleSum& first, const SampleSum& second, int weight) {
@@ -49,7 +49,7 @@ inline Rgba8 resolve(const SampleSum& sum) {
     return {channel(sum.r), channel(sum.g), channel(sum.b), static_cast<std::uint8_t>(alpha)};
 }
 
-// Section 7. `texels.color(view, column, row)` gives a stored pixel as Rgba8, `texels.detail(view, column, row)` its
+// Section 7. `texels.color(view, column, row)` returns a stored pixel as Rgba8, `texels.detail(view, column, row)` its
 // texel_detail_at().
 template <class Texels>
 SampleSum sample_image(const RaySpaceObject& object, const ShapeImage& image, int d_q3, std::int32_t y_q16,
@@ -64,7 +64,7 @@ SampleSum sample_image(const RaySpaceObject& object, const ShapeImage& image, in
     const std::int32_t row_q8 = (view.cy_q16 >> 8) - multiply_shift(m_q12, y_q16 - (view.height_q20 >> 4), 20);
     if (column_q8 < 0 || column_q8 >= object.width << 8 || row_q8 < 0 || row_q8 >= object.height << 8) return {};
 
-    // From the upper left of four texels, in eighths of a pixel.
+    // Position of the sample in eighths of a pixel, from the centre of pixel (0, 0).
     const int x_q3 = (column_q8 - 128 + 16) >> 5;
     const int y_q3 = (row_q8 - 128 + 16) >> 5;
     const int left = std::max(x_q3 >> 3, 0);
@@ -94,23 +94,23 @@ SampleSum sample_image(const RaySpaceObject& object, const ShapeImage& image, in
     return sum;
 }
 
-// Section 8: how much the second image has of 256, where a surface leans.
+// Section 8: blend weight of the second image, 0..256, adjusted by the lean (visibility weight) of a surface.
 inline int leaning_weight(int weight, int lean) {
     if (lean <= kBothShow) return (weight * lean + 4) >> 3;
     return weight + (((256 - weight) * (lean - kBothShow) + 4) >> 3);
 }
 
-// Section 8: what both images show of a surface at depth d_q3. `rise_q24`: the view's rise form at the pixel, q32,
-// shifted right by 8.
-struct ShownSurface {
-    SampleSum sum;  // does not exist, or has a = 0, where neither shows it; the weights add up to 64 * 256
+// Section 8: blend of both images at a surface.
+struct BlendedSurface {
+    SampleSum sum;  // weights add up to 64 * 256; does not exist, or a = 0, if neither image shows the surface
     std::int32_t lambda_q20 = 0;
 };
 
+// Blends both images at depth d_q3. `rise_q24`: the rise of the pixel's direction (ViewRegisters::rise_q24).
 template <class Texels>
-ShownSurface shown_surface(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
-                           std::int32_t d_q3, int lean, std::int32_t rise_q24, const Texels& texels) {
-    ShownSurface shown;
+BlendedSurface blend_surface(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
+                             std::int32_t d_q3, int lean, std::int32_t rise_q24, const Texels& texels) {
+    BlendedSurface shown;
     shown.lambda_q20 = setup.lambda0_q20 + ((d_q3 * setup.lambda1_q21) >> 4);
     if (shown.lambda_q20 <= 0) return {};
     const std::int32_t y_q16 = (registers.b_q20 >> 4) + multiply_shift(shown.lambda_q20, rise_q24, 28);
@@ -119,20 +119,20 @@ ShownSurface shown_surface(const RaySpaceObject& object, const ViewRegisters& re
     };
     const SampleSum first = setup.weight < 256 ? sample(setup.first) : SampleSum{};
     const SampleSum second = setup.weight > 0 ? sample(setup.second) : SampleSum{};
-    // Every point of the object lies within every silhouette.
+    // Every point of the object projects into every silhouette.
     if ((first.exists && first.a == 0) || (second.exists && second.a == 0)) return {};
     if (first.exists && second.exists) shown.sum = mix(first, second, leaning_weight(setup.weight, lean));
     if (first.exists != second.exists) shown.sum = first.exists ? mix(first, first, 0) : mix(second, second, 0);
     return shown;
 }
 
-// Section 8: a surface that does not cover its pixel over one behind it, if that does.
+// Section 8, "Over": composites a surface over a farther one, if the farther one covers its pixel.
 inline ShapePixel laid_over(const ShapePixel& nearer, const ShapePixel& farther) {
     const Rgba8& n = nearer.colour;
     const Rgba8& f = farther.colour;
     if (n.a == 0) return farther;
     if (f.a < kCoveringAlpha) return nearer;
-    const int weight = n.a + (n.a >> 7);  // of the nearer one, 256ths
+    const int weight = n.a + (n.a >> 7);  // of the nearer surface, 1/256
     const auto mixed = [&](int of_n, int of_f) {
         return static_cast<std::uint8_t>((of_n * weight + of_f * (256 - weight) + 128) >> 8);
     };
@@ -144,21 +144,21 @@ template <class Texels>
 ShapePixel shape_pixel(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
                        std::int32_t rise_q24, const Texels& texels) {
     const auto shown_at = [&](std::int32_t d_q3, int lean = kBothShow) {
-        return shown_surface(object, registers, setup, d_q3, lean, rise_q24, texels);
+        return blend_surface(object, registers, setup, d_q3, lean, rise_q24, texels);
     };
-    const auto pixel = [](const ShownSurface& shown) { return ShapePixel{resolve(shown.sum), shown.lambda_q20}; };
+    const auto pixel = [](const BlendedSurface& shown) { return ShapePixel{resolve(shown.sum), shown.lambda_q20}; };
     if (!setup.has_shape()) return pixel(shown_at(0));
 
     const ShapeMap& shape = object.rings[static_cast<std::size_t>(registers.ring)].shape;
     CellMarch march(shape, setup, registers.b_q20, rise_q24);
     SurfaceCell cell = march.next();
     if (setup.weight == 0 || setup.weight == 256) {
-        // On a captured line that image answers alone, whatever the depth.
+        // On a captured line only that image is sampled, independently of the depth.
         return pixel(shown_at(cell.exists() ? cell.depth_q3 : setup.foot_depth_q3));
     }
-    ShapePixel nearer;  // the first that shows something, but does not cover the pixel
+    ShapePixel nearer;  // first visible surface, which does not cover the pixel
     for (; cell.exists(); cell = march.next()) {
-        const ShownSurface shown = shown_at(cell.depth_q3, cell.lean);
+        const BlendedSurface shown = shown_at(cell.depth_q3, cell.lean);
         if (shown.sum.a == 0) continue;
         const ShapePixel here = pixel(shown);
         nearer = laid_over(nearer, here);

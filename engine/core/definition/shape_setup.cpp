@@ -8,15 +8,15 @@
 namespace rs::engine {
 namespace {
 
-constexpr std::int64_t kMostPerStep = std::int64_t{1} << 20;
-constexpr std::int64_t kFarthestView_q20 = std::int64_t{1} << 29;
+constexpr std::int64_t kMaxPerStep = std::int64_t{1} << 20;
+constexpr std::int64_t kMaxFootDepth_q20 = std::int64_t{1} << 29;
 
-// A ray of a vertical plane: through its foot, in direction (sine, -cosine) along (tangent, normal).
+// Horizontal projection of a ray: passes its foot in direction (sine, -cosine) along (tangent, normal).
 struct VerticalPlaneRay {
     std::int64_t r_q28 = 0;  // horizontal length of the pixel's direction
     std::int64_t cosine_q30 = 0;
     std::int64_t sine_q30 = 0;
-    std::int64_t p_q20 = 0;
+    std::int64_t p_q20 = 0;  // signed distance of the ray from the axis
 };
 
 VerticalPlaneRay vertical_plane_ray(const PlanePoint& point) {
@@ -29,12 +29,12 @@ VerticalPlaneRay vertical_plane_ray(const PlanePoint& point) {
 }
 
 struct Bracket {
-    int gap = -1;  // none: the ray lies in no gap that has lines
+    int gap = -1;  // -1: the ray lies in no gap that has lines
     std::int64_t from_first_q20 = 0;
     std::int64_t width_q20 = 0;  // above 0
 };
 
-// Where the parallel ray from view n of the ring crosses the plane (equation 1).
+// Position on the plane of the parallel ray from view n of the ring (equation 1).
 std::int64_t crossing_q20(const Ring& ring, int n, const PlanePoint& point) {
     const NormalLine& line =
         ring.shape.normal_lines[static_cast<std::size_t>(n) * static_cast<std::size_t>(ring.planes) +
@@ -42,7 +42,8 @@ std::int64_t crossing_q20(const Ring& ring, int n, const PlanePoint& point) {
     return line.a_q20 + ((point.u_q28 * line.c_q20) >> 28);
 }
 
-// The gap whose two captured lines the ray lies between, searched from the map's answer `hint` (a place in the ring).
+// Finds the gap whose two captured rays bracket the view ray. `hint`: index in the ring of the RS map's view, where the
+// search starts.
 Bracket find_bracket(const Ring& ring, int hint, const PlanePoint& point) {
     const int count = static_cast<int>(ring.views.size());
     int gap = crossing_q20(ring, hint, point) <= point.x_q20 ? hint : (hint + count - 1) % count;
@@ -61,27 +62,29 @@ Bracket find_bracket(const Ring& ring, int hint, const PlanePoint& point) {
     return {};
 }
 
-// Two neighbouring samples and a place between them, in eighths.
-struct Between {
+// Position between two neighbouring samples, in eighths.
+struct InterpolationPosition {
     std::int64_t first = 0;  // the second is first + 1
     std::int32_t part = 0;
 };
 
-// `at_q8`: in samples; sample n lies at n + 1/2.
-Between between_samples(std::int64_t at_q8) {
+// `at_q8`: position in samples; sample n is located at n + 1/2.
+InterpolationPosition between_samples(std::int64_t at_q8) {
     const std::int64_t from_middle_q8 = at_q8 - 128;
     return {from_middle_q8 >> 8, static_cast<std::int32_t>((from_middle_q8 >> 5) & 7)};
 }
 
-// Beyond the first and the last line of a gap come those of the gaps beside it, where they have any.
+// Cell columns around the ray. The neighbours of the first and the last line of a gap are in the adjacent gaps, if
+// these have lines.
 CellColumns cells_around(const ShapeMap& shape, const Bracket& bracket, std::int64_t p_q20) {
     const std::size_t gaps = shape.gaps.size();
     const auto n = static_cast<std::size_t>(bracket.gap);
     const ShapeGap& gap = shape.gaps[n];
     const ShapeGap& before = shape.gaps[(n + gaps - 1) % gaps];
     const ShapeGap& after = shape.gaps[(n + 1) % gaps];
-    const Between p = between_samples(((p_q20 + shape.p_half_q20) * shape.p_cells_per_unit_q12) >> 24);
-    const Between line = between_samples(bracket.from_first_q20 * (std::int64_t{256} * gap.lines) / bracket.width_q20);
+    const InterpolationPosition p = between_samples(((p_q20 + shape.p_half_q20) * shape.p_cells_per_unit_q12) >> 24);
+    const InterpolationPosition line =
+        between_samples(bracket.from_first_q20 * (std::int64_t{256} * gap.lines) / bracket.width_q20);
     CellColumns columns;
     columns.p_part = p.part;
     columns.line_part = line.part;
@@ -97,6 +100,7 @@ CellColumns cells_around(const ShapeMap& shape, const Bracket& bracket, std::int
     return columns;
 }
 
+// Coefficients of the projection into view n of the ring.
 ShapeImage along_ray(const RaySpaceObject& object, const Ring& ring, int n, int plane, const VerticalPlaneRay& ray,
                      std::int64_t depth_low_q20, std::int64_t depth_step_q24) {
     const int view = ring.views[static_cast<std::size_t>(n)];
@@ -116,7 +120,7 @@ ShapeImage along_ray(const RaySpaceObject& object, const Ring& ring, int n, int 
     image.l1_q24 = static_cast<std::int32_t>((depth_step_q24 * l_along_q30) >> 30);
     image.n0_q12 = static_cast<std::int32_t>((n_foot_q16 + ((depth_low_q20 * n_along_q16) >> 20)) >> 4);
     image.n1_q12 =
-        static_cast<std::int32_t>(std::clamp((depth_step_q24 * n_along_q16) >> 28, -kMostPerStep, kMostPerStep));
+        static_cast<std::int32_t>(std::clamp((depth_step_q24 * n_along_q16) >> 28, -kMaxPerStep, kMaxPerStep));
     return image;
 }
 
@@ -135,7 +139,7 @@ ShapeSetup set_up_shape(const RaySpaceObject& object, const ViewRegisters& regis
     const PlaneRegisters& plane = registers.planes[static_cast<std::size_t>(point.plane)];
     const std::int64_t to_foot_q20 = (plane.c_q20 * ray.cosine_q30 - plane.a_q20 * ray.sine_q30) >> 30;
     const std::int64_t lambda_foot_q20 = floor_divide(to_foot_q20 * (std::int64_t{1} << 28), ray.r_q28);
-    if (lambda_foot_q20 <= -kFarthestView_q20 || lambda_foot_q20 >= kFarthestView_q20) return {};
+    if (lambda_foot_q20 <= -kMaxFootDepth_q20 || lambda_foot_q20 >= kMaxFootDepth_q20) return {};
 
     ShapeSetup setup;
     setup.has_ray = true;

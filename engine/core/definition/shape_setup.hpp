@@ -1,7 +1,7 @@
 #pragma once
-// Section 5 of engine/RECONSTRUCTION.md: a view ray of an object with a shape map is bracketed by two captured rays,
-// and everything along it becomes linear in the cell's depth d. One piece of code, shared by the scalar definition and
-// the fast core; in an upright view one set-up serves a whole column.
+// Section 5 of engine/RECONSTRUCTION.md: brackets a view ray of an object with a shape map by two captured rays and
+// computes the coefficients of everything that is linear in the cell's depth d. Shared by the scalar definition and the
+// fast core; in an upright view one set-up serves a whole column.
 
 #include "engine/core/definition/shape_cells.hpp"
 #include "engine/core/definition/view_registers.hpp"
@@ -11,8 +11,8 @@
 
 namespace rs::engine {
 
-// A captured image along the view ray. At depth d_q3, eighths of a step: axial depth l = l0 + (d_q3 * l1 >> 7),
-// lateral offset times focal length n = n0 + (d_q3 * n1 >> 3).
+// Projection of the view ray into a captured image. At depth d_q3, eighths of a step: axial depth
+// l = l0 + (d_q3 * l1 >> 7), lateral offset times focal length n = n0 + (d_q3 * n1 >> 3).
 struct ShapeImage {
     std::int32_t view = -1;
     std::int32_t l0_q20 = 0;
@@ -26,10 +26,10 @@ struct ShapeSetup {
     ShapeImage first;
     ShapeImage second;
     std::int32_t weight = 0;           // of the second image, 0..256
-    CellColumns cells;                 // without columns there is no shape, and d = 0 is the foot
-    std::int32_t foot_depth_q3 = 0;    // the depth of the foot
-    std::int32_t lambda_foot_q20 = 0;  // axial depth in the view
-    std::int32_t lambda0_q20 = 0;      // at depth d_q3: lambda0 + (d_q3 * lambda1 >> 4)
+    CellColumns cells;                 // null columns: no shape, and d = 0 is the foot
+    std::int32_t foot_depth_q3 = 0;    // depth of the foot
+    std::int32_t lambda_foot_q20 = 0;  // axial depth of the foot in the view
+    std::int32_t lambda0_q20 = 0;      // axial depth at depth d_q3: lambda0 + (d_q3 * lambda1 >> 4)
     std::int32_t lambda1_q21 = 0;
     std::int32_t inverse_r_q20 = 0;    // 1 / horizontal length of the ray's direction
     std::int32_t inverse_rho_q20 = 0;  // 1 / distance from the reference viewpoint to the foot
@@ -37,8 +37,8 @@ struct ShapeSetup {
     [[nodiscard]] bool has_shape() const { return cells.at[0][0] != nullptr; }
 };
 
-// `registers` was prepared for `object`, whose ring has a shape map; 0 <= i < width, 0 <= j < height. In an upright
-// view the result is the same for every j.
+/// Computes the set-up of pixel (i, j); `registers` was prepared for `object`, whose ring has a shape map;
+/// 0 <= i < width, 0 <= j < height. In an upright view the result is the same for every j.
 ShapeSetup set_up_shape(const RaySpaceObject& object, const ViewRegisters& registers, int i, int j);
 
 }  // namespace rs::engine

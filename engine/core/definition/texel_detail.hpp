@@ -1,10 +1,10 @@
 #pragma once
-// Section 7 of engine/RECONSTRUCTION.md: the detail of stored pixels, which the sharp filter adds to bilinear samples
-// and the smooth filter subtracts.
+// Section 7 of engine/RECONSTRUCTION.md: detail of stored pixels, which the sharp filter adds to bilinear samples and
+// the smooth filter subtracts.
 //
 // With f the fraction of a texel between two pixels, cubic interpolation is linear interpolation minus f (1 - f) / 2
 // times the interpolated second differences (Keys 1981, a = -1/2). The detail of a pixel is its negated second
-// difference, horizontal and vertical together, of luma alone, and 5/4 as strong, since blending two photos blurs, too.
+// difference, horizontal plus vertical, of luma only, times 5/4, because blending two photos blurs, too.
 // Subtracting 2/5 of it is a low-pass filter: weights 1/2 and four times 1/8.
 
 #include "engine/core/definition/view_registers.hpp"

@@ -11,12 +11,11 @@
 namespace rs::engine {
 namespace {
 
-constexpr double kFarthest = 200;  // object radii; farther viewpoints are brought here
-// Bound of N, T, S: so far below 8 that rounding over a whole view does not reach it, and N^2 + T^2 stays within 63
-// bits.
+constexpr double kMaxViewpointDistance = 200;  // object radii; farther viewpoints are moved to it
+// Bound of N, T, S. The margin to 8 covers the rounding over a whole view, and N^2 + T^2 stays within 63 bits.
 constexpr double kLargestDirection = 8 - 1.0 / 1024;
 constexpr double kLargestRowStep = 2;  // bound of sy
-// Views of at least this magnification are sharpened; of at most that one, smoothed.
+// Views of at least kSharpFrom times the scale of the captured images are sharpened, of at most kSmoothUpTo smoothed.
 constexpr double kSharpFrom = 0.95;
 constexpr double kSmoothUpTo = 0.75;
 
@@ -28,13 +27,13 @@ Error view_error(const std::string& what) {
     return Error{"view: " + what};
 }
 
-// Brings a distant camera to kFarthest on the line to the origin. A point near the origin keeps its pixel: the focal
-// length shrinks with the distance, and the principal point moves so that the origin stays where it was.
-Camera brought_near(Camera camera) {
+// Moves a distant camera to kMaxViewpointDistance on the line to the origin. Points near the origin keep their pixels:
+// the focal length is scaled with the distance, and the principal point is moved so that the origin keeps its pixel.
+Camera limit_viewpoint_distance(Camera camera) {
     const glm::dvec3 centre = camera.centre();
     const double distance = glm::length(centre);
-    if (distance <= kFarthest) return camera;
-    const double scale = kFarthest / distance;
+    if (distance <= kMaxViewpointDistance) return camera;
+    const double scale = kMaxViewpointDistance / distance;
     const double depth = -glm::dot(centre, camera.forward());
     if (depth > 0) {
         camera.cx += camera.fl_x * (1 - scale) * -glm::dot(centre, camera.right()) / depth;
@@ -46,7 +45,7 @@ Camera brought_near(Camera camera) {
     return camera;
 }
 
-// direction . axis over the pixels of the camera, as a linear form. Empty where it leaves the range at a corner.
+// Linear form of direction . axis over the pixels of the camera; empty if it is out of range at a corner.
 std::optional<LinearForm> form_along(const Camera& camera, const glm::dvec3& axis) {
     const glm::dvec3 origin = camera.ray(0.5, 0.5);
     const glm::dvec3 per_column = camera.right() / camera.fl_x;
@@ -65,8 +64,8 @@ std::optional<LinearForm> form_along(const Camera& camera, const glm::dvec3& axi
                       fixed(glm::dot(per_row, axis), 32)};
 }
 
-// The same bounds for numbers that are there already.
-bool in_range(const LinearForm& form, int width, int height) {
+// The same bounds for a given form.
+bool is_in_range(const LinearForm& form, int width, int height) {
     const auto largest = static_cast<std::int64_t>(std::ldexp(kLargestDirection, 32)) + (std::int64_t{1} << 14);
     const auto fits = [&](std::int64_t value) { return value > -largest && value < largest; };
     if (!fits(form.at_origin) || !fits(form.per_column) || !fits(form.per_row)) return false;
@@ -86,7 +85,7 @@ int nearest_ring(const RaySpaceObject& object, const glm::dvec3& viewpoint) {
     return static_cast<int>(best - object.rings.begin());
 }
 
-// The view's pixels per object radius at the axis, relative to the captured images'.
+// Pixels per object radius at the axis in the view, relative to the captured images.
 double magnification(const RaySpaceObject& object, const Ring& ring, const Camera& camera) {
     const CapturedView& captured = object.views[ring.views.front()];
     const double distance = std::ldexp(std::hypot(captured.lines.front().l0_q20, captured.height_q20), -20);
@@ -110,7 +109,7 @@ bool ViewRegisters::upright() const {
 
 glm::dvec3 prepared_viewpoint(const RaySpaceObject& object, const Camera& camera) {
     const glm::dvec3 centre = camera.centre() / object.units_per_radius;
-    return centre * std::min(1.0, kFarthest / glm::length(centre));
+    return centre * std::min(1.0, kMaxViewpointDistance / glm::length(centre));
 }
 
 Status check_registers(const RaySpaceObject& object, const ViewRegisters& r) {
@@ -119,27 +118,28 @@ Status check_registers(const RaySpaceObject& object, const ViewRegisters& r) {
                           " is outside 1.." + std::to_string(kMaxImageSide_px) + " pixels");
     }
     if (r.ring < 0 || static_cast<std::size_t>(r.ring) >= object.rings.size()) {
-        return view_error("it is of ring " + std::to_string(r.ring) + ", and the object has " +
-                          std::to_string(object.rings.size()));
+        return view_error("ring " + std::to_string(r.ring) + " does not exist; the object has " +
+                          std::to_string(object.rings.size()) + " rings");
     }
     if (static_cast<int>(r.filter) > static_cast<int>(TexelFilter::kSmooth)) {
-        return view_error("its filter is none of bilinear (0), sharp (1) and smooth (2)");
+        return view_error("its filter is unknown; use 0 (bilinear), 1 (sharp) or 2 (smooth)");
     }
     const auto planes = static_cast<std::size_t>(object.rings[static_cast<std::size_t>(r.ring)].planes);
     if (r.planes.size() != planes) {
-        return view_error("it has registers for " + std::to_string(r.planes.size()) + " planes, and the ring has " +
+        return view_error("it has registers for " + std::to_string(r.planes.size()) + " planes; the ring has " +
                           std::to_string(planes));
     }
     const auto place_fits = [](std::int32_t q20) { return q20 > -(1 << 28) && q20 < (1 << 28); };
     if (!place_fits(r.b_q20)) return view_error("register b is out of range");
-    if (!in_range(r.rise, r.width, r.height) ||
+    if (!is_in_range(r.rise, r.width, r.height) ||
         std::abs(r.rise.per_row) >= static_cast<std::int64_t>(std::ldexp(kLargestRowStep, 32))) {
         return view_error("registers s0, sx, sy are out of range");
     }
     for (std::size_t k = 0; k < planes; ++k) {
         const PlaneRegisters& plane = r.planes[k];
-        if (!place_fits(plane.a_q20) || !place_fits(plane.c_q20) || !in_range(plane.along_normal, r.width, r.height) ||
-            !in_range(plane.along_tangent, r.width, r.height)) {
+        if (!place_fits(plane.a_q20) || !place_fits(plane.c_q20) ||
+            !is_in_range(plane.along_normal, r.width, r.height) ||
+            !is_in_range(plane.along_tangent, r.width, r.height)) {
             return view_error("a register of plane " + std::to_string(k) + " is out of range");
         }
     }
@@ -148,23 +148,23 @@ Status check_registers(const RaySpaceObject& object, const ViewRegisters& r) {
 
 Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& camera_in_rig,
                                    std::optional<TexelFilter> filter) {
-    if (object.rings.empty()) return view_error("the object holds no ring of views");
+    if (object.rings.empty()) return view_error("the object has no ring of views");
     if (camera_in_rig.width < 1 || camera_in_rig.height < 1 || camera_in_rig.width > kMaxImageSide_px ||
         camera_in_rig.height > kMaxImageSide_px) {
         return view_error("its size of " + std::to_string(camera_in_rig.width) + "x" +
                           std::to_string(camera_in_rig.height) + " is outside 1.." + std::to_string(kMaxImageSide_px) +
                           " pixels");
     }
-    if (!(camera_in_rig.fl_x > 0) || !(camera_in_rig.fl_y > 0)) return view_error("its focal length is not above 0");
+    if (!(camera_in_rig.fl_x > 0) || !(camera_in_rig.fl_y > 0)) return view_error("its focal length must be above 0");
     if (!(rotation_error(camera_in_rig) < 1e-3))
         return view_error("its camera matrix is not a rotation and a position");
 
     Camera camera = camera_in_rig;
     camera.world_from_camera[3] = glm::dvec4(camera.centre() / object.units_per_radius, 1);
     if (!std::isfinite(glm::length(camera.centre())) || !std::isfinite(camera.cx) || !std::isfinite(camera.cy)) {
-        return view_error("its camera has numbers that are not finite");
+        return view_error("its camera has parameters that are not finite");
     }
-    camera = brought_near(camera);
+    camera = limit_viewpoint_distance(camera);
 
     ViewRegisters registers;
     registers.width = camera.width;
@@ -176,10 +176,8 @@ Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& c
 
     const std::string too_wide =
         camera.fl_x < camera_in_rig.fl_x
-            ? "it is so far from the object that the object is but a few pixels of so wide an image; narrow the field "
-              "of view"
-            : "its field of view is too wide (a ray is more than 8 times as far from the viewing axis as it is deep); "
-              "use a "
+            ? "the object covers only a few pixels at this distance and field of view; narrow the field of view"
+            : "its field of view is too wide (a ray deviates from the viewing axis by a tangent of more than 8); use a "
               "longer focal length";
     const auto rise = form_along(camera, {0, 1, 0});
     if (!rise || std::abs(camera.up().y / camera.fl_y) >= kLargestRowStep) return view_error(too_wide);

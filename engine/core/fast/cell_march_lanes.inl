@@ -1,4 +1,4 @@
-// CellMarch on vectors, a row of the column per lane. No include guard: shown_surface_lanes.inl, which
+// SIMD implementation of CellMarch, one row of the column per lane. No include guard: blend_surface_lanes.inl, which
 // shape_walk.cpp includes, includes it once for each SIMD target.
 
 #include "engine/core/definition/cell_march.hpp"
@@ -17,7 +17,7 @@ HWY_INLINE LaneMask within(Vector v, std::int32_t limit) {
     return hn::RebindMask(Lanes(), hn::Lt(hn::BitCast(bits, v), hn::BitCast(bits, number(limit))));
 }
 
-// A surface is a number: its depth_q3 below its lean (surface_column.hpp); -1: there is none.
+// A surface is packed into 32 bits: depth_q3 in the lower kDepthBits, lean above (surface_column.hpp); -1: no surface.
 HWY_INLINE LaneMask is_surface(Vector surface) {
     return hn::Gt(surface, number(-1));
 }
@@ -30,7 +30,7 @@ HWY_INLINE Vector shown_by_both(Vector depth_q3) {
     return hn::Or(depth_q3, number(kBothShow << kDepthBits));
 }
 
-// CellMarch for rows of one view column. Lanes march each at its own step until each has a surface.
+// CellMarch for rows of one view column. Each lane has its own step size and marches until it has a surface.
 class MarchLanes {
 public:
     MarchLanes() = default;
@@ -45,7 +45,7 @@ public:
         using By12 = std::integral_constant<int, 12>;
         using By16 = std::integral_constant<int, 16>;
         const Vector per_unit = number(walk.bands_per_unit_q12);
-        // Counted from the middle of the first entry's band.
+        // Relative to the centre of the first entry's band.
         foot_ = hn::Sub(shifted(By16(), hn::Sub(h, number(walk.h_low_q16)), per_unit), number(column.first_middle_q12));
         const Vector slope = multiply_shift_within<24>(number(column.inverse_r_q20), rise);
         const Vector reference =
@@ -59,11 +59,11 @@ public:
         if (!column.level) begin_march();
     }
 
-    // Surfaces of the lanes `looking`; others get any.
-    HWY_INLINE Vector next(LaneMask looking) {
+    // Next surfaces of the lanes `active`; the results of other lanes are undefined.
+    HWY_INLINE Vector next(LaneMask active) {
         Vector found = number(-1);
         const Vector beyond = number(column_->beyond);
-        LaneMask marching = hn::And(looking, hn::Lt(begin_, beyond));
+        LaneMask marching = hn::And(active, hn::Lt(begin_, beyond));
         while (!hn::AllFalse(Lanes(), marching)) {
             const Vector begin = begin_;
             const Vector end = hn::Add(begin, step_);
@@ -84,7 +84,7 @@ public:
                 marching = hn::And(marching, hn::Lt(end, beyond));
             }
         }
-        const LaneMask last = hn::And(looking, hn::AndNot(ended_, hn::Not(is_surface(found))));
+        const LaneMask last = hn::And(active, hn::AndNot(ended_, hn::Not(is_surface(found))));
         if (hn::AllFalse(Lanes(), last)) return found;
         ended_ = hn::Or(ended_, last);
         Surfaces of_last = surfaces_at(foot_, last);
@@ -102,13 +102,13 @@ public:
         return hn::IfThenElse(last, of_last.first, found);
     }
 
-    // Lanes that have no surface left, but perhaps some behind the last.
+    // Lanes whose march has ended; behind() and farthest() may still be surfaces.
     [[nodiscard]] HWY_INLINE LaneMask ended() const { return ended_; }
 
-    // What lies behind the last surface of lanes that have ended; none of all others.
+    // Surfaces behind the last one of lanes that have ended; -1 in all other lanes.
     [[nodiscard]] HWY_INLINE Vector behind() const { return behind_; }
 
-    // The farthest of the cells beside the last surface of lanes that have ended.
+    // SurfaceStack::farthest at the last surface of lanes that have ended.
     [[nodiscard]] HWY_INLINE Vector farthest() const {
         const Vector deepest = look_up(column_->deepest, entry_at(last_at_));
         return hn::IfThenElse(is_surface(deepest), shown_by_both(hn::ShiftLeft<3>(deepest)), number(-1));
@@ -117,12 +117,12 @@ public:
 private:
     HWY_INLINE void begin_march() {
         per_depth_ =
-            hn::Min(hn::Max(per_depth_, number(-CellMarch::kMostPerDepth_q20)), number(CellMarch::kMostPerDepth_q20));
+            hn::Min(hn::Max(per_depth_, number(-CellMarch::kMaxPerDepth_q20)), number(CellMarch::kMaxPerDepth_q20));
         const Vector steps =
-            hn::Min(hn::Add(hn::ShiftRight<11>(hn::Abs(per_depth_)), number(1)), number(CellMarch::kMostSteps));
+            hn::Min(hn::Add(hn::ShiftRight<11>(hn::Abs(per_depth_)), number(1)), number(CellMarch::kMaxSteps));
         const LaneMask one = hn::Eq(steps, number(1));
         if (hn::AllTrue(Lanes(), one)) return;
-        // Whole numbers by float division: the halves keep the quotients clear of them.
+        // Exact integer division in float: the added half keeps quotients away from integers.
         const Floats floats;
         step_ = hn::ConvertTo(Lanes(), hn::Div(hn::Set(floats, 256.5F), hn::ConvertTo(floats, steps)));
         // A ray that stays above or below all bands meets nothing.
@@ -130,25 +130,26 @@ private:
         const Vector to = band(hn::Add(number(column_->beyond), step_));
         const LaneMask below = hn::Lt(hn::Max(from, to), hn::Zero(Lanes()));
         const LaneMask beside = hn::Or(below, at_least(hn::Min(from, to), number(column_->last_entry << 12)));
-        // Steps before the one that reaches the nearest surface, the one with (nearest - 1) / step before it, can meet
-        // none. A step is 256 / steps at most.
+        // Skips the steps before the one that reaches the nearest surface, (nearest - 1) / step of them: they meet no
+        // surface. A step is at most 256 / steps.
         const Vector skipped = hn::ShiftRight<8>(hn::Mul(steps, number(std::max(column_->nearest - 1, 0))));
         begin_ = hn::IfThenElse(hn::Or(one, beside), number(256), hn::Mul(skipped, step_));
     }
 
     HWY_INLINE Vector band(Vector d) const { return hn::Add(zero_, hn::ShiftRight<8>(hn::Mul(d, per_depth_))); }
 
-    // Index of a place's entry: the first or the last one for those beyond, which hold no surface.
+    // Index of the entry at a band coordinate. Coordinates beyond the ends get the first or the last entry, which hold
+    // no surface.
     HWY_INLINE Vector entry_at(Vector at_q12) const {
         return hn::Min(hn::Max(hn::ShiftRight<12>(at_q12), hn::Zero(Lanes())), number(column_->last_entry));
     }
 
-    // Of entries' `smooth`.
-    static HWY_INLINE LaneMask says(Vector smooth, std::int32_t bit) {
+    // Tests a flag of SurfaceEntries::smooth.
+    static HWY_INLINE LaneMask has_flag(Vector smooth, std::int32_t bit) {
         return hn::Ne(hn::And(smooth, number(bit)), hn::Zero(Lanes()));
     }
 
-    struct Surfaces {  // of a SurfaceStack
+    struct Surfaces {  // members of SurfaceStack
         Vector first;
         Vector behind;
     };
@@ -159,8 +160,8 @@ private:
         const Vector low = hn::And(smooth, number((1 << kLowBits) - 1));
         const Vector sum = hn::Add(hn::ShiftLeft<3>(low), hn::Mul(h_part, hn::ShiftRight<16>(smooth)));
         const Vector depth = hn::ShiftRight<6>(hn::Add(sum, number(32)));
-        const Vector known = hn::IfThenElse(says(smooth, kSurfaceNothing), number(-1), shown_by_both(depth));
-        const LaneMask steps = says(smooth, kSurfaceSteps);
+        const Vector known = hn::IfThenElse(has_flag(smooth, kSurfaceNothing), number(-1), shown_by_both(depth));
+        const LaneMask steps = has_flag(smooth, kSurfaceSteps);
         if (hn::AllFalse(Lanes(), hn::And(steps, requested))) return {known, number(-1)};
         const Vector both = hn::GatherIndex(Lanes(), column_->steps, hn::IfThenElseZero(steps, sum));
         const hn::RebindToUnsigned<Lanes> bits;
@@ -180,7 +181,7 @@ private:
     Vector zero_;
     Vector per_depth_;
     Vector behind_;
-    Vector last_at_;  // where the last surface is noted
+    Vector last_at_;  // band coordinate of the last surface
     LaneMask ended_;
 };
 

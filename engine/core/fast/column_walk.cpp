@@ -12,8 +12,8 @@ HWY_BEFORE_NAMESPACE();
 namespace rs::engine::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// View rows [j, last) of a whole strip, row j to `out`. Masked: lanes outside of their begin..end read texel 0, which
-// is transparent.
+// Renders view rows [j, last) of a whole strip; row j goes to `out`. If kMasked, lanes outside of their begin..end read
+// texel 0, which is transparent.
 template <bool kMasked>
 void walk_rows(const ColumnStrip& strip, const std::int32_t* texels, std::int32_t j, std::int32_t last,
                std::int32_t* out, std::ptrdiff_t stride) {
@@ -77,7 +77,7 @@ void walk_columns(const ColumnStrip& strip, const Rgba8* texels, int row_begin, 
         (strip, source, row_begin, row_end, reinterpret_cast<std::int32_t*>(out), stride);
         return;
     }
-    // The view's right edge: a whole strip into a buffer, a few rows at a time.
+    // Right edge of the view: renders a whole strip into a buffer, a few rows at a time, and copies the columns.
     constexpr int kRows = 64;
     alignas(64) std::int32_t buffer[kRows * kStripColumns];
     for (int first = row_begin; first < row_end; first += kRows) {

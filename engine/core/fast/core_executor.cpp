@@ -4,26 +4,26 @@
 
 namespace rs::engine {
 
-int CoreExecutor::hold(std::shared_ptr<const Renderer> renderer) {
-    held_.emplace(next_slot_, std::move(renderer));
+int CoreExecutor::add(std::shared_ptr<const Renderer> renderer) {
+    renderers_.emplace(next_slot_, std::move(renderer));
     return next_slot_++;
 }
 
 Result<std::optional<int>> CoreExecutor::load(const RaySpaceObject& object) {
     RS_ASSIGN_OR_RETURN(Renderer renderer, Renderer::create(object));
-    return std::optional<int>(hold(std::make_shared<const Renderer>(std::move(renderer))));
+    return std::optional<int>(add(std::make_shared<const Renderer>(std::move(renderer))));
 }
 
 Status CoreExecutor::evict(int slot) {
-    held_.erase(slot);
+    renderers_.erase(slot);
     return {};
 }
 
 Result<std::vector<ExecutedView>> CoreExecutor::render(const std::vector<SlotView>& views) {
     std::vector<ExecutedView> drawn;
     for (const auto& [slot, registers, depth] : views) {
-        const auto found = held_.find(slot);
-        if (found == held_.end()) return no_object_in(slot);
+        const auto found = renderers_.find(slot);
+        if (found == renderers_.end()) return no_object_in(slot);
         ExecutedView& view = drawn.emplace_back();
         view.image = Image<Rgba8>(registers.width, registers.height);
         if (depth) view.depth_q20 = Image<std::int32_t>(registers.width, registers.height);

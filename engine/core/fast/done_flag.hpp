@@ -1,5 +1,5 @@
 #pragma once
-// Work that is done once, by whoever needs it first, and can be taken back: std::call_once with a way to forget.
+// std::call_once with a reset.
 
 #include <atomic>
 #include <cstdint>
@@ -10,9 +10,9 @@ class DoneFlag {
 public:
     [[nodiscard]] bool done() const { return state_.load(std::memory_order_acquire) == kDone; }
 
-    // Returns after work() was done, here or in another thread, which is waited for. What work() wrote is seen then.
-    // Where work() throws, it is not done: who called it gets the exception, and one of those who wait tries it.
-    // Work may ensure other flags, in an order without cycles.
+    /// Calls work() unless it has completed; waits if another thread is executing it. The writes of work() are visible
+    /// on return. If work() throws, the exception is propagated to its caller and one of the waiting threads retries.
+    /// work() may call ensure() of other flags, in an order without cycles.
     template <class Work>
     void ensure(const Work& work) {
         std::uint8_t seen = state_.load(std::memory_order_acquire);
@@ -32,7 +32,7 @@ public:
         }
     }
 
-    // While no other thread uses the flag.
+    /// Requires that no other thread uses the flag.
     void reset() { state_.store(kNotDone, std::memory_order_relaxed); }
 
 private:

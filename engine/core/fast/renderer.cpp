@@ -30,11 +30,10 @@ constexpr std::int64_t ceil_divide(std::int64_t dividend, std::int64_t divisor) 
     return quotient * divisor < dividend ? quotient + 1 : quotient;
 }
 
-// The view rows j of [0, height) for which ray.row(j) lies in [span.begin, span.end): one interval, since rows are
-// linear.
+// View rows j of [0, height) for which ray.row(j) is in [span.begin, span.end): one interval, since ray.row is linear.
 ViewRows rows_within(const RaySetup& ray, RowSpan span, int height) {
-    const std::int64_t low = std::int64_t{span.begin} << 16;  // first row value inside
-    const std::int64_t high = std::int64_t{span.end} << 16;   // first row value beyond
+    const std::int64_t low = std::int64_t{span.begin} << 16;  // first row inside the span
+    const std::int64_t high = std::int64_t{span.end} << 16;   // first row after the span
     std::int64_t begin = 0;
     std::int64_t end = 0;
     if (ray.row_step_q16 > 0) {
@@ -78,15 +77,15 @@ ColumnStrip set_up_strip(const RaySpaceObject& object, const TexelStore& texels,
         strip.first_used = std::min(strip.first_used, rows.begin);
         strip.last_used = std::max(strip.last_used, rows.end);
     }
-    if (columns < kStripColumns) strip.last_full = 0;  // the lanes that are missing show nothing
+    if (columns < kStripColumns) strip.last_full = 0;  // unused lanes are transparent
     return strip;
 }
 
-int strips_of(const ViewRegisters& registers) {
+int strip_count(const ViewRegisters& registers) {
     return (registers.width + kStripColumns - 1) / kStripColumns;
 }
 
-// pixel(i, j) of every pixel of the view, row by row.
+// Writes pixel(i, j) for every pixel of the view.
 template <class Pixel>
 void render_pixels(const Pixel& pixel, ImageView<Rgba8> out, ImageView<std::int32_t> lambda) {
     for_each_index(out.height(), [&](int j) {
@@ -101,30 +100,31 @@ void render_pixels(const Pixel& pixel, ImageView<Rgba8> out, ImageView<std::int3
 }  // namespace
 
 Status substitute_missing_images(RaySpaceObject& object) {
-    const bool coded = shows_coded_images(object);
+    const bool coded = has_only_coded_images(object);
     const auto is_loaded = [&](std::uint16_t view) {
         return coded ? object.coded->images[view].loaded() : !object.images[view].empty();
     };
     for (Ring& ring : object.rings) {
         const int count = static_cast<int>(ring.views.size());
         const auto loaded = [&](int n) { return is_loaded(ring.views[static_cast<std::size_t>(n)]); };
-        std::vector<std::uint16_t> stand_in(object.views.size(), kNoImage);
+        std::vector<std::uint16_t> substitute(object.views.size(), kNoImage);
         for (int n = 0; n < count; ++n) {
-            for (int away = 0; away <= count / 2 && stand_in[ring.views[static_cast<std::size_t>(n)]] == kNoImage;
+            for (int away = 0; away <= count / 2 && substitute[ring.views[static_cast<std::size_t>(n)]] == kNoImage;
                  ++away) {
                 for (const int candidate : {(n - away + count) % count, (n + away) % count}) {
                     if (!loaded(candidate)) continue;
-                    stand_in[ring.views[static_cast<std::size_t>(n)]] = ring.views[static_cast<std::size_t>(candidate)];
+                    substitute[ring.views[static_cast<std::size_t>(n)]] =
+                        ring.views[static_cast<std::size_t>(candidate)];
                     break;
                 }
             }
-            if (stand_in[ring.views[static_cast<std::size_t>(n)]] == kNoImage) {
+            if (substitute[ring.views[static_cast<std::size_t>(n)]] == kNoImage) {
                 return Error{object.name + ": a ring has no image loaded; read the object at a higher level"};
             }
         }
         if (!std::all_of(ring.views.begin(), ring.views.end(), is_loaded)) ring.shape = {};
         for (std::uint16_t& cell : ring.cells) {
-            if (cell != kNoImage) cell = stand_in[cell];
+            if (cell != kNoImage) cell = substitute[cell];
         }
     }
     return {};
@@ -141,7 +141,7 @@ Result<Renderer> Renderer::create(RaySpaceObject object, const RendererOptions& 
 }
 
 std::int64_t Renderer::memory_bytes() const {
-    return memory_of(object_) + texels_.memory_bytes();
+    return object_memory_bytes(object_) + texels_.memory_bytes();
 }
 
 void Renderer::render(const ViewRegisters& registers, ImageView<Rgba8> out, ImageView<std::int32_t> lambda_q20) const {
@@ -162,9 +162,9 @@ void Renderer::render(const ViewRegisters& registers, ImageView<Rgba8> out, Imag
 
 void Renderer::render_upright(const ViewRegisters& registers, ImageView<Rgba8> out,
                               ImageView<std::int32_t> lambda) const {
-    const int strips = strips_of(registers);
+    const int strips = strip_count(registers);
     std::vector<ColumnStrip> strip(static_cast<std::size_t>(strips));
-    const int grain = texels_.is_coded() ? 1 : 8;  // decoding is worth a task of its own
+    const int grain = texels_.is_coded() ? 1 : 8;  // decoding is slow enough for one task per strip
     for_each_range(strips, grain, [&](int begin, int end) {
         for (int s = begin; s < end; ++s) {
             strip[static_cast<std::size_t>(s)] = set_up_strip(object_, texels_, registers, s * kStripColumns);
@@ -181,11 +181,11 @@ void Renderer::render_upright(const ViewRegisters& registers, ImageView<Rgba8> o
         }
     });
     if (lambda.empty()) return;
-    std::vector<std::int32_t> of_column;
-    for (int i = 0; i < registers.width; ++i) of_column.push_back(set_up_ray(object_, registers, i, 0).lambda_q20);
+    std::vector<std::int32_t> column_lambda;
+    for (int i = 0; i < registers.width; ++i) column_lambda.push_back(set_up_ray(object_, registers, i, 0).lambda_q20);
     for_each_index(registers.height, [&](int j) {
         for (int i = 0; i < registers.width; ++i) {
-            lambda(i, j) = out(i, j).a > 0 ? of_column[static_cast<std::size_t>(i)] : 0;
+            lambda(i, j) = out(i, j).a > 0 ? column_lambda[static_cast<std::size_t>(i)] : 0;
         }
     });
 }
@@ -212,7 +212,7 @@ void Renderer::render_shape_upright(const ViewRegisters& registers, ImageView<Rg
     }
     rise_q24.resize(rise_q24.size() + kBlockRows);
     tbb::enumerable_thread_specific<ShapeStrip> strip_of_thread;
-    for_each_range(strips_of(registers), 1, [&](int begin, int end) {
+    for_each_range(strip_count(registers), 1, [&](int begin, int end) {
         ShapeStrip& strip = strip_of_thread.local();
         for (int s = begin; s < end; ++s) {
             const int first = s * kStripColumns;

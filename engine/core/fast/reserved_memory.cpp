@@ -14,7 +14,7 @@ Result<ReservedMemory> ReservedMemory::create(std::size_t bytes, const std::stri
     void* const data =
         mmap(nullptr, memory.bytes_, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
     if (data == MAP_FAILED) {
-        return Error{name + ": the system does not reserve " + std::to_string(memory.bytes_ >> 20) +
+        return Error{name + ": cannot reserve " + std::to_string(memory.bytes_ >> 20) +
                      " MiB of addresses for its images; raise the limit (ulimit -v) or load a lower level"};
     }
     memory.data_ = static_cast<std::byte*>(data);

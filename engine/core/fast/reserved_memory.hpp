@@ -1,5 +1,5 @@
 #pragma once
-// A range of addresses whose pages cost nothing until they are written, and can be given back one by one.
+// Reserved range of virtual addresses. Pages are allocated when they are first written, and can be freed one by one.
 
 #include "rayspace/base/result.hpp"
 
@@ -11,7 +11,7 @@ namespace rs::engine {
 class ReservedMemory {
 public:
     ReservedMemory() = default;
-    // `bytes` zero bytes. Fails where the system does not give so many addresses; `name` begins the message.
+    /// Reserves `bytes` zero bytes. \return error, prefixed by `name`, if the system has not enough addresses
     static Result<ReservedMemory> create(std::size_t bytes, const std::string& name);
 
     ReservedMemory(ReservedMemory&& other) noexcept;
@@ -20,10 +20,10 @@ public:
 
     [[nodiscard]] std::byte* data() const { return data_; }
 
-    // Makes bytes [begin, begin + bytes) zero again and their pages free. Both are multiples of kPage.
+    /// Zeroes bytes [begin, begin + bytes) and frees their pages. Both are multiples of kPage.
     void release(std::size_t begin, std::size_t bytes) const;
 
-    // What sizes and places are rounded up to, to be released apart: a multiple of every usual page size.
+    // Granularity of release(): a multiple of every usual page size.
     static constexpr std::size_t kPage = std::size_t{1} << 16;
     static constexpr std::size_t whole_pages(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
 

@@ -15,8 +15,8 @@ std::size_t image_bytes(const CodedImages& coded) {
     return ReservedMemory::whole_pages(4 * plane_bytes(coded));
 }
 
-// What decoding needs to come to an end, and not to read what is not there.
-bool can_be_predicted(const CodedImages& coded, std::size_t view) {
+// True if all references are loaded and of a lower level, so that recursive decoding terminates.
+bool has_valid_references(const CodedImages& coded, std::size_t view) {
     const codec::CodedImage& image = coded.images[view];
     for (std::size_t r = 0; r < static_cast<std::size_t>(image.head.references()); ++r) {
         const std::size_t reference = image.head.reference[r];
@@ -26,10 +26,10 @@ bool can_be_predicted(const CodedImages& coded, std::size_t view) {
     return true;
 }
 
-// Sees to it that a tile's references are decoded before it reads them.
-class References final : public codec::ReferenceListener {
+// Decodes the reference tiles of a tile before they are read.
+class ReferenceDecoder final : public codec::ReferenceListener {
 public:
-    References(SampleStore& store, const codec::ImageHead& head) : store_(store), head_(head) {}
+    ReferenceDecoder(SampleStore& store, const codec::ImageHead& head) : store_(store), head_(head) {}
 
     void need(int reference, int left, int top, int right, int bottom) override {
         const CodedImages& coded = store_.coded();
@@ -56,7 +56,7 @@ Result<std::unique_ptr<SampleStore>> SampleStore::create(std::shared_ptr<const C
     for (std::size_t v = 0; v < coded->images.size(); ++v) {
         if (!coded->images[v].loaded()) continue;
         if (coded->images[v].tiles.size() != tiles || coded->levels.size() != coded->images.size() ||
-            !can_be_predicted(*coded, v)) {
+            !has_valid_references(*coded, v)) {
             return Error{name + ": image " + std::to_string(v) +
                          " is predicted from images that are not loaded, or has wrong tiles; read the object again"};
         }
@@ -102,10 +102,10 @@ void SampleStore::decode(int view, int tile) {
         references[r] = planes(head.reference[r]);
         mark_used(head.reference[r]);
     }
-    References listener(*this, head);
+    ReferenceDecoder listener(*this, head);
     codec::decode_tile(*coded_, static_cast<std::size_t>(view), static_cast<std::size_t>(tile), references, &listener,
                        writable_planes(view));
-    const codec::TilePlace place = codec::place_of_tile(*coded_, static_cast<std::size_t>(tile));
+    const codec::TileRect place = codec::tile_rect(*coded_, static_cast<std::size_t>(tile));
     images_[static_cast<std::size_t>(view)].bytes.fetch_add(std::int64_t{4} * place.width * place.height,
                                                             std::memory_order_relaxed);
 }

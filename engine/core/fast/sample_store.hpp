@@ -1,9 +1,8 @@
 #pragma once
-// The samples of coded images, decoded tile by tile when they are first needed, each tile with what it is predicted
-// from.
+// Samples of coded images. Tiles are decoded when they are first needed, after the tiles that they are predicted from.
 //
-// All images have a place in one range of addresses, of which only what was decoded takes memory: plane p (Y, U, V,
-// alpha) of image v begins at v * image_bytes + p * coded_width * coded_height.
+// All images share one reserved range of addresses, of which only decoded tiles take memory: plane p (Y, U, V, alpha)
+// of image v begins at v * image_bytes + p * coded_width * coded_height.
 
 #include "engine/core/fast/done_flag.hpp"
 #include "engine/core/fast/reserved_memory.hpp"
@@ -20,29 +19,30 @@ namespace rs::engine {
 
 class SampleStore {
 public:
-    // Fails where a loaded image is predicted from one that is not loaded or has no lower level, or where there are
-    // not so many addresses; `name` begins the message.
+    /// \return error, prefixed by `name`, if a loaded image is predicted from one that is not loaded or not of a lower
+    ///         level, or if the addresses cannot be reserved
     static Result<std::unique_ptr<SampleStore>> create(std::shared_ptr<const codec::CodedImages> coded,
                                                        const std::string& name);
 
     [[nodiscard]] const codec::CodedImages& coded() const { return *coded_; }
 
-    // Decodes tile `tile` of a loaded image, unless that is done. May be called from several threads at once.
+    /// Decodes tile `tile` of a loaded image unless it is decoded already. Thread-safe.
     void need_tile(int view, int tile);
     [[nodiscard]] bool decoded(int view, int tile) const { return tiles_[tile_index(view, tile)].done(); }
 
-    // Valid where tiles are decoded.
+    /// Planes of an image; valid in decoded tiles only.
     [[nodiscard]] codec::ConstPlaneViews planes(int view) const;
 
-    // Of the decoded samples of an image.
+    /// Memory of the decoded samples of an image.
     [[nodiscard]] std::int64_t decoded_bytes(int view) const {
         return images_[static_cast<std::size_t>(view)].bytes.load(std::memory_order_relaxed);
     }
 
-    // Gives the samples of an image back. While no other thread uses the store.
+    /// Frees the samples of an image. Requires that no other thread uses the store.
     void forget(int view);
 
-    // A clock that advances by one for every rendered view; the time when an image was last read or predicted from.
+    // Least-recently-used clock: advances by one for every rendered view. last_used(): time when an image was last read
+    // or used as a reference.
     void advance_clock() { now_.fetch_add(1, std::memory_order_relaxed); }
     void mark_used(int view) {
         std::atomic<std::int64_t>& used = images_[static_cast<std::size_t>(view)].last_used;

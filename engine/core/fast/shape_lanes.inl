@@ -1,7 +1,6 @@
-// The arithmetic of shape_walk.cpp on vectors, once for every SIMD target. Vectors hold a pixel per 32-bit lane: rows
-// of one view column, one below the other.
+// SIMD arithmetic of shape_walk.cpp. Vectors hold one pixel per 32-bit lane: consecutive rows of one view column.
 //
-// No include guard: cell_march_lanes.inl includes it once for each target.
+// No include guard: cell_march_lanes.inl includes it once for each SIMD target.
 
 #include "engine/core/definition/fixed_point.hpp"
 #include "engine/core/definition/texel_detail.hpp"
@@ -36,7 +35,7 @@ HWY_INLINE LaneMask at_least(Vector a, Vector b) {
     return hn::Not(hn::Lt(a, b));
 }
 
-// The odd lanes in place of the even ones.
+// Moves the odd lanes to the even ones.
 HWY_INLINE Vector odd_lanes(Vector v) {
     return hn::BitCast(Lanes(), hn::ShiftRight<32>(hn::BitCast(WideBits(), v)));
 }
@@ -50,7 +49,7 @@ HWY_INLINE Products products(Vector a, Vector b) {
     return {hn::MulEven(a, b), hn::MulEven(odd_lanes(a), odd_lanes(b))};
 }
 
-// The lower 32 bits of the products shifted right.
+// Lower 32 bits of the products shifted right.
 template <int kShift>
 HWY_INLINE Vector shifted(const Products& p) {
     const WideBits wide;
@@ -58,13 +57,13 @@ HWY_INLINE Vector shifted(const Products& p) {
                        hn::BitCast(Lanes(), hn::ShiftRight<kShift>(hn::BitCast(wide, p.even))));
 }
 
-// multiply_shift() where the ranges of engine/RECONSTRUCTION.md rule saturation out.
+// multiply_shift() without saturation, for operands whose ranges in engine/RECONSTRUCTION.md exclude it.
 template <int kShift>
 HWY_INLINE Vector multiply_shift_within(Vector a, Vector b) {
     return shifted<kShift>(products(a, b));
 }
 
-// multiply_shift(): whether it saturates shows in the upper halves of the products.
+// multiply_shift(); the upper halves of the products determine saturation.
 template <int kShift>
 HWY_INLINE Vector multiply_shift(Vector a, Vector b) {
     static_assert(kSaturated + 1 == 1 << 29);
@@ -76,8 +75,8 @@ HWY_INLINE Vector multiply_shift(Vector a, Vector b) {
     return hn::IfThenElse(hn::Lt(upper, number(-kLimit)), number(-kSaturated - 1), capped);
 }
 
-// floor(2^40 / l) for l in 2^17 .. 2^30; anything else gives any number. A float quotient is at most one away; the
-// remainder, of which 32 bits suffice, decides which way.
+// floor(2^40 / l) for l in 2^17 .. 2^30, undefined for other l. The float quotient is off by at most one and is
+// corrected by the remainder, for which 32 bits suffice.
 HWY_INLINE Vector inverse(Vector l) {
     const Floats floats;
     const Vector guess = hn::ConvertTo(Lanes(), hn::Div(hn::Set(floats, 0x1p40F), hn::ConvertTo(floats, l)));
@@ -100,24 +99,24 @@ HWY_INLINE Vector multiply_halves(Vector a, Vector b) {
 
 inline constexpr int kLanes = static_cast<int>(hn::MaxLanes(Lanes()));
 
-// Lanes whose number is one of a vector's lanes.
+// Lanes with a valid lane index, 0 .. kLanes - 1.
 HWY_INLINE LaneMask is_lane(Vector v) {
     return hn::Eq(hn::And(v, number(-kLanes)), hn::Zero(Lanes()));
 }
 
-// table[index], 0 <= index. The rows of a column mostly look at neighbouring entries: one load has them all then. Up to
-// kLanes numbers behind the last index must exist.
+// table[index], 0 <= index. The rows of a column mostly read neighbouring entries, which one load covers. kLanes
+// numbers after the largest index must be readable.
 HWY_INLINE Vector look_up(const std::int32_t* table, Vector index) {
-    // Further down the view are mostly lower bands.
+    // Lower rows of the view mostly read lower bands.
     const std::int32_t begin = std::max(hn::GetLane(index) - (kLanes - kLanes / 4 - 1), 0);
-    const Vector place = hn::Sub(index, number(begin));
-    if (HWY_LIKELY(hn::AllTrue(Lanes(), is_lane(place)))) {
-        return hn::TableLookupLanes(hn::LoadU(Lanes(), table + begin), hn::IndicesFromVec(Lanes(), place));
+    const Vector offset = hn::Sub(index, number(begin));
+    if (HWY_LIKELY(hn::AllTrue(Lanes(), is_lane(offset)))) {
+        return hn::TableLookupLanes(hn::LoadU(Lanes(), table + begin), hn::IndicesFromVec(Lanes(), offset));
     }
     return hn::GatherIndex(Lanes(), table, index);
 }
 
-// Texels of each lane, RGBA, and their details, left and right in 16 bits each.
+// 2x2 texels of each lane, RGBA, and their details: left and right in 16 bits each.
 struct TexelQuads {
     Vector upper_left;
     Vector lower_left;
@@ -127,7 +126,7 @@ struct TexelQuads {
     Vector lower_detail;
 };
 
-// Where the images' texels stand (texel_store.hpp).
+// Memory layout of the images' texels (texel_store.hpp).
 struct TexelGrid {
     const std::int32_t* texels;
     const std::int8_t* details;  // null with the bilinear filter
@@ -135,19 +134,19 @@ struct TexelGrid {
     std::int32_t height;
 };
 
-// The odd halves of one vector's lanes and the even ones of another's.
+// Combines the odd 16-bit halves of one vector with the even halves of another.
 HWY_INLINE Vector odd_and_even_halves(Vector odd, Vector even) {
     return hn::BitCast(Lanes(), hn::OddEven(hn::BitCast(HalfBits(), odd), hn::BitCast(HalfBits(), even)));
 }
 
-// The lower halves of two vectors' lanes in one.
+// Packs the lower 16 bits of the lanes of two vectors.
 HWY_INLINE Vector left_and_right(Vector left, Vector right) {
     return odd_and_even_halves(hn::ShiftLeft<16>(right), left);
 }
 
-// Those at places x, y from texel (0, 0) of an image, whose index is `start`, in eighths of a texel; zero where not
-// `requested`. The rows of a view column go down the images: of few windows on a column, kLanes + 1 texels each, all
-// of them are taken.
+// Loads the 2x2 texels at positions x, y of an image, in eighths of a texel from texel (0, 0), whose index is `start`;
+// zero in lanes that are not `requested`. The rows of a view column sample the image downwards, so that a few windows
+// of kLanes + 1 texels of a column cover all lanes.
 HWY_INLINE TexelQuads fetch(const TexelGrid& grid, std::int32_t start, Vector x_q3, Vector y_q3, LaneMask requested) {
     alignas(64) std::int32_t columns[kBlockRows];
     alignas(64) std::int32_t rows[kBlockRows];
@@ -159,8 +158,8 @@ HWY_INLINE TexelQuads fetch(const TexelGrid& grid, std::int32_t start, Vector x_
     const Vector index = hn::Add(in_columns, in_rows);
     const Vector zero = hn::Zero(Lanes());
     TexelQuads quads{zero, zero, zero, zero, zero, zero};
-    // The rows below these will look as far below, once all other columns have been walked. (In a lambda the compiler
-    // leaves prefetches out.)
+    // Prefetches the texels of the next rows of this column, which are read after all other columns. (The
+    // compiler drops prefetches in a lambda.)
     constexpr int kBefore = 14;  // of 16 in a cache line
     const std::int32_t below = std::clamp(2 * rows[kLanes - 1] - rows[0], kBefore, std::max(grid.height - 1, kBefore));
     const std::int32_t* const next = grid.texels + start + columns[kLanes - 1] + below;
@@ -170,32 +169,32 @@ HWY_INLINE TexelQuads fetch(const TexelGrid& grid, std::int32_t start, Vector x_
     }
     while (!hn::AllFalse(Lanes(), requested)) {
         const auto lane = hn::FindFirstTrue(Lanes(), requested);
-        // A row further down the view may lie a little higher in the image.
+        // A lower row of the view may sample slightly higher in the image.
         const std::int32_t top = std::max(std::min(rows[lane] - kLanes / 8, grid.height - kLanes), -1);
         const std::int32_t begin = columns[lane] + top;
         const std::int32_t* const left = grid.texels + start + begin;
         const std::int32_t* const right = left + grid.column_stride;
-        const Vector place = hn::Sub(index, number(begin));
-        const LaneMask inside = hn::And(requested, is_lane(place));
-        const auto order = hn::IndicesFromVec(Lanes(), hn::And(place, number(kLanes - 1)));
-        const auto take = [&](const std::int32_t* from, Vector& to) {
+        const Vector offset = hn::Sub(index, number(begin));
+        const LaneMask inside = hn::And(requested, is_lane(offset));
+        const auto order = hn::IndicesFromVec(Lanes(), hn::And(offset, number(kLanes - 1)));
+        const auto load = [&](const std::int32_t* from, Vector& to) {
             to = hn::IfThenElse(inside, hn::TableLookupLanes(hn::LoadU(Lanes(), from), order), to);
         };
-        take(left, quads.upper_left);
-        take(left + 1, quads.lower_left);
-        take(right, quads.upper_right);
-        take(right + 1, quads.lower_right);
+        load(left, quads.upper_left);
+        load(left + 1, quads.lower_left);
+        load(right, quads.upper_right);
+        load(right + 1, quads.lower_right);
         if (grid.details != nullptr) {
             const hn::Rebind<std::int8_t, Lanes> bytes;
             const std::int8_t* const left_details = grid.details + start + begin;
             const std::int8_t* const right_details = left_details + grid.column_stride;
-            const auto take_details = [&](std::ptrdiff_t row, Vector& to) {
+            const auto load_details = [&](std::ptrdiff_t row, Vector& to) {
                 const Vector pairs = left_and_right(hn::PromoteTo(Lanes(), hn::LoadU(bytes, left_details + row)),
                                                     hn::PromoteTo(Lanes(), hn::LoadU(bytes, right_details + row)));
                 to = hn::IfThenElse(inside, hn::TableLookupLanes(pairs, order), to);
             };
-            take_details(0, quads.upper_detail);
-            take_details(1, quads.lower_detail);
+            load_details(0, quads.upper_detail);
+            load_details(1, quads.lower_detail);
         }
         requested = hn::AndNot(inside, requested);
     }
@@ -206,20 +205,20 @@ HWY_INLINE Vector all_bits(const TexelQuads& quads) {
     return hn::And(hn::And(quads.upper_left, quads.lower_left), hn::And(quads.upper_right, quads.lower_right));
 }
 
-// The weights of a lane's upper two texels and of its lower two, left and right in 16 bits each.
+// Weights of a lane's upper and lower texels: left and right in 16 bits each.
 struct TexelWeights {
     Vector upper;
     Vector lower;
 };
 
-// Of a place `x`, `y` eighths from the upper left texel: 64 together.
+// Bilinear weights at x, y eighths from the upper left texel; they add up to 64.
 HWY_INLINE TexelWeights texel_weights(Vector x, Vector y) {
     const Vector across = hn::Add(number(8), hn::Sub(hn::ShiftLeft<16>(x), x));
     const Vector lower = multiply_halves(across, hn::Or(y, hn::ShiftLeft<16>(y)));
     return {hn::Sub(hn::ShiftLeft<3>(across), lower), lower};
 }
 
-// The channels of two texels, left and right in 16 bits each.
+// Channels of two texels: left and right in 16 bits each.
 struct TexelPair {
     Vector r, g, b, a;
 };
@@ -237,7 +236,7 @@ struct Channels {
     Vector r, g, b, a;
 };
 
-// The detail at x, y eighths between the texels, in codes, q6: sample_detail() without alpha.
+// sample_detail() without alpha, at x, y eighths between the texels; colour codes, q6.
 HWY_INLINE Vector detail_codes(TexelFilter filter, const TexelQuads& quads, const TexelWeights& weights, Vector x,
                                Vector y) {
     const Vector eight = number(8);
@@ -249,7 +248,7 @@ HWY_INLINE Vector detail_codes(TexelFilter filter, const TexelQuads& quads, cons
     return hn::ShiftRight<6>(hn::Mul(strength, sum));
 }
 
-// Adds weight * (R, G, B).
+// Adds weight * (R, G, B) to `sum`.
 HWY_INLINE void add_texels(const TexelQuads& quads, const TexelWeights& weights, Channels& sum) {
     const auto add = [&](Vector left, Vector right, Vector weight) {
         const TexelPair texels = texel_pair(left, right);
@@ -278,12 +277,12 @@ HWY_INLINE Channels premultiplied(const TexelQuads& quads, const TexelWeights& w
     return sum;
 }
 
-// RGBA in memory order of channels 0 .. 255.
+// Packs channels 0 .. 255 as RGBA in memory order.
 HWY_INLINE Vector packed(Vector r, Vector g, Vector b, Vector a) {
     return hn::Or(hn::Or(r, hn::ShiftLeft<8>(g)), hn::Or(hn::ShiftLeft<16>(b), hn::ShiftLeft<24>(a)));
 }
 
-// resolve() of shape_pixel.hpp, as RGBA in memory order. The float quotient is at most one too small.
+// resolve() of shape_pixel.hpp, as RGBA in memory order. The float quotient is at most one too small and is corrected.
 HWY_INLINE Vector resolve_lanes(const Channels& sum, Vector detail) {
     const Floats floats;
     const Vector divisor = hn::Max(sum.a, number(1));

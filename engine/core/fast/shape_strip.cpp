@@ -1,4 +1,4 @@
-// What shape_walk.cpp walks down: set-ups of neighbouring columns.
+// Set-up of neighbouring columns for shape_walk.cpp.
 
 #include "engine/core/fast/shape_columns.hpp"
 #include "engine/core/fast/shape_walk.hpp"
@@ -12,7 +12,7 @@ namespace {
 
 ShapeImageColumn image_column(const RaySpaceObject& object, const TexelStore& texels, const ShapeImage& image) {
     if (texels.is_coded()) {
-        const ColumnRange columns = columns_read(object, image);
+        const ColumnRange columns = sampled_columns(object, image);
         if (columns.first <= columns.last) texels.ensure(image.view, columns.first, columns.last);
     }
     const CapturedView& view = object.views[static_cast<std::size_t>(image.view)];
@@ -32,8 +32,8 @@ ShapeImageColumn image_column(const RaySpaceObject& object, const TexelStore& te
 
 void set_surfaces(const ShapeMap& shape, const ShapeSetup& setup, std::size_t start, SurfaceEntries& entries,
                   ShapeColumn& column) {
-    const SurfaceColumn surfaces =
-        setup.has_shape() ? lay_surfaces(setup.cells, shape, start, entries) : lay_nothing(start, entries);
+    const SurfaceColumn surfaces = setup.has_shape() ? build_surface_column(setup.cells, shape, start, entries)
+                                                     : build_empty_column(start, entries);
     column.smooth = entries.smooth.data() + start;
     column.deepest = entries.deepest.data() + start;
     column.steps = entries.steps.data() + kSurfaceParts * start;
@@ -43,15 +43,15 @@ void set_surfaces(const ShapeMap& shape, const ShapeSetup& setup, std::size_t st
     column.beyond = surfaces.beyond;
 }
 
-constexpr double kFarthestLook = 256 + 128;  // no march looks at a greater depth: half a step of 256 beyond
+constexpr double kMaxMarchDepth = 256 + 128;  // greatest depth that a march evaluates: 256 plus half a step of 256
 
-// Section 6 at one end of the view, without its roundings. Everything is linear in the rise but for these, so that the
-// view's ends show what lies between.
+// Section 6 at the first or last row of the view, without rounding. Apart from rounding everything is linear in the
+// rise, so the values of all other rows are between those of the two ends.
 struct BandsAtEnd {
     double foot_q12 = 0;
     double zero_q12 = 0;
     double per_depth_q20 = 0;
-    double most = 0;  // the greatest number that may saturate
+    double largest = 0;  // magnitude of the largest number that may saturate
 
     [[nodiscard]] double band_q12(double d) const { return zero_q12 + d * per_depth_q20 * 0x1p-8; }
 };
@@ -65,17 +65,17 @@ BandsAtEnd bands_at_end(const ShapeWalk& walk, const ShapeSetup& setup, double r
     bands.foot_q12 = (h - walk.h_low_q16) * walk.bands_per_unit_q12 * 0x1p-16;
     bands.zero_q12 = bands.foot_q12 + per_radius * walk.depth_low_q20 * 0x1p-28;
     bands.per_depth_q20 = per_radius * walk.depth_step_q24 * 0x1p-24;
-    bands.most = std::max({std::abs(reference), std::abs(per_radius), std::abs(bands.foot_q12)});
+    bands.largest = std::max({std::abs(reference), std::abs(per_radius), std::abs(bands.foot_q12)});
     return bands;
 }
 
-// What the roundings change at most.
-struct BandRoundings {
+// Upper bounds of the rounding errors.
+struct BandErrors {
     double band_q12 = 0;
     double per_depth_q20 = 0;
 };
 
-BandRoundings band_roundings(const ShapeWalk& walk, const ShapeSetup& setup) {
+BandErrors band_errors(const ShapeWalk& walk, const ShapeSetup& setup) {
     const double h = 2 + std::abs(setup.lambda_foot_q20) * 0x1p-28;
     const double slope = 2 + setup.inverse_r_q20 * 0x1p-24;
     const double reference = 1 + h * setup.inverse_rho_q20 * 0x1p-16;
@@ -83,42 +83,42 @@ BandRoundings band_roundings(const ShapeWalk& walk, const ShapeSetup& setup) {
     const double foot = 1 + h * walk.bands_per_unit_q12 * 0x1p-16;
     const double zero = 1 + foot + per_radius * std::abs(walk.depth_low_q20) * 0x1p-28;
     const double per_depth = 1 + per_radius * walk.depth_step_q24 * 0x1p-24;
-    return {1 + zero + per_depth * kFarthestLook * 0x1p-8, per_depth};
+    return {1 + zero + per_depth * kMaxMarchDepth * 0x1p-8, per_depth};
 }
 
-// Which rows of the column look at entries that hold something, and whether any of its rays marches.
-void set_rows(const ShapeWalk& walk, const ShapeSetup& setup, ShapeColumn& column) {
-    constexpr double kMarches = 2048;          // per depth
-    constexpr double kMostPerDepth = 1 << 21;  // 2^22 would be clamped
-    constexpr double kMost = 1 << 28;          // 2^29 would saturate
+// Computes the range of rows that read non-empty entries, and `level`.
+void set_row_range(const ShapeWalk& walk, const ShapeSetup& setup, ShapeColumn& column) {
+    constexpr double kMinMarching_q20 = 2048;     // least per_depth of a ray that marches
+    constexpr double kMaxPerDepth_q20 = 1 << 21;  // 2^22 would be clamped
+    constexpr double kMaxNumber = 1 << 28;        // 2^29 would saturate
     const BandsAtEnd first = bands_at_end(walk, setup, walk.first_rise_q24);
     const BandsAtEnd last = bands_at_end(walk, setup, walk.last_rise_q24);
-    const bool honest = std::max(first.most, last.most) <= kMost;
+    const bool is_unsaturated = std::max(first.largest, last.largest) <= kMaxNumber;
     const double per_depth = std::max(std::abs(first.per_depth_q20), std::abs(last.per_depth_q20));
-    const BandRoundings roundings = band_roundings(walk, setup);
-    column.level = honest && per_depth + roundings.per_depth_q20 < kMarches;
+    const BandErrors errors = band_errors(walk, setup);
+    column.level = is_unsaturated && per_depth + errors.per_depth_q20 < kMinMarching_q20;
     column.first_row = 0;
     column.end_row = walk.rows;
-    if (column.alone || !honest || per_depth > kMostPerDepth) return;
+    if (column.alone || !is_unsaturated || per_depth > kMaxPerDepth_q20) return;
     if (column.beyond == 0) {
         column.end_row = 0;
         return;
     }
-    const double low_q12 = column.first_middle_q12 - roundings.band_q12;
-    const double high_q12 = column.first_middle_q12 + (column.last_entry << 12) + roundings.band_q12;
+    const double low_q12 = column.first_middle_q12 - errors.band_q12;
+    const double high_q12 = column.first_middle_q12 + (column.last_entry << 12) + errors.band_q12;
     double begin = walk.rows;
     double end = 0;
     const auto include = [&](double at_first, double at_last) {
         const double per_row = (at_last - at_first) / (walk.rows - 1);
-        const double one = (low_q12 - at_first) / per_row;
-        const double other = (high_q12 - at_first) / per_row;
-        begin = std::min({begin, one, other});
-        end = std::max({end, one, other});
+        const double at_low = (low_q12 - at_first) / per_row;
+        const double at_high = (high_q12 - at_first) / per_row;
+        begin = std::min({begin, at_low, at_high});
+        end = std::max({end, at_low, at_high});
         return per_row;
     };
     const double foot_per_row = include(first.foot_q12, last.foot_q12);
     bool same_way = std::abs(foot_per_row) > 0;
-    for (const double d : {0.0, kFarthestLook}) {
+    for (const double d : {0.0, kMaxMarchDepth}) {
         if (column.level) break;
         const double per_row = include(first.band_q12(d), last.band_q12(d));
         same_way = same_way && foot_per_row * per_row > 0;
@@ -156,7 +156,7 @@ void set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, 
                         const ShapeWalk& walk, int first_column, ShapeStrip& strip) {
     const ShapeMap& shape = object.rings[static_cast<std::size_t>(registers.ring)].shape;
     const std::size_t entries = surface_entries(shape.bands);
-    strip.entries.hold(kStripColumns * entries);
+    strip.entries.grow(kStripColumns * entries);
     const int columns = std::min(kStripColumns, registers.width - first_column);
     for (int n = 0; n < kStripColumns; ++n) {
         ShapeColumn& column = strip.columns[n];
@@ -167,7 +167,7 @@ void set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, 
         if (setup.weight < 256) column.first = image_column(object, texels, setup.first);
         if (setup.weight > 0) column.second = image_column(object, texels, setup.second);
         column.weight = setup.weight;
-        // Without a shape a ray shows the foot's depth 0: what one without surfaces does, since its weight is 0.
+        // A ray without a shape is rendered at the foot's depth 0, like a ray of weight 0 without surfaces.
         column.alone = setup.weight == 0 || setup.weight == 256;
         set_surfaces(shape, setup, static_cast<std::size_t>(n) * entries, strip.entries, column);
         column.foot_depth_q3 = setup.foot_depth_q3;
@@ -176,7 +176,7 @@ void set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, 
         column.lambda1_q21 = setup.lambda1_q21;
         column.inverse_r_q20 = setup.inverse_r_q20;
         column.inverse_rho_q20 = setup.inverse_rho_q20;
-        set_rows(walk, setup, column);
+        set_row_range(walk, setup, column);
     }
 }
 

@@ -25,12 +25,12 @@ HWY_AFTER_NAMESPACE();
 
 #else
 
-#include "engine/core/fast/shown_surface_lanes.inl"
+#include "engine/core/fast/blend_surface_lanes.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace rs::engine::HWY_NAMESPACE {
 
-// The pixels of as many rows of a column as a vector has. lambda: null where nobody needs it.
+// Destination of one vector of rows of a column. lambda: null if depth is not requested.
 struct PixelRows {
     const ShapeColumn& column;
     const std::int32_t* rise_q24;
@@ -38,66 +38,69 @@ struct PixelRows {
     std::int32_t* lambda;
 };
 
-HWY_INLINE void show_nothing(const PixelRows& rows) {
+HWY_INLINE void clear_pixels(const PixelRows& rows) {
     hn::Store(hn::Zero(Lanes()), Lanes(), rows.colour);
     if (rows.lambda != nullptr) hn::Store(hn::Zero(Lanes()), Lanes(), rows.lambda);
 }
 
-// shape_pixel() of these rows, step by step.
+// shape_pixel() of one vector of rows, split into steps.
 class PixelLanes {
 public:
     HWY_INLINE void begin(const ShapeWalk& walk, const ShapeColumn& column, Vector rise) {
         march_ = MarchLanes(walk, column, rise);
-        looking_ = hn::Not(none());
+        active_ = hn::Not(none());
     }
 
-    // The next surface of the rows that look for one; false where none has any.
-    HWY_INLINE bool meet(const ShapeColumn& column) {
-        met_ = march_.next(looking_);
-        if (column.alone) met_ = hn::IfThenElse(is_surface(met_), depth_of(met_), number(column.foot_depth_q3));
-        looking_ = hn::And(looking_, is_surface(met_));
-        return !hn::AllFalse(Lanes(), looking_);
+    // Finds the next surface of the active rows; returns false if there is none in any row.
+    HWY_INLINE bool find_surface(const ShapeColumn& column) {
+        surface_ = march_.next(active_);
+        if (column.alone)
+            surface_ = hn::IfThenElse(is_surface(surface_), depth_of(surface_), number(column.foot_depth_q3));
+        active_ = hn::And(active_, is_surface(surface_));
+        return !hn::AllFalse(Lanes(), active_);
     }
 
-    HWY_INLINE void place(const ShapeWalk& walk, const ShapeColumn& column, Vector rise) {
-        place_ = surface_place(walk, column, rise, column.alone ? met_ : depth_of(met_), looking_);
+    // Projects the surface into both images.
+    HWY_INLINE void project(const ShapeWalk& walk, const ShapeColumn& column, Vector rise) {
+        positions_ = surface_positions(walk, column, rise, column.alone ? surface_ : depth_of(surface_), active_);
     }
 
-    // The first surface. False where no row looks for another.
-    HWY_INLINE bool show_first(const ShapeWalk& walk, const PixelRows& rows) {
-        const ShownLanes surface = shown_lanes(walk, rows.column, place_, met_, looking_);
+    // Writes the first surface; returns false if no row needs another one.
+    HWY_INLINE bool write_first(const ShapeWalk& walk, const PixelRows& rows) {
+        const BlendedLanes surface = blend_surface_lanes(walk, rows.column, positions_, surface_, active_);
         const Vector colour = hn::IfThenElseZero(surface.shown, surface.colour);
         hn::Store(colour, Lanes(), rows.colour);
         if (rows.lambda != nullptr) {
-            hn::Store(hn::IfThenZeroElse(hn::Eq(colour, hn::Zero(Lanes())), place_.lambda_q20), Lanes(), rows.lambda);
+            hn::Store(hn::IfThenZeroElse(hn::Eq(colour, hn::Zero(Lanes())), positions_.lambda_q20), Lanes(),
+                      rows.lambda);
         }
         if (rows.column.alone) return false;
         uncovered_ = none();
-        return look_further(surface);
+        return update_active(surface);
     }
 
-    // The others.
-    HWY_INLINE void show_others(const ShapeWalk& walk, const PixelRows& rows) {
+    // Writes and blends all further surfaces.
+    HWY_INLINE void blend_others(const ShapeWalk& walk, const PixelRows& rows) {
         const Vector zero = hn::Zero(Lanes());
         const Vector rise = hn::LoadU(Lanes(), rows.rise_q24);
-        const auto show = [&] {
-            place(walk, rows.column, rise);
-            return shown_lanes(walk, rows.column, place_, met_, looking_);
+        const auto blend = [&] {
+            project(walk, rows.column, rise);
+            return blend_surface_lanes(walk, rows.column, positions_, surface_, active_);
         };
-        while (!hn::AllFalse(Lanes(), looking_) && meet(rows.column)) {
-            const ShownLanes surface = show();
+        while (!hn::AllFalse(Lanes(), active_) && find_surface(rows.column)) {
+            const BlendedLanes surface = blend();
             add(rows, hn::And(surface.shown, hn::Ne(surface.colour, zero)), surface.colour, surface.shown);
-            look_further(surface);
+            update_active(surface);
         }
         for (const Vector behind : {march_.behind(), march_.farthest()}) {
-            met_ = behind;
-            looking_ = hn::And(uncovered_, is_surface(met_));
-            if (hn::AllFalse(Lanes(), looking_)) continue;
-            const ShownLanes surface = show();
+            surface_ = behind;
+            active_ = hn::And(uncovered_, is_surface(surface_));
+            if (hn::AllFalse(Lanes(), active_)) continue;
+            const BlendedLanes surface = blend();
             const Vector nearer = hn::Load(Lanes(), rows.colour);
             const Vector farther = hn::IfThenElseZero(surface.shown, surface.colour);
-            const LaneMask alone = hn::And(looking_, hn::Eq(nearer, zero));
-            const LaneMask covers = hn::And(looking_, at_least(alpha_of(farther), number(kCoveringAlpha)));
+            const LaneMask alone = hn::And(active_, hn::Eq(nearer, zero));
+            const LaneMask covers = hn::And(active_, at_least(alpha_of(farther), number(kCoveringAlpha)));
             const LaneMask seen =
                 hn::Or(hn::And(alone, hn::Ne(farther, zero)), hn::And(covers, hn::Lt(alpha_of(nearer), number(128))));
             add(rows, seen, hn::IfThenElse(alone, farther, laid_over(nearer, farther)), hn::Or(alone, covers));
@@ -106,39 +109,39 @@ public:
     }
 
 private:
-    // `colour` of the lanes `shown`, with this surface's depth of the lanes `seen`.
+    // Writes `colour` to the lanes `shown` and the depth of the surface to the lanes `seen`.
     HWY_INLINE void add(const PixelRows& rows, LaneMask seen, Vector colour, LaneMask shown) const {
         hn::Store(hn::IfThenElse(shown, colour, hn::Load(Lanes(), rows.colour)), Lanes(), rows.colour);
         if (rows.lambda == nullptr) return;
-        hn::Store(hn::IfThenElse(seen, place_.lambda_q20, hn::Load(Lanes(), rows.lambda)), Lanes(), rows.lambda);
+        hn::Store(hn::IfThenElse(seen, positions_.lambda_q20, hn::Load(Lanes(), rows.lambda)), Lanes(), rows.lambda);
     }
 
-    // Which rows look for another surface, or for those behind the last.
-    HWY_INLINE bool look_further(const ShownLanes& surface) {
+    // Deactivates the rows that are complete; returns true if any row needs another surface.
+    HWY_INLINE bool update_active(const BlendedLanes& surface) {
         const LaneMask covers = hn::And(surface.shown, at_least(alpha_of(surface.colour), number(kCoveringAlpha)));
-        const LaneMask at_end = hn::And(hn::AndNot(covers, looking_), march_.ended());
+        const LaneMask at_end = hn::And(hn::AndNot(covers, active_), march_.ended());
         if (!hn::AllFalse(Lanes(), at_end)) {
             const LaneMask has_more = hn::Or(is_surface(march_.behind()), is_surface(march_.farthest()));
             uncovered_ = hn::Or(uncovered_, hn::And(at_end, has_more));
         }
-        looking_ = hn::AndNot(march_.ended(), hn::AndNot(surface.shown, looking_));
-        return !hn::AllFalse(Lanes(), hn::Or(looking_, uncovered_));
+        active_ = hn::AndNot(march_.ended(), hn::AndNot(surface.shown, active_));
+        return !hn::AllFalse(Lanes(), hn::Or(active_, uncovered_));
     }
 
     MarchLanes march_;
-    SurfacePlace place_;
-    Vector met_;
-    LaneMask looking_;
-    LaneMask uncovered_;  // whose last surface does not cover the pixel, but has others behind it
+    SurfacePositions positions_;
+    Vector surface_;
+    LaneMask active_;     // rows that need the next surface of the march
+    LaneMask uncovered_;  // rows whose last surface does not cover the pixel and has others behind it
 };
 
-// A function of its own, since few vectors come here: what it needs would take registers from all others.
-HWY_NOINLINE void show_others(const ShapeWalk& walk, const PixelRows& rows, PixelLanes& pixels) {
-    pixels.show_others(walk, rows);
+// Not inlined: few vectors need it, and inlining would cost registers in the common path.
+HWY_NOINLINE void blend_others(const ShapeWalk& walk, const PixelRows& rows, PixelLanes& pixels) {
+    pixels.blend_others(walk, rows);
 }
 
-// shape_pixel() of as many rows of the columns as a vector has. Column after column would be one long chain of numbers
-// that wait for each other; step after step, the columns overlap.
+// shape_pixel() of one vector of rows of each column. The columns are processed step by step instead of one after the
+// other, so that their dependency chains overlap.
 HWY_INLINE void walk_lanes(const ShapeWalk& walk, const ShapeStrip& strip, const int* columns, int count,
                            const std::int32_t* rise_q24, std::int32_t* colour, std::int32_t* lambda) {
     const Vector rise = hn::LoadU(Lanes(), rise_q24);
@@ -152,17 +155,17 @@ HWY_INLINE void walk_lanes(const ShapeWalk& walk, const ShapeStrip& strip, const
     for (int c = 0; c < count; ++c) pixels[columns[c]].begin(walk, strip.columns[columns[c]], rise);
     for (int c = 0; c < count; ++c) {
         const int n = columns[c];
-        if (pixels[n].meet(strip.columns[n])) {
+        if (pixels[n].find_surface(strip.columns[n])) {
             shown[shown_count++] = n;
         } else {
-            show_nothing(rows_of(n));
+            clear_pixels(rows_of(n));
         }
     }
-    for (int s = 0; s < shown_count; ++s) pixels[shown[s]].place(walk, strip.columns[shown[s]], rise);
+    for (int s = 0; s < shown_count; ++s) pixels[shown[s]].project(walk, strip.columns[shown[s]], rise);
     for (int s = 0; s < shown_count; ++s) {
         const PixelRows rows = rows_of(shown[s]);
-        PixelLanes& of_column = pixels[shown[s]];
-        if (of_column.show_first(walk, rows)) show_others(walk, rows, of_column);
+        PixelLanes& column_pixels = pixels[shown[s]];
+        if (column_pixels.write_first(walk, rows)) blend_others(walk, rows, column_pixels);
     }
 }
 
@@ -170,20 +173,20 @@ bool can_walk() {
     return true;
 }
 
-// Four rows of four columns at a time: to[row][column] of of[column][row].
-HWY_INLINE void turn_block(const std::int32_t (&of)[kStripColumns][kBlockRows], std::int32_t* to, std::ptrdiff_t stride,
-                           int rows) {
+// Transposes a block, 4x4 at a time: to[row][column] = from[column][row].
+HWY_INLINE void transpose_block(const std::int32_t (&from)[kStripColumns][kBlockRows], std::int32_t* to,
+                                std::ptrdiff_t stride, int rows) {
     const hn::FixedTag<std::int32_t, 4> four;
     const hn::FixedTag<std::int64_t, 2> two;
     for (int row = 0; row < rows; row += 4) {
         for (int column = 0; column < kStripColumns; column += 4) {
-            const auto from = [&](int n) { return hn::Load(four, of[column + n] + row); };
+            const auto load = [&](int n) { return hn::Load(four, from[column + n] + row); };
             const auto low = [&](auto a, auto b) { return hn::BitCast(two, hn::InterleaveLower(four, a, b)); };
             const auto high = [&](auto a, auto b) { return hn::BitCast(two, hn::InterleaveUpper(four, a, b)); };
-            const auto low_01 = low(from(0), from(1));
-            const auto low_23 = low(from(2), from(3));
-            const auto high_01 = high(from(0), from(1));
-            const auto high_23 = high(from(2), from(3));
+            const auto low_01 = low(load(0), load(1));
+            const auto low_23 = low(load(2), load(3));
+            const auto high_01 = high(load(0), load(1));
+            const auto high_23 = high(load(2), load(3));
             const auto store = [&](int n, auto v) {
                 if (row + n < rows) hn::StoreU(hn::BitCast(four, v), four, to + (row + n) * stride + column);
             };
@@ -195,7 +198,7 @@ HWY_INLINE void turn_block(const std::int32_t (&of)[kStripColumns][kBlockRows], 
     }
 }
 
-// Rows first_row .. first_row + rows - 1 of the strip, at most kBlockRows.
+// Renders rows first_row .. first_row + rows - 1 of the strip, at most kBlockRows.
 void walk_block(const ShapeWalk& walk, const ShapeStrip& strip, const std::int32_t* rise_q24, int first_row, int rows,
                 std::int32_t* colour, std::ptrdiff_t colour_stride, std::int32_t* lambda,
                 std::ptrdiff_t lambda_stride) {
@@ -230,8 +233,8 @@ void walk_block(const ShapeWalk& walk, const ShapeStrip& strip, const std::int32
         for (int row = 0; row < rows && lambda != nullptr; ++row) clear(lambda + row * lambda_stride);
         return;
     }
-    turn_block(colours, colour, colour_stride, rows);
-    if (lambda != nullptr) turn_block(lambdas, lambda, lambda_stride, rows);
+    transpose_block(colours, colour, colour_stride, rows);
+    if (lambda != nullptr) transpose_block(lambdas, lambda, lambda_stride, rows);
 }
 
 }  // namespace rs::engine::HWY_NAMESPACE
@@ -263,7 +266,7 @@ void walk_shape(const ShapeWalk& walk, const ShapeStrip& strip, const std::int32
              out.lambda_stride);
             continue;
         }
-        // The view's right edge.
+        // Right edge of the view: renders into buffers and copies the columns.
         std::int32_t colours[kBlockRows * kStripColumns];
         std::int32_t lambdas[kBlockRows * kStripColumns];
         HWY_DYNAMIC_DISPATCH(walk_block)

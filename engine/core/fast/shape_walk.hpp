@@ -1,7 +1,6 @@
 #pragma once
-// The inner loop of the fast core for objects with a shape map: each view column follows its own line of cells and its
-// own two captured images, many rows at once. The SIMD twin of shape_pixel.hpp: each lane computes the same numbers
-// as shape_pixel().
+// Inner loop of the fast core for objects with a shape map: SIMD implementation of shape_pixel.hpp, many rows of a view
+// column at once. Each lane computes the same numbers as shape_pixel().
 //
 // Upright views only: one set-up serves a column, and all pixels of a row have the same rise.
 
@@ -18,12 +17,12 @@
 
 namespace rs::engine {
 
-// How many rows of a column are written at once.
+// Rows of a column that are written at once.
 inline constexpr int kBlockRows = 16;
 
-// ShapeImage and what it needs of CapturedView.
+// ShapeImage and the members of CapturedView that it is used with.
 struct ShapeImageColumn {
-    bool used = false;       // else the column does not sample it
+    bool used = false;       // false: the column does not sample this image
     std::int32_t start = 0;  // index of texel (0, 0)
     std::int32_t l0_q20 = 0;
     std::int32_t l1_q24 = 0;
@@ -35,17 +34,17 @@ struct ShapeImageColumn {
     std::int32_t height_q16 = 0;
 };
 
-// ShapeSetup of a view column. One without a ray has no rows.
+// ShapeSetup of a view column. A column without a ray has no rows.
 struct ShapeColumn {
-    std::int32_t first_row = 0;  // of the view; the column shows nothing outside of first_row .. end_row - 1
+    std::int32_t first_row = 0;  // view rows outside of first_row .. end_row - 1 are transparent
     std::int32_t end_row = 0;
     ShapeImageColumn first;
     ShapeImageColumn second;
-    std::int32_t weight = 0;
-    bool alone = false;  // one image has all the weight
-    // No ray of the column marches, and no number of its set-up saturates (engine/RECONSTRUCTION.md, section 6).
+    std::int32_t weight = 0;  // of the second image, 0..256
+    bool alone = false;       // one image has all the weight
+    // No ray of the column marches and no number of section 6 of engine/RECONSTRUCTION.md saturates.
     bool level = false;
-    // SurfaceColumn and its entries; first_middle: the middle of the first entry's band.
+    // SurfaceColumn and its entries; first_middle: centre of the first entry's band.
     const std::int32_t* smooth = nullptr;
     const std::int32_t* deepest = nullptr;
     const std::int32_t* steps = nullptr;
@@ -61,7 +60,7 @@ struct ShapeColumn {
     std::int32_t inverse_rho_q20 = 0;
 };
 
-// Neighbouring columns, so many that a row of them fills a cache line of output.
+// Neighbouring columns; a row of them fills a cache line of output.
 struct ShapeStrip {
     ShapeColumn columns[kStripColumns];
     SurfaceEntries entries;
@@ -69,15 +68,15 @@ struct ShapeStrip {
 
 // Constants of a view.
 struct ShapeWalk {
-    const Rgba8* texels = nullptr;         // TexelStore's
-    const std::int8_t* details = nullptr;  // TexelStore's; null with the bilinear filter
+    const Rgba8* texels = nullptr;         // of TexelStore
+    const std::int8_t* details = nullptr;  // of TexelStore; null with the bilinear filter
     TexelFilter filter = TexelFilter::kBilinear;
     std::int32_t column_stride = 0;
     std::int32_t width = 0;  // of the captured images
     std::int32_t height = 0;
     std::int32_t rows = 0;            // of the view
-    std::int32_t first_rise_q24 = 0;  // of the view's rows: all others lie between
-    std::int32_t last_rise_q24 = 0;
+    std::int32_t first_rise_q24 = 0;  // of the first row of the view; rises are monotonic over rows
+    std::int32_t last_rise_q24 = 0;   // of the last row
     std::int32_t b_q16 = 0;
     std::int32_t reference_height_q16 = 0;
     std::int32_t h_low_q16 = 0;
@@ -89,13 +88,13 @@ struct ShapeWalk {
 
 ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers);
 
-// Sets up the view columns first_column .. first_column + kStripColumns - 1 that exist, and ensures the texels that
-// they read. The memory of `strip` is reused; its contents are overwritten.
+/// Sets up the view columns first_column .. first_column + kStripColumns - 1, as far as they exist, and ensures the
+/// texels that they read. Overwrites `strip` and reuses its memory.
 void set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,
                         const ShapeWalk& walk, int first_column, ShapeStrip& strip);
 
-// Destination of the pixels: row j of the strip at colour + j * colour_stride and, unless null, at lambda_q20 + j *
-// lambda_stride.
+// Destination of the pixels: row j of the strip at colour + j * colour_stride and, unless null, at
+// lambda_q20 + j * lambda_stride.
 struct ShapeWalkOutput {
     Rgba8* colour = nullptr;
     std::ptrdiff_t colour_stride = 0;
@@ -103,12 +102,12 @@ struct ShapeWalkOutput {
     std::ptrdiff_t lambda_stride = 0;
 };
 
-// False on a machine without vectors of 16 bytes, where shape_pixel() is as fast.
+/// False on a machine without 16-byte vectors, where shape_pixel() is as fast.
 bool can_walk_shape();
 
-// Writes `columns` (1..kStripColumns) pixels of all rows of the view. can_walk_shape() must be true. `rise_q24`: the
-// rows' rises, padded to a multiple of kBlockRows. The SIMD target is chosen at the first call; all targets give the
-// same bytes.
+/// Writes `columns` (1..kStripColumns) pixels of all rows of the view. Requires can_walk_shape(). The SIMD target is
+/// chosen at the first call; all targets give the same bytes.
+/// \param rise_q24  rises of the rows, padded to a multiple of kBlockRows
 void walk_shape(const ShapeWalk& walk, const ShapeStrip& strip, const std::int32_t* rise_q24, int columns,
                 const ShapeWalkOutput& out);
 

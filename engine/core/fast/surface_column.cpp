@@ -21,13 +21,13 @@ HWY_INLINE Half half(int value) {
 }
 
 struct SurfaceHalves {
-    Half depth_q3;  // -1: nothing
+    Half depth_q3;  // -1: no surface
     Half lean;
     Half deepest;  // of both lines, whole steps; -1: neither has a surface
-    Half lacking;  // -1 where one of them has none
+    Half lacking;  // -1 if either line has no surface
 };
 
-// between_lines() of as many bands as a vector has.
+// between_lines() of one vector of bands.
 HWY_INLINE SurfaceHalves between_lines(const ShapeCell* first_cells, const ShapeCell* second_cells, int part,
                                        int jump) {
     const Half zero = hn::Zero(Halves());
@@ -41,13 +41,13 @@ HWY_INLINE SurfaceHalves between_lines(const ShapeCell* first_cells, const Shape
     const Half second_q3 = hn::ShiftLeft<3>(depth_of(second));
     const Half apart = hn::Sub(depth_of(second), depth_of(first));
     const auto jumps = hn::Gt(hn::Abs(apart), half(jump));
-    // Of the lines' answers and what lies between them.
+    // Selects the value of either line, or their interpolation `mean`.
     const auto between = [&](Half of_first, Half of_second, Half mean, Half nothing) {
         const Half both = hn::IfThenElse(jumps, part < 4 ? of_first : of_second, mean);
         return hn::IfThenElse(has_first, hn::IfThenElse(has_second, both, of_first),
                               hn::IfThenElse(has_second, of_second, nothing));
     };
-    const auto lean_of = [&](Half cell) {  // as of one cell
+    const auto lean_of = [&](Half cell) {  // lean_of() of shape_cells.hpp
         const Half shown = shown_of(cell);
         const Half leans = hn::Sub(hn::IfThenElseZero(hn::Eq(shown, half(ShapeCell::kBySecond)), half(1)),
                                    hn::IfThenElseZero(hn::Eq(shown, half(ShapeCell::kByFirst)), half(1)));
@@ -65,7 +65,7 @@ HWY_INLINE SurfaceHalves between_lines(const ShapeCell* first_cells, const Shape
             hn::Max(deepest_of(first), deepest_of(second)), hn::IfThenElseZero(hn::Eq(least_shown, zero), half(-1))};
 }
 
-// The bands of one of the two p, with nothing at either end.
+// Bands of one of the two columns along p, padded with bands without a surface at both ends.
 struct BandHalves {
     std::vector<std::int16_t> depth_q3;
     std::vector<std::int16_t> lean;
@@ -73,8 +73,8 @@ struct BandHalves {
     std::vector<std::int16_t> lacking;
 };
 
-void lay_bands(const ShapeCell* first, const ShapeCell* second, int bands, int part, int jump, int margin,
-               BandHalves& out) {
+void fill_bands(const ShapeCell* first, const ShapeCell* second, int bands, int part, int jump, int margin,
+                BandHalves& out) {
     const int lanes = static_cast<int>(hn::Lanes(Halves()));
     const auto length = static_cast<std::size_t>(bands + 2 * margin + lanes);
     out.depth_q3.assign(length, -1);
@@ -83,24 +83,24 @@ void lay_bands(const ShapeCell* first, const ShapeCell* second, int bands, int p
     out.lacking.assign(length, -1);
     const int rest_count = bands % lanes;
     int band = 0;
-    const auto lay = [&](const ShapeCell* f, const ShapeCell* s) {
+    const auto store = [&](const ShapeCell* f, const ShapeCell* s) {
         const SurfaceHalves surfaces = between_lines(f, s, part, jump);
         hn::StoreU(surfaces.depth_q3, Halves(), out.depth_q3.data() + margin + band);
         hn::StoreU(surfaces.lean, Halves(), out.lean.data() + margin + band);
         hn::StoreU(surfaces.deepest, Halves(), out.deepest.data() + margin + band);
         hn::StoreU(surfaces.lacking, Halves(), out.lacking.data() + margin + band);
     };
-    for (; band < bands - rest_count; band += lanes) lay(first + band, second + band);
+    for (; band < bands - rest_count; band += lanes) store(first + band, second + band);
     if (rest_count == 0) return;
-    // What is behind the last band belongs to another column, or to nobody.
+    // Cells after the last band belong to another column or are out of range.
     ShapeCell rest[2][kSurfaceLanes] = {};
     std::copy_n(first + band, rest_count, rest[0]);
     std::copy_n(second + band, rest_count, rest[1]);
-    lay(rest[0], rest[1]);
+    store(rest[0], rest[1]);
 }
 
-// surfaces_between() of cells that do not lie on one surface or lean, for all places between the two bands.
-void lay_step(const int (&depth)[2][2], const int (&lean)[2][2], int p_part, int jump, std::int32_t* out) {
+// surfaces_between() at all kSurfaceParts positions between two bands, for cells on different surfaces or with a lean.
+void fill_steps(const int (&depth)[2][2], const int (&lean)[2][2], int p_part, int jump, std::int32_t* out) {
     int nearest = 1 << 12;
     int farthest = -1;
     for (const auto& column : depth) {
@@ -132,7 +132,7 @@ void lay_step(const int (&depth)[2][2], const int (&lean)[2][2], int p_part, int
         const auto between = [&](const int(&bands)[2]) {
             return hn::Add(hn::Mul(lower, hn::Set(parts, bands[0])), hn::Mul(upper, hn::Set(parts, bands[1])));
         };
-        // Below 2^18 by at most 64: a float quotient that is no whole number keeps clear of them.
+        // Dividends below 2^18 and divisors of at most 64: truncating the float quotient is exact.
         const auto mean = [&](auto weights, auto sums) {
             const auto dividend = hn::ConvertTo(floats, hn::Add(sums, hn::ShiftRight<1>(weights)));
             const auto divisor = hn::ConvertTo(floats, hn::Max(weights, hn::Set(parts, 1)));
@@ -155,16 +155,16 @@ void lay_step(const int (&depth)[2][2], const int (&lean)[2][2], int p_part, int
     }
 }
 
-SurfaceColumn lay_column(const CellColumns& columns, const ShapeMap& shape, std::size_t start,
-                         SurfaceEntries& entries) {
+SurfaceColumn build_column(const CellColumns& columns, const ShapeMap& shape, std::size_t start,
+                           SurfaceEntries& entries) {
     constexpr int kMargin = 2;
     const int bands = shape.bands;
     const int jump = shape.jump;
     static thread_local BandHalves of_p[2];
     for (int p = 0; p < 2; ++p) {
-        lay_bands(columns.at[p][0], columns.at[p][1], bands, columns.line_part, jump, kMargin, of_p[p]);
+        fill_bands(columns.at[p][0], columns.at[p][1], bands, columns.line_part, jump, kMargin, of_p[p]);
     }
-    const auto are_empty = [&](int band, auto depths) {  // as many bands as `depths` has halves
+    const auto are_empty = [&](int band, auto depths) {  // tests sizeof depths / 2 bands
         decltype(depths) both[2];
         for (std::size_t p = 0; p < 2; ++p) {
             std::memcpy(&both[p], of_p[p].depth_q3.data() + band + kMargin, sizeof depths);
@@ -177,7 +177,7 @@ SurfaceColumn lay_column(const CellColumns& columns, const ShapeMap& shape, std:
     int high = bands;
     while (low + 4 <= bands && are_empty(low, Four{})) low += 4;
     while (low < bands && are_empty(low, One{})) ++low;
-    if (low == bands) return lay_nothing(start, entries);
+    if (low == bands) return build_empty_column(start, entries);
     while (high >= low + 4 && are_empty(high - 4, Four{})) high -= 4;
     while (are_empty(high - 1, One{})) --high;
 
@@ -195,8 +195,8 @@ SurfaceColumn lay_column(const CellColumns& columns, const ShapeMap& shape, std:
         Half depth[2][2];                                     // [p][band]
         Half low_sum[2];
         Half deepest = half(-1);
-        Half lacking = zero;  // -1 where one of the eight cells has no surface
-        Half leans = zero;    // not 0 where a surface does
+        Half lacking = zero;  // -1 if any of the eight cells has no surface
+        Half leans = zero;    // not 0 if any lean differs from kBothShow
         for (std::size_t b = 0; b < 2; ++b) {
             for (std::size_t p = 0; p < 2; ++p) {
                 depth[p][b] = hn::LoadU(halves, of_p[p].depth_q3.data() + from + b);
@@ -228,8 +228,8 @@ SurfaceColumn lay_column(const CellColumns& columns, const ShapeMap& shape, std:
             const int around[2][2] = {{of_p[0].depth_q3[at], of_p[0].depth_q3[at + 1]},
                                       {of_p[1].depth_q3[at], of_p[1].depth_q3[at + 1]}};
             const int lean[2][2] = {{of_p[0].lean[at], of_p[0].lean[at + 1]}, {of_p[1].lean[at], of_p[1].lean[at + 1]}};
-            lay_step(around, lean, columns.p_part, jump,
-                     entries.steps.data() + kSurfaceParts * start + kSurfaceParts * step);
+            fill_steps(around, lean, columns.p_part, jump,
+                       entries.steps.data() + kSurfaceParts * start + kSurfaceParts * step);
             entries.smooth[to + lane] = (1 << 16) + kSurfaceSteps + static_cast<std::int32_t>(step++);
         }
         for (const auto& both_bands : depth) {
@@ -248,14 +248,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace rs::engine {
 
-HWY_EXPORT(lay_column);
+HWY_EXPORT(build_column);
 
-SurfaceColumn lay_surfaces(const CellColumns& columns, const ShapeMap& shape, std::size_t start,
-                           SurfaceEntries& entries) {
-    return HWY_DYNAMIC_DISPATCH(lay_column)(columns, shape, start, entries);
+SurfaceColumn build_surface_column(const CellColumns& columns, const ShapeMap& shape, std::size_t start,
+                                   SurfaceEntries& entries) {
+    return HWY_DYNAMIC_DISPATCH(build_column)(columns, shape, start, entries);
 }
 
-SurfaceColumn lay_nothing(std::size_t start, SurfaceEntries& entries) {
+SurfaceColumn build_empty_column(std::size_t start, SurfaceEntries& entries) {
     entries.smooth[start] = kSurfaceNothing;
     return {};
 }

@@ -10,14 +10,14 @@
 
 namespace rs::engine {
 
-bool shows_coded_images(const RaySpaceObject& object) {
+bool has_only_coded_images(const RaySpaceObject& object) {
     return object.coded != nullptr && std::all_of(object.images.begin(), object.images.end(),
                                                   [](const PlanarImage& image) { return image.empty(); });
 }
 
 Result<TexelStore> TexelStore::create(const RaySpaceObject& object, std::int64_t decoded_budget_bytes) {
     TexelStore store;
-    if (shows_coded_images(object)) {
+    if (has_only_coded_images(object)) {
         RS_ASSIGN_OR_RETURN(std::unique_ptr<CodedTexels> coded,
                             CodedTexels::create(object.coded, object.name, decoded_budget_bytes));
         store.coded_ = std::move(coded);
@@ -33,7 +33,7 @@ Result<TexelStore> TexelStore::create(const RaySpaceObject& object, std::int64_t
         if (size > std::numeric_limits<std::int32_t>::max()) return too_many_texels(object.name);
     }
     store.texels_.resize(static_cast<std::size_t>(size));
-    store.details_.resize(static_cast<std::size_t>(size) + TexelLayout::kLeastColumn);
+    store.details_.resize(static_cast<std::size_t>(size) + TexelLayout::kMinColumnStride);
     store.spans_.resize(object.images.size() * static_cast<std::size_t>(object.width));
 
     for_each_index(object.images.size(), [&](std::size_t p) {

@@ -1,8 +1,8 @@
 #pragma once
-// The captured images in the fast core's layout: RGBA, column by column.
+// Captured images in the layout of the fast core: RGBA, column by column.
 //
-// YUV is converted to RGB once per stored pixel instead of once per rendered one; the definition converts each texel
-// before it interpolates, so the bits are the same. Columns are contiguous because the engine walks images downwards.
+// YUV is converted to RGB once per stored pixel instead of once per rendered one; the definition converts texels before
+// it interpolates, so the result is the same. Columns are contiguous because view columns sample images downwards.
 //
 // Layout: texel (column, row) of image p is texels()[column_start(p, column) + row], and
 // column_start(p, column + 1) = column_start(p, column) + column_stride(). Every image has a border one texel wide
@@ -10,7 +10,7 @@
 // texels()[0] is transparent and belongs to no image; lanes without a ray read it. details() holds each texel's
 // detail (definition/texel_detail.hpp) at the same index.
 //
-// Images that the object holds only compressed are decoded on demand and freed beyond a budget (coded_texels.hpp).
+// Compressed images are decoded on demand and freed beyond a budget (coded_texels.hpp).
 
 #include "engine/core/fast/coded_texels.hpp"
 #include "rayspace/base/result.hpp"
@@ -23,21 +23,22 @@
 
 namespace rs::engine {
 
-// True where the object's images are to be taken from object.coded: no image is unpacked.
-bool shows_coded_images(const RaySpaceObject& object);
+/// True if no image of the object is unpacked, so that object.coded is rendered.
+bool has_only_coded_images(const RaySpaceObject& object);
 
 class TexelStore {
 public:
-    // Fails where the images and their borders have 2^31 pixels or more (the fast core's indices are 32 bits wide),
-    // or coded images cannot be decoded. Images that are not loaded take no room and must not be requested.
+    /// Images that are not loaded take no memory and must not be requested.
+    /// \return error if the images and their borders have 2^31 pixels or more (indices are 32 bits wide), or if coded
+    ///         images cannot be decoded
     static Result<TexelStore> create(const RaySpaceObject& object, std::int64_t decoded_budget_bytes);
 
-    // Memory of `count` unpacked images of a size.
+    /// Memory of a store of `count` unpacked images of width x height pixels.
     static std::int64_t bytes_of_images(int width, int height, std::int64_t count);
-    // Memory of this store now.
+    /// Current memory of this store.
     [[nodiscard]] std::int64_t memory_bytes() const;
 
-    // Texels may be read only while a Reading exists; several may exist, in any threads.
+    // Scope in which texels may be read. Several may exist, in any threads.
     class Reading {
     public:
         explicit Reading(CodedTexels* coded) : coded_(coded) {
@@ -54,11 +55,11 @@ public:
     };
     [[nodiscard]] Reading read() const { return Reading(coded_.get()); }
 
-    // Before columns [first, last] of an image are read, or their spans.
+    /// Must be called before columns [first, last] of an image, or their spans, are read.
     void ensure(int image, int first, int last) const {
         if (coded_ != nullptr) coded_->ensure(image, first, last);
     }
-    // True if ensure() may have to decode.
+    /// True if ensure() may decode.
     [[nodiscard]] bool is_coded() const { return coded_ != nullptr; }
 
     [[nodiscard]] const Rgba8* texels() const { return coded_ != nullptr ? coded_->texels() : texels_.data(); }

@@ -8,30 +8,38 @@
 namespace rs::engine {
 namespace {
 
-struct Measured {
+struct MeasuredView {
     ComparedView view;
     ImageDifference difference;
 };
 
-Result<Measured> compare_view(const Renderer& renderer, const std::filesystem::path& folder, const RigView& view) {
+Result<MeasuredView> compare_view(const RenderView& render, const std::filesystem::path& folder, const RigView& view) {
     const std::filesystem::path path = image_path(folder, view);
     RS_ASSIGN_OR_RETURN(const Image<Rgba8> truth, read_image(path));
     if (truth.width() != view.camera.width || truth.height() != view.camera.height) {
-        return Error{path.string() + ": has another size than its frame in " + kRigFileName + " says; make them agree"};
+        return Error{path.string() + ": its size differs from its frame in " + kRigFileName + "; correct one of them"};
     }
-    const Result<ViewRegisters> registers = prepare_view(renderer.object(), view.camera);
-    if (!registers) return Error{path.string() + ": " + registers.error().message};
-    Image<Rgba8> rendered(view.camera.width, view.camera.height);
-    renderer.render(*registers, rendered);
-    const ImageDifference difference = compare_images(rendered, truth);
-    return Measured{{view.file_path, difference.psnr_db(), difference.ssim}, difference};
+    const Result<Image<Rgba8>> rendered = render(view.camera);
+    if (!rendered) return Error{path.string() + ": " + rendered.error().message};
+    const ImageDifference difference = compare_images(*rendered, truth);
+    return MeasuredView{{view.file_path, difference.psnr_db(), difference.ssim}, difference};
 }
 
 }  // namespace
 
 Result<Comparison> compare_with_set(const Renderer& renderer, const std::filesystem::path& set, Progress* progress) {
+    const RenderView render = [&](const Camera& camera) -> Result<Image<Rgba8>> {
+        RS_ASSIGN_OR_RETURN(const ViewRegisters registers, prepare_view(renderer.object(), camera));
+        Image<Rgba8> rendered(camera.width, camera.height);
+        renderer.render(registers, rendered);
+        return rendered;
+    };
+    return compare_with_set(render, set, progress);
+}
+
+Result<Comparison> compare_with_set(const RenderView& render, const std::filesystem::path& set, Progress* progress) {
     RS_ASSIGN_OR_RETURN(const Rig rig, read_rig(set));
-    if (rig.views.empty()) return Error{set.string() + ": holds no frames to compare with"};
+    if (rig.views.empty()) return Error{set.string() + ": has no frames to compare with"};
     const std::filesystem::path folder = std::filesystem::is_directory(set) ? set : set.parent_path();
 
     const int count = static_cast<int>(rig.views.size());
@@ -40,7 +48,7 @@ Result<Comparison> compare_with_set(const Renderer& renderer, const std::filesys
     std::vector<ImageDifference> differences(rig.views.size());
     RS_TRY(for_each_in_parallel(count, "comparing", progress, [&](int i) -> Status {
         const auto n = static_cast<std::size_t>(i);
-        RS_ASSIGN_OR_RETURN(Measured measured, compare_view(renderer, folder, rig.views[n]));
+        RS_ASSIGN_OR_RETURN(MeasuredView measured, compare_view(render, folder, rig.views[n]));
         comparison.views[n] = std::move(measured.view);
         differences[n] = measured.difference;
         return {};

@@ -1,10 +1,10 @@
 #pragma once
-// Rendering every pose of a capture set and measuring the distance to its images
-// (rayspace/image/image_metrics.hpp).
+// Renders every pose of a capture set and compares the views with its photos (rayspace/image/image_metrics.hpp).
 
 #include "engine/core/fast/renderer.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
+#include "rayspace/output/view_output.hpp"
 
 #include <filesystem>
 #include <string>
@@ -20,12 +20,15 @@ struct ComparedView {
 
 struct Comparison {
     std::vector<ComparedView> views;
-    double mean_psnr_db = 0;    // mean over views of the views' dB
-    double pooled_psnr_db = 0;  // dB of all views' object pixels taken together; lower where views differ
+    double mean_psnr_db = 0;    // mean of the PSNR of the views
+    double pooled_psnr_db = 0;  // PSNR of the object pixels of all views together; lower if the views differ in quality
     double mean_ssim = 0;
 };
 
-// `set` is in the units and the frame of the object's rig, as a second set traced of the same scene is.
+/// Compares every view of `set`. `render` is called from several threads at once.
+Result<Comparison> compare_with_set(const RenderView& render, const std::filesystem::path& set,
+                                    Progress* progress = nullptr);
+/// As above; `set` is in the units and the frame of the object's rig, such as a second set traced from the same scene.
 Result<Comparison> compare_with_set(const Renderer& renderer, const std::filesystem::path& set,
                                     Progress* progress = nullptr);
 

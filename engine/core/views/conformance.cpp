@@ -14,7 +14,7 @@
 namespace rs::engine {
 namespace {
 
-// mt19937_64 is the same everywhere; the standard distributions are not.
+// mt19937_64 gives the same numbers on every platform; the standard distributions do not.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : engine_(seed) {}
@@ -28,24 +28,24 @@ private:
 
 enum class Pose { upright, on_ring, tilted };
 
-// Where the views of a ring stand, in object radii.
-struct RingPlace {
+// Position of the views of a ring, in object radii.
+struct RingPosition {
     double distance = 0;
     double height = 0;
 };
 
-RingPlace random_place(const RaySpaceObject& object, Random& random) {
+RingPosition random_ring_position(const RaySpaceObject& object, Random& random) {
     const auto rings = static_cast<double>(object.rings.size());
     const Ring& ring = object.rings[std::min(static_cast<std::size_t>(random.in(0, rings)), object.rings.size() - 1)];
     const auto place = [](std::int32_t distance_q20, std::int32_t height_q20) {
-        return RingPlace{std::ldexp(distance_q20, -20), std::ldexp(height_q20, -20)};
+        return RingPosition{std::ldexp(distance_q20, -20), std::ldexp(height_q20, -20)};
     };
     if (!ring.shape.empty()) return place(ring.shape.reference_distance_q20, ring.shape.reference_height_q20);
     const CapturedView& view = object.views[ring.views.front()];
     return place(std::abs(view.lines.front().l0_q20), view.height_q20);  // the axis' depth
 }
 
-// One random number to a statement: the order of a call's arguments is the compiler's choice.
+// One random number per statement, since the evaluation order of arguments is unspecified.
 Camera random_camera(const RaySpaceObject& object, Random& random, Pose pose) {
     const double azimuth = random.in(0, 2 * kPi);
     double distance = random.in(1.2, 12);
@@ -54,12 +54,12 @@ Camera random_camera(const RaySpaceObject& object, Random& random, Pose pose) {
     const double at_x = random.in(-0.3, 0.3);
     const double at_z = random.in(-0.3, 0.3);
     if (pose == Pose::on_ring) {
-        const RingPlace place = random_place(object, random);
+        const RingPosition place = random_ring_position(object, random);
         distance = place.distance;
         eye_height = place.height;
         at_height = 0;
     }
-    const double half_extent = random.in(0.3, 1.6);  // of the larger side, in radii at the axis
+    const double half_extent = random.in(0.3, 1.6);  // of the larger side, radii at the axis
     const int width = static_cast<int>(random.in(16, 256));
     const int height = static_cast<int>(random.in(16, 256));
     const glm::dvec3 eye(distance * std::sin(azimuth), eye_height, distance * std::cos(azimuth));
@@ -68,9 +68,9 @@ Camera random_camera(const RaySpaceObject& object, Random& random, Pose pose) {
     const Camera camera =
         look_at_camera(eye * object.units_per_radius, at * object.units_per_radius, fov_x, width, height);
     if (pose == Pose::tilted) return camera;
-    Camera standing = upright_camera(camera);
-    if (pose == Pose::on_ring) standing.cy -= standing.fl_y * eye_height / distance;  // the object stays in the middle
-    return standing;
+    Camera upright = upright_camera(camera);
+    if (pose == Pose::on_ring) upright.cy -= upright.fl_y * eye_height / distance;  // keeps the object centred
+    return upright;
 }
 
 }  // namespace
@@ -78,7 +78,7 @@ Camera random_camera(const RaySpaceObject& object, Random& random, Pose pose) {
 Result<ConformanceReport> check_conformance(RaySpaceObject object, int views, std::uint64_t seed, Progress* progress) {
     RS_TRY(substitute_missing_images(object));
     RS_ASSIGN_OR_RETURN(const Renderer renderer, Renderer::create(object));
-    if (shows_coded_images(object)) {  // the definition reads them unpacked
+    if (has_only_coded_images(object)) {  // the scalar definition needs unpacked images
         object.images.resize(object.views.size());
         codec::decode_images(object);
     }

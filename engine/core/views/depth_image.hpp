@@ -1,5 +1,5 @@
 #pragma once
-// The depth of a rendered view as the tools write it: like a tracer's depth channel, in the units of the object's rig.
+// Depth image of a rendered view in the units of the object's rig, like the tracer's depth channel.
 
 #include "rayspace/geometry/camera.hpp"
 #include "rayspace/image/image.hpp"
@@ -9,8 +9,8 @@
 
 namespace rs::engine {
 
-// `lambda_q20` is Renderer::render's for the view of `camera`. Axial depth from the camera's own centre, also where
-// prepare_view brought a distant viewpoint nearer; 0 where nothing is shown.
+/// Axial depth from the camera's centre, also if prepare_view moved a distant viewpoint nearer; 0 where alpha is 0.
+/// \param lambda_q20  from Renderer::render for the view of `camera`
 Image<float> depth_image(const RaySpaceObject& object, const Camera& camera, ConstImageView<std::int32_t> lambda_q20);
 
 }  // namespace rs::engine

@@ -11,16 +11,16 @@ namespace {
 
 Result<Camera> first_captured_camera(const RaySpaceObject& object) {
     if (object.rig_json.empty()) {
-        return Error{object.name + ": holds no rig to take a camera from; give the cameras with --poses"};
+        return Error{object.name + ": has no rig with cameras; give cameras with --poses"};
     }
     RS_ASSIGN_OR_RETURN(Rig rig, rig_from_json(object.rig_json, object.name + " (its rig)"));
     if (rig.views.empty() || object.rings.empty() || object.rings.front().views.empty()) {
-        return Error{object.name + ": holds no views"};
+        return Error{object.name + ": has no views"};
     }
     return rig.views[object.rings.front().views.front()].camera;
 }
 
-// Scales the image to the new shape, its middle staying the middle.
+// Scales the image to the new shape about its centre.
 void reshape(Camera& camera, const ViewShape& shape) {
     const int width = shape.width > 0 ? shape.width : camera.width;
     const int height = shape.height > 0 ? shape.height : camera.height;

@@ -1,5 +1,5 @@
 #pragma once
-// Cameras to look at an object with: an orbit like its capture, and one camera from an eye and a target.
+// Cameras for views of an object: an orbit like its capture, and a camera from an eye and a target.
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -18,11 +18,11 @@ struct ViewShape {
     std::optional<double> fov_x_rad;  // full horizontal angle; empty = as captured
 };
 
-// `count` cameras about the Y axis at even steps, starting at the first captured view: its distance, height, tilt and
-// intrinsics (scaled to the shape so that the whole captured frame fits), turned about Y.
+/// `count` cameras about the Y axis at even steps: the first captured camera, with its intrinsics scaled to `shape` so
+/// that the whole captured frame fits, rotated about Y.
 Result<std::vector<Camera>> orbit_cameras(const RaySpaceObject& object, int count, const ViewShape& shape);
 
-// From `eye` towards `at`, both in object radii. Without fov as captured.
+/// Camera at `eye` that looks towards `at`, both in object radii. The field of view is as captured unless given.
 Result<Camera> camera_from_eye(const RaySpaceObject& object, const glm::dvec3& eye, const glm::dvec3& at,
                                const ViewShape& shape);
 

@@ -1,6 +1,6 @@
 #pragma once
-// What a block did in a cycle. Every block reports exactly one of these per cycle of its clock, so the counts of a
-// block add up to the cycles it has seen: that is where a cycle went.
+// Activity of a block in one cycle. Every block reports exactly one activity per cycle of its clock, so the counts of a
+// block add up to its elapsed cycles.
 
 #include <array>
 #include <cstddef>
@@ -10,19 +10,19 @@
 namespace rs::engine::model {
 
 enum class Activity : std::uint8_t {
-    busy,         // did work that somebody needs
-    idle,         // had nothing to do: no input
-    output_full,  // had a result, and whoever takes it had no room
+    busy,         // did useful work
+    idle,         // no input
+    output_full,  // had a result, but its output FIFO was full
     memory_port,  // needed the memory, and its request FIFO was full
     memory_data,  // waited for data from the memory
-    row_miss,     // memory: closing and opening a row of a bank
+    row_miss,     // memory: a row of a bank is closed and opened
     turnaround,   // memory: the data bus changes its direction; bus: the idle clock between two masters
     maintenance,  // memory: refresh, and the window in which the private bus writes
     arbitration,  // bus: waited for the grant
-    target_wait,  // bus: the target was not ready yet, or must be tried again
+    target_wait,  // bus: the target was not ready, or answered with a retry
     master_wait,  // bus: the board's own wait states
     disk_wait,    // the disk had no data
-    buffer_wait,  // both image buffers are full, or no command
+    buffer_wait,  // both image buffers are full, or there is no command
     count_of_all,
 };
 inline constexpr std::size_t kActivities = static_cast<std::size_t>(Activity::count_of_all);
@@ -34,9 +34,9 @@ constexpr std::string_view activity_name(Activity activity) {
     return kNames[static_cast<std::size_t>(activity)];
 }
 
-// True where the block itself was what took the time: work, or what its own interface makes it lose. The block with the
-// largest share of these limits the others.
-constexpr bool occupies(Activity activity) {
+// True if the block itself used the time: work, or losses of its own interface. The block with the largest share of
+// these limits the others.
+constexpr bool is_occupied(Activity activity) {
     switch (activity) {
         case Activity::busy:
         case Activity::row_miss:
@@ -51,7 +51,8 @@ constexpr bool occupies(Activity activity) {
     }
 }
 
-// Waiting that must end by itself does not count; the disk has a timer of its own (disk_controller).
+// True for activities that count as progress. Waiting for the disk counts, because it has its own timeout
+// (disk_controller); all other waiting does not.
 constexpr bool is_progress(Activity activity) {
     return activity == Activity::busy || activity == Activity::disk_wait;
 }
@@ -66,7 +67,7 @@ struct ActivityCounts {
     }
     [[nodiscard]] std::uint64_t occupied() const {
         std::uint64_t sum = 0;
-        for (std::size_t a = 0; a < kActivities; ++a) sum += occupies(static_cast<Activity>(a)) ? cycles[a] : 0;
+        for (std::size_t a = 0; a < kActivities; ++a) sum += is_occupied(static_cast<Activity>(a)) ? cycles[a] : 0;
         return sum;
     }
 };

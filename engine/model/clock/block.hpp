@@ -1,7 +1,7 @@
 #pragma once
-// A block of the board: a clocked machine that meets others only through FIFOs. It declares its FIFOs (the diagram is
-// made of the declarations), counts where its cycles went, and does its work in tick(). Blocks hold no pointers to
-// blocks; board_top constructs and wires.
+// A block of the board: a clocked machine that communicates through FIFOs only. It declares its FIFOs (the diagram is
+// generated from the declarations), counts its cycles by activity, and works in tick(). Blocks hold no pointers to
+// other blocks; board_top constructs and wires them.
 
 #include "engine/model/clock/activity.hpp"
 #include "engine/model/clock/crossing_fifo.hpp"
@@ -14,7 +14,7 @@
 
 namespace rs::engine::model {
 
-// The name of a block or FIFO without the number of the pipe that it belongs to ("_p" and digits at its end).
+// Name of a block or FIFO without the suffix of its pipe ("_p" and digits).
 inline std::string name_without_pipe(const std::string& name) {
     const std::size_t digits = name.find_last_not_of("0123456789");
     const bool has_pipe = digits != std::string::npos && digits >= 1 && digits + 1 < name.size() &&
@@ -32,13 +32,13 @@ struct Port {
 
 class Block {
 public:
-    // `timing`: latency and interval between results, in cycles, as one line of the diagram.
+    // `timing`: latency and interval between results in cycles, as one line of the diagram.
     Block(std::string name, std::string timing) : name_(std::move(name)), timing_(std::move(timing)) {}
     virtual ~Block() = default;
     Block(const Block&) = delete;
     Block& operator=(const Block&) = delete;
 
-    // One cycle of the block's clock. `now` counts them from 0.
+    // Executes one cycle of the block's clock. `now` counts cycles from 0.
     virtual Activity tick(std::uint64_t now) = 0;
 
     void clock(std::uint64_t now) {
@@ -47,14 +47,14 @@ public:
     }
 
     [[nodiscard]] const std::string& name() const { return name_; }
-    // Of a block that stands several times: which of them it is.
+    // Suffix of a block that has several instances.
     void append_to_name(const std::string& suffix) { name_ += suffix; }
     [[nodiscard]] const std::string& timing() const { return timing_; }
     [[nodiscard]] const std::vector<Port>& ports() const { return ports_; }
     [[nodiscard]] const ActivityCounts& counts() const { return counts_; }
     [[nodiscard]] Activity last_activity() const { return last_; }
 
-    // Registers inside, as text, for the dump of a run that is stuck.
+    // Internal registers as text, for the dump of a stalled run.
     [[nodiscard]] virtual std::string state_text() const { return {}; }
 
 protected:

@@ -1,7 +1,7 @@
 #pragma once
-// A FIFO between two clocks: a dual-port RAM whose pointers go through two flip-flops of the other clock. What is
-// pushed is seen by the reader at the second edge of its clock after the push; room made by a pop is seen by the writer
-// at the second edge of its clock after the pop. Where edges of both clocks coincide, the board's comes first.
+// FIFO between two clocks: a dual-port RAM whose pointers pass through two flip-flops of the other clock. A push is
+// visible to the reader at the second edge of its clock after the push; space freed by a pop is visible to the writer
+// at the second edge of its clock after the pop. If edges of both clocks coincide, the board's is first.
 
 #include "rayspace/base/check.hpp"
 
@@ -25,8 +25,8 @@ public:
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] int depth() const { return depth_; }
     [[nodiscard]] int width_bits() const { return width_bits_; }
-    [[nodiscard]] int count() const { return static_cast<int>(pushes_ - pops_); }  // really inside
-    [[nodiscard]] std::uint64_t pushed_in_all() const { return pushes_; }
+    [[nodiscard]] int count() const { return static_cast<int>(pushes_ - pops_); }  // actual number of items
+    [[nodiscard]] std::uint64_t total_pushed() const { return pushes_; }
 
     [[nodiscard]] int room() const { return depth_ - static_cast<int>(pushes_ - pops_seen_[1]); }  // writer's view
     [[nodiscard]] bool can_push() const { return room() > 0; }

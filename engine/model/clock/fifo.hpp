@@ -1,11 +1,11 @@
 #pragma once
-// Two-phase FIFOs: the only way from block to block. During a cycle everybody sees the FIFO as it was when the cycle
-// began; what is pushed and popped takes effect when the cycle ends (commit). So the order in which blocks are ticked
-// cannot matter: a push is visible in the next cycle, and room made by a pop is too. A FIFO of depth 1 therefore moves
-// an item every second cycle, one of depth 2 or more one per cycle.
+// Two-phase FIFOs: the only connection between blocks. During a cycle all blocks see the FIFO as it was at the start of
+// the cycle; pushes and pops take effect at its end (commit). Therefore the order in which blocks are ticked cannot
+// matter: a push and the space freed by a pop are visible in the next cycle. A FIFO of depth 1 moves an item every
+// second cycle, deeper ones one per cycle.
 //
-// One push and one pop per cycle, as a RAM with a write port and a read port has. Breaking a rule is a defect of the
-// block and stops the program.
+// One push and one pop per cycle, as in a RAM with a write port and a read port. A violation is a defect of the block
+// and stops the program (RS_CHECK).
 
 #include "rayspace/base/check.hpp"
 
@@ -19,12 +19,12 @@ namespace rs::engine::model {
 
 class FifoState;
 
-// FIFOs that stand together: each enters itself, and gets the rack's suffix behind its name.
-class FifoRack {
+// Group of FIFOs: each registers itself, and the suffix of the group is appended to its name.
+class FifoGroup {
 public:
-    explicit FifoRack(std::string suffix = "") : suffix_(std::move(suffix)) {}
-    FifoRack(const FifoRack&) = delete;
-    FifoRack& operator=(const FifoRack&) = delete;
+    explicit FifoGroup(std::string suffix = "") : suffix_(std::move(suffix)) {}
+    FifoGroup(const FifoGroup&) = delete;
+    FifoGroup& operator=(const FifoGroup&) = delete;
 
     [[nodiscard]] const std::vector<FifoState*>& fifos() const { return fifos_; }
 
@@ -34,14 +34,14 @@ private:
     std::vector<FifoState*> fifos_;
 };
 
-// What is known of a FIFO without its items: for diagrams, waveforms and dumps.
+// State of a FIFO without its items: for diagrams, waveforms and dumps.
 class FifoState {
 public:
     FifoState(std::string name, int depth, int width_bits)
         : name_(std::move(name)), depth_(depth), width_bits_(width_bits) {
         RS_CHECK(depth >= 1 && width_bits >= 1);
     }
-    FifoState(FifoRack& rack, const std::string& name, int depth, int width_bits)
+    FifoState(FifoGroup& rack, const std::string& name, int depth, int width_bits)
         : FifoState(name + rack.suffix_, depth, width_bits) {
         rack.fifos_.push_back(this);
     }
@@ -53,23 +53,23 @@ public:
     [[nodiscard]] int depth() const { return depth_; }
     [[nodiscard]] int width_bits() const { return width_bits_; }
 
-    // All as of the beginning of the cycle.
+    // State at the beginning of the cycle.
     [[nodiscard]] int count() const { return count_; }
     [[nodiscard]] int room() const { return depth_ - count_; }
     [[nodiscard]] bool can_push() const { return count_ < depth_; }
     [[nodiscard]] bool can_pop() const { return count_ > 0; }
-    [[nodiscard]] std::uint64_t pushed_in_all() const { return pushed_in_all_; }
+    [[nodiscard]] std::uint64_t total_pushed() const { return total_pushed_; }
 
-    // Ends the cycle. True where something moved.
+    // Ends the cycle. Returns true if an item was pushed or popped.
     bool commit() {
         if (!pushed_ && !popped_) return false;
         count_ += static_cast<int>(pushed_) - static_cast<int>(popped_);
-        pushed_in_all_ += static_cast<std::uint64_t>(pushed_);
+        total_pushed_ += static_cast<std::uint64_t>(pushed_);
         pushed_ = popped_ = false;
         return true;
     }
 
-    // Item `index` from the front, as text; for the dump of a run that is stuck.
+    // Item `index` from the front, as text, for the dump of a stalled run.
     [[nodiscard]] virtual std::string item_text(int index) const = 0;
 
 protected:
@@ -81,16 +81,17 @@ private:
     std::string name_;
     int depth_;
     int width_bits_;
-    std::uint64_t pushed_in_all_ = 0;
+    std::uint64_t total_pushed_ = 0;
 };
 
-// T has `std::string text(const T&)` findable by argument-dependent look-up. `width_bits` is what the hardware stores.
+// T requires `std::string text(const T&)`, found by argument-dependent look-up. `width_bits`: bits that the hardware
+// stores per item.
 template <class T>
 class Fifo final : public FifoState {
 public:
     Fifo(std::string name, int depth, int width_bits)
         : FifoState(std::move(name), depth, width_bits), items_(places(depth)) {}
-    Fifo(FifoRack& rack, const std::string& name, int depth, int width_bits)
+    Fifo(FifoGroup& rack, const std::string& name, int depth, int width_bits)
         : FifoState(rack, name, depth, width_bits), items_(places(depth)) {}
 
     void push(const T& item) {

@@ -33,7 +33,7 @@ void Simulator::add(Domain domain, FifoState& fifo) {
     (domain == Domain::board ? board_ : pci_).fifos.push_back(&fifo);
 }
 
-void Simulator::add(Domain domain, const FifoRack& rack) {
+void Simulator::add(Domain domain, const FifoGroup& rack) {
     for (FifoState* const fifo : rack.fifos()) add(domain, *fifo);
 }
 
@@ -66,11 +66,11 @@ void Simulator::step() {
     if (observer_) observer_(board_cycles_);
 }
 
-Status Simulator::run_until(const std::function<bool()>& done, std::uint64_t most_cycles) {
+Status Simulator::run_until(const std::function<bool()>& done, std::uint64_t max_cycles) {
     quiet_cycles_ = 0;
     for (std::uint64_t n = 0; !done(); ++n) {
-        if (n == most_cycles) {
-            return Error{"the board is not done after " + std::to_string(most_cycles) + " cycles; its state:\n" +
+        if (n == max_cycles) {
+            return Error{"the board is not done after " + std::to_string(max_cycles) + " cycles; its state:\n" +
                          dump()};
         }
         if (quiet_cycles_ >= options_.no_progress_cycles) {

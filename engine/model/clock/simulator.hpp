@@ -1,8 +1,8 @@
 #pragma once
 // Ticks blocks and commits FIFOs, cycle by cycle, in two clock domains whose periods have an integer ratio.
 //
-// Where nothing moves and no block works for a given number of board cycles although the run is not done, the run fails
-// with the contents of every FIFO and the state of every block.
+// If no FIFO moves and no block works for a given number of board cycles before the run is done, the run fails with the
+// contents of every FIFO and the state of every block.
 
 #include "engine/model/clock/block.hpp"
 #include "rayspace/base/result.hpp"
@@ -19,23 +19,23 @@ enum class Domain { board, pci };
 class Simulator {
 public:
     struct Options {
-        int board_period = 5;  // in units of time common to both clocks: 5 ns of 40 MHz and 6 of 33.3 MHz at 200 MHz
+        int board_period = 5;  // in units common to both clocks, 5 ns at 200 MHz: 5 units for 40 MHz, 6 for 33.3 MHz
         int pci_period = 6;
         std::uint64_t no_progress_cycles = 20000;  // of the board's clock
-        std::uint64_t shuffle_seed = 0;            // other than 0: blocks are ticked in a new random order every cycle
+        std::uint64_t shuffle_seed = 0;            // not 0: blocks are ticked in a new random order every cycle
     };
     explicit Simulator(const Options& options);
 
     void add(Domain domain, Block& block);
     void add(Domain domain, FifoState& fifo);
-    void add(Domain domain, const FifoRack& rack);
+    void add(Domain domain, const FifoGroup& rack);
     void add_crossing(Domain writer, CrossingState& fifo);
 
-    // One cycle of the board's clock, and those of the bus that fall due in it.
+    // Executes one cycle of the board's clock and the bus cycles that are due in it.
     void step();
 
-    // Steps until done() or, with an error, until nothing moves any more or `most_cycles` are over.
-    Status run_until(const std::function<bool()>& done, std::uint64_t most_cycles);
+    // Steps until done() returns true. Fails after no_progress_cycles without progress, or after `max_cycles`.
+    Status run_until(const std::function<bool()>& done, std::uint64_t max_cycles);
 
     [[nodiscard]] std::uint64_t board_cycles() const { return board_cycles_; }
     [[nodiscard]] std::uint64_t pci_cycles() const { return pci_cycles_; }
@@ -61,7 +61,7 @@ private:
     std::uint64_t board_cycles_ = 0;
     std::uint64_t pci_cycles_ = 0;
     std::uint64_t quiet_cycles_ = 0;
-    int phase_ = 0;  // units of time until the next edge of the bus's clock, counted from the board's
+    int phase_ = 0;  // units until the next edge of the bus clock, counted from the board's edge
     std::uint64_t random_;
     std::function<void(std::uint64_t)> observer_;
 };

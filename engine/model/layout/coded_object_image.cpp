@@ -7,7 +7,7 @@
 namespace rs::engine::model {
 namespace {
 
-// Eight bytes to a word, low first; nothing behind the last byte.
+// Eight bytes per word, low byte first, zero-padded.
 template <class Byte>
 void append_bytes(std::span<const Byte> bytes, std::size_t words, std::vector<std::uint64_t>& out) {
     const std::size_t first = out.size();
@@ -61,13 +61,13 @@ Status has_board_images(const RaySpaceObject& object) {
         "--profile raw";
     if (object.coded == nullptr) {
         return Error{object.name +
-                     ": its images are not compressed, and compressed-2000 holds those of profile "
+                     ": its images are not compressed, but compressed-2000 holds images of profile "
                      "board" +
                      remedy};
     }
     if (object.coded->profile != codec::Profile::kBoard) {
         return Error{object.name + ": its images are of profile " + codec::name_of(object.coded->profile) +
-                     ", and compressed-2000 unpacks those of profile board" + remedy};
+                     ", but compressed-2000 decodes images of profile board" + remedy};
     }
     const std::vector<codec::CodedImage>& images = object.coded->images;
     if (images.size() != object.views.size() ||

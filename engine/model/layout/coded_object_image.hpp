@@ -1,5 +1,5 @@
 #pragma once
-// The images of profile `board` as the board's disk and memory hold them: coded_layout.hpp.
+// Images of profile `board` in the layout of the board's disk and memory (coded_layout.hpp).
 
 #include "engine/model/blocks/memory/disk_controller.hpp"
 #include "engine/model/layout/memory_map.hpp"
@@ -10,13 +10,14 @@
 
 namespace rs::engine::model {
 
-// Fails where the object's images are not all there, or are none of profile `board`, with the remedy.
+// Fails if not all images of the object are loaded, or if they do not have profile `board`; the message names the
+// remedy.
 Status has_board_images(const RaySpaceObject& object);
 
-// Words per region, of the images and codebooks alone.
+// Words per region for images and codebooks only.
 std::array<std::uint64_t, kObjectRegions> coded_words(const codec::CodedImages& coded);
 
-// Adds the segments and sets the registers of the images. `books`: where the codebooks go.
+// Adds the segments and sets the registers of the images. `books`: address of the codebooks.
 void add_coded_images(const codec::CodedImages& coded, const Placement& placement, WordAddress books,
                       ObjectRegisters& registers, std::vector<MemorySegment>& segments);
 

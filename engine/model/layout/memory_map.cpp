@@ -14,10 +14,10 @@ MemoryMap::MemoryMap(const MemorySettings& settings) {
     }
 }
 
-Result<Placement> MemoryMap::take(const std::array<std::uint64_t, kObjectRegions>& words, const std::string& name) {
+Result<Placement> MemoryMap::allocate(const std::array<std::uint64_t, kObjectRegions>& words, const std::string& name) {
     Placement placement;
     placement.words = words;
-    std::array<std::size_t, kObjectRegions> places{};  // in the list of runs
+    std::array<std::size_t, kObjectRegions> places{};  // indices into the lists of runs
     for (std::size_t n = 0; n < kObjectRegions; ++n) {
         const Space& space = spaces_[n];
         std::uint64_t at = space.all.first;
@@ -42,7 +42,7 @@ Result<Placement> MemoryMap::take(const std::array<std::uint64_t, kObjectRegions
     return placement;
 }
 
-void MemoryMap::give_back(const Placement& placement) {
+void MemoryMap::release(const Placement& placement) {
     for (std::size_t n = 0; n < kObjectRegions; ++n) {
         std::vector<Run>& taken = spaces_[n].taken;
         const auto run = std::find_if(taken.begin(), taken.end(), [&](const Run& r) {

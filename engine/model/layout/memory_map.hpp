@@ -1,6 +1,6 @@
 #pragma once
-// Who has which words of object memory. Each kind of data has its banks (MemoryRegions); an object takes a run of words
-// in each of four, first fit.
+// Allocator of object memory. Each kind of data has its banks (MemoryRegions); an object occupies one run of words
+// in each of four regions, first fit.
 
 #include "engine/model/signals/board_config.hpp"
 #include "engine/model/signals/registers.hpp"
@@ -22,12 +22,12 @@ class MemoryMap {
 public:
     explicit MemoryMap(const MemorySettings& settings);
 
-    // Finds a place for so many words per region. Fails, and takes nothing, where a region has none; `name` is the
-    // object's, for the error.
-    Result<Placement> take(const std::array<std::uint64_t, kObjectRegions>& words, const std::string& name);
-    void give_back(const Placement& placement);
+    // Allocates the given number of words per region. Fails, and allocates nothing, if a region has no such run; `name`
+    // is the object's, for the error.
+    Result<Placement> allocate(const std::array<std::uint64_t, kObjectRegions>& words, const std::string& name);
+    void release(const Placement& placement);
 
-    // How many objects of so many words per region it holds when it holds nothing else.
+    // Number of objects with the given words per region that fit into the empty memory.
     [[nodiscard]] std::uint64_t copies(const std::array<std::uint64_t, kObjectRegions>& words) const;
 
     [[nodiscard]] std::uint64_t capacity_words(Region region) const;
@@ -41,7 +41,7 @@ private:
     struct Space {
         std::string name;
         Run all;
-        std::vector<Run> taken;  // in order
+        std::vector<Run> taken;  // ordered by address
     };
     std::array<Space, kObjectRegions> spaces_;
 };

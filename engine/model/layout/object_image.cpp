@@ -78,7 +78,7 @@ void add_raw_images(const RaySpaceObject& object, const Placement& placement, Ob
 Status has_raw_images(const RaySpaceObject& object) {
     if (object.coded != nullptr) {
         return Error{object.name + ": its images are of profile " + codec::name_of(object.coded->profile) +
-                     ", and this board holds raw ones (U and V at half size); encode it with --profile raw" +
+                     ", but this board holds raw images (U and V at half size); encode it with --profile raw" +
                      (object.coded->profile == codec::Profile::kBoard
                           ? ", or use compressed-2000"
                           : ", or with --profile board for compressed-2000")};
@@ -90,7 +90,7 @@ Status has_raw_images(const RaySpaceObject& object) {
     for (const PlanarImage& image : object.images) {
         if (image.chroma_shift != 1) {
             return Error{object.name +
-                         ": stores colour at full size, and the board has U and V at half size; encode it "
+                         ": stores colour at full size, but the board has U and V at half size; encode it "
                          "with colour at half size"};
         }
     }
@@ -144,7 +144,7 @@ namespace {
 
 using Words = std::array<std::uint64_t, kObjectRegions>;
 
-// Of their maps, and of `line_words` words for each view and for each of its lines.
+// Footprint of the RS maps, and of `line_words` words per view and per line of a view.
 BoardFootprint maps_and_lines(const RaySpaceObject& object, std::uint64_t line_words) {
     BoardFootprint footprint;
     for (const Ring& ring : object.rings) {
@@ -160,7 +160,7 @@ void add_coded(const codec::CodedImages& coded, BoardFootprint& footprint) {
     footprint.book_bytes = 8 * book_words(coded.board);
 }
 
-// The boards of 2000: one ring, its map and lines in one table, the images as the derived class has them.
+// Boards of 2000: one ring, its map and lines in one table; the derived class adds the images.
 class LayoutOf2000 : public ObjectLayout {
 public:
     [[nodiscard]] Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const override {
@@ -169,8 +169,8 @@ public:
         if (Status status = fits(object, limits); !status) return status;
         if (object.rings.front().shape.empty()) return {};
         return Error{object.name +
-                     ": has a shape map, which the published board does not know (it takes objects to lie on "
-                     "their reference planes); encode it with --raymap plane, or use parallel"};
+                     ": has a shape map, which the published board does not support (it renders surfaces on "
+                     "reference planes only); encode it with --raymap plane, or use parallel"};
     }
 
     [[nodiscard]] Words words(const RaySpaceObject& object) const override {
@@ -196,7 +196,7 @@ public:
 protected:
     [[nodiscard]] virtual Status has_images(const RaySpaceObject& object) const = 0;
     [[nodiscard]] virtual Words image_words(const RaySpaceObject& object) const = 0;
-    // `behind_tables`: the first word of its region that is free.
+    // `behind_tables`: first free word of the region of the tables.
     virtual void add_images(const RaySpaceObject& object, const Placement& placement, WordAddress behind_tables,
                             ObjectImage& image) const = 0;
 };
@@ -214,7 +214,7 @@ public:
         footprint.alpha_bytes = images * ((area(object.width, object.height) * kAlphaBits + 7) / 8);
         return footprint;
     }
-    [[nodiscard]] RaySpaceObject as_drawn(RaySpaceObject object) const override {
+    [[nodiscard]] RaySpaceObject as_rendered(RaySpaceObject object) const override {
         return with_board_alpha(std::move(object));
     }
 
@@ -267,7 +267,7 @@ public:
         if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
         if (object.coded != nullptr && object.coded->profile != codec::Profile::kBoard) {
             return Error{object.name + ": its images are of profile " + codec::name_of(object.coded->profile) +
-                         ", and the board unpacks those of profile board; encode it with --profile board or --profile "
+                         ", but the board decodes images of profile board; encode it with --profile board or --profile "
                          "raw"};
         }
         const bool coded = object.coded != nullptr;

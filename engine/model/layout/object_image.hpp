@@ -1,6 +1,6 @@
 #pragma once
-// An object as it lies on the board's disk and in its memory: images column by column, alpha in 2 bits, the RS map a
-// byte per cell, cameras and lines in records (the layouts stand in image_scan.hpp and line_reader.hpp).
+// Object in the layout of the board's disk and memory: images column by column, alpha in 2 bits, the RS map a byte per
+// cell, cameras and lines in records (layouts: image_scan.hpp and line_reader.hpp).
 
 #include "engine/model/blocks/memory/disk_controller.hpp"
 #include "engine/model/layout/memory_map.hpp"
@@ -16,20 +16,20 @@ namespace rs::engine::model {
 
 inline constexpr int kAlphaBits = 2;
 
-// The numbers of its RS map.
+// Sets the registers of the object's RS map.
 void set_map_registers(const RaySpaceObject& object, ObjectRegisters& registers);
 
-// Fails where images are not there as Y, U and V at half size, and alpha.
+// Fails if images are not loaded as Y, U and V at half size, and alpha.
 Status has_raw_images(const RaySpaceObject& object);
 
-// Bytes of board memory that an object takes; planes of images and maps are stored without gaps.
+// Bytes of board memory of an object; planes of images and maps are stored without gaps.
 struct BoardFootprint {
     std::uint64_t luma_bytes = 0;
     std::uint64_t chroma_bytes = 0;
     std::uint64_t alpha_bytes = 0;
     std::uint64_t map_bytes = 0;    // one byte per cell: at most 120 images and "none"
     std::uint64_t lines_bytes = 0;  // 16 bytes per view, 16 per view and plane
-    // Of coded images (coded_layout.hpp), instead of luma, chroma and alpha.
+    // Coded images (coded_layout.hpp), instead of luma, chroma and alpha.
     std::uint64_t tile_bytes = 0;
     std::uint64_t tile_table_bytes = 0;
     std::uint64_t book_bytes = 0;
@@ -45,7 +45,7 @@ struct ObjectImage {
     std::vector<MemorySegment> segments;
 };
 
-// How boards of one kind hold objects. Pure; thread-safe.
+// Memory layout of objects on boards of one kind. Stateless; thread-safe.
 class ObjectLayout {
 public:
     ObjectLayout() = default;
@@ -53,19 +53,19 @@ public:
     ObjectLayout& operator=(const ObjectLayout&) = delete;
     virtual ~ObjectLayout() = default;
 
-    // Bytes that the object takes; of a board of coded images it has them, all loaded.
+    // Bytes of the object in board memory; boards of coded images require all images loaded.
     [[nodiscard]] virtual BoardFootprint footprint(const RaySpaceObject& object) const = 0;
-    // Fails with the limit that the objects exceed together, with the image buffer for a full cycle of views.
+    // Fails with the limit that the objects exceed together, including the image buffer for a full cycle of views.
     [[nodiscard]] Status fit_together(std::span<const RaySpaceObject> objects, const BoardLimits& limits) const;
-    // The same of one, which is within_limits() as well.
+    // fit_together() and within_limits() for a single object.
     [[nodiscard]] Status fits(const RaySpaceObject& object, const BoardLimits& limits) const;
 
-    // Fails where a board cannot hold or draw the object, with the reason and the remedy: it does not fit, it has a
-    // shape map, or its images are not loaded, or not of the board's kind.
+    // Fails if the board cannot hold or render the object, with reason and remedy: it does not fit, it has a shape map,
+    // or its images are not loaded or not of the board's kind.
     [[nodiscard]] virtual Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const = 0;
-    // The object that is really drawn. Bit equality is with this one.
-    [[nodiscard]] virtual RaySpaceObject as_drawn(RaySpaceObject object) const { return object; }
-    // Of a drawable object: words per region that it takes, and what stands in them.
+    // The object that is actually rendered; bit equality refers to it.
+    [[nodiscard]] virtual RaySpaceObject as_rendered(RaySpaceObject object) const { return object; }
+    // Words per region of a drawable object, and their contents.
     [[nodiscard]] virtual std::array<std::uint64_t, kObjectRegions> words(const RaySpaceObject& object) const = 0;
     [[nodiscard]] virtual ObjectImage image(const RaySpaceObject& object, const Placement& placement) const = 0;
 };

@@ -12,7 +12,8 @@
 namespace rs::engine::model {
 namespace {
 
-// Images by place: those of the ring in turning order, then what no ray shows but others may be predicted from.
+// Order of images: those of the ring in turning order, then images that no ray uses but that others may be predicted
+// from.
 struct ImageOrder {
     explicit ImageOrder(const RaySpaceObject& object) : place_of(object.views.size(), -1) {
         for (const std::uint16_t view : object.rings.front().views) add(view);
@@ -116,7 +117,7 @@ void add_raw_blocks(const RaySpaceObject& object, const ImageOrder& order, Objec
     segments.push_back(std::move(segment));
 }
 
-// The same images by place.
+// The images in the order of `order`.
 codec::CodedImages by_place(const codec::CodedImages& coded, const ImageOrder& order) {
     codec::CodedImages out = coded;
     for (std::size_t place = 0; place < order.view_at.size(); ++place) {

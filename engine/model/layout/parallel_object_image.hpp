@@ -1,5 +1,5 @@
 #pragma once
-// An object as every memory channel of a parallel board holds it: parallel_layout.hpp.
+// Object in the layout of every memory channel of a parallel board (parallel_layout.hpp).
 
 #include "engine/model/layout/object_image.hpp"
 
@@ -10,7 +10,7 @@ namespace rs::engine::model {
 // Words per region. Region::flat_tiles also holds raw images.
 std::array<std::uint64_t, kObjectRegions> parallel_object_words(const RaySpaceObject& object);
 
-// `object` is drawable by such a board.
+// `object` must be drawable by a parallel board.
 ObjectImage parallel_object_image(const RaySpaceObject& object, const Placement& placement);
 
 }  // namespace rs::engine::model

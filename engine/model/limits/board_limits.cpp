@@ -16,7 +16,7 @@ Error over(const RaySpaceObject& object, const std::string& what, std::int64_t v
 Status within_limits(const RaySpaceObject& object, const BoardLimits& limits) {
     const auto images = static_cast<std::int64_t>(object.views.size());
     if (images > limits.images_per_object) {
-        return over(object, "pictures:", images, limits.images_per_object, "take fewer views");
+        return over(object, "images:", images, limits.images_per_object, "use fewer views");
     }
     if (std::max(object.width, object.height) > limits.image_side_px) {
         return over(object, "image side:", std::max(object.width, object.height), limits.image_side_px,

@@ -1,5 +1,5 @@
 #pragma once
-// What the published board holds, as numbers. Whether objects fit, their layout knows (layout/object_image.hpp).
+// Limits of the published board. layout/object_image.hpp checks whether objects fit.
 //
 // Source: Sakagawa et al., section 5: one FPGA at 40 MHz, 20 objects, 15 views per rendering cycle, at most 120
 // images of 512x512 and 12 reference planes of at most 1024 cells a side per object, Y, U, V and alpha uncompressed
@@ -14,14 +14,14 @@
 
 namespace rs::engine {
 
-// What objects a board holds.
+// Kind of objects that a board holds.
 enum class BoardKind {
     raw_images,    // Y, U, V and alpha in 2 bits; an RS map
-    coded_images,  // images of profile `board`, kept as they are; an RS map
-    any_object,    // either kind of images, alpha in 8 bits, with a shape map or without: the parallel board
+    coded_images,  // images of profile `board`, stored compressed; an RS map
+    any_object,    // either kind of images, alpha in 8 bits, with or without a shape map: the parallel board
 };
 
-inline constexpr int kMostBands = 384;  // of a shape map: the parallel board's place for a column of cells
+inline constexpr int kMaxBands = 384;  // bands of a shape map: cells per column in cell_march of the parallel board
 
 struct BoardLimits {
     int objects = 20;
@@ -33,10 +33,10 @@ struct BoardLimits {
     int image_buffer_side_px = 512;  // the largest reconstructed image, R, G, B and alpha, in two buffers
     std::uint64_t memory_bytes = std::uint64_t{1} << 30;
     BoardKind kind = BoardKind::raw_images;
-    int shape_bands = std::numeric_limits<int>::max();  // of a shape map, which boards of two kinds do not draw
+    int shape_bands = std::numeric_limits<int>::max();  // bands of a shape map
 };
 
-// Fails with the limit that the object exceeds, its value, and what to encode it with instead. Memory is not counted.
+// Fails with the limit that the object exceeds, its value, and the remedy. Does not check memory.
 Status within_limits(const RaySpaceObject& object, const BoardLimits& limits);
 
 // The double-buffered image buffer: two cycles of the largest images.

@@ -10,7 +10,7 @@ struct Ends {
     std::string to;
 };
 
-// Of blocks and FIFOs that stand in every pipe those of pipe 0 stand for all: "texel_tags_pN".
+// Blocks and FIFOs of pipe 0 represent those of all pipes: "texel_tags_pN".
 bool is_of_other_pipe(const std::string& name) {
     const std::string without = name_without_pipe(name);
     return without != name && name != without + "_p0";

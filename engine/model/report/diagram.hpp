@@ -1,6 +1,6 @@
 #pragma once
-// The tables of DIAGRAM.md, made from what the blocks and FIFOs of a board declare: so the page cannot differ from the
-// code unseen.
+// Tables of DIAGRAM.md, generated from the declarations of a board's blocks and FIFOs; a test compares them with the
+// page.
 
 #include "engine/model/board_top.hpp"
 
@@ -8,8 +8,8 @@
 
 namespace rs::engine::model {
 
-// Two tables as Markdown: blocks with clock, timing and ports; FIFOs with depth, width and the blocks at their ends. Of
-// a parallel board one pipe stands for all ("_pN"), and a third table states what block RAM it takes.
+// Two tables as Markdown: blocks with clock, timing and ports; FIFOs with depth, width and the blocks at their ends.
+// For a parallel board one pipe represents all ("_pN"), and a third table lists its block RAM.
 std::string diagram_tables(const BoardTop& board);
 
 }  // namespace rs::engine::model

@@ -9,7 +9,7 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-// To those of the same block in other pipes, where there are any.
+// Adds the share to that of the same block in other pipes, if any.
 void add_block(BlockShare share, std::vector<BlockShare>& blocks) {
     share.name = name_without_pipe(share.name);
     const auto same =

@@ -1,6 +1,5 @@
 #pragma once
-// What a run of the board reports: where every block's cycles went, what moved over the memory and the bus, and which
-// block limited it.
+// Report of a run of the board: cycles of every block by activity, traffic on memory and bus, and the limiting block.
 
 #include "engine/model/board.hpp"
 
@@ -12,7 +11,7 @@ namespace rs::engine::model {
 
 struct BlockShare {
     std::string name;
-    std::uint64_t cycles = 0;  // of its own clock
+    std::uint64_t cycles = 0;  // cycles of its own clock
     ActivityCounts counts;
     [[nodiscard]] double share(Activity activity) const {
         return cycles == 0 ? 0 : double(counts.of(activity)) / double(cycles);
@@ -23,8 +22,8 @@ struct BlockShare {
 struct Interval {
     double seconds = 0;
     std::uint64_t board_cycles = 0;
-    std::vector<BlockShare> blocks;  // those that stand in every pipe are added up
-    std::string limiting_block;      // the one that its own work and losses occupy most
+    std::vector<BlockShare> blocks;  // instances in several pipes are added up
+    std::string limiting_block;      // the block with the largest occupied share
 };
 
 struct MemoryTraffic {
@@ -35,11 +34,11 @@ struct MemoryTraffic {
 
 // A memory channel. Its peak is a word of 8 bytes a cycle.
 struct ChannelReport {
-    std::uint64_t words = 0;  // that moved, since the board was made
+    std::uint64_t words = 0;  // words moved since the board was made
     std::vector<MemoryTraffic> clients;
     MemoryController::Counters counters;
-    BlockShare rendering;  // its controller's cycles while rendering: busy is what moved, the rest what rows, turns of
-                           // the data bus and refresh cost
+    BlockShare rendering;  // cycles of its controller while rendering: busy is data moved, the rest is the cost of
+                           // rows, turnarounds of the data bus and refresh
 };
 
 struct BoardReport {
@@ -48,13 +47,13 @@ struct BoardReport {
     int cycles = 0;  // rendering cycles
     int images = 0;
     std::int64_t pixels = 0;
-    Interval rendering;               // until the last image stood in the image buffer
+    Interval rendering;               // until the last image was in the image buffer
     Interval delivering;              // from the first finished rendering cycle until the last had arrived at the host
     std::uint64_t board_cycles = 0;   // of the whole run
-    std::uint64_t render_cycles = 0;  // board cycles in which a rendering cycle was drawn, all added up
+    std::uint64_t render_cycles = 0;  // sum of the board cycles in which a rendering cycle was drawn
     double pixels_per_second = 0;     // while drawing
     double cycles_per_second = 0;     // drawn
-    double arrivals_per_second = 0;   // rendering cycles that arrive at the host, in a row; 0 for fewer than two
+    double arrivals_per_second = 0;   // rendering cycles that arrive at the host per second; 0 for fewer than two
     std::vector<MemoryTraffic> memory;  // of channel 0, since the board was made
     MemoryController::Counters counters;
     std::vector<ChannelReport> channels;
@@ -65,7 +64,7 @@ BoardReport make_report(const Board& board, const BoardRun& run);
 
 std::string report_json(const BoardReport& report);
 
-// Stacked bars, a block each: the shares of what it did. `title` stands above.
+// Stacked bars of activity shares, one bar per block. `title` is the heading.
 std::string report_chart_svg(const BoardReport& report, const std::string& title);
 
 }  // namespace rs::engine::model

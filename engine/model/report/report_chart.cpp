@@ -6,7 +6,7 @@
 namespace rs::engine::model {
 namespace {
 
-// Work green, a block's own losses red to yellow, waiting for others grey and blue.
+// Work is green, a block's own losses red to yellow, waiting for other blocks grey and blue.
 constexpr std::array<const char*, kActivities> kColours = {"#2a7f3f", "#eeeeee", "#c9d4e6", "#8aa4cf", "#6f86b5",
                                                            "#d9822b", "#c94f4f", "#8f3f6f", "#e0b23c", "#d66a3c",
                                                            "#e8cf7a", "#5f7d8c", "#b7c7b0"};

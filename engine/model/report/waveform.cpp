@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t kFlush_bytes = std::size_t{1} << 20;
 
-// Printable names, shortest first: "!", "\"", ... "!!", ...
+// VCD identifiers, shortest first: "!", "\"", ... "!!", ...
 std::string identifier(std::size_t n) {
     std::string id;
     do {
@@ -30,17 +30,17 @@ std::string change(const std::string& id, int bits, std::uint64_t value) {
 }  // namespace
 
 Result<std::unique_ptr<Waveform>> Waveform::open(const std::filesystem::path& path, BoardTop& board,
-                                                 std::uint64_t most_cycles) {
+                                                 std::uint64_t max_cycles) {
     RS_ASSIGN_OR_RETURN(StagedFile file, StagedFile::create(path));
-    std::unique_ptr<Waveform> wave(new Waveform(std::move(file), board, most_cycles));
+    std::unique_ptr<Waveform> wave(new Waveform(std::move(file), board, max_cycles));
     wave->declare();
     Waveform* self = wave.get();
     board.simulator.observe([self](std::uint64_t cycle) { self->sample(cycle); });
     return wave;
 }
 
-Waveform::Waveform(StagedFile file, BoardTop& board, std::uint64_t most_cycles)
-    : file_(std::move(file)), board_(board), most_cycles_(most_cycles) {}
+Waveform::Waveform(StagedFile file, BoardTop& board, std::uint64_t max_cycles)
+    : file_(std::move(file)), board_(board), max_cycles_(max_cycles) {}
 
 void Waveform::put(const std::string& text) {
     buffer_ += text;
@@ -94,7 +94,7 @@ void Waveform::declare() {
 }
 
 void Waveform::sample(std::uint64_t cycle) {
-    if (seen_ >= most_cycles_) return;
+    if (seen_ >= max_cycles_) return;
     ++seen_;
     const std::uint64_t period_ps = 1'000'000 / static_cast<std::uint64_t>(board_.config.clock_mhz);
     std::string text = "#" + std::to_string((cycle - 1) * period_ps) + "\n1" + signals_.front().id + "\n";

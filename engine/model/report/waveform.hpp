@@ -1,6 +1,6 @@
 #pragma once
-// A waveform of a run as VCD (IEEE 1364), which GTKWave and others open: the board's clock, per FIFO how many items it
-// holds, per block what it did (the numbers of Activity) and whether it was busy.
+// Waveform of a run as VCD (IEEE 1364), for GTKWave and other viewers: the board's clock, the fill level of every FIFO,
+// and for every block its activity (numbers of Activity) and a busy flag.
 
 #include "engine/model/board_top.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -14,14 +14,14 @@ namespace rs::engine::model {
 
 class Waveform {
 public:
-    // Observes `board` from now on, for at most `most_cycles` board cycles. The board must live until finish().
+    // Records `board` from now on, for at most `max_cycles` board cycles. The board must outlive finish().
     static Result<std::unique_ptr<Waveform>> open(const std::filesystem::path& path, BoardTop& board,
-                                                  std::uint64_t most_cycles);
-    // Ends observing; the file appears. Fails with the first error of writing.
+                                                  std::uint64_t max_cycles);
+    // Ends recording and publishes the file. Fails with the first write error.
     Status finish();
 
 private:
-    Waveform(StagedFile file, BoardTop& board, std::uint64_t most_cycles);
+    Waveform(StagedFile file, BoardTop& board, std::uint64_t max_cycles);
     void declare();
     void sample(std::uint64_t cycle);
     void put(const std::string& text);
@@ -39,7 +39,7 @@ private:
 
     StagedFile file_;
     BoardTop& board_;
-    std::uint64_t most_cycles_;
+    std::uint64_t max_cycles_;
     std::uint64_t seen_ = 0;
     std::vector<Signal> signals_;
     std::string buffer_;

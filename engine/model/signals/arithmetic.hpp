@@ -1,7 +1,7 @@
 #pragma once
-// The arithmetic units of the board, as functions without a clock and with the cycles they take. Quotients and products
-// are those of engine/RECONSTRUCTION.md; divide_serially and multiply_serially are the steps by which the hardware
-// makes them, one row of logic cells a step, and a test compares.
+// Arithmetic units of the board, as functions without a clock, with their latencies. Quotients and products are those
+// of engine/RECONSTRUCTION.md; divide_serially and multiply_serially follow the steps of the hardware, one row of logic
+// cells per step. A test compares both.
 
 #include <cstdint>
 
@@ -20,7 +20,7 @@ inline constexpr int kRootCycles = 33;
 // Serial multiplier: 36 x 36 bits signed, 4 bits of the multiplier a cycle. One product at a time.
 inline constexpr int kMultiplyCycles = 9;
 
-// A quotient, or `overflow`: its magnitude is 2^32 or more.
+// Quotient; `overflow` if its magnitude is 2^32 or more.
 struct Quotient {
     std::int64_t value = 0;
     bool overflow = false;
@@ -35,7 +35,7 @@ constexpr Quotient divide(std::int64_t dividend, std::int64_t divisor) {
     return {floored, false};
 }
 
-// The same by the stages of the pipeline.
+// divide() by the stages of the pipeline.
 constexpr Quotient divide_serially(std::int64_t dividend, std::int64_t divisor) {
     const bool negative = dividend < 0;
     const auto magnitude = negative ? ~static_cast<std::uint64_t>(dividend) + 1 : static_cast<std::uint64_t>(dividend);
@@ -45,16 +45,16 @@ constexpr Quotient divide_serially(std::int64_t dividend, std::int64_t divisor) 
     std::uint64_t quotient = 0;
     for (int bit = 31; bit >= 0; --bit) {
         rest = (rest << 1U) | ((magnitude >> static_cast<unsigned>(bit)) & 1U);
-        const bool takes = rest >= d;
-        if (takes) rest -= d;
-        quotient = (quotient << 1U) | static_cast<std::uint64_t>(takes);
+        const bool fits = rest >= d;
+        if (fits) rest -= d;
+        quotient = (quotient << 1U) | static_cast<std::uint64_t>(fits);
     }
     const auto value = static_cast<std::int64_t>(quotient);
     if (!negative) return {value, false};
     return {rest == 0 ? -value : -value - 1, false};
 }
 
-// The largest whole number whose square is at most `square`, by the steps of the hardware.
+// Floor of the square root of `square`, by the steps of the hardware.
 constexpr std::int64_t square_root_serially(std::uint64_t square) {
     std::uint64_t root = 0;
     std::uint64_t rest = 0;
@@ -70,8 +70,8 @@ constexpr std::int64_t square_root_serially(std::uint64_t square) {
     return static_cast<std::int64_t>(root);
 }
 
-// floor(sum / weight) by a table of 64 reciprocals and a product: weight 1 .. 64, sum below 2041 * weight, as sums of
-// weighted depths are.
+// floor(sum / weight) by a table of 64 reciprocals and a product: weight 1 .. 64, sum below 2041 * weight. Sums of
+// weighted depths are in this range.
 constexpr std::int32_t divide_by_weight(std::int32_t sum, int weight) {
     constexpr int kShift = 23;
     const std::int64_t reciprocal = ((std::int64_t{1} << kShift) + weight - 1) / weight;
@@ -84,7 +84,7 @@ constexpr std::int64_t multiply_serially(std::int64_t a, std::int64_t b) {
     const auto digits = static_cast<std::uint64_t>(b);
     for (int step = 0; step < kMultiplyCycles; ++step) {
         const std::uint64_t digit = (digits >> static_cast<unsigned>(4 * step)) & 15U;
-        // The topmost digit carries the sign: it counts -8 .. 7.
+        // The top digit has the sign: -8 .. 7.
         const auto factor = step == kMultiplyCycles - 1 && digit >= 8 ? digit - 16 : digit;
         sum += (static_cast<std::uint64_t>(a) * factor) << static_cast<unsigned>(4 * step);
     }

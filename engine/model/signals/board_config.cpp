@@ -16,13 +16,12 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr int kPublishedObjects = 20;
-// Registers for as many objects as memory is meant to hold, eight times the published ones. 512 bits each: 5 block
-// RAMs.
+// Registers for eight times the published number of objects, which the memory can hold. 512 bits each: 5 block RAMs.
 constexpr int kCodedObjects = 160;
-constexpr int kMostPipes = 32;
+constexpr int kMaxPipes = 32;
 
 BoardConfig prototype_2000() {
-    BoardConfig config;  // its defaults are the published board
+    BoardConfig config;  // the defaults are the published board
     config.name = "prototype-2000";
     return config;
 }
@@ -32,7 +31,7 @@ BoardConfig compressed_2000() {
     config.name = "compressed-2000";
     config.limits.kind = BoardKind::coded_images;
     config.limits.objects = kCodedObjects;
-    // Images with references apart from those without: so the hops of a prediction meet in no bank.
+    // Images with and without references are in different banks, so that the hops of a prediction share no bank.
     config.memory.regions.objects = {
         {{"flat_tiles", 0, 2}, {"predicted_tiles", 2, 4}, {"tile_table", 6, 1}, {"tables", 7, 8}}};
     return config;
@@ -43,7 +42,7 @@ BoardConfig parallel() {
     config.name = "parallel";
     config.pipes = 16;
     config.limits.kind = BoardKind::any_object;
-    config.limits.shape_bands = kMostBands;
+    config.limits.shape_bands = kMaxBands;
     config.memory.regions.objects = {
         {{"flat_tiles", 0, 4}, {"predicted_tiles", 4, 4}, {"tile_table", 8, 1}, {"tables", 9, 5}}};
     config.memory.regions.images = {"images", 14, 2};
@@ -53,27 +52,27 @@ BoardConfig parallel() {
     return config;
 }
 
-// The kinds of boards, in the order of BoardKind. 0: boards of that kind have no such setting.
-struct KindOfBoard {
+// Kinds of boards, in the order of BoardKind. 0: boards of that kind do not have this setting.
+struct BoardKindSettings {
     const char* base;
     BoardConfig (*built_in)();
     int most_objects;
     int most_pipes;
     int most_bands;
 };
-constexpr std::array<KindOfBoard, 3> kKinds = {{{"prototype-2000", prototype_2000, kPublishedObjects, 0, 0},
-                                                {"compressed-2000", compressed_2000, kCodedObjects, 0, 0},
-                                                {"parallel", parallel, kCodedObjects, kMostPipes, kMostBands}}};
+constexpr std::array<BoardKindSettings, 3> kKinds = {{{"prototype-2000", prototype_2000, kPublishedObjects, 0, 0},
+                                                      {"compressed-2000", compressed_2000, kCodedObjects, 0, 0},
+                                                      {"parallel", parallel, kCodedObjects, kMaxPipes, kMaxBands}}};
 
-const KindOfBoard& kind_of(const BoardConfig& config) {
+const BoardKindSettings& kind_of(const BoardConfig& config) {
     return kKinds.at(static_cast<std::size_t>(config.limits.kind));
 }
 
-// Calls visit(path, reference, least, most) for every number of a configuration: one list serves reading, writing and
-// checking.
+// Calls visit(path, reference, least, most) for every number of a configuration: a single list for reading, writing and
+// range checks.
 template <class Config, class Visit>
 void for_each_number(Config& c, Visit&& visit) {
-    const KindOfBoard& kind = kind_of(c);
+    const BoardKindSettings& kind = kind_of(c);
     visit("clock_mhz", c.clock_mhz, 1, 1000);
     visit("clock_period", c.clock_period, 1, 100);
     visit("queue_cycles", c.queue_cycles, 1, 2);
@@ -125,8 +124,8 @@ void for_each_number(Config& c, Visit&& visit) {
     visit("disk/timeout_cycles", c.disk.timeout_cycles, 1, 2'000'000'000);
 }
 
-// What is only wrong together.
-std::string contradiction(const BoardConfig& c) {
+// Cross-field validation; "" if valid.
+std::string cross_field_error(const BoardConfig& c) {
     const MemoryRegions& r = c.memory.regions;
     const int banks = 1 << c.memory.shape.bank_bits;
     std::vector<int> owners(static_cast<std::size_t>(banks));
@@ -147,7 +146,7 @@ std::string contradiction(const BoardConfig& c) {
     }
     const int load_row = t.activate_to_column + c.memory.load_words_per_window + t.write_to_precharge;
     if (load_row < t.activate_to_precharge || load_row + t.precharge_to_activate < t.activate_to_activate) {
-        return "memory/load_words_per_window is too small: a row would be closed before it may be";
+        return "memory/load_words_per_window is too small: a row would be closed before its minimum open time";
     }
     if (c.memory.load_words_per_window > 1 << c.memory.shape.column_bits) {
         return "memory/load_words_per_window is larger than a row of the memory";
@@ -170,12 +169,12 @@ BoardConfig with_memory(BoardConfig config) {
     return config;
 }
 
-// The objects of a configuration's text by their paths, such as "memory/alpha".
+// JSON objects of a configuration by path, such as "memory/alpha".
 class Objects {
 public:
     explicit Objects(JsonObject& top) : top_(top) {}
 
-    // Null where the text has none.
+    // Null if the text has none.
     JsonObject* at(const std::string& path) {
         if (path.empty()) return &top_;
         const auto [known, is_new] = by_path_.try_emplace(path);
@@ -187,9 +186,9 @@ public:
         }
         return known->second ? &*known->second : nullptr;
     }
-    void expect_all_taken() const {
+    void expect_no_unknown_keys() const {
         for (const auto& [path, object] : by_path_) {
-            if (object) object->expect_all_taken();
+            if (object) object->expect_no_unknown_keys();
         }
     }
 
@@ -207,7 +206,7 @@ Json to_json(const BoardConfig& config) {
 }
 
 std::optional<BoardConfig> built_in(const std::string& name) {
-    for (const KindOfBoard& kind : kKinds) {
+    for (const BoardKindSettings& kind : kKinds) {
         if (name == kind.base) return kind.built_in();
     }
     return std::nullopt;
@@ -223,7 +222,7 @@ std::string listed_built_ins() {
 
 std::vector<std::string> built_in_configs() {
     std::vector<std::string> names;
-    for (const KindOfBoard& kind : kKinds) names.emplace_back(kind.base);
+    for (const BoardKindSettings& kind : kKinds) names.emplace_back(kind.base);
     return names;
 }
 
@@ -246,8 +245,8 @@ Result<BoardConfig> parse_board_config(const std::string& text, const std::strin
             const auto given = object == nullptr ? std::nullopt : object->find(path.substr(slash + 1));
             if (given) value = static_cast<std::remove_reference_t<decltype(value)>>(given->whole_number(least, most));
         });
-        objects.expect_all_taken();
-        if (const std::string bad = contradiction(config); !bad.empty()) throw top.wrong(bad);
+        objects.expect_no_unknown_keys();
+        if (const std::string bad = cross_field_error(config); !bad.empty()) throw top.wrong(bad);
         return with_memory(std::move(config));
     });
 }

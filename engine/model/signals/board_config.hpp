@@ -1,6 +1,6 @@
 #pragma once
-// A configuration of the board: clocks, memory chips, buses and limits, as built in or read from JSON. What is
-// published and what is this model's choice stands in DIAGRAM.md, section "Where the numbers come from".
+// Configuration of the board: clocks, memory chips, buses and limits, built in or read from JSON. DIAGRAM.md, section
+// "Where the numbers come from", separates published values from choices of this model.
 
 #include "engine/model/limits/board_limits.hpp"
 #include "rayspace/base/result.hpp"
@@ -18,7 +18,7 @@ namespace rs::engine::model {
 struct SdramTiming {
     int activate_to_column = 1;     // tRCD
     int precharge_to_activate = 1;  // tRP
-    int activate_to_precharge = 2;  // tRAS, least
+    int activate_to_precharge = 2;  // tRAS, minimum
     int activate_to_activate = 3;   // tRC, same bank
     int write_to_precharge = 1;     // tWR, after the cycle of the write
     int refresh_to_any = 3;         // tRFC
@@ -36,7 +36,7 @@ struct SdramShape {
     [[nodiscard]] std::uint64_t words_per_bank() const { return std::uint64_t{1} << (row_bits + column_bits); }
 };
 
-// The banks of each kind of data; the streams of an image never meet in a bank.
+// Banks of each kind of data; the streams of an image are in different banks.
 struct RegionBanks {
     const char* name = "";
     int first = 0;
@@ -47,7 +47,7 @@ struct MemoryRegions {
     std::array<RegionBanks, kObjectRegions> objects = {  // Region of memory_map.hpp
         {{"luma", 0, 8}, {"chroma", 8, 4}, {"alpha", 12, 2}, {"tables", 14, 1}}};
     RegionBanks images{"images", 15, 1};
-    int image_parts = 1;  // 2: each of the two image buffers has half of the banks to itself
+    int image_parts = 1;  // 2: each of the two image buffers has half of the banks
 };
 
 struct MemorySettings {
@@ -60,14 +60,14 @@ struct MemorySettings {
 };
 
 struct PciSettings {
-    int period = 6;              // against the board's `clock_period`, in common units
-    int burst_words = 4;         // 64-bit words to a burst: a cache line of 32 bytes
-    int grant_clocks = 3;        // from REQ# to the address: the arbiter's two, and one in which the bus is seen idle
-    int target_clocks = 8;       // from the address to the first data: the host bridge snoops the processor's cache
-    int wait_per_transfer = 1;   // the board's wait states to a 32-bit transfer
+    int period = 6;         // in the units of `clock_period` of the board
+    int burst_words = 4;    // 64-bit words per burst: a cache line of 32 bytes
+    int grant_clocks = 3;   // from REQ# to the address: two of the arbiter, and one in which the bus is sampled idle
+    int target_clocks = 8;  // from the address to the first data: the host bridge snoops the processor's cache
+    int wait_per_transfer = 1;   // wait states of the board per 32-bit transfer
     int register_clocks = 4;     // a register write of the host
-    int interrupt_clocks = 330;  // from the end of an image's transfer to the next: the driver's 10 us
-    int retry_every = 0;         // fault injection: the target has every n-th burst tried again; 0 = never
+    int interrupt_clocks = 330;  // from the end of an image's transfer to the next: 10 us of the driver
+    int retry_every = 0;         // fault injection: the target retries every n-th burst; 0 = never
 };
 
 struct DiskSettings {
@@ -76,8 +76,8 @@ struct DiskSettings {
     int media_cycles_per_sector = 820;         // 512 bytes: 25 MByte/s off the platter
     int buffer_sectors = 64;                   // the drive's own buffer
     std::uint64_t stall_after_bytes = 0;       // fault injection: the drive stops delivering here; 0 = never
-    std::uint64_t stall_cycles = 0;            // and for so long
-    std::uint64_t timeout_cycles = 4'000'000;  // a load without a byte for so long has failed: 0.1 s
+    std::uint64_t stall_cycles = 0;            // duration of the stall
+    std::uint64_t timeout_cycles = 4'000'000;  // a load that receives no byte for this time fails: 0.1 s
 };
 
 struct BoardConfig {
@@ -88,23 +88,24 @@ struct BoardConfig {
     MemorySettings memory;
     PciSettings pci;
     DiskSettings disk;
-    int pipes = 0;         // of a parallel board, each with a memory channel; 0: one pipe and one channel, as in 2000
+    int pipes = 0;  // pipes of a parallel board, each with a memory channel; 0: one pipe and one channel, as in 2000
     int queue_cycles = 2;  // rendering cycles whose registers the board holds
     std::uint64_t no_progress_cycles = 20'000;
 
     [[nodiscard]] double pci_mhz() const { return double(clock_mhz) * clock_period / pci.period; }
 };
 
-// "prototype-2000": the published board. "compressed-2000": the same with images that stay compressed in its memory.
-// "parallel": sixteen pipes, each with a memory channel, that draw objects with a shape map too.
+// "prototype-2000": the published board. "compressed-2000": the same board with images that stay compressed in its
+// memory. "parallel": sixteen pipes, each with a memory channel; also renders objects with a shape map.
 std::vector<std::string> built_in_configs();
 
-// Name of a built-in, or a JSON file: {"base": "prototype-2000", "memory": {...}, ...} changes what it names. Fails on
-// an unknown name or key, a wrong type, and numbers that no such board could have, and names them.
+// Reads a configuration by the name of a built-in, or from a JSON file: {"base": "prototype-2000", "memory": {...},
+// ...} overrides values of its base. Fails on an unknown name or key, a wrong type, or a value out of range; the
+// message names it.
 Result<BoardConfig> read_board_config(const std::string& name_or_path);
 Result<BoardConfig> parse_board_config(const std::string& json, const std::string& where);
 
-// All values of a configuration, as JSON that read_board_config takes.
+// All values of a configuration, as JSON that read_board_config() accepts.
 std::string board_config_json(const BoardConfig& config);
 
 }  // namespace rs::engine::model

@@ -1,6 +1,6 @@
 #pragma once
-// What travels in the FIFOs between the blocks, with the bits that the hardware stores of it. A message names its view;
-// what is constant over a view is looked up in the register file.
+// Messages in the FIFOs between the blocks; kBits is the number of bits that the hardware stores. A message carries the
+// number of its view; values that are constant over a view are read from the register file.
 
 #include "engine/model/signals/sdram.hpp"
 
@@ -14,7 +14,7 @@ struct ViewJob {
     int view = 0;
 };
 
-// Raster generator: the ray of a view column (section 2: k, n, T).
+// Raster generator output: the ray of a view column (section 2: k, n, T).
 struct ColumnRay {
     static constexpr int kBits = 4 + 1 + 4 + 31 + 32;
     int view = 0;
@@ -24,7 +24,7 @@ struct ColumnRay {
     std::int64_t t_q28 = 0;
 };
 
-// Ray position: where the ray meets the plane, and the cell of the RS map that answers (byte address).
+// Ray position output: intersection of the ray with the plane, and the ray's cell of the RS map (byte address).
 struct RayPoint {
     static constexpr int kBits = 4 + 1 + 4 + 23 + 29 + 30;
     static constexpr int kBitsWithDirection = kBits + 30 + 31 + 32;
@@ -34,7 +34,7 @@ struct RayPoint {
     std::int64_t x_q20 = 0;
     std::int64_t lambda_q20 = 0;
     std::uint64_t cell_byte = 0;
-    // Where objects may have a shape map: the slope u, and the direction (section 5).
+    // On boards with shape maps: slope u and direction (section 5).
     std::int64_t u_q28 = 0, n_q28 = 0, t_q28 = 0;
 };
 
@@ -50,7 +50,7 @@ struct MappedRay {
     std::int64_t u_q28 = 0, n_q28 = 0, t_q28 = 0;
 };
 
-// Line reader: the image's camera and its line of the plane.
+// Line reader output: the image's camera and its line of the plane.
 struct RayLine {
     static constexpr int kBits = 4 + 1 + 23 + 29 + 7 + 8 * 32;
     int view = 0;
@@ -62,7 +62,7 @@ struct RayLine {
     std::int32_t l0_q20 = 0, l1_q30 = 0, q0_q16 = 0, q1_q16 = 0;
 };
 
-// Vertical compensation: column of the image, and the rows along it (section 3).
+// Vertical compensation output: column of the image, first row and row step (section 3).
 struct ColumnWalk {
     static constexpr int kBits = 4 + 1 + 7 + 9 + 46 + 36;
     int view = 0;
@@ -73,7 +73,7 @@ struct ColumnWalk {
     std::int64_t row_step_q16 = 0;
 };
 
-// Column address: where the column's Y, (U, V) and alpha begin.
+// Column address output: first words of the column's Y, (U, V) and alpha.
 struct PlacedColumn {
     static constexpr int kBits = 4 + 1 + 46 + 36 + 3 * 27;
     int view = 0;
@@ -83,7 +83,7 @@ struct PlacedColumn {
     WordAddress luma = 0, chroma = 0, alpha = 0;
 };
 
-// Two pixels of a view column, one below the other: a word of the image buffer.
+// Two pixels of a view column, one below the other: one word of the image buffer.
 struct PixelPair {
     static constexpr int kBits = 4 + 2 * (1 + 9) + 3 * 27;
     int view = 0;
@@ -95,7 +95,7 @@ struct PixelPair {
 struct MemoryRead {
     static constexpr int kBits = 27 + 1;
     WordAddress address = 0;
-    bool null = false;  // takes its turn, moves no data, answers 0
+    bool null = false;  // occupies a slot of the port, transfers no data, returns 0
 };
 
 struct MemoryWord {
@@ -107,22 +107,23 @@ struct MemoryWrite {
     static constexpr int kBits = 27 + 64 + 1;
     WordAddress address = 0;
     std::uint64_t data = 0;
-    bool last = false;  // of a view, or of an object
+    bool last = false;  // last word of a view or of an object
 };
 
-// What the answer to a fetch is for.
+// Purpose of a fetched word.
 struct SampleTag {
     enum class Kind { alpha, chroma, luma };
     static constexpr int kBits = 4 + 2 + 1 + 2 * 6;
     int view = 0;
     Kind kind = Kind::alpha;
-    int pixel = 0;                   // of the pair; chroma and luma
-    int lane[2] = {0, 0};            // byte, byte pair or bit pair of the word, per pixel
-    bool takes[2] = {false, false};  // alpha: for which pixels the word holds it
+    int pixel = 0;                       // of the pair; used for chroma and luma
+    int lane[2] = {0, 0};                // byte, byte pair or bit pair of the word, per pixel
+    bool has_alpha[2] = {false, false};  // alpha: the pixels whose alpha is in the word
 };
 
 struct YuvaPixel {
-    // Uncompressed images have alpha in 2 bits, which are repeated four times to 8 where it is 0, 85, 170 or 255.
+    // Uncompressed images have 2 bits of alpha. Where alpha is 0, 85, 170 or 255, the 8 bits are these 2 bits repeated
+    // four times.
     static constexpr int kBits = 4 + 3 * 8 + 2;
     static constexpr int kBitsOfCoded = 4 + 3 * 8 + 8;
     int view = 0;
@@ -136,13 +137,13 @@ struct RgbaPixel {
     std::uint32_t rgba = 0;  // R in the low byte
 };
 
-// A finished event: of a view's last word, a buffer, a load.
+// Completion event: last word of a view, a buffer, or a load.
 struct Done {
     static constexpr int kBits = 1;
     int number = 0;
 };
 
-// To the bus: the head of an image, or one of its words.
+// To the bus: header of an image, or one of its words.
 struct ImageWord {
     static constexpr int kBits = 64 + 1 + 1;
     std::uint64_t data = 0;  // head: number of words | view << 32
@@ -152,7 +153,7 @@ struct ImageWord {
 
 struct StartCommand {
     static constexpr int kBits = 1;
-    std::uint64_t program = 0;  // which of the host's programs; the bus has carried its registers
+    std::uint64_t program = 0;  // index of the host program; the bus has already transferred its registers
 };
 
 inline std::string text(const ViewJob& m) {
@@ -210,8 +211,7 @@ inline std::string text(const StartCommand& m) {
     return "program " + std::to_string(m.program);
 }
 
-// Two numbers of 32 bits in one word of the board's memory.
-
+// Packs two 32-bit numbers into one word of the board's memory.
 inline std::uint64_t word_pair(std::int32_t low, std::int32_t high) {
     return std::uint64_t{static_cast<std::uint32_t>(low)} | std::uint64_t{static_cast<std::uint32_t>(high)} << 32U;
 }

@@ -1,6 +1,6 @@
 #pragma once
-// What travels in the FIFOs of a parallel board's pipe, from a column's ray to the pixels of a patch. In such a board a
-// image's number is its view's place in the ring (parallel_layout.hpp).
+// Messages in the FIFOs of a pipe of the parallel board, from a column's ray to the pixels of a patch. On this board
+// the number of an image is the place of its view in the ring (parallel_layout.hpp).
 //
 // A *patch* is 16 columns and 8 rows of a view: pixel `id` is slot * 128 + row * 16 + column, where `slot` is one of
 // the four patches under way. A *stripe* is 16 columns over the whole height; `stripe` counts a pipe's stripes,
@@ -19,15 +19,15 @@ inline constexpr int kPatchRows = 8;
 inline constexpr int kPatchPixels = kPatchRows * kStripeColumns;
 inline constexpr int kPatchSlots = 4;
 inline constexpr int kPatchIds = kPatchSlots * kPatchPixels;
-inline constexpr int kStripeNumbers = 4;  // two stripes are under way
+inline constexpr int kStripeNumbers = 4;  // numbers modulo 4; kStripeSlots stripes are in flight
 inline constexpr int kStripeSlots = 2;
 
-// What is known of a column's ray, and so what a pixel of it is.
+// Kind of a column's ray; it determines how its pixels are computed.
 enum class RayKind {
     none,   // no ray
-    plane,  // the object has no shape map: a walk down an image column (section 3)
-    foot,   // it has one, but not for this ray: the object lies at the foot (section 5)
-    shape,  // a ray with bands
+    plane,  // object without a shape map: one image column is scanned (section 3)
+    foot,   // object with a shape map but no bands for this ray: its surface is at the foot (section 5)
+    shape,  // object with a shape map and bands for this ray
 };
 
 // Bracket finder: the two images beside the ray (section 5).
@@ -37,17 +37,17 @@ struct BracketedRay {
     RayKind kind = RayKind::none;
     int plane = 0;
     std::int64_t x_q20 = 0, lambda_q20 = 0, n_q28 = 0, t_q28 = 0;
-    int first = 0;  // image; the one that the RS map names, where the ray has no gap
+    int first = 0;  // image; the image of the RS map if the ray has no gap
     int second = 0;
     std::int64_t from_first_q20 = 0;  // f
     std::int64_t width_q20 = 0;       // w
     int lines = 0;                    // S
     std::int64_t first_line = 0;
-    bool lines_before = false;  // the gap before this one has lines; the one behind it
+    bool lines_before = false;  // the previous gap has lines
     bool lines_behind = false;
 };
 
-// An image's camera, and its line of the plane with what belongs to it along the normal.
+// Camera of an image, and its line of the plane with the terms along the normal.
 struct ImageLine {
     static constexpr int kBits = 10 * 32;
     std::int32_t cx_q16 = 0, cy_q16 = 0, fl_y_q16 = 0, height_q20 = 0;
@@ -55,14 +55,14 @@ struct ImageLine {
     std::int32_t l2_q30 = 0, q2_q16 = 0;
 };
 
-// Image reader: the ray with the lines of its images.
-struct LinedRay {
+// Image reader output: the ray with the lines of its images.
+struct RayWithLines {
     static constexpr int kBits = BracketedRay::kBits + 2 * ImageLine::kBits;
     BracketedRay ray;
     std::array<ImageLine, 2> image{};
 };
 
-// A captured image along the ray: everything linear in the depth (section 5).
+// A captured image along the ray: all values that are linear in the depth (section 5).
 struct ImageSetup {
     static constexpr int kBits = 7 + 30 + 20 + 31 + 22 + 3 * 31 + 29;
     int image = 0;
@@ -70,7 +70,7 @@ struct ImageSetup {
     std::int32_t cx_q16 = 0, cy_q16 = 0, fl_y_q16 = 0, height_q20 = 0;
 };
 
-// Column set-up: all that the pixels of a column share. Goes to three blocks, each of which keeps a part of it.
+// Column set-up output: all values shared by the pixels of a column. Sent to three blocks, each of which stores a part.
 struct ColumnSetup {
     static constexpr int kHeadBits = 4 + 2 + 2 + 4;
     static constexpr int kBits =
@@ -81,8 +81,8 @@ struct ColumnSetup {
     int view = 0;
     RayKind kind = RayKind::none;
     int stripe = 0;           // band reader
-    int column = 0;           // of the stripe; band reader
-    bool same_cells = false;  // as the column before it has; band reader
+    int column = 0;           // in the stripe; set by the band reader
+    bool same_cells = false;  // the same cells as the previous column; set by the band reader
     // plane
     int image = 0, image_column = 0;
     std::int64_t row_0_q16 = 0, row_step_q16 = 0;
@@ -93,11 +93,11 @@ struct ColumnSetup {
     std::int64_t inverse_r_q20 = 0, inverse_rho_q20 = 0;
     std::array<std::int64_t, 2> map_line{};  // the two lines beside the ray
     std::array<int, 2> map_place{};          // the two cells along p
-    int line_part = 0;                       // eighths of the second one
+    int line_part = 0;                       // weight of the second line, in eighths
     int p_part = 0;
 };
 
-// Pixel scan: a patch is begun.
+// Pixel scan output: start of a patch.
 struct PatchJob {
     static constexpr int kBits = 4 + 2 + 5 + 6 + 5 + 4 + 1 + 1;
     int view = 0;
@@ -120,8 +120,8 @@ struct ScannedPixel {
     [[nodiscard]] int column() const { return id % kStripeColumns; }
 };
 
-// Ray rise: the line along which the pixel's ray passes the bands (section 6).
-struct RisenPixel {
+// Ray rise output: the line along which the pixel's ray crosses the bands (section 6).
+struct PixelBandRay {
     static constexpr int kBits = ScannedPixel::kBits + 30 + 31 + 23;
     ScannedPixel pixel;
     std::int32_t foot_q12 = 0;  // band at the foot
@@ -129,26 +129,26 @@ struct RisenPixel {
     std::int32_t per_d_q20 = 0;
 };
 
-// Where the march along a ray goes on.
+// Position at which the march along a ray continues.
 struct MarchState {
     static constexpr int kBits = 9;
-    static constexpr int kFoot = 256;      // at the foot, for the last surface
-    static constexpr int kBehind = 257;    // likewise, for the one behind it
-    static constexpr int kFarthest = 258;  // and for the farthest of the cells
-    int begin = 0;                         // depth, or one of these
+    static constexpr int kFoot = 256;      // at the foot: the last surface
+    static constexpr int kBehind = 257;    // at the foot: the surface behind the last one
+    static constexpr int kFarthest = 258;  // at the foot: the farthest of the cells
+    int begin = 0;                         // depth, or one of the constants above
 };
 
-// Cell march: a surface that the pixel's ray meets.
-struct MetSurface {
+// Cell march output: a surface that the pixel's ray hits.
+struct SurfaceHit {
     static constexpr int kBits = ScannedPixel::kBits + 11 + 1 + MarchState::kBits + 5;
     ScannedPixel pixel;
     int depth_q3 = 0;
-    bool final = false;  // no other surface is needed when this one does not answer
+    bool final = false;  // no other surface is tried if this one is transparent
     MarchState next;
     int lean = kBothShow;
 };
 
-// A pixel of which nothing is seen, or whose colour is known.
+// A finished pixel: empty (rgba 0) or with its colour.
 struct FinishedPixel {
     static constexpr int kBitsOfEmpty = 9;
     static constexpr int kBits = 9 + 32;
@@ -156,25 +156,26 @@ struct FinishedPixel {
     std::uint32_t rgba = 0;
 };
 
-struct MarchAgain {
+struct ReturnedPixel {
     static constexpr int kBits = 9 + MarchState::kBits;
     int id = 0;
     MarchState state;
 };
 
-// What belongs to a sample behind its place: of which image, and what follows when the surface is complete.
+// Part of a sample that passes the texel blocks unchanged: its image, and the continuation after its surface is
+// complete.
 struct SampleHead {
     static constexpr int kBits = 9 + 1 + 1 + 9 + 1 + 1 + MarchState::kBits;
     int id = 0;
-    bool is_there = false;  // else: a token that only ends its surface
+    bool is_there = false;  // false: a token that only ends its surface
     bool second = false;    // image
     int weight = 0;         // of the second image
-    bool last = false;      // of its surface
+    bool last = false;      // last sample of its surface
     bool final = false;
     MarchState next;
 };
 
-// Sample place: the four texels that a sample takes (section 7).
+// Sample place output: the four texels of a sample (section 7).
 struct PlacedSample {
     static constexpr int kBits = SampleHead::kBits + 4 + 1 + 7 + 2 * 9 + 2 * 3 + 2;
     SampleHead head;
@@ -183,10 +184,10 @@ struct PlacedSample {
     int image = 0;
     int left = 0, top = 0;
     int fx = 0, fy = 0;                                 // eighths
-    bool right_is_left = false, bottom_is_top = false;  // at the image's rim
+    bool right_is_left = false, bottom_is_top = false;  // at the image border
 };
 
-// A block of 8x8 texels that is to come into a line of the cache.
+// Request for a block of 8x8 texels, to be written into a line of the cache.
 struct TexelFill {
     static constexpr int kBits = 4 + 7 + 6 + 6 + 7 + 10;
     int view = 0;
@@ -194,7 +195,7 @@ struct TexelFill {
     int block_column = 0;
     int block_row = 0;
     int line = 0;
-    std::uint64_t guard = 0;  // samples that must have been read before the line is written
+    std::uint64_t guard = 0;  // number of samples that must be read before the line is written
 };
 
 struct FillTarget {
@@ -208,15 +209,15 @@ struct FillKind {
     bool coded = false;
 };
 
-// A sample whose texels' lines are known; texel n: (left, top), (left, bottom), (right, top), (right, bottom).
+// A sample with the cache lines of its texels; texel n: (left, top), (left, bottom), (right, top), (right, bottom).
 struct WaitingSample {
     static constexpr int kBits = SampleHead::kBits + 1 + 2 * 3 + 4 * (7 + 6) + 3;
     SampleHead head;
     bool inside = false;
     int fx = 0, fy = 0;
     std::array<int, 4> line{};
-    std::array<int, 4> texel{};  // 8 * column + row of the block
-    int fills = 0;               // that come for it
+    std::array<int, 4> texel{};  // 8 * column + row in the block
+    int fills = 0;               // blocks that were requested for this sample
 };
 
 struct TexelQuad {
@@ -241,7 +242,7 @@ inline std::string text(const BracketedRay& m) {
     return "view " + std::to_string(m.view) + " kind " + std::to_string(static_cast<int>(m.kind)) + " images " +
            std::to_string(m.first) + "," + std::to_string(m.second);
 }
-inline std::string text(const LinedRay& m) {
+inline std::string text(const RayWithLines& m) {
     return text(m.ray);
 }
 inline std::string text(const ColumnSetup& m) {
@@ -255,16 +256,16 @@ inline std::string text(const PatchJob& m) {
 inline std::string text(const ScannedPixel& m) {
     return id_text(m.id);
 }
-inline std::string text(const RisenPixel& m) {
+inline std::string text(const PixelBandRay& m) {
     return id_text(m.pixel.id);
 }
-inline std::string text(const MetSurface& m) {
+inline std::string text(const SurfaceHit& m) {
     return id_text(m.pixel.id) + (m.final ? " final" : "");
 }
 inline std::string text(const FinishedPixel& m) {
     return id_text(m.id);
 }
-inline std::string text(const MarchAgain& m) {
+inline std::string text(const ReturnedPixel& m) {
     return id_text(m.id) + " from " + std::to_string(m.state.begin);
 }
 inline std::string text(const PlacedSample& m) {

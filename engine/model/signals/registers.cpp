@@ -15,17 +15,17 @@ bool fits(std::int64_t value, int bits) {
 Result<BoardView> board_view(const engine::ViewRegisters& registers, int object) {
     if (!registers.upright()) {
         return Error{
-            "view: the camera is tilted, and the board draws upright views only (every view column a vertical "
+            "view: the camera is tilted, but the board renders upright views only (every view column a vertical "
             "plane of rays); make the camera upright and move its principal point, or render it with rs-engine render"};
     }
     if (registers.filter != engine::TexelFilter::kBilinear) {
         return Error{
-            "view: it asks for the sharp or the smooth filter, and the board samples bilinearly; prepare it "
+            "view: it uses the sharp or the smooth filter, but the board samples bilinearly; prepare it "
             "with the bilinear filter, or render it with rs-engine render"};
     }
-    if (registers.planes.size() > static_cast<std::size_t>(kMostPlanes)) {
+    if (registers.planes.size() > static_cast<std::size_t>(kMaxPlanes)) {
         return Error{"view: its object has " + std::to_string(registers.planes.size()) +
-                     " reference planes, more than the board's " + std::to_string(kMostPlanes)};
+                     " reference planes, more than the board's " + std::to_string(kMaxPlanes)};
     }
     BoardView view;
     view.object = object;
@@ -68,7 +68,7 @@ std::string register_error(const BoardView& view, const RegisterFile& file, cons
     for (int k = 0; k < file.objects[static_cast<std::size_t>(view.object)].planes; ++k) {
         const PlaneView& p = view.planes[static_cast<std::size_t>(k)];
         in_range = in_range && fits(p.a_q20, kPosition) && fits(p.c_q20, kPosition);
-        // Linear over the view: in range at both ends, in range between.
+        // Linear over the view: in range at both ends implies in range between.
         for (const auto& [origin, step] : {std::pair{p.n0_q32, p.nx_q32}, std::pair{p.t0_q32, p.tx_q32}}) {
             in_range = in_range && fits(origin, kDirection) && fits(step, kDirection) &&
                        fits(origin + (view.width - 1) * step, kDirection);

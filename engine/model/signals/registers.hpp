@@ -1,7 +1,7 @@
 #pragma once
-// The register file of the board: its objects, and two banks of 15 views, of which one is rendered while the host fills
-// the other. It is a memory (in the FPGA, embedded RAM, copied where two blocks read at once), not a block: the render
-// controller is the only one that writes it, and only while the blocks that read are empty.
+// Register file of the board: its objects, and two banks of 15 views, one of which is rendered while the host fills the
+// other. A memory (embedded RAM in the FPGA, copied where two blocks read at once), not a block: only the render
+// controller writes it, and only while the blocks that read it are empty.
 
 #include "engine/core/definition/view_registers.hpp"
 #include "engine/model/limits/board_limits.hpp"
@@ -15,16 +15,16 @@
 
 namespace rs::engine::model {
 
-inline constexpr int kMostPlanes = 12;
+inline constexpr int kMaxPlanes = 12;
 
-// How many codebooks an object has, of flat and of predicted records.
+// Number of codebooks of an object: [flat, predicted] records.
 struct BookCounts {
     std::array<int, 2> block{};
     std::array<int, 2> quarter{};
     bool alpha = false;
 };
 
-// Of an object with a shape map (RECONSTRUCTION.md, section 1), on a board that knows it.
+// Shape map of an object (RECONSTRUCTION.md, section 1), on boards that support shape maps.
 struct ShapeRegisters {
     bool exists = false;
     int p_cells = 0;  // 13 bits
@@ -40,14 +40,14 @@ struct ShapeRegisters {
     int foot_d_q3 = 0;       // 11 bits
     int jump = 0;            // 8 bits
     int thickness = 0;       // 8 bits
-    std::int64_t lines = 0;  // of all gaps; 27 bits
+    std::int64_t lines = 0;  // sum over all gaps; 27 bits
     WordAddress cells = 0;
 };
 
-// Where an object lies and what section 1 of RECONSTRUCTION.md states of it. Widths: sizes 10 bits, addresses 27 bits,
-// fixed point as in RECONSTRUCTION.md.
+// Memory addresses of an object and its parameters of RECONSTRUCTION.md, section 1. Widths: sizes 10 bits, addresses 27
+// bits, fixed point as in RECONSTRUCTION.md.
 struct ObjectRegisters {
-    bool valid = false;  // loaded as a whole
+    bool valid = false;  // completely loaded
     int width = 0;       // px, of every image
     int height = 0;
     int images = 0;
@@ -67,24 +67,24 @@ struct ObjectRegisters {
     WordAddress map = 0;
     WordAddress lines = 0;
 
-    // Of an object with images of profile `board` (coded_layout.hpp), instead of those of luma, chroma and alpha.
+    // Images of profile `board` (coded_layout.hpp); these replace the registers of luma, chroma and alpha.
     int coded_width = 0;  // px; 10 bits
     int coded_height = 0;
     int tile_columns = 0;  // 5 bits
-    int table_pitch = 0;   // entries of a column of tiles; 5 bits
+    int table_pitch = 0;   // entries per column of tiles; 5 bits
     WordAddress tile_table = 0;
     WordAddress books = 0;
     std::uint32_t book_words = 0;  // 15 bits
     BookCounts book_counts;
     std::array<std::array<codec::RecordClass, codec::kBoardClasses>, 2> classes{};  // a byte each
-    // On a parallel board (parallel_layout.hpp).
-    bool coded = false;          // its images are those of profile `board`
-    WordAddress raw_blocks = 0;  // else
+    // Parallel board only (parallel_layout.hpp).
+    bool coded = false;          // the images have profile `board`
+    WordAddress raw_blocks = 0;  // without `coded`
     int block_columns = 0;       // of a raw image, 7 bits
     int block_rows = 0;
     ShapeRegisters shape;
 
-    std::uint32_t serial = 0;  // number of the load, from 1: distinguishes the objects that a slot holds in turn
+    std::uint32_t serial = 0;  // number of the load, from 1: distinguishes successive objects in one slot
 };
 
 struct PlaneView {
@@ -101,7 +101,7 @@ struct BoardView {
     std::int32_t b_q20 = 0;
     std::int64_t s0_q32 = 0;  // sx is 0: the view is upright
     std::int64_t sy_q32 = 0;
-    std::array<PlaneView, kMostPlanes> planes{};
+    std::array<PlaneView, kMaxPlanes> planes{};
 
     [[nodiscard]] int words_per_column() const { return (height + 1) / 2; }  // of the image buffer
     [[nodiscard]] int words() const { return width * words_per_column(); }
@@ -113,13 +113,13 @@ struct ViewBank {
 
 struct RegisterFile {
     std::vector<ObjectRegisters> objects;  // [slot]
-    std::vector<ObjectRegisters> loaded;   // written by the disk controller, taken over by the render controller
+    std::vector<ObjectRegisters> loaded;   // written by the disk controller; the render controller copies it
     std::array<ViewBank, 2> banks{};
-    int active = 0;                                  // the bank that is rendered, and the image buffer that is written
-    std::array<std::vector<int>, 2> buffer_words{};  // [buffer][view]: kept until the host has the images
+    int active = 0;  // index of the bank that is rendered and of the image buffer that is written
+    std::array<std::vector<int>, 2> buffer_words{};    // [buffer][view]: valid until the host has the images
     std::array<std::vector<int>, 2> buffer_pitches{};  // words per column, likewise
-    WordAddress images = 0;                            // the first image buffer
-    WordAddress words_per_buffer = 0;                  // from there to the second
+    WordAddress images = 0;                            // address of the first image buffer
+    WordAddress words_per_buffer = 0;                  // offset of the second buffer
     int words_per_view = 0;                            // of the image buffer
     int views_per_cycle = 15;
 
@@ -135,14 +135,14 @@ struct RegisterFile {
     }
 };
 
-// The registers of a view of object slot `object`. Fails for a view that is not upright, with the remedy.
+// Registers of a view of object slot `object`. Fails for a tilted view; the message names the remedy.
 Result<BoardView> board_view(const engine::ViewRegisters& registers, int object);
 
-// How many 32-bit registers the host writes for it.
+// Number of 32-bit registers that the host writes for the view.
 int register_writes(const BoardView& view, int planes);
 
-// What the board's own check of a view's registers finds wrong before a cycle is taken, "" where nothing: sizes outside
-// of the image buffer, an object slot that does not exist or holds nothing, numbers beyond their bit widths.
+// The board's check of a view's registers before it accepts a cycle. Returns "" if valid, otherwise the error: a size
+// outside of the image buffer, a missing or empty object slot, or a number that exceeds its bit width.
 std::string register_error(const BoardView& view, const RegisterFile& file, const BoardLimits& limits);
 
 }  // namespace rs::engine::model

@@ -51,7 +51,7 @@ void Sdram::issue(SdramCommand command, WordAddress address, std::uint64_t now) 
             at.activate_from = after(timing_.activate_to_activate);
             break;
         case SdramCommand::read:
-            // The read's word leaves the chips at read_latency; one idle cycle follows before the board may drive.
+            // Read data leave the chips at read_latency; one idle cycle follows before the board may drive the bus.
             write_from_ = after(timing_.read_latency + 2);
             at.precharge_from = std::max(at.precharge_from, after(1));
             break;

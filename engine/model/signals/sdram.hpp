@@ -1,11 +1,11 @@
 #pragma once
-// The SDRAM chips behind one memory channel: banks with one open row each, the time rules between commands, and the
-// 64-bit words themselves. A device, not a block: the memory controller drives its pins, one command per cycle.
+// SDRAM chips of one memory channel: banks with one open row each, the timing rules between commands, and the 64-bit
+// words. A device, not a block: the memory controller drives its pins, one command per cycle.
 //
 //     closed --activate--> open --read, write--> open --precharge--> closed;  refresh: all closed
 //
-// Every command is checked against the rules; `allows` reports whether it is legal in a cycle. Storage is taken as it
-// is written, so 1 GByte costs nothing until it is used; what was never written reads as 0.
+// Every command is checked against the rules; `allows` reports whether it is legal in a cycle. Storage is allocated on
+// the first write; unwritten words read as 0.
 
 #include "engine/model/signals/board_config.hpp"
 
@@ -17,7 +17,7 @@
 
 namespace rs::engine::model {
 
-using WordAddress = std::uint32_t;  // of 8 bytes
+using WordAddress = std::uint32_t;  // in words of 8 bytes
 
 enum class SdramCommand { activate, read, write, precharge, precharge_all, refresh };
 
@@ -34,14 +34,14 @@ public:
     [[nodiscard]] bool is_open(int bank) const { return banks_[static_cast<std::size_t>(bank)].row >= 0; }
     [[nodiscard]] bool has_row(int bank, int row) const { return banks_[static_cast<std::size_t>(bank)].row == row; }
 
-    // Legal in cycle `now`? `address` gives bank and row; refresh and precharge_all look at no address.
+    // True if the command is legal in cycle `now`. `address` gives bank and row; refresh and precharge_all ignore it.
     [[nodiscard]] bool allows(SdramCommand command, WordAddress address, std::uint64_t now) const;
 
-    // Issues a command, which must be allowed (RS_CHECK). A read's data are on the pins timing.read_latency cycles
-    // later; a write brings its data along.
+    // Issues a command, which must be allowed (RS_CHECK). Read data are on the pins timing.read_latency cycles later;
+    // write data arrive with the command.
     void issue(SdramCommand command, WordAddress address, std::uint64_t now);
 
-    // The words themselves; the testbench's back door, and what a read or write moves.
+    // Access to a word without a clock: for testbenches, and for the data of read and write commands.
     [[nodiscard]] std::uint64_t word(WordAddress address) const;
     void set_word(WordAddress address, std::uint64_t value);
 
@@ -63,14 +63,14 @@ private:
     }
     void close(Bank& bank, std::uint64_t now) const;
 
-    static constexpr int kPageBits = 12;  // of storage: 32 KByte at a time
+    static constexpr int kPageBits = 12;  // words of storage: allocated in pages of 32 KByte
     using Page = std::array<std::uint64_t, std::size_t{1} << kPageBits>;
 
     SdramShape shape_;
     SdramTiming timing_;
     std::vector<Bank> banks_;
-    std::uint64_t any_from_ = 0;    // after a refresh
-    std::uint64_t write_from_ = 0;  // after a read: the bus must turn round
+    std::uint64_t any_from_ = 0;    // first cycle of any command after a refresh
+    std::uint64_t write_from_ = 0;  // first cycle of a write after a read (turnaround of the data bus)
     std::array<std::uint64_t, 6> issued_{};
     std::vector<std::unique_ptr<Page>> pages_;
 };

@@ -119,7 +119,7 @@ void decode_board_block(const BoardCode& code, const RecordClass& record_class, 
 }
 
 void decode_board_tile(const BoardCode& code, const ImageHead& head, std::span<const std::byte> bytes,
-                       const TilePlace& place, const std::array<ConstPlaneViews, 2>& references,
+                       const TileRect& place, const std::array<ConstPlaneViews, 2>& references,
                        ReferenceListener* listener, const PlaneViews& out) {
     const auto& classes = code.classes[head.references() > 0 ? 1 : 0];
     const std::uint64_t tile_classes = board_tile_classes(bytes);

@@ -15,8 +15,8 @@ namespace rs::codec {
 
 enum class AlphaCoding : std::uint8_t {
     kLevels = 0,  // a level of 1 to 4 bits per sample
-    kMask = 1,    // a mask of samples covered by one half or more; with two bits, also the inner level
-    kDepths = 2,  // a mask, and the distance from 0 or full in 3 to 6 bits
+    kMask = 1,    // 1 or 2 bits: a mask of samples covered by one half or more, and with 2 bits the inner level
+    kDepths = 2,  // 3 to 6 bits: a mask, and the distance from 0 or full
 };
 
 /// Distance of alpha from 0 (255) beside a mask's edge: [mask][weight of the differing samples around, 1 .. 12].

@@ -80,8 +80,7 @@ std::vector<AccountEntry> account_of_tiles(const CodedImages& coded) {
         if (!image.tiles[tile].present) return decode_tile(coded, view, tile, references, nullptr, out);
         Bits bits{};
         CountingReader reader(image.tile_bytes(tile), coded.dense, bits);
-        DenseTileDecoder(reader, coded.dense, image.head, place_of_tile(coded, tile), references, nullptr, out)
-            .decode();
+        DenseTileDecoder(reader, coded.dense, image.head, tile_rect(coded, tile), references, nullptr, out).decode();
         const std::lock_guard lock(mutex);
         for (std::size_t p = 0; p < kPurposes; ++p) sum[p] += bits[p];
     });

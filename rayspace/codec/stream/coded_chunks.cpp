@@ -242,7 +242,7 @@ Status parse_coded_image(std::span<const std::byte> payload, std::size_t view, C
     const bool board = coded.profile == Profile::kBoard;
     const int largest_step = board ? 0 : kMaxStep;
     if (image.head.step > largest_step) return out_of_range("its quantiser step", image.head.step, 0, largest_step);
-    if (Status status = check_references(coded, view, image.head); !status) return status;
+    RS_TRY(check_references(coded, view, image.head));
     for (const MotionVector motion : image.head.global_motion) {
         for (const int component : {int{motion.x}, int{motion.y}}) {
             const int largest = board ? 0 : kMaxMotion_q2;

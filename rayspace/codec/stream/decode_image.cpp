@@ -10,7 +10,7 @@
 
 namespace rs::codec {
 
-TilePlace place_of_tile(const CodedImages& coded, std::size_t tile) {
+TileRect tile_rect(const CodedImages& coded, std::size_t tile) {
     const int number = static_cast<int>(tile);
     const int left = number % coded.tile_columns() * coded.tile_width();
     const int top = number / coded.tile_columns() * coded.tile_height();
@@ -21,7 +21,7 @@ TilePlace place_of_tile(const CodedImages& coded, std::size_t tile) {
 void decode_tile(const CodedImages& coded, std::size_t view, std::size_t tile,
                  const std::array<ConstPlaneViews, 2>& references, ReferenceListener* listener, const PlaneViews& out) {
     const CodedImage& image = coded.images[view];
-    const TilePlace place = place_of_tile(coded, tile);
+    const TileRect place = tile_rect(coded, tile);
     if (!image.tiles[tile].present) {
         clear_tile(place, out);
     } else if (coded.profile == Profile::kBoard) {

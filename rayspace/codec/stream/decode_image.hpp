@@ -13,7 +13,7 @@
 namespace rs::codec {
 
 /// The rectangle of tile number `tile` (row by row) of every image.
-TilePlace place_of_tile(const CodedImages& coded, std::size_t tile);
+TileRect tile_rect(const CodedImages& coded, std::size_t tile);
 
 /// Decodes a tile of image `view`, which must be loaded, and writes only the tile's samples of `out`. Thread-safe.
 /// \param references  samples of the images coded.images[view].head.reference, decoded at least in the rectangles

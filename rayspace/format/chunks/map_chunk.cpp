@@ -53,7 +53,7 @@ Status parse_map(Bytes payload, PartialObject& partial, std::uint32_t index) {
     Ring& ring = partial.object.rings[index];
     RS_ASSIGN_OR_RETURN(const auto coded, parse_map_head(payload, ring));
     std::vector<std::uint8_t> plane;
-    if (Status s = decompress_zstd_frame(coded.frame, coded.content_bytes, "its runs", plane); !s) return s;
+    RS_TRY(decompress_zstd_frame(coded.frame, coded.content_bytes, "its runs", plane));
     ring.cells.resize(coded.rows * static_cast<std::size_t>(ring.u_cells));
     return map_coding::decode_runs(map_coding::decode_run_residuals(plane, coded.rows, coded.runs), ring.u_cells,
                                    ring.cells);

@@ -83,7 +83,7 @@ Status check_ring_geometry(const Ring& ring) {
 
 Status check_ring(const RaySpaceObject& object, std::uint32_t index) {
     const Ring& ring = object.rings[index];
-    if (Status status = check_ring_geometry(ring); !status) return status;
+    RS_TRY(check_ring_geometry(ring));
     if (ring.views.empty()) return Error{"it has no views"};
     std::vector<bool> is_taken = ring_membership(object, index);
     for (const std::uint16_t view : ring.views) {

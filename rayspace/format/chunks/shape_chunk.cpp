@@ -263,13 +263,13 @@ Status parse_shape_cells(const CodedShapeCells& coded, ShapeMap& shape) {
 Status check_shape(const Ring& ring) {
     const ShapeMap& shape = ring.shape;
     if (shape.empty()) return shape == ShapeMap{} ? Status{} : Status{Error{"it has no gaps and yet numbers or cells"}};
-    if (Status status = check_numbers(shape); !status) return status;
-    if (Status status = check_gaps(ring); !status) return status;
+    RS_TRY(check_numbers(shape));
+    RS_TRY(check_gaps(ring));
     if (shape.normal_lines.size() != ring.views.size() * static_cast<std::size_t>(ring.planes)) {
         return Error{"it does not have one normal line per view and plane"};
     }
     for (const NormalLine& line : shape.normal_lines) {
-        if (Status status = check_normal_line(line); !status) return status;
+        RS_TRY(check_normal_line(line));
     }
     for (std::size_t i = 0; i < shape.cells.size(); ++i) {
         if (const Status status = check_cell(shape.cells[i]); !status) {

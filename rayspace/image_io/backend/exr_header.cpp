@@ -1,4 +1,4 @@
-#include "rayspace/image_io/backend/exr_header.hpp"
+#include "rayspace/image_io/backend/file_checks.hpp"
 
 #include "rayspace/base/conventions.hpp"
 
@@ -30,7 +30,7 @@ public:
             bool any = false;
             for (std::string name = text(); !name.empty(); name = text()) {
                 any = true;
-                if (Status status = attribute(); !status) return status;
+                RS_TRY(attribute());
             }
             if (!stream_) return cut_short();
             if (!any) break;  // the end of all parts' headers

@@ -4,9 +4,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "rayspace/image_io/backend/colour_profile.hpp"
-#include "rayspace/image_io/backend/exr_header.hpp"
-#include "rayspace/image_io/backend/png_integrity.hpp"
-#include "rayspace/image_io/backend/profile_integrity.hpp"
+#include "rayspace/image_io/backend/file_checks.hpp"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -33,7 +31,7 @@ std::string one_line(std::string message) {
 }
 
 template <class Function>
-auto guarded(const std::string& shown, Function&& function) -> decltype(function()) {
+auto catch_exceptions(const std::string& shown, Function&& function) -> decltype(function()) {
     try {
         return function();
     } catch (const std::bad_alloc&) {
@@ -160,7 +158,7 @@ std::optional<ColourProfile> profile_of(const OpenedImage& opened) {
 }
 
 Result<ImageInfo> read_info(const std::string& path, int max_side_px) {
-    return guarded(path, [&]() -> Result<ImageInfo> {
+    return catch_exceptions(path, [&]() -> Result<ImageInfo> {
         RS_ASSIGN_OR_RETURN(const auto opened, open_image(path, Need::kHeader, max_side_px));
         const OIIO::ImageSpec& spec = opened.input->spec();
         const int orientation = spec.get_int_attribute("Orientation", 1);
@@ -187,7 +185,7 @@ Result<Image<Rgba8>> read_bytes(OpenedImage& opened, const std::string& path, co
 }
 
 Result<Image<Rgba8>> read_image(const std::string& path, int max_side_px) {
-    return guarded(path, [&]() -> Result<Image<Rgba8>> {
+    return catch_exceptions(path, [&]() -> Result<Image<Rgba8>> {
         RS_ASSIGN_OR_RETURN(auto opened, open_image(path, Need::kWholeFile, max_side_px));
         const Channels channels = choose_channels(opened.input->spec());
         const bool is_float = opened.input->spec().format.is_floating_point();
@@ -211,7 +209,7 @@ Result<Image<Rgba8>> read_image(const std::string& path, int max_side_px) {
 }
 
 Result<Image<RgbaF>> read_image_linear(const std::string& path) {
-    return guarded(path, [&]() -> Result<Image<RgbaF>> {
+    return catch_exceptions(path, [&]() -> Result<Image<RgbaF>> {
         RS_ASSIGN_OR_RETURN(auto opened, open_image(path, Need::kWholeFile));
         const Channels channels = choose_channels(opened.input->spec());
         const bool is_float = opened.input->spec().format.is_floating_point();
@@ -229,7 +227,7 @@ Result<Image<RgbaF>> read_image_linear(const std::string& path) {
 }
 
 Result<Image<float>> read_channel(const std::string& path) {
-    return guarded(path, [&]() -> Result<Image<float>> {
+    return catch_exceptions(path, [&]() -> Result<Image<float>> {
         RS_ASSIGN_OR_RETURN(auto opened, open_image(path, Need::kWholeFile));
         const std::vector<std::string>& names = opened.input->spec().channelnames;
         const auto z = std::find(names.begin(), names.end(), "Z");
@@ -245,7 +243,7 @@ Result<Image<float>> read_channel(const std::string& path) {
 Result<std::vector<std::byte>> encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
                                       const void* pixels, std::ptrdiff_t pixel_bytes, std::ptrdiff_t row_bytes,
                                       const std::string& shown) {
-    return guarded(shown, [&]() -> Result<std::vector<std::byte>> {
+    return catch_exceptions(shown, [&]() -> Result<std::vector<std::byte>> {
         auto output = OIIO::ImageOutput::create(format);
         if (!output) return Error{shown + ": cannot be encoded: " + one_line(OIIO::geterror())};
         OIIO::Filesystem::IOVecOutput memory;

@@ -1,4 +1,4 @@
-#include "rayspace/image_io/backend/png_integrity.hpp"
+#include "rayspace/image_io/backend/file_checks.hpp"
 
 #include "rayspace/image_io/backend/byte_source.hpp"
 

@@ -1,4 +1,4 @@
-#include "rayspace/image_io/backend/profile_integrity.hpp"
+#include "rayspace/image_io/backend/file_checks.hpp"
 
 #include "rayspace/image_io/backend/byte_source.hpp"
 
@@ -25,20 +25,20 @@ bool has_at(std::span<const unsigned char> bytes, std::size_t at, std::string_vi
     return at + text.size() <= bytes.size() && std::memcmp(bytes.data() + at, text.data(), text.size()) == 0;
 }
 
-bool lies_inside(std::span<const unsigned char> bytes, std::uint64_t at, std::uint64_t count) {
+bool is_inside(std::span<const unsigned char> bytes, std::uint64_t at, std::uint64_t count) {
     return at + count <= bytes.size();
 }
 
 // Checks a tag of texts in several languages: records of 12 bytes with the text's position.
-bool has_sound_texts(std::span<const unsigned char> icc, std::uint64_t tag_at) {
+bool has_valid_texts(std::span<const unsigned char> icc, std::uint64_t tag_at) {
     constexpr std::uint64_t kFirstRecord = 16, kRecord_bytes = 12;
-    if (!lies_inside(icc, tag_at, kFirstRecord)) return false;
+    if (!is_inside(icc, tag_at, kFirstRecord)) return false;
     const std::uint32_t records = big_endian(icc.data() + tag_at + 8);
     if (records > kMost || big_endian(icc.data() + tag_at + 12) != kRecord_bytes) return false;
-    if (!lies_inside(icc, tag_at + kFirstRecord, records * kRecord_bytes)) return false;
+    if (!is_inside(icc, tag_at + kFirstRecord, records * kRecord_bytes)) return false;
     for (std::uint32_t i = 0; i < records; ++i) {
         const unsigned char* const record = icc.data() + tag_at + kFirstRecord + i * kRecord_bytes;
-        if (!lies_inside(icc, tag_at + big_endian(record + 8), big_endian(record + 4))) return false;
+        if (!is_inside(icc, tag_at + big_endian(record + 8), big_endian(record + 4))) return false;
     }
     return true;
 }
@@ -58,7 +58,7 @@ unsigned char next_marker(ByteSource& source) {
 }
 
 // Joins the profile's parts by their numbers; stops at the image data.
-bool jpeg_is_sound(ByteSource& source) {
+bool is_jpeg_profile_valid(ByteSource& source) {
     constexpr std::string_view kName("ICC_PROFILE\0", 12);
     constexpr std::size_t kPartAt = kName.size() + 2;  // after the part's number and the number of parts
     std::map<unsigned char, Bytes> parts;
@@ -83,10 +83,10 @@ bool jpeg_is_sound(ByteSource& source) {
     }
     Bytes profile;
     for (const auto& [number, part] : parts) profile.insert(profile.end(), part.begin(), part.end());
-    return is_sound_profile(profile);
+    return is_valid_profile(profile);
 }
 
-Bytes inflated(std::span<const unsigned char> packed) {
+Bytes inflate_profile(std::span<const unsigned char> packed) {
     Bytes profile(kLargest_bytes + 1);
     z_stream stream{};
     if (inflateInit(&stream) != Z_OK) return {};
@@ -100,7 +100,7 @@ Bytes inflated(std::span<const unsigned char> packed) {
     return profile;
 }
 
-bool png_is_sound(ByteSource& source) {
+bool is_png_profile_valid(ByteSource& source) {
     std::array<unsigned char, 8> head{};  // length, type
     int profiles = 0;
     source.go_to(8);
@@ -117,7 +117,7 @@ bool png_is_sound(ByteSource& source) {
         const auto name_end = std::find(chunk.begin(), chunk.end(), 0);
         if (chunk.end() - name_end < 2) continue;
         const auto packed = std::span(chunk).subspan(static_cast<std::size_t>(name_end - chunk.begin()) + 2);
-        if (!is_sound_profile(inflated(packed))) return false;
+        if (!is_valid_profile(inflate_profile(packed))) return false;
     }
     return true;
 }
@@ -147,7 +147,7 @@ public:
             if ((type != kByte && type != kUndefined) || size > kLargest_bytes) return false;
             Bytes profile(size);
             source_.go_to(number(entries, at + 4 + offset_bytes, offset_bytes));
-            if (source_.take(profile.data(), profile.size()) && !is_sound_profile(profile)) return false;
+            if (source_.take(profile.data(), profile.size()) && !is_valid_profile(profile)) return false;
         }
         return true;
     }
@@ -164,7 +164,7 @@ private:
     bool little_endian_;
 };
 
-bool webp_is_sound(ByteSource& source) {
+bool is_webp_profile_valid(ByteSource& source) {
     std::array<unsigned char, 8> head{};  // type, length
     source.go_to(12);
     while (source.take(head.data(), head.size())) {
@@ -177,14 +177,14 @@ bool webp_is_sound(ByteSource& source) {
         if (length > kLargest_bytes) return false;
         Bytes profile(length);
         if (!source.take(profile.data(), length) || (length % 2 == 1 && !source.skip(1))) break;
-        if (!is_sound_profile(profile)) return false;
+        if (!is_valid_profile(profile)) return false;
     }
     return true;
 }
 
 }  // namespace
 
-bool is_sound_profile(std::span<const unsigned char> icc) {
+bool is_valid_profile(std::span<const unsigned char> icc) {
     constexpr std::uint64_t kEntry_bytes = 12;
     if (icc.size() > kLargest_bytes) return false;
     if (icc.size() < kHeader_bytes + 4 || !has_at(icc, 36, "acsp")) return true;
@@ -192,14 +192,14 @@ bool is_sound_profile(std::span<const unsigned char> icc) {
     if (size > icc.size() || size < kHeader_bytes + 4) return true;
     icc = icc.first(size);
     const std::uint32_t tags = big_endian(icc.data() + kHeader_bytes);
-    if (tags > kMost || !lies_inside(icc, kHeader_bytes + 4, tags * kEntry_bytes)) return false;
+    if (tags > kMost || !is_inside(icc, kHeader_bytes + 4, tags * kEntry_bytes)) return false;
     for (std::uint32_t i = 0; i < tags; ++i) {
         const unsigned char* const entry = icc.data() + kHeader_bytes + 4 + i * kEntry_bytes;
         const std::uint32_t at = big_endian(entry + 4), tag_size = big_endian(entry + 8);
-        if (!lies_inside(icc, at, std::max(tag_size, 4U))) return false;
+        if (!is_inside(icc, at, std::max(tag_size, 4U))) return false;
         if (has_at(icc, at, "text") && tag_size < 8) return false;
         if (has_at(icc, at, "desc") && tag_size < 12) return false;
-        if (has_at(icc, at, "mluc") && !has_sound_texts(icc, at)) return false;
+        if (has_at(icc, at, "mluc") && !has_valid_texts(icc, at)) return false;
     }
     return true;
 }
@@ -210,13 +210,13 @@ Status check_profile_integrity(const std::string& path) {
     source.take_some(begin.data(), begin.size());
     bool sound = true;
     if (has_at(begin, 0, "\xFF\xD8")) {
-        sound = jpeg_is_sound(source);
+        sound = is_jpeg_profile_valid(source);
     } else if (has_at(begin, 1, "PNG\r\n")) {
-        sound = png_is_sound(source);
+        sound = is_png_profile_valid(source);
     } else if (has_at(begin, 0, "II") || has_at(begin, 0, "MM")) {
         sound = TiffDirectory(source, begin[0] == 'I').is_sound();
     } else if (has_at(begin, 0, "RIFF") && has_at(begin, 8, "WEBP")) {
-        sound = webp_is_sound(source);
+        sound = is_webp_profile_valid(source);
     } else if (has_at(begin, 0, {"\0\0\1\0", 4}) || has_at(begin, 0, "8BPS") || has_at(begin, 4, "jP  ")) {
         return Error{path + ": icons, Photoshop's and JPEG 2000 files are not read; convert it to PNG or TIFF"};
     }

@@ -70,7 +70,7 @@ public:
             return failed(failure);
         }
         stream_->time_base = codec_->time_base;
-        if (Status status = make_frame(); !status) return status;
+        RS_TRY(make_frame());
         if (const int failure = avio_open(&format->pb, path.c_str(), AVIO_FLAG_WRITE); failure < 0) {
             return failed(failure);
         }
@@ -96,7 +96,7 @@ public:
 
     Status finish() override {
         if (frames_ == 0) return Error{shown_ + ": a video needs at least one frame"};
-        if (Status status = encode(nullptr); !status) return status;
+        RS_TRY(encode(nullptr));
         if (const int failure = av_write_trailer(format_.get()); failure < 0) return failed(failure);
         const int failure = avio_closep(&format_->pb);  // flushes buffered data to the disk
         return failure < 0 ? failed(failure) : Status();

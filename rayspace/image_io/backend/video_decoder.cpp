@@ -39,7 +39,7 @@ struct DecoderDeleter {
 template <class T>
 using DecoderOwned = std::unique_ptr<T, DecoderDeleter>;
 
-std::string error_text(int failure) {
+std::string describe_error(int failure) {
     char text[AV_ERROR_MAX_STRING_SIZE];
     av_make_error_string(text, sizeof text, failure);
     return text;
@@ -80,7 +80,7 @@ public:
     explicit LibavDecoder(std::string path) : path_(std::move(path)) {}
 
     Status open() {
-        if (Status status = open_container(); !status) return status;
+        RS_TRY(open_container());
         const AVCodec* codec = nullptr;
         const int index = av_find_best_stream(format_.get(), AVMEDIA_TYPE_VIDEO, -1, -1, &codec, 0);
         if (index == AVERROR_DECODER_NOT_FOUND) return Error{path_ + missing_decoder_message()};
@@ -90,7 +90,7 @@ public:
         for (unsigned i = 0; i < format_->nb_streams; ++i) {
             if (static_cast<int>(i) != index) format_->streams[i]->discard = AVDISCARD_ALL;
         }
-        if (Status status = read_stream_info(); !status) return status;
+        RS_TRY(read_stream_info());
         return open_codec(*codec);
     }
 
@@ -131,7 +131,7 @@ private:
             const AVCodecParameters& parameters = *format_->streams[i]->codecpar;
             if (parameters.codec_type == AVMEDIA_TYPE_VIDEO) codec = avcodec_get_name(parameters.codec_id);
         }
-        return ": the installed FFmpeg has no decoder for " + codec + "; convert the film to H.264";
+        return ": the installed FFmpeg has no decoder for " + codec + "; convert the video to H.264";
     }
     [[nodiscard]] std::string damage_message() const {
         return ": is damaged (" + std::to_string(damaged_) + " frames cannot be decoded); copy the video again";
@@ -139,19 +139,19 @@ private:
 
     Status open_container() {
         AVFormatContext* format = avformat_alloc_context();
-        if (format == nullptr) return Error{path_ + ": not enough memory to open a film"};
+        if (format == nullptr) return Error{path_ + ": not enough memory to open a video"};
         format->format_whitelist = av_strdup(kContainers);
         format->protocol_whitelist = av_strdup("file");
         format->probesize = kProbeBytes;
         // Frees the context on failure.
         const int failure = avformat_open_input(&format, ("file:" + path_).c_str(), nullptr, nullptr);
         if (failure < 0) {
-            return Error{path_ + ": cannot be read as a film (" + error_text(failure) +
+            return Error{path_ + ": cannot be read as a video (" + describe_error(failure) +
                          "); use a complete video file, or a folder of photos"};
         }
         format_.reset(format);
         if (const int found = avformat_find_stream_info(format, nullptr); found < 0) {
-            return Error{path_ + ": is damaged or cut short (" + error_text(found) + "); copy the film again"};
+            return Error{path_ + ": is damaged or cut short (" + describe_error(found) + "); copy the video again"};
         }
         return {};
     }
@@ -195,15 +195,15 @@ private:
         codec_.reset(avcodec_alloc_context3(&codec));
         frame_.reset(av_frame_alloc());
         packet_.reset(av_packet_alloc());
-        if (!codec_ || !frame_ || !packet_) return Error{path_ + ": not enough memory to decode a film"};
+        if (!codec_ || !frame_ || !packet_) return Error{path_ + ": not enough memory to decode a video"};
         if (const int failure = avcodec_parameters_to_context(codec_.get(), stream_->codecpar); failure < 0) {
-            return Error{path_ + ": cannot be decoded (" + error_text(failure) + ")"};
+            return Error{path_ + ": cannot be decoded (" + describe_error(failure) + ")"};
         }
         codec_->thread_count = kThreads;
         codec_->max_pixels = std::int64_t{kMaxImageSide_px} * kMaxImageSide_px;
         codec_->pkt_timebase = stream_->time_base;
         if (const int failure = avcodec_open2(codec_.get(), &codec, nullptr); failure < 0) {
-            return Error{path_ + ": cannot be decoded (" + error_text(failure) + "); convert the film to H.264"};
+            return Error{path_ + ": cannot be decoded (" + describe_error(failure) + "); convert the video to H.264"};
         }
         return {};
     }
@@ -240,7 +240,7 @@ private:
 
     [[nodiscard]] Status check_end() const {
         if (decoded_ == 0) {
-            return Error{path_ + ": no frame of it can be decoded; copy the film again, or convert it to H.264"};
+            return Error{path_ + ": no frame of it can be decoded; copy the video again, or convert it to H.264"};
         }
         constexpr int kTolerated = 3;
         if (damaged_ > std::max<std::int64_t>(kTolerated, decoded_ / 20)) return Error{path_ + damage_message()};
@@ -266,7 +266,7 @@ private:
         if (!scaler_) {
             const char* const name = av_get_pix_fmt_name(format);
             return Error{path_ + ": frames of the format " + (name != nullptr ? name : "unknown") +
-                         " cannot be converted; convert the film to H.264"};
+                         " cannot be converted; convert the video to H.264"};
         }
         constexpr int kOne = 1 << 16;
         const bool is_full_range = code_of(frame_->color_range) == AVCOL_RANGE_JPEG;

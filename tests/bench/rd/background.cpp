@@ -7,7 +7,7 @@
 namespace rs::bench {
 namespace {
 
-// RgbaF here holds sRGB numbers multiplied by a weight, which stands in `a`.
+// sRGB values multiplied by a weight, which is in `a`.
 using Weighted = Image<RgbaF>;
 
 Weighted halved(const Weighted& fine) {
@@ -22,7 +22,7 @@ Weighted halved(const Weighted& fine) {
             sum.a += p.a;
         }
     }
-    // A weight above 1 is no better than 1, else what covers more pixels would win over what is nearer.
+    // Weights are limited to 1; otherwise larger areas would dominate nearer ones.
     for (RgbaF& p : coarse.pixels()) {
         if (p.a <= 1) continue;
         p = {p.r / p.a, p.g / p.a, p.b / p.a, 1};
@@ -30,7 +30,7 @@ Weighted halved(const Weighted& fine) {
     return coarse;
 }
 
-// The value of `coarse`, whose weights are all 1, at the centre of pixel (x, y) of the image twice as fine; bilinear.
+// Bilinear value of `coarse`, whose weights are all 1, at the centre of pixel (x, y) of the next finer level.
 RgbaF between(const Weighted& coarse, int x, int y) {
     const int x0 = std::clamp((x - 1) >> 1, 0, coarse.width() - 1);
     const int y0 = std::clamp((y - 1) >> 1, 0, coarse.height() - 1);
@@ -45,7 +45,7 @@ RgbaF between(const Weighted& coarse, int x, int y) {
     return {mix(&RgbaF::r), mix(&RgbaF::g), mix(&RgbaF::b), 1};
 }
 
-// Gives every pixel of `fine` the weight 1.
+// Fills pixels of `fine` up to weight 1.
 void fill_from(const Weighted& coarse, Weighted& fine) {
     for (int y = 0; y < fine.height(); ++y) {
         for (int x = 0; x < fine.width(); ++x) {

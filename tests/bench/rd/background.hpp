@@ -1,6 +1,6 @@
 #pragma once
-// What codecs without alpha are shown where the object is not. It is theirs to choose: nobody compares those pixels,
-// but they cost bits, and a hard edge to them costs more.
+// Background of images for codecs without alpha. Its pixels are not compared, but they cost bits, and a hard edge costs
+// more; anchors therefore use the background that suits them best.
 
 #include "rayspace/image/image.hpp"
 
@@ -8,13 +8,13 @@ namespace rs::bench {
 
 enum class Background {
     kBlack,
-    kSpread,  // the object's colours spread outwards, ever smoother (pull-push over a pyramid of halved images)
+    kSpread,  // object colours extended outwards with increasing smoothness (pull-push pyramid)
 };
 
-// Pixels of alpha 0 get the background's colour; alpha stays, and so do all other pixels.
+/// Fills the colours of pixels with alpha 0; alpha and other pixels are unchanged.
 Image<Rgba8> with_background(ConstImageView<Rgba8> image, Background background);
 
-// The same image, opaque.
+/// Sets alpha to 255.
 Image<Rgba8> made_opaque(Image<Rgba8> image);
 
 }  // namespace rs::bench

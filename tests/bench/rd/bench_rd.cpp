@@ -1,10 +1,10 @@
-// Image coding against what people would use today: PSNR over rate of Rayspace's objects, ASTC, JPEG, WebP and x265,
-// measured in one run on the same images.
+// Rate-distortion benchmark: PSNR over rate of Rayspace objects, ASTC, JPEG, WebP and x265, measured in one run on the
+// same images.
 //
 //     bench_rd --work DIR --csv rd.csv --svg rd.svg [--only anchors|ours|NAME]... [--encoder rs-encode] SET...
 //
 // Rate: bits per pixel of the 8x8 blocks (of the upright images, counted from the top left) that the object touches,
-// so that nobody is paid for empty background. Quality: PSNR over object pixels (alpha >= 128) of straight sRGB, the
+// so that empty background does not count. Quality: PSNR over object pixels (alpha >= 128) of straight sRGB, the
 // squared error pooled over all views. rd_ratios.csv gets the rates relative to ASTC at equal PSNR.
 
 #include "rayspace/file/file_output.hpp"
@@ -30,8 +30,8 @@ struct Arguments {
     std::vector<std::string> sets;
 };
 
-// Which curves are wanted, of the others' and of ours.
-struct Wanted {
+// Requested curves.
+struct CurveNames {
     std::set<std::string> anchors;
     std::set<std::string> profiles;
 };
@@ -40,10 +40,10 @@ bool contains(const std::vector<std::string>& list, const std::string& word) {
     return std::find(list.begin(), list.end(), word) != list.end();
 }
 
-Result<Wanted> wanted_of(const std::vector<std::string>& only) {
-    // Without a choice: everything but raw images, which nobody would compare with.
+Result<CurveNames> parse_curve_names(const std::vector<std::string>& only) {
+    // Default: everything except raw images.
     const std::vector<std::string> words = only.empty() ? std::vector<std::string>{"anchors", "ours"} : only;
-    Wanted wanted;
+    CurveNames wanted;
     for (const std::string& word : words) {
         if (word == "anchors") {
             wanted.anchors.insert(anchor_names().begin(), anchor_names().end());
@@ -69,7 +69,7 @@ std::string about(const ReferenceImages& images) {
            std::to_string(images.height) + ", " + std::to_string(images.touched_blocks) + " touched blocks";
 }
 
-Result<SetResult> measure_set(const std::string& folder, const Wanted& wanted, const std::string& encoder,
+Result<SetResult> measure_set(const std::string& folder, const CurveNames& wanted, const std::string& encoder,
                               const WorkFolder& work, Progress& progress) {
     const Result<ReferenceImages> images = read_reference_images(folder, &progress);
     if (!images) return images.error();
@@ -88,7 +88,7 @@ Result<SetResult> measure_set(const std::string& folder, const Wanted& wanted, c
 }
 
 Status run(const Arguments& arguments) {
-    const Result<Wanted> wanted = wanted_of(arguments.only);
+    const Result<CurveNames> wanted = parse_curve_names(arguments.only);
     if (!wanted) return wanted.error();
     if (Status status = check_encoder(arguments.encoder, wanted->profiles); !status) return status;
     const Result<WorkFolder> work = WorkFolder::open(arguments.work);
@@ -99,7 +99,7 @@ Status run(const Arguments& arguments) {
         Result<SetResult> result = measure_set(set, *wanted, arguments.encoder, *work, progress);
         if (!result) return result.error();
         results.push_back(std::move(*result));
-        // After every set: what is measured is not lost when a later one fails.
+        // Written after every set, so that results survive a failure of a later one.
         if (Status status = write_file(arguments.csv, points_csv(results)); !status) return status;
         if (Status status = write_file(ratios_path(arguments.csv), ratios_csv(results)); !status) return status;
     }
@@ -112,14 +112,14 @@ Status run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
     rs::bench::Arguments arguments;
-    // The encoder of the same build stands beside this program.
+    // Default encoder: the one of the same build, in the same folder.
     std::error_code error;
     const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
     arguments.encoder = error ? "rs-encode" : (self.parent_path() / "rs-encode").string();
 
-    CLI::App app("PSNR over rate of Rayspace's image coding and of what people would use today.", "bench_rd");
+    CLI::App app("PSNR over rate of Rayspace's image coding and of established codecs.", "bench_rd");
     app.add_option("--work", arguments.work, "folder for temporary files and for the anchors' results")->required();
-    app.add_option("--csv", arguments.csv, "points to write; NAME_ratios.csv beside it gets the comparison")
+    app.add_option("--csv", arguments.csv, "points to write; the comparison goes to NAME_ratios.csv beside it")
         ->required();
     app.add_option("--svg", arguments.svg, "plot to write");
     app.add_option("--only", arguments.only, "anchors, ours, or the name of a curve; may be given several times")

@@ -22,7 +22,7 @@ std::filesystem::path CodedCache::file_of(const std::string& key) const {
 std::optional<Coded> CodedCache::find(const std::string& key) const {
     std::ifstream file(file_of(key));
     std::string line;
-    // The key stands in the file, so that two keys of one hash cannot be taken for each other.
+    // The file contains the key, which detects hash collisions.
     if (!std::getline(file, line) || line != key) return std::nullopt;
     Coded coded;
     file >> coded.bytes >> coded.error.object_pixels >> coded.error.squared_error >> coded.error.block_pixels >>

@@ -1,5 +1,5 @@
 #pragma once
-// What a codec made of a set at one setting, and how such answers of external encoders are kept between runs.
+// Result of a codec on a set at one setting, and a cache of such results of external encoders.
 
 #include "rayspace/base/result.hpp"
 #include "tests/bench/rd/object_error.hpp"
@@ -15,11 +15,11 @@ namespace rs::bench {
 struct Coded {
     std::uint64_t bytes = 0;
     ObjectError error;
-    bool has_alpha = false;  // whether the codec stores alpha, and error.alpha_error means anything
+    bool has_alpha = false;  // the codec stores alpha; error.alpha_error is valid
 };
 
-// Small text files in a folder, named after the hash of a key that says everything the answer depends on: images,
-// codec, settings, version of the tool. A file that cannot be understood counts as not there.
+/// Small text files in a folder, named after the hash of a key with everything that the result depends on: images,
+/// codec, settings, version of the tool. Files that cannot be parsed are ignored.
 class CodedCache {
 public:
     // The folder must exist.

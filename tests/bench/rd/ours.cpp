@@ -11,7 +11,7 @@ namespace {
 
 struct Profile {
     std::string name;
-    std::vector<int> qualities;  // empty: there is one way only, and no option
+    std::vector<int> qualities;  // empty: no option --quality
 };
 
 const std::vector<Profile>& profiles() {
@@ -35,8 +35,8 @@ Result<Coded> read_back(const ReferenceImages& images, const std::filesystem::pa
             coded.bytes -= chunk.size_bytes;
         }
     }
-    // Unpacked by the encoder itself: this program need not be of the same build.
-    const std::filesystem::path folder = file.parent_path() / "ours-pictures";
+    // The encoder decodes its own file, since it may be of another build.
+    const std::filesystem::path folder = file.parent_path() / "ours-images";
     const Result<std::string> ran = run_tool({encoder.string(), "extract", file.string(), "-o", folder.string(), "-q"});
     if (!ran) return ran.error();
     const Result<ReferenceImages> decoded = read_reference_images(folder, nullptr);
@@ -58,7 +58,7 @@ Result<Coded> code_ours(const ReferenceImages& images, const std::vector<std::st
     const std::filesystem::path file = folder / "ours.rso";
     std::vector<std::string> command = {encoder.string(), "build", images.folder.string(), "-o", file.string(), "-q"};
     command.insert(command.end(), options.begin(), options.end());
-    // The quicker of the RS maps: neither is counted.
+    // Fastest RS map, as the map does not count.
     command.insert(command.end(), {"--raymap", "plane"});
     if (const Result<std::string> ran = run_tool(command); !ran) return ran.error();
     Result<Coded> coded = read_back(images, encoder, file);

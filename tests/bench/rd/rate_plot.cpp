@@ -16,7 +16,7 @@ namespace {
 constexpr int kColumns = 2;
 constexpr double kPanelWidth_px = 440;
 constexpr double kPanelHeight_px = 300;
-constexpr double kLeft_px = 52;  // of the axes, inside a panel
+constexpr double kLeft_px = 52;  // margins of the axes inside a panel
 constexpr double kRight_px = 16;
 constexpr double kTop_px = 30;
 constexpr double kBottom_px = 44;
@@ -50,7 +50,7 @@ const CodecStyle* style_of(const std::string& codec) {
     return found == kStyles.end() ? nullptr : &*found;
 }
 
-// The points to draw of a curve.
+// Points of a curve to draw.
 std::vector<RateCurve::Point> shown_points(const SetResult& result, const ChosenCurve& curve) {
     const ChosenCurve* const base = find_curve(result.curves, base_codec(curve.codec));
     std::vector<RateCurve::Point> points;
@@ -101,7 +101,7 @@ public:
             }
         }
         ticks_ = axis_ticks(least_db, most_db);
-        // A little room to both sides; also where there is one point only.
+        // Margin on both sides, also for a single point.
         least_bpp_ *= 0.9;
         most_bpp_ *= 1.1;
     }
@@ -195,7 +195,7 @@ std::vector<double> log_ticks(double least, double most) {
 }
 
 std::string rate_plot_svg(const std::vector<SetResult>& results) {
-    // The legend takes the place of one more panel.
+    // The legend occupies one more panel.
     const auto rows = (static_cast<int>(results.size()) + 1 + kColumns - 1) / kColumns;
     const std::string width = std::to_string(static_cast<int>(kColumns * kPanelWidth_px));
     const std::string height = std::to_string(static_cast<int>(rows * kPanelHeight_px));

@@ -54,7 +54,7 @@ Result<ReferenceImages> read_reference_images(const std::filesystem::path& folde
         images.hash = XXH64(pixels.data(), pixels.size_bytes(), images.hash);
     }
     if (images.touched_blocks == 0) {
-        return Error{folder.string() + ": no image shows anything (alpha is 0 everywhere); cut the object out first"};
+        return Error{folder.string() + ": all images are empty (alpha is 0 everywhere); segment the object first"};
     }
     return images;
 }

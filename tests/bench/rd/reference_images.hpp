@@ -1,6 +1,6 @@
 #pragma once
-// What every codec of this bench is given, and what its answer is measured against: the upright images of a capture
-// set, as the encoder sees them, and the 8x8 blocks of them that the object touches.
+// Input of all codecs and reference of their errors: the upright images of a capture set, as read by the encoder, and
+// the 8x8 blocks that contain the object.
 
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
@@ -21,20 +21,20 @@ struct ReferenceImages {
     int width = 0;  // px, of every image
     int height = 0;
     std::vector<Image<Rgba8>> views;  // straight alpha, ring order
-    // [view], one pixel per 8x8 block counted from the top left (the last ones may reach out of the image): 1 where
-    // any pixel of the block has alpha > 0.
+    // [view], one pixel per 8x8 block counted from the top left (the last ones may exceed the image): 1 if any pixel of
+    // the block has alpha > 0.
     std::vector<Image<std::uint8_t>> touched;
-    std::int64_t touched_blocks = 0;  // of all views
-    std::uint64_t hash = 0;           // of sizes and pixels
+    std::int64_t touched_blocks = 0;  // in all views
+    std::uint64_t hash = 0;           // over sizes and pixels
 
-    // Bits per pixel of the touched blocks, each of which counts 64 pixels.
+    /// Bits per pixel of the touched blocks, each of which counts as 64 pixels.
     [[nodiscard]] double bits_per_pixel(std::uint64_t bytes) const {
         return 8.0 * static_cast<double>(bytes) /
                (static_cast<double>(kBlock_px * kBlock_px) * static_cast<double>(touched_blocks));
     }
 };
 
-// Errors: those of encode::open_capture_set and read_upright_image; a set without a single visible pixel.
+/// Fails like encode::open_capture_set and read_upright_image, and if no pixel of the set is visible.
 Result<ReferenceImages> read_reference_images(const std::filesystem::path& folder, Progress* progress);
 
 }  // namespace rs::bench

@@ -54,29 +54,29 @@ std::string table_of(const SetResult& result) {
     return text;
 }
 
-// "  astc: 26.4 .. 38.5 dB; 'rgb spread' is the hardest to beat; 'rgba spread' takes 1.140 of its bits"
+// "  astc: 26.4 .. 38.5 dB; 'rgb spread' is the best variant; 'rgba spread' takes 1.140 of its bits"
 std::string variants_of(const ChosenCurve& curve) {
     std::string text = "  " + curve.codec;
     if (!curve.curve.empty()) text += formatted(": %.1f .. %.1f dB", curve.curve.least_db(), curve.curve.most_db());
-    if (!curve.variant.empty()) text += "; '" + curve.variant + "' is the hardest to beat";
+    if (!curve.variant.empty()) text += "; '" + curve.variant + "' is the best variant";
     for (const ChosenCurve::Rejected& other : curve.rejected) {
         text += formatted("; '%s' takes %.3f of its bits", other.variant.c_str(), other.rate_ratio);
     }
     return text + "\n";
 }
 
-// Which ASTC is the one to compare with.
+// Comparison of ASTC as RGB and as RGBA.
 std::string astc_of(const SetResult& result) {
     const ChosenCurve* const rgb = find_curve(result.curves, "astc");
     const ChosenCurve* const rgba = find_curve(result.curves, "astc-rgba");
     if (rgb == nullptr || rgba == nullptr) return "";
     const std::optional<double> ratio = mean_rate_ratio(rgba->curve, rgb->curve);
     if (!ratio) return "";
-    return formatted("  ASTC as RGBA takes %.3f of the bits of RGB, so %s is harder to beat; ratios are to RGB\n",
+    return formatted("  ASTC as RGBA takes %.3f of the bits of RGB, so %s is the better variant; ratios are to RGB\n",
                      *ratio, *ratio > 1 ? "RGB (no alpha coded)" : "RGBA");
 }
 
-// Where 4:4:4 is worth its while.
+// Quality from which 4:4:4 takes fewer bits than 4:2:0.
 std::string full_chroma_of(const SetResult& result, const std::string& codec) {
     const ChosenCurve* const half = find_curve(result.curves, codec);
     const ChosenCurve* const full = find_curve(result.curves, codec + "-444");

@@ -15,7 +15,9 @@ Result<WorkFolder> WorkFolder::open(const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(scratch, error);
     if (!error) std::filesystem::create_directories(work.anchors(), error);
-    if (error) return Error{folder.string() + ": cannot work here: " + error.message() + "; choose another --work"};
+    if (error)
+        return Error{folder.string() + ": cannot be used as the work folder: " + error.message() +
+                     "; choose another --work"};
     work.scratch_ = scratch;
     return work;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The folder that a run of the bench works in: answers kept for the next run, and temporary files of this one.
+// Work folder of the benchmark: cached results for the next run, and temporary files of this one.
 
 #include "rayspace/base/result.hpp"
 
@@ -7,7 +7,8 @@
 
 namespace rs::bench {
 
-// Temporary files stand in a folder of this process, so that two runs may share the answers; it is removed at the end.
+/// Temporary files are in a folder of this process, so that concurrent runs can share the cache; the destructor removes
+/// it.
 class WorkFolder {
 public:
     static Result<WorkFolder> open(const std::filesystem::path& folder);

@@ -20,10 +20,11 @@ constexpr float kFirstRow_m = 1.9F;
 constexpr int kBins = 26;
 constexpr int kWindows = 52;
 constexpr float kLength_m = kBinLength_m * kBins;
-constexpr float kSeats_m[] = {0.5F, 0.96F, 1.42F};  // from the middle
+constexpr float kSeats_m[] = {0.5F, 0.96F, 1.42F};  // distance from the middle
 constexpr const char* kSpotFile = "reading.ies";
 
-// A piece that was built for the side of +Z; on the other side turned about Y, so that x runs back from `x`.
+// Placement of a piece built for the side of +Z. On the other side it is rotated about Y, so that its x axis points
+// backwards from `x`.
 glm::mat4 on_side(float x, float side) {
     glm::mat4 m(rotation({0, 1, 0}, side > 0 ? 0.0F : portable::kPiF));
     m[3] = {x, 0, 0, 1};
@@ -109,7 +110,7 @@ std::string lights() {
         const float x = kLength_m * (static_cast<float>(i) + 0.5F) / kCabinAreas;
         list.rectangle({x, 2.3F, 0}, {0, -1, 0}, {3.6F, 0.3F}, 900, cool);
     }
-    // Every other row, to both sides in turn.
+    // Every other row, on alternating sides.
     for (int i = 0; i < kCabinSpots / 3; ++i) {
         const float x = kFirstRow_m + kPitch_m * static_cast<float>(2 * i + 1);
         const float side = i % 2 == 0 ? 1.0F : -1.0F;

@@ -1,18 +1,17 @@
 #pragma once
-// The cabin of an aircraft with 180 seats, lit as such are: by what shines evenly along the ceiling, by the reading
-// lights of some passengers, and by the sun through its windows. What instant radiosity was measured on in a flight
-// simulator had as many lights.
+// Aircraft cabin with 180 seats, lit by area lights along the ceiling, reading lights of some passengers, and the sun
+// through the windows. The number of lights is that of published measurements of instant radiosity in a flight
+// simulator.
 
 #include "tests/bench/scenes/model.hpp"
 
 namespace rs::synthetic {
 
-inline constexpr std::int64_t kCabinTriangles =
-    2'800'000;  // exactly, where all that stands several times is counted so
+inline constexpr std::int64_t kCabinTriangles = 2'800'000;  // exactly, counting every instance
 inline constexpr int kCabinAreas = 6;
 inline constexpr int kCabinSpots = 42;
 
-// The same bits every time. The curtains' fringes take what the rest leaves of the number of triangles.
+/// Deterministic. The curtains' fringes are sized to reach the exact number of triangles.
 Model make_cabin();
 
 }  // namespace rs::synthetic

@@ -20,7 +20,7 @@ vec3 on_wall(float x, float height) {
     return {x, height, cabin_half_width(height)};
 }
 
-// A closed line of round wire about a rectangle with round corners, in the plane z = const.
+// Closed path around a rectangle with rounded corners, in the plane z = const.
 std::vector<vec3> piping(vec3 low, vec3 high, int points) {
     std::vector<vec3> path;
     const vec3 middle = 0.5F * (low + high), half = 0.5F * (high - low);
@@ -32,7 +32,7 @@ std::vector<vec3> piping(vec3 low, vec3 high, int points) {
     return path;
 }
 
-// The point of a rectangle's edge at step i of 4 * side, counter-clockwise from its lower left corner; 0..1.
+// Point on the border of the unit square at step i of 4 * side, counter-clockwise from the lower left corner.
 vec2 on_edge(int i, int side) {
     const float along = static_cast<float>(i % side) / static_cast<float>(side);
     switch ((i / side) % 4) {
@@ -82,7 +82,7 @@ ModelGroup cabin_seat() {
     }
     seat.box(kIn.metal, {-0.03F, 0.5F, 0.04F}, {0.03F, 0.522F, 0.09F});
     seat.tube(kIn.leather, piping({-0.2F, 0.52F, -0.165F}, {0.2F, 0.95F, -0.165F}, 36), 0.006F, 6);
-    // On its back: a table, folded, a pocket with a card in it, a screen.
+    // On the back: a folded table, a pocket with a card, a screen.
     seat.box(kIn.grey, {-0.19F, 0.66F, -0.355F}, {0.19F, 0.9F, -0.335F});
     seat.box(kIn.dark, {-0.03F, 0.9F, -0.35F}, {0.03F, 0.915F, -0.335F});
     seat.cushion(kIn.fabric, {-0.18F, 0.42F, -0.37F}, {0.18F, 0.64F, -0.32F}, 2, 16, 10);
@@ -96,8 +96,7 @@ ModelGroup cabin_window(bool shade_down) {
     constexpr int kSide = 12, kRings = 6;
     constexpr float kLow = 0.03F, kMiddle = 1.02F;
     constexpr vec2 kHalf{0.125F, 0.185F};
-    // From the piece's edge inwards to the opening: the wall looks towards -Z, so the way around goes to the right as
-    // seen from there.
+    // From the border inwards to the opening. The wall faces -Z, so that the loop goes to the right as seen from there.
     Grid wall(4 * kSide, kRings, true);
     std::vector<vec3> opening;
     for (int column = 0; column <= wall.columns; ++column) {
@@ -128,7 +127,7 @@ ModelGroup cabin_window(bool shade_down) {
         window.box(kIn.panel, {0.5F * kWindowPitch_m - kHalf.x, 0.95F, cabin_half_width(1.0F) + 0.03F},
                    {0.5F * kWindowPitch_m + kHalf.x, kMiddle + kHalf.y, cabin_half_width(1.0F) + 0.036F});
     }
-    // The dado under it.
+    // Dado below the window.
     window.box(kIn.grey, {0, 0.03F, cabin_half_width(0.1F) - 0.03F}, {kWindowPitch_m, 0.25F, cabin_half_width(0.1F)});
     return window.take();
 }
@@ -136,7 +135,7 @@ ModelGroup cabin_window(bool shade_down) {
 ModelGroup cabin_bin() {
     GroupBuilder bin("bin");
     constexpr int kAlong = 16;
-    // (z, height) from the wall over the underside and the door to the ceiling.
+    // (z, height) from the wall over the underside and the lid to the ceiling.
     std::vector<vec2> profile{{1.66F, 1.55F}, {1.5F, 1.56F}, {1.2F, 1.58F}, {0.98F, 1.6F}};
     for (int i = 1; i < 12; ++i) {
         const float turn = portable::kPiF * static_cast<float>(i) / 24;
@@ -149,7 +148,7 @@ ModelGroup cabin_bin() {
         for (int column = 0; column <= kAlong; ++column) {
             const float share = static_cast<float>(column) / kAlong;
             const vec2 p = profile[static_cast<std::size_t>(row)];
-            // A groove at the ends of the doors.
+            // Groove at the ends of the lids.
             const float groove = (column == 0 || column == kAlong) && row > 4 && row < shell.rows - 3 ? 0.015F : 0.0F;
             shell.positions[shell.index(column, row)] = {kBinLength_m * share, p.y, p.x + groove};
             shell.uvs[shell.index(column, row)] = {share, p.y};

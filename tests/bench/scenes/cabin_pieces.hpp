@@ -1,11 +1,11 @@
 #pragma once
-// What the cabin is made of. X goes from the nose to the tail, the floor is at y = 0.
+// Parts of the cabin. X points from the nose to the tail; the floor is at y = 0.
 
 #include "tests/bench/scenes/model.hpp"
 
 namespace rs::synthetic {
 
-// Of Model::looks.
+/// Indices into Model::looks.
 struct CabinLooks {
     int panel = 0, fabric = 1, leather = 2, grey = 3, metal = 4, carpet = 5, aisle = 6, curtain = 7, dark = 8,
         blanket = 9;
@@ -16,18 +16,19 @@ inline constexpr float kWindowPitch_m = 0.53F;
 inline constexpr float kBinLength_m = 1.06F;
 inline constexpr float kWallTop_m = 1.55F;
 
-// Half the cabin's width at a height.
+/// Half the width of the cabin at a height.
 float cabin_half_width(float height_m);
 
-// Faces +Z, its foot at the origin, 0.46 m wide.
+/// Seat that faces +Z, with its foot at the origin, 0.46 m wide.
 ModelGroup cabin_seat();
-// A window in its piece of wall: x from 0 to kWindowPitch_m, on the side of +Z.
+/// Wall section with a window: x from 0 to kWindowPitch_m, on the side of +Z.
 ModelGroup cabin_window(bool shade_down);
-// An overhead bin on the side of +Z, x from 0 to kBinLength_m.
+/// Overhead bin on the side of +Z, x from 0 to kBinLength_m.
 ModelGroup cabin_bin();
-// Reading lights and nozzles above three seats on the side of +Z, about x = 0.
+/// Reading lights and nozzles above three seats on the side of +Z, centred at x = 0.
 ModelGroup service_panel();
-// Half a curtain across the cabin on the side of +Z, at x = 0, with a fringe of so many triangles (0, or at least 6).
+/// Half a curtain across the cabin on the side of +Z, at x = 0.
+/// \param fringe_triangles 0, or at least 6
 ModelGroup curtain(std::int64_t fringe_triangles);
 
 }  // namespace rs::synthetic

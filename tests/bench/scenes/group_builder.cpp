@@ -13,7 +13,8 @@ namespace {
 using glm::vec2;
 using glm::vec3;
 
-// Roots of the size, with the sign: square roots alone are the same on every machine.
+// Repeated square roots of the magnitude, with the sign. Square roots are exactly rounded on every machine, unlike
+// powers.
 float softened(float value, int roots) {
     float size = std::abs(value);
     for (int i = 0; i < roots; ++i) size = std::sqrt(size);
@@ -22,7 +23,7 @@ float softened(float value, int roots) {
 
 }  // namespace
 
-void GroupBuilder::stand_at(vec3 origin, float turn_rad) {
+void GroupBuilder::set_frame(vec3 origin, float turn_rad) {
     frame_ = {origin, rotation({0, 1, 0}, turn_rad)};
 }
 
@@ -127,7 +128,7 @@ void GroupBuilder::cushion(int look, vec3 low, vec3 high, int roots, int columns
 
 void GroupBuilder::blades(int look, const Blades& like, std::int64_t triangles, Random& random) {
     RS_CHECK(triangles == 0 || triangles >= 6);
-    constexpr int kOfOne = 9;  // triangles; odd, as all blades have
+    constexpr int kOfOne = 9;  // triangles per blade; odd for all blades
     const Frame frame = frame_facing(like.foot, like.up, {0, 0, 1});
     capture::Mesh& mesh = mesh_of(look);
     while (triangles > 0) {

@@ -1,5 +1,5 @@
 #pragma once
-// Builds a group from boxes, sheets, lathes, tubes and cushions, in the frame of the piece at hand. Not thread-safe.
+// Builds a group from boxes, sheets, lathes, tubes and cushions, in the current local frame. Not thread-safe.
 
 #include "datasets-synthetic/shapes/frame.hpp"
 #include "datasets-synthetic/shapes/grid_surface.hpp"
@@ -18,30 +18,29 @@ class GroupBuilder {
 public:
     explicit GroupBuilder(std::string name) { group_.name = std::move(name); }
 
-    // What follows stands at `origin`, turned about Y (counter-clockwise from above).
-    void stand_at(glm::vec3 origin, float turn_rad = 0.0F);
+    /// Sets the local frame of the following shapes: origin, and rotation about Y (counter-clockwise from above).
+    void set_frame(glm::vec3 origin, float turn_rad = 0.0F);
 
     // 12 triangles.
     void box(int look, glm::vec3 low, glm::vec3 high);
-    // corner + s right + t up; seen where cross(right, up) points. 2 triangles for each field; texture coordinates in
-    // metres along both sides, times `uv_per_m`.
+    /// Parallelogram corner + s right + t up that faces cross(right, up). 2 triangles per cell; texture coordinates are
+    /// metres along both sides times `uv_per_m`.
     void sheet(int look, glm::vec3 corner, glm::vec3 right, glm::vec3 up, int columns = 1, int rows = 1,
                float uv_per_m = 0.5F);
-    // A strip between two polylines of as many points, seen where cross(along, from `a` to `b`) points.
+    /// Strip between two polylines of equal length that faces cross(along, from `a` to `b`).
     void strip(int look, std::span<const glm::vec3> a, std::span<const glm::vec3> b);
-    // A solid of revolution that stands at `foot`: (radius, height) from the axis at its bottom to that at its top.
+    /// Solid of revolution above `foot`; the profile is (radius, height), from the axis at the bottom to that at the
+    /// top.
     void lathe(int look, glm::vec3 foot, std::span<const glm::vec2> profile, int segments);
     void lathe(int look, glm::vec3 foot, std::initializer_list<glm::vec2> profile, int segments) {
         lathe(look, foot, std::span<const glm::vec2>(profile.begin(), profile.size()), segments);
     }
     void tube(int look, std::span<const glm::vec3> path, float radius, int sides);
-    // Fills a box bulging, with round edges and corners: a superellipsoid whose sines and cosines are rooted so many
-    // times; 0 is an ellipsoid, 2 nearly a box. columns * (rows - 1) * 2 triangles.
+    /// Superellipsoid that fills a box. columns * (rows - 1) * 2 triangles.
+    /// \param roots number of square roots applied to its sines and cosines: 0 is an ellipsoid, 2 nearly a box
     void cushion(int look, glm::vec3 low, glm::vec3 high, int roots, int columns, int rows);
-    // Any grid.
     void surface(int look, Grid grid);
-    // Exactly so many triangles (0, or at least 6) of thin bent blades that grow from the disc of radius `spread` about
-    // `foot`, about `length` long.
+    /// Thin bent blades of about the given length that grow from a disc of radius `spread` around `foot`.
     struct Blades {
         glm::vec3 foot{0.0F};
         glm::vec3 up{0, 1, 0};
@@ -50,15 +49,16 @@ public:
         float width = 0.05F;
         float bend = 0.5F;
     };
+    /// \param triangles exact number, 0 or at least 6
     void blades(int look, const Blades& like, std::int64_t triangles, Random& random);
 
     [[nodiscard]] std::int64_t triangles() const { return triangle_count(group_); }
-    // Leaves nothing behind.
+    /// Moves the group out of the builder.
     ModelGroup take() { return std::move(group_); }
 
 private:
     capture::Mesh& mesh_of(int look);
-    // Moves what was appended to the mesh since it had so many vertices into the frame.
+    // Transforms the vertices from `first` on from the local frame to the group.
     void place(capture::Mesh& mesh, std::size_t first) const;
 
     ModelGroup group_;

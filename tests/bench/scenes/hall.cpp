@@ -45,7 +45,7 @@ glm::mat4 standing(vec3 foot, float turn_rad = 0.0F) {
     return m;
 }
 
-// One bay of a wall that faces +Z, from the origin to the right: an arched window with its reveal and bars.
+// Bay of a wall that faces +Z, from the origin to the right, with an arched window, its reveal and bars.
 void wall_bay(GroupBuilder& shell) {
     constexpr float kLeft = 0.9F, kRight = kBay_m - 0.9F, kSill = 0.9F, kSpring = 3.2F, kDeep = 0.35F;
     constexpr float kMiddle = 0.5F * (kLeft + kRight), kRadius = 0.5F * (kRight - kLeft);
@@ -115,7 +115,7 @@ void vault(GroupBuilder& shell, const HallPlan& plan) {
     }
 }
 
-// Of the two ends: one that faces +X at the origin's X.
+// End wall that faces +X, at the origin's X.
 void end_wall(GroupBuilder& shell) {
     shell.sheet(kOf.plaster, {0, 0, kHalfWidth_m}, {0, 0, -2 * kHalfWidth_m}, {0, kWall_m, 0}, 12, 6);
     std::vector<vec3> low, high;
@@ -217,7 +217,7 @@ void furnish(Model& model, const HallPlan& plan) {
     }
 }
 
-// All that is left of the number.
+// Plants with the remaining number of triangles.
 void add_plants(Model& model, const HallPlan& plan) {
     std::vector<glm::mat4> places;
     for (int bay = 1; bay < plan.bays; ++bay) {
@@ -255,14 +255,14 @@ Model make(const HallPlan& plan) {
     vault(shell, plan);
     stairs(shell, model, balusters);
     for (int bay = 0; bay < plan.bays; ++bay) {
-        shell.stand_at({kBay_m * static_cast<float>(bay), 0, -kHalfWidth_m});
+        shell.set_frame({kBay_m * static_cast<float>(bay), 0, -kHalfWidth_m});
         wall_bay(shell);
-        shell.stand_at({kBay_m * static_cast<float>(bay + 1), 0, kHalfWidth_m}, portable::kPiF);
+        shell.set_frame({kBay_m * static_cast<float>(bay + 1), 0, kHalfWidth_m}, portable::kPiF);
         wall_bay(shell);
     }
-    shell.stand_at({0, 0, 0});
+    shell.set_frame({0, 0, 0});
     end_wall(shell);
-    shell.stand_at({length, 0, 0}, portable::kPiF);
+    shell.set_frame({length, 0, 0}, portable::kPiF);
     end_wall(shell);
     model.nodes.push_back({add_group(model, shell.take()), glm::mat4(1.0F)});
     furnish(model, plan);

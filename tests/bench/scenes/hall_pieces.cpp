@@ -15,7 +15,7 @@ using glm::vec3;
 
 constexpr HallLooks kLooks;
 
-// Veins where layered noise passes zero. It repeats at its edges: the noise is laid on a torus.
+// Marble with veins at the zero crossings of layered noise. The texture is tileable: the noise is periodic.
 Image<Rgba8> stone_image(vec3 ground, vec3 vein, std::uint32_t seed) {
     constexpr int kSide = 256;
     Image<Rgba8> image(kSide, kSide);

@@ -66,7 +66,7 @@ std::string beam_ies(const std::string& name, double lumens, double half_deg) {
         const double share = angle_deg / half_deg;
         return std::exp2(-share * share) * std::cos(radians(angle_deg));
     };
-    // Its flux, by the midpoint rule on a tenth of the step.
+    // Flux, by the midpoint rule with a tenth of the step.
     double flux = 0;
     for (int i = 0; i < 900; ++i) {
         const double angle = (i + 0.5) * 0.1;

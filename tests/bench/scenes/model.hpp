@@ -1,6 +1,6 @@
 #pragma once
-// A room to measure renderers with: groups of triangles, of which each stands in the room once or many times, a list of
-// lights, and places to look from. Metres, Y up.
+// Benchmark scene for renderers: groups of triangles with one or more instances, a list of lights, and viewpoints.
+// Metres, Y up.
 
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/image/image.hpp"
@@ -18,10 +18,10 @@ struct ModelLook {
     std::string name;
     glm::vec3 colour{0.8F};  // linear
     float roughness = 0.9F;
-    std::string image = {};  // of Model::images; multiplies the colour, which it repeats over
+    std::string image = {};  // key of Model::images; repeating texture, multiplied by the colour
 };
 
-// Meshes name their look as their material.
+/// The material name of a mesh is that of its look.
 struct ModelGroup {
     std::string name;
     std::vector<capture::Mesh> meshes;
@@ -44,12 +44,12 @@ struct Model {
     std::map<std::string, Image<Rgba8>> images;  // file name -> image
     std::vector<ModelGroup> groups;
     std::vector<ModelNode> nodes;
-    std::vector<ModelView> views;                   // the first is where a visit begins
+    std::vector<ModelView> views;                   // the first is the initial one
     std::string lights;                             // a light list in JSON
     std::map<std::string, std::string> luminaires;  // file name -> IES text
 };
 
-// Of all nodes: a group that stands twice counts twice.
+/// Triangles of all nodes; every instance of a group counts.
 std::int64_t triangle_count(const Model& model);
 std::int64_t triangle_count(const ModelGroup& group);
 

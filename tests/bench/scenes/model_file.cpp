@@ -27,7 +27,7 @@ OrderedJson matrix_of(const glm::mat4& m) {
     return list;
 }
 
-// Arrays one after the other in the file's buffer. All elements are made of words of four bytes, so nothing is padded.
+// Concatenated arrays of the file's buffer. All components have four bytes, so that no padding is needed.
 class Buffer {
 public:
     template <class T>
@@ -73,7 +73,7 @@ OrderedJson materials_of(const Model& model, const std::vector<std::string>& ima
     return materials;
 }
 
-// Looks along -Z.
+// World transform of a glTF camera, which looks along -Z.
 glm::mat4 camera_matrix(const ModelView& view) {
     return glm::inverse(glm::lookAt(view.eye, view.at, glm::vec3(0, 1, 0)));
 }
@@ -126,8 +126,8 @@ OrderedJson gltf_of(const Model& model, const std::string& name, Buffer& buffer)
 
 }  // namespace
 
-Status write_model(const Model& model, const std::filesystem::path& output, const std::string& name) {
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "parts of a model"));
+Status write_model(const Model& model, const std::filesystem::path& output, const std::string& name, bool force) {
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "parts of a model", force));
     const std::filesystem::path& folder = staged.temporary_path();
     Buffer buffer;
     const std::string text = gltf_of(model, name, buffer).dump(1) + "\n";

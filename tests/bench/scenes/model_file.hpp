@@ -8,8 +8,9 @@
 
 namespace rs::synthetic {
 
-// The folder OUTPUT with NAME.gltf, NAME.bin, lights.json, luminaires and images. What stands several times is stored
-// once. What stands there is replaced only where it is such a folder (StagedFolder).
-Status write_model(const Model& model, const std::filesystem::path& output, const std::string& name);
+/// Writes the folder `output` with NAME.gltf, NAME.bin, lights.json, luminaires and images. Groups are stored once,
+/// however many instances they have. An existing folder is replaced under the conditions of StagedFolder.
+Status write_model(const Model& model, const std::filesystem::path& output, const std::string& name,
+                   bool force = false);
 
 }  // namespace rs::synthetic

@@ -101,7 +101,7 @@ struct Found {
 inline Found compare(const capture::BoardCorners& seen, const capture::BoardTurn& turn,
                      const capture::BoardDesign& design, std::size_t view) {
     Found found;
-    for (const capture::SeenCorner& one : seen.corners) {
+    for (const capture::DetectedCorner& one : seen.corners) {
         const auto p =
             capture::project(turn.model.lens, turn.model.pose, corner_in_table(turn, design, one.corner, view));
         const double off = p ? glm::length(*p - one.p) : 1e9;

@@ -326,7 +326,7 @@ TEST_F(ImportTest, RefusesToReplaceItsOwnPhotographs) {
         ASSERT_FALSE(report.ok()) << photos << " " << output;
         EXPECT_THAT(report.error().message, HasSubstr(photos.string()));
         EXPECT_THAT(report.error().message, HasSubstr(output.string() + ": "));
-        EXPECT_THAT(report.error().message, HasSubstr("the folder of photos"));
+        EXPECT_THAT(report.error().message, HasSubstr("would overwrite"));
     }
     std::filesystem::remove(folder_ / "link");
     EXPECT_EQ(names_below(folder_.path()), before);

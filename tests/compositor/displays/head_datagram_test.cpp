@@ -60,14 +60,14 @@ TEST(HeadDatagram, WhatIsNoHeadIsNamed) {
 
 TEST(HeadDatagram, TheTrackersZeroIsAPlaceInTheRoom) {
     const Head zero{.position = {1, 1.5, 2}, .heading_rad = radians(90), .pitch_rad = 7, .roll_rad = 7};
-    const Head there = tracked_in_room({.position = {0, 0, 0}, .pitch_rad = 0.1, .roll_rad = 0.2}, zero);
+    const Head there = head_in_room({.position = {0, 0, 0}, .pitch_rad = 0.1, .roll_rad = 0.2}, zero);
     EXPECT_EQ(there.position, zero.position);
     EXPECT_DOUBLE_EQ(there.heading_rad, kPi / 2);
     EXPECT_EQ(there.pitch_rad, 0.1);
     EXPECT_EQ(there.roll_rad, 0.2);
     // A head that faces -X has its right at -Z, lower when it rolls there, and moves to +X when it steps back.
     EXPECT_NEAR(glm::distance(there.right(), glm::dvec3(0, -0.2, -0.98)), 0, 0.03);
-    const Head moved = tracked_in_room({.position = {0.2, 0.1, 0.3}, .heading_rad = 0.5}, zero);
+    const Head moved = head_in_room({.position = {0.2, 0.1, 0.3}, .heading_rad = 0.5}, zero);
     EXPECT_NEAR(glm::distance(moved.position, glm::dvec3(1.3, 1.6, 1.8)), 0, 1e-12);
     EXPECT_DOUBLE_EQ(moved.heading_rad, kPi / 2 + 0.5);
 }

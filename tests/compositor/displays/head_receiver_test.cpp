@@ -23,10 +23,10 @@ HeadReceiver opened() {
 }
 
 TEST(HeadReceiver, ReadsWhereToListen) {
-    EXPECT_TRUE(names_udp_port("udp:4242"));
-    EXPECT_FALSE(names_udp_port("heads.json"));
+    EXPECT_TRUE(is_udp_endpoint("udp:4242"));
+    EXPECT_FALSE(is_udp_endpoint("heads.json"));
     const auto text = [](const std::string& asked) {
-        const auto place = udp_place_from(asked);
+        const auto place = parse_udp_endpoint(asked);
         return place ? place->text() : place.error().message;
     };
     EXPECT_EQ(text("udp:4242"), "udp:127.0.0.1:4242");
@@ -69,7 +69,7 @@ TEST(HeadReceiver, WhatIsNoHeadIsDroppedAndCounted) {
     EXPECT_DOUBLE_EQ(head->position.x, 0.4);
     EXPECT_EQ(receiver.received(), 6);
     EXPECT_EQ(receiver.dropped(), 5);
-    EXPECT_THAT(receiver.first_fault(), HasSubstr("has 20 bytes"));
+    EXPECT_THAT(receiver.first_error(), HasSubstr("has 20 bytes"));
 }
 
 TEST(HeadReceiver, WaitsNoLongerThanItIsTold) {
@@ -101,7 +101,7 @@ TEST(HeadReceiver, AFloodEnds) {
 }
 
 TEST(HeadReceiver, SaysWhyItCannotListen) {
-    const test::TakenPort taken;
+    const test::OccupiedPort taken;
     const auto in_use = HeadReceiver::listen({.port = taken.number()});
     ASSERT_FALSE(in_use.ok());
     EXPECT_THAT(in_use.error().message, HasSubstr("udp:127.0.0.1:" + std::to_string(taken.number()) + ": "));

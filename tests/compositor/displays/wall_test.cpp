@@ -17,13 +17,13 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 constexpr double kEyes_m = 0.065;
-const RoomPlace kPlace{.position = {3, -0.4, 17}, .heading_rad = 0.7, .units_per_metre = 1.3};
+const RoomPose kPlace{.position = {3, -0.4, 17}, .heading_rad = 0.7, .units_per_metre = 1.3};
 
 Wall front_wall() {
     return {"front", {-1.5, 0, -1.5}, {1.5, 0, -1.5}, {-1.5, 3, -1.5}, 1024, 768};
 }
 
-Camera camera_of(const Wall& wall, const glm::dvec3& eye, const RoomPlace& place = kPlace) {
+Camera camera_of(const Wall& wall, const glm::dvec3& eye, const RoomPose& place = kPlace) {
     const auto camera = wall_camera(wall, eye, place);
     EXPECT_TRUE(camera.ok()) << camera.error().message;
     return *camera;
@@ -138,7 +138,7 @@ TEST(Wall, CornersMustMakeARectangle) {
 TEST(Wall, TheRoomStandsAroundTheVisitor) {
     const Head head{.position = {0.2, 1.7, 0.5}, .heading_rad = 0.3};
     const Camera visitor = look_at_camera({4, 2, -1}, {-3, 1, 5}, 1, 64, 48);
-    const RoomPlace place = place_of(visitor, head, 2);
+    const RoomPose place = place_of(visitor, head, 2);
     EXPECT_LT(glm::distance(place.in_scene(head.position), visitor.centre()), 1e-12);
     const glm::dvec3 ahead = place.turned({-std::sin(0.3), 0, -std::cos(0.3)});
     const glm::dvec3 level = glm::normalize(visitor.forward() * glm::dvec3(1, 0, 1));
@@ -151,7 +151,7 @@ TEST(Wall, ASceneIsPutOnTheTable) {
     BoundingBox box;
     box.lowest = {-5, 1, -2};
     box.highest = {11, 9, 6};
-    const RoomPlace place = fitted_place(table, box);
+    const RoomPose place = fit_scene_to_wall(table, box);
     // The centre of the table is the centre of the box's bottom side.
     EXPECT_LT(glm::distance(place.in_scene({0, table.lower_left.y, 0}), glm::dvec3(3, 1, 2)), 1e-9);
     EXPECT_NEAR(place.units_per_metre, 16 / (0.8 * 0.8), 1e-9);

@@ -104,9 +104,9 @@ TEST(WallsFile, HeadsComeFrameByFrame) {
 
 TEST(WallsFile, WallsAreChosenByName) {
     WallDisplay cave = *preset_display("cave");
-    EXPECT_THAT(keep_walls(cave, "front,roof").error().message,
+    EXPECT_THAT(select_walls(cave, "front,roof").error().message,
                 HasSubstr("no wall 'roof'; there are left, front, right, floor"));
-    ASSERT_TRUE(keep_walls(cave, "right,front").ok());
+    ASSERT_TRUE(select_walls(cave, "right,front").ok());
     ASSERT_EQ(cave.walls.size(), 2U);
     EXPECT_EQ(cave.walls[0].name, "front");
 }

@@ -37,8 +37,7 @@ TEST(LightDrag, AlongAnAxisTheLightGoesAsFarAsThePointer) {
         const glm::dvec3 grasped = glm::mix(light.location, axis_end(light, axis, camera), 0.7);
         const LightDrag drag(light, axis, camera, seen_at(camera, grasped), 0.001);
         for (const double far : {-0.8, 0.0, 0.25, 1.5}) {
-            const LightEntry moved =
-                drag.drag_to(seen_at(camera, grasped + far * direction_of(axis)), camera, kNothing);
+            const LightEntry moved = drag.to(seen_at(camera, grasped + far * direction_of(axis)), camera, kNothing);
             EXPECT_LT(glm::distance(moved.location, light.location + far * direction_of(axis)), 1e-9);
             EXPECT_EQ(moved.aim, light.aim);
         }
@@ -49,7 +48,7 @@ TEST(LightDrag, AnAxisSeenFromItsEndMovesNothing) {
     const Camera camera = look_at_camera({0, 1, 5}, {0, 1, 0}, radians(50), 640, 480);
     const LightEntry light{.location = {0, 1, 0}};
     const LightDrag drag(light, HandlePart::kAxisZ, camera, {320, 240}, 0.001);
-    EXPECT_EQ(drag.drag_to({322, 240}, camera, kNothing).location, light.location);
+    EXPECT_EQ(drag.to({322, 240}, camera, kNothing).location, light.location);
 }
 
 TEST(LightDrag, OverSurfacesItSnapsAndTurns) {
@@ -62,7 +61,7 @@ TEST(LightDrag, OverSurfacesItSnapsAndTurns) {
     // A grab offset from the handle's centre is preserved.
     const LightDrag drag(spot, HandlePart::kBody, camera, seen_at(camera, spot.location) + glm::dvec2(3, -4), 0.01);
     const glm::dvec2 there = seen_at(camera, {0, 0, 0});
-    const LightEntry moved = drag.drag_to(there + glm::dvec2(3, -4), camera, floor);
+    const LightEntry moved = drag.to(there + glm::dvec2(3, -4), camera, floor);
     EXPECT_LT(glm::distance(moved.location, 0.01 * normal), 1e-9);
     EXPECT_LT(glm::distance(moved.aim, normal), 1e-12);
     // Point lights have no aim.
@@ -84,7 +83,7 @@ TEST(LightDrag, AimsAtWhatIsUnderThePointer) {
     ASSERT_TRUE(grasped);
     const LightDrag drag(spot, HandlePart::kAim, camera, seen_at(camera, *grasped), 0.01);
     const glm::dvec3 target(-1, 0, 0.5);
-    const LightEntry aimed = drag.drag_to(seen_at(camera, target), camera, plane(camera, {0, 0, 0}, {0, 1, 0}));
+    const LightEntry aimed = drag.to(seen_at(camera, target), camera, plane(camera, {0, 0, 0}, {0, 1, 0}));
     EXPECT_LT(glm::distance(aimed.aim, glm::normalize(target - spot.location)), 1e-9);
     EXPECT_EQ(aimed.location, spot.location);
 }
@@ -97,12 +96,12 @@ TEST(LightDrag, DirectionalLightsTurnAboutTheDome) {
         sun.kind = LightKind::kDirectional;
         sun.aim = aim;
         const LightDrag drag(sun, HandlePart::kBody, camera, seen_at(camera, handle_position(sun, camera)), 0.01);
-        const LightEntry still = drag.drag_to(seen_at(camera, handle_position(sun, camera)), camera, kNothing);
+        const LightEntry still = drag.to(seen_at(camera, handle_position(sun, camera)), camera, kNothing);
         EXPECT_LT(glm::distance(still.aim, glm::normalize(aim)), 1e-6);
         const glm::dvec3 out = glm::normalize(glm::dvec3(0.2, 1, 0.1) * 0.5 - aim / glm::length(aim));
-        const LightEntry turned = drag.drag_to(seen_at(camera, dome.centre + dome.radius * out), camera, kNothing);
+        const LightEntry turned = drag.to(seen_at(camera, dome.centre + dome.radius * out), camera, kNothing);
         EXPECT_LT(glm::distance(turned.aim, -out), 1e-6);
-        const LightEntry beside = drag.drag_to({2, 470}, camera, kNothing);
+        const LightEntry beside = drag.to({2, 470}, camera, kNothing);
         EXPECT_NEAR(glm::length(beside.aim), 1, 1e-9);
     }
 }

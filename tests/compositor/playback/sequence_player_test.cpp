@@ -176,11 +176,11 @@ TEST(WeatherWords, AreStrict) {
 
 TEST(WeatherOfAScene, IsDarkerByDayAndCoversWhatLooksUp) {
     const Scene fair;
-    const Scene rainy = in_weather(fair, *parse_weather("rain"));
+    const Scene rainy = apply_weather(fair, *parse_weather("rain"));
     EXPECT_LT(rainy.lights[0].colour.x, fair.lights[0].colour.x);
     EXPECT_EQ(rainy.cover, Cover::kWet);
     ASSERT_TRUE(rainy.fog);
-    const Scene foggy = in_weather(fair, *parse_weather("fog"));
+    const Scene foggy = apply_weather(fair, *parse_weather("fog"));
     EXPECT_LT(foggy.fog->visibility, rainy.fog->visibility);
     EXPECT_EQ(foggy.background.sky[0], foggy.fog->colour);
 }

@@ -71,13 +71,13 @@ TEST_F(SequenceFiles, StaticPartsStandAndInstancesTakeSlots) {
     for (const GeometryNode& node : sequence->scene.geometry) still += node.moving ? 0 : 1;
     EXPECT_EQ(still, 2U);  // the ground, and the post, which only occurs as an instance
 
-    const MovedSlots first = moved_slots(*sequence, 0);
+    const SlotTransforms first = slot_transforms(*sequence, 0);
     ASSERT_TRUE(first.geometry[0] && first.geometry[1]);
     EXPECT_EQ(glm::dvec3(*first.geometry[1] * glm::dvec4(5, 0.5, 0, 1)), glm::dvec3(2, 0, 0));
-    const MovedSlots second = moved_slots(*sequence, 1);
+    const SlotTransforms second = slot_transforms(*sequence, 1);
     ASSERT_TRUE(second.geometry[0]);
     EXPECT_FALSE(second.geometry[1]);
-    EXPECT_FALSE(moved_slots(*sequence, 2).geometry[0]);
+    EXPECT_FALSE(slot_transforms(*sequence, 2).geometry[0]);
     EXPECT_THAT(scene_at(*sequence, 2).geometry, SizeIs(2));  // the default scene
 
     EXPECT_EQ(camera_of(*sequence, 0)->pose.eye, glm::dvec3(0, 2, 9));  // of the base
@@ -109,7 +109,7 @@ TEST_F(SequenceFiles, MeshesOfFramesAreReadOnceAndStandWhereTheyAre) {
     const auto sequence = read();
     ASSERT_TRUE(sequence) << sequence.error().message;
     ASSERT_THAT(sequence->slots, SizeIs(2));
-    EXPECT_EQ(*moved_slots(*sequence, 1).geometry[1], glm::dmat4(1.0));
+    EXPECT_EQ(*slot_transforms(*sequence, 1).geometry[1], glm::dmat4(1.0));
 }
 
 TEST_F(SequenceFiles, FaultsNameFileAndLine) {

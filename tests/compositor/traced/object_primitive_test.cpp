@@ -31,9 +31,9 @@ NodeTransform somewhere() {
 }
 
 // Horizontal rays from all sides, at the height of the captures, hit the sphere.
-TEST(ObjectRays, AnswerWhereTheBallIsAndPassWhereItIsNot) {
+TEST(ObjectPrimitive, AnswerWhereTheBallIsAndPassWhereItIsNot) {
     const PlacedObject placed = test::placed_at(ball(), somewhere());
-    const ObjectRays rays(placed, 0.25F);
+    const ObjectPrimitive rays(placed, 0.25F);
     const test::Sphere sphere;
     test::Random random(5);
     int met = 0, missed = 0, wrong = 0;
@@ -71,9 +71,9 @@ TEST(ObjectRays, AnswerWhereTheBallIsAndPassWhereItIsNot) {
     EXPECT_LT(colour_error / met, 0.006);
 }
 
-TEST(ObjectRays, StandInTheirBoxAndNotBehindTheOrigin) {
+TEST(ObjectPrimitive, StandInTheirBoxAndNotBehindTheOrigin) {
     const PlacedObject placed = test::placed_at(ball(), somewhere());
-    const ObjectRays rays(placed, 1);
+    const ObjectPrimitive rays(placed, 1);
     const test::Sphere sphere;
     const glm::dvec3 middle = placed.world_from_object.point(sphere.centre);
     for (const glm::dvec3& axis : {glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1)}) {
@@ -87,7 +87,7 @@ TEST(ObjectRays, StandInTheirBoxAndNotBehindTheOrigin) {
 }
 
 // A wall behind the sphere, a light in front of it: the shadow is the sphere's.
-TEST(ObjectRays, ThrowTheShadowOfTheBall) {
+TEST(ObjectPrimitive, ThrowTheShadowOfTheBall) {
     capture::Scene scene;
     capture::Mesh wall;
     wall.positions = {{-4, -4, -2}, {4, -4, -2}, {4, 4, -2}, {-4, 4, -2}};
@@ -97,7 +97,7 @@ TEST(ObjectRays, ThrowTheShadowOfTheBall) {
     const test::Sphere sphere;
     const glm::dvec3 lamp(0.1, 0.15, 4);
     scene.lights.push_back(point_light(lamp, glm::vec3(30)));
-    scene.primitives.push_back(std::make_shared<const ObjectRays>(test::placed_at(ball()), 1.0F));
+    scene.primitives.push_back(std::make_shared<const ObjectPrimitive>(test::placed_at(ball()), 1.0F));
     auto tracer = capture::Tracer::create(std::move(scene));
     ASSERT_TRUE(tracer);
     int shadow = 0, lit = 0, wrong = 0;
@@ -107,10 +107,10 @@ TEST(ObjectRays, ThrowTheShadowOfTheBall) {
             const glm::dvec3 along = glm::normalize(lamp - place);
             if (test::hit({sphere.centre, 0.96 * sphere.radius}, place, along)) {
                 ++shadow;
-                wrong += tracer->sees(place, along, glm::distance(lamp, place));
+                wrong += tracer->is_unoccluded(place, along, glm::distance(lamp, place));
             } else if (!test::hit({sphere.centre, 1.06 * sphere.radius}, place, along)) {
                 ++lit;
-                wrong += !tracer->sees(place, along, glm::distance(lamp, place));
+                wrong += !tracer->is_unoccluded(place, along, glm::distance(lamp, place));
             }
         }
     }

@@ -106,7 +106,7 @@ TEST_F(Walk, ABudgetOfTwoRoomsHasEveryRoomReadBeforeItIsEntered) {
     }
     EXPECT_EQ(room, test::kRooms - 1U);
     EXPECT_THAT(there(*showroom_, 0), Each(false));
-    const StoreStatistics statistics = showroom_->statistics();
+    const CacheStatistics statistics = showroom_->statistics();
     EXPECT_LE(statistics.peak_bytes, budget);
     EXPECT_EQ(statistics.loads, test::kRooms * test::kObjectsInRoom) << "each once: no thrashing";
     const std::lock_guard lock(log_->mutex);
@@ -129,7 +129,7 @@ TEST_F(Walk, APlaceholderFadesIntoItsObject) {
     options.reading = std::chrono::milliseconds(20);
     make(bytes_for(48), options);
     step(-1);
-    const ShownNode& node = (*showroom_->nodes())[0];
+    const DisplayedNode& node = (*showroom_->nodes())[0];
     EXPECT_FALSE(node.object);
     ASSERT_TRUE(node.placeholder);
     EXPECT_EQ(node.placeholder->opacity, 1);
@@ -186,7 +186,7 @@ TEST_F(Walk, WaitingFramesAreComplete) {
     for (double z = -1; z > -test::kRooms * test::kRoomSide; z -= 2) {
         step(z);
         EXPECT_THAT(there(*showroom_, test::room_at(z)), Each(true)) << z;
-        for (const ShownNode& node : *showroom_->nodes()) {
+        for (const DisplayedNode& node : *showroom_->nodes()) {
             EXPECT_TRUE(!node.object || node.opacity == 1);
         }
     }

@@ -55,7 +55,7 @@ protected:
         options.lights = work_ / "profile.json";
         options.samples = 1;
         auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.waits = true});
-        WindowOptions small{.title = "test", .width = 320, .height = 240, .wait_for_screen = false};
+        WindowOptions small{.title = "test", .width = 320, .height = 240, .vertical_sync = false};
         small.context = {.debug = true, .at_end = [this](const std::vector<std::string>& left) { left_ = left; }};
         auto window = Window::create(small);
         ASSERT_TRUE(window.ok()) << window.error().message;
@@ -103,7 +103,7 @@ protected:
         ASSERT_TRUE(step());
     }
     [[nodiscard]] const LightEntry& light(std::size_t i = 0) { return desk().edits().state().entries.at(i); }
-    LightDesk& desk() { return visit_->lights(); }
+    LightEditor& desk() { return visit_->lights(); }
     // Waits for a complete pass with the current light.
     Image<Rgba8> traced() {
         const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(3);
@@ -190,7 +190,7 @@ TEST_F(LightInWindow, AProfileComesBackToTheSameImage) {
     panel.colour = {1, 0.7, 0.3};
     panel.turn_deg = 33.3;
     desk().edits().set_light(1, panel);
-    desk().look_for_files(work_.path());
+    desk().scan_folder(work_.path());
     ASSERT_EQ(desk().files().size(), 1U);
     desk().add(LightKind::kLuminaire, {camera_, [](const glm::dvec2&) { return std::nullopt; }});
     ASSERT_TRUE(step());

@@ -47,7 +47,7 @@ protected:
         options.samples = 1;
         auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.waits = true}, nullptr,
                                                    std::make_unique<test::ObjectsInMemory>(kObjectRed));
-        WindowOptions small{.title = "test", .width = 320, .height = 240, .wait_for_screen = false};
+        WindowOptions small{.title = "test", .width = 320, .height = 240, .vertical_sync = false};
         small.context = {.debug = true, .at_end = [this](const std::vector<std::string>& left) { left_ = left; }};
         auto window = Window::create(small);
         ASSERT_TRUE(window.ok()) << window.error().message;
@@ -58,7 +58,7 @@ protected:
     }
     void TearDown() override {
         if (!visit_) return;
-        EXPECT_FALSE(visit_->window().context().names_alive().empty());
+        EXPECT_FALSE(visit_->window().context().live_objects().empty());
         visit_.reset();
         ASSERT_TRUE(left_.has_value());
         EXPECT_THAT(*left_, ::testing::IsEmpty());

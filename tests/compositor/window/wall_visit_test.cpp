@@ -33,7 +33,7 @@ protected:
         options_.heads = {Head{.position = {0, 1.5, 0}}};
         options_.images = work_.path();
         options_.samples = 1;
-        options_.window.wait_for_screen = false;
+        options_.window.vertical_sync = false;
         options_.window.context = {.debug = true, .at_end = [this](const std::vector<std::string>& left) {
                                        left_.insert(left_.end(), left.begin(), left.end());
                                    }};
@@ -125,7 +125,7 @@ TEST_F(WallWindows, FollowATrackedHeadButThroughNoWall) {
     options_.tracked = [&tracked] { return std::exchange(tracked, std::nullopt); };
     open();
     const double before = red_middle(1);
-    const RoomPlace place = visit_->place();
+    const RoomPose place = visit_->place();
     tracked = Head{.position = {0.5, 1.5, 0.2}, .heading_rad = 0.4};
     ASSERT_TRUE(step());
     EXPECT_EQ(visit_->head().position, glm::dvec3(0.5, 1.5, 0.2));

@@ -285,7 +285,7 @@ TEST_F(Goals, FineColoursHaveFineEdges) {
 
 // The drawn object over a background whose alpha decreases to both sides.
 Image<Rgba8> drawn_over_shadow(const Camera& camera) {
-    Image<Rgba8> image = test::drawn_image(camera);
+    Image<Rgba8> image = test::draw_image(camera);
     for (int y = 60; y < 78; ++y) {
         for (int x = 20; x < 80; ++x) {
             Rgba8& pixel = image(x, y);

@@ -35,7 +35,7 @@ struct Samples {
             mask[i] = random() % 4 == 0 ? 0 : 255;
         }
     }
-    [[nodiscard]] MaskedSamples target(int size) const { return {wanted.data(), mask.data(), kStride, size}; }
+    [[nodiscard]] SampleBlock target(int size) const { return {wanted.data(), mask.data(), kStride, size}; }
     [[nodiscard]] int off(int x, int y) const {
         const auto at = static_cast<std::size_t>(y * kStride + x);
         return mask[at] != 0 ? wanted[at] - reconstruction[at] : 0;
@@ -60,7 +60,7 @@ TEST(SearchKernels, SumsAreThoseOfTheFormulas) {
                     of_mean += samples.mask[at] != 0 ? std::abs(samples.wanted[at] - mean) : 0;
                 }
             }
-            const MaskedSamples target = samples.target(size);
+            const SampleBlock target = samples.target(size);
             ASSERT_EQ(absolute_differences(target, samples.reconstruction.data(), kStride), absolute);
             ASSERT_EQ(squared_differences(target, samples.reconstruction.data(), kStride), squared);
             ASSERT_EQ(
@@ -166,9 +166,9 @@ TEST(SearchEffort, MoreOfItGivesABetterBargain) {
         return bytes * std::pow(10.0, -encoded.psnr_db / 16);
     };
     const double most = price(kMaxEffort);
-    EXPECT_LT(most, price(kLeastEffort));
+    EXPECT_LT(most, price(kMinEffort));
     EXPECT_LT(price(kDefaultEffort), 1.1 * most);
-    EXPECT_LT(price(kLeastEffort), 1.3 * most);
+    EXPECT_LT(price(kMinEffort), 1.3 * most);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ inline std::vector<WorkView> drawn_views(const Rig& rig) {
     std::vector<WorkView> views;
     for (const RigView& view : rig.views) {
         Camera camera = view.camera;
-        const Image<Rgba8> image = test::drawn_image(camera);
+        const Image<Rgba8> image = test::draw_image(camera);
         camera.world_from_camera[3] = glm::dvec4(camera.centre() / rig.object_radius, 1);
         views.push_back(make_work_view(camera, image, 1));
     }

@@ -97,7 +97,7 @@ TEST(FloatingCells, BesideTheHullMeansAllNeighboursToo) {
     for (int p = 20; p < 25; ++p) {
         for (int h = 10; h < 18; ++h) meets[static_cast<std::size_t>(p * line.grid.bands + h)] = 1;
     }
-    remove_outside_hull(line.grid, meets, line.cells.data());
+    remove_cells_outside_hull(line.grid, meets, line.cells.data());
     EXPECT_TRUE(line.has(24, 12));
     EXPECT_TRUE(line.has(25, 12)) << "beside a ray that meets the hull";
     EXPECT_FALSE(line.has(26, 12));

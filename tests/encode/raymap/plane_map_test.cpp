@@ -52,7 +52,7 @@ TEST(CapturedView, RefusesWhatTheFormatCannotHold) {
     // Three degrees past the axis, the axis is 41,900 px radii to the side: q0 would wrap around.
     Camera past = look_at_camera({0, 0, 80}, {80 * std::tan(radians(3)), 0, 0}, radians(4), 512, 512);
     past.fl_x = past.fl_y = 10000;
-    EXPECT_NE(captured_view(past, 12).error().message.find("past the axis"), std::string::npos);
+    EXPECT_NE(captured_view(past, 12).error().message.find("too far from the Y axis"), std::string::npos);
     camera.fl_y = 65536 + 700;
     EXPECT_NE(captured_view(camera, 12).error().message.find("focal length"), std::string::npos);
 }
@@ -117,7 +117,7 @@ TEST(PlaneMap, HalfWayViewpointsSeeOneImage) {
         for (int column = -40; column <= 40; ++column) {
             const glm::dvec3 at = glm::dvec3(std::cos(azimuth), 0, -std::sin(azimuth)) * (column / 45.0);
             const test::Ray ray{viewpoint, at - viewpoint};
-            const int k = test::most_square_plane(ray.direction, 12);
+            const int k = test::most_perpendicular_plane(ray.direction, 12);
             const auto place = test::to_ray_space(ray, reference_plane(k, 12));
             ASSERT_TRUE(place);
             const int xi = static_cast<int>((place->x + x_half) * 512 / (2 * x_half));

@@ -30,7 +30,7 @@ BuiltObject build(const std::filesystem::path& folder, MapKind kind = MapKind::k
     EXPECT_TRUE(set.ok()) << set.error().message;
     BuildOptions options;
     options.raymap = kind;
-    options.map = usual_plane_map(kind);
+    options.map = default_plane_map(kind);
     Result<BuiltObject> built = build_object(*set, options, progress);
     EXPECT_TRUE(built.ok()) << built.error().message;
     const Status valid = validate_object(built->object, "built");
@@ -163,7 +163,7 @@ TEST(ShapeMap, ALargePartThatFewCutOutsLackIsPaintedFromThoseBeside) {
 }
 
 TEST(ShapeMap, ExactSilhouettesAreNotSearchedForWhatTheyLack) {
-    class Labels final : public Progress {
+    class LabelRecorder final : public Progress {
     public:
         void start(const std::string& label, std::int64_t) override { labels.push_back(label); }
         void advance(std::int64_t) override {}
@@ -172,7 +172,7 @@ TEST(ShapeMap, ExactSilhouettesAreNotSearchedForWhatTheyLack) {
     };
     const test::TemporaryFolder folder;
     test::write_drawn_set(folder / "set", drawn_ring(24), mottled_ball);
-    Labels whole, lacking;
+    LabelRecorder whole, lacking;
     build(folder / "set", MapKind::kShape, &whole);
     EXPECT_THAT(whole.labels, Contains("depth"));
     EXPECT_THAT(whole.labels, Not(Contains("depth at half size")));
@@ -187,7 +187,7 @@ TEST(ShapeMap, ExactSilhouettesAreNotSearchedForWhatTheyLack) {
     }
     test::write_drawn_set(folder / "off", drawn_ring(24), mottled_ball);
     ASSERT_TRUE(write_rig(folder / "off" / kRigFileName, off).ok());
-    Labels wide;
+    LabelRecorder wide;
     build(folder / "off", MapKind::kShape, &wide);
     EXPECT_THAT(wide.labels, Contains("depth at half size"));
 }

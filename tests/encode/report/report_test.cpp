@@ -24,7 +24,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 // Checks that tags are balanced; returns the name of the first one that is not, else "".
-std::string unbalanced_tag(const std::string& markup) {
+std::string find_unbalanced_tag(const std::string& markup) {
     static const std::regex kTag(R"(<(/?)([a-zA-Z0-9]+)((?:[^<>"]|"[^"<>]*")*?)(/?)>)");
     std::vector<std::string> open;
     for (std::sregex_iterator tag(markup.begin(), markup.end(), kTag), end; tag != end; ++tag) {
@@ -79,17 +79,17 @@ TEST(HtmlPage, IsWellFormedAndHoldsWhatWasAdded) {
     page.list({"<li>", "two"});
     page.table({"name", "dB"}, {{"<td>", "12.5"}, {"b", "-3"}});
     page.begin_details("more & more");
-    page.drawing(svg_of(LinePlot{"<t>", "x&", "y\"", {{"</svg>", {0, 1}, {2, 3}}}}));
+    page.drawing(draw_svg(LinePlot{"<t>", "x&", "y\"", {{"</svg>", {0, 1}, {2, 3}}}}));
     page.end_details();
     const std::string text = page.text();
-    EXPECT_EQ(unbalanced_tag(text), "") << text;
+    EXPECT_EQ(find_unbalanced_tag(text), "") << text;
     EXPECT_THAT(text, HasSubstr("<title>a &lt; b &amp; &quot;c&quot;</title>"));
     EXPECT_THAT(text, HasSubstr("&lt;/h2&gt;&lt;script&gt;"));
     EXPECT_THAT(text, Not(HasSubstr("<script")));
     EXPECT_THAT(text, HasSubstr("<td>&lt;td&gt;</td><td class=\"number\">12.5</td>"));
     EXPECT_THAT(text, HasSubstr("<summary>more &amp; more</summary>"));
     EXPECT_EQ(occurrences(text, "</svg>"), 1U);
-    EXPECT_EQ(unbalanced_tag("<p><b></p></b>"), "p") << "the check itself must be able to fail";
+    EXPECT_EQ(find_unbalanced_tag("<p><b></p></b>"), "p") << "the check itself must be able to fail";
 }
 
 TEST(HtmlPage, AImageInsideIsTheImageScaledDown) {
@@ -98,10 +98,10 @@ TEST(HtmlPage, AImageInsideIsTheImageScaledDown) {
     HtmlPage page("images");
     ASSERT_TRUE(page.images(row, 150).ok());
     const std::string text = page.text();
-    EXPECT_EQ(unbalanced_tag(text), "");
+    EXPECT_EQ(find_unbalanced_tag(text), "");
     EXPECT_THAT(text, HasSubstr("alt=\"wide &quot;one&quot;\" width=\"150\" height=\"75\""));
     EXPECT_THAT(text, HasSubstr("width=\"20\" height=\"40\""));
-    const auto bytes = encode_png(scaled_down(image, 150), "wide");
+    const auto bytes = encode_png(downscale(image, 150), "wide");
     ASSERT_TRUE(bytes.ok());
     EXPECT_THAT(text, HasSubstr("src=\"data:image/png;base64," + base64(*bytes) + "\""));
     // The bytes are a readable file.
@@ -121,15 +121,15 @@ TEST(ScaledDown, AveragesInLinearLightAndByAlpha) {
         image(2, y) = {90, 60, 30, 255};
         image(3, y) = {255, 0, 255, 0};
     }
-    const Image<Rgba8> small = scaled_down(image, 2);
+    const Image<Rgba8> small = downscale(image, 2);
     ASSERT_EQ(small.width(), 2);
     ASSERT_EQ(small.height(), 1);
     EXPECT_EQ(small(0, 0), (Rgba8{188, 188, 188, 255}));  // half of the light of white
     EXPECT_EQ(small(1, 0), (Rgba8{90, 60, 30, 128}));     // the transparent half does not contribute
-    EXPECT_EQ(scaled_down(image, 4), image);
+    EXPECT_EQ(downscale(image, 4), image);
     // Sizes without a common factor: a constant image stays constant up to the last pixel.
     const Image<Rgba8> odd(101, 67, {77, 88, 99, 255});
-    EXPECT_EQ(scaled_down(odd, 40), Image<Rgba8>(40, 27, {77, 88, 99, 255}));
+    EXPECT_EQ(downscale(odd, 40), Image<Rgba8>(40, 27, {77, 88, 99, 255}));
 }
 
 TEST(Colours, DepthAndErrorRunFromEndToEnd) {
@@ -188,8 +188,8 @@ TEST(LinePlot, PointsStandWhereTheirNumbersSay) {
     EXPECT_EQ(frame.y_px(frame.y.high), frame.top);
     EXPECT_NEAR(frame.x_px(50), (frame.left + frame.right) / 2, 1e-9);
 
-    const std::string svg = svg_of(plot);
-    EXPECT_EQ(unbalanced_tag(svg), "") << svg;
+    const std::string svg = draw_svg(plot);
+    EXPECT_EQ(find_unbalanced_tag(svg), "") << svg;
     const auto circle = [&](double x, double y) {
         return "<circle cx=\"" + two_decimals(frame.x_px(x)) + "\" cy=\"" + two_decimals(frame.y_px(y)) + "\"";
     };
@@ -203,7 +203,7 @@ TEST(LinePlot, PointsStandWhereTheirNumbersSay) {
     const std::string first = svg.substr(path, svg.find('>', path) - path);
     EXPECT_EQ(occurrences(first, "M"), 2U) << first;
     EXPECT_EQ(occurrences(first, "L"), 0U) << first;
-    EXPECT_EQ(unbalanced_tag(svg_of({})), "") << "a plot of nothing is still a plot";
+    EXPECT_EQ(find_unbalanced_tag(draw_svg({})), "") << "a plot of nothing is still a plot";
 }
 
 TEST(LinePlot, LongNamesGetRoom) {
@@ -235,7 +235,7 @@ TEST(RingPlan, ShowsEveryCameraWhereItStands) {
     Rig rig = make_ring({.count = 12, .distance = 3.5, .fl_px = 60, .width = 48, .height = 40});
     rig.object_radius = 1;
     std::string svg = draw_ring_plan(rig);
-    EXPECT_EQ(unbalanced_tag(svg), "") << svg;
+    EXPECT_EQ(find_unbalanced_tag(svg), "") << svg;
     EXPECT_EQ(occurrences(svg, "<path"), 12U);
     // 340 px with a margin of 26: the first camera, on +Z, is at the bottom, the fourth, on +X, to the right.
     EXPECT_THAT(svg, HasSubstr("<path d=\"M170.00 314.00L"));
@@ -261,7 +261,7 @@ BuildReport small_report() {
 TEST(BuildReport, WhatIsEmptyIsNotShown) {
     const auto page = build_report_page(small_report());
     ASSERT_TRUE(page.ok());
-    EXPECT_EQ(unbalanced_tag(*page), "");
+    EXPECT_EQ(find_unbalanced_tag(*page), "");
     EXPECT_THAT(*page, HasSubstr("vase &lt;1&gt;"));
     EXPECT_THAT(*page, HasSubstr("75.00"));  // per cent of the bytes in images
     for (const char* heading : {"Warnings", "Captured", "Visual hull", "Estimated depth", "Held-out views"}) {
@@ -282,7 +282,7 @@ TEST(BuildReport, ShowsScoresAndImages) {
     report.held_out = {{"view 1", {image, image, image}}};
     const auto page = build_report_page(report);
     ASSERT_TRUE(page.ok());
-    EXPECT_EQ(unbalanced_tag(*page), "");
+    EXPECT_EQ(find_unbalanced_tag(*page), "");
     EXPECT_EQ(occurrences(*page, "<img "), 7U);
     for (const char* text :
          {"a gap &amp; a hole", "<h2>Visual hull", "<h2>Estimated depth", "27.25", "94.50", "<svg"}) {
@@ -297,7 +297,7 @@ TEST(BuildReport, ShowsScoresAndImages) {
 }
 
 TEST(StageClock, AddsUpTheTimesOfEachStage) {
-    class Silent final : public Progress {
+    class SilentProgress final : public Progress {
     public:
         void start(const std::string&, std::int64_t) override { ++started; }
         void advance(std::int64_t steps) override { advanced += steps; }

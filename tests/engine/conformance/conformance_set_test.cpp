@@ -1,8 +1,8 @@
-// The conformance set that comes with the project, and what happens to those who do not conform.
+// Tests of the conformance set of the project, and of implementations that do not conform.
 
 #include "engine/conformance/run_vectors.hpp"
 #include "engine/conformance/view_files.hpp"
-#include "engine/executors/software_executors.hpp"
+#include "rayspace/api/types/executor_table.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -15,6 +15,10 @@
 namespace rs::engine {
 namespace {
 
+std::unique_ptr<Executor> executor_named(const std::string& name) {
+    return std::move(ExecutorTable().create(name)).value();
+}
+
 namespace fs = std::filesystem;
 
 VectorSet the_set() {
@@ -23,7 +27,7 @@ VectorSet the_set() {
     return set.ok() ? *set : VectorSet{};
 }
 
-// The first case alone, with few views.
+// The first case only, with few views.
 VectorSet small_set() {
     VectorSet set = the_set();
     set.cases.resize(1);
@@ -31,11 +35,11 @@ VectorSet small_set() {
     return set;
 }
 
-TEST(ConformanceSet, DefinitionAndCoreAreAsTheHashesSay) {
+TEST(ConformanceSet, DefinitionAndCoreMatchTheHashes) {
     const VectorSet set = the_set();
     ASSERT_GE(set.cases.size(), 20U);
     const auto matrix =
-        run_vectors(set, {implementation_of(make_scalar_executor()), implementation_of(make_core_executor())});
+        run_vectors(set, {implementation_of(executor_named("scalar")), implementation_of(executor_named("core"))});
     ASSERT_TRUE(matrix.ok()) << matrix.error().message;
     EXPECT_TRUE(matrix->passed());
     for (std::size_t c = 0; c < set.cases.size(); ++c) {
@@ -46,7 +50,7 @@ TEST(ConformanceSet, DefinitionAndCoreAreAsTheHashesSay) {
     }
 }
 
-// A case whose images are all empty, or all the same, would hold nothing to be compared.
+// Cases with only empty or only equal images would test nothing.
 TEST(ConformanceSet, CasesShowTheirObjects) {
     for (const ConformanceCase& c : the_set().cases) {
         std::set<std::uint64_t> images;
@@ -63,9 +67,9 @@ TEST(ConformanceSet, CasesShowTheirObjects) {
 TEST(ConformanceSet, OneWrongBitIsFound) {
     const VectorSet set = small_set();
     for (const bool in_depth : {false, true}) {
-        Implementation wrong = implementation_of(make_scalar_executor());
-        wrong.open = [in_depth](const ConformanceCase& of_case, RaySpaceObject object) -> Result<ExecuteView> {
-            auto right = implementation_of(make_scalar_executor()).open(of_case, std::move(object));
+        Implementation wrong = implementation_of(executor_named("scalar"));
+        wrong.open = [in_depth](const ConformanceCase& test_case, RaySpaceObject object) -> Result<ExecuteView> {
+            auto right = implementation_of(executor_named("scalar")).open(test_case, std::move(object));
             return ExecuteView([right = *right, in_depth](std::size_t v) {
                 auto view = right(v);
                 if (v == 1 && in_depth) view->depth_q20(3, 3) ^= 1;
@@ -83,27 +87,27 @@ TEST(ConformanceSet, OneWrongBitIsFound) {
     }
 }
 
-TEST(ConformanceSet, WhoDeclinesEverythingHasNotPassed) {
+TEST(ConformanceSet, AnImplementationThatDeclinesEverythingFails) {
     const Implementation none{"none", [](const ConformanceCase&, const RaySpaceObject&) -> Result<ExecuteView> {
                                   return Error{"does nothing"};
                               }};
-    const auto matrix = run_vectors(small_set(), {implementation_of(make_scalar_executor()), none});
+    const auto matrix = run_vectors(small_set(), {implementation_of(executor_named("scalar")), none});
     ASSERT_TRUE(matrix.ok());
     EXPECT_FALSE(matrix->passed());
     EXPECT_EQ(matrix->results[0][1].declined, "does nothing");
 }
 
-TEST(ConformanceFiles, GoOutAndComeBack) {
+TEST(ConformanceFiles, RoundTrip) {
     const test::TemporaryFolder work;
     const VectorSet set = small_set();
-    ASSERT_TRUE(run_vectors(set, {implementation_of(make_core_executor())}, work / "out")->passed());
+    ASSERT_TRUE(run_vectors(set, {implementation_of(executor_named("core"))}, work / "out")->passed());
     const auto matrix = run_vectors(set, {implementation_in_files(work / "out")});
     ASSERT_TRUE(matrix.ok()) << matrix.error().message;
     EXPECT_TRUE(matrix->passed()) << matrix->results[0][0].first << matrix->results[0][0].declined;
 
     const fs::path colours = work / "out" / set.cases[0].name / "1.rgba";
     fs::remove(work / "out" / set.cases[0].name / "1.depth");
-    EXPECT_TRUE(run_vectors(set, {implementation_in_files(work / "out")})->passed());  // depth may be left out
+    EXPECT_TRUE(run_vectors(set, {implementation_in_files(work / "out")})->passed());  // depth is optional
     fs::resize_file(colours, fs::file_size(colours) - 1);
     const auto cut = run_vectors(set, {implementation_in_files(work / "out")});
     EXPECT_FALSE(cut->passed());
@@ -121,7 +125,7 @@ protected:
     test::TemporaryFolder work_;
 };
 
-TEST_F(VectorsFile, ComesBackAsWritten) {
+TEST_F(VectorsFile, RoundTrip) {
     VectorSet set = the_set();
     set.folder = work_.path();
     ASSERT_TRUE(write_vectors(set).ok());
@@ -137,7 +141,7 @@ TEST_F(VectorsFile, ComesBackAsWritten) {
               expected.registers.planes.back().along_tangent.per_row);
 }
 
-TEST_F(VectorsFile, ThatIsNoneIsRefusedByName) {
+TEST_F(VectorsFile, InvalidFilesAreRejectedByName) {
     const std::string sound_case =
         R"({"name":"a","covers":"b","object":"a.rso","views":[{"registers":{"width":1,"height":1,"ring":0,"b":0,"s":[0,0,0],"planes":[]},"rgba":"0","depth":"0","object_pixels":0}]})";
     EXPECT_TRUE(read(R"({"version":1,"edition":"1","cases":[)" + sound_case + "]}").ok());
@@ -156,12 +160,12 @@ TEST_F(VectorsFile, ThatIsNoneIsRefusedByName) {
     }
 }
 
-TEST_F(VectorsFile, RegistersOutOfRangeAreRefused) {
+TEST_F(VectorsFile, RegistersOutOfRangeAreRejected) {
     const VectorSet sound = small_set();
     const auto refused = [&](const char* what, const std::function<void(ViewRegisters&)>& damage) {
         VectorSet set = sound;
         damage(set.cases[0].views[1].registers);
-        const auto matrix = run_vectors(set, {implementation_of(make_scalar_executor())});
+        const auto matrix = run_vectors(set, {implementation_of(executor_named("scalar"))});
         ASSERT_FALSE(matrix.ok()) << what;
         EXPECT_NE(matrix.error().message.find("view 1"), std::string::npos) << matrix.error().message;
     };

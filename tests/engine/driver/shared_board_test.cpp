@@ -1,6 +1,5 @@
-// The data module with a board: who draws what, what happens when the board has no room, fails, or holds an object that
-// is replaced; and a long run of random moves with both executors at work. Every image is compared with the
-// definition.
+// Tests of RenderSession with a board: distribution of views, a board that is full or fails, replaced objects, and a
+// long random run on both executors. Every image is compared with the scalar definition.
 
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/driver/render_session.hpp"
@@ -19,14 +18,14 @@
 namespace rs::engine {
 namespace {
 
-// The threads that are tested here are the module's own; those of TBB synchronise in ways that race detectors do not
-// see.
+// These tests are about the threads of the session. TBB is restricted to one thread, since race detectors do not
+// understand its synchronization.
 const tbb::global_control kNoOtherThreads(tbb::global_control::max_allowed_parallelism, 1);
 
 const test::RingObjectOptions kSmallOnBoard{
     .views = 6, .width = 24, .height = 20, .fl_px = 30, .planes = 4, .x_cells = 24, .u_cells = 16};
 
-// As the board draws it: alpha in 2 bits.
+// Object with the 2-bit alpha of the board.
 RaySpaceObject object_of(std::uint64_t seed) {
     test::RingObjectOptions options = kSmallOnBoard;
     options.seed = seed;
@@ -50,64 +49,64 @@ model::BoardConfig config() {
     return *model::read_board_config("prototype-2000");
 }
 
-std::vector<Image<Rgba8>> images_of(RenderSession& module, const std::vector<ViewRequest>& views) {
-    const auto cycle = module.submit(views);
+std::vector<Image<Rgba8>> images_of(RenderSession& session, const std::vector<ViewRequest>& views) {
+    const auto cycle = session.submit(views);
     EXPECT_TRUE(cycle.ok()) << cycle.error().message;
-    auto images = module.retrieve(*cycle);
+    auto images = session.retrieve(*cycle);
     EXPECT_TRUE(images.ok()) << images.error().message;
     return images ? std::move(*images) : std::vector<Image<Rgba8>>();
 }
 
-// Draws until the board has drawn something, or not for long.
-bool board_comes_in(RenderSession& module, const ViewRequest& view, const Image<Rgba8>& expected) {
+// Renders until the board has rendered a view; false after 2000 attempts.
+bool wait_for_board(RenderSession& session, const ViewRequest& view, const Image<Rgba8>& expected) {
     for (int n = 0; n < 2000; ++n) {
-        EXPECT_EQ(images_of(module, {view}).front(), expected);
-        if (module.statistics().views_by_board > 0) return true;
+        EXPECT_EQ(images_of(session, {view}).front(), expected);
+        if (session.statistics().views_by_board > 0) return true;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     return false;
 }
 
-TEST(SharedBoard, TheCoreDrawsUntilTheBoardHoldsTheObject) {
+TEST(SharedBoard, TheCoreRendersUntilTheObjectIsOnTheBoard) {
     const RaySpaceObject object = object_of(1);
-    RenderSession module({}, model::make_simulated_board(config()));
-    const auto handle = module.load(object);
+    RenderSession session({}, model::make_simulated_board(config()));
+    const auto handle = session.load(object);
     ASSERT_TRUE(handle.ok());
     const Camera camera = camera_at(0.3, 3.1, 24, 20);
-    EXPECT_TRUE(board_comes_in(module, {*handle, camera}, defined(object, camera)));
-    EXPECT_EQ(module.statistics().board.loads, 1);
-    EXPECT_GT(module.statistics().views_by_core, 0);
+    EXPECT_TRUE(wait_for_board(session, {*handle, camera}, defined(object, camera)));
+    EXPECT_EQ(session.statistics().board.loads, 1);
+    EXPECT_GT(session.statistics().views_by_core, 0);
 }
 
-TEST(SharedBoard, WhatTheBoardCannotDrawTheCoreDraws) {
-    RenderSession module({}, model::make_simulated_board(config(), true));
+TEST(SharedBoard, TheCoreRendersWhatTheBoardCannot) {
+    RenderSession session({}, model::make_simulated_board(config(), true));
     RaySpaceObject shaped = object_of(2);
     std::mt19937_64 random(3);
     shaped.rings[0].shape = test::random_shape(shaped, 0, random, 0.3);
     const RaySpaceObject plain = object_of(4);
-    const auto shaped_handle = module.load(shaped);
-    const auto plain_handle = module.load(plain);
+    const auto shaped_handle = session.load(shaped);
+    const auto plain_handle = session.load(plain);
     ASSERT_TRUE(shaped_handle.ok() && plain_handle.ok());
     const Camera level = camera_at(1, 3, 20, 20);
     const Camera tilted = look_at_camera({1, 1.5, 3}, {0, 0, 0}, 0.6, 20, 20);
-    ASSERT_TRUE(board_comes_in(module, {*plain_handle, level}, defined(plain, level)));
-    const RenderSessionStatistics before = module.statistics();
-    const auto images = images_of(module, {{*shaped_handle, level}, {*plain_handle, tilted}, {*plain_handle, level}});
+    ASSERT_TRUE(wait_for_board(session, {*plain_handle, level}, defined(plain, level)));
+    const RenderSessionStatistics before = session.statistics();
+    const auto images = images_of(session, {{*shaped_handle, level}, {*plain_handle, tilted}, {*plain_handle, level}});
     ASSERT_EQ(images.size(), 3U);
     EXPECT_EQ(images[0], defined(shaped, level));
     EXPECT_EQ(images[1], defined(plain, tilted));
     EXPECT_EQ(images[2], defined(plain, level));
-    EXPECT_EQ(module.statistics().views_by_board, before.views_by_board + 1);
-    EXPECT_EQ(module.statistics().views_by_core, before.views_by_core + 2);
+    EXPECT_EQ(session.statistics().views_by_board, before.views_by_board + 1);
+    EXPECT_EQ(session.statistics().views_by_core, before.views_by_core + 2);
 }
 
 TEST(SharedBoard, ABoardWithoutFiltersRendersShapeMapsBilinearly) {
-    RenderSession module({}, model::make_simulated_board(*model::read_board_config("parallel"), true));
+    RenderSession session({}, model::make_simulated_board(*model::read_board_config("parallel"), true));
     RaySpaceObject shaped = object_of(6);
     test::make_middle_opaque(shaped);
     std::mt19937_64 random(7);
     shaped.rings[0].shape = test::random_shape(shaped, 0, random, 0.1);
-    const auto handle = module.load(shaped);
+    const auto handle = session.load(shaped);
     ASSERT_TRUE(handle.ok());
     const Camera camera = camera_at(1, 3, 40, 36);
     const auto with = [&](TexelFilter filter) {
@@ -115,26 +114,26 @@ TEST(SharedBoard, ABoardWithoutFiltersRendersShapeMapsBilinearly) {
         reconstruct_scalar(shaped, *prepare_view(shaped, camera, filter), image);
         return image;
     };
-    EXPECT_TRUE(board_comes_in(module, {*handle, camera}, with(TexelFilter::kBilinear)));
+    EXPECT_TRUE(wait_for_board(session, {*handle, camera}, with(TexelFilter::kBilinear)));
     EXPECT_NE(with(TexelFilter::kBilinear), with(TexelFilter::kSharp));
 }
 
-TEST(SharedBoard, ALoadThatFailsLeavesTheObjectToTheCore) {
+TEST(SharedBoard, TheCoreRendersAnObjectWhoseLoadingFails) {
     model::BoardConfig slow = config();
     slow.disk.stall_after_bytes = 1;
     slow.disk.stall_cycles = 10'000'000;
     slow.disk.timeout_cycles = 100'000;
     const RaySpaceObject object = object_of(5);
-    RenderSession module({}, model::make_simulated_board(slow));
-    const auto handle = module.load(object);
+    RenderSession session({}, model::make_simulated_board(slow));
+    const auto handle = session.load(object);
     ASSERT_TRUE(handle.ok());
     const Camera camera = camera_at(2, 3.3, 24, 20);
-    for (int n = 0; n < 2000 && module.statistics().board.failed_loads == 0; ++n) {
-        EXPECT_EQ(images_of(module, {{*handle, camera}}).front(), defined(object, camera));
+    for (int n = 0; n < 2000 && session.statistics().board.failed_loads == 0; ++n) {
+        EXPECT_EQ(images_of(session, {{*handle, camera}}).front(), defined(object, camera));
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    EXPECT_EQ(images_of(module, {{*handle, camera}}).front(), defined(object, camera));
-    const RenderSessionStatistics statistics = module.statistics();
+    EXPECT_EQ(images_of(session, {{*handle, camera}}).front(), defined(object, camera));
+    const RenderSessionStatistics statistics = session.statistics();
     EXPECT_EQ(statistics.board.failed_loads, 1);
     EXPECT_EQ(statistics.views_by_board, 0);
     EXPECT_NE(statistics.board.last_failure.find("disk"), std::string::npos) << statistics.board.last_failure;
@@ -142,7 +141,7 @@ TEST(SharedBoard, ALoadThatFailsLeavesTheObjectToTheCore) {
 
 const ExecutorTraits kTwoViews{.name = "two views", .depth = false, .views_per_cycle = 2};
 
-// A board that holds an object and then refuses every cycle.
+// Board that loads objects and fails in every cycle.
 class BrokenBoard final : public Executor {
 public:
     [[nodiscard]] const ExecutorTraits& traits() const override { return kTwoViews; }
@@ -159,22 +158,22 @@ private:
     int calls_ = 0;
 };
 
-TEST(SharedBoard, ACycleThatFailsIsDrawnByTheCore) {
+TEST(SharedBoard, TheCoreRendersAFailedCycle) {
     const RaySpaceObject object = object_of(6);
-    RenderSession module({}, std::make_unique<BrokenBoard>());
-    const auto handle = module.load(object);
+    RenderSession session({}, std::make_unique<BrokenBoard>());
+    const auto handle = session.load(object);
     ASSERT_TRUE(handle.ok());
     const Camera camera = camera_at(4, 2.8, 22, 26);
-    for (int n = 0; n < 2000 && module.statistics().board.failed_cycles < 2; ++n) {
-        const auto images = images_of(module, std::vector<ViewRequest>(4, {*handle, camera}));
+    for (int n = 0; n < 2000 && session.statistics().board.failed_cycles < 2; ++n) {
+        const auto images = images_of(session, std::vector<ViewRequest>(4, {*handle, camera}));
         for (const Image<Rgba8>& image : images) ASSERT_EQ(image, defined(object, camera));
     }
-    EXPECT_GE(module.statistics().board.failed_cycles, 2);
-    EXPECT_EQ(module.statistics().views_by_board, 0);
-    EXPECT_NE(module.statistics().board.last_failure.find("smoke"), std::string::npos);
+    EXPECT_GE(session.statistics().board.failed_cycles, 2);
+    EXPECT_EQ(session.statistics().views_by_board, 0);
+    EXPECT_NE(session.statistics().board.last_failure.find("smoke"), std::string::npos);
 }
 
-// A board whose driver has no memory left.
+// Board whose driver is out of memory.
 class ExhaustedBoard final : public Executor {
 public:
     [[nodiscard]] const ExecutorTraits& traits() const override { return kTwoViews; }
@@ -183,27 +182,27 @@ public:
     Result<std::vector<ExecutedView>> render(const std::vector<SlotView>&) override { throw std::bad_alloc(); }
 };
 
-TEST(SharedBoard, AnObjectThatTheDriverCannotLoadIsDrawnByTheCore) {
+TEST(SharedBoard, TheCoreRendersAnObjectThatTheDriverCannotLoad) {
     const RaySpaceObject object = object_of(6);
-    RenderSession module({}, std::make_unique<ExhaustedBoard>());
-    const auto handle = module.load(object);
+    RenderSession session({}, std::make_unique<ExhaustedBoard>());
+    const auto handle = session.load(object);
     ASSERT_TRUE(handle.ok());
     const Camera camera = camera_at(4, 2.8, 22, 26);
-    for (int n = 0; n < 2000 && module.statistics().board.failed_loads == 0; ++n) {
-        const auto images = images_of(module, std::vector<ViewRequest>(4, {*handle, camera}));
+    for (int n = 0; n < 2000 && session.statistics().board.failed_loads == 0; ++n) {
+        const auto images = images_of(session, std::vector<ViewRequest>(4, {*handle, camera}));
         for (const Image<Rgba8>& image : images) ASSERT_EQ(image, defined(object, camera));
     }
-    EXPECT_GE(module.statistics().board.failed_loads, 1);
-    EXPECT_EQ(module.statistics().views_by_board, 0);
-    EXPECT_NE(module.statistics().board.last_failure.find("driver failed"), std::string::npos);
+    EXPECT_GE(session.statistics().board.failed_loads, 1);
+    EXPECT_EQ(session.statistics().views_by_board, 0);
+    EXPECT_NE(session.statistics().board.last_failure.find("driver failed"), std::string::npos);
 }
 
-// More objects than the board holds, views of random ones, objects replaced on the way.
+// Renders random views of more objects than fit on the board, while objects are replaced.
 void draw_random_cycles(int cycles) {
     constexpr int kObjects = 24;
     model::BoardConfig few = config();
     few.limits.objects = 20;
-    RenderSession module({.objects = 64, .cycles_in_flight = 2}, model::make_simulated_board(few, true));
+    RenderSession session({.objects = 64, .cycles_in_flight = 2}, model::make_simulated_board(few, true));
     std::vector<RaySpaceObject> objects;
     for (int n = 0; n < kObjects; ++n) objects.push_back(object_of(100 + static_cast<std::uint64_t>(n)));
 
@@ -222,7 +221,7 @@ void draw_random_cycles(int cycles) {
     };
     std::vector<Loaded> loaded;
     for (std::size_t n = 0; n < objects.size(); ++n) {
-        const auto handle = module.load(objects[n]);
+        const auto handle = session.load(objects[n]);
         ASSERT_TRUE(handle.ok());
         loaded.push_back({*handle, n});
     }
@@ -230,7 +229,7 @@ void draw_random_cycles(int cycles) {
     const auto check_one = [&] {
         const Pending oldest = std::move(pending.front());
         pending.pop_front();
-        const auto images = module.retrieve(oldest.cycle);
+        const auto images = session.retrieve(oldest.cycle);
         ASSERT_TRUE(images.ok()) << images.error().message;
         for (std::size_t v = 0; v < oldest.objects.size(); ++v) {
             ASSERT_EQ((*images)[v], defined(objects[oldest.objects[v]], oldest.cameras[v])) << "view " << v;
@@ -239,17 +238,17 @@ void draw_random_cycles(int cycles) {
     for (int n = 0; n < cycles; ++n) {
         if (pending.size() == 2) check_one();
         if (testing::Test::HasFatalFailure()) FAIL() << "in cycle " << n;
-        if (random() % 16 == 0) {  // another takes the place of an object that may be being drawn
-            Loaded& place = loaded[random() % loaded.size()];
-            ASSERT_TRUE(module.evict(place.handle).ok());
-            place.object = random() % objects.size();
-            const auto handle = module.load(objects[place.object]);
+        if (random() % 16 == 0) {  // replaces an object that may be in use
+            Loaded& replaced = loaded[random() % loaded.size()];
+            ASSERT_TRUE(session.evict(replaced.handle).ok());
+            replaced.object = random() % objects.size();
+            const auto handle = session.load(objects[replaced.object]);
             ASSERT_TRUE(handle.ok());
-            place.handle = *handle;
+            replaced.handle = *handle;
         }
         Pending next;
         std::vector<ViewRequest> views;
-        const std::size_t base = random() % loaded.size();  // mostly the same objects for a while
+        const std::size_t base = random() % loaded.size();  // mostly the same objects in consecutive cycles
         for (std::size_t v = 0; v < 15; ++v) {
             const Loaded& shown = loaded[(base / 8 * 4 + random() % 16) % loaded.size()];
             next.objects.push_back(shown.object);
@@ -258,13 +257,13 @@ void draw_random_cycles(int cycles) {
             next.cameras.push_back(camera_at(real(0, 6.28), real(1.5, 6), width, height));
             views.push_back({shown.handle, next.cameras.back()});
         }
-        const auto cycle = module.submit(views);
+        const auto cycle = session.submit(views);
         ASSERT_TRUE(cycle.ok()) << cycle.error().message;
         next.cycle = *cycle;
         pending.push_back(std::move(next));
     }
     while (!pending.empty()) check_one();
-    const RenderSessionStatistics statistics = module.statistics();
+    const RenderSessionStatistics statistics = session.statistics();
     EXPECT_EQ(statistics.cycles, cycles);
     EXPECT_EQ(statistics.views_by_board + statistics.views_by_core, 15 * cycles);
     EXPECT_GT(statistics.views_by_board, 0);
@@ -275,7 +274,7 @@ void draw_random_cycles(int cycles) {
                 static_cast<long long>(statistics.board.loads), static_cast<long long>(statistics.board.evictions));
 }
 
-TEST(SharedBoard, ThousandsOfCyclesAreRight) {
+TEST(SharedBoard, ThousandsOfCyclesEqualTheDefinition) {
     draw_random_cycles(3000);
 }
 

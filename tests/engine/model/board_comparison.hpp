@@ -1,5 +1,5 @@
 #pragma once
-// A board's images beside those of the scalar definition, and one run of it beside another.
+// Comparison of a board's images with those of the scalar definition, and of two runs with each other.
 
 #include "tests/engine/model/board_test_objects.hpp"
 
@@ -10,7 +10,7 @@
 
 namespace rs::engine::model::test {
 
-// An object as the property tests draw it; at most `most_px` - 1 pixels a side, so that tiles end anywhere.
+// Random object for property tests; at most `most_px` - 1 pixels a side, so that partial tiles occur.
 inline rs::test::RingObjectOptions random_ring(std::mt19937_64& random, int fewest_views, int most_px,
                                                double most_fl_px) {
     const auto below = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
@@ -26,15 +26,15 @@ inline rs::test::RingObjectOptions random_ring(std::mt19937_64& random, int fewe
             .seed = random()};
 }
 
-struct Compared {
-    int pairs = 0;           // of a view and its image
-    std::int64_t shown = 0;  // pixels that are not clear, in all
+struct ComparisonCounts {
+    int pairs = 0;           // compared pairs of view and image
+    std::int64_t shown = 0;  // total number of non-transparent pixels
 };
 
-// Places the object and draws twenty random upright views of at most `most_px` pixels a side in two rendering cycles.
-// Every image must be the definition's of `stored`: the object as the board keeps it.
+// Places the object and renders twenty random upright views of at most `most_px` pixels a side in two rendering cycles.
+// Every image must equal that of the definition for `stored`, the object as stored by the board.
 inline void compare_random_views(Board& board, const RaySpaceObject& object, const RaySpaceObject& stored,
-                                 std::mt19937_64& random, int most_px, Compared& compared) {
+                                 std::mt19937_64& random, int most_px, ComparisonCounts& compared) {
     const Result<int> slot = board.place(object);
     ASSERT_TRUE(slot.ok()) << slot.error().message;
     std::vector<engine::ViewRegisters> registers;
@@ -61,7 +61,7 @@ inline void compare_random_views(Board& board, const RaySpaceObject& object, con
     }
 }
 
-// Two runs of the same work: every image, when it was done, and how long every block was at what.
+// Compares two runs of the same work: every image, its completion time, and the activity counts of every block.
 inline void expect_same_run(const BoardRun& run, const BoardRun& expected, const Board& board) {
     ASSERT_EQ(run.cycles.size(), expected.cycles.size());
     for (std::size_t c = 0; c < run.cycles.size(); ++c) {

@@ -1,5 +1,5 @@
-// Cycles of whole images: the same in any tick order, memory reads as a formula says, golden counts, and the
-// published figures.
+// Cycles of whole images: independence of the tick order, memory reads by a formula, golden counts, and the published
+// figures.
 
 #include "engine/core/definition/ray_setup.hpp"
 #include "engine/model/report/report.hpp"
@@ -14,7 +14,7 @@ struct Scene {
     std::vector<std::vector<engine::ViewRegisters>> cycles;
 };
 
-// Images that the object fills, of `side` pixels, from an object whose images have that size too.
+// Views of `side` pixels that are filled by an object whose images have the same size.
 Scene filled(int side, int views, int cycles) {
     Scene scene{rs::test::ring_object({.views = 36,
                                        .width = side,
@@ -47,7 +47,7 @@ Result<BoardRun> drawn(Board& board, const Scene& scene) {
     return board.render(cycles);
 }
 
-// The same, while the disk loads another object.
+// Renders the scene while the disk loads another object.
 Result<BoardRun> drawn_while_loading(Board& board, const Scene& scene) {
     const Result<int> other = board.start_load(rs::test::ring_object({.views = 8, .seed = 3}));
     if (!other) return other.error();
@@ -67,8 +67,8 @@ TEST(BoardCycles, TickOrderChangesNeitherCyclesNorBits) {
     }
 }
 
-// Per view column with a ray of the plane: a map word; with an image: four words of records. Per pair of pixels, with
-// rows of the images: alpha once, or twice across words; chroma and Y per pixel. Every pixel half a word out.
+// Per view column with a ray of the plane: a map word; with an image: four words of records. Per pair of pixels with
+// rows of the images: alpha once, or twice across words; chroma and Y per pixel. Half a word of output per pixel.
 TEST(BoardCycles, MemoryReadsAreThoseOfTheFormula) {
     const Scene scene = filled(45, 3, 1);
     Board board(test::prototype());
@@ -108,7 +108,7 @@ TEST(BoardCycles, MemoryReadsAreThoseOfTheFormula) {
     EXPECT_GT(nulls, 0U);
 }
 
-// Written down once from a run whose parts had been checked; a change of any timing shows here.
+// Golden counts from a run whose parts were verified; any change of timing changes them.
 TEST(BoardCyclesGolden, FullImages) {
     const auto cycles_of = [](int side, int views) {
         Board board(test::prototype());
@@ -119,7 +119,7 @@ TEST(BoardCyclesGolden, FullImages) {
     EXPECT_EQ(cycles_of(128, 2), 118'427U);
 }
 
-// The published table. Nothing of it is put in: DIAGRAM.md derives the figures by hand.
+// The published table. None of its figures is an input; DIAGRAM.md derives them by hand.
 TEST(PublishedFigures, OneImageOf512) {
     Board board(test::prototype());
     const Result<BoardRun> run = drawn(board, filled(512, 1, 1));
@@ -148,7 +148,8 @@ TEST(PublishedFigures, NineShowroomImagesAreLimitedByTheHostBus) {
     const BoardReport report = make_report(board, *run);
     EXPECT_NEAR(report.arrivals_per_second, 15.0, 1.0);
     EXPECT_EQ(report.delivering.limiting_block, "host_bus");
-    EXPECT_LT(double(report.bus.image_bytes) / report.delivering.seconds, 44e6);  // what the paper wished for
+    // The paper states that 44 MByte/s cannot be reached over PCI.
+    EXPECT_LT(double(report.bus.image_bytes) / report.delivering.seconds, 44e6);
 }
 
 TEST(PublishedFigures, LoadingRunsAtTwentyMegabytesAndDisturbsNothing) {
@@ -179,7 +180,7 @@ TEST(PublishedFigures, LoadingRunsAtTwentyMegabytesAndDisturbsNothing) {
     ASSERT_TRUE(loading.finish_loads().ok());
     const DiskController::Load& load = loading.top().disk_controller.loads().front();
     EXPECT_NEAR(double(load.bytes) / (double(load.finished - load.started) / 40e6), 20e6, 0.4e6);
-    // What was loaded is drawn right.
+    // The loaded object is rendered correctly.
     const auto prepared = prepare_view(second, test::upright_at(1, 3, 0, 1, 50, 50));
     const Result<BoardRun> run = loading.render({{*loading.view(*other, *prepared)}});
     ASSERT_TRUE(run.ok());

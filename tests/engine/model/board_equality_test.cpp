@@ -1,4 +1,4 @@
-// Every bit of the board's images is that of the scalar definition.
+// The board's images equal those of the scalar definition bit for bit.
 
 #include "tests/engine/model/board_comparison.hpp"
 
@@ -8,7 +8,7 @@ namespace {
 TEST(BoardEqualityProperty, RandomObjectsAndViews) {
     constexpr std::uint64_t kSeed = 20261121;
     std::mt19937_64 random(kSeed);
-    test::Compared compared;
+    test::ComparisonCounts compared;
     for (int n = 0; n < 100; ++n) {
         SCOPED_TRACE(testing::Message() << "seed " << kSeed << ", object " << n);
         const RaySpaceObject object = rs::test::ring_object(test::random_ring(random, 5, 78, 120));

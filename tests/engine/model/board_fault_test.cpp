@@ -1,4 +1,4 @@
-// What goes wrong, and what the board then does: a stated refusal or a delay, never a torn image.
+// Fault handling of the board: a stated refusal or a delay, never a torn image.
 
 #include "tests/engine/model/board_test_objects.hpp"
 
@@ -57,7 +57,7 @@ TEST(BoardFaults, ADiskThatPausesDelaysTheObjectAndNothingElse) {
     expect_right(run->cycles[0].images[0], object, 1.5);
 }
 
-TEST(BoardFaults, ADiskThatStaysSilentFailsTheLoadAndFreesTheSlot) {
+TEST(BoardFaults, ADiskTimeoutFailsTheLoadAndFreesTheSlot) {
     BoardConfig config = test::prototype();
     config.disk.stall_after_bytes = 2048;
     config.disk.stall_cycles = 1'000'000'000;
@@ -69,7 +69,7 @@ TEST(BoardFaults, ADiskThatStaysSilentFailsTheLoadAndFreesTheSlot) {
     ASSERT_TRUE(slot.ok());
     const Status status = board.finish_loads();
     ASSERT_FALSE(status.ok());
-    EXPECT_NE(status.error().message.find("gave nothing for too long"), std::string::npos);
+    EXPECT_NE(status.error().message.find("delivered no data before the timeout"), std::string::npos);
     EXPECT_EQ(board.memory_map().free_words(Region::luma), free);
     EXPECT_FALSE(board.top().registers.objects[static_cast<std::size_t>(*slot)].valid);
     const Result<BoardRun> run = board.render({{view_of(board, *slot, object, 0)}});
@@ -110,14 +110,14 @@ TEST(BoardFaults, AFullMemoryOrAFullTableRefusesTheObjectAndKeepsTheOthers) {
     tight.shape.row_bits = 1;  // 2048 words to a bank: 16384 of luma
     MemoryMap map(tight);
     const std::array<std::uint64_t, kObjectRegions> words = {10'000, 100, 100, 100};
-    const Result<Placement> first = map.take(words, "a");
+    const Result<Placement> first = map.allocate(words, "a");
     ASSERT_TRUE(first.ok());
-    const Result<Placement> second = map.take(words, "b");
+    const Result<Placement> second = map.allocate(words, "b");
     ASSERT_FALSE(second.ok());
     EXPECT_NE(second.error().message.find("b: board memory is full: it needs 80000 bytes of luma"), std::string::npos);
     EXPECT_EQ(map.free_words(Region::chroma), map.capacity_words(Region::chroma) - 100);  // nothing was taken
-    map.give_back(*first);
-    EXPECT_TRUE(map.take(words, "b").ok());
+    map.release(*first);
+    EXPECT_TRUE(map.allocate(words, "b").ok());
 }
 
 TEST(BoardFaults, BadRegistersRefuseTheWholeCycle) {
@@ -143,19 +143,19 @@ TEST(BoardFaults, BadRegistersRefuseTheWholeCycle) {
     bad.planes[5].n0_q32 = std::int64_t{1} << 35;
     EXPECT_NE(refusal(bad).find("more bits than its register"), std::string::npos);
     bad.planes[5].n0_q32 = (std::int64_t{1} << 35) - 1;
-    bad.planes[5].nx_q32 = 1;  // runs out of the register within the view
+    bad.planes[5].nx_q32 = 1;  // exceeds the register width within the view
     EXPECT_NE(refusal(bad).find("more bits than its register"), std::string::npos);
     const Result<BoardRun> many = board.render({std::vector<BoardView>(16, good)});
     ASSERT_FALSE(many.ok());
     EXPECT_NE(many.error().message.find("16 views, outside 1..15"), std::string::npos);
     EXPECT_TRUE(board.top().render_control.cycles().empty());
     EXPECT_EQ(board.top().memory().counters().image_words, 0U);
-    const Result<BoardRun> run = board.render({{good}});  // and goes on
+    const Result<BoardRun> run = board.render({{good}});  // the board continues
     ASSERT_TRUE(run.ok());
     expect_right(run->cycles[0].images[0], object, 0);
 }
 
-TEST(BoardFaults, AThirdCycleOverrunsTheQueueAndLeavesTheOthersWhole) {
+TEST(BoardFaults, AThirdCycleOverrunsTheQueueAndTheOthersAreComplete) {
     Board board(test::prototype());
     const RaySpaceObject object = small_plane();
     const int slot = *board.place(object);
@@ -213,14 +213,14 @@ TEST(BoardFaults, ObjectsThatTheBoardCannotDrawAreRefusedWithTheRemedy) {
     EXPECT_NE(view.error().message.find("tilted"), std::string::npos);
 }
 
-// A host that never takes its images back: the bus is stopped by a target that is never ready.
-TEST(BoardFaults, ABoardThatStandsStillSaysWhereEverythingIs) {
+// The host never receives images: the bus is blocked by a target that is never ready.
+TEST(BoardFaults, AStalledBoardReportsTheStateOfEveryBlock) {
     BoardConfig config = test::prototype();
     config.no_progress_cycles = 2000;
     Board board(config);
     const RaySpaceObject object = small_plane();
     const int slot = *board.place(object);
-    board.top().image_words.push({0, false, false});  // a word without a head: the bus waits for one for ever
+    board.top().image_words.push({0, false, false});  // a word without a header: the bus waits for a header forever
     board.top().image_words.commit_writer();
     const Result<BoardRun> run = board.render({{view_of(board, slot, object, 0)}});
     ASSERT_FALSE(run.ok());

@@ -1,5 +1,5 @@
 #pragma once
-// Objects and views for the tests of the board: rings of noise images, and cameras that stand upright.
+// Objects and views for board tests: rings of noise images, and upright cameras.
 
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/model/board.hpp"
@@ -16,8 +16,8 @@
 
 namespace rs::engine::model::test {
 
-// An upright camera at `azimuth`, `distance` and `height` (object radii), looking horizontally at the axis, whose
-// image shows `half_extent` radii to each side at the axis, along its larger side.
+// Upright camera at `azimuth`, `distance` and `height` (object radii), looking horizontally at the axis; its image
+// covers `half_extent` radii to each side at the axis, along its larger side.
 inline Camera upright_at(double azimuth, double distance, double height, double half_extent, int width,
                          int view_height) {
     const glm::dvec3 eye(distance * std::sin(azimuth), height, distance * std::cos(azimuth));
@@ -27,12 +27,12 @@ inline Camera upright_at(double azimuth, double distance, double height, double 
     return camera;
 }
 
-// Evenly between the two.
+// Uniform random number in [low, high).
 inline double in(std::mt19937_64& random, double low, double high) {
     return low + (high - low) * std::ldexp(static_cast<double>(random() >> 11), -53);
 }
 
-// From anywhere around an object, of sides of less than `most_px`.
+// Random upright camera around an object; image sides below `most_px`.
 inline Camera random_upright(std::mt19937_64& random, int most_px) {
     const double azimuth = in(random, 0, 2 * kPi);
     const double distance = in(random, 1.2, 12);

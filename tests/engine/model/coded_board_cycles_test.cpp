@@ -9,9 +9,9 @@
 namespace rs::engine::model {
 namespace {
 
-// The reads of one hop after the other, written down from the layout alone.
-struct CountedReads {
-    explicit CountedReads(const RaySpaceObject& from) : object(from), coded(*from.coded) {}
+// Expected reads of each hop, computed from the layout only.
+struct ReadCounts {
+    explicit ReadCounts(const RaySpaceObject& from) : object(from), coded(*from.coded) {}
 
     void column(const RaySetup& ray, int rows) {
         last_tile.fill(-1);
@@ -101,14 +101,14 @@ Result<BoardRun> drawn(Board& board, const RaySpaceObject& object, int side, int
 TEST(CodedBoardCycles, MemoryReadsAreThoseOfTheFormula) {
     constexpr int kSide = 70;
     constexpr int kViews = 6;
-    constexpr double kTurn = 1.1;  // to images of all levels
+    constexpr double kTurn = 1.1;  // the views use images of all levels
     std::array<std::uint64_t, kHops> records{};
     for (std::uint64_t seed = 21; seed < 27; ++seed) {
         const RaySpaceObject object = test::random_coded_object(
             {.views = 16, .width = 100, .height = 90, .fl_px = 140, .x_cells = 64, .u_cells = 64, .seed = seed});
         Board board(test::compressed());
         ASSERT_TRUE(drawn(board, object, kSide, kViews, kTurn).ok());
-        CountedReads counted(object);
+        ReadCounts counted(object);
         for (int v = 0; v < kViews; ++v) {
             const auto view = *prepare_view(object, test::upright_at(kTurn * v, 3.5, 0, 0.95, kSide, kSide));
             for (int i = 0; i < kSide; ++i) {
@@ -149,7 +149,7 @@ TEST(CodedBoardCycles, TickOrderChangesNeitherCyclesNorBits) {
     }
 }
 
-// The same images, uncompressed on the published board. The books' load is part of it.
+// Compared with the same images, uncompressed, on the published board. The load of the codebooks is included.
 TEST(CodedBoardCycles, IsNotSlowerThanThePrototype) {
     const test::EncodedObject object = test::encoded_object(20, 128);
     Board coded_board(test::compressed());
@@ -162,7 +162,7 @@ TEST(CodedBoardCycles, IsNotSlowerThanThePrototype) {
     EXPECT_EQ(make_report(coded_board, *coded).rendering.limiting_block, "memory_controller");
 }
 
-// Written down once from a run whose parts had been checked; a change of any timing shows here.
+// Golden counts from a run whose parts were verified; any change of timing changes them.
 TEST(CodedBoardCyclesGolden, RandomTiles) {
     const auto cycles_of = [](int side, int views, std::uint64_t seed) {
         Board board(test::compressed());

@@ -1,5 +1,4 @@
-// What can go wrong with compressed images: the wrong kind of object, an object in the place of another one, too
-// many.
+// Faults with compressed images: wrong kind of object, replacement of an object, too many objects.
 
 #include "engine/model/limits/coded_layout.hpp"
 #include "tests/engine/model/coded_test_objects.hpp"
@@ -40,8 +39,8 @@ TEST(CodedBoardFaults, EachBoardRefusesTheOthersObjectsAndNamesIt) {
     EXPECT_NE(refusal(test::compressed(), partly).find("not all of its images are loaded"), std::string::npos);
 }
 
-// Same slot, same places in memory, other books and tiles: nothing of the first may be left in the pipe.
-TEST(CodedBoardFaults, AnObjectInThePlaceOfAnother) {
+// Same slot, same memory addresses, other codebooks and tiles: no state of the first object may remain in the pipe.
+TEST(CodedBoardFaults, AnObjectReplacesAnother) {
     Board board(test::compressed());
     for (std::uint64_t seed = 1; seed < 8; ++seed) {
         const RaySpaceObject object = small_coded(seed);
@@ -91,14 +90,14 @@ TEST(CodedBoardFaults, FullMemoryNamesTheRegion) {
     MemorySettings tight = test::compressed().memory;
     tight.shape.row_bits = 1;  // 2048 words to a bank: 8192 of predicted tiles
     MemoryMap map(tight);
-    const Result<Placement> none = map.take({1, 9000, 1, 1}, "a");
+    const Result<Placement> none = map.allocate({1, 9000, 1, 1}, "a");
     ASSERT_FALSE(none.ok());
     EXPECT_NE(none.error().message.find("bytes of predicted tiles in one piece"), std::string::npos);
     EXPECT_EQ(map.copies({1, 4096, 1, 1}), 2U);
 }
 
-// A board lives for many cycles: what it knows of those that are done is bounded.
-TEST(CodedBoardFaults, FinishedCyclesAreForgotten) {
+// Memory for finished cycles is bounded.
+TEST(CodedBoardFaults, FinishedCyclesAreDropped) {
     Board board(test::compressed());
     const RaySpaceObject object = small_coded(5);
     const int slot = *board.place(object);
@@ -106,7 +105,7 @@ TEST(CodedBoardFaults, FinishedCyclesAreForgotten) {
     const BoardView view = *board.view(slot, *prepared);
     for (int n = 0; n < 10; ++n) ASSERT_TRUE(board.render({{view}, {view}, {view}}).ok());
     EXPECT_EQ(board.top().programs.size(), 30U);
-    EXPECT_EQ(board.top().programs.kept(), 0U);
+    EXPECT_EQ(board.top().programs.stored(), 0U);
     EXPECT_EQ(board.top().render_control.cycles_begun(), 30U);
     EXPECT_LE(board.top().render_control.cycles().size(), 8U);
 }

@@ -1,6 +1,6 @@
 #pragma once
-// Objects with images of profile `board` for the tests of block decompression: random ones, which no encoder makes,
-// and encoded ones.
+// Objects with images of profile `board` for tests of block decompression: random ones, which no encoder produces, and
+// encoded ones.
 
 #include "rayspace/codec/board/board_chunk.hpp"
 #include "rayspace/codec/stream/decode_image.hpp"
@@ -21,8 +21,8 @@ inline BlockDecompression& block_decompression(Board& board) {
     return dynamic_cast<SingleBoard<BlockDecompression>&>(*board.top().body).reading;
 }
 
-// Every class, all books, tiles of random bytes that are often cut short, tiles that are missing; images of four
-// levels with none, one or two references of any lower level, so that predictions are up to three hops long.
+// Every class, all codebooks, tiles of random bytes that are often truncated, missing tiles; images of four levels with
+// none, one or two references to any lower level, so that predictions have up to three hops.
 inline codec::CodedImages random_images(const RaySpaceObject& object, std::mt19937_64& random) {
     const auto below = [&](std::uint64_t n) { return static_cast<int>(random() % n); };
     codec::CodedImages coded;
@@ -34,7 +34,7 @@ inline codec::CodedImages random_images(const RaySpaceObject& object, std::mt199
             coded.board.classes[set][c] = {set == 1 && below(8) > 0, below(3) == 0, below(3), below(5)};
         }
     }
-    const int most = 1 << below(7);  // how large the differences are
+    const int most = 1 << below(7);  // amplitude of the differences
     const auto fill = [&](codec::Book& book, int dimensions) {
         book.resize(static_cast<std::size_t>(codec::kBookEntries * dimensions));
         for (std::int8_t& value : book)
@@ -63,7 +63,7 @@ inline codec::CodedImages random_images(const RaySpaceObject& object, std::mt199
         }
     }
     for (std::size_t v = 0; v < object.views.size(); ++v) {
-        // Mostly of the level below, for long chains.
+        // Mostly references to the level below, for long chains.
         const int only = coded.levels[v] - 1;
         const bool any = below(4) == 0;
         std::vector<std::uint16_t> lower;
@@ -82,7 +82,7 @@ inline codec::CodedImages random_images(const RaySpaceObject& object, std::mt199
     return coded;
 }
 
-// Both as the board gets it and, in object.images, as it is defined.
+// Object with coded images for the board and, in object.images, their decoded images for the definition.
 inline RaySpaceObject with_coded(RaySpaceObject object, codec::CodedImages coded) {
     object.coded = std::make_shared<codec::CodedImages>(std::move(coded));
     codec::decode_images(object);
@@ -96,7 +96,7 @@ inline RaySpaceObject random_coded_object(const rs::test::RingObjectOptions& opt
     return with_coded(std::move(object), std::move(coded));
 }
 
-// The drawn balls, encoded as rs-encode does it; and the same uncompressed.
+// Rendered balls, encoded with the settings of rs-encode, and the same object uncompressed.
 struct EncodedObject {
     RaySpaceObject coded;
     RaySpaceObject raw;

@@ -42,13 +42,13 @@ std::uint64_t words_of(const Board& board, const std::string& client) {
 
 constexpr std::size_t kPipes = 3;
 
-// Words read to set up the columns of a view, written down from the law and the layout alone.
+// Expected words for the set-up of a view's columns, computed from RECONSTRUCTION.md and the layout only.
 struct ColumnReads {
     std::uint64_t map = 0, bracket = 0, lines = 0, bands = 0;
 
     void count(const RaySpaceObject& object, const engine::ViewRegisters& view) {
         const Ring& ring = object.rings.front();
-        std::array<std::array<const ShapeCell*, 4>, kPipes> held{};  // the cells of each pipe's last column
+        std::array<std::array<const ShapeCell*, 4>, kPipes> held{};  // cells of each pipe's previous column
         for (int i = 0; i < view.width; ++i) {
             const PlanePoint point = plane_point(ring, view, i, 0);
             if (!point.exists) continue;
@@ -71,7 +71,7 @@ struct ColumnReads {
         }
     }
 
-    // A word for a gap's lines, a word for each crossing that was not known from the look before.
+    // One word for the lines of a gap, one for each crossing that the previous look did not read.
     bool count_bracket(const Ring& ring, const PlanePoint& point, int answer) {
         const int count = static_cast<int>(ring.views.size());
         const auto crossing = [&](int n) {
@@ -84,7 +84,7 @@ struct ColumnReads {
         for (int look = 0; look < count; ++look) {
             ++bracket;
             if (ring.shape.gaps[static_cast<std::size_t>(gap)].lines == 0) return false;
-            ++bracket;  // one of the two is known
+            ++bracket;  // one of the two crossings is already read
             if (point.x_q20 < crossing(gap)) {
                 gap = (gap + count - 1) % count;
             } else if (point.x_q20 >= crossing((gap + 1) % count)) {
@@ -120,8 +120,8 @@ TEST(ParallelBoardCycles, MemoryReadsAreThoseOfTheFormula) {
         std::uint64_t texels = 0;
         for (const auto& pipe : test::pipes(board)) {
             fills += pipe->texel_tags.fills_requested();
-            asks += pipe->chains.hop_fifos[0]->asks.pushed_in_all();
-            texels += pipe->fifos.texels.pushed_in_all();
+            asks += pipe->chains.hop_fifos[0]->asks.total_pushed();
+            texels += pipe->fifos.texels.total_pushed();
         }
         EXPECT_GT(fills, 50U);
         EXPECT_EQ(texels, 64 * fills);
@@ -147,8 +147,8 @@ TEST(ParallelBoardCycles, TickOrderChangesNeitherCyclesNorBits) {
     }
 }
 
-// 100 Mpixel/s with decompression, bands and blending on. The object is two balls over the drawn images, views that
-// it fills; the books' load is part of the first rendering cycle, so the second is measured.
+// 100 Mpixel/s with decompression, bands and blending. The object is two balls over the rendered images, in views that
+// it fills; the first rendering cycle includes the load of the codebooks, so the second is measured.
 TEST(ParallelBoardCycles, OneHundredMpixelsASecondWithinItsMemory) {
     RaySpaceObject object = test::encoded_object(20, 128).coded;
     object.rings.front().shape = rs::test::small_shape(object, 0, {.p_cells = 40, .bands = 64, .lines = {2}});
@@ -175,8 +175,8 @@ TEST(ParallelBoardCycles, OneHundredMpixelsASecondWithinItsMemory) {
     }
 }
 
-// While a view is drawn the books of the next one's object come.
-TEST(ParallelBoardCycles, BooksOfTheNextViewComeBesideThisOne) {
+// Codebooks of the next view's object are loaded while a view is rendered.
+TEST(ParallelBoardCycles, BooksOfTheNextViewAreLoadedDuringThisOne) {
     const RaySpaceObject a = test::any_object({.views = 6, .planes = 4, .x_cells = 16, .u_cells = 16, .seed = 5},
                                               {.coded = true, .shape = true});
     const RaySpaceObject b = test::any_object({.views = 6, .planes = 4, .x_cells = 16, .u_cells = 16, .seed = 6},
@@ -200,10 +200,10 @@ TEST(ParallelBoardCycles, BooksOfTheNextViewComeBesideThisOne) {
     const std::uint64_t alone = cycles_of(false, false);
     const std::uint64_t both = cycles_of(true, false);
     EXPECT_LT(both - alone, std::uint64_t{book_words(b.coded->board)} / 2);
-    EXPECT_LT(cycles_of(true, true), both);  // both are there
+    EXPECT_LT(cycles_of(true, true), both);  // both sets are loaded
 }
 
-// Written down once from a run whose parts had been checked; a change of any timing shows here.
+// Golden counts from a run whose parts were verified; any change of timing changes them.
 TEST(ParallelBoardCyclesGolden, AllKinds) {
     const auto cycles_of = [](int kind, int pipes, int width, int height) {
         Board board(test::parallel(pipes));

@@ -1,5 +1,5 @@
-// Every bit of the parallel board's images is that of the scalar definition: raw and coded images, with a shape map
-// and without, any number of pipes.
+// Images of the parallel board equal those of the scalar definition bit for bit: raw and coded images, with and without
+// a shape map, any number of pipes.
 
 #include "tests/engine/model/board_comparison.hpp"
 #include "tests/engine/model/parallel_test_objects.hpp"
@@ -7,58 +7,58 @@
 namespace rs::engine::model {
 namespace {
 
-struct Seen : test::Compared {
+struct EventCounts : test::ComparisonCounts {
     std::uint64_t sent_back = 0;
     std::uint64_t of_last_hop = 0;
 };
 
 // 25 objects and 20 views of each: 500 pairs.
-void compare(const test::AnyObject& kind, std::uint64_t seed, Seen& seen) {
+void compare(const test::AnyObject& kind, std::uint64_t seed, EventCounts& counts) {
     std::mt19937_64 random(seed);
     for (int n = 0; n < 25; ++n) {
         SCOPED_TRACE(testing::Message() << "seed " << seed << ", object " << n);
         const RaySpaceObject object = test::any_object(test::random_ring(random, 2, 78, 120), kind, n % 3 == 0);
         Board board(test::parallel(1 + n % 5));
-        ASSERT_NO_FATAL_FAILURE(test::compare_random_views(board, object, object, random, 60, seen));
+        ASSERT_NO_FATAL_FAILURE(test::compare_random_views(board, object, object, random, 60, counts));
         for (const auto& pipe : test::pipes(board)) {
-            seen.sent_back += pipe->surface_blend.sent_back();
-            seen.of_last_hop += pipe->chains.hop_fifos[3]->records.pushed_in_all();
+            counts.sent_back += pipe->surface_blend.sent_back();
+            counts.of_last_hop += pipe->chains.hop_fifos[3]->records.total_pushed();
         }
     }
 }
 
 TEST(ParallelBoardEqualityProperty, RawImagesOnPlanes) {
-    Seen seen;
-    ASSERT_NO_FATAL_FAILURE(compare({.coded = false, .shape = false}, 20261123, seen));
-    EXPECT_EQ(seen.pairs, 500);
-    EXPECT_GT(seen.shown, 60'000);
+    EventCounts counts;
+    ASSERT_NO_FATAL_FAILURE(compare({.coded = false, .shape = false}, 20261123, counts));
+    EXPECT_EQ(counts.pairs, 500);
+    EXPECT_GT(counts.shown, 60'000);
 }
 
 TEST(ParallelBoardEqualityProperty, CodedImagesOnPlanes) {
-    Seen seen;
-    ASSERT_NO_FATAL_FAILURE(compare({.coded = true, .shape = false}, 20261124, seen));
-    EXPECT_EQ(seen.pairs, 500);
-    EXPECT_GT(seen.shown, 30'000);
-    EXPECT_GT(seen.of_last_hop, 1000U);  // predictions of three hops
+    EventCounts counts;
+    ASSERT_NO_FATAL_FAILURE(compare({.coded = true, .shape = false}, 20261124, counts));
+    EXPECT_EQ(counts.pairs, 500);
+    EXPECT_GT(counts.shown, 30'000);
+    EXPECT_GT(counts.of_last_hop, 1000U);  // predictions of three hops
 }
 
 TEST(ParallelBoardEqualityProperty, RawImagesWithShapeMaps) {
-    Seen seen;
-    ASSERT_NO_FATAL_FAILURE(compare({.coded = false, .shape = true}, 20261125, seen));
-    EXPECT_EQ(seen.pairs, 500);
-    EXPECT_GT(seen.shown, 60'000);
-    EXPECT_GT(seen.sent_back, 10'000U);  // surfaces that did not answer
+    EventCounts counts;
+    ASSERT_NO_FATAL_FAILURE(compare({.coded = false, .shape = true}, 20261125, counts));
+    EXPECT_EQ(counts.pairs, 500);
+    EXPECT_GT(counts.shown, 60'000);
+    EXPECT_GT(counts.sent_back, 10'000U);  // transparent surfaces
 }
 
 TEST(ParallelBoardEqualityProperty, CodedImagesWithShapeMaps) {
-    Seen seen;
-    ASSERT_NO_FATAL_FAILURE(compare({.coded = true, .shape = true}, 20261126, seen));
-    EXPECT_EQ(seen.pairs, 500);
-    EXPECT_GT(seen.shown, 30'000);
-    EXPECT_GT(seen.of_last_hop, 1000U);
+    EventCounts counts;
+    ASSERT_NO_FATAL_FAILURE(compare({.coded = true, .shape = true}, 20261126, counts));
+    EXPECT_EQ(counts.pairs, 500);
+    EXPECT_GT(counts.shown, 30'000);
+    EXPECT_GT(counts.of_last_hop, 1000U);
 }
 
-// Objects of all four kinds in one rendering cycle; more of them than there are sets of codebooks; from the disk.
+// Objects of all four kinds in one rendering cycle; more than there are sets of codebooks; loaded from the disk.
 TEST(ParallelBoardEquality, ManyObjectsInOneCycleFromTheDisk) {
     Board board(test::parallel());
     std::vector<RaySpaceObject> objects;

@@ -1,4 +1,4 @@
-// What can go wrong on the parallel board.
+// Faults on the parallel board.
 
 #include "tests/engine/model/parallel_test_objects.hpp"
 
@@ -26,7 +26,7 @@ std::string refusal(const RaySpaceObject& object) {
     return status ? "" : status.error().message;
 }
 
-TEST(ParallelBoardFaults, RefusesWhatItCannotDrawAndSaysWhy) {
+TEST(ParallelBoardFaults, RefusesUnsupportedObjectsWithAReason) {
     EXPECT_EQ(refusal(small_for_pipes(1)), "");
     EXPECT_EQ(refusal(small_for_pipes(1, false)), "");
     RaySpaceObject dense = small_for_pipes(1, false);
@@ -54,8 +54,9 @@ TEST(ParallelBoardFaults, RefusesWhatItCannotDrawAndSaysWhy) {
     EXPECT_NE(tilted.error().message.find("tilted"), std::string::npos);
 }
 
-// Same slot, same places in memory, other books, texels and cells: nothing of the first may be left in a pipe.
-TEST(ParallelBoardFaults, AnObjectInThePlaceOfAnother) {
+// Same slot, same memory addresses, other codebooks, texels and cells: no state of the first object may remain in a
+// pipe.
+TEST(ParallelBoardFaults, AnObjectReplacesAnother) {
     Board board(test::parallel(3));
     for (std::uint64_t seed = 1; seed < 8; ++seed) {
         const RaySpaceObject object = small_for_pipes(seed, seed % 3 != 0);
@@ -87,7 +88,7 @@ TEST(ParallelBoardFaults, ALoadWithoutDataFailsAndTheSlotIsFree) {
     expect_right_in_parallel(board, 0, object);
 }
 
-// Loading goes on in the maintenance windows of all channels, and costs drawing no cycle.
+// Loading uses the maintenance windows of all channels and costs no rendering cycle.
 TEST(ParallelBoardFaults, LoadingDisturbsNothing) {
     const RaySpaceObject shown = small_for_pipes(1);
     const RaySpaceObject loaded = small_for_pipes(2);
@@ -116,7 +117,7 @@ TEST(ParallelBoardFaults, ARetryOfTheBusLosesNothing) {
     EXPECT_GT(board.top().host_bus.counters().retries, 5U);
 }
 
-TEST(ParallelBoardFaults, AThirdCycleIsRefusedAndTheTwoStayWhole) {
+TEST(ParallelBoardFaults, AThirdCycleIsRefusedAndTheFirstTwoAreComplete) {
     Board board(test::parallel(3));
     const RaySpaceObject object = small_for_pipes(6);
     const BoardView view = *board.view(*board.place(object), view_of(object));
@@ -126,8 +127,8 @@ TEST(ParallelBoardFaults, AThirdCycleIsRefusedAndTheTwoStayWhole) {
     EXPECT_NE(board.top().render_control.refusals()[0].reason.find("queue overrun"), std::string::npos);
 }
 
-// A pipe that gets nothing from memory stands still: the run fails with what stands where.
-TEST(ParallelBoardFaults, StandingStillIsReportedWithEveryFifo) {
+// A pipe without memory answers stalls: the run fails with the contents of every FIFO.
+TEST(ParallelBoardFaults, AStallIsReportedWithEveryFifo) {
     BoardConfig config = test::parallel(2);
     config.no_progress_cycles = 1000;
     Board board(config);

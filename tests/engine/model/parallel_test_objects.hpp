@@ -20,7 +20,7 @@ inline const std::vector<std::unique_ptr<ParallelPipe>>& pipes(Board& board) {
     return dynamic_cast<ParallelBoard&>(*board.top().body).pipes;
 }
 
-// The same object with its views in another order than the ring's.
+// Shuffles the views, so that their order differs from that of the ring.
 inline void shuffle_views(RaySpaceObject& object, std::mt19937_64& random) {
     std::vector<std::size_t> from(object.views.size());
     std::iota(from.begin(), from.end(), std::size_t{0});

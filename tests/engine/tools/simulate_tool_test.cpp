@@ -1,4 +1,4 @@
-// `rs-engine simulate` as a user calls it.
+// Tests of `rs-engine simulate` on the command line.
 
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/image_io/image_io.hpp"
@@ -17,7 +17,7 @@ namespace {
 using rs::test::run_tool;
 using rs::test::ToolRun;
 
-TEST(SimulateTool, DrawsWritesAndCompares) {
+TEST(SimulateTool, RendersWritesAndCompares) {
     const rs::test::TemporaryFolder scratch;
     const RaySpaceObject object = rs::test::ring_object({.views = 12, .planes = 6, .x_cells = 32, .u_cells = 32});
     const std::string file = (scratch / "ring.rso").string();
@@ -40,7 +40,7 @@ TEST(SimulateTool, DrawsWritesAndCompares) {
     EXPECT_GT(std::filesystem::file_size(path("run.vcd")), 1000U);
 }
 
-TEST(SimulateTool, DrawsCompressedImages) {
+TEST(SimulateTool, RendersCompressedImages) {
     const rs::test::TemporaryFolder scratch;
     const std::string file = (scratch / "balls.rso").string();
     ASSERT_TRUE(write_object(file, test::encoded_object(12, 64).coded).ok());
@@ -55,7 +55,7 @@ TEST(SimulateTool, DrawsCompressedImages) {
     EXPECT_NE(refused.err.find("use compressed-2000"), std::string::npos) << refused.err;
 }
 
-TEST(SimulateTool, DrawsShapeMapsOnTheParallelBoard) {
+TEST(SimulateTool, RendersShapeMapsOnTheParallelBoard) {
     const rs::test::TemporaryFolder scratch;
     const std::string file = (scratch / "balls.rso").string();
     RaySpaceObject object = test::encoded_object(12, 64).coded;
@@ -81,7 +81,7 @@ TEST(SimulateTool, DrawsShapeMapsOnTheParallelBoard) {
     EXPECT_NE(refused.err.find("or use parallel"), std::string::npos) << refused.err;
 }
 
-TEST(SimulateTool, SaysWhatIsWrong) {
+TEST(SimulateTool, ReportsErrors) {
     const rs::test::TemporaryFolder scratch;
     const auto run = [&](std::vector<std::string> options) {
         options.insert(options.begin(), "simulate");

@@ -17,9 +17,9 @@ TEST(Printable, ListsNameTheFirstAndCountTheRest) {
 }
 
 TEST(Printable, DigitsBehindThePoint) {
-    EXPECT_EQ(with_digits(1.25, 1), "1.2");
-    EXPECT_EQ(with_digits(-0.5, 3), "-0.500");
-    EXPECT_EQ(with_digits(2, 0), "2");
+    EXPECT_EQ(format_fixed(1.25, 1), "1.2");
+    EXPECT_EQ(format_fixed(-0.5, 3), "-0.500");
+    EXPECT_EQ(format_fixed(2, 0), "2");
 }
 
 }  // namespace

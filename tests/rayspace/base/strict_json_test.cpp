@@ -28,7 +28,7 @@ Result<Read> read(const std::string& text, bool take_rest = false) {
             for (std::size_t i = 0; i < list->list_size(0, 3); ++i) {
                 JsonObject item(list->item(i));
                 made.text = item.take("text").text();
-                item.expect_all_taken();
+                item.expect_no_unknown_keys();
             }
         }
         if (take_rest) made.rest = top.take_rest();

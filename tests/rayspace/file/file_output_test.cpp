@@ -1,5 +1,4 @@
 #include "rayspace/file/file_output.hpp"
-#include "rayspace/file/folder_list.hpp"
 #include "tests/support/small_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -21,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using namespace rs;
 using test::TemporaryFolder;
+using testing::AllOf;
 using testing::HasSubstr;
 
 std::span<const std::byte> bytes_of(const std::string& text) {
@@ -177,11 +177,11 @@ TEST(StagedFolder, ReplacesAFolderOfOursAsAWhole) {
     StagedFolder folder = open_folder(root / "set");
     put_text(folder.temporary_path() / "new-picture", "new");
     ASSERT_TRUE(folder.commit().ok());
-    EXPECT_EQ(names_in(root / "set"), (std::vector<std::string>{".rayspace-files", "new-picture"}));
+    EXPECT_EQ(names_in(root / "set"), (std::vector<std::string>{".rayspace-folder", "new-picture"}));
     EXPECT_EQ(names_in(root.path()), std::vector<std::string>{"set"});
 }
 
-TEST(StagedFolder, KeepsWhatSomebodyAddedToAFolderOfOurs) {
+TEST(StagedFolder, RefusesFilesThatItDidNotWrite) {
     const TemporaryFolder root;
     {
         StagedFolder folder = open_folder(root / "set");
@@ -189,11 +189,12 @@ TEST(StagedFolder, KeepsWhatSomebodyAddedToAFolderOfOurs) {
         ASSERT_TRUE(folder.commit().ok());
     }
     EXPECT_TRUE(StagedFolder::create(root / "set", "pictures").ok());
-    put_text(root.path() / "set" / "picture", "retouched");
-    EXPECT_THAT(StagedFolder::create(root / "set", "pictures").error().message, HasSubstr("picture"));
-    put_text(root.path() / "set" / "picture", "ours");
+    fs::remove(root / "set" / "picture");
+    EXPECT_TRUE(StagedFolder::create(root / "set", "pictures").ok()) << "without a file it is still ours";
     put_text(root.path() / "set" / "notes.txt", "mine");
-    EXPECT_THAT(StagedFolder::create(root / "set", "pictures").error().message, HasSubstr("notes.txt"));
+    const auto refused = StagedFolder::create(root / "set", "pictures");
+    ASSERT_FALSE(refused.ok());
+    EXPECT_THAT(refused.error().message, AllOf(HasSubstr("notes.txt"), HasSubstr("--force")));
     EXPECT_EQ(contents(root.path() / "set" / "notes.txt"), "mine");
 }
 
@@ -206,32 +207,96 @@ TEST(StagedFolder, ReplacesOnlyItsOwnKind) {
     }
     const auto other = StagedFolder::create(root / "set", "rendered views");
     ASSERT_FALSE(other.ok());
-    EXPECT_THAT(other.error().message, HasSubstr("holds images, which rendered views do not replace"));
-    {
-        auto beside = StagedFolder::create(root / "views", "rendered views");
-        ASSERT_TRUE(beside.ok());
-        ASSERT_TRUE(beside->commit().ok());
-    }
-    EXPECT_THAT(move_into_place(root / "views", root / "set").error().message, HasSubstr("holds images"));
-    // Those of earlier versions do not say what they hold.
-    const std::string list = contents(root.path() / "set" / ".rayspace-files");
-    put_text(root.path() / "set" / ".rayspace-files", list.substr(list.find('\n') + 1));
-    EXPECT_TRUE(StagedFolder::create(root / "set", "rendered views").ok());
+    EXPECT_THAT(other.error().message, AllOf(HasSubstr("holds images, not rendered views"), HasSubstr("--force")));
 }
 
-TEST(StagedFolder, ListsItsFiles) {
+TEST(StagedFolder, ForceReplacesWhateverAFolderHolds) {
+    const TemporaryFolder root;
+    fs::create_directory(root / "home");
+    put_text(root.path() / "home" / "thesis.tex", "years of work");
+    EXPECT_FALSE(StagedFolder::create(root / "home", "pictures").ok());
+    auto folder = StagedFolder::create(root / "home", "pictures", true);
+    ASSERT_TRUE(folder.ok()) << folder.error().message;
+    put_text(folder->temporary_path() / "a", "new");
+    EXPECT_TRUE(fs::exists(root / "home" / "thesis.tex")) << "until commit()";
+    ASSERT_TRUE(folder->commit().ok());
+    EXPECT_EQ(names_in(root / "home"), (std::vector<std::string>{".rayspace-folder", "a"}));
+    EXPECT_EQ(names_in(root.path()), std::vector<std::string>{"home"});
+    put_text(root / "file", "x");
+    EXPECT_FALSE(StagedFolder::create(root / "file", "pictures", true).ok());
+    fs::create_directory_symlink("home", root / "link");
+    EXPECT_FALSE(StagedFolder::create(root / "link", "pictures", true).ok());
+}
+
+TEST(StagedFolder, TheCurrentFolderIsNotReplaced) {
+    const TemporaryFolder root;
+    fs::create_directories(root / "work" / "inner");
+    const fs::path before = fs::current_path();
+    fs::current_path(root / "work" / "inner");
+    const auto folder = StagedFolder::create(root / "work", "pictures", true);
+    const auto beside = StagedFolder::create("set", "pictures", true);
+    fs::current_path(before);
+    ASSERT_FALSE(folder.ok());
+    EXPECT_THAT(folder.error().message, HasSubstr("contains the current folder"));
+    EXPECT_TRUE(beside.ok());
+}
+
+TEST(StagedFolder, NamesItsFilesInTheMarker) {
     const TemporaryFolder root;
     StagedFolder folder = open_folder(root / "set");
     fs::create_directory(folder.temporary_path() / "images");
     put_text(folder.temporary_path() / "images" / "an image", "1");
     put_text(folder.temporary_path() / "rig", "2");
     ASSERT_TRUE(folder.commit().ok());
-    auto files = listed_files(root / "set");
-    ASSERT_TRUE(files.ok()) << files.error().message;
-    std::sort(files->begin(), files->end());
-    EXPECT_EQ(*files, (std::vector<std::string>{"images/an image", "rig"}));
-    EXPECT_TRUE(fs::exists(list_of_files(root / "set")));
-    EXPECT_FALSE(listed_files(root.path()).ok());
+    EXPECT_EQ(contents(root.path() / "set" / ".rayspace-folder"), "images\nimages/an image\nrig\n");
+}
+
+TEST(Temporary, WhatKilledProcessesLeftIsRemovedByTheNextWriterOfTheSameTarget) {
+    const TemporaryFolder root;
+    put_text(root / ".a.bin.partial-0123456789abcdef.bin", "left");
+    put_text(root / ".other.bin.partial-0123456789abcdef.bin", "of another target");
+    fs::create_directories(root / ".set.partial-0123456789abcdef" / "images");
+    put_text(root.path() / ".set.partial-0123456789abcdef" / "images" / "a", "left");
+    {
+        const auto live = StagedFile::create(root / "b.bin");
+        const auto live_folder = StagedFolder::create(root / "set", "pictures");
+        ASSERT_TRUE(live.ok() && live_folder.ok());
+        EXPECT_TRUE(StagedFile::create(root / "a.bin").ok());
+        EXPECT_TRUE(StagedFile::create(root / "b.bin").ok());
+        EXPECT_TRUE(StagedFolder::create(root / "set", "pictures").ok());
+        EXPECT_TRUE(fs::exists(live->temporary_path())) << "still written";
+        EXPECT_TRUE(fs::exists(live_folder->temporary_path())) << "still written";
+    }
+    EXPECT_EQ(names_in(root.path()), std::vector<std::string>{".other.bin.partial-0123456789abcdef.bin"});
+}
+
+TEST(RefuseOverwritingInputs, ComparesFilesWhateverTheirNames) {
+    const TemporaryFolder root;
+    put_text(root / "in", "precious");
+    fs::create_hard_link(root / "in", root / "hard");
+    fs::create_symlink("in", root / "link");
+    fs::create_directory(root / "set");
+    put_text(root.path() / "set" / "a", "1");
+    fs::create_symlink("../in", root / "set" / "inner");
+    const auto is_refused = [&](const fs::path& output, const fs::path& input) {
+        const Status status = refuse_overwriting_inputs(output, {"", input});
+        if (status) return false;
+        EXPECT_THAT(status.error().message, HasSubstr("would overwrite " + input.string()));
+        return true;
+    };
+    for (const char* const output : {"in", "hard", "link", "./in", "set/../in"}) {
+        EXPECT_TRUE(is_refused(root.path() / output, root / "in")) << output;
+    }
+    EXPECT_TRUE(is_refused(root / "set", root.path() / "set" / "a"));
+    EXPECT_TRUE(is_refused(root.path() / "set" / "", root.path() / "set" / "a"));
+    EXPECT_TRUE(is_refused(root / "set", root / "set"));
+    EXPECT_TRUE(is_refused(root / "set", root.path() / "set" / "inner")) << "a link in the folder is lost with it";
+    EXPECT_TRUE(is_refused(root / "new", root / "new")) << "another output";
+    EXPECT_FALSE(is_refused(root.path() / "set" / "b", root / "set"));
+    EXPECT_FALSE(is_refused(root / "set", root / "set2"));
+    EXPECT_FALSE(is_refused(root / "other", root / "in"));
+    EXPECT_FALSE(is_refused(root / "set", root.path() / "set" / ".."));
+    EXPECT_FALSE(is_refused("", root / "in"));
 }
 
 TEST(StagedFolder, ReplacesAnEmptyFolder) {
@@ -240,7 +305,7 @@ TEST(StagedFolder, ReplacesAnEmptyFolder) {
     StagedFolder folder = open_folder(root / "set");
     put_text(folder.temporary_path() / "a", "new");
     ASSERT_TRUE(folder.commit().ok());
-    EXPECT_EQ(names_in(root / "set"), (std::vector<std::string>{".rayspace-files", "a"}));
+    EXPECT_EQ(names_in(root / "set"), (std::vector<std::string>{".rayspace-folder", "a"}));
 }
 
 TEST(StagedFolder, LeavesOtherPeoplesFoldersAlone) {
@@ -249,7 +314,7 @@ TEST(StagedFolder, LeavesOtherPeoplesFoldersAlone) {
     put_text(root.path() / "home" / "thesis.tex", "years of work");
     const auto folder = StagedFolder::create(root / "home", "pictures");
     ASSERT_FALSE(folder.ok());
-    EXPECT_THAT(folder.error().message, HasSubstr("thesis.tex"));
+    EXPECT_THAT(folder.error().message, AllOf(HasSubstr("thesis.tex"), HasSubstr("--force")));
     put_text(root / "file", "x");
     EXPECT_THAT(StagedFolder::create(root / "file", "pictures").error().message, HasSubstr("is not a folder"));
     EXPECT_THAT(StagedFolder::create(root.path() / "none" / "set", "pictures").error().message,

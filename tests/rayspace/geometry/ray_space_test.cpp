@@ -53,7 +53,7 @@ TEST(RaySpaceProperty, RayGoesThereAndBack) {
         Random random(seed);
         const int count = random.in(3, 24);
         const test::Ray ray{{random.in(-4.0, 4.0), random.in(-2.0, 2.0), random.in(-4.0, 4.0)}, random.direction()};
-        const ReferencePlane plane = reference_plane(test::most_square_plane(ray.direction, count), count);
+        const ReferencePlane plane = reference_plane(test::most_perpendicular_plane(ray.direction, count), count);
         const auto in_ray_space = test::to_ray_space(ray, plane);
         ASSERT_TRUE(in_ray_space);
         EXPECT_LE(std::abs(in_ray_space->u), std::tan(kPi / count) + 1e-9);

@@ -123,14 +123,14 @@ TEST(VideoReader, RejectsFilesThatAreNoVideo) {
     const test::TemporaryFolder folder;
     EXPECT_THAT(read_all(folder / "none.mp4").error, HasSubstr("none.mp4"));
     write_bytes(folder / "text.mp4", std::as_bytes(std::span("this is no film at all", 22)));
-    EXPECT_THAT(read_all(folder / "text.mp4").error, HasSubstr("cannot be read as a film"));
+    EXPECT_THAT(read_all(folder / "text.mp4").error, HasSubstr("cannot be read as a video"));
     write_bytes(folder / "empty.mp4", {});
-    EXPECT_THAT(read_all(folder / "empty.mp4").error, HasSubstr("cannot be read as a film"));
+    EXPECT_THAT(read_all(folder / "empty.mp4").error, HasSubstr("cannot be read as a video"));
     // A playlist must not open other files.
     const std::string playlist =
         "#EXTM3U\n#EXT-X-TARGETDURATION:10\n#EXTINF:10,\n" + write_film(folder).string() + "\n";
     write_bytes(folder / "list.m3u8", std::as_bytes(std::span(playlist)));
-    EXPECT_THAT(read_all(folder / "list.m3u8").error, HasSubstr("cannot be read as a film"));
+    EXPECT_THAT(read_all(folder / "list.m3u8").error, HasSubstr("cannot be read as a video"));
 }
 
 TEST(VideoReader, ReportsTruncatedFiles) {
@@ -140,7 +140,7 @@ TEST(VideoReader, ReportsTruncatedFiles) {
         const auto size = static_cast<std::size_t>(share * static_cast<double>(whole.size()));
         write_bytes(folder / "cut.mp4", std::span(whole).first(size));
         const Reading reading = read_all(folder / "cut.mp4");
-        EXPECT_THAT(reading.error, AnyOf(HasSubstr("is complete"), HasSubstr("copy the film again")));
+        EXPECT_THAT(reading.error, AnyOf(HasSubstr("complete video file"), HasSubstr("copy the video again")));
         EXPECT_EQ(reading.error.find('\n'), std::string::npos);
     }
     // The last three quarters of the frames' data are missing while the index at the end is there.

@@ -86,7 +86,7 @@ TEST_P(EveryLight, IsItself) {
 }
 
 TEST_P(EveryLight, EntriesComeBack) {
-    const LightEntry again = entry_of(light_);
+    const LightEntry again = entry_from_light(light_);
     EXPECT_EQ(again.name, entry_.name);
     EXPECT_EQ(again.ambient, glm::dvec3(light_.ambient));
     EXPECT_EQ(again.location, entry_.location);
@@ -102,7 +102,7 @@ TEST_P(EveryLight, EntriesComeBack) {
     if (model_.words.turns) {
         LightEntry turned = entry_;
         turned.turn_deg = -70;
-        EXPECT_NEAR(entry_of(light_of(turned)).turn_deg, -70, 1e-9);
+        EXPECT_NEAR(entry_from_light(light_of(turned)).turn_deg, -70, 1e-9);
     }
     for (std::size_t i = 0; i < model_.words.sizes.size(); ++i) {
         EXPECT_NEAR(again.size[static_cast<int>(i)], entry_.size[static_cast<int>(i)], 1e-12);
@@ -139,7 +139,7 @@ TEST_P(EveryLight, TurnsAboutY) {
 }
 
 TEST_P(EveryLight, ForRasterIsPunctual) {
-    const Light punctual = punctual_of(light_);
+    const Light punctual = to_punctual_light(light_);
     EXPECT_TRUE(punctual.kind == LightKind::kDirectional || punctual.kind == LightKind::kPoint ||
                 punctual.kind == LightKind::kSpot);
     EXPECT_TRUE(check_light(punctual));

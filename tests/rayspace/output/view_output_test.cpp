@@ -15,7 +15,7 @@ TEST(OutputKind, FollowsTheName) {
 }
 
 TEST(RigOfViews, NumbersItsImages) {
-    const Rig rig = rig_of_views(std::vector<Camera>(12, look_at_camera({0, 0, 3}, {0, 0, 0}, 0.7, 8, 6)));
+    const Rig rig = make_rig_of_views(std::vector<Camera>(12, look_at_camera({0, 0, 3}, {0, 0, 0}, 0.7, 8, 6)));
     ASSERT_EQ(rig.views.size(), 12U);
     EXPECT_EQ(rig.views[0].file_path, "0000.png");
     EXPECT_EQ(rig.views[11].file_path, "0011.png");

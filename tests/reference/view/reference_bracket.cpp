@@ -34,7 +34,7 @@ bool find_vertical_plane(const ShapeMap& shape, const engine::PlaneRegisters& pl
 }
 
 // A ring's views, gaps and lines with cyclic numbers: N - 1 is followed by 0.
-struct Turning {
+struct CyclicRing {
     const Ring& ring;
     Whole N = static_cast<Whole>(ring.views.size());
 
@@ -47,7 +47,7 @@ struct Turning {
     }
 };
 
-Whole X_of(const Turning& turning, Whole g, const PlaneRay& at) {
+Whole X_of(const CyclicRing& turning, Whole g, const PlaneRay& at) {
     const NormalLine& captured = turning.normal_line(g, at.k);
     const Whole va = below(captured.a_q20, 28, "va");
     const Whole vc = below(captured.c_q20, 28, "vc");
@@ -57,7 +57,7 @@ Whole X_of(const Turning& turning, Whole g, const PlaneRay& at) {
 }
 
 // "The bracket."
-std::optional<Whole> find_gap(const Turning& turning, Whole near, const PlaneRay& at, Branches& branches) {
+std::optional<Whole> find_gap(const CyclicRing& turning, Whole near, const PlaneRay& at, Branches& branches) {
     Whole g = X_of(turning, near, at) <= at.x ? near : turning.held(near - 1);
     for (Whole look = 0; look < turning.N; ++look) {
         if (look == 1) branches.take(Branch::looks_twice);
@@ -80,7 +80,7 @@ std::optional<Whole> find_gap(const Turning& turning, Whole near, const PlaneRay
     return {};
 }
 
-Whole line_of(const Turning& turning, Whole g, Whole m, Branches& branches) {
+Whole line_of(const CyclicRing& turning, Whole g, Whole m, Branches& branches) {
     const Whole first = turning.gap(g).first_line;
     if (m < 0) {
         const bool has_lines = turning.S(g - 1) > 0;
@@ -97,7 +97,7 @@ Whole line_of(const Turning& turning, Whole g, Whole m, Branches& branches) {
 }
 
 // "Weight, and the cells around the ray"
-void find_cells(const Turning& turning, Whole g, const PlaneRay& at, ShapeRay& ray, Branches& branches) {
+void find_cells(const CyclicRing& turning, Whole g, const PlaneRay& at, ShapeRay& ray, Branches& branches) {
     const ShapeMap& shape = turning.ring.shape;
     const Whole f = at.x - X_of(turning, g, at);
     const Whole w = X_of(turning, g + 1, at) - X_of(turning, g, at);
@@ -123,7 +123,7 @@ void find_cells(const Turning& turning, Whole g, const PlaneRay& at, ShapeRay& r
 }
 
 // "Everything linear in d."
-ImageOfRay image_of_ray(const RaySpaceObject& object, const Turning& turning, Whole g, std::size_t k,
+ImageOfRay image_of_ray(const RaySpaceObject& object, const CyclicRing& turning, Whole g, std::size_t k,
                         const ShapeRay& ray) {
     ImageOfRay image;
     image.index = turning.ring.views[turning.index(g)];
@@ -154,7 +154,7 @@ ImageOfRay image_of_ray(const RaySpaceObject& object, const Turning& turning, Wh
 
 std::optional<ShapeRay> shape_ray(const RaySpaceObject& object, const engine::ViewRegisters& view, const PlaneRay& at,
                                   Branches& branches) {
-    const Turning turning{object.rings[static_cast<std::size_t>(view.ring)]};
+    const CyclicRing turning{object.rings[static_cast<std::size_t>(view.ring)]};
     const std::vector<std::uint16_t>& views = turning.ring.views;
     const Whole near = std::find(views.begin(), views.end(), at.image) - views.begin();
     ShapeRay ray;

@@ -25,7 +25,7 @@ namespace {
 using engine::ViewRegisters;
 using test::Random;
 
-struct Drawn {
+struct RandomScene {
     RaySpaceObject object;
     double distance = 0;       // distance of the captured cameras
     double camera_height = 0;  // height of the first ring
@@ -44,7 +44,7 @@ void enlarge_chroma(RaySpaceObject& object, Random& random) {
 }
 
 // Makes some columns of the images nearly or partly transparent, as at silhouettes.
-void thin_out(RaySpaceObject& object, Random& random) {
+void make_columns_transparent(RaySpaceObject& object, Random& random) {
     for (PlanarImage& image : object.images) {
         for (int column = 0; column < object.width; ++column) {
             const int kind = random.whole(0, 2);
@@ -56,7 +56,7 @@ void thin_out(RaySpaceObject& object, Random& random) {
     }
 }
 
-RaySpaceObject random_ring_object(Random& random, Drawn& drawn) {
+RaySpaceObject random_ring_object(Random& random, RandomScene& drawn) {
     test::RingObjectOptions options;
     options.views = random.whole(1, 14);
     options.width = random.whole(2, 40);
@@ -71,7 +71,7 @@ RaySpaceObject random_ring_object(Random& random, Drawn& drawn) {
     return test::ring_object(options);
 }
 
-RaySpaceObject random_small_object(Random& random, Drawn& drawn) {
+RaySpaceObject random_small_object(Random& random, RandomScene& drawn) {
     test::SmallObjectOptions options;
     options.rings = random.whole(1, 3);
     options.views_per_ring = random.whole(3, 12);
@@ -82,12 +82,12 @@ RaySpaceObject random_small_object(Random& random, Drawn& drawn) {
     return object;
 }
 
-Drawn draw(Random& random, bool with_shape) {
-    Drawn drawn;
+RandomScene draw(Random& random, bool with_shape) {
+    RandomScene drawn;
     drawn.object = random.whole(0, 2) == 0 ? random_small_object(random, drawn) : random_ring_object(random, drawn);
     drawn.fov_rad = 2 * std::atan(random.real(0.5, 1.3) / drawn.distance);
     if (random.whole(0, 4) == 0) enlarge_chroma(drawn.object, random);
-    if (random.whole(0, 3) == 0) thin_out(drawn.object, random);
+    if (random.whole(0, 3) == 0) make_columns_transparent(drawn.object, random);
     if (random.whole(0, 1) == 0) test::make_middle_opaque(drawn.object);
     const double empty_share = random.whole(0, 3) == 0 ? 0.9 : random.real(0, 0.5);
     for (std::size_t r = 0; with_shape && r < drawn.object.rings.size(); ++r) {
@@ -99,7 +99,7 @@ Drawn draw(Random& random, bool with_shape) {
 enum class Pose { captured, on_ring, nearer, farther, above, tilted };
 constexpr std::array kPoses = {Pose::captured, Pose::on_ring, Pose::nearer, Pose::farther, Pose::above, Pose::tilted};
 
-Camera camera_of(const Drawn& drawn, Random& random, Pose pose) {
+Camera camera_of(const RandomScene& drawn, Random& random, Pose pose) {
     const Rig rig = rig_from_json(drawn.object.rig_json, "drawn object").value();
     const int views = static_cast<int>(rig.views.size());
     if (pose == Pose::captured) return rig.views[static_cast<std::size_t>(random.whole(0, views - 1))].camera;
@@ -120,14 +120,14 @@ Camera camera_of(const Drawn& drawn, Random& random, Pose pose) {
     return camera;
 }
 
-struct Compared {
+struct ComparisonCounts {
     Branches branches;
     std::int64_t pixels = 0;
     std::int64_t shown = 0;
 };
 
 // Returns false, with the pixel's position, at the first difference.
-bool equals_definition(const RaySpaceObject& object, const ViewRegisters& view, Compared& compared) {
+bool equals_definition(const RaySpaceObject& object, const ViewRegisters& view, ComparisonCounts& compared) {
     Image<Rgba8> colour(view.width, view.height);
     Image<std::int32_t> lambda(view.width, view.height);
     engine::reconstruct_scalar(object, view, colour, lambda);
@@ -150,11 +150,12 @@ bool equals_definition(const RaySpaceObject& object, const ViewRegisters& view, 
     return true;
 }
 
-bool equals_definition_from_everywhere(Compared& compared, bool with_shape, std::uint64_t first_seed, int objects) {
+bool equals_definition_from_everywhere(ComparisonCounts& compared, bool with_shape, std::uint64_t first_seed,
+                                       int objects) {
     for (std::uint64_t seed = first_seed; seed < first_seed + static_cast<std::uint64_t>(objects); ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Random random(seed);
-        const Drawn drawn = draw(random, with_shape);
+        const RandomScene drawn = draw(random, with_shape);
         const Status valid = validate_object(drawn.object, "drawn object");
         EXPECT_TRUE(valid.ok()) << valid.error().message;
         if (!valid) return false;
@@ -169,7 +170,7 @@ bool equals_definition_from_everywhere(Compared& compared, bool with_shape, std:
     return true;
 }
 
-void expect_taken(const Branches& branches, std::size_t from, std::size_t to) {
+void expect_branches_taken(const Branches& branches, std::size_t from, std::size_t to) {
     for (std::size_t n = from; n <= to; ++n) {
         if (n == static_cast<std::size_t>(Branch::foot_too_far)) continue;  // taken only at the ends of the ranges
         EXPECT_GT(branches.taken[n], 0) << "number " << n << " of enum class Branch was never taken";
@@ -177,20 +178,20 @@ void expect_taken(const Branches& branches, std::size_t from, std::size_t to) {
 }
 
 TEST(ReferenceViewProperty, TheTextGivesTheDefinitionsPixelsAndEachOfItsBranchesIsTaken) {
-    Compared compared;
+    ComparisonCounts compared;
     ASSERT_TRUE(equals_definition_from_everywhere(compared, true, 1, 400));
     EXPECT_GT(compared.shown * 10, compared.pixels);
-    expect_taken(compared.branches, static_cast<std::size_t>(Branch::plane_behind_or_edge_on),
-                 static_cast<std::size_t>(Branch::no_image));
-    expect_taken(compared.branches, static_cast<std::size_t>(Branch::foot_too_far),
-                 static_cast<std::size_t>(Branch::count) - 1);
+    expect_branches_taken(compared.branches, static_cast<std::size_t>(Branch::plane_behind_or_edge_on),
+                          static_cast<std::size_t>(Branch::no_image));
+    expect_branches_taken(compared.branches, static_cast<std::size_t>(Branch::foot_too_far),
+                          static_cast<std::size_t>(Branch::count) - 1);
 }
 
 TEST(ReferenceViewProperty, TheTextGivesTheDefinitionsPixelsOfObjectsWithoutAShapeMap) {
-    Compared compared;
+    ComparisonCounts compared;
     ASSERT_TRUE(equals_definition_from_everywhere(compared, false, 1001, 100));
     EXPECT_GT(compared.shown * 10, compared.pixels);
-    expect_taken(compared.branches, 0, static_cast<std::size_t>(Branch::outside_on_plane));
+    expect_branches_taken(compared.branches, 0, static_cast<std::size_t>(Branch::outside_on_plane));
     EXPECT_GT(compared.branches.of(Branch::too_steep_on_plane), 0);
 }
 
@@ -270,13 +271,13 @@ void move_viewpoint_to_ends(ViewRegisters& view, Random& random, Ends& ends) {
 }
 
 TEST(ReferenceViewProperty, NumbersAtTheEndsOfTheirRangesKeepTheBoundsOfTheTextAndGiveTheDefinitionsPixels) {
-    Compared compared;
+    ComparisonCounts compared;
     int moved_viewpoints = 0;
     for (std::uint64_t seed = 2001; seed < 2801; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Random random(seed);
         Ends ends(random);
-        Drawn drawn = draw(random, true);
+        RandomScene drawn = draw(random, true);
         for (Ring& ring : drawn.object.rings) move_map_to_ends(ring.shape, ends);
         if (ends.one_of(3)) move_cameras_to_ends(drawn.object, ends);
         const Status valid = validate_object(drawn.object, "drawn object");
@@ -307,12 +308,12 @@ TEST(ReferenceViewProperty, NumbersAtTheEndsOfTheirRangesKeepTheBoundsOfTheTextA
 // Captured cameras that are too close to the plane, or enlarge it too much, for section 3. A horizontal row of the view
 // stays at row cy of the image for any enlargement.
 TEST(ReferenceViewProperty, NumbersAtTheEndsOfTheirRangesGiveTheDefinitionsPixelsOfObjectsWithoutAShapeMap) {
-    Compared compared;
+    ComparisonCounts compared;
     for (std::uint64_t seed = 3001; seed < 3401; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         Random random(seed);
         Ends ends(random);
-        Drawn drawn = draw(random, false);
+        RandomScene drawn = draw(random, false);
         for (CapturedView& view : drawn.object.views) {
             view.fl_y_q16 = ends.in(1, k30 - 1);
             for (CapturedLine& line : view.lines) {

@@ -1,7 +1,7 @@
 #pragma once
-// Motion of a hop: collects a record's words, moves its fields to their places, and requests what it is predicted from:
-// the needed rows of one column of one or two blocks of the reference, above each other. The record leaves with the
-// first of these requests, so that whoever waits for it never waits for the second.
+// Block motion of a hop: collects a record's words, splits it into fields, and requests its references: the needed rows
+// of one column of one or two blocks of the reference, one above the other. The record leaves with the first of these
+// requests, so that consumers of the record never wait for the second.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/coded_messages.hpp"
@@ -11,46 +11,46 @@
 
 namespace rs::engine::model {
 
-// The arithmetic without the clock. The record of class `of`; bytes as they stand in memory, zero behind the record.
-BlockRecord block_record(const codec::RecordClass& of, const std::array<std::uint8_t, 32>& bytes);
+// Decodes a record of class `record_class`, without the clock; bytes in memory order, zero after the record.
+BlockRecord block_record(const codec::RecordClass& record_class, const std::array<std::uint8_t, 32>& bytes);
 
-// Where a row or column of a predicted image is taken from: clamped to the coded size.
-constexpr int moved(int place, int motion, int coded_size) {
+// Reference row or column of a predicted one, clamped to the coded size.
+constexpr int clamped_coordinate(int place, int motion, int coded_size) {
     const int at = place + motion;
     return at < 0 ? 0 : at >= coded_size ? coded_size - 1 : at;
 }
 
-// The requests of a predicted record, in the order in which their pixels come; `count` of them are made, 1 or 2.
-struct ReferenceAsks {
+// Requests of a predicted record, in the order in which their pixels arrive; `count` is 1 or 2.
+struct ReferenceRequests {
     int count = 0;
-    std::array<BlockAsk, 2> ask;
+    std::array<BlockRequest, 2> items;
 };
-ReferenceAsks reference_asks(const BlockAsk& ask, int image, int motion_x, int motion_y, int coded_width,
-                             int coded_height);
+ReferenceRequests reference_requests(const BlockRequest& request, int image, int motion_x, int motion_y,
+                                     int coded_width, int coded_height);
 
 class BlockMotion final : public Block {
 public:
-    // `asks` is null behind the last hop, where no record is predicted.
-    BlockMotion(int hop, const RegisterFile& registers, Fifo<AskedRecord>& in, Fifo<MemoryWord>& words,
-                Fifo<BlockRecord>& out, Fifo<BlockAsk>* asks);
+    // `asks` is null for the last hop, where no record is predicted.
+    BlockMotion(int hop, const RegisterFile& registers, Fifo<RequestedRecord>& in, Fifo<MemoryWord>& words,
+                Fifo<BlockRecord>& out, Fifo<BlockRequest>* asks);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
-        return "words " + std::to_string(collected_) + (second_ ? ", one more ask" : "");
+        return "words " + std::to_string(collected_) + (second_ ? ", one more request" : "");
     }
 
 private:
-    Activity hand_over();
+    Activity send_output();
 
     const RegisterFile& registers_;
-    Fifo<AskedRecord>& in_;
+    Fifo<RequestedRecord>& in_;
     Fifo<MemoryWord>& words_;
     Fifo<BlockRecord>& out_;
-    Fifo<BlockAsk>* asks_;
+    Fifo<BlockRequest>* asks_;
     int collected_ = 0;
     std::array<std::uint64_t, 4> collected_words_{};
-    bool first_ = false;   // a view column has begun, and nothing of the next hop was requested in it
-    bool second_ = false;  // a request is left over
-    BlockAsk left_over_;
+    bool first_ = false;   // a view column has begun, and no request of the next hop was made in it
+    bool second_ = false;  // left_over_ is still to be sent
+    BlockRequest left_over_;
 };
 
 }  // namespace rs::engine::model

@@ -2,10 +2,10 @@
 
 namespace rs::engine::model {
 
-BlockScan::BlockScan(const RegisterFile& registers, Fifo<ColumnWalk>& in, Fifo<BlockAsk>& asks,
+BlockScan::BlockScan(const RegisterFile& registers, Fifo<ColumnWalk>& in, Fifo<BlockRequest>& asks,
                      Fifo<CodedPixel>& pixels)
     : Block("block_scan", "1 cycle to take a column, then a pixel per cycle; a run of at most " +
-                              std::to_string(kMostPixels) + " pixels is asked for in the cycle after its last"),
+                              std::to_string(kMaxPixels) + " pixels is asked for in the cycle after its last"),
       registers_(registers),
       in_(reads(in)),
       asks_(writes(asks)),
@@ -13,9 +13,9 @@ BlockScan::BlockScan(const RegisterFile& registers, Fifo<ColumnWalk>& in, Fifo<B
 
 Activity BlockScan::tick(std::uint64_t) {
     if (!active_) {
-        if (run_ > 0) {  // of the column that is done
+        if (run_ > 0) {  // last run of the previous column
             if (!asks_.can_push()) return Activity::output_full;
-            asks_.push(ask_);
+            asks_.push(request_);
             run_ = 0;
             if (!in_.can_pop()) return Activity::busy;
         }
@@ -32,10 +32,10 @@ Activity BlockScan::tick(std::uint64_t) {
     const bool shows =
         column_.has_ray && view_row_ < view.height && row >= 0 && row < registers_.object_of(column_.view).height;
     const int block_row = static_cast<int>(shows ? row >> 3 : 0);
-    const bool joins = shows && run_ > 0 && run_ < kMostPixels && block_row == ask_.block_row;
+    const bool joins = shows && run_ > 0 && run_ < kMaxPixels && block_row == request_.block_row;
     if (run_ > 0 && !joins) {
         if (!asks_.can_push()) return Activity::output_full;
-        asks_.push(ask_);
+        asks_.push(request_);
         run_ = 0;
     }
     CodedPixel pixel;
@@ -43,11 +43,11 @@ Activity BlockScan::tick(std::uint64_t) {
     pixel.shows = pixel.pending = shows;
     if (shows) {
         if (run_ == 0) {
-            ask_ = {column_.view, first_, column_.row_step_q16 >= 0, column_.image, column_.column, block_row, 0};
+            request_ = {column_.view, first_, column_.row_step_q16 >= 0, column_.image, column_.column, block_row, 0};
             first_ = false;
             pixel.begins = true;
         }
-        ask_.rows |= 1U << (row & 7);
+        request_.rows |= 1U << (row & 7);
         ++run_;
         pixel.row = static_cast<int>(row);
         pixel.column = column_.column & 7;

@@ -49,7 +49,7 @@ void BookBanks::set_byte(const BookCounts& counts, std::size_t place, std::uint8
     if (place < kAlphaBytes) alpha[place] = value;
 }
 
-YuvaPixel looked_up(const BookBanks& banks, const CodedPixel& pixel) {
+YuvaPixel decode_coded_pixel(const BookBanks& banks, const CodedPixel& pixel) {
     YuvaPixel out;
     out.view = pixel.view;
     if (!pixel.shows || pixel.alpha == CodedPixel::Alpha::none) return out;
@@ -106,18 +106,18 @@ Activity BookLookup::load() {
 Activity BookLookup::look_up(std::optional<YuvaPixel>& out) {
     if (!in_.can_pop()) return Activity::idle;
     if (in_.front().shows && registers_.object_of(in_.front().view).serial != resident_) {
-        if (!stage_.empty()) return Activity::busy;  // pixels leave
+        if (!stage_.empty()) return Activity::busy;  // drain the pipeline first
         loading_ = true;
         requested_ = written_ = 0;
         ++book_loads_;
         return load();
     }
-    // Flat and predicted banks serve one hop each in a cycle; the last of the predictions takes the pixel along.
+    // Flat and predicted banks process one hop each per cycle; the pixel leaves with its last prediction.
     if (turns_ < in_.front().hops - 2) {
         ++turns_;
         return Activity::busy;
     }
-    out = looked_up(banks_, in_.front());
+    out = decode_coded_pixel(banks_, in_.front());
     in_.pop();
     turns_ = 0;
     return Activity::busy;

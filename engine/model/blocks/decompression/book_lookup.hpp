@@ -1,14 +1,14 @@
 #pragma once
-// Codebook look-up: the last step of block decompression. A bank of block RAM for each stage of flat and of predicted
-// records gives the Y, U and V of a pixel's entry in one cycle; their sums are added to the flat colour and clamped,
-// then the predicted ones to that:
+// Codebook look-up: the last step of block decompression. One bank of block RAM for each stage of flat and of predicted
+// records gives Y, U and V of a pixel's entry in one cycle. The sums are added to the flat colour and clamped, then the
+// predicted sums are added to the result:
 //
 //     1 addresses | 2 banks | 3, 4 two trees of adders | 5 + flat colour, clamp | 6 + prediction, clamp
 //
-// A pixel per cycle; a second and a third prediction use the predicted banks again and cost a cycle each.
+// A pixel per cycle; the second and third prediction use the predicted banks again and cost one cycle each.
 //
-// The banks hold the books of one object. A pixel of another one waits until those before it have left, then its books
-// are read, a word per cycle through the memory port of this block.
+// The banks hold the codebooks of one object. A pixel of another object waits until all pixels before it have left;
+// then its codebooks are read, a word per cycle, through the memory port of this block.
 
 #include "engine/model/blocks/shared/stages.hpp"
 #include "engine/model/clock/block.hpp"
@@ -20,7 +20,7 @@
 
 namespace rs::engine::model {
 
-// The banks. [flat, predicted][stage]: block RAM of 256 entries.
+// Codebook banks: [flat, predicted][stage], block RAM of 256 entries.
 struct BookBanks {
     static constexpr std::size_t kBlockBytes = std::size_t{codec::kBookEntries} * codec::kBlockDimensions;
     static constexpr std::size_t kQuarterBytes = std::size_t{codec::kBookEntries} * codec::kQuarterDimensions;
@@ -31,12 +31,12 @@ struct BookBanks {
     std::array<std::array<std::array<std::int8_t, kQuarterBytes>, codec::kMaxQuarterStages>, 2> quarter;
     std::array<std::uint8_t, kAlphaBytes> alpha;
 
-    // Byte `place` of the books as memory holds them, of an object with so many of each.
+    // Sets byte `place` of the codebooks in memory order, for an object with the given counts.
     void set_byte(const BookCounts& counts, std::size_t place, std::uint8_t value);
 };
 
-// The arithmetic without the clock.
-YuvaPixel looked_up(const BookBanks& banks, const CodedPixel& pixel);
+// Sum of a pixel's codebook entries, without the clock.
+YuvaPixel decode_coded_pixel(const BookBanks& banks, const CodedPixel& pixel);
 
 class BookLookup final : public Block {
 public:
@@ -59,7 +59,7 @@ private:
     Fifo<MemoryRead>& requests_;
     Fifo<MemoryWord>& words_;
     PipelinedStage<YuvaPixel> stage_;
-    int turns_ = 0;  // for which the first pixel has had the banks
+    int turns_ = 0;  // cycles for which the front pixel has used the banks
     BookBanks banks_{};
     std::uint32_t resident_ = 0;  // serial number of the object's load; 0: none
     bool loading_ = false;

@@ -3,7 +3,7 @@
 
 namespace rs::engine::model {
 
-TileFinder::TileFinder(int hop, const RegisterFile& registers, Fifo<BlockAsk>& in, Fifo<MemoryRead>& requests,
+TileFinder::TileFinder(int hop, const RegisterFile& registers, Fifo<BlockRequest>& in, Fifo<MemoryRead>& requests,
                        Fifo<FoundTile>& out)
     : Block("tile_finder_" + std::to_string(hop), "a block per cycle"),
       registers_(registers),
@@ -14,24 +14,24 @@ TileFinder::TileFinder(int hop, const RegisterFile& registers, Fifo<BlockAsk>& i
 Activity TileFinder::tick(std::uint64_t) {
     if (!in_.can_pop()) return Activity::idle;
     if (!out_.can_push()) return Activity::output_full;
-    const BlockAsk& ask = in_.front();
-    const ObjectRegisters& object = registers_.object_of(ask.view);
-    const int column = ask.image * object.tile_columns + (ask.column >> 5);
-    const int entry = column * object.table_pitch + (ask.block_row >> 2);
-    // Within a view column all blocks are of one object; what was known before it may be of one that is gone.
-    const bool same = !ask.first && entry == last_entry_;
+    const BlockRequest& request = in_.front();
+    const ObjectRegisters& object = registers_.object_of(request.view);
+    const int column = request.image * object.tile_columns + (request.column >> 5);
+    const int entry = column * object.table_pitch + (request.block_row >> 2);
+    // All blocks of a view column belong to one object; the entry of an earlier column may belong to an evicted object.
+    const bool same = !request.first && entry == last_entry_;
     if (!same) {
         if (!requests_.can_push()) return Activity::memory_port;
         requests_.push({object.tile_table + static_cast<WordAddress>(entry >> 1), false});
     }
-    out_.push({ask, same, (entry & 1) != 0});
+    out_.push({request, same, (entry & 1) != 0});
     last_entry_ = entry;
     in_.pop();
     return Activity::busy;
 }
 
 TileReader::TileReader(int hop, Fifo<FoundTile>& in, Fifo<MemoryWord>& entries, Fifo<MemoryRead>& requests,
-                       Fifo<AskedTile>& out)
+                       Fifo<RequestedTile>& out)
     : Block("tile_reader_" + std::to_string(hop), "a block per cycle, that of a new tile with its word"),
       in_(reads(in)),
       entries_(reads(entries)),
@@ -42,13 +42,13 @@ Activity TileReader::tick(std::uint64_t) {
     if (!in_.can_pop()) return Activity::idle;
     if (!out_.can_push()) return Activity::output_full;
     const FoundTile& found = in_.front();
-    AskedTile asked{found.ask, AskedTile::Kind::same, 0};
+    RequestedTile asked{found.request, RequestedTile::Kind::same, 0};
     if (!found.same) {
         if (!entries_.can_pop()) return Activity::memory_data;
         if (!requests_.can_push()) return Activity::memory_port;
         const auto entry = static_cast<std::uint32_t>(entries_.pop().data >> (found.high ? 32 : 0));
-        asked.kind = entry == kNoTile ? AskedTile::Kind::nothing : AskedTile::Kind::read;
-        if (asked.kind == AskedTile::Kind::read) {
+        asked.kind = entry == kNoTile ? RequestedTile::Kind::nothing : RequestedTile::Kind::read;
+        if (asked.kind == RequestedTile::Kind::read) {
             asked.address = entry;
             requests_.push({entry, false});
         }
@@ -58,8 +58,8 @@ Activity TileReader::tick(std::uint64_t) {
     return Activity::busy;
 }
 
-RecordReader::RecordReader(int hop, const RegisterFile& registers, Fifo<AskedTile>& in, Fifo<MemoryWord>& heads,
-                           Fifo<MemoryRead>& requests, Fifo<AskedRecord>& out)
+RecordReader::RecordReader(int hop, const RegisterFile& registers, Fifo<RequestedTile>& in, Fifo<MemoryWord>& heads,
+                           Fifo<MemoryRead>& requests, Fifo<RequestedRecord>& out)
     : Block("record_reader_" + std::to_string(hop),
             "a record in as many cycles as it has words, 1 without; 1 more for a new tile"),
       registers_(registers),
@@ -76,8 +76,8 @@ Activity RecordReader::tick(std::uint64_t) {
         return Activity::busy;
     }
     if (!in_.can_pop()) return Activity::idle;
-    const AskedTile& asked = in_.front();
-    if (asked.kind == AskedTile::Kind::read && !loaded_) {
+    const RequestedTile& asked = in_.front();
+    if (asked.kind == RequestedTile::Kind::read && !loaded_) {
         if (!heads_.can_pop()) return Activity::memory_data;
         head_ = heads_.pop().data;
         tile_ = asked.address;
@@ -86,16 +86,16 @@ Activity RecordReader::tick(std::uint64_t) {
     }
     if (!out_.can_push()) return Activity::output_full;
     if (!requests_.can_push()) return Activity::memory_port;
-    if (asked.kind == AskedTile::Kind::nothing) head_ = 0;
-    const int block = asked.ask.block();
-    AskedRecord record;
-    record.ask = asked.ask;
+    if (asked.kind == RequestedTile::Kind::nothing) head_ = 0;
+    const int block = asked.request.block();
+    RequestedRecord record;
+    record.request = asked.request;
     record.class_number = block_class(head_, block);
     const auto byte = [&](int n) { return static_cast<int>((head_ >> (8 * n)) & 255U); };
     record.predicted_image = byte(6) != kNoReferenceByte;
     record.references = {byte(6), byte(7)};
     if (record.class_number > 0) {
-        const auto& classes = registers_.object_of(asked.ask.view).classes[record.predicted_image ? 1 : 0];
+        const auto& classes = registers_.object_of(asked.request.view).classes[record.predicted_image ? 1 : 0];
         const int offset = record_offset(head_, block, classes);
         const int bytes = classes[static_cast<std::size_t>(record.class_number)].bytes();
         record.lane = offset & 7;

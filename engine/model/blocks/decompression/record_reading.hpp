@@ -1,6 +1,6 @@
 #pragma once
-// Tile finder of a hop: requests the tile table's word of a block's tile, unless it is the tile of the block before:
-// four blocks of a column share theirs. The entry's address takes two products of few bits (7 x 5 and 11 x 5).
+// Tile finder of a hop: requests the tile table's word of a block's tile, unless it is the tile of the previous block:
+// four blocks of a column share a tile. The entry's address takes two products of few bits (7 x 5 and 11 x 5).
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/coded_messages.hpp"
@@ -10,52 +10,51 @@ namespace rs::engine::model {
 
 class TileFinder final : public Block {
 public:
-    TileFinder(int hop, const RegisterFile& registers, Fifo<BlockAsk>& in, Fifo<MemoryRead>& requests,
+    TileFinder(int hop, const RegisterFile& registers, Fifo<BlockRequest>& in, Fifo<MemoryRead>& requests,
                Fifo<FoundTile>& out);
     Activity tick(std::uint64_t now) override;
 
 private:
     const RegisterFile& registers_;
-    Fifo<BlockAsk>& in_;
+    Fifo<BlockRequest>& in_;
     Fifo<MemoryRead>& requests_;
     Fifo<FoundTile>& out_;
-    int last_entry_ = -1;  // of the table
+    int last_entry_ = -1;  // table entry of the previous request
 };
 
-// Tile reader of a hop: takes the tile's address from the table's word and requests the tile's first word, its classes
-// and references. Blocks of the tile before, and tiles that show nothing, pass.
+// Tile reader of a hop: takes the tile's address from the table's word and requests the tile's first word, with its
+// classes and references. Blocks of the previous tile and empty tiles pass without a request.
 
 class TileReader final : public Block {
 public:
     TileReader(int hop, Fifo<FoundTile>& in, Fifo<MemoryWord>& entries, Fifo<MemoryRead>& requests,
-               Fifo<AskedTile>& out);
+               Fifo<RequestedTile>& out);
     Activity tick(std::uint64_t now) override;
 
 private:
     Fifo<FoundTile>& in_;
     Fifo<MemoryWord>& entries_;
     Fifo<MemoryRead>& requests_;
-    Fifo<AskedTile>& out_;
+    Fifo<RequestedTile>& out_;
 };
 
-// Record reader of a hop: keeps the first word of the tile, finds a block's record in it and requests its words. The
-// record stands behind those of the blocks before it: the sizes of 15 classes, as far as they count, go through a tree
-// of adders in one cycle (15 look-ups in 8 sizes of 4 bits, four levels of additions of at most 8 bits, and the
-// address).
+// Record reader of a hop: stores the first word of the tile, locates a block's record, and requests its words. The
+// record follows those of the blocks before it: the sizes of up to 15 classes are summed by a tree of adders in one
+// cycle (15 look-ups in 8 sizes of 4 bits, four levels of additions of at most 8 bits, and the address).
 
 class RecordReader final : public Block {
 public:
-    RecordReader(int hop, const RegisterFile& registers, Fifo<AskedTile>& in, Fifo<MemoryWord>& heads,
-                 Fifo<MemoryRead>& requests, Fifo<AskedRecord>& out);
+    RecordReader(int hop, const RegisterFile& registers, Fifo<RequestedTile>& in, Fifo<MemoryWord>& heads,
+                 Fifo<MemoryRead>& requests, Fifo<RequestedRecord>& out);
     Activity tick(std::uint64_t now) override;
-    [[nodiscard]] std::string state_text() const override { return "words to ask " + std::to_string(to_request_); }
+    [[nodiscard]] std::string state_text() const override { return "words to request " + std::to_string(to_request_); }
 
 private:
     const RegisterFile& registers_;
-    Fifo<AskedTile>& in_;
+    Fifo<RequestedTile>& in_;
     Fifo<MemoryWord>& heads_;
     Fifo<MemoryRead>& requests_;
-    Fifo<AskedRecord>& out_;
+    Fifo<RequestedRecord>& out_;
     bool loaded_ = false;     // the new tile's word has been taken
     std::uint64_t head_ = 0;  // 0: no tile
     WordAddress tile_ = 0;

@@ -5,7 +5,7 @@
 
 namespace rs::engine::model {
 
-CodedPixel behind_hop(const CodedPixel& pixel, const BlockRecord& record, bool took, int coded_height) {
+CodedPixel apply_hop(const CodedPixel& pixel, const BlockRecord& record, bool is_new_record, int coded_height) {
     CodedPixel out = pixel;
     const int y = pixel.row & 7;
     const auto quarter = static_cast<std::size_t>(y / 4 * 2 + pixel.column / 4);
@@ -17,21 +17,21 @@ CodedPixel behind_hop(const CodedPixel& pixel, const BlockRecord& record, bool t
     if (record.empty) {
         out.flat = {codec::kEmptySample, codec::kEmptySample, codec::kEmptySample};
     } else {
-        hop.predicted = record.of.predicted;
-        hop.block_stages = record.of.block_stages;
-        hop.quarter_stages = record.of.quarter_stages;
+        hop.predicted = record.record_class.predicted;
+        hop.block_stages = record.record_class.block_stages;
+        hop.quarter_stages = record.record_class.quarter_stages;
         hop.block = record.block;
         for (std::size_t s = 0; s < hop.quarter.size(); ++s) hop.quarter[s] = record.quarter[s][quarter];
-        if (record.of.predicted) {
+        if (record.record_class.predicted) {
             out.pending = true;
-            out.begins = took;
-            out.row = moved(pixel.row, record.motion_y, coded_height);
+            out.begins = is_new_record;
+            out.row = clamped_coordinate(pixel.row, record.motion_y, coded_height);
             out.column = record.reference_column;
         } else {
             out.flat = record.flat;
         }
-        if (pixel.hops == 0) {  // alpha is the first hop's
-            out.alpha = record.of.alpha ? CodedPixel::Alpha::book : CodedPixel::Alpha::full;
+        if (pixel.hops == 0) {  // alpha comes from the first hop
+            out.alpha = record.record_class.alpha ? CodedPixel::Alpha::book : CodedPixel::Alpha::full;
             out.alpha_entry = record.alpha[quarter];
         }
     }
@@ -55,13 +55,13 @@ Activity RecordSelect::tick(std::uint64_t) {
         in_.pop();
         return Activity::busy;
     }
-    const bool takes = pixel.begins || pixel.row >> 3 != record_.block_row;
-    if (takes) {
+    const bool is_new_record = pixel.begins || pixel.row >> 3 != record_.block_row;
+    if (is_new_record) {
         if (!records_.can_pop()) return Activity::memory_data;
         record_ = records_.pop();
         RS_CHECK(record_.block_row == pixel.row >> 3);
     }
-    out_.push(behind_hop(pixel, record_, takes, registers_.object_of(pixel.view).coded_height));
+    out_.push(apply_hop(pixel, record_, is_new_record, registers_.object_of(pixel.view).coded_height));
     in_.pop();
     return Activity::busy;
 }

@@ -1,7 +1,7 @@
 #pragma once
-// Record select of a hop: joins pixels and records. A pixel takes from its block's record the codebook entries of its
-// quarter, and goes on to the reference's row where the record is predicted. The first pixel that needs a record takes
-// it; it stays for the pixels behind. A pixel that needs nothing of this hop passes.
+// Record select of a hop: joins pixels with records. A pixel takes the codebook entries of its quarter from its block's
+// record; if the record is predicted, the pixel continues at the reference's row. The first pixel that needs a record
+// pops it; the record remains valid for the following pixels. A pixel without a record at this hop passes.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/coded_messages.hpp"
@@ -9,8 +9,8 @@
 
 namespace rs::engine::model {
 
-// The arithmetic without the clock: the pixel behind the hop. `took`: the record is a new one.
-CodedPixel behind_hop(const CodedPixel& pixel, const BlockRecord& record, bool took, int coded_height);
+// The pixel after the hop, without the clock. `is_new_record`: the previous pixel had another record.
+CodedPixel apply_hop(const CodedPixel& pixel, const BlockRecord& record, bool is_new_record, int coded_height);
 
 class RecordSelect final : public Block {
 public:

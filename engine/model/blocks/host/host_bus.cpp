@@ -33,7 +33,7 @@ Activity HostBus::tick(std::uint64_t now) {
     if (state_ == State::data) return transfer(now);
     const State state = state_;
     if (--left_ > 0) {
-        // fall through to the activity of a state that lasts
+        // fall through: activity of a state that continues
     } else if (state == State::grant) {
         enter(State::address, 1);
     } else if (state == State::address) {
@@ -48,7 +48,7 @@ Activity HostBus::tick(std::uint64_t now) {
     } else if (state == State::register_write && registers_left_ == 0) {
         if (!commands_.can_push()) {
             left_ = 1;
-            return Activity::target_wait;  // the board holds the last write back
+            return Activity::target_wait;  // the board stalls the last write
         }
         commands_.push({next_program_++});
         registers_left_ = -1;
@@ -68,7 +68,7 @@ Activity HostBus::tick(std::uint64_t now) {
     }
 }
 
-// Who gets the bus. The clock of the decision is the first of the winner's.
+// Arbitrates the bus. The clock of the decision is the first clock of the winner.
 Activity HostBus::decide(std::uint64_t now) {
     if (words_left_ == 0 && words_.can_pop() && words_.front().head) {
         const ImageWord head = words_.pop();
@@ -78,9 +78,9 @@ Activity HostBus::decide(std::uint64_t now) {
         images_.back().words.reserve(images_.back().expected_words);
         return Activity::busy;
     }
-    const bool host_asks = next_program_ < programs_.size();
-    const bool board_asks = burst_is_ready();
-    if (host_asks && (!board_asks || !host_was_last_)) {
+    const bool host_requests = next_program_ < programs_.size();
+    const bool board_requests = burst_is_ready();
+    if (host_requests && (!board_requests || !host_was_last_)) {
         if (registers_left_ < 0) registers_left_ = programs_[next_program_].register_writes;
         --registers_left_;
         ++counters_.register_writes;
@@ -88,7 +88,7 @@ Activity HostBus::decide(std::uint64_t now) {
         enter(State::register_write, settings_.register_clocks);
         return tick(now);
     }
-    if (!board_asks) return Activity::idle;
+    if (!board_requests) return Activity::idle;
     host_was_last_ = false;
     burst_left_ = 2 * std::min(words_left_, settings_.burst_words);
     ++counters_.bursts;
@@ -102,7 +102,7 @@ Activity HostBus::transfer(std::uint64_t now) {
     if (--left_ > 0) return Activity::master_wait;
     --burst_left_;
     counters_.image_bytes += 4;
-    if (burst_left_ % 2 == 0) {  // the second half: the word has gone
+    if (burst_left_ % 2 == 0) {  // second half of the word: the word is complete
         images_.back().words.push_back(words_.pop().data);
         images_.back().arrived = now;
         --words_left_;

@@ -1,14 +1,14 @@
 #pragma once
-// Host bus: 32-bit PCI at 33 MHz, and what the board does on it. Two masters: the host, which writes the registers of a
-// rendering cycle and starts it, and the board, which writes images into the host's memory in bursts.
+// Host bus: 32-bit PCI at 33 MHz, with two masters: the host, which writes the registers of a rendering cycle and
+// starts it, and the board, which writes images into host memory in bursts.
 //
-// A burst of W words of 64 bits takes, clock by clock:
+// A burst of W words of 64 bits takes, in bus clocks:
 //
 //     grant_clocks | address | target_clocks | 2 W times (wait_per_transfer | transfer) | turnaround
 //
-// and is requested when the words have crossed to the bus's clock (or are the rest of an image). A target that is busy
-// answers with a retry: the master lets go for two clocks and requests the same words again; none is lost or doubled.
-// The host's register writes alternate with bursts, so neither shuts out the other.
+// It is requested when its words have crossed to the bus clock (or are the rest of an image). A busy target answers
+// with a retry: the master releases the bus for two clocks and requests the same words again; none is lost or
+// duplicated. Register writes of the host alternate with bursts, so neither blocks the other.
 
 #include "engine/model/blocks/host/host_program.hpp"
 #include "engine/model/clock/block.hpp"
@@ -34,7 +34,7 @@ public:
         std::uint64_t image_bytes = 0;
     };
     [[nodiscard]] const Counters& counters() const { return counters_; }
-    // Bus clocks of a whole burst.
+    // Bus clocks of a complete burst.
     static int burst_clocks(const PciSettings& settings, int words);
 
 private:
@@ -52,12 +52,12 @@ private:
     CrossingFifo<Done>& transferred_;
 
     State state_ = State::idle;
-    int left_ = 0;  // clocks of the state
+    int left_ = 0;  // remaining clocks of the state
     bool host_was_last_ = false;
     std::uint64_t next_program_ = 0;
     int registers_left_ = -1;  // of the next program; -1: not begun
-    int words_left_ = 0;       // of the image
-    int burst_left_ = 0;       // transfers of 32 bits
+    int words_left_ = 0;       // words left of the image
+    int burst_left_ = 0;       // remaining 32-bit transfers
     bool retry_ = false;
     Counters counters_;
     std::deque<HostImage> images_;

@@ -27,9 +27,9 @@ void HostDma::begin_view() {
     column_ = in_column_ = 0;
 }
 
-bool HostDma::ask() {
+bool HostDma::send_request() {
     const auto channel = static_cast<std::size_t>(stripe_owner(view_, column_, static_cast<int>(channels_.size())));
-    if (channel != channel_ && to_request_ < to_send_) return false;  // words of another one are on their way
+    if (channel != channel_ && to_request_ < to_send_) return false;  // words of another channel are outstanding
     if (!channels_[channel].requests->can_push()) return false;
     channel_ = channel;
     channels_[channel].requests->push({address_++, false});
@@ -52,7 +52,7 @@ Activity HostDma::tick(std::uint64_t) {
         return Activity::busy;
     }
     const auto views = static_cast<int>(sizes_words().size());
-    if (view_ == views) {  // all sent; wait for the bus
+    if (view_ == views) {  // all words sent; wait for the bus
         if (!transferred_.can_pop()) return Activity::output_full;
         if (!buffer_free_.can_push()) return Activity::output_full;
         transferred_.pop();
@@ -68,9 +68,9 @@ Activity HostDma::tick(std::uint64_t) {
         return Activity::busy;
     }
     Activity activity = to_request_ > 0 ? Activity::memory_port : Activity::memory_data;
-    // Whose answers are to be taken is settled before the next request.
+    // The channel of the answers must be selected before the next request changes it.
     Fifo<MemoryWord>& answers = *channels_[channel_].answers;
-    if (to_request_ > 0 && ask()) activity = Activity::busy;
+    if (to_request_ > 0 && send_request()) activity = Activity::busy;
     if (answers.can_pop()) {
         if (!words_.can_push()) return activity == Activity::busy ? activity : Activity::output_full;
         words_.push({answers.pop().data, false, false});
@@ -85,7 +85,7 @@ Activity HostDma::tick(std::uint64_t) {
 
 std::string HostDma::state_text() const {
     if (!active_) return "no buffer";
-    return "buffer " + std::to_string(buffer_) + " view " + std::to_string(view_) + ", to ask " +
+    return "buffer " + std::to_string(buffer_) + " view " + std::to_string(view_) + ", to request " +
            std::to_string(to_request_) + ", to send " + std::to_string(to_send_);
 }
 

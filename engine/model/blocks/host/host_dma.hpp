@@ -1,8 +1,8 @@
 #pragma once
-// Host DMA, the board's half: reads a finished image buffer word by word and sends it across to the bus, each image
-// behind a head that states its size; frees the buffer when the bus has carried the last word. Where the columns of a
-// view lie in several channels (stripes.hpp) it requests the words of a stripe from one, and the next when they have
-// come.
+// Host DMA, board side: reads a finished image buffer word by word and sends it to the bus, each image after a header
+// with its size; frees the buffer when the bus has transferred the last word. If the columns of a view are spread over
+// several channels (stripes.hpp), it requests the words of one stripe from its channel, and those of the next stripe
+// after they have arrived.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/messages.hpp"
@@ -13,7 +13,7 @@
 
 namespace rs::engine::model {
 
-// A memory channel, as the DMA reads it.
+// Read port of the DMA to one memory channel.
 struct DmaPort {
     Fifo<MemoryRead>* requests = nullptr;
     Fifo<MemoryWord>* answers = nullptr;
@@ -29,7 +29,7 @@ public:
 private:
     std::vector<DmaPort> declared(std::vector<DmaPort> channels);
     void begin_view();
-    bool ask();
+    bool send_request();
     [[nodiscard]] const std::vector<int>& sizes_words() const {
         return registers_.buffer_words[static_cast<std::size_t>(buffer_)];
     }
@@ -50,7 +50,7 @@ private:
     int to_send_ = 0;
     int column_ = 0;  // of the next request
     int in_column_ = 0;
-    std::size_t channel_ = 0;  // whose answers are awaited
+    std::size_t channel_ = 0;  // channel of the outstanding answers
 };
 
 }  // namespace rs::engine::model

@@ -1,6 +1,6 @@
 #pragma once
-// What stands in the host's memory: the register values that its driver writes for each rendering cycle, and the
-// images that the board sends. Not blocks: the world around the board.
+// Contents of host memory: register values that the driver writes for each rendering cycle, and images received from
+// the board. Not a block: the environment of the board.
 
 #include "engine/model/signals/registers.hpp"
 #include "rayspace/base/check.hpp"
@@ -14,26 +14,27 @@ namespace rs::engine::model {
 
 struct HostProgram {
     ViewBank bank;
-    int register_writes = 0;  // 32-bit writes that carry it over the bus
+    int register_writes = 0;  // 32-bit bus writes that transfer it
 };
 
-// [number of the start command]: those that have not been forgotten. A board lives for many cycles.
+// Programs by number of their start command. Finished programs are dropped, so that memory stays bounded over many
+// cycles.
 class HostPrograms {
 public:
-    void push_back(HostProgram program) { kept_.push_back(std::move(program)); }
-    [[nodiscard]] std::uint64_t size() const { return forgotten_ + kept_.size(); }  // forgotten ones count
+    void push_back(HostProgram program) { programs_.push_back(std::move(program)); }
+    [[nodiscard]] std::uint64_t size() const { return dropped_ + programs_.size(); }  // including dropped ones
     [[nodiscard]] const HostProgram& operator[](std::uint64_t number) const {
-        RS_CHECK(number >= forgotten_ && number < size());
-        return kept_[static_cast<std::size_t>(number - forgotten_)];
+        RS_CHECK(number >= dropped_ && number < size());
+        return programs_[static_cast<std::size_t>(number - dropped_)];
     }
-    void forget_before(std::uint64_t number) {
-        for (; forgotten_ < number && !kept_.empty(); ++forgotten_) kept_.pop_front();
+    void drop_before(std::uint64_t number) {
+        for (; dropped_ < number && !programs_.empty(); ++dropped_) programs_.pop_front();
     }
-    [[nodiscard]] std::size_t kept() const { return kept_.size(); }
+    [[nodiscard]] std::size_t stored() const { return programs_.size(); }
 
 private:
-    std::deque<HostProgram> kept_;
-    std::uint64_t forgotten_ = 0;
+    std::deque<HostProgram> programs_;
+    std::uint64_t dropped_ = 0;
 };
 
 struct HostImage {

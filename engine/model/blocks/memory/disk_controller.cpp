@@ -34,7 +34,7 @@ void DiskController::begin(std::uint64_t now) {
 void DiskController::read_platter(std::uint64_t now) {
     if (now < next_sector_ || platter_bytes_ >= all_bytes_) return;
     const std::uint64_t room = static_cast<std::uint64_t>(settings_.buffer_sectors) * kSector_bytes;
-    if (platter_bytes_ - sent_bytes_ + kSector_bytes > room) return;  // the head waits
+    if (platter_bytes_ - sent_bytes_ + kSector_bytes > room) return;  // drive buffer full
     platter_bytes_ += kSector_bytes;
     next_sector_ = now + static_cast<std::uint64_t>(settings_.media_cycles_per_sector);
     if (!stalled_ && settings_.stall_after_bytes > 0 && platter_bytes_ >= settings_.stall_after_bytes) {
@@ -83,7 +83,7 @@ Activity DiskController::tick(std::uint64_t now) {
     return send();
 }
 
-// Two bytes; the fourth transfer completes a word.
+// Sends two bytes; the fourth transfer completes a word.
 Activity DiskController::send() {
     const MemorySegment& segment = (*jobs_.front().segments)[segment_];
     if (sent_bytes_ % 8 == 6) {
@@ -103,7 +103,7 @@ Activity DiskController::send() {
 std::string DiskController::state_text() const {
     if (!active_) return "no load";
     return "sent " + std::to_string(sent_bytes_) + " of " + std::to_string(all_bytes_) +
-           " bytes, on the platter's side " + std::to_string(platter_bytes_);
+           " bytes, read from the platter " + std::to_string(platter_bytes_);
 }
 
 }  // namespace rs::engine::model

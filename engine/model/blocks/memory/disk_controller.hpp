@@ -1,9 +1,9 @@
 #pragma once
-// Disk controller: the micro-controller with its hard disk, on a card of its own. It reads objects from the disk and
-// sends them over the private bus (16 bits at 10 MHz, 20 MByte/s) into object memory; rendering does not see it.
+// Disk controller: micro-controller with a hard disk, on its own card. Reads objects from the disk and sends them over
+// the private bus (16 bits at 10 MHz, 20 MByte/s) into object memory, without any effect on rendering.
 //
-// An object becomes valid when its last word stands in memory, and not before. Where the disk gives nothing for a while
-// (underrun) the load waits; where it gives nothing for `timeout_cycles` the load fails and the object stays invalid.
+// An object becomes valid only after its last word is in memory. If the disk delivers no data (underrun) the load
+// waits; after `timeout_cycles` without data the load fails and the object stays invalid.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/messages.hpp"
@@ -42,7 +42,7 @@ public:
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override;
 
-    // The driver's command, over the card's own serial line. The slot must be invalid.
+    // Command of the driver, over the card's own serial line. The slot must be invalid.
     void load(LoadJob job) { jobs_.push_back(std::move(job)); }
     [[nodiscard]] bool is_idle() const { return jobs_.empty(); }
     [[nodiscard]] bool is_loading(int slot) const;
@@ -59,18 +59,18 @@ private:
     Fifo<MemoryWrite>& words_;
     Fifo<Done>& loaded_;
     Fifo<Done>& object_ready_;
-    std::deque<LoadJob> jobs_;  // the first of them is under way where `active_`
+    std::deque<LoadJob> jobs_;  // `active_`: the first one is in progress
     bool active_ = false;
     std::vector<Load> loads_;
 
-    std::uint64_t platter_bytes_ = 0;  // read into the drive's buffer
-    std::uint64_t next_sector_ = 0;    // cycle in which the next is complete
+    std::uint64_t platter_bytes_ = 0;  // bytes read into the drive's buffer
+    std::uint64_t next_sector_ = 0;    // cycle in which the next sector is complete
     bool stalled_ = false;
     std::uint64_t sent_bytes_ = 0;
     std::uint64_t all_bytes_ = 0;
     std::size_t segment_ = 0;
     std::size_t word_ = 0;
-    int wait_ = 0;  // until the bus's next transfer
+    int wait_ = 0;  // cycles until the next bus transfer
     std::uint64_t last_byte_ = 0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// Image writer: packs two pixels into a word and writes the words of a view one behind the other into the image buffer,
-// column by column: pixel (i, j) of a view is half (j & 1) of word i * ceil(height / 2) + (j >> 1).
+// Image writer: packs two pixels into a word and writes the words of a view consecutively into the image buffer, column
+// by column: pixel (i, j) of a view is half (j & 1) of word i * ceil(height / 2) + (j >> 1).
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/messages.hpp"
@@ -21,7 +21,7 @@ private:
     bool has_first_ = false;
     std::uint32_t first_ = 0;
     WordAddress address_ = 0;
-    int left_ = 0;  // words of the view
+    int left_ = 0;  // remaining words of the view
 };
 
 }  // namespace rs::engine::model

@@ -98,7 +98,7 @@ Activity MemoryController::maintain(std::uint64_t now) {
 void MemoryController::load_word(std::uint64_t now) {
     if (!loads_.can_pop()) return;
     const MemoryWrite& word = loads_.front();
-    if (!sdram_.allows(SdramCommand::write, word.address, now)) return;  // another row: in the next window
+    if (!sdram_.allows(SdramCommand::write, word.address, now)) return;  // another row: continues in the next window
     if (word.last) {
         if (!object_loaded_.can_push()) return;
         object_loaded_.push({});
@@ -185,7 +185,7 @@ Activity MemoryController::serve_write(std::uint64_t now) {
 }
 
 std::string MemoryController::state_text() const {
-    std::string text = chosen_ == kNobody       ? "nobody"
+    std::string text = chosen_ == kNobody       ? "no client"
                        : chosen_ == kImageWrite ? "image write"
                                                 : ports_[static_cast<std::size_t>(chosen_)].client;
     return "serves " + text + ", batch left " + std::to_string(batch_left_);

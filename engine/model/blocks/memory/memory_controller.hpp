@@ -1,14 +1,14 @@
 #pragma once
 // Memory controller: one 64-bit port to one channel of SDRAM, one command per cycle.
 //
-// Who is served, first to last: the maintenance window; a batch of image writes that has begun, or for which
-// `write_batch` words wait; the read ports in their order; image words, where nobody reads. A read is taken only where
-// its answer will have room. Who was chosen keeps the port until its word has moved: a row that is not open costs a
+// Order of service: the maintenance window; a batch of image writes that has begun, or for which `write_batch` words
+// wait; the read ports in their order; other image writes if no port can be served. A read is accepted only if its
+// answer FIFO will have space. The chosen client keeps the port until its word is transferred; a closed row costs a
 // precharge and an activate.
 //
-// The maintenance window comes every `maintenance_interval` cycles: all banks are closed and refreshed, then the words
-// of the private bus are written, as many as fit; it takes the same time whether or not there are any. So loading an
-// object cannot disturb rendering, not by a cycle:
+// Maintenance window, every `maintenance_interval` cycles: all banks are closed and refreshed, then as many words of
+// the private bus as fit are written. Its duration does not depend on the number of words, so loading an object does
+// not change the timing of rendering by a single cycle:
 //
 //     precharge all | tRP | refresh | tRFC | activate | tRCD | load words | tWR | precharge | tRP
 
@@ -46,9 +46,9 @@ public:
     [[nodiscard]] const std::vector<ReadPort>& read_ports() const { return ports_; }
     [[nodiscard]] std::string state_text() const override;
 
-    // Cycles of the window behind its refresh command, which is where its time becomes fixed.
+    // Cycles of the window from its refresh command, from which on its duration is fixed.
     static int window_cycles(const MemorySettings& settings);
-    // From a read's command to its word being visible to the client.
+    // Cycles from a read command until its word is visible to the client.
     static int read_cycles(const MemorySettings& settings);
 
 private:
@@ -79,12 +79,12 @@ private:
     Fifo<Done>& object_loaded_;
     Counters counters_;
 
-    std::vector<InFlight> in_flight_;  // ring: what arrives in cycle now
-    std::vector<int> promised_;        // per port: answers on their way
-    int returned_ = kNobody;           // whose answer went into its FIFO in the cycle before
+    std::vector<InFlight> in_flight_;  // ring buffer, indexed by the cycle of arrival
+    std::vector<int> promised_;        // per port: outstanding answers
+    int returned_ = kNobody;           // port whose answer was pushed in the previous cycle
     int chosen_ = kNobody;
     int batch_left_ = 0;
-    bool starved_ = false;  // somebody reads, but has no room for an answer
+    bool starved_ = false;  // a port has a request, but no space for the answer
     Window window_ = Window::none;
     std::uint64_t next_window_ = 0;
     std::uint64_t refreshed_ = 0;  // cycle of the window's refresh

@@ -19,14 +19,14 @@ BandReader::BandReader(const RegisterFile& registers, const StripeShare& share, 
       to_march_(writes(to_march)),
       to_place_(writes(to_place)) {}
 
-Activity BandReader::hand_over() {
+Activity BandReader::send_output() {
     if (!to_rise_.can_push() || !to_march_.can_push() || !to_place_.can_push()) return Activity::output_full;
     ColumnSetup setup = in_.pop();
     const BoardView& view = registers_.view(setup.view);
     if (!in_view_) {
         view_column_ = share_.first_column(setup.view);
         in_view_ = true;
-        holds_cells_ = false;  // the object may be another one
+        holds_cells_ = false;  // the object may have changed
     }
     if (column_ == 0) {
         --free_stripes_;
@@ -86,7 +86,7 @@ Activity BandReader::tick(std::uint64_t) {
         ++multiplying_;
         return Activity::busy;
     }
-    return hand_over();
+    return send_output();
 }
 
 }  // namespace rs::engine::model

@@ -14,7 +14,7 @@ BracketFinder::BracketFinder(const RegisterFile& registers, Fifo<MappedRay>& in,
       answers_(reads(answers)),
       out_(writes(out)) {}
 
-// True in word_ when answered_.
+// Reads a word of an image record; word_ is valid when answered_ is set.
 Activity BracketFinder::read(int image, int word) {
     if (!requested_) {
         if (!requests_.can_push()) return Activity::memory_port;
@@ -44,7 +44,7 @@ void BracketFinder::next_step() {
     step_ = !gap_known_ ? Step::gap_word : !first_.known ? Step::first : !second_.known ? Step::second : Step::decide;
 }
 
-Activity BracketFinder::hand_over(const BracketedRay& ray) {
+Activity BracketFinder::send_output(const BracketedRay& ray) {
     if (!out_.can_push()) return Activity::output_full;
     out_.push(ray);
     in_.pop();
@@ -73,7 +73,7 @@ Activity BracketFinder::decide() {
                      false,
                      false};
     const int lines = low_half(gap_word_) & 0xFFFF;
-    if (lines == 0) return hand_over(out);
+    if (lines == 0) return send_output(out);
     if (ray.x_q20 >= first_.x_q20 && ray.x_q20 < second_.x_q20) {
         out.kind = RayKind::shape;
         out.first = gap_;
@@ -84,9 +84,9 @@ Activity BracketFinder::decide() {
         out.first_line = static_cast<std::uint32_t>(high_half(gap_word_));
         out.lines_before = (low_half(gap_word_) >> 16 & 1) != 0;
         out.lines_behind = (low_half(gap_word_) >> 17 & 1) != 0;
-        return hand_over(out);
+        return send_output(out);
     }
-    if (looks_ + 1 == count) return hand_over(out);
+    if (looks_ + 1 == count) return send_output(out);
     ++looks_;
     if (ray.x_q20 < first_.x_q20) {
         gap_ = (gap_ + count - 1) % count;
@@ -109,8 +109,8 @@ Activity BracketFinder::tick(std::uint64_t) {
     switch (step_) {
         case Step::idle:
             if (!ray.has_ray || !object.shape.exists) {
-                return hand_over({ray.view, ray.has_ray ? RayKind::plane : RayKind::none, ray.plane, ray.x_q20,
-                                  ray.lambda_q20, 0, 0, ray.image, ray.image, 0, 0, 0, 0, false, false});
+                return send_output({ray.view, ray.has_ray ? RayKind::plane : RayKind::none, ray.plane, ray.x_q20,
+                                    ray.lambda_q20, 0, 0, ray.image, ray.image, 0, 0, 0, 0, false, false});
             }
             step_ = Step::near;
             return crossing(ray.image, first_);
@@ -132,7 +132,7 @@ Activity BracketFinder::tick(std::uint64_t) {
             gap_word_ = word_;
             gap_known_ = true;
             requested_ = answered_ = false;
-            // No lines: nothing else needs to be known.
+            // No lines: no other word is needed.
             if ((low_half(gap_word_) & 0xFFFF) == 0) {
                 step_ = Step::decide;
             } else {

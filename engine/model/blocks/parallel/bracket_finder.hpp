@@ -1,9 +1,9 @@
 #pragma once
-// Bracket finder (RECONSTRUCTION.md, section 5): between which two captured rays a view ray lies. From the image that
-// the RS map names it steps along the ring, at most N looks. It reads, one after the other, the words of image
-// records that a look needs and does not have yet: S and first_line of a gap, and the viewpoint of an image, whose
-// parallel ray's crossing X takes a product of 9 cycles. With one ray at a time, rays of objects without a shape map
-// pass.
+// Bracket finder (RECONSTRUCTION.md, section 5): finds the two captured rays that enclose a view ray. Starts at the
+// image of the RS map and steps along the ring, at most N looks. Reads the words of image records that a look needs and
+// that are not yet read, one after the other: S and first_line of a gap, and the viewpoint of an image, whose parallel
+// ray's crossing X takes a product of 9 cycles. Processes one ray at a time; rays of objects without a shape map pass
+// unchanged.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/arithmetic.hpp"
@@ -31,7 +31,7 @@ private:
     Activity read(int image, int word);
     void next_step();
     Activity decide();
-    Activity hand_over(const BracketedRay& ray);
+    Activity send_output(const BracketedRay& ray);
 
     const RegisterFile& registers_;
     Fifo<MappedRay>& in_;

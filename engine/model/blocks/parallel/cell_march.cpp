@@ -6,12 +6,12 @@
 namespace rs::engine::model {
 namespace {
 
-// On a captured line that image answers alone, and no second surface is needed.
+// On a captured line only that image is used, and no second surface is needed.
 bool is_alone(const ColumnSetup& column) {
     return column.weight == 0 || column.weight == 256;
 }
 
-std::int32_t band_q12(const RisenPixel& ray, int d) {
+std::int32_t band_q12(const PixelBandRay& ray, int d) {
     return ray.zero_q12 + ((d * ray.per_d_q20) >> 8);
 }
 
@@ -28,7 +28,8 @@ MarchSteps march_steps(std::int32_t per_d_q20) {
 }
 
 CellMarch::CellMarch(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MemoryWord>& words,
-                     Fifo<RisenPixel>& in, Fifo<MarchAgain>& again, Fifo<MetSurface>& met, Fifo<FinishedPixel>& empty)
+                     Fifo<PixelBandRay>& in, Fifo<ReturnedPixel>& again, Fifo<SurfaceHit>& met,
+                     Fifo<FinishedPixel>& empty)
     : Block("cell_march", "two looks per cycle, one in a cycle that writes cells; latency " +
                               std::to_string(kStages + 1) + ", " + std::to_string(kStages) + " more for each turn"),
       registers_(registers),
@@ -39,7 +40,7 @@ CellMarch::CellMarch(const RegisterFile& registers, Fifo<ColumnSetup>& columns, 
       met_(writes(met)),
       empty_(writes(empty)) {}
 
-// A column's set-up counts as there when the last of its cells is.
+// A column's set-up becomes valid with the last of its cells.
 bool CellMarch::load(bool& writes_cells) {
     if (words_left_ == 0) {
         if (!columns_.can_pop()) return false;
@@ -92,11 +93,11 @@ SurfaceStack CellMarch::surfaces_at(const ColumnSetup& column, std::int32_t at_q
     return surfaces_between(around, column.p_part, (from_middle_q12 >> 9) & 7, shape.jump);
 }
 
-// The next pixel; false where there is none.
+// Takes the next pixel; false if there is none.
 bool CellMarch::next_ray(Turn& turn) {
     turn = {};
     if (again_.can_pop()) {
-        const MarchAgain again = again_.pop();
+        const ReturnedPixel again = again_.pop();
         turn.ray = pixels_[static_cast<std::size_t>(again.id)];
         turn.state = again.state;
         return true;
@@ -120,7 +121,7 @@ void CellMarch::look(Turn& turn, const ColumnSetup& column) {
     turn.met = {turn.ray.pixel, std::max(cell.depth_q3, 8 * begin), is_alone(column), turn.state, cell.lean};
 }
 
-// The surface in the foot's band, and then that of the band where it lies, or what lies behind that.
+// First look: the surface in the foot's band. Second look: the surface in the band at its depth, or the one behind it.
 void CellMarch::look_at_foot(Turn& turn, const ColumnSetup& column) {
     const SurfaceCell& of_foot = turn.foot.first;
     const bool at_its_depth = of_foot.exists();
@@ -159,7 +160,7 @@ void CellMarch::take_turn(Turn& turn, int looks) {
         turn.met = {turn.ray.pixel, 0, true, turn.state};
     }
     for (int n = 0; n < looks && turn.outcome == Turn::Outcome::goes_on; ++n) {
-        // The second look at the foot waits for the first one's result.
+        // The second look at the foot depends on the result of the first.
         if (turn.state.begin < MarchState::kFoot) {
             look(turn, column);
         } else if (n == 0 || !turn.foot.first.exists()) {
@@ -173,11 +174,11 @@ Activity CellMarch::tick(std::uint64_t) {
     const bool loads = load(writes_cells);
     Turn turn;
     bool goes_on = false;
-    if (line_.leaves()) {
-        turn = line_.leaving();
+    if (line_.has_output()) {
+        turn = line_.output();
         goes_on = turn.outcome == Turn::Outcome::goes_on;
         const bool met = turn.outcome == Turn::Outcome::met;
-        if (!goes_on && !(met ? met_.can_push() : empty_.can_push())) {  // the whole pipe stands
+        if (!goes_on && !(met ? met_.can_push() : empty_.can_push())) {  // the whole pipeline stalls
             return loads ? Activity::busy : Activity::output_full;
         }
         if (met) met_.push(turn.met);
@@ -190,7 +191,7 @@ Activity CellMarch::tick(std::uint64_t) {
     }
     line_.advance();
     if (loads) return Activity::busy;
-    return in_.can_pop() ? Activity::memory_data : Activity::idle;  // for the column's cells
+    return in_.can_pop() ? Activity::memory_data : Activity::idle;  // waits for the column's cells
 }
 
 }  // namespace rs::engine::model

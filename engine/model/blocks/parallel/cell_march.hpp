@@ -1,18 +1,19 @@
 #pragma once
 // Cell march: follows a pixel's ray through the surface between the cells beside it (RECONSTRUCTION.md, section 6), two
-// looks in a cycle, and hands on the first place where it meets one. Where that shows nothing, surface_blend sends the
-// pixel back, and the march goes on behind it; such pixels come before new ones. So a ray never marches farther than it
-// must, and others pass it. Behind the last surface come the farther one of two and the farthest of eight cells, where
-// there are such: the ray takes the turns of the foot once more for each.
+// looks per cycle, and outputs the first hit. If the surface is transparent there, surface_blend sends the pixel back
+// and the march continues behind the hit; returned pixels precede new ones. So a ray marches no farther than necessary,
+// and other rays overtake it. After the last surface, the farther of two groups and the farthest of eight cells are
+// tried if they exist: the ray repeats the turns of the foot for each.
 //
-// A pipe whose end is joined to its beginning: what a *turn* of two looks gives is known kStages cycles later, and only
-// then the ray takes its next turn, before any other; up to kStages rays are marching. Stages of a look: bands from
-// zero and per_d (a product, kProductCycles), read, nearest and farthest, groups and weights, products and sums, mean
-// (a table of reciprocals and a product, divide_by_weight()), meet or not.
+// The pipeline is a ring: the result of a *turn* of two looks is available kStages cycles later; only then the ray
+// takes its next turn, with priority over other rays; up to kStages rays march at the same time. Stages of a look:
+// bands from zero and per_d (a product, kProductCycles), read, nearest and farthest, groups and weights, products and
+// sums, mean (a table of reciprocals and a product, divide_by_weight()), hit test.
 //
-// It keeps the cells of two stripes, between their lines already (SurfaceCell, 26 bits), in four memories: even and odd
-// bands of both places in p, four bands to two words of 52 bits. A look reads each of the four at one place; they have
-// two ports, and cells that come in take one. It also keeps of each pixel under way where its ray passes the bands.
+// Stores the cells of two stripes, already interpolated between their lines (SurfaceCell, 26 bits), in four memories:
+// even and odd bands of both places in p, four bands per two words of 52 bits. A look reads each memory at one address;
+// they have two ports, and a write of new cells occupies one. Also stores, for each pixel in flight, the line along
+// which its ray crosses the bands.
 
 #include "engine/core/definition/shape_cells.hpp"
 #include "engine/model/blocks/parallel/column_setup.hpp"
@@ -27,7 +28,7 @@
 
 namespace rs::engine::model {
 
-// The arithmetic without the clock: how a ray is divided into steps.
+// Division of a ray into steps, without the clock.
 struct MarchSteps {
     int steps = 1;
     int size = 256;
@@ -39,25 +40,25 @@ public:
     static constexpr int kStages = kProductCycles + 6;
     static constexpr int kSurfaceBits = 12 + 5 + 8 + 1;
     static constexpr std::size_t kCellBits =
-        std::size_t{kStripeSlots} * kStripeColumns * 2 * kMostBands * static_cast<std::size_t>(kSurfaceBits);
-    static constexpr std::size_t kHeldBits = std::size_t{4} * kMostBands / kCellsPerWord * 64;
-    static constexpr std::size_t kPixelBits = std::size_t{kPatchIds} * RisenPixel::kBits;
+        std::size_t{kStripeSlots} * kStripeColumns * 2 * kMaxBands * static_cast<std::size_t>(kSurfaceBits);
+    static constexpr std::size_t kHeldBits = std::size_t{4} * kMaxBands / kCellsPerWord * 64;
+    static constexpr std::size_t kPixelBits = std::size_t{kPatchIds} * PixelBandRay::kBits;
 
-    CellMarch(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MemoryWord>& words, Fifo<RisenPixel>& in,
-              Fifo<MarchAgain>& again, Fifo<MetSurface>& met, Fifo<FinishedPixel>& empty);
+    CellMarch(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MemoryWord>& words,
+              Fifo<PixelBandRay>& in, Fifo<ReturnedPixel>& again, Fifo<SurfaceHit>& met, Fifo<FinishedPixel>& empty);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override { return "words to come " + std::to_string(words_left_); }
-    [[nodiscard]] std::uint64_t looks() const { return looks_; }  // that a ray needed
+    [[nodiscard]] std::uint64_t looks() const { return looks_; }  // looks used by rays
 
 private:
-    // A ray, and what is known of it behind its turn.
+    // A ray with the result of its turn.
     struct Turn {
         enum class Outcome { goes_on, met, empty };
-        RisenPixel ray;
+        PixelBandRay ray;
         MarchState state;
-        SurfaceStack foot;  // those of the foot, behind the last look but one
+        SurfaceStack foot;  // surfaces at the foot, from the second to last look
         Outcome outcome = Outcome::goes_on;
-        MetSurface met;
+        SurfaceHit met;
     };
     bool load(bool& writes_cells);
     void keep_cells(std::uint64_t first_line, std::uint64_t second_line);
@@ -70,21 +71,21 @@ private:
     const RegisterFile& registers_;
     Fifo<ColumnSetup>& columns_;
     Fifo<MemoryWord>& words_;
-    Fifo<RisenPixel>& in_;
-    Fifo<MarchAgain>& again_;
-    Fifo<MetSurface>& met_;
+    Fifo<PixelBandRay>& in_;
+    Fifo<ReturnedPixel>& again_;
+    Fifo<SurfaceHit>& met_;
     Fifo<FinishedPixel>& empty_;
 
     ColumnTable table_;
-    using Cells = std::array<std::array<SurfaceCell, kMostBands>, 2>;  // [p]
+    using Cells = std::array<std::array<SurfaceCell, kMaxBands>, 2>;  // [p]
     std::array<Cells, std::size_t{kStripeSlots} * kStripeColumns> cells_{};
-    int words_left_ = 0;  // of the column that is loaded
+    int words_left_ = 0;  // words left of the column that is being loaded
     int words_of_column_ = 0;
     std::uint64_t first_line_word_ = 0;
-    std::array<std::uint64_t, std::size_t{4} * kMostBands / kCellsPerWord> held_{};  // words of the last column
+    std::array<std::uint64_t, std::size_t{4} * kMaxBands / kCellsPerWord> held_{};  // words of the previous column
     ColumnSetup loading_;
 
-    std::array<RisenPixel, kPatchIds> pixels_;
+    std::array<PixelBandRay, kPatchIds> pixels_;
     DelayLine<Turn> line_{kStages};
     std::uint64_t looks_ = 0;
 };

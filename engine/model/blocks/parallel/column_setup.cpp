@@ -5,7 +5,7 @@
 namespace rs::engine::model {
 namespace {
 
-// A ray of a vertical plane: through its foot (x, z), in direction (sine, -cosine) along (tangent, normal).
+// A ray in a vertical plane: through its foot (x, z), in direction (sine, -cosine) along (tangent, normal).
 struct PlaneRay {
     std::int64_t cosine_q30 = 0, sine_q30 = 0;
     std::int64_t foot_x_q20 = 0, foot_z_q20 = 0;
@@ -31,8 +31,9 @@ ImageSetup along_ray(const PlaneRay& ray, int image, const ImageLine& line) {
     return setup;
 }
 
-// The columns of cells beside the ray, which lies at line_q8 of its gap's lines and p_q8 of the cells along p; samples
-// lie at the middles. Lines of neighbouring gaps follow one another, and the first gap's follow the last one's.
+// Finds the columns of cells beside the ray, which is at line_q8 of its gap's lines and at p_q8 of the cells along p;
+// samples are at cell centres. Lines of neighbouring gaps are consecutive; those of the first gap follow those of the
+// last.
 void find_cells(const ShapeRegisters& shape, const BracketedRay& ray, std::int64_t line_q8, std::int64_t p_q8,
                 ColumnSetup& out) {
     const std::int64_t line = (line_q8 - 128) >> 8;
@@ -53,7 +54,8 @@ void find_cells(const ShapeRegisters& shape, const BracketedRay& ray, std::int64
 
 }  // namespace
 
-bool set_up_shape_column(const BoardView& view, const ObjectRegisters& object, const LinedRay& in, ColumnSetup& out) {
+bool set_up_shape_column(const BoardView& view, const ObjectRegisters& object, const RayWithLines& in,
+                         ColumnSetup& out) {
     constexpr std::int64_t kFarthest_q20 = std::int64_t{1} << 29;
     const BracketedRay& ray = in.ray;
     const ShapeRegisters& shape = object.shape;
@@ -95,7 +97,7 @@ bool set_up_shape_column(const BoardView& view, const ObjectRegisters& object, c
     return true;
 }
 
-ColumnSetupStage::ColumnSetupStage(const RegisterFile& registers, Fifo<LinedRay>& in, Fifo<ColumnSetup>& out)
+ColumnSetupStage::ColumnSetupStage(const RegisterFile& registers, Fifo<RayWithLines>& in, Fifo<ColumnSetup>& out)
     : SerialStage("column_setup",
                   "latency and interval " + std::to_string(kShapeLatency) + " (" + std::to_string(kTooFarLatency) +
                       " too far; without a shape map " + std::to_string(VerticalCompensation::kLatency) + ", " +
@@ -105,7 +107,7 @@ ColumnSetupStage::ColumnSetupStage(const RegisterFile& registers, Fifo<LinedRay>
                   in, out),
       registers_(registers) {}
 
-int ColumnSetupStage::work(const LinedRay& in, ColumnSetup& out) {
+int ColumnSetupStage::work(const RayWithLines& in, ColumnSetup& out) {
     out = {};
     out.view = in.ray.view;
     if (in.ray.kind == RayKind::none) return kNoRayLatency;
@@ -115,10 +117,10 @@ int ColumnSetupStage::work(const LinedRay& in, ColumnSetup& out) {
     }
     const ImageLine& p = in.image[0];
     ColumnWalk walk;
-    const int latency = compensated(registers_,
-                                    {in.ray.view, true, in.ray.x_q20, in.ray.lambda_q20, in.ray.first, p.cx_q16,
-                                     p.cy_q16, p.fl_y_q16, p.height_q20, p.l0_q20, p.l1_q30, p.q0_q16, p.q1_q16},
-                                    walk);
+    const int latency = compensate_column(registers_,
+                                          {in.ray.view, true, in.ray.x_q20, in.ray.lambda_q20, in.ray.first, p.cx_q16,
+                                           p.cy_q16, p.fl_y_q16, p.height_q20, p.l0_q20, p.l1_q30, p.q0_q16, p.q1_q16},
+                                          walk);
     if (!walk.has_ray) return latency;
     out.kind = RayKind::plane;
     out.image = walk.image;

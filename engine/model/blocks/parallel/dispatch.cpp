@@ -31,7 +31,7 @@ bool ViewDispatcher::begin_view() {
     std::vector<std::uint64_t> ends(pipes_.size());
     for (std::size_t n = 0; n < pipes_.size(); ++n) {
         const StripeShare share{static_cast<int>(n), static_cast<int>(pipes_.size())};
-        if (!share.takes_part(job.view, registers_.view(job.view).width)) continue;
+        if (!share.has_columns(job.view, registers_.view(job.view).width)) continue;
         pipes_[n].columns->push(job);
         pipes_[n].pixels->push(job);
         pipes_[n].books->push(job);

@@ -1,7 +1,7 @@
 #pragma once
-// View dispatcher: has all pipes with a share of a view begin it (its columns, its pixels, its books), and
-// reports that a view is written when all of them have written theirs. Pipes go through the views of a rendering cycle
-// each at its own pace.
+// View dispatcher: starts a view (columns, pixels, codebooks) in all pipes with a share of it, and reports the view as
+// written when all of them have written their shares. Every pipe passes through the views of a rendering cycle at its
+// own pace.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/messages.hpp"
@@ -35,13 +35,13 @@ private:
     Fifo<ViewJob>& in_;
     std::vector<DispatchPort> pipes_;
     Fifo<Done>& view_written_;
-    // Per pipe: its share is written when it has written so many views in all; 0: it has none.
+    // Per pipe: number of views written in total at which its share is complete; 0: no share.
     std::deque<std::vector<std::uint64_t>> views_;
     std::vector<std::uint64_t> begun_;  // per pipe
     std::vector<std::uint64_t> written_;
 };
 
-// Load broadcast: the words of the private bus go to all memory channels, which hold the same objects. An object is
+// Load broadcast: sends the words of the private bus to all memory channels, which hold the same objects. An object is
 // loaded when it is in all of them.
 
 struct LoadPort {

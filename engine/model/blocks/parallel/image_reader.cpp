@@ -7,7 +7,7 @@ namespace rs::engine::model {
 constexpr int kWordsOfImage = 5;
 
 ImageReader::ImageReader(const RegisterFile& registers, Fifo<BracketedRay>& in, Fifo<MemoryRead>& requests,
-                         Fifo<MemoryWord>& answers, Fifo<LinedRay>& out)
+                         Fifo<MemoryWord>& answers, Fifo<RayWithLines>& out)
     : Block("picture_reader",
             std::to_string(kMultiplyCycles) +
                 " cycles, 4, 5 or 10 requests, the memory's latency, 1 to hand over; 1 without a ray"),
@@ -17,7 +17,7 @@ ImageReader::ImageReader(const RegisterFile& registers, Fifo<BracketedRay>& in, 
       answers_(reads(answers)),
       out_(writes(out)) {}
 
-void ImageReader::ask() {
+void ImageReader::send_request() {
     const BracketedRay& ray = in_.front();
     const ObjectRegisters& object = registers_.object_of(ray.view);
     const int image = requested_ < kWordsOfImage ? ray.first : ray.second;
@@ -55,7 +55,7 @@ Activity ImageReader::tick(std::uint64_t) {
         if (requested_ < words) {
             activity = Activity::memory_port;
             if (requests_.can_push()) {
-                ask();
+                send_request();
                 activity = Activity::busy;
             }
         }

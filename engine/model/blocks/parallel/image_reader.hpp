@@ -1,7 +1,7 @@
 #pragma once
-// Image reader: of one or two images the camera and the line of the ray's plane (parallel_layout.hpp), four words
-// without a shape map, five with one and no gap, ten in a gap. 9 cycles for the addresses' products, then a request a
-// cycle.
+// Image reader: reads the camera and the line of the ray's plane for one or two images (parallel_layout.hpp): four
+// words without a shape map, five with one and no gap, ten in a gap. 9 cycles for the products of the addresses, then a
+// request per cycle.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/arithmetic.hpp"
@@ -13,27 +13,27 @@ namespace rs::engine::model {
 class ImageReader final : public Block {
 public:
     ImageReader(const RegisterFile& registers, Fifo<BracketedRay>& in, Fifo<MemoryRead>& requests,
-                Fifo<MemoryWord>& answers, Fifo<LinedRay>& out);
+                Fifo<MemoryWord>& answers, Fifo<RayWithLines>& out);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
-        return "asked " + std::to_string(requested_) + " answered " + std::to_string(answered_);
+        return "requested " + std::to_string(requested_) + " answered " + std::to_string(answered_);
     }
     static constexpr int words_of(RayKind kind) {
         return kind == RayKind::none ? 0 : kind == RayKind::plane ? 4 : kind == RayKind::foot ? 5 : 10;
     }
 
 private:
-    void ask();
+    void send_request();
     void take(std::uint64_t word);
     const RegisterFile& registers_;
     Fifo<BracketedRay>& in_;
     Fifo<MemoryRead>& requests_;
     Fifo<MemoryWord>& answers_;
-    Fifo<LinedRay>& out_;
+    Fifo<RayWithLines>& out_;
     int multiplying_ = 0;
     int requested_ = 0;
     int answered_ = 0;
-    LinedRay lined_;
+    RayWithLines lined_;
 };
 
 }  // namespace rs::engine::model

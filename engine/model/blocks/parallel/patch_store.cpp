@@ -36,7 +36,7 @@ bool PatchStore::take_pixel() {
     return true;
 }
 
-// 0 below the view, where its height is odd.
+// Pixel of a patch; 0 below the view, if its height is odd.
 std::uint32_t PatchStore::pixel(int slot, int column, int row) const {
     const PatchJob& job = slots_[static_cast<std::size_t>(slot)].job;
     if (row >= job.rows) return 0;

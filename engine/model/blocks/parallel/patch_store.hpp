@@ -1,7 +1,7 @@
 #pragma once
-// Patch store: the pixels of four patches, in whatever order they become known. A patch whose pixels are all there is
-// written into the image buffer, column by column, two pixels to a word (pixel (i, j) of a view: image_writer.hpp), a
-// word per cycle; then its place is free, and with the last of a stripe or of a view the stripe, the view is done.
+// Patch store: collects the pixels of four patches in any order. A complete patch is written into the image buffer,
+// column by column, two pixels to a word (pixel (i, j) of a view: image_writer.hpp), a word per cycle; then its slot is
+// free. The last patch of a stripe or of a view also completes the stripe or the view.
 //
 // Two banks of 256 x 32 bits, even and odd rows; a pixel is written and a word read in the same cycle.
 
@@ -41,12 +41,12 @@ private:
     struct Slot {
         bool used = false;
         PatchJob job;
-        int left = 0;  // pixels to come
+        int left = 0;  // outstanding pixels
     };
     std::array<Slot, kPatchSlots> slots_;
     std::array<std::uint32_t, kPatchIds> store_{};
-    int writing_ = 0;  // slot that is written, or will be next
-    int column_ = 0;   // of the next word
+    int writing_ = 0;  // slot that is being written, or will be next
+    int column_ = 0;   // column of the next word
     int pair_ = 0;
 };
 

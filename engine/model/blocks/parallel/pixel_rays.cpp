@@ -57,7 +57,7 @@ Activity PixelScan::tick(std::uint64_t) {
     }
     if (!active_) {
         if (!jobs_.can_pop()) return Activity::idle;
-        if (views_ == kMostViews) return Activity::output_full;
+        if (views_ == kMaxViews) return Activity::output_full;
         view_ = jobs_.pop().view;
         ++views_;
         first_column_ = share_.first_column(view_);
@@ -81,10 +81,10 @@ Activity PixelScan::tick(std::uint64_t) {
     return Activity::busy;
 }
 
-RisenPixel risen(const ScannedPixel& pixel, const ColumnSetup& column, const ShapeRegisters& shape,
-                 std::int32_t b_q20) {
+PixelBandRay pixel_band_ray(const ScannedPixel& pixel, const ColumnSetup& column, const ShapeRegisters& shape,
+                            std::int32_t b_q20) {
     constexpr std::int32_t kMostPerDepth_q20 = 1 << 22;
-    RisenPixel out;
+    PixelBandRay out;
     out.pixel = pixel;
     if (column.kind != RayKind::shape) return out;
     const auto narrow = [](std::int64_t v) { return static_cast<std::int32_t>(v); };
@@ -101,7 +101,7 @@ RisenPixel risen(const ScannedPixel& pixel, const ColumnSetup& column, const Sha
 }
 
 RayRise::RayRise(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<ScannedPixel>& in,
-                 Fifo<RisenPixel>& out)
+                 Fifo<PixelBandRay>& out)
     : Block("ray_rise", "latency " + std::to_string(kStages + 1) + ", a pixel per cycle"),
       registers_(registers),
       columns_(reads(columns)),
@@ -111,10 +111,12 @@ RayRise::RayRise(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo
 Activity RayRise::tick(std::uint64_t) {
     const bool takes_column = columns_.can_pop();
     if (takes_column) table_.put(columns_.pop());
-    const Activity activity = stage_.step([&](std::optional<RisenPixel>& ray) {
-        if (!in_.can_pop() || takes_column || !table_.holds(in_.front())) return Activity::idle;  // the table: one port
+    const Activity activity = stage_.step([&](std::optional<PixelBandRay>& ray) {
+        if (!in_.can_pop() || takes_column || !table_.holds(in_.front()))
+            return Activity::idle;  // the table has one port
         const ScannedPixel pixel = in_.pop();
-        ray = risen(pixel, table_.of(pixel), registers_.object_of(pixel.view).shape, registers_.view(pixel.view).b_q20);
+        ray = pixel_band_ray(pixel, table_.of(pixel), registers_.object_of(pixel.view).shape,
+                             registers_.view(pixel.view).b_q20);
         return Activity::busy;
     });
     return takes_column ? Activity::busy : activity;

@@ -1,9 +1,10 @@
 #pragma once
-// Pixel scan: the pixels of a pipe's stripes, patch by patch downwards, in a patch row by row; a pixel per cycle. The
-// pixel's rise, which no column changes in an upright view, is added up row by row (36 bits).
+// Pixel scan: generates the pixels of a pipe's stripes, patch by patch downwards, row by row within a patch; a pixel
+// per cycle. The pixel's rise, which is the same for all columns of an upright view, is accumulated row by row (36
+// bits).
 //
-// Four patches are under way at most, each until its pixels have been written. A view is begun when the one before the
-// last is done: so of the two sets of codebooks one is always free for it (double_buffered_codebook).
+// At most four patches are in flight, each until its pixels have been written. A view starts when the view before the
+// last is done, so that one of the two sets of codebooks is free for it (double_buffered_codebook).
 
 #include "engine/model/blocks/parallel/column_setup.hpp"
 #include "engine/model/blocks/shared/stages.hpp"
@@ -35,32 +36,33 @@ private:
     Fifo<Done>& view_done_;
     Fifo<PatchJob>& patches_;
     Fifo<ScannedPixel>& pixels_;
-    static constexpr int kMostViews = 2;
+    static constexpr int kMaxViews = 2;
     int free_patches_ = kPatchSlots;
-    int views_ = 0;  // under way
+    int views_ = 0;  // views in flight
     bool active_ = false;
     int view_ = 0;
-    int stripe_ = 0;  // the number of the next one, or of this
+    int stripe_ = 0;  // number of the current stripe, or of the next
     int slot_ = 0;
-    int first_column_ = 0;  // of the patch, in the view
+    int first_column_ = 0;  // first column of the patch in the view
     int first_row_ = 0;
     bool in_patch_ = false;
     PatchJob patch_;
     int column_ = 0;  // in the patch
     int row_ = 0;
-    std::int64_t rise_q32_ = 0;  // of the row
+    std::int64_t rise_q32_ = 0;  // rise of the row
 };
 
-// Ray rise: at which bands a pixel's ray begins and how it passes through them (RECONSTRUCTION.md, section 6, to
-// per_d). Seven multipliers in five steps one behind the other; a pixel per cycle. A pixel waits for its column.
+// Ray rise: computes the band at which a pixel's ray starts and its slope through the bands (RECONSTRUCTION.md, section
+// 6, up to per_d). Seven multipliers in five consecutive steps; a pixel per cycle. A pixel waits for its column.
 
-// The arithmetic without the clock.
-RisenPixel risen(const ScannedPixel& pixel, const ColumnSetup& column, const ShapeRegisters& shape, std::int32_t b_q20);
+// Ray of a pixel through the bands, without the clock.
+PixelBandRay pixel_band_ray(const ScannedPixel& pixel, const ColumnSetup& column, const ShapeRegisters& shape,
+                            std::int32_t b_q20);
 
 class RayRise final : public Block {
 public:
     static constexpr int kStages = 5 * kProductCycles;
-    RayRise(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<ScannedPixel>& in, Fifo<RisenPixel>& out);
+    RayRise(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<ScannedPixel>& in, Fifo<PixelBandRay>& out);
     Activity tick(std::uint64_t now) override;
 
 private:
@@ -68,7 +70,7 @@ private:
     Fifo<ColumnSetup>& columns_;
     Fifo<ScannedPixel>& in_;
     ColumnTable table_;
-    PipelinedStage<RisenPixel> stage_;
+    PipelinedStage<PixelBandRay> stage_;
 };
 
 }  // namespace rs::engine::model

@@ -1,9 +1,9 @@
 #pragma once
-// Column address: where an image column's Y, chroma and alpha lie. Images are stored column by column:
+// Column address: addresses of an image column's Y, chroma and alpha. Images are stored column by column:
 //
 //     Y      of (image p, column x): words luma   + (p W  + x)      * luma_pitch ..,   8 rows to a word
-//     (U, V) of them:                  words chroma + (p W2 + x >> 1) * chroma_pitch .., 4 pairs of rows to a word
-//     alpha  of them:                  words alpha  + (p W  + x)      * alpha_pitch ..,  32 rows to a word
+//     (U, V) of them:                words chroma + (p W2 + x >> 1) * chroma_pitch .., 4 pairs of rows to a word
+//     alpha  of them:                words alpha  + (p W  + x)      * alpha_pitch ..,  32 rows to a word
 //
 // with W2 = (W + 1) >> 1. Five products, one after the other.
 
@@ -27,9 +27,9 @@ private:
     const RegisterFile& registers_;
 };
 
-// Raster generator, vertical: walks the rows of a view column downwards, a pixel per cycle, by adding the row step
-// (a 46-bit adder), and hands them on in pairs: two pixels make a word of the image buffer. The last pair of a view of
-// odd height has an empty second pixel.
+// Vertical raster generator: scans the rows of a view column downwards, a pixel per cycle, by adding the row step (a
+// 46-bit adder), and outputs them in pairs: two pixels make a word of the image buffer. The last pair of a view of odd
+// height has an empty second pixel.
 
 class RowScan final : public Block {
 public:

@@ -22,7 +22,7 @@ LineReader::LineReader(const RegisterFile& registers, Fifo<MappedRay>& in, Fifo<
       answers_(reads(answers)),
       out_(writes(out)) {}
 
-void LineReader::ask() {
+void LineReader::send_request() {
     const MappedRay& ray = in_.front();
     const ObjectRegisters& object = registers_.object_of(ray.view);
     const int record = ray.image * (1 + object.planes);
@@ -50,7 +50,7 @@ Activity LineReader::tick(std::uint64_t) {
     if (requested_ < 4) {
         activity = Activity::memory_port;
         if (requests_.can_push()) {
-            ask();
+            send_request();
             activity = Activity::busy;
         }
     }

@@ -1,11 +1,11 @@
 #pragma once
-// Line reader: the four words of an image's camera and of its line of the reference plane (ray_space_object.hpp,
-// CapturedView and CapturedLine), which stand together:
+// Line reader: reads the four words of an image's camera and its line of the reference plane (ray_space_object.hpp,
+// CapturedView and CapturedLine), which are stored in one record:
 //
 //     record of image p, words 2 (p (1 + K)) ..:  cx | cy << 32,  fl_y | height << 32,
 //         then for plane k, words 2 (p (1 + K) + 1 + k) ..:  l0 | l1 << 32,  q0 | q1 << 32
 //
-// 9 cycles for the address's product, four requests, four answers.
+// 9 cycles for the product of the address, four requests, four answers.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/arithmetic.hpp"
@@ -22,11 +22,11 @@ public:
                Fifo<MemoryWord>& answers, Fifo<RayLine>& out);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
-        return "asked " + std::to_string(requested_) + " answered " + std::to_string(answered_);
+        return "requested " + std::to_string(requested_) + " answered " + std::to_string(answered_);
     }
 
 private:
-    void ask();
+    void send_request();
     const RegisterFile& registers_;
     Fifo<MappedRay>& in_;
     Fifo<MemoryRead>& requests_;

@@ -31,7 +31,7 @@ Activity RenderControl::tick(std::uint64_t now) {
     }
     const bool was_rendering = rendering_;
     busy |= finish_views(now);
-    // A cycle's registers take over in a cycle of their own, while everything that reads them is empty.
+    // Registers of a new cycle become active in a cycle of their own, while all blocks that read them are empty.
     if (was_rendering) {
         if (rendering_ &&
             next_view_ < static_cast<int>(registers_.banks[static_cast<std::size_t>(registers_.active)].views.size()) &&

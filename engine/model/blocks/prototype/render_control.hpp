@@ -1,9 +1,9 @@
 #pragma once
-// Render control: the queue of rendering cycles, the register banks and the two image buffers.
+// Render control: queue of rendering cycles, register banks and the two image buffers.
 //
-// A start command is taken when a bank is free and every view's registers pass the check; the cycle then waits for the
-// one before it and for its image buffer. Otherwise nothing of it happens, and an error states why: a queue overrun or
-// bad registers. Bank and image buffer of a cycle have the same number, its own modulo 2.
+// A start command is accepted when a bank is free and every view's registers pass the check; the cycle then waits for
+// the previous cycle and for its image buffer. Otherwise the whole cycle is refused with an error: queue overrun or bad
+// registers. Bank and image buffer of a cycle have the same number, that of the cycle modulo 2.
 
 #include "engine/model/blocks/host/host_program.hpp"
 #include "engine/model/clock/block.hpp"
@@ -22,10 +22,10 @@ public:
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override;
 
-    // Drawn, delivered and waiting cycles are four at most.
+    // At most four cycles are drawn, delivered or waiting.
     static constexpr std::size_t kKeptCycles = 8;
 
-    // The status registers.
+    // Status registers.
     struct Cycle {
         std::uint64_t program = 0;
         std::uint64_t started = 0;   // board cycles
@@ -35,7 +35,7 @@ public:
         std::uint64_t program = 0;
         std::string reason;
     };
-    // The last cycles that have begun, up to kKeptCycles; the last of them is number cycles_begun() - 1.
+    // The last cycles that have begun, up to kKeptCycles; the back is number cycles_begun() - 1.
     [[nodiscard]] const std::deque<Cycle>& cycles() const { return cycles_; }
     [[nodiscard]] std::uint64_t cycles_begun() const { return cycles_begun_; }
     [[nodiscard]] const Cycle& cycle(std::uint64_t number) const {
@@ -44,8 +44,8 @@ public:
         return cycles_[cycles_.size() - static_cast<std::size_t>(from_end)];
     }
     [[nodiscard]] const std::vector<Refusal>& refusals() const { return refusals_; }
-    [[nodiscard]] bool uses_object(int slot) const;                                 // in a cycle that waits or is drawn
-    [[nodiscard]] std::uint64_t commands_taken() const { return commands_taken_; }  // or refused
+    [[nodiscard]] bool uses_object(int slot) const;                                 // by a waiting or rendering cycle
+    [[nodiscard]] std::uint64_t commands_taken() const { return commands_taken_; }  // including refused ones
 
 private:
     [[nodiscard]] bool is_free(int bank) const;
@@ -67,7 +67,7 @@ private:
         std::uint64_t program = 0;
         int bank = 0;
     };
-    std::deque<Queued> queue_;  // the first of them is rendered where `rendering_`
+    std::deque<Queued> queue_;  // `rendering_`: the first one is being rendered
     bool rendering_ = false;
     int next_view_ = 0;
     int written_views_ = 0;

@@ -18,9 +18,9 @@ Activity SampleFetch::tick(std::uint64_t) {
     MemoryRead read;
     const bool apart = pair.shows[0] && pair.shows[1] && (pair.row[0] >> 5) != (pair.row[1] >> 5);
     if (slot_ < 2) {
-        const int first = slot_ == 0 && pair.shows[0] ? 0 : 1;  // whose word is read
-        tag.takes[0] = slot_ == 0 && pair.shows[0];
-        tag.takes[1] = pair.shows[1] && (!apart || slot_ == 1);
+        const int first = slot_ == 0 && pair.shows[0] ? 0 : 1;  // pixel whose word is read
+        tag.has_alpha[0] = slot_ == 0 && pair.shows[0];
+        tag.has_alpha[1] = pair.shows[1] && (!apart || slot_ == 1);
         tag.lane[0] = pair.row[0] & 31;
         tag.lane[1] = pair.row[1] & 31;
         read = {pair.alpha + static_cast<WordAddress>(pair.row[first] >> 5), !pair.shows[0] && !pair.shows[1]};
@@ -32,7 +32,8 @@ Activity SampleFetch::tick(std::uint64_t) {
         tag.kind = luma ? SampleTag::Kind::luma : SampleTag::Kind::chroma;
         tag.pixel = n;
         tag.lane[n] = luma ? row & 7 : (row >> 1) & 3;
-        // Eight rows of Y, and four pairs of U and V for eight rows: both words are the (row >> 3)-th of their column.
+        // A word has eight rows of Y, or four (U, V) pairs for eight rows: both words are the (row >> 3)-th of their
+        // column.
         read = {(luma ? pair.luma : pair.chroma) + static_cast<WordAddress>(row >> 3), !pair.shows[n]};
         slot_ = slot_ == 5 ? 0 : slot_ + 1;
     }
@@ -59,7 +60,7 @@ Activity SampleSelect::tick(std::uint64_t) {
     switch (tag.kind) {
         case SampleTag::Kind::alpha:
             for (int p = 0; p < 2; ++p) {
-                if (tag.takes[p]) level_[p] = static_cast<int>((word >> (2 * tag.lane[p])) & 3U);
+                if (tag.has_alpha[p]) level_[p] = static_cast<int>((word >> (2 * tag.lane[p])) & 3U);
             }
             break;
         case SampleTag::Kind::chroma:
@@ -68,7 +69,7 @@ Activity SampleSelect::tick(std::uint64_t) {
             break;
         case SampleTag::Kind::luma:
             out_.push({tag.view, static_cast<int>((word >> (8 * lane)) & 255U), u_, v_, 85 * level_[n]});
-            level_[n] = 0;  // a pixel without alpha of its own is transparent
+            level_[n] = 0;  // default: a pixel without an alpha word is transparent
             break;
     }
     tags_.pop();

@@ -1,10 +1,10 @@
 #pragma once
-// Sample fetch: the reads of a pair of pixels, one per cycle, always in this order through one address adder:
+// Sample fetch: issues the reads of a pair of pixels, one per cycle, always in this order through one address adder:
 //
 //     alpha of both (again, where the two rows lie in different words), chroma 0, Y 0, chroma 1, Y 1
 //
-// Two alphas of 2 bits nearly always lie in the same word of 32 rows, so one read serves the pair; a word of U and V
-// pairs serves both colour differences. A pixel that shows nothing takes the same way with null reads, so that pixels
+// Two alphas of 2 bits are nearly always in the same word of 32 rows, so one read gives the alpha of the pair; a word
+// of (U, V) pairs gives both colour differences. An empty pixel issues null reads in the same order, so that pixels
 // stay in order and the rate of the board does not depend on the image.
 
 #include "engine/model/clock/block.hpp"
@@ -25,8 +25,8 @@ private:
     int slot_ = 0;  // 0, 1: alpha; 2..5: chroma and Y of pixel 0 and 1
 };
 
-// Sample select (the paper's "Y, U, V, alpha data get"): takes the words that come back from memory in the order in
-// which they were requested, picks bytes and bits by their tags, and hands on a pixel with its Y.
+// Sample select (the paper's "Y, U, V, alpha data get"): takes the words from memory in the order of their requests,
+// selects bytes and bits by their tags, and outputs a pixel with its Y.
 
 class SampleSelect final : public Block {
 public:

@@ -10,7 +10,7 @@ VerticalCompensation::VerticalCompensation(const RegisterFile& registers, Fifo<R
                   in, out),
       registers_(registers) {}
 
-int compensated(const RegisterFile& registers, const RayLine& in, ColumnWalk& out) {
+int compensate_column(const RegisterFile& registers, const RayLine& in, ColumnWalk& out) {
     using Timing = VerticalCompensation;
     constexpr std::int64_t kNearest_q20 = std::int64_t{1} << 17;
     constexpr std::int64_t kLargestRowScale_q16 = std::int64_t{1} << 30;
@@ -26,7 +26,7 @@ int compensated(const RegisterFile& registers, const RayLine& in, ColumnWalk& ou
     const Quotient offset_q16 = divide(lateral_q16 * (std::int64_t{1} << 20), l_q20);
     const Quotient m_q16 = divide(std::int64_t{in.fl_y_q16} << 20, l_q20);
     const std::int64_t rise_q24 = (in.lambda_q20 * view.sy_q32) >> 28;
-    // A quotient of 2^32 and more lies 2^16 columns beside the principal point, which lies within 2^14 of the image.
+    // A quotient of 2^32 or more is 2^16 columns beside the principal point, which is within 2^14 of the image.
     if (offset_q16.overflow || m_q16.overflow || m_q16.value >= kLargestRowScale_q16) return Timing::kOutsideLatency;
     const std::int64_t column = (in.cx_q16 + offset_q16.value) >> 16;
     if (column < 0 || column >= registers.object_of(in.view).width) return Timing::kOutsideLatency;

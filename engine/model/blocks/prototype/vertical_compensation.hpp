@@ -8,7 +8,7 @@
 //            21      q0 + ..                                       31..39  lambda * sy
 //            22..55  divider: column                               46..54  m * (Y - height)
 //            56      cx + ..; column, m, rise in range?            55..63  m * rise
-//                                                       64 the signs;  65 hand over
+//                                                       64 the signs;  65 output
 
 #include "engine/model/blocks/shared/stages.hpp"
 #include "engine/model/signals/arithmetic.hpp"
@@ -17,8 +17,8 @@
 
 namespace rs::engine::model {
 
-// The arithmetic without the clock: the walk, and the cycles that it takes.
-int compensated(const RegisterFile& registers, const RayLine& in, ColumnWalk& out);
+// Computes the walk, without the clock; returns its latency in cycles.
+int compensate_column(const RegisterFile& registers, const RayLine& in, ColumnWalk& out);
 
 class VerticalCompensation final : public SerialStage<RayLine, ColumnWalk> {
 public:
@@ -30,7 +30,7 @@ public:
     VerticalCompensation(const RegisterFile& registers, Fifo<RayLine>& in, Fifo<ColumnWalk>& out);
 
 private:
-    int work(const RayLine& in, ColumnWalk& out) override { return compensated(registers_, in, out); }
+    int work(const RayLine& in, ColumnWalk& out) override { return compensate_column(registers_, in, out); }
     const RegisterFile& registers_;
 };
 

@@ -4,7 +4,7 @@
 
 namespace rs::engine::model {
 
-std::uint32_t converted(const YuvaPixel& pixel) {
+std::uint32_t convert_to_rgba(const YuvaPixel& pixel) {
     const Rgba8 c = rgba_from_yuva(pixel.y, pixel.u, pixel.v, pixel.alpha);
     return static_cast<std::uint32_t>(c.r) | static_cast<std::uint32_t>(c.g) << 8U |
            static_cast<std::uint32_t>(c.b) << 16U | static_cast<std::uint32_t>(c.a) << 24U;
@@ -19,7 +19,7 @@ Activity ColourConversion::tick(std::uint64_t) {
     return stage_.step([&](std::optional<RgbaPixel>& out) {
         if (!in_.can_pop()) return Activity::idle;
         const YuvaPixel pixel = in_.pop();
-        out = {pixel.view, converted(pixel)};
+        out = {pixel.view, convert_to_rgba(pixel)};
         return Activity::busy;
     });
 }

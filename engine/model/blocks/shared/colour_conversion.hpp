@@ -8,8 +8,8 @@
 
 namespace rs::engine::model {
 
-// The arithmetic without the clock.
-std::uint32_t converted(const YuvaPixel& pixel);
+// RGBA of a pixel, R in the low byte, without the clock.
+std::uint32_t convert_to_rgba(const YuvaPixel& pixel);
 
 class ColourConversion final : public Block {
 public:

@@ -1,6 +1,6 @@
 #pragma once
-// RS map reader: one byte of the map gives the captured image that answers the column; 255: none does.
-// One column at a time: request, wait, choose the byte.
+// RS map reader: one byte of the map is the captured image of the column; 255: none. One column at a time: request,
+// wait, select the byte.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/messages.hpp"
@@ -13,7 +13,7 @@ class MapReader final : public Block {
 public:
     MapReader(Fifo<RayPoint>& in, Fifo<MemoryRead>& requests, Fifo<MemoryWord>& answers, Fifo<MappedRay>& out);
     Activity tick(std::uint64_t now) override;
-    [[nodiscard]] std::string state_text() const override { return requested_ ? "asked" : "not asked"; }
+    [[nodiscard]] std::string state_text() const override { return requested_ ? "requested" : "not requested"; }
 
 private:
     Fifo<RayPoint>& in_;

@@ -1,6 +1,6 @@
 #pragma once
-// The registers of a pipelined stage: what enters in a cycle leaves `stages` cycles later, and nothing moves where
-// whoever takes it has no room. A member of blocks, not a block.
+// Registers of a pipelined stage: an item leaves `stages` cycles after it entered; nothing moves while the consumer has
+// no space. A member of blocks, not a block.
 
 #include "engine/model/clock/block.hpp"
 #include "rayspace/base/check.hpp"
@@ -17,16 +17,16 @@ public:
     explicit DelayLine(int stages) : places_(static_cast<std::size_t>(stages)) { RS_CHECK(stages >= 1); }
 
     [[nodiscard]] bool empty() const { return count_ == 0; }
-    [[nodiscard]] bool leaves() const { return places_[at_].full; }  // in this cycle
-    [[nodiscard]] const T& leaving() const { return places_[at_].item; }
+    [[nodiscard]] bool has_output() const { return places_[at_].full; }  // an item leaves in this cycle
+    [[nodiscard]] const T& output() const { return places_[at_].item; }
 
-    // Ends the cycle; what was leaving is gone.
+    // Ends the cycle; the leaving item is removed.
     void advance() {
         count_ -= static_cast<int>(places_[at_].full);
         places_[at_].full = false;
         at_ = at_ + 1 == places_.size() ? 0 : at_ + 1;
     }
-    // The same with an item that enters.
+    // Ends the cycle with an item that enters.
     void advance(const T& item) {
         const std::size_t place = at_;
         advance();
@@ -44,23 +44,23 @@ private:
     int count_ = 0;
 };
 
-// A delay line with the FIFO at its end: what a block works on for some cycles while it takes the next one. A member of
-// blocks, not a block. Latency L = stages + 1: of an item that is visible in cycle t the result is visible in cycle
-// t + L, and another one may enter in every cycle.
+// A delay line with a FIFO at its end, for blocks that accept the next item while earlier ones are processed. A member
+// of blocks, not a block. Latency L = stages + 1: the result of an item that is visible in cycle t is visible in cycle
+// t + L; a new item may enter in every cycle.
 template <class T>
 class PipelinedStage {
 public:
     PipelinedStage(int stages, Fifo<T>& out) : line_(stages), out_(out) {}
 
-    // Nothing is under way; what leaves in this cycle still is.
+    // True if no item is in flight; an item that leaves in this cycle still is.
     [[nodiscard]] bool empty() const { return line_.empty(); }
 
-    // A cycle. Where there is room for what leaves, `enter` sets the item that enters, if any, and returns what the
-    // block does.
+    // Executes a cycle. Unless the output is full, `enter` sets the item that enters, if any, and returns the block's
+    // activity.
     template <class Enter>
     Activity step(Enter&& enter) {
-        if (line_.leaves() && !out_.can_push()) return Activity::output_full;  // the whole stage stands
-        if (line_.leaves()) out_.push(line_.leaving());
+        if (line_.has_output() && !out_.can_push()) return Activity::output_full;  // the whole stage stalls
+        if (line_.has_output()) out_.push(line_.output());
         std::optional<T> item;
         const Activity activity = enter(item);
         if (item) {
@@ -76,9 +76,9 @@ private:
     Fifo<T>& out_;
 };
 
-// A block that works on one item at a time for a number of cycles that the item decides: a sequencer with its own
-// multiplier. Latency L: an item that is visible in cycle t gives a result that is visible in cycle t + L; the next
-// item is taken in cycle t + L.
+// A block that processes one item at a time, for a number of cycles that depends on the item: a sequencer with its own
+// multiplier. Latency L: the result of an item that is visible in cycle t is visible in cycle t + L; the next item is
+// taken in cycle t + L.
 
 template <class In, class Out>
 class SerialStage : public Block {

@@ -17,7 +17,7 @@ Activity RasterGenerator::tick(std::uint64_t) {
         if (!jobs_.can_pop()) return Activity::idle;
         view_ = jobs_.pop().view;
         const BoardView& view = registers_.view(view_);
-        for (std::size_t k = 0; k < kMostPlanes; ++k) {
+        for (std::size_t k = 0; k < kMaxPlanes; ++k) {
             n_q32_[k] = view.planes[k].n0_q32;
             t_q32_[k] = view.planes[k].t0_q32;
         }

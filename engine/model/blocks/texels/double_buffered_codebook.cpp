@@ -17,7 +17,7 @@ DoubleBufferedCodebook::DoubleBufferedCodebook(const RegisterFile& registers, Fi
       words_(reads(words)),
       stage_(kStages, writes(out)) {}
 
-// Sees to it that the next view's books are there, or come.
+// Takes the next view and starts the load of its codebooks if needed.
 bool DoubleBufferedCodebook::next_view() {
     if (!jobs_.can_pop()) return false;
     const ObjectRegisters& object = registers_.object_of(jobs_.front().view);
@@ -69,12 +69,12 @@ Activity DoubleBufferedCodebook::look_up(std::optional<YuvaPixel>& out) {
     const std::uint32_t serial = registers_.object_of(pixel.view).serial;
     const Set* const set = sets_[0].serial == serial ? &sets_[0] : sets_[1].serial == serial ? &sets_[1] : nullptr;
     if (set == nullptr) return Activity::memory_data;
-    // Flat and predicted banks serve one hop each in a cycle; the last of the predictions takes the pixel along.
+    // Flat and predicted banks process one hop each per cycle; the pixel leaves with its last prediction.
     if (turns_ < pixel.hops - 2) {
         ++turns_;
         return Activity::busy;
     }
-    out = looked_up(*set->banks, pixel);
+    out = decode_coded_pixel(*set->banks, pixel);
     in_.pop();
     turns_ = 0;
     return Activity::busy;
@@ -85,8 +85,7 @@ Activity DoubleBufferedCodebook::tick(std::uint64_t) {
         view_done_.pop();
         ++views_done_;
     }
-    const Activity activity =
-        stage_.step([&](auto& out) { return look_up(out); });  // with what was there before this cycle
+    const Activity activity = stage_.step([&](auto& out) { return look_up(out); });  // uses the state before this cycle
     const bool loads = loading_ >= 0 ? load() : next_view();
     return loads ? Activity::busy : activity;
 }

@@ -1,8 +1,8 @@
 #pragma once
-// Codebook look-up with two sets of banks: book_lookup, whose books are loaded beside the look-ups. It knows the views
-// that will come, in order. Where the object of the next one is in neither set its books are read, a word per cycle,
-// into the set all of whose views are done: while a view is drawn, those of the next one come. A pixel waits where its
-// object's books are not there yet.
+// Codebook look-up with two sets of banks: book_lookup whose codebooks are loaded concurrently with look-ups. It
+// receives the views in advance, in order. If the object of the next view is in neither set, its codebooks are read, a
+// word per cycle, into the set whose views are all done, while the current view is drawn. A pixel waits until the
+// codebooks of its object are loaded.
 
 #include "engine/model/blocks/decompression/book_lookup.hpp"
 #include "engine/model/blocks/shared/stages.hpp"
@@ -40,18 +40,18 @@ private:
     Fifo<MemoryWord>& words_;
     struct Set {
         std::uint32_t serial = 0;     // number of the object's load; 0: none
-        std::uint64_t last_view = 0;  // that needs it, counted from 1
+        std::uint64_t last_view = 0;  // last view that needs the set, counted from 1
         std::unique_ptr<BookBanks> banks = std::make_unique<BookBanks>();
     };
     std::array<Set, 2> sets_;
-    std::uint64_t views_ = 0;       // known
-    std::uint64_t views_done_ = 0;  // of them
-    int loading_ = -1;              // set
-    ObjectRegisters object_;        // whose books are loaded
+    std::uint64_t views_ = 0;       // views received
+    std::uint64_t views_done_ = 0;  // views finished
+    int loading_ = -1;              // set that is being loaded; -1: none
+    ObjectRegisters object_;        // object whose codebooks are being loaded
     std::uint32_t requested_ = 0;
     std::uint32_t written_ = 0;
     std::uint64_t book_loads_ = 0;
-    int turns_ = 0;  // for which the first pixel has had the banks
+    int turns_ = 0;  // cycles for which the front pixel has used the banks
     PipelinedStage<YuvaPixel> stage_;
 };
 

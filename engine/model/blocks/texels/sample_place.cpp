@@ -41,15 +41,15 @@ void place_in_image(PlacedSample& out, const ImageSetup& image, int d_q3, std::i
 
 }  // namespace
 
-SurfaceSamples placed_samples(const MetSurface& met, const ColumnSetup& column, const ObjectRegisters& object,
-                              std::int32_t b_q20) {
+SurfaceSamples place_samples(const SurfaceHit& met, const ColumnSetup& column, const ObjectRegisters& object,
+                             std::int32_t b_q20) {
     SurfaceSamples samples;
     PlacedSample blank;
     blank.view = met.pixel.view;
     blank.head.id = met.pixel.id;
     blank.head.final = met.final;
     blank.head.next = met.next;
-    if (column.kind == RayKind::plane) {  // one texel, as it is
+    if (column.kind == RayKind::plane) {  // one texel, unfiltered
         PlacedSample& out = samples.sample[static_cast<std::size_t>(samples.count++)] = blank;
         const std::int64_t row = (column.row_0_q16 + met.pixel.row * column.row_step_q16) >> 16;
         out.head.is_there = true;
@@ -74,7 +74,7 @@ SurfaceSamples placed_samples(const MetSurface& met, const ColumnSetup& column, 
     return samples;
 }
 
-SamplePlace::SamplePlace(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MetSurface>& in,
+SamplePlace::SamplePlace(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<SurfaceHit>& in,
                          Fifo<PlacedSample>& out)
     : Block("sample_place", "latency " + std::to_string(kStages + 1) + ", a sample per cycle"),
       registers_(registers),
@@ -87,10 +87,10 @@ Activity SamplePlace::tick(std::uint64_t) {
     return stage_.step([&](std::optional<PlacedSample>& sample) {
         if (!in_.can_pop()) return Activity::idle;
         if (taken_ == 0) {
-            const MetSurface& met = in_.front();
+            const SurfaceHit& met = in_.front();
             RS_CHECK(table_.holds(met.pixel));
-            surface_ = placed_samples(met, table_.of(met.pixel), registers_.object_of(met.pixel.view),
-                                      registers_.view(met.pixel.view).b_q20);
+            surface_ = place_samples(met, table_.of(met.pixel), registers_.object_of(met.pixel.view),
+                                     registers_.view(met.pixel.view).b_q20);
         }
         sample = surface_.sample[static_cast<std::size_t>(taken_)];
         if (++taken_ == surface_.count) {

@@ -1,8 +1,8 @@
 #pragma once
-// Sample place: of a met surface its samples in the two images, and of a sample the texels that it takes
-// (RECONSTRUCTION.md, section 7 to the four texels; section 3 for a ray without a shape map). A sample per cycle, up to
-// two of a surface, one token of a surface without any. Behind one another: lambda, height (a product each); beside
-// them l, the pipelined divider (1 / l), column and rows per radius, row; place of the texels.
+// Sample place: computes the samples of a hit surface in the two images, and the texels of each sample
+// (RECONSTRUCTION.md, section 7 up to the four texels; section 3 for a ray without a shape map). A sample per cycle, at
+// most two per surface; one token for a surface without samples. In sequence: lambda, height (a product each); in
+// parallel l, the pipelined divider (1 / l), column and rows per radius, row; texel positions.
 
 #include "engine/model/blocks/parallel/column_setup.hpp"
 #include "engine/model/blocks/shared/stages.hpp"
@@ -15,27 +15,27 @@
 
 namespace rs::engine::model {
 
-// The arithmetic without the clock: the samples of a surface, in order; at least one token.
+// Samples of a surface in order, without the clock; at least one token.
 struct SurfaceSamples {
     int count = 0;
     std::array<PlacedSample, 2> sample;
 };
-SurfaceSamples placed_samples(const MetSurface& met, const ColumnSetup& column, const ObjectRegisters& object,
-                              std::int32_t b_q20);
+SurfaceSamples place_samples(const SurfaceHit& met, const ColumnSetup& column, const ObjectRegisters& object,
+                             std::int32_t b_q20);
 
 class SamplePlace final : public Block {
 public:
     static constexpr int kStages = 1 + kProductCycles + kDivideCycles + 2 * kProductCycles + 2;
-    SamplePlace(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MetSurface>& in,
+    SamplePlace(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<SurfaceHit>& in,
                 Fifo<PlacedSample>& out);
     Activity tick(std::uint64_t now) override;
 
 private:
     const RegisterFile& registers_;
     Fifo<ColumnSetup>& columns_;
-    Fifo<MetSurface>& in_;
+    Fifo<SurfaceHit>& in_;
     ColumnTable table_;
-    SurfaceSamples surface_;  // that of in_'s front, where some of its samples have been taken
+    SurfaceSamples surface_;  // samples of the surface at the front of in_, if some have been taken
     int taken_ = 0;
     PipelinedStage<PlacedSample> stage_;
 };

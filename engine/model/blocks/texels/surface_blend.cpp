@@ -3,8 +3,8 @@
 namespace rs::engine::model {
 namespace {
 
-// What both samples show: nothing where one states that the point is not the object's.
-SampleSum blended(const std::array<SampleSum, 2>& samples, int weight) {
+// Blends both samples; empty if one of them states that the point is not on the object.
+SampleSum blend_samples(const std::array<SampleSum, 2>& samples, int weight) {
     const auto& [first, second] = samples;
     if ((first.exists && first.a == 0) || (second.exists && second.a == 0)) return {};
     if (first.exists && second.exists) return mix(first, second, weight);
@@ -13,14 +13,14 @@ SampleSum blended(const std::array<SampleSum, 2>& samples, int weight) {
     return mix(one, one, 0);
 }
 
-// R in the low byte.
+// Packs a colour, R in the low byte.
 std::uint32_t packed(const Rgba8& c) {
     return std::uint32_t{c.r} | std::uint32_t{c.g} << 8U | std::uint32_t{c.b} << 16U | std::uint32_t{c.a} << 24U;
 }
 
 }  // namespace
 
-SurfaceBlend::SurfaceBlend(Fifo<FilteredSample>& in, Fifo<FinishedPixel>& out, Fifo<MarchAgain>& again)
+SurfaceBlend::SurfaceBlend(Fifo<FilteredSample>& in, Fifo<FinishedPixel>& out, Fifo<ReturnedPixel>& again)
     : Block("surface_blend",
             "latency " + std::to_string(kStages + 1) + " behind a surface's last sample, a sample per cycle"),
       in_(reads(in)),
@@ -28,7 +28,7 @@ SurfaceBlend::SurfaceBlend(Fifo<FilteredSample>& in, Fifo<FinishedPixel>& out, F
       again_(writes(again)) {}
 
 SurfaceBlend::Outcome SurfaceBlend::decided(const SampleHead& last) {
-    const SampleSum sum = blended(samples_, last.weight);
+    const SampleSum sum = blend_samples(samples_, last.weight);
     const Rgba8 colour = resolve(sum);
     Rgba8& kept = kept_[static_cast<std::size_t>(last.id)];
     const Rgba8 so_far = laid_over({kept}, {colour}).colour;
@@ -42,8 +42,8 @@ SurfaceBlend::Outcome SurfaceBlend::decided(const SampleHead& last) {
 }
 
 Activity SurfaceBlend::tick(std::uint64_t) {
-    if (line_.leaves()) {
-        const Outcome& outcome = line_.leaving();
+    if (line_.has_output()) {
+        const Outcome& outcome = line_.output();
         if (outcome.sends_back ? !again_.can_push() : !out_.can_push()) return Activity::output_full;
         if (outcome.sends_back) {
             again_.push(outcome.again);

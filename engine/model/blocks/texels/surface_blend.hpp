@@ -1,9 +1,9 @@
 #pragma once
-// Surface blend (RECONSTRUCTION.md, section 8): collects the one or two samples of a met surface, blends them, and
-// makes of the sums R, G, B and alpha. Where the surface shows nothing the pixel goes back to cell_march, or, behind
-// its last surface, is empty. A pixel that the last surface does not cover goes back as well, where others lie behind
-// it, and what it shows is kept here until one comes that covers the pixel, over which it is laid. A sample per cycle.
-// Four products, then three pipelined dividers of 8 quotient bits (a 31-bit subtract and a choice each), then eight
+// Surface blend (RECONSTRUCTION.md, section 8): collects the one or two samples of a hit surface, blends them, and
+// resolves the sums to R, G, B and alpha. If the surface is transparent there, the pixel returns to cell_march, or is
+// empty after its last surface. A pixel that its last surface does not fully cover also returns if other surfaces are
+// behind it; its colour is stored here and composited over the next surface that covers the pixel. A sample per cycle.
+// Four products, then three pipelined dividers of 8 quotient bits (a 31-bit subtract and a selection each), then eight
 // products of 8 x 9 bits.
 
 #include "engine/core/definition/shape_pixel.hpp"
@@ -22,7 +22,7 @@ public:
     static constexpr int kOverStages = 2;
     static constexpr int kStages = kBlendStages + kResolveStages + kOverStages;
     static constexpr std::size_t kKeptBits = std::size_t{kPatchIds} * 32;
-    SurfaceBlend(Fifo<FilteredSample>& in, Fifo<FinishedPixel>& out, Fifo<MarchAgain>& again);
+    SurfaceBlend(Fifo<FilteredSample>& in, Fifo<FinishedPixel>& out, Fifo<ReturnedPixel>& again);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::uint64_t sent_back() const { return sent_back_; }
 
@@ -30,15 +30,15 @@ private:
     struct Outcome {
         bool sends_back = false;
         FinishedPixel pixel;
-        MarchAgain again;
+        ReturnedPixel again;
     };
     Outcome decided(const SampleHead& last);
 
     Fifo<FilteredSample>& in_;
     Fifo<FinishedPixel>& out_;
-    Fifo<MarchAgain>& again_;
-    std::array<SampleSum, 2> samples_{};   // of the surface, so far
-    std::array<Rgba8, kPatchIds> kept_{};  // of pixels that were sent back; alpha 0 where there is nothing
+    Fifo<ReturnedPixel>& again_;
+    std::array<SampleSum, 2> samples_{};   // samples of the current surface
+    std::array<Rgba8, kPatchIds> kept_{};  // colours of returned pixels; alpha 0: none
     DelayLine<Outcome> line_{kStages};
     std::uint64_t sent_back_ = 0;
 };

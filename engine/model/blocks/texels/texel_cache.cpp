@@ -34,7 +34,7 @@ bool TexelCache::write(std::uint64_t samples_read) {
 }
 
 Activity TexelCache::tick(std::uint64_t) {
-    const std::uint64_t samples_read = samples_;  // before this cycle
+    const std::uint64_t samples_read = samples_;  // state before this cycle
     const bool had_sample = in_.can_pop();
     const bool blocked = had_sample && !out_.can_push();
     const bool reads_one = read();
@@ -45,7 +45,7 @@ Activity TexelCache::tick(std::uint64_t) {
     return writes_one ? Activity::busy : Activity::idle;
 }
 
-FilteredSample filtered(const TexelQuad& quad) {
+FilteredSample filter_quad(const TexelQuad& quad) {
     FilteredSample out{quad.head, quad.inside, 0, 0, 0, 0};
     if (!quad.inside) return out;
     const int weights[] = {(8 - quad.fx) * (8 - quad.fy), (8 - quad.fx) * quad.fy, quad.fx * (8 - quad.fy),
@@ -69,7 +69,7 @@ TexelFilter::TexelFilter(Fifo<TexelQuad>& in, Fifo<FilteredSample>& out)
 Activity TexelFilter::tick(std::uint64_t) {
     return stage_.step([&](std::optional<FilteredSample>& sample) {
         if (!in_.can_pop()) return Activity::idle;
-        sample = filtered(in_.pop());
+        sample = filter_quad(in_.pop());
         return Activity::busy;
     });
 }

@@ -1,6 +1,6 @@
 #pragma once
 // Texel cache: 128 lines of 8x8 texels, R, G, B and alpha, in four banks by the lowest bits of column and row, so that
-// the four texels of any sample come in one cycle; another texel is written in the same cycle. A sample waits until the
+// the four texels of any sample are read in one cycle; one texel is written in the same cycle. A sample waits until the
 // blocks that were requested for it have been written.
 
 #include "engine/model/blocks/shared/stages.hpp"
@@ -32,16 +32,16 @@ private:
     Fifo<RgbaPixel>& texels_;
     Fifo<TexelQuad>& out_;
     std::array<std::array<std::uint32_t, kLineTexels>, kCacheLines> lines_{};
-    int written_ = 0;  // texels of the block
-    int fills_ = 0;    // blocks written, less those that samples have waited for
+    int written_ = 0;  // texels written of the current block
+    int fills_ = 0;    // blocks written, minus those that samples have waited for
     std::uint64_t samples_ = 0;
 };
 
-// Texel filter: the sums of a sample over its four texels (RECONSTRUCTION.md, section 7): weight * alpha, and that
-// times R, G and B: four small products, twelve of 14 x 8 bits, two levels of additions. A sample per cycle.
+// Texel filter: sums of a sample over its four texels (RECONSTRUCTION.md, section 7): weight * alpha, and this times R,
+// G and B: four small products, twelve of 14 x 8 bits, two levels of additions. A sample per cycle.
 
-// The arithmetic without the clock.
-FilteredSample filtered(const TexelQuad& quad);
+// Weighted sums of a sample's four texels, without the clock.
+FilteredSample filter_quad(const TexelQuad& quad);
 
 class TexelFilter final : public Block {
 public:

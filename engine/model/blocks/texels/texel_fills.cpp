@@ -3,8 +3,9 @@
 
 namespace rs::engine::model {
 
-FillFetch::FillFetch(const RegisterFile& registers, Fifo<TexelFill>& in, Fifo<BlockAsk>& asks, Fifo<CodedPixel>& pixels,
-                     Fifo<MemoryRead>& raw_reads, Fifo<FillKind>& kinds, Fifo<FillTarget>& targets)
+FillFetch::FillFetch(const RegisterFile& registers, Fifo<TexelFill>& in, Fifo<BlockRequest>& asks,
+                     Fifo<CodedPixel>& pixels, Fifo<MemoryRead>& raw_reads, Fifo<FillKind>& kinds,
+                     Fifo<FillTarget>& targets)
     : Block("fill_fetch", "a coded block in 64 cycles, a raw one in " + std::to_string(kRawBlockWords)),
       registers_(registers),
       in_(reads(in)),
@@ -29,7 +30,7 @@ bool FillFetch::begin() {
     return active_ = true;
 }
 
-// A request and a pixel a cycle, each as far as there is room.
+// Sends a request and a pixel per cycle, as far as the FIFOs have space.
 bool FillFetch::fetch_coded() {
     bool moved = false;
     if (requested_ < 8 && asks_.can_push()) {
@@ -116,7 +117,7 @@ Activity TexelMerge::tick(std::uint64_t) {
     if (!out_.can_push()) return Activity::output_full;
     out_.push(raw_texel());
     --left_;
-    if (left_ % 8 == 0) words_ = left_ / 8 % 2 == 1 ? 1 : 0;  // behind an even column its chroma serves once more
+    if (left_ % 8 == 0) words_ = left_ / 8 % 2 == 1 ? 1 : 0;  // after an even column its chroma is used once more
     return Activity::busy;
 }
 

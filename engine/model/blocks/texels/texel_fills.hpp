@@ -1,7 +1,7 @@
 #pragma once
-// Fill fetch: has a block of 8x8 texels fetched, column by column. Of coded images it requests each of the block's
-// columns from the readers of hop 0 and sends the 64 pixels that the records are joined with; of raw ones it
-// requests the block's words from memory. The line for which the texels are goes ahead to the cache.
+// Fill fetch: fetches a block of 8x8 texels column by column. For coded images it requests each column of the block
+// from the readers of hop 0 and sends the 64 pixels that are joined with the records; for raw images it requests the
+// block's words from memory. The target line is sent ahead to the cache.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/coded_messages.hpp"
@@ -12,11 +12,12 @@ namespace rs::engine::model {
 
 class FillFetch final : public Block {
 public:
-    FillFetch(const RegisterFile& registers, Fifo<TexelFill>& in, Fifo<BlockAsk>& asks, Fifo<CodedPixel>& pixels,
+    FillFetch(const RegisterFile& registers, Fifo<TexelFill>& in, Fifo<BlockRequest>& asks, Fifo<CodedPixel>& pixels,
               Fifo<MemoryRead>& raw_reads, Fifo<FillKind>& kinds, Fifo<FillTarget>& targets);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
-        return "columns to ask " + std::to_string(8 - requested_) + ", pixels to send " + std::to_string(64 - sent_);
+        return "columns to request " + std::to_string(8 - requested_) + ", pixels to send " +
+               std::to_string(64 - sent_);
     }
 
 private:
@@ -26,7 +27,7 @@ private:
 
     const RegisterFile& registers_;
     Fifo<TexelFill>& in_;
-    Fifo<BlockAsk>& asks_;
+    Fifo<BlockRequest>& asks_;
     Fifo<CodedPixel>& pixels_;
     Fifo<MemoryRead>& raw_reads_;
     Fifo<FillKind>& kinds_;
@@ -34,16 +35,16 @@ private:
     bool active_ = false;
     TexelFill fill_;
     bool coded_ = false;
-    std::uint32_t serial_ = 0;  // of the object that was requested last
-    bool first_ = false;        // of that object
+    std::uint32_t serial_ = 0;  // object of the last request
+    bool first_ = false;        // first request of that object
     int requested_ = 8;
     int sent_ = 64;
     WordAddress next_ = 0;
 };
 
-// Texel merge: the samples of a block come unpacked from book_lookup, or as they are from memory; a texel per cycle, in
-// the order in which the blocks were requested. Of a raw block (parallel_layout.hpp) it keeps three words: (U, V) of a
-// pair of columns, Y and alpha of one.
+// Texel merge: outputs the samples of a block, decompressed by the codebook look-up or raw from memory; a texel per
+// cycle, in the order in which the blocks were requested. For a raw block (parallel_layout.hpp) it stores three words:
+// (U, V) of a pair of columns, Y and alpha of one.
 
 class TexelMerge final : public Block {
 public:
@@ -61,7 +62,7 @@ private:
     Fifo<YuvaPixel>& out_;
     int left_ = 0;  // texels of the block
     bool is_coded_ = false;
-    int words_ = 0;  // of the column, and before it of the pair, that are here
+    int words_ = 0;  // words received of the column, including those of its pair
     std::uint64_t chroma_ = 0, luma_ = 0, alpha_ = 0;
 };
 

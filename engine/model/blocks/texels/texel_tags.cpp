@@ -21,12 +21,12 @@ int TexelTags::find(int image, int block_column, int block_row) const {
     return -1;
 }
 
-// Fills in where the sample's texels stand; true, with the first block that is missing, where one is.
+// Sets the cache positions of the sample's texels. Returns true, with the first missing block, if one is missing.
 bool TexelTags::needs_fill(const PlacedSample& sample, WaitingSample& waiting, TexelFill& fill) {
     for (int n = 0; n < 4; ++n) {
         const bool right = n >= 2;
         const bool bottom = n % 2 == 1;
-        if ((right && sample.fx == 0) || (bottom && sample.fy == 0)) continue;  // of weight 0
+        if ((right && sample.fx == 0) || (bottom && sample.fy == 0)) continue;  // weight 0
         const int x = sample.left + (right && !sample.right_is_left ? 1 : 0);
         const int y = sample.top + (bottom && !sample.bottom_is_top ? 1 : 0);
         const int line = find(sample.image, x >> 3, y >> 3);
@@ -40,7 +40,8 @@ bool TexelTags::needs_fill(const PlacedSample& sample, WaitingSample& waiting, T
     return false;
 }
 
-// The older line of the block's set; not one that the sample in front needs, for a sample needs one block of a set.
+// Replaces the older line of the block's set. The front sample cannot need that line, because a sample needs only one
+// block of a set.
 int TexelTags::replace(const TexelFill& fill) {
     const int set = set_of(fill.image, fill.block_column, fill.block_row);
     int& older = older_[static_cast<std::size_t>(set)];

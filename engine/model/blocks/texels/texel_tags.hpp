@@ -1,15 +1,15 @@
 #pragma once
-// Texel tags: which line of the texel cache holds, or will hold, the blocks of 8x8 texels that a sample needs, up to
-// four; texels of weight 0 need none. A block that is in no line gets one, and is requested: the sample goes on and
-// waits in `waiting` until the block is there, while the next samples are looked at. So fetching runs ahead of reading
-// by as many samples as that FIFO holds.
+// Texel tags: map the up to four blocks of 8x8 texels of a sample to lines of the texel cache that hold or will hold
+// them; texels of weight 0 need none. A block without a line gets one and is requested: the sample passes on and waits
+// in `waiting` until the block is there, while the next samples are processed. So fetching runs ahead of reading by the
+// depth of that FIFO.
 //
 // 128 lines: 64 sets of 2, the set from the low two bits of image, block column and block row. The four blocks of a
-// sample differ in the lowest bit of column or row, so a tag memory for each of these four parities gives all of them
-// in one cycle. A line that is replaced may still be read by samples ahead: its fill carries the number of the last of
-// them and is not written before that one has been read.
+// sample differ in the lowest bit of column or row, so one tag memory for each of these four parities gives all of them
+// in one cycle. A replaced line may still be read by samples ahead: its fill carries the number of the last of them and
+// is not written before that sample has been read.
 //
-// The tags of one object are valid; with the first sample of another one all are forgotten (flip-flops).
+// The tags belong to one object; the first sample of another object invalidates all (flip-flops).
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/signals/parallel_messages.hpp"
@@ -24,7 +24,7 @@ inline constexpr int kCacheLines = 128;
 class TexelTags final : public Block {
 public:
     static constexpr int kSets = kCacheLines / 2;
-    static constexpr int kTagBits = kCacheLines * (1 + 5 + 5 + 5 + 10) + kSets;  // valid, tag, last use; which is older
+    static constexpr int kTagBits = kCacheLines * (1 + 5 + 5 + 5 + 10) + kSets;  // valid, tag, last use; older way
     TexelTags(const RegisterFile& registers, Fifo<PlacedSample>& in, Fifo<TexelFill>& fills, Fifo<WaitingSample>& out);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::uint64_t fills_requested() const { return fills_requested_; }
@@ -34,7 +34,7 @@ private:
     struct Line {
         bool valid = false;
         int image = 0, block_column = 0, block_row = 0;
-        std::uint64_t last_use = 0;  // number of the sample, counted from 1
+        std::uint64_t last_use = 0;  // number of its last sample, counted from 1
     };
     // Line of the block, or -1.
     [[nodiscard]] int find(int image, int block_column, int block_row) const;
@@ -51,8 +51,8 @@ private:
     std::array<Line, kCacheLines> lines_;  // [set * 2 + way]
     std::array<int, kSets> older_{};       // way
     std::uint32_t serial_ = 0;             // of the object
-    int new_fills_ = 0;                    // of the sample in front
-    std::uint64_t samples_ = 0;            // handed on
+    int new_fills_ = 0;                    // fills requested by the front sample
+    std::uint64_t samples_ = 0;            // samples output
     std::uint64_t fills_requested_ = 0;
 };
 

@@ -22,11 +22,10 @@ namespace {
 constexpr const char* kSpread = "spread";
 constexpr const char* kBlack = "black";
 
-// Everything that an anchor may be given, made when it is first asked for: a run that finds all in the cache needs
-// none.
-class ShownImages {
+// Input images of the anchors, created on first use: a run whose results are all cached needs none.
+class AnchorInputs {
 public:
-    explicit ShownImages(const ReferenceImages& images) : images_(images) {}
+    explicit AnchorInputs(const ReferenceImages& images) : images_(images) {}
     const std::vector<Image<Rgba8>>& with_alpha(const std::string& background) {
         return background == kSpread ? filled(with_alpha_[1], Background::kSpread, false)
                                      : filled(with_alpha_[0], Background::kBlack, false);
@@ -56,14 +55,14 @@ private:
     std::vector<Image<Rgba8>> opaque_[2];
 };
 
-// One curve, coded one way.
+// One variant of a codec.
 struct Anchor {
     std::string codec;
     std::string variant;
     std::string prefix;       // of the setting's name: "q" 50
-    std::vector<int> probes;  // where variants of a curve are compared
+    std::vector<int> probes;  // settings at which variants are compared
     std::vector<int> settings;
-    std::string version_key;  // which tool answers
+    std::string version_key;  // version of the tool
     std::function<Result<Coded>(int setting)> code;
 };
 
@@ -72,10 +71,10 @@ std::string setting_name(const Anchor& anchor, int setting) {
     return anchor.prefix.empty() ? number + "x" + number : anchor.prefix + number;
 }
 
-// Makes the list of all anchors; the tools' versions are asked for only where their codec is wanted.
+// Builds the list of anchors. Runs a tool for its version only if its codec is requested.
 class AnchorList {
 public:
-    AnchorList(const ReferenceImages& images, ShownImages& shown, const std::filesystem::path& folder)
+    AnchorList(const ReferenceImages& images, AnchorInputs& shown, const std::filesystem::path& folder)
         : images_(images), shown_(shown), folder_(folder) {}
 
     Status add_astc(const std::string& name, bool with_alpha) {
@@ -109,7 +108,7 @@ public:
     Status add_x265(const std::string& name, bool intra, bool full_chroma) {
         const Result<std::string> version = run_tool({"x265", "--version"});
         if (!version) return version.error();
-        // 4:4:4 is for what 4:2:0 cannot reach.
+        // 4:4:4 covers the qualities that 4:2:0 cannot reach.
         const std::vector<int> factors =
             full_chroma ? std::vector{8, 12, 16, 20, 24} : std::vector{12, 16, 20, 24, 28, 32, 36, 40};
         const std::vector<int> probes = full_chroma ? std::vector{16, 24} : std::vector{24, 32};
@@ -128,13 +127,13 @@ public:
 
 private:
     void add(Anchor anchor) {
-        // Only the first line: the others say which machine it runs on.
+        // Keeps the first line only: the others describe the machine.
         anchor.version_key = anchor.version_key.substr(0, anchor.version_key.find('\n'));
         anchors_.push_back(std::move(anchor));
     }
 
     const ReferenceImages& images_;
-    ShownImages& shown_;
+    AnchorInputs& shown_;
     std::filesystem::path folder_;
     std::vector<Anchor> anchors_;
 };
@@ -144,13 +143,13 @@ std::string cache_key(const ReferenceImages& images, const Anchor& anchor, const
            anchor.version_key + ")";
 }
 
-// Measures anchors of one set, with what the answers of all of them need.
+// Measures the anchors on one set.
 class AnchorMeter {
 public:
     AnchorMeter(const ReferenceImages& images, const CodedCache& cache, Progress& progress)
         : images_(images), cache_(cache), progress_(progress) {}
 
-    // The variants of one curve.
+    // Measures the variants of one curve.
     Status measure(std::span<const Anchor> variants) {
         std::vector<Measurement> tried;
         for (const Anchor& anchor : variants) {
@@ -209,7 +208,7 @@ const std::vector<std::string>& anchor_names() {
 Result<std::vector<Measurement>> measure_anchors(const ReferenceImages& images, const std::set<std::string>& names,
                                                  const WorkFolder& work, Progress& progress) {
     const CodedCache cache(work.anchors());
-    ShownImages shown(images);
+    AnchorInputs shown(images);
     AnchorList list(images, shown, work.scratch());
     for (const bool with_alpha : {false, true}) {
         const std::string name = with_alpha ? "astc-rgba" : "astc";
@@ -226,7 +225,7 @@ Result<std::vector<Measurement>> measure_anchors(const ReferenceImages& images, 
         }
     }
 
-    // Variants of a curve follow each other in the list.
+    // Variants of a curve are adjacent in the list.
     std::vector<std::span<const Anchor>> curves;
     std::int64_t steps = 0;
     for (std::span<const Anchor> left = list.anchors(); !left.empty(); left = left.subspan(curves.back().size())) {

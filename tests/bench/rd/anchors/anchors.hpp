@@ -1,5 +1,5 @@
 #pragma once
-// What people would use today, each codec in all the ways that might be the best for it.
+// Anchors: established codecs, each measured with the variants that may be its best.
 
 #include "rayspace/base/progress.hpp"
 #include "tests/bench/rd/coded.hpp"
@@ -16,9 +16,8 @@ namespace rs::bench {
 // x265-intra-444, x265-inter-444.
 const std::vector<std::string>& anchor_names();
 
-// The curves in `names`. Each is tried in all its variants at two settings; the variant that is best for it there is
-// measured at all of them. What is in the work folder already is not measured again. Errors: a tool is not installed or
-// fails.
+/// Measures the curves in `names`. All variants are probed at two settings; the best one is measured at all settings.
+/// Results in the work folder are reused. Fails if a tool is not installed or fails.
 Result<std::vector<Measurement>> measure_anchors(const ReferenceImages& images, const std::set<std::string>& names,
                                                  const WorkFolder& work, Progress& progress);
 

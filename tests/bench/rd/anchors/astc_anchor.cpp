@@ -18,7 +18,7 @@ struct BlockPlace {
     int y = 0;
 };
 
-bool shows_something(const Image<Rgba8>& image, const BlockPlace& place, int block_px) {
+bool is_visible(const Image<Rgba8>& image, const BlockPlace& place, int block_px) {
     for (int y = place.y; y < std::min(place.y + block_px, image.height()); ++y) {
         for (int x = place.x; x < std::min(place.x + block_px, image.width()); ++x) {
             if (image(x, y).a > 0) return true;
@@ -33,14 +33,14 @@ std::vector<BlockPlace> visible_blocks(const ReferenceImages& images, int block_
         for (int y = 0; y < images.height; y += block_px) {
             for (int x = 0; x < images.width; x += block_px) {
                 const BlockPlace place{view, x, y};
-                if (shows_something(images.views[view], place, block_px)) places.push_back(place);
+                if (is_visible(images.views[view], place, block_px)) places.push_back(place);
             }
         }
     }
     return places;
 }
 
-// Block n of the packed image stands in column n % columns, row n / columns.
+// Block n of the packed image is in column n % columns, row n / columns.
 struct Packing {
     int block_px;
     int columns;
@@ -56,7 +56,7 @@ Image<Rgba8> packed(const std::vector<Image<Rgba8>>& shown, const std::vector<Bl
         const Image<Rgba8>& from = shown[places[n].view];
         for (int y = 0; y < packing.block_px; ++y) {
             for (int x = 0; x < packing.block_px; ++x) {
-                // Past the image's edge its last pixels are repeated, as astcenc does.
+                // Pixels are repeated beyond the image's edge, as in astcenc.
                 atlas(packing.x(n) + x, packing.y(n) + y) =
                     from(std::min(places[n].x + x, from.width() - 1), std::min(places[n].y + y, from.height() - 1));
             }
@@ -96,7 +96,7 @@ Result<Coded> code_astc(const ReferenceImages& images, const std::vector<Image<R
     const Result<Image<Rgba8>> decoded = read_image(out);
     if (!decoded) return decoded.error();
     if (decoded->width() != atlas.width() || decoded->height() != atlas.height()) {
-        return Error{out.string() + ": astcenc wrote another size than it was given; try another version of it"};
+        return Error{out.string() + ": differs in size from the input of astcenc; try another version of astcenc"};
     }
     Coded coded;
     coded.bytes = kAstcBlock_bytes * places.size();

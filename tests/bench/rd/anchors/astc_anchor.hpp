@@ -1,8 +1,8 @@
 #pragma once
-// ASTC by the command `astcenc` (-medium). Every block is coded by itself, so only the blocks that show something
-// (alpha above 0) are given to it, packed side by side in one image: the same codes as for the whole images. Only
-// those are billed, 16 bytes each. So ASTC is not charged for the empty part of a touched 8x8 block, nor for blocks
-// larger than 8x8 that reach into one but show nothing.
+// ASTC by the command `astcenc` (-medium). Blocks are coded independently, so that only visible blocks (alpha above 0)
+// are coded, packed side by side in one image; their codes equal those of the whole images. Only these blocks count, 16
+// bytes each. ASTC is therefore not charged for the empty part of a touched 8x8 block, nor for empty blocks larger than
+// 8x8 that overlap one.
 
 #include "tests/bench/rd/coded.hpp"
 
@@ -11,8 +11,9 @@
 
 namespace rs::bench {
 
-// `shown` are the images to code, view by view, with their alpha; coded as RGBA where `with_alpha`, else as opaque
-// RGB. `folder` takes temporary files.
+/// \param shown images to code, by view, with alpha
+/// \param with_alpha code as RGBA; otherwise as opaque RGB
+/// \param folder for temporary files
 Result<Coded> code_astc(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown, int block_px,
                         bool with_alpha, const std::filesystem::path& folder);
 

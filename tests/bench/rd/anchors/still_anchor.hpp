@@ -1,5 +1,5 @@
 #pragma once
-// JPEG and WebP: every image a file of its own. All bytes of the files count; alpha is not stored.
+// JPEG and WebP, one file per image. All bytes of the files count; alpha is not stored.
 
 #include "tests/bench/rd/coded.hpp"
 
@@ -13,7 +13,8 @@ enum class StillCodec {
     kWebp,  // libwebp, lossy
 };
 
-// `shown` are the opaque images to code, view by view. quality 1..100.
+/// \param shown opaque images to code, by view
+/// \param quality 1..100
 Result<Coded> code_stills(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown, StillCodec codec,
                           int quality);
 

@@ -15,7 +15,7 @@ extern char** environ;
 namespace rs::bench {
 namespace {
 
-// The last line that says anything: programs print their complaint there.
+// Last non-empty line, which usually is the error message.
 std::string last_line(const std::string& text) {
     std::istringstream lines(text);
     std::string last = "it printed nothing";
@@ -42,9 +42,9 @@ std::string read_all(int descriptor) {
 
 Result<std::string> run_tool(const std::vector<std::string>& argv) {
     RS_CHECK(!argv.empty());
-    // Close-on-exec: a program started at the same time by another thread must not hold the pipe open.
+    // Close-on-exec: a program started concurrently by another thread must not keep the pipe open.
     std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0) return Error{argv[0] + ": no pipe to it: " + std::strerror(errno)};
+    if (::pipe2(ends.data(), O_CLOEXEC) != 0) return Error{argv[0] + ": cannot create a pipe: " + std::strerror(errno)};
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);

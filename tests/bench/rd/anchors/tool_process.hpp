@@ -1,5 +1,5 @@
 #pragma once
-// Encoders that are programs of their own.
+// Runs external encoders.
 
 #include "rayspace/base/result.hpp"
 
@@ -8,8 +8,9 @@
 
 namespace rs::bench {
 
-// Runs argv[0] (looked up in PATH) with the other arguments, no shell between, and waits; returns what it printed on
-// stdout and stderr together. Errors: there is no such program; it did not end with 0 (its last line is in the error).
+/// Runs argv[0] (searched in PATH) with the other arguments, without a shell, and waits for it.
+/// \return its stdout and stderr combined. Fails if the program does not exist, or if its exit status is not 0; the
+/// error contains the last line of the output.
 Result<std::string> run_tool(const std::vector<std::string>& argv);
 
 }  // namespace rs::bench

@@ -1,6 +1,6 @@
 #pragma once
-// HEVC by the command `x265` (preset medium, constant rate factor): the views as a film, in ring order. All bytes of
-// the stream count; alpha is not stored. One frame at a time (-F 1), so that the result does not depend on the machine.
+// HEVC by the command `x265` (preset medium, constant rate factor): the views as a video in ring order. All bytes of
+// the stream count; alpha is not stored. One frame thread (-F 1), so that the result does not depend on the machine.
 
 #include "tests/bench/rd/anchors/yuv_frames.hpp"
 #include "tests/bench/rd/coded.hpp"
@@ -11,13 +11,14 @@
 namespace rs::bench {
 
 struct X265Settings {
-    bool intra = false;        // every frame by itself (--keyint 1)
+    bool intra = false;        // intra frames only (--keyint 1)
     bool full_chroma = false;  // 4:4:4, else 4:2:0
-    bool tune_psnr = false;    // --tune psnr, else the default, which follows the eye
+    bool tune_psnr = false;    // --tune psnr; else the default, perceptual tuning
     int crf = 28;
 };
 
-// `shown` are the opaque images to code, view by view. `folder` takes temporary files.
+/// \param shown opaque images to code, by view
+/// \param folder for temporary files
 Result<Coded> code_x265(const ReferenceImages& images, const std::vector<Image<Rgba8>>& shown,
                         const X265Settings& settings, const std::filesystem::path& folder);
 

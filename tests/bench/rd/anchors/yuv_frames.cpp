@@ -24,7 +24,7 @@ std::size_t FrameFormat::frame_bytes() const {
 }
 
 std::vector<std::byte> frame_from_image(ConstImageView<Rgba8> image, const FrameFormat& format) {
-    // For 4:4:4 every pixel is made 2x2 pixels, whose common chroma is then its own.
+    // For 4:4:4, pixels are doubled to 2x2, so that subsampled chroma is that of the pixel.
     const int scale = format.full_chroma ? 2 : 1;
     Image<Rgba8> frame(scale * format.frame_width(), scale * format.frame_height());
     for (int y = 0; y < frame.height(); ++y) {

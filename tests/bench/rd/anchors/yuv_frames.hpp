@@ -1,6 +1,6 @@
 #pragma once
-// Images as the raw planar frames that video encoders read and write: all of Y, then U, then V, frame after frame.
-// Colours are converted as Rayspace itself does (rayspace/object/yuv.hpp), so that the conversion favours nobody.
+// Raw planar frames of video encoders: Y, U and V planes, frame after frame. The colour conversion is Rayspace's own
+// (rayspace/object/yuv.hpp), so that it favours no codec.
 
 #include "rayspace/image/image.hpp"
 
@@ -11,19 +11,20 @@
 namespace rs::bench {
 
 struct FrameFormat {
-    int width = 0;  // px, of the images; frames are one larger where that is odd
+    int width = 0;  // px, of the images; odd sizes are padded by one in frames
     int height = 0;
     bool full_chroma = false;  // 4:4:4, else 4:2:0
 
     [[nodiscard]] int frame_width() const { return width + width % 2; }
     [[nodiscard]] int frame_height() const { return height + height % 2; }
-    [[nodiscard]] std::size_t chroma_bytes() const;  // of U, and as many of V
+    [[nodiscard]] std::size_t chroma_bytes() const;  // of U, and of V
     [[nodiscard]] std::size_t frame_bytes() const;
 };
 
-// The image's alpha must be 255 throughout.
+/// \param image opaque
 std::vector<std::byte> frame_from_image(ConstImageView<Rgba8> image, const FrameFormat& format);
-// Opaque. frame.size() is format.frame_bytes().
+/// \param frame of size format.frame_bytes()
+/// \return opaque image
 Image<Rgba8> image_from_frame(std::span<const std::byte> frame, const FrameFormat& format);
 
 }  // namespace rs::bench

@@ -58,7 +58,7 @@ TEST(BoardDetectionOfHidden, WhatAnObjectHidesIsNotSeen) {
     EXPECT_GE(found.count, 24U);
     EXPECT_LT(found.rms_px, 0.1);
     const double radius_px = hidden_mm * turn.board.units_per_mm * turn.model.lens.f_px;
-    for (const SeenCorner& one : seen->corners) {
+    for (const DetectedCorner& one : seen->corners) {
         EXPECT_GT(glm::length(one.p - glm::dvec2(512, 384)), radius_px - 1) << one.corner;
     }
 }
@@ -77,7 +77,7 @@ TEST(BoardDetectionOfHidden, ABlankBoardIsFoundByEitherDesign) {
         EXPECT_GE(found.count, 24U);
         EXPECT_LT(found.rms_px, 0.1);
         // A white square without its marker is still white, so only a missing black square removes a corner.
-        for (const SeenCorner& one : seen->corners) {
+        for (const DetectedCorner& one : seen->corners) {
             const int x = one.corner % 8, y = one.corner / 8;
             for (const int dx : {0, 1}) {
                 for (const int dy : {0, 1}) {
@@ -116,7 +116,7 @@ TEST(BoardDetectionOfPrint, ThePrintedImageIsItselfDetected) {
         for (int i = 0; i < corner_count(design); ++i) printed += corner_is_printed(design, i) ? 1 : 0;
         EXPECT_EQ(seen->corners.size(), printed);
         const glm::dvec2 middle = design.square_mm * glm::dvec2(0.5 * design.squares_x + 1, 0.5 * design.squares_y + 1);
-        for (const SeenCorner& one : seen->corners) {
+        for (const DetectedCorner& one : seen->corners) {
             const glm::dvec2 truth = (corner_mm(design, one.corner) + middle) * (dpi / 25.4);
             EXPECT_LT(glm::length(one.p - truth), 0.1) << one.corner;
         }

@@ -36,7 +36,7 @@ double depth(const Bundle& bundle, std::size_t i, std::size_t view) {
 TEST(PatchGrowth, PointsComeOneStepBesideAsFarFromTheCamera) {
     for (const int reduction : {1, 2}) {
         Bundle bundle = one_point(5);
-        grow(bundle, reduction, 1000);
+        grow_patches(bundle, reduction, 1000);
         ASSERT_EQ(bundle.tracks.size(), 5U);
         ASSERT_EQ(bundle.points.size(), 5U);
         const Observation middle = reference_observation(bundle.model, bundle.tracks[0]);
@@ -59,7 +59,7 @@ TEST(PatchGrowth, PointsComeOneStepBesideAsFarFromTheCamera) {
 
 TEST(PatchGrowth, NoPlaceGetsASecondPoint) {
     Bundle bundle = one_point(3);
-    for (int round = 0; round < 4; ++round) grow(bundle, 1, 100000);
+    for (int round = 0; round < 4; ++round) grow_patches(bundle, 1, 100000);
     EXPECT_GT(bundle.tracks.size(), 25U);
     // No two points of the middle view are in the same cell.
     for (std::size_t i = 0; i < bundle.tracks.size(); ++i) {
@@ -76,12 +76,12 @@ TEST(PatchGrowth, ThereAreNoMoreObservationsThanAskedFor) {
     const Bundle start = make_bundle(test::turn_model(36, radians(10)), tracks);
     const int before = observation_count(start);
     Bundle all = start, some = start, none = start;
-    grow(all, 1, 10 * before);
-    grow(none, 1, before);
+    grow_patches(all, 1, 10 * before);
+    grow_patches(none, 1, before);
     EXPECT_EQ(none.tracks.size(), start.tracks.size());
     const int grown = observation_count(all) - before;
     ASSERT_GT(grown, before);
-    grow(some, 1, before + grown / 3);
+    grow_patches(some, 1, before + grown / 3);
     EXPECT_NEAR(observation_count(some) - before, grown / 3, grown / 30);
     // Evenly spaced: some candidates are neighbours of early points, some of late ones.
     const auto is_of_some = [&](const glm::dvec3& p) {
@@ -101,7 +101,7 @@ TEST(PatchGrowth, NothingGrowsBesideTheImage) {
     Bundle bundle = one_point(3);
     const Observation middle = reference_observation(bundle.model, bundle.tracks[0]);
     bundle.model.lens.width = static_cast<int>(middle.p.x) + 1;  // the point is in the last column
-    grow(bundle, 1, 1000);
+    grow_patches(bundle, 1, 1000);
     for (const Track& track : bundle.tracks) {
         EXPECT_LT(reference_observation(bundle.model, track).p.x, bundle.model.lens.width);
     }

@@ -21,11 +21,11 @@ using testing::Contains;
 using testing::HasSubstr;
 
 // Random placements as from a shop's cropping.
-std::vector<ImagePlace> drawn_places(std::size_t views, double width) {
-    std::vector<ImagePlace> places;
+std::vector<ImagePlacement> drawn_places(std::size_t views, double width) {
+    std::vector<ImagePlacement> places;
     for (std::size_t i = 0; i < views; ++i) {
         const double t = 2 * kPi * static_cast<double>(i) / static_cast<double>(views);
-        ImagePlace place;
+        ImagePlacement place;
         place.shift_px = {width * (0.03 * std::sin(2 * t + 1) + (i % 3 == 1 ? 0.02 : 0)),
                           width * 0.02 * std::cos(3 * t)};
         place.scale = 1 + 0.06 * std::cos(2 * t) + (i % 2 == 1 ? 0.01 : 0);
@@ -39,7 +39,7 @@ glm::dvec2 middle_of(const Lens& lens) {
 }
 
 // Largest error of the estimated scales, except for a common factor.
-double worst_scale(const std::vector<ImagePlace>& found, const std::vector<ImagePlace>& truth) {
+double worst_scale(const std::vector<ImagePlacement>& found, const std::vector<ImagePlacement>& truth) {
     double mean = 0;
     for (std::size_t i = 0; i < truth.size(); ++i) mean += std::log(found[i].scale / truth[i].scale);
     mean /= static_cast<double>(truth.size());
@@ -50,19 +50,19 @@ double worst_scale(const std::vector<ImagePlace>& found, const std::vector<Image
     return worst;
 }
 
-TEST(ImagePlace, IsUndoneAndChained) {
+TEST(ImagePlacement, IsUndoneAndChained) {
     const glm::dvec2 middle(320, 240), p(37, 401);
-    const ImagePlace outer{{12, -7}, 1.2}, inner{{-3, 5}, 0.9};
+    const ImagePlacement outer{{12, -7}, 1.2}, inner{{-3, 5}, 0.9};
     EXPECT_LT(glm::distance(outer.undone(outer.seen(p, middle), middle), p), 1e-9);
     EXPECT_LT(glm::distance(outer.of(inner).seen(p, middle), outer.seen(inner.seen(p, middle), middle)), 1e-9);
-    EXPECT_EQ(ImagePlace{}.seen(p, middle), p);
+    EXPECT_EQ(ImagePlacement{}.seen(p, middle), p);
 }
 
 TEST(ImagePlaces, AreFoundFromPointsInBothSenses) {
     for (const double sense : {1.0, -1.0}) {
         TurntableModel truth = test::turn_model(24, sense * radians(15));
         truth.lens.k1 = 0;
-        const std::vector<ImagePlace> places = drawn_places(24, truth.lens.width);
+        const std::vector<ImagePlacement> places = drawn_places(24, truth.lens.width);
         std::vector<Track> tracks = test::tracks_of(truth, test::surface_points(250, 5), 0.2, 5);
         for (Track& track : tracks) {
             for (Observation& seen : track.seen) {
@@ -83,13 +83,13 @@ TEST(ImagePlaces, AreFoundFromPointsInBothSenses) {
 }
 
 TEST(ImagePlaces, AImageIsPutBack) {
-    const ImagePlace place{{9, -4}, 1.25};
+    const ImagePlacement place{{9, -4}, 1.25};
     TurnImages turn;
     turn.width = 160;
     turn.height = 120;
     turn.reduction = 2;
     // A spot at (40, 50) of the reduced image, transformed by the placement.
-    const glm::dvec2 spot = ImagePlace{place.shift_px / 2.0, place.scale}.seen({40, 50}, {40, 30});
+    const glm::dvec2 spot = ImagePlacement{place.shift_px / 2.0, place.scale}.seen({40, 50}, {40, 30});
     CalibrationImage image{Image<std::uint8_t>(80, 60, 0), Image<std::uint8_t>(80, 60, 255)};
     for (int y = 0; y < 60; ++y) {
         for (int x = 0; x < 80; ++x) {
@@ -98,7 +98,7 @@ TEST(ImagePlaces, AImageIsPutBack) {
         }
     }
     turn.images.push_back(image);
-    const TurnImages back = undo_placements(turn, std::vector<ImagePlace>{place});
+    const TurnImages back = undo_placements(turn, std::vector<ImagePlacement>{place});
     glm::dvec2 sum(0.0);
     double weight = 0;
     for (int y = 0; y < 60; ++y) {
@@ -115,12 +115,12 @@ TEST(ImagePlaces, AImageIsPutBack) {
 
 TEST(ImagePlaces, ATurnOfMovedImagesIsCalibrated) {
     const TurntableModel truth = test::drum_turn(24, -radians(15));
-    const std::vector<ImagePlace> places = drawn_places(24, truth.lens.width);
+    const std::vector<ImagePlacement> places = drawn_places(24, truth.lens.width);
     TurnImages turn;
     turn.width = truth.lens.width;
     turn.height = truth.lens.height;
     turn.names = test::photograph_names(24);
-    std::vector<ImagePlace> inverse;
+    std::vector<ImagePlacement> inverse;
     for (std::size_t i = 0; i < 24; ++i) {
         turn.images.push_back(calibration_image(test::drawn_drum({}, truth, i), 1));
         inverse.push_back({-places[i].shift_px / places[i].scale, 1 / places[i].scale});

@@ -33,7 +33,7 @@ std::vector<Track> noisy_tracks(const TurntableModel& truth, double wrong, std::
     return tracks;
 }
 
-std::optional<Start> start_of(const TurntableModel& truth, const KnownInputs& known = {}, double wrong = 0.1) {
+std::optional<InitialModel> start_of(const TurntableModel& truth, const KnownInputs& known = {}, double wrong = 0.1) {
     const std::vector<Track> tracks = noisy_tracks(truth, wrong, 21);
     return find_initial_model(tracks, test::pairs_of(tracks), static_cast<int>(truth.angles_rad.size()),
                               middle_lens(truth), known);
@@ -49,7 +49,7 @@ TurntableModel seen_from_above(TurntableModel model) {
 }
 
 // Accurate enough for the following bundle.
-void expect_good_start(const std::optional<Start>& start, const TurntableModel& truth, double step_rad) {
+void expect_good_start(const std::optional<InitialModel>& start, const TurntableModel& truth, double step_rad) {
     ASSERT_TRUE(start.has_value());
     const TurntableModel found = seen_from_above(start->model);
     ASSERT_EQ(found.angles_rad.size(), truth.angles_rad.size());

@@ -68,7 +68,7 @@ double angles_error_rad(const TurntableModel& found, const TurntableModel& truth
 }
 
 SilhouetteTurn turn_of(const std::vector<Image<std::uint8_t>>& masks) {
-    auto turn = SilhouetteTurn::of(masks, {600, 100});
+    auto turn = SilhouetteTurn::create(masks, {600, 100});
     EXPECT_TRUE(turn.ok());
     return std::move(*turn);
 }
@@ -111,7 +111,7 @@ TEST(CoherenceFit, IsTheSameOnAnyNumberOfThreads) {
 }
 
 // A body of revolution looks the same at any angle; neither angles nor lens may change.
-TEST(CoherenceFit, ABodyOfRevolutionSaysNothing) {
+TEST(CoherenceFit, RejectsABodyOfRevolution) {
     const TurntableModel truth = turn_of_figure(kCoherentViews);
     const auto [places, covariance] = known_by_short_tracks(truth);
     const SilhouetteTurn turn = turn_of(drawn(bottle(), truth));
@@ -130,7 +130,7 @@ TEST(CoherenceFit, AnglesThatAreHeldStay) {
     EXPECT_FALSE(fit_coherence(truth, places, covariance, turn, turn.reduction(), {}).has_value());
 }
 
-TEST(CoherenceFit, OutlinesOfNoOneBodySayNothing) {
+TEST(CoherenceFit, RejectsInconsistentSilhouettes) {
     const TurntableModel truth = turn_of_figure(kCoherentViews);
     const auto [places, covariance] = known_by_short_tracks(truth);
     std::vector<Image<std::uint8_t>> masks = masks_of_figure();

@@ -56,7 +56,7 @@ double plain_residual(const SilhouetteTurn& turn, const TurntableModel& model, s
 
 struct Scene {
     TurntableModel truth = turn_of_figure(kViewsOfCoherence);
-    SilhouetteTurn turn = *SilhouetteTurn::of(drawn(figure(), truth), {300, 24});
+    SilhouetteTurn turn = *SilhouetteTurn::create(drawn(figure(), truth), {300, 24});
 };
 
 TurntableModel bent(TurntableModel model) {

@@ -40,7 +40,7 @@ Eigen::VectorXd adjusted(Line& line, const SilhouetteErrors& errors, double prio
     return z;
 }
 
-TEST(SilhouetteAdjustment, WeighsOutlinesAgainstWhatWasKnown) {
+TEST(SilhouetteAdjustment, WeighsSilhouettesAgainstThePrior) {
     Line line;
     const SilhouetteErrors errors{4, kFar_px, 0.5};
     // Each number is measured by half of the four points: an information of 2 / 0.25, plus 1 of the prior.
@@ -69,7 +69,7 @@ TEST(SilhouetteAdjustment, OutliersCountLittle) {
     EXPECT_NEAR(adjustment.cost(line.at), 1000 * 100 * 30 / 130.0 + 5, 30);
 }
 
-TEST(SilhouetteAdjustment, OutlinesAreBelievedAsFarAsTheyAgree) {
+TEST(SilhouetteAdjustment, DeviationFollowsTheResiduals) {
     Line line;
     const SilhouetteErrors errors{40, kFar_px, 0.1, true};
     SilhouetteAdjustment fine(line.comparison(), errors);

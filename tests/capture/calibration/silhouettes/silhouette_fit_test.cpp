@@ -12,14 +12,14 @@ namespace {
 
 TEST(SilhouetteFit, FindsAKnownOffsetWithinItsDeviations) {
     TurntableModel truth = turn_of_figure(16);
-    const SilhouetteTurn turn = *SilhouetteTurn::of(drawn(figure(), truth));
+    const SilhouetteTurn turn = *SilhouetteTurn::create(drawn(figure(), truth));
     for (double* const px : {&truth.lens.f_px, &truth.lens.cx, &truth.lens.cy}) *px /= turn.reduction();
     SilhouetteParameters off;  // changes are additive, so the fit must undo them
     off.value[SilhouetteParameters::kAxis] = 5;
     off.value[SilhouetteParameters::kTilt] = radians(-4);
     off.value[SilhouetteParameters::kRoll] = radians(1.5);
     off.value[SilhouetteParameters::kStep] = 0.008;
-    const SilhouetteProblem problem{&turn, changed(truth, off), {true, true, true, false, true}};
+    const SilhouetteProblem problem{&turn, apply_changes(truth, off), {true, true, true, false, true}};
 
     const RaySelection rays{2, {}};
     const SilhouetteFit fit = fit_silhouettes(problem, {}, rays, 30);

@@ -97,13 +97,13 @@ TEST(SilhouetteSymmetry, FindsAnAxisThatLiesSideways) {
 
 TEST(SilhouetteSymmetry, CountsInPixelsOfThePhotographs) {
     const TurntableModel truth = turn_of_silhouettes(36);
-    TurntableModel photographs = truth;
-    for (double* number : {&photographs.lens.f_px, &photographs.lens.cx, &photographs.lens.cy}) *number *= 3;
-    photographs.lens.width *= 3;
-    photographs.lens.height *= 3;
-    const auto found = axis_from_silhouettes(covered_of(truth), 3, photographs);
+    TurntableModel photos = truth;
+    for (double* number : {&photos.lens.f_px, &photos.lens.cx, &photos.lens.cy}) *number *= 3;
+    photos.lens.width *= 3;
+    photos.lens.height *= 3;
+    const auto found = axis_from_silhouettes(covered_of(truth), 3, photos);
     ASSERT_TRUE(found);
-    EXPECT_LT(std::abs(error_px(photographs, *found)), 0.75);
+    EXPECT_LT(std::abs(error_px(photos, *found)), 0.75);
 }
 
 TEST(SilhouetteSymmetry, IsLessSureOfFewerViewsAndSilentWithoutAFullTurn) {
@@ -131,7 +131,7 @@ TEST(SilhouetteSymmetry, DoesNotUseRowsCutOffByTheImage) {
 }
 
 // A strip missing on one side shifts the axis by half its width; tests the sign of the measurement.
-TEST(SilhouetteSymmetry, FollowsWhatTheCutOutsLack) {
+TEST(SilhouetteSymmetry, FollowsMissingPartsOfMasks) {
     const TurntableModel truth = turn_of_silhouettes(36);
     const auto whole = axis_from_silhouettes(covered_of(truth), 1, truth);
     const auto lacking = axis_from_silhouettes(covered_of(truth, 4), 1, truth);
@@ -139,7 +139,7 @@ TEST(SilhouetteSymmetry, FollowsWhatTheCutOutsLack) {
     EXPECT_NEAR(lacking->position_px - whole->position_px, 2, 0.4);
 }
 
-TEST(AgreedAxis, WeighsWhatAgreesAndBelievesOutlinesWhereTextureGlides) {
+TEST(AgreedAxis, WeighsAgreementAndPrefersSilhouettesOtherwise) {
     const AxisPosition near = combine_axes({300, 100.0, 0.2}, {300, 100.2, 0.2});
     EXPECT_NEAR(near.position_px, 100.1, 1e-9);
     EXPECT_NEAR(near.deviation_px, 0.2 / std::sqrt(2.0), 1e-9);

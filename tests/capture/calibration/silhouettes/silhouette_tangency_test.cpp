@@ -120,7 +120,7 @@ TurntableModel far_start(const TurntableModel& truth) {
     return start;
 }
 
-TEST(SilhouetteTangency, OutlinesAreJudgedByHowTheyAgreeInTheEnd) {
+TEST(SilhouetteTangency, WeighsSilhouettesByFinalResiduals) {
     const TurntableModel truth = turn_of_cloud();
     const TurntableModel start = far_start(truth);
     const auto hulls = hulls_of_cloud(truth, 0.05);
@@ -148,7 +148,7 @@ TEST(SilhouetteTangency, WhatClaimedTooMuchIsBelievedLess) {
     EXPECT_GT(2 * std::sqrt(far->covariance(f, f)), std::abs(far->model.lens.f_px - truth.lens.f_px));
 }
 
-TEST(SilhouetteTangency, OutlinesThatDoNotAgreeSayNothing) {
+TEST(SilhouetteTangency, RejectsInconsistentSilhouettes) {
     const TurntableModel truth = turn_of_cloud();
     const ParameterIndices places = all_places();
     const auto known = roughly_known(places, truth);

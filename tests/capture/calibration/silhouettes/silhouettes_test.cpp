@@ -106,7 +106,7 @@ TEST(Silhouettes, FindStepsThatAreNotEqual) {
 }
 
 // With masks smaller than the photos.
-TEST(Silhouettes, HoldWhatIsKnown) {
+TEST(Silhouettes, HoldKnownValuesConstant) {
     const TurntableModel truth = turn_of_figure(kViews);
     TurntableModel start = level_start(truth);
     for (double* number : {&start.lens.f_px, &start.lens.cx, &start.lens.cy}) *number *= 4;
@@ -151,7 +151,7 @@ TEST(Silhouettes, DoNotPretendToKnowWhatABodyOfRevolutionHides) {
     EXPECT_NE(found->warnings[0].find("how far the camera looks down"), std::string::npos);
 }
 
-TEST(Silhouettes, RefuseOutlinesThatAreOfNoTurn) {
+TEST(Silhouettes, RefuseSilhouettesThatAreNoTurn) {
     const TurntableModel truth = turn_of_figure(kViews);
     auto shuffled = figure_masks();
     for (std::size_t i = 0; i < shuffled.size(); ++i) std::swap(shuffled[i], shuffled[(i * 11 + 5) % kViews]);

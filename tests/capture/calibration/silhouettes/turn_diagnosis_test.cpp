@@ -41,7 +41,7 @@ Judged judge(const std::vector<Track>& tracks, const TurntableModel& start, std:
     const std::vector<std::string> names = test::photograph_names(views);
     std::vector<std::string> warnings = step_warnings(bundle.model.angles_rad, deviations, names);
     for (std::string& line : image_warnings(bundle, candidates, features, names)) warnings.push_back(std::move(line));
-    return {accept(bundle, deviations, candidates, names), std::move(warnings)};
+    return {check_plausibility(bundle, deviations, candidates, names), std::move(warnings)};
 }
 
 Judged judge(const TurntableModel& truth, const TurntableModel& start) {
@@ -186,7 +186,7 @@ TEST(TurnDiagnosis, TooShortATurnIsAnError) {
     EXPECT_THAT(judged.accepted.error().message, HasSubstr("degrees of turn; 15 to 400"));
 }
 
-TEST(TurnDiagnosis, SaysWhereTextureAndOutlinesDisagreeAboutTheAxis) {
+TEST(TurnDiagnosis, WarnsWhereTextureAndSilhouettesDisagreeAboutTheAxis) {
     const auto warning = axis_warning({300, 102.1, 0.2}, {300, 100, 0.2}, 1);
     ASSERT_TRUE(warning);
     EXPECT_NE(warning->find("2.1 px"), std::string::npos) << *warning;

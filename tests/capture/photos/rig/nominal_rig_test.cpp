@@ -29,15 +29,15 @@ TEST(TurnSilhouette, FindsTheAxisOfATurnInPerspective) {
     for (const double elevation_deg : {0.0, 20.0}) {
         Camera camera = look_at_camera({0, 6 * std::tan(radians(elevation_deg)), 6}, {0, 0, 0}, radians(30), 320, 240);
         camera.cx = 171.5;  // the axis' column
-        TurnSilhouette outline(320, 240);
+        TurnSilhouette silhouette_sum(320, 240);
         TurnSilhouette second(320, 240);
         for (int i = 0; i < 36; ++i) {
             const double angle = 2 * kPi * i / 36 + 0.05;
             const glm::dvec3 centre(0.6 * std::sin(angle), 0.1, 0.6 * std::cos(angle));
-            (i % 2 == 0 ? outline : second).add(silhouette(camera, centre, 0.4));
+            (i % 2 == 0 ? silhouette_sum : second).add(silhouette(camera, centre, 0.4));
         }
-        outline.merge(second);
-        const auto axis = outline.axis();
+        silhouette_sum.merge(second);
+        const auto axis = silhouette_sum.axis();
         ASSERT_TRUE(axis.has_value());
         EXPECT_NEAR(axis->x_px, 171.5, 1.0) << elevation_deg;
         EXPECT_LE(axis->spread_px, 1.0);
@@ -45,12 +45,12 @@ TEST(TurnSilhouette, FindsTheAxisOfATurnInPerspective) {
 }
 
 TEST(TurnSilhouette, GivesNoAxisWhereItCannot) {
-    TurnSilhouette outline(50, 40);
-    EXPECT_FALSE(outline.axis().has_value());
-    EXPECT_TRUE(outline.visible().empty());
-    outline.add(Image<Rgba8>(50, 40, Rgba8{1, 1, 1, 255}));  // every row reaches both sides
-    EXPECT_FALSE(outline.axis().has_value());
-    EXPECT_EQ(outline.visible().right, 50);
+    TurnSilhouette silhouette_sum(50, 40);
+    EXPECT_FALSE(silhouette_sum.axis().has_value());
+    EXPECT_TRUE(silhouette_sum.visible().empty());
+    silhouette_sum.add(Image<Rgba8>(50, 40, Rgba8{1, 1, 1, 255}));  // every row reaches both sides
+    EXPECT_FALSE(silhouette_sum.axis().has_value());
+    EXPECT_EQ(silhouette_sum.visible().right, 50);
 }
 
 TEST(NominalRig, TheOutermostRayTouchesTheUnitCircle) {

@@ -92,7 +92,7 @@ TEST(Rectification, AMovedPhotographIsPutBack) {
     const Image<Rgba8> photo = drawn(model.lens, model.pose);
     const auto frame = plan_upright_frame(model, std::array{visible_box(photo)});
     ASSERT_TRUE(frame.ok());
-    const ImagePlace place{{13, -8}, 0.9};
+    const ImagePlacement place{{13, -8}, 0.9};
     Lens moved = model.lens;  // a shift is equivalent to another lens: exact without resampling
     const glm::dvec2 principal =
         place.seen({moved.cx, moved.cy}, glm::dvec2(model.lens.width, model.lens.height) / 2.0);

@@ -168,7 +168,7 @@ TEST(DiscontinuityFilter, LooksNoFartherThanItSaysAndNeedsNoThreads) {
     const Image<RgbaF> of_changed = filtered_mean(changed);
     EXPECT_NE(of_all(10, 40), of_changed(10, 40));
     for (int y = 0; y < kSide; ++y) {
-        for (int x = 10 + kFilterReach_px; x < kSide; ++x) ASSERT_EQ(of_all(x, y), of_changed(x, y)) << x << " " << y;
+        for (int x = 10 + kFilterRadius_px; x < kSide; ++x) ASSERT_EQ(of_all(x, y), of_changed(x, y)) << x << " " << y;
     }
 }
 

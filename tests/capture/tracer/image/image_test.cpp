@@ -203,7 +203,7 @@ TEST(Tracer, RefusesScenesThatCannotBeRendered) {
     EXPECT_EQ(message(good), "accepted");
     Scene bad = good;
     bad.meshes[0].triangles[3].y = 1000000;
-    EXPECT_NE(message(bad).find("mesh \"sphere\": a triangle names vertex 1000000"), std::string::npos);
+    EXPECT_NE(message(bad).find("mesh \"sphere\": a triangle refers to vertex 1000000"), std::string::npos);
     bad = good;
     bad.meshes[1].material = 9;
     EXPECT_NE(message(bad).find("material 9 does not exist"), std::string::npos);

@@ -67,7 +67,7 @@ TEST(Furnace, CamerasSeeThroughRooms) {
         room.meshes.push_back(make_quad(corner, u, v));
     }
     Scene within = object;
-    surround(within, std::move(room), glm::dmat4(1));
+    add_surroundings(within, std::move(room), glm::dmat4(1));
     RenderOptions options;
     options.samples_per_pixel = 64;
     options.depth = true;

@@ -239,7 +239,7 @@ TEST(Radiosity, KeepsVirtualLightsThatTheCameraSeesTheLightOf) {
     const Camera camera = look_at_camera({-3.5, 0, 0.9}, {-1, 0, -0.5}, radians(60), 12, 12);
     const RayImage image{12, 12, camera.centre(), camera.forward(),
                          [&](double x, double y) { return camera.ray(x, y); }};
-    // Image mean of each pass, and the variance over the passes.
+    // Image mean of each pass, and the standard deviation over the passes.
     struct Found {
         double mean, deviation, lights;
     };

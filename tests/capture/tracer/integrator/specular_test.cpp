@@ -145,7 +145,7 @@ TEST(Glass, AbsorbsByTheLengthOfTheWay) {
 struct Slab {
     float top, thickness, through;
 };
-double seen_through(const std::vector<Slab>& slabs) {
+double transmitted_radiance(const std::vector<Slab>& slabs) {
     Scene scene;
     for (const Slab& slab : slabs) {
         add_slab(scene, slab.thickness, static_cast<int>(scene.materials.size()), slab.top);
@@ -158,18 +158,19 @@ double seen_through(const std::vector<Slab>& slabs) {
 
 TEST(Glass, InsideOfGlassTheInnermostAbsorbs) {
     // Within the noise of Russian roulette.
-    const auto expect_seen = [](const std::vector<Slab>& slabs, double expected) {
-        EXPECT_NEAR(seen_through(slabs), expected, 0.03 * expected);
+    const auto expect_transmitted = [](const std::vector<Slab>& slabs, double expected) {
+        EXPECT_NEAR(transmitted_radiance(slabs), expected, 0.03 * expected);
     };
     // One unit of the outer, one of the inner, one of the outer again.
-    expect_seen({{0, 3, 0.5F}, {-1, 1, 0.25F}}, 0.5 * 0.25 * 0.5);
+    expect_transmitted({{0, 3, 0.5F}, {-1, 1, 0.25F}}, 0.5 * 0.25 * 0.5);
     // Overlapping: one unit of the first, two of the second.
-    expect_seen({{0, 2, 0.5F}, {-1, 2, 0.25F}}, 0.5 * 0.25 * 0.25);
+    expect_transmitted({{0, 2, 0.5F}, {-1, 2, 0.25F}}, 0.5 * 0.25 * 0.25);
     // Four levels: each interface is crossed twice.
-    expect_seen({{0, 7, 0.9F}, {-1, 5, 0.8F}, {-2, 3, 0.7F}, {-3, 1, 0.6F}}, 0.9 * 0.9 * 0.8 * 0.8 * 0.7 * 0.7 * 0.6);
+    expect_transmitted({{0, 7, 0.9F}, {-1, 5, 0.8F}, {-2, 3, 0.7F}, {-3, 1, 0.6F}},
+                       0.9 * 0.9 * 0.8 * 0.8 * 0.7 * 0.7 * 0.6);
     // Five levels: the outermost medium is dropped.
-    expect_seen({{0, 9, 0.5F}, {-1, 7, 0.9F}, {-2, 5, 0.8F}, {-3, 3, 0.7F}, {-4, 1, 0.6F}},
-                0.5 * 0.9 * 0.9 * 0.8 * 0.8 * 0.7 * 0.7 * 0.6);
+    expect_transmitted({{0, 9, 0.5F}, {-1, 7, 0.9F}, {-2, 5, 0.8F}, {-3, 3, 0.7F}, {-4, 1, 0.6F}},
+                       0.5 * 0.9 * 0.9 * 0.8 * 0.8 * 0.7 * 0.7 * 0.6);
 }
 
 TEST(Fresnel, KnownValues) {

@@ -265,7 +265,7 @@ TEST(ToonEdges, AMirrorShowsTheEdgesOfTheMirroredMesh) {
             const bool line = in_mirror.image(x, y).g < 0.5F && drawn.image(x, y).a > 0;
             overlap.both += truth && line;
             overlap.any += truth || line;
-            // Edges of the depth image would show the mirror's plane.
+            // For comparison: Sobel edges of the depth image, which shows the mirror's plane.
             const auto d = [&](int i, int k) { return in_mirror.depth(x + i, y + k); };
             const float gx = d(1, -1) + 2 * d(1, 0) + d(1, 1) - d(-1, -1) - 2 * d(-1, 0) - d(-1, 1);
             const float gy = d(-1, 1) + 2 * d(0, 1) + d(1, 1) - d(-1, -1) - 2 * d(0, -1) - d(1, -1);

@@ -20,7 +20,7 @@ std::shared_ptr<const Luminaire> luminaire_of(const std::string& text) {
 }
 
 // Asymmetric web: 0 to 90 degrees from the nadir, 4 different planes.
-std::shared_ptr<const Luminaire> lopsided() {
+std::shared_ptr<const Luminaire> asymmetric_luminaire() {
     return luminaire_of(
         "TILT=NONE\n1 -1 10 3 5 1 2 0 0 0 1 1 9\n0 45 90\n0 90 180 270 360\n"
         "100 80 10 100 120 30 100 40 5 100 60 20 100 80 10\n");
@@ -43,7 +43,7 @@ TEST(LuminaireLight, LightsTheFloorByTheInverseSquareLaw) {
                                    material_of(SurfaceKind::diffuse, glm::vec3(0.5F)));
             const double turn = radians(turn_deg), height = 2;
             const glm::dvec3 place(out * std::cos(turn), 0, -out * std::sin(turn));
-            scene.lights.push_back(light_of(lopsided(), {0, height, 0}));
+            scene.lights.push_back(light_of(asymmetric_luminaire(), {0, height, 0}));
             const Camera camera = look_at_camera(place + glm::dvec3(0, 1, 1e-3), place, radians(0.05), 2, 2);
             RenderOptions options;
             options.samples_per_pixel = 16;
@@ -94,8 +94,8 @@ void expect_sphere_is_filled(const std::shared_ptr<const Luminaire>& luminaire, 
 }
 
 TEST(LuminaireLight, FillsASphereAsItsFluxSays) {
-    expect_sphere_is_filled(lopsided(), RenderMethod::kPath);
-    expect_sphere_is_filled(lopsided(), RenderMethod::kRadiosity);
+    expect_sphere_is_filled(asymmetric_luminaire(), RenderMethod::kPath);
+    expect_sphere_is_filled(asymmetric_luminaire(), RenderMethod::kRadiosity);
 }
 
 TEST(LuminaireLightRealData, FillsASphereAsItsFluxSays) {
@@ -122,7 +122,7 @@ TEST(LightSetProperty, DrawsAreUnbiasedWhereverTheyAreNeeded) {
     spot.beam_width_rad = 0.3;
     spot.cut_off_rad = 0.6;
     scene.lights.push_back(spot);
-    scene.lights.push_back(light_of(lopsided(), {0, 3, 2}));
+    scene.lights.push_back(light_of(asymmetric_luminaire(), {0, 3, 2}));
     Light disc;
     disc.kind = LightKind::kDisc;
     disc.location = {0, 2, -2};

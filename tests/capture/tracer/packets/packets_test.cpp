@@ -45,7 +45,7 @@ Scene scene_of_all_kinds() {
     return scene;
 }
 
-void expect_the_bits_of_single_rays(const Scene& scene) {
+void expect_equal_to_single_rays(const Scene& scene) {
     const auto rays = RayScene::create(scene);
     ASSERT_TRUE(rays);
     rs::test::Random random(3);
@@ -90,9 +90,9 @@ void expect_the_bits_of_single_rays(const Scene& scene) {
 
 TEST(Packets, GiveTheBitsOfSingleRays) {
     Scene scene = scene_of_all_kinds();
-    expect_the_bits_of_single_rays(scene);
+    expect_equal_to_single_rays(scene);
     for (Instance& instance : scene.instances) instance.at_close.reset();
-    expect_the_bits_of_single_rays(scene);
+    expect_equal_to_single_rays(scene);
 }
 
 // Coherent shadow rays to one lamp, for which Embree did not return with instances as the only occluders.
@@ -205,8 +205,8 @@ Scene scene_of_all_details() {
     return scene;
 }
 
-void expect_whitted_gives_the_bits_of_single_rays(const Scene& scene, float environment, CameraVisibility visibility,
-                                                  bool soft_shadows) {
+void expect_whitted_packets_equal_single_rays(const Scene& scene, float environment, CameraVisibility visibility,
+                                              bool soft_shadows) {
     const auto rays = RayScene::create(scene);
     ASSERT_TRUE(rays);
     const LightSet lights(scene, environment > 0 ? constant_environment(environment) : Environment{},
@@ -258,14 +258,14 @@ void expect_whitted_gives_the_bits_of_single_rays(const Scene& scene, float envi
 TEST(Packets, OfWhittedGiveTheBitsOfSingleRays) {
     for (const Scene& scene : {scene_of_all_kinds(), scene_of_all_details()}) {
         for (const bool soft_shadows : {false, true}) {
-            expect_whitted_gives_the_bits_of_single_rays(scene, 0.3F, {true, true}, soft_shadows);
-            expect_whitted_gives_the_bits_of_single_rays(scene, 0, {}, soft_shadows);
+            expect_whitted_packets_equal_single_rays(scene, 0.3F, {true, true}, soft_shadows);
+            expect_whitted_packets_equal_single_rays(scene, 0, {}, soft_shadows);
         }
     }
 }
 
 // BSDF value, without a cosine, for light from the surface's viewer direction scattered to `out`.
-glm::vec3 sent(const LightTransport& transport, const LightTransport::Vertex& from, const glm::vec3& out) {
+glm::vec3 bsdf_value(const LightTransport& transport, const LightTransport::Vertex& from, const glm::vec3& out) {
     const SurfaceModel& model = transport.model_of(from.point);
     const glm::vec3& colour = from.surface.colour();
     if (model.kind == SurfaceKind::diffuse) {
@@ -276,7 +276,7 @@ glm::vec3 sent(const LightTransport& transport, const LightTransport::Vertex& fr
     return Surface(model, colour, out, false).evaluate(viewer).f_cos / std::max(viewer.z, 1e-4F);
 }
 
-// One virtual light, one vertex.
+// Scalar counterpart of light_from_virtual() for one vertex.
 std::optional<LightSample> light_from(const LightTransport& transport, const LightTransport::Vertex& from,
                                       const glm::vec3& flux, float bound, const LightTransport::Vertex& to) {
     const glm::vec3 facet = from.point.geometric_normal;
@@ -300,12 +300,12 @@ std::optional<LightSample> light_from(const LightTransport& transport, const Lig
     float geometry = std::abs(cos_facet) / distance2;
     const float with_cosine = geometry * std::abs(cosine);
     if (with_cosine > bound) geometry *= bound / with_cosine;
-    const glm::vec3 radiance = sent(transport, from, from.frame.to_local(-direction)) * flux * geometry;
+    const glm::vec3 radiance = bsdf_value(transport, from, from.frame.to_local(-direction)) * flux * geometry;
     if (!(max_component(radiance) > 0.0F)) return std::nullopt;
     return LightSample{direction, distance, radiance, 1.0F, true};
 }
 
-void expect_virtual_lights_give_the_bits_of_their_twin(const Scene& scene) {
+void expect_virtual_lights_equal_scalar_code(const Scene& scene) {
     const auto rays = RayScene::create(scene);
     ASSERT_TRUE(rays);
     const LightSet lights(scene, {}, {glm::vec3(0), 6.0F});
@@ -359,7 +359,7 @@ void expect_virtual_lights_give_the_bits_of_their_twin(const Scene& scene) {
 }
 
 TEST(Packets, OfVirtualLightsGiveTheBitsOfTheirTwin) {
-    expect_virtual_lights_give_the_bits_of_their_twin(scene_of_all_details());
+    expect_virtual_lights_equal_scalar_code(scene_of_all_details());
 }
 
 TEST(Packets, GiveTheSameBitsOnEveryTarget) {
@@ -372,8 +372,8 @@ TEST(Packets, GiveTheSameBitsOnEveryTarget) {
         SCOPED_TRACE(hwy::TargetName(target));
         hwy::SetSupportedTargetsForTest(target);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-        expect_whitted_gives_the_bits_of_single_rays(scene, 0.3F, {true, true}, false);
-        expect_virtual_lights_give_the_bits_of_their_twin(scene);
+        expect_whitted_packets_equal_single_rays(scene, 0.3F, {true, true}, false);
+        expect_virtual_lights_equal_scalar_code(scene);
     }
     hwy::SetSupportedTargetsForTest(0);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());

@@ -68,9 +68,9 @@ TEST(PlyFile, ErrorsNameTheElement) {
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
         "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
     write_text(folder / "a.ply", header + "0 0 0\n1 0 0\n0 x 0\n3 0 1 2\n");
-    EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("vertex 2: y is missing or no number"));
+    EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("vertex 2: y is missing or not a number"));
     write_text(folder / "a.ply", header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n");
-    EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("face 0: a face names a vertex that does not exist"));
+    EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("face 0: a face refers to a vertex that does not exist"));
     write_text(folder / "a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty quaternion x\nend_header\n");
     EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("unknown type \"quaternion\""));
     write_text(folder / "a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n");
@@ -120,7 +120,7 @@ TEST(PlyFile, ElementsMustBeThoseOfAMesh) {
                       "0 0 0\n0 0 0\n0 2 0\n0 2 0\n" + face),
                 HasSubstr("x is a list; it must be one number"));
     EXPECT_THAT(error(vertices + "property float x\n" + faces, square + face), HasSubstr("two properties \"x\""));
-    const std::string needed = "needs one list of whole numbers named vertex_indices";
+    const std::string needed = "needs one integer list named vertex_indices";
     EXPECT_THAT(error(vertices + "element face 1\nproperty int vertex_indices\n", square + "1\n"), HasSubstr(needed));
     EXPECT_THAT(error(vertices + "element face 1\nproperty list uchar float vertex_index\n", square + face),
                 HasSubstr(needed));
@@ -149,10 +149,10 @@ TEST(PlyFile, StripsBecomeTrianglesAndBeginAnewAtMinusOne) {
     EXPECT_EQ(two->meshes[0].triangles.size(), 2U);
     EXPECT_NEAR(area_of(two), 4.0F, 1e-5F);
     write_text(folder / "a.ply", ascii_ply(elements, std::string(kPlySquare) + "4 0 1 -2 2\n"));
-    EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("names a vertex that does not exist"));
+    EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("refers to a vertex that does not exist"));
     write_text(folder / "a.ply",
                ascii_ply(std::string(kPlyVertices) + kPlyFaces, std::string(kPlySquare) + "4 0 1 2 -1\n"));
-    EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("names a vertex that does not exist")) << "no strip";
+    EXPECT_THAT(error_of(folder / "a.ply"), HasSubstr("refers to a vertex that does not exist")) << "no strip";
 }
 
 TEST(PlyFile, KeepsNormals) {

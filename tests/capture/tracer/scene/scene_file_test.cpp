@@ -162,7 +162,7 @@ TEST_F(SceneFileTest, GeneratorGetsNameParametersAndSeed) {
     EXPECT_THAT(error(R"({"object": {"generator": "nothing"}})", generator),
                 HasSubstr("there is no object \"nothing\""));
     EXPECT_THAT(error(R"({"object": {"generator": "ball"}})"),
-                HasSubstr("object.generator: there are no generators here"));
+                HasSubstr("object.generator: generators are not available"));
 }
 
 TEST_F(SceneFileTest, ARoomStandsAroundTheObject) {
@@ -200,7 +200,7 @@ TEST_F(SceneFileTest, WrongRoomsAreErrorsThatNameThePlace) {
     EXPECT_THAT(error(with(R"({"file": "bare.obj", "radius": 1, "scale": 2})")),
                 HasSubstr("has a key 'scale' that means nothing here; it may have: "));
     EXPECT_THAT(error(R"({"object": {"mesh": "quad.obj"}, "look": "toon", "room": {"file": "bare.obj", "radius": 1}})"),
-                HasSubstr("room: does not go with"));
+                HasSubstr("room: cannot be combined with"));
 }
 
 TEST_F(SceneFileTest, UnknownKeysAreErrorsThatNameThem) {
@@ -247,7 +247,8 @@ TEST_F(SceneFileTest, WrongStylesOfCartoonsAreErrors) {
         return error(R"({"object": {"mesh": "bare.obj"}, "look": "toon", "toon": )" + style + "}");
     };
     EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "look": "oil"})"), HasSubstr("look: must be"));
-    EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "toon": {}})"), HasSubstr("toon: is for \"look\": \"toon\""));
+    EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "toon": {}})"),
+                HasSubstr("toon: requires \"look\": \"toon\""));
     EXPECT_THAT(wrong(R"({"thresholds": [0.5]})"), HasSubstr("toon: values must be one more than \"thresholds\""));
     EXPECT_THAT(wrong(R"({"thresholds": [0.1, 0.2, 0.3, 0.4]})"), HasSubstr("toon: thresholds must fall"));
     EXPECT_THAT(wrong(R"({"thresholds": [0.9, 0.8, 0.7, -0.1]})"),
@@ -283,7 +284,8 @@ TEST_F(SceneFileTest, WrongValuesAreErrorsThatNameThePlace) {
                 HasSubstr("colour: must be a list of three numbers"));
     EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj", "texture": "red.png"}})"),
                 HasSubstr("no texture coordinates"));
-    EXPECT_THAT(error(R"({"object": {"mesh": "quad.obj", "texture": "blue.png"}})"), HasSubstr("asks for the texture"));
+    EXPECT_THAT(error(R"({"object": {"mesh": "quad.obj", "texture": "blue.png"}})"),
+                HasSubstr("does not exist; add the file"));
     EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "environment": {}})"), HasSubstr("give one of"));
     EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "environment": {"file": "gone.exr"}})"),
                 HasSubstr("gone.exr is not there"));

@@ -103,7 +103,7 @@ TEST(LightListText, LightsOfAnySceneAreWrittenToTheBit) {
         light.cut_off_rad = radians(5 + 80 * std::abs(any(random)));
         light.beam_width_rad = light.cut_off_rad * std::abs(any(random));
         LightList list;
-        list.entries = {entry_of(light)};
+        list.entries = {entry_from_light(light)};
         const auto text = light_list_to_json(list, "a.json");
         ASSERT_TRUE(text) << text.error().message;
         const auto again = light_list_from_json(*text, "a.json");
@@ -123,7 +123,7 @@ Shape { geometry Box { size 2 2 2 } appearance Appearance { material Material {}
     const auto scene = scene_from_vrml(world, "world.wrl");
     ASSERT_TRUE(scene) << scene.error().message;
     ASSERT_EQ(scene->lights.size(), 3U);
-    const auto text = light_list_to_json(lights_in_force(*scene), "own.json");
+    const auto text = light_list_to_json(lights_as_list(*scene), "own.json");
     ASSERT_TRUE(text) << text.error().message;
     auto list = light_list_from_json(*text, "own.json");
     ASSERT_TRUE(list) << list.error().message << *text;
@@ -136,7 +136,7 @@ Shape { geometry Box { size 2 2 2 } appearance Appearance { material Material {}
     }
     EXPECT_EQ(again.navigation.headlight, scene->navigation.headlight);
     // Second export, after the import: scopes are still those of the file.
-    EXPECT_EQ(light_list_to_json(lights_in_force(again), "own.json").value(), *text);
+    EXPECT_EQ(light_list_to_json(lights_as_list(again), "own.json").value(), *text);
     // A scope that the scene does not have changes nothing.
     list->entries[0].scope = 7;
     const Status refused = add_lights(again, *list, "own.json");
@@ -158,7 +158,7 @@ TEST(RasterLights, OfTheSameFileAreEachTheirOwn) {
     scene.lights = list->lights;
     scene.lights[1].everywhere = false;
     const std::vector<Light> lights = raster_lights(scene, 0);
-    for (std::size_t i = 0; i < 2; ++i) expect_same_light(lights.at(i), punctual_of(scene.lights[i]));
+    for (std::size_t i = 0; i < 2; ++i) expect_same_light(lights.at(i), to_punctual_light(scene.lights[i]));
 }
 
 // In a box of 24 square metres with reflectance 1/2.

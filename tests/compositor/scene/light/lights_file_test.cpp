@@ -48,7 +48,7 @@ TEST(LightList, AreasShineToTheirAimWithTheirLumens) {
                                  R"("lumens": 3580, "turn_deg": 30, "aim": )" + aim + "}");
         EXPECT_NEAR(area_of(panel), 0.36, 1e-9);
         EXPECT_NEAR(panel.colour.r * kPi * 0.36, 20, 1e-4);
-        const Light spot = punctual_of(panel);
+        const Light spot = to_punctual_light(panel);
         glm::dvec3 towards(0, -1, 0);
         if (aim[1] == '1') towards = {1, 0, 0};
         if (aim[1] == '0' && aim[2] == '.') towards = glm::normalize(glm::dvec3(0.3, 0.2, -0.7));
@@ -81,7 +81,7 @@ TEST(LightList, LuminairesAreTurnedAboutTheirAim) {
     EXPECT_EQ(irradiance_at(aside, {-2, 1, 0}).r, 0);
     EXPECT_NEAR(glm::determinant(aside.world_from_luminaire), 1, 1e-12);
     // Its spot has the same intensity straight ahead and the same extent.
-    const Light spot = punctual_of(down);
+    const Light spot = to_punctual_light(down);
     EXPECT_LT(glm::distance(spot.towards, glm::dvec3(0, -1, 0)), 1e-12);
     EXPECT_NEAR(irradiance_at(spot, {0, 0, 0}).r, 200 / 179.0, 1e-5);  // of the peak
     EXPECT_EQ(irradiance_at(spot, {0, 2, 0}).r, 0);

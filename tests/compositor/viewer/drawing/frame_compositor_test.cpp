@@ -30,18 +30,18 @@ TEST_F(Compositing, WhatIsNotReleasedIsSeen) {
     }
     ASSERT_TRUE(compositor->draw(kFront));
     EXPECT_THAT(
-        context_->names_alive(),
+        context_->live_objects(),
         ::testing::UnorderedElementsAre(::testing::EndsWith(" textures"), ::testing::EndsWith(" buffers"),
                                         ::testing::EndsWith(" vertex arrays"), ::testing::EndsWith(" framebuffers"),
                                         ::testing::EndsWith(" renderbuffers"), ::testing::EndsWith(" programs")));
     compositor.reset();
-    EXPECT_THAT(context_->names_alive(), ::testing::IsEmpty());
+    EXPECT_THAT(context_->live_objects(), ::testing::IsEmpty());
     const unsigned texture = [] {
         GLuint name = 0;
         glCreateTextures(GL_TEXTURE_2D, 1, &name);
         return name;
     }();
-    EXPECT_THAT(context_->names_alive(), ::testing::ElementsAre("1 textures"));
+    EXPECT_THAT(context_->live_objects(), ::testing::ElementsAre("1 textures"));
     glDeleteTextures(1, &texture);
 }
 
@@ -214,8 +214,8 @@ TEST_F(Compositing, ManyNodesTakeSeveralCycles) {
 }
 
 TEST_F(Compositing, APlaceholderStandsWhereTheObjectWillBe) {
-    const auto engine = std::make_shared<engine::RenderSession>(limits_of_viewer());
-    const auto nodes = std::make_shared<ShownNodes>(1);
+    const auto engine = std::make_shared<engine::RenderSession>(viewer_session_limits());
+    const auto nodes = std::make_shared<DisplayedNodes>(1);
     Result<FrameCompositor> compositor =
         FrameCompositor::create({}, engine, nodes, {.width = kFrameWidth, .height = kFrameHeight});
     ASSERT_TRUE(compositor);
@@ -233,7 +233,7 @@ TEST_F(Compositing, APlaceholderStandsWhereTheObjectWillBe) {
     const auto object = test::drum(kRed);
     const Result<engine::ObjectHandle> handle = engine->load(prepared(object));
     ASSERT_TRUE(handle);
-    ShownNode& node = nodes->front();
+    DisplayedNode& node = nodes->front();
     node.placeholder.reset();
     node.object = test::placed_at(object);
     node.handle = *handle;
@@ -254,8 +254,8 @@ TEST_F(Compositing, APlaceholderStandsWhereTheObjectWillBe) {
 TEST_F(Compositing, ABoardDrawsTheSameBits) {
     const auto config = engine::model::read_board_config("prototype-2000");
     ASSERT_TRUE(config);
-    const auto engine =
-        std::make_shared<engine::RenderSession>(limits_of_viewer(), engine::model::make_simulated_board(*config, true));
+    const auto engine = std::make_shared<engine::RenderSession>(viewer_session_limits(),
+                                                                engine::model::make_simulated_board(*config, true));
     RaySpaceObject object = test::drum_object();
     const std::shared_ptr<const RaySpaceObject> for_board = engine->as_board_draws(object);
     ASSERT_TRUE(for_board);
@@ -264,7 +264,7 @@ TEST_F(Compositing, ABoardDrawsTheSameBits) {
     viewable->for_board = for_board;
     const auto shared = std::make_shared<const ViewableObject>(std::move(*viewable));
     const std::vector<PlacedObject> objects = {test::placed_at(shared), test::placed_at(shared, {{1.5, 0, -1}})};
-    const auto nodes = show_all(objects, *engine);
+    const auto nodes = load_all_nodes(objects, *engine);
     ASSERT_TRUE(nodes);
     engine->load_on_board({nodes->get()->front().handle});
     Result<FrameCompositor> compositor = FrameCompositor::create(

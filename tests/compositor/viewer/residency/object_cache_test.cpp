@@ -63,7 +63,7 @@ public:
     }
 
     void check_budget() const {
-        const StoreStatistics statistics = store.statistics();
+        const CacheStatistics statistics = store.statistics();
         EXPECT_LE(statistics.used_bytes, budget_);
         EXPECT_LE(statistics.peak_bytes, budget_);
         const std::lock_guard lock(log->mutex);

@@ -70,7 +70,7 @@ TEST_P(FileObjectSource, TakeNoMoreThanForeseenAndNotMuchLess) {
         board = engine::model::make_simulated_board(*config, true);
     }
     const auto engine = std::make_shared<engine::RenderSession>(engine::RenderSessionLimits{}, std::move(board));
-    const std::unique_ptr<ObjectSource> source = object_files(engine, true);
+    const std::unique_ptr<ObjectSource> source = make_file_source(engine, true);
     const Result<std::int64_t> foreseen = source->most_bytes(folder / "ball.rso");
     ASSERT_TRUE(foreseen) << foreseen.error().message;
     std::optional<Result<ViewableObject>> read;
@@ -98,10 +98,10 @@ INSTANTIATE_TEST_SUITE_P(RawAndCoded, FileObjectSource, ::testing::Combine(::tes
 
 TEST(ObjectMemory, CountsWhatAnObjectHolds) {
     RaySpaceObject object = ball(false, true);
-    const std::int64_t before = memory_of(object);
-    const std::int64_t image = memory_of(object) - [&] {
+    const std::int64_t before = object_memory_bytes(object);
+    const std::int64_t image = object_memory_bytes(object) - [&] {
         object.images[0] = {};
-        return memory_of(object);
+        return object_memory_bytes(object);
     }();
     EXPECT_EQ(image, 200 * 220 + 2 * 100 * 110 + 200 * 220);
     EXPECT_GT(before, 36 * image);

@@ -97,17 +97,17 @@ TEST(VisualHull, APartThatOneCutOutLacksIsKeptWhereThatIsTolerated) {
     for (int column = 0; column < torn.width; ++column) {
         for (int row = 0; row < torn.height / 2; ++row) torn.columns(row, column) = {};
     }
-    EXPECT_GT(contradicted_share(pointers(views), VisualHull(pointers(views), 16), range), 0.05);
-    EXPECT_LT(contradicted_share(pointers(views), VisualHull(pointers(views), 1, 1), range), 0.01);
+    EXPECT_GT(inconsistent_share(pointers(views), VisualHull(pointers(views), 16), range), 0.05);
+    EXPECT_LT(inconsistent_share(pointers(views), VisualHull(pointers(views), 1, 1), range), 0.01);
 }
 
 TEST(VisualHull, SilhouettesOfTheRightRigAgreeAndOfAWrongOneDoNot) {
     const std::vector<WorkView> views = drawn_views(drawn_ring(12));
     const DepthRange range;
-    EXPECT_LT(contradicted_share(pointers(views), VisualHull(pointers(views), 1), range), 0.01);
+    EXPECT_LT(inconsistent_share(pointers(views), VisualHull(pointers(views), 1), range), 0.01);
     std::vector<WorkView> wrong = views;
     for (WorkView& view : wrong) view.cx += 9;
-    EXPECT_GT(contradicted_share(pointers(wrong), VisualHull(pointers(wrong), 1), range), 0.1);
+    EXPECT_GT(inconsistent_share(pointers(wrong), VisualHull(pointers(wrong), 1), range), 0.1);
 }
 
 TEST(VisualHull, AViewWithoutAnObjectSaysNothing) {

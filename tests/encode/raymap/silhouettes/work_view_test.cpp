@@ -65,7 +65,7 @@ TEST(WorkView, WeakenedShadingKeepsDetail) {
                 view.columns(x, y) = {value, value, value, static_cast<std::uint8_t>(x == 5 ? 1 : 255)};
             }
         }
-        weaken_shading(view);
+        attenuate_shading(view);
         return view.columns;
     };
     const Image<Rgba8> dull = view_of(0);

@@ -1,5 +1,6 @@
-// Writes the conformance set: `make_conformance_vectors engine/conformance/vectors EDITION`. Run it when the normative
-// arithmetic or the format changes, or cases are added, with a new edition; what was right before must stay so.
+// Writes the conformance set: `make_conformance_vectors engine/conformance/vectors EDITION`. Run it with a new edition
+// when the normative arithmetic or the format changes, or when cases are added. Existing cases must not change
+// otherwise.
 
 #include "encode/codec/board/board_encoder.hpp"
 #include "engine/conformance/vectors.hpp"
@@ -75,7 +76,7 @@ std::vector<Pose> random_poses(std::uint64_t seed, int count, bool upright) {
     return poses;
 }
 
-// Captured poses all around, and those halfway between two.
+// Captured poses around the ring, and poses halfway between two of them.
 std::vector<Pose> ring_poses(int views, double distance, int count) {
     std::vector<Pose> poses;
     for (int i = 0; i < count; ++i) {
@@ -87,7 +88,7 @@ std::vector<Pose> ring_poses(int views, double distance, int count) {
     return poses;
 }
 
-// Towards the edges of the reference planes' sectors, as exactly as a camera can be, and a little to either side.
+// Poses at the borders between the sectors of the reference planes, and slightly beside them.
 std::vector<Pose> seam_poses(int planes) {
     std::vector<Pose> poses;
     for (int k = 0; k < planes; ++k) {
@@ -122,7 +123,7 @@ std::vector<Pose> extreme_poses() {
 
 Result<ConformanceCase> make_case(const fs::path& folder, const std::string& name, const std::string& covers,
                                   RaySpaceObject object, const std::vector<Pose>& poses, TexelFilter filter) {
-    object.rig_json.clear();  // for other programs only
+    object.rig_json.clear();  // not used by renderers
     ConformanceCase made{name, covers, name + ".rso", {}};
     if (Status status = write_object(folder / made.object, object); !status) return status.error();
     const Result<RaySpaceObject> read = read_object(folder / made.object);
@@ -144,7 +145,7 @@ RaySpaceObject without_images(RaySpaceObject object) {
     return object;
 }
 
-// Alpha in steps of 2 bits, which the board holds.
+// Object with 2-bit alpha, as the board stores it.
 RaySpaceObject ring(const test::RingObjectOptions& options) {
     RaySpaceObject object = test::ring_object(options);
     for (PlanarImage& image : object.images) {
@@ -175,7 +176,7 @@ RaySpaceObject board(const test::RingObjectOptions& options, const encode::Board
     return object;
 }
 
-// Tiles of random bytes: every branch of the decoder, sense or none.
+// Replaces tiles by random bytes, to reach every branch of the decoder.
 RaySpaceObject with_random_tiles(RaySpaceObject object, std::uint64_t seed, std::size_t most_bytes) {
     Random random(seed);
     codec::CodedImages coded = *object.coded;
@@ -200,7 +201,7 @@ RaySpaceObject with_shape(RaySpaceObject object, std::uint64_t seed, double empt
     return object;
 }
 
-struct Planned {
+struct PlannedCase {
     const char* name;
     const char* covers;
     RaySpaceObject object;
@@ -208,14 +209,14 @@ struct Planned {
     TexelFilter filter = TexelFilter::kBilinear;
 };
 
-std::vector<Planned> planned_cases() {
+std::vector<PlannedCase> planned_cases() {
     const test::RingObjectOptions small{
         .views = 9, .width = 40, .height = 34, .fl_px = 50, .planes = 5, .x_cells = 48, .u_cells = 32};
     const test::RingObjectOptions many{
         .views = 18, .width = 48, .height = 40, .planes = 12, .x_cells = 64, .u_cells = 48};
     const test::RingObjectOptions odd{
         .views = 5, .width = 37, .height = 29, .fl_px = 46, .planes = 3, .x_cells = 20, .u_cells = 70};
-    test::RingObjectOptions close = small;  // the object is larger than its images: first and last column and row
+    test::RingObjectOptions close = small;  // the object exceeds its images: tests first and last column and row
     close.fl_px = 160;
     RaySpaceObject holes = ring(small);
     for (std::size_t i = 0; i < holes.rings[0].cells.size(); ++i) {
@@ -228,7 +229,7 @@ std::vector<Planned> planned_cases() {
     test::RingObjectOptions shaped = many;
     shaped.views = 12;
 
-    std::vector<Planned> cases;
+    std::vector<PlannedCase> cases;
     cases.push_back({"plane-upright", "upright views by reference planes", ring(small), random_poses(1, 12, true)});
     cases.push_back(
         {"plane-twelve", "twelve planes, captured poses and those halfway", ring(many), ring_poses(18, 3.5, 10)});
@@ -284,7 +285,7 @@ std::vector<Planned> planned_cases() {
 
 Status make_all(const fs::path& folder, const std::string& edition) {
     VectorSet set{folder, edition, {}};
-    for (const Planned& planned : planned_cases()) {
+    for (const PlannedCase& planned : planned_cases()) {
         Result<ConformanceCase> made =
             make_case(folder, planned.name, planned.covers, planned.object, planned.poses, planned.filter);
         if (!made) return Error{std::string(planned.name) + ": " + made.error().message};

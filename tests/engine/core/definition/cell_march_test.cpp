@@ -1,7 +1,7 @@
-// Which surfaces a ray meets (engine/RECONSTRUCTION.md, section 6), on rays made by hand: the viewpoint stands over the
-// axis at height b, so that the foot is at height b too and the reference slope is 0 where b is the reference height.
-// The ray passes right through the middle of one column of cells; shape_cells_test.cpp looks between columns. Where all
-// cells beside it have a surface, the last one met is the farthest of them.
+// Tests of the surfaces that a ray meets (engine/RECONSTRUCTION.md, section 6). The viewpoint is on the axis at height
+// b, so that the foot is at height b, too, and the reference slope is 0 if b is the reference height. The ray passes
+// the centre of one column of cells; shape_cells_test.cpp tests rays between columns. If all adjacent cells have a
+// surface, the last surface met is the farthest of them.
 #include "engine/core/definition/cell_march.hpp"
 
 #include <gtest/gtest.h>
@@ -20,8 +20,7 @@ struct Column {
     ShapeSetup setup;
     std::vector<ShapeCell> cells;
 
-    // Bands of one radius each; the foot of a ray at height 0 stands at the lower end of band bands / 2. Depth 128 is
-    // the foot's.
+    // Bands of one radius each; the foot of a ray at height 0 is at the lower end of band bands / 2 and at depth 128.
     Column(int bands, ShapeCell cell) : cells(static_cast<std::size_t>(bands), cell) {
         shape.bands = bands;
         shape.bands_per_unit_q12 = 1 << 12;
@@ -32,12 +31,12 @@ struct Column {
         setup.inverse_r_q20 = kOne_q20;
         setup.inverse_rho_q20 = kOne_q20 / 3;
         shape.jump = 20;
-        for (auto& of_p : setup.cells.at) of_p[0] = of_p[1] = cells.data();
+        for (auto& lines : setup.cells.at) lines[0] = lines[1] = cells.data();
     }
     Column(const Column&) = delete;
     Column& operator=(const Column&) = delete;
 
-    // Their depths, in eighths of a step.
+    // Depths of the surfaces met, in eighths of a step.
     [[nodiscard]] std::vector<int> met(std::int32_t slope_q20, std::int32_t b_q20 = 0) const {
         CellMarch march(shape, setup, b_q20, slope_q20 * 16);
         std::vector<int> result;
@@ -60,16 +59,15 @@ TEST(CellMarch, ARayOfReferenceSlopeMeetsTheSurfaceOfItsFootAlone) {
     EXPECT_EQ(at(-kOne_q20 / 8), (std::vector<int>{35 * 8 - 10, 40 * 8}));
     EXPECT_EQ(at(kOne_q20 / 8), (std::vector<int>{35 * 8 + 10, 40 * 8}));
     EXPECT_EQ(at(kOne_q20 / 8 - 256), (std::vector<int>{35 * 8, 40 * 8}));
-    // The first and the last cell reach half a band beyond their middles and half a band more: as far as they are
-    // given weight.
+    // The first and the last cell reach one band beyond their centres, as far as their weight is above 0.
     EXPECT_EQ(at(-9 * kOne_q20 / 2 + kOne_q20 / 8), (std::vector<int>{0}));
     EXPECT_TRUE(at(-9 * kOne_q20 / 2 + kOne_q20 / 8 - 256).empty());
     EXPECT_EQ(at(9 * kOne_q20 / 2 - 256), (std::vector<int>{70 * 8}));
     EXPECT_TRUE(at(9 * kOne_q20 / 2).empty());
 }
 
-// A ray that rises as the one from the reference viewpoint through the same foot stays in its band.
-TEST(CellMarch, TheReferenceViewpointSeesEveryBandAlongItself) {
+// A ray with the slope of the reference ray through the same foot stays in its band.
+TEST(CellMarch, ARayFromTheReferenceViewpointStaysInItsBand) {
     Column column(8, {100, kByBoth});
     column.setup.lambda_foot_q20 = 3 * kOne_q20;
     EXPECT_EQ(column.met(kOne_q20 / 2).size(), 2U);
@@ -77,7 +75,7 @@ TEST(CellMarch, TheReferenceViewpointSeesEveryBandAlongItself) {
     EXPECT_GT(column.met(kOne_q20 / 2).size(), 2U);
 }
 
-// Surfaces that are met wherever they are looked at: their number is that of the steps, and two at the end.
+// Every step meets a surface, so that the number of surfaces is that of the steps plus two at the end.
 TEST(CellMarch, CountsItsSteps) {
     Column column(4096, {0, kByBoth});
     column.shape.thickness = 255;
@@ -92,10 +90,10 @@ TEST(CellMarch, CountsItsSteps) {
     };
     for (const int sign : {1, -1}) {
         EXPECT_EQ(steps(0), 0);
-        EXPECT_EQ(steps(sign * 2047), 0);  // half a band over all depths
+        EXPECT_EQ(steps(sign * 2047), 0);  // half a band over the whole depth range
         EXPECT_EQ(steps(sign * 2048), 2);
         EXPECT_EQ(steps(sign * (2 * 2048 - 1)), 2);
-        EXPECT_EQ(steps(sign * 2 * 2048), 4);  // three of 85, and one that begins at 255
+        EXPECT_EQ(steps(sign * 2 * 2048), 4);  // three of size 85, and one that begins at 255
         EXPECT_EQ(steps(sign * 3 * 2048), 4);
         EXPECT_EQ(steps(sign * 31 * 2048), 32);
         EXPECT_EQ(steps(sign * 62 * 2048), 64);
@@ -104,20 +102,20 @@ TEST(CellMarch, CountsItsSteps) {
     }
 }
 
-TEST(CellMarch, NeverTakesMoreThanItsMostSteps) {
+TEST(CellMarch, TakesAtMostTheMaximumNumberOfSteps) {
     Column column(4096, {0, kByBoth});
     column.shape.thickness = 255;
     column.shape.bands_per_unit_q12 = 1 << 26;
     column.shape.h_low_q20 = -kOne_q20 / 8;
     for (const std::int32_t slope_q20 : {kOne_q20, -kOne_q20, 127 * kOne_q20, -127 * kOne_q20}) {
-        EXPECT_LE(column.met(slope_q20 >> 4).size(), CellMarch::kMostSteps + 2U);
+        EXPECT_LE(column.met(slope_q20 >> 4).size(), CellMarch::kMaxSteps + 2U);
     }
-    // 4 bands per depth at most: from 1024 bands below the foot up to it, all of them in the map.
-    EXPECT_EQ(column.met(7 * kOne_q20).size(), CellMarch::kMostSteps + 2U);
+    // At most 4 bands per depth: from 1024 bands below the foot up to the foot, all inside the map.
+    EXPECT_EQ(column.met(7 * kOne_q20).size(), CellMarch::kMaxSteps + 2U);
 }
 
-// Half a band per step, bands -4 .. 4 of the foot, of which the map has the upper or lower half; its last cell reaches
-// half a band, one step, farther.
+// Half a band per step, from band -4 to band 4 relative to the foot. The map has the upper or the lower half of them;
+// its last cell reaches half a band, which is one step, farther.
 TEST(CellMarch, LeavesTheBandsAndEntersThem) {
     Column column(8, {0, kByBoth});
     column.shape.thickness = 255;
@@ -132,12 +130,12 @@ TEST(CellMarch, LeavesTheBandsAndEntersThem) {
     for (int begin = 0; begin < 256; begin += 16) all.push_back(begin);
     std::vector<int> nearer(all.begin(), all.begin() + 9);
     std::vector<int> farther(all.begin() + 7, all.end());
-    // Wherever the march is, the surface of the foot's depth, 0, is met last. Of the nearer ones the map surrounds that
-    // place, so that the farthest of the cells follows; of the farther ones it has nothing there, and the foot, which
-    // lies at its border, answers.
+    // The march ends with the surface at depth 0, the depth of the foot's surface. If the ray is inside the map at that
+    // depth (`nearer`), the farthest cell follows. If it is outside (`farther`), the surface of the foot is used, at
+    // the border of the map.
     nearer.insert(nearer.end(), {0, 0});
     farther.push_back(0);
-    // Behind the foot (depth 128) the rising ray is above 0, a sinking one below.
+    // Behind the foot (depth 128) a rising ray is above height 0, a falling one below.
     EXPECT_EQ(begins(-slope_q20, -8 * kOne_q20), farther);
     EXPECT_EQ(begins(slope_q20, -8 * kOne_q20), nearer);
     EXPECT_EQ(begins(slope_q20, 0), farther);
@@ -152,7 +150,7 @@ TEST(CellMarch, MeetsASurfaceOfTheMapsThickness) {
         Column column(64, {static_cast<std::uint8_t>(depth), kByBoth});
         column.shape.thickness = thickness;
         std::vector<int> found = column.met(four_steps_q20);
-        for (int end = 0; end < 2; ++end) {  // those at the end are as the map has them
+        for (int end = 0; end < 2; ++end) {  // surfaces at the end have the depth of the map
             EXPECT_EQ(found.back(), 8 * depth);
             found.pop_back();
         }
@@ -160,13 +158,13 @@ TEST(CellMarch, MeetsASurfaceOfTheMapsThickness) {
     };
     EXPECT_EQ(met(200, 11), (std::vector<int>{8 * 200}));
     EXPECT_EQ(met(193, 2).size(), 1U);
-    EXPECT_EQ(met(192, 0).size(), 2U);  // on the border of two steps
+    EXPECT_EQ(met(192, 0).size(), 2U);  // at the border of two steps
     EXPECT_EQ(met(20, 43).size(), 1U);
     EXPECT_EQ(met(20, 44), (std::vector<int>{8 * 20, 8 * 64}));
     EXPECT_EQ(met(255, 255), (std::vector<int>{8 * 255}));
 }
 
-// It is counted from the deepest of the cells around, which may be another than those that the ray meets.
+// The thickness is measured from the deepest surrounding cell, which may differ from the cells that the ray meets.
 TEST(CellMarch, CountsTheThicknessFromTheDeepestCell) {
     const std::int32_t four_steps_q20 = 3 * 2048 * 64;
     Column column(64, {20, kByBoth});
@@ -179,19 +177,20 @@ TEST(CellMarch, CountsTheThicknessFromTheDeepestCell) {
     EXPECT_EQ(column.met(four_steps_q20), (std::vector<int>{8 * 20, 8 * 64, 8 * 20, 8 * 60, 8 * 60}));
 }
 
-// At the end: the foot's surface says at what depth a reference ray would meet the object; that of the place answers.
+// The surface at the foot determines the depth at which a reference ray would meet the object; the march ends with the
+// surface of the ray's band at that depth.
 TEST(CellMarch, EndsWithTheSurfaceThatAReferenceRayWouldMeet) {
     Column column(8, {});
-    column.shape.h_low_q20 -= kOne_q20 / 2;       // the foot is in the middle of band 4
+    column.shape.h_low_q20 -= kOne_q20 / 2;       // the foot is at the centre of band 4
     const std::int32_t one_step_q20 = 2047 * 64;  // an eighth of a band per radius: a quarter down at depth 0
     const auto end = [&](ShapeCell band3, ShapeCell band4) {
         column.cells[3] = band3;
         column.cells[4] = band4;
         return column.met(one_step_q20);
     };
-    // Depth 0 lies 2 eighths below the middle, and a quarter of the weight says there is band 3.
+    // At depth 0 the ray is 2/8 below the centre, and band 3 has a quarter of the weight.
     EXPECT_EQ(end({16, kByBoth}, {0, kByBoth}), (std::vector<int>{2 * 16, 8 * 16}));
-    // Beyond a jump: the one with more weight, what lies behind it, and the farthest, which is the same here.
+    // Beyond a jump: the surface with more weight, the one behind it, and the farthest, which is the same here.
     EXPECT_EQ(end({77, kByBoth}, {0, kByBoth}), (std::vector<int>{0, 8 * 77, 8 * 77}));
     EXPECT_EQ(end({0, kByBoth}, {77, kByBoth}), (std::vector<int>{8 * 77, 8 * 77}));
     EXPECT_EQ(end({}, {0, kByBoth}), (std::vector<int>{0}));
@@ -201,8 +200,8 @@ TEST(CellMarch, EndsWithTheSurfaceThatAReferenceRayWouldMeet) {
     EXPECT_TRUE(column.met(one_step_q20).empty());
 }
 
-// The foot lies an eighth of the way to band 1, whose cells are at depth 90 and, farther away in p, at 255; but at
-// depth 90 the ray is lower, where there is nothing.
+// The foot is an eighth of the way from band 0 to band 1, whose cells have depths 90 and, in the second column along p,
+// 255. At depth 90 the ray is lower, where the map is empty.
 TEST(CellMarch, EndsWithTheFootsSurfacesWhereNothingLiesAtTheirDepth) {
     Column column(2, {});
     std::vector<ShapeCell> beside(2);

@@ -1,4 +1,4 @@
-// The integer operations of the normative arithmetic, against wider arithmetic.
+// Tests of the integer operations of the normative arithmetic against wider arithmetic.
 #include "engine/core/definition/fixed_point.hpp"
 
 #include <gtest/gtest.h>
@@ -19,7 +19,7 @@ void expect_root(std::int64_t square) {
     EXPECT_GT(Wide{root + 1} * (root + 1), square) << square;
 }
 
-TEST(FloorSquareRoot, AtItsEdges) {
+TEST(FloorSquareRoot, AtTheLimitsOfItsRange) {
     for (const std::int64_t square : {0, 1, 2, 3, 4, 8, 9}) expect_root(square);
     constexpr std::int64_t kLargestRoot = 3'037'000'499;
     for (const std::int64_t below : {0, 1, 2}) {
@@ -30,7 +30,7 @@ TEST(FloorSquareRoot, AtItsEdges) {
     EXPECT_EQ(floor_square_root(kHighest), kLargestRoot);
 }
 
-// A double has 53 bits: around squares of large numbers its root is the wrong whole number now and then.
+// A double has 53 bits: near the squares of large numbers its root can round to the wrong integer.
 TEST(FloorSquareRootProperty, AroundSquares) {
     std::mt19937_64 random(1);
     for (int trial = 0; trial < 20000; ++trial) {

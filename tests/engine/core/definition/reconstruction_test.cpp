@@ -1,4 +1,4 @@
-// The normative arithmetic against floating-point geometry, and against the images it must give back.
+// Tests of the normative arithmetic against floating-point geometry, and against the stored images at captured poses.
 
 #include "engine/core/definition/ray_setup.hpp"
 #include "engine/core/definition/reconstruct.hpp"
@@ -25,7 +25,7 @@ Image<Rgba8> reconstructed(const RaySpaceObject& object, const Camera& camera) {
 
 class CapturedPose : public testing::TestWithParam<int> {};
 
-// Geometry and column look-up are exact at a captured pose, whatever the number of planes: every pixel comes back.
+// At a captured pose geometry and column look-up are exact for any number of planes: every pixel is reproduced.
 TEST_P(CapturedPose, GivesBackTheStoredImage) {
     for (const double camera_height : {0.0, 0.3}) {
         const test::RingObjectOptions options{
@@ -48,7 +48,7 @@ TEST(Reconstruction, AnObjectOfTheEncoderIsValid) {
     }
 }
 
-// The integer set-up of random rays against the same geometry in doubles.
+// Integer set-up of random rays against the same geometry in doubles.
 TEST(ReconstructionProperty, AgreesWithFloatingPointGeometry) {
     const test::RingObjectOptions options{.views = 40, .width = 512, .height = 512, .fl_px = 700, .planes = 8};
     const Rig rig = test::ring_rig(options);
@@ -78,7 +78,7 @@ TEST(ReconstructionProperty, AgreesWithFloatingPointGeometry) {
             if (setup.image < 0) continue;
             const test::Ray ray{camera.centre(), camera.ray(i + 0.5, j + 0.5)};
             const ReferencePlane plane =
-                reference_plane(test::most_square_plane(ray.direction, options.planes), options.planes);
+                reference_plane(test::most_perpendicular_plane(ray.direction, options.planes), options.planes);
             const auto place = test::to_ray_space(ray, plane);
             ASSERT_TRUE(place);
             const glm::dvec3 p = place->x * plane.tangent + glm::dvec3(0, place->y, 0);
@@ -92,7 +92,7 @@ TEST(ReconstructionProperty, AgreesWithFloatingPointGeometry) {
     EXPECT_GT(compared, 5000);
 }
 
-TEST(Reconstruction, AViewFromInsideOrFromBeyondShowsNothingOrLittleButStaysDefined) {
+TEST(Reconstruction, AViewFromInsideOrFarAwayStaysDefined) {
     const RaySpaceObject object = test::ring_object({});
     for (const glm::dvec3 eye : {glm::dvec3(0, 0, 0.001), glm::dvec3(0.1, 5, 0), glm::dvec3(0, -40, 0.5),
                                  glm::dvec3(1e3, 0, 0), glm::dvec3(0, 1e-7, 2.01)}) {
@@ -108,7 +108,8 @@ TEST(Reconstruction, AViewFromInsideOrFromBeyondShowsNothingOrLittleButStaysDefi
 
 TEST(Reconstruction, ADistantViewpointKeepsTheObjectsImage) {
     const RaySpaceObject object = test::ring_object({.views = 36, .width = 96, .height = 96, .fl_px = 130});
-    // 190 radii are reconstructed as they are; at 1900, ten times the focal length shows the same, by way of 200 radii.
+    // 190 radii are within the limit of 200; 1900 radii with ten times the focal length are moved to it and show the
+    // same.
     const auto at = [&](double distance) {
         Camera camera = look_at_camera({0, 0, distance}, {0.1, 0, 0}, radians(20), 64, 64);
         camera.fl_x = camera.fl_y = 25 * distance;
@@ -121,10 +122,10 @@ TEST(Reconstruction, ADistantViewpointKeepsTheObjectsImage) {
         different += !(near.pixels()[i] == far.pixels()[i]);
     }
     EXPECT_GT(shown, 500);
-    EXPECT_LT(different, shown / 4);  // noise images: a hair's breadth changes a pixel
+    EXPECT_LT(different, shown / 4);  // noise images: a slight shift changes a pixel
 }
 
-TEST(PrepareView, RefusesWhatTheArithmeticCannotHold) {
+TEST(PrepareView, RejectsCamerasBeyondTheNumberRanges) {
     const RaySpaceObject object = test::ring_object({});
     const Camera good = look_at_camera({0, 0, 3}, {0, 0, 0}, radians(40), 32, 32);
     const auto message = [&](const Camera& camera) {

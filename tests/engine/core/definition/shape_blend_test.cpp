@@ -1,5 +1,5 @@
-// What a pixel between two captured views shows (engine/RECONSTRUCTION.md, section 8): both images blended, and the
-// nearer of two surfaces over the farther one, or over the farthest cell's.
+// Tests of the blend of two captured images, and of a surface composited over a farther one or over that of the
+// farthest cell (engine/RECONSTRUCTION.md, section 8).
 #include "rayspace/object/ray_space_object.hpp"
 #include "tests/engine/core/definition/shape_pixels.hpp"
 #include "tests/support/sphere_object.hpp"
@@ -16,7 +16,7 @@ using test::pixel_at;
 using test::RingObjectOptions;
 using test::Texel;
 
-// A view midway between views 0 and 1, all of whose rays meet the same cell.
+// View midway between views 0 and 1; all cells are equal.
 class Midway : public testing::Test {
 protected:
     Midway() : object_(test::ring_object(options_)) {
@@ -47,7 +47,7 @@ TEST_F(Midway, BlendsBothImagesWithHalfWeightEach) {
     EXPECT_EQ(shown({}, plain_).colour, Rgba8{});
 }
 
-TEST_F(Midway, AImageThatDoesNotShowTheSurfaceHasNoWeight) {
+TEST_F(Midway, AnImageThatDoesNotShowTheSurfaceHasNoWeight) {
     EXPECT_EQ(shown({128, ShapeCell::kByFirst}, plain_).colour, by_view(0));
     EXPECT_EQ(shown({128, ShapeCell::kBySecond}, plain_).colour, by_view(1));
     EXPECT_EQ(leaning_weight(100, 8), 100);
@@ -60,12 +60,12 @@ TEST_F(Midway, AImageThatDoesNotShowTheSurfaceHasNoWeight) {
 
 // Colour is weighted by alpha.
 TEST_F(Midway, BlendsPremultipliedColour) {
-    const Texel half_seen = [](int view, int, int) {
+    const Texel translucent = [](int view, int, int) {
         Rgba8 grey = by_view(view);
         if (view == 1) grey.a = 85;
         return grey;
     };
-    EXPECT_EQ(shown({128, ShapeCell::kByBoth}, half_seen).colour, (Rgba8{125, 125, 125, 170}));
+    EXPECT_EQ(shown({128, ShapeCell::kByBoth}, translucent).colour, (Rgba8{125, 125, 125, 170}));
 }
 
 TEST_F(Midway, ATransparentSampleInEitherImageHidesTheSurface) {
@@ -75,7 +75,7 @@ TEST_F(Midway, ATransparentSampleInEitherImageHidesTheSurface) {
     }
 }
 
-// Outside of an image's frame is neither transparent nor visible: the other answers alone.
+// A sample outside of an image is neither transparent nor visible: only the other image is used.
 TEST_F(Midway, ASurfaceOutsideOfOneFrameIsShownByTheOther) {
     for (const int lost : {0, 1}) {
         object_.views[static_cast<std::size_t>(lost)].cx_q16 = 1 << 29;
@@ -89,20 +89,20 @@ TEST_F(Midway, ItsDepthIsThatOfTheSurface) {
     EXPECT_NEAR(apart, 80 * 2 * (1 + 1.0 / 32) / 255, 0.01);
 }
 
-// Cells along p lie on two surfaces in turn, and at the pixel the nearer one has more weight.
+// Cells along p alternate between two surfaces; at the pixel the nearer one has more weight.
 class AtAStep : public Midway {
 protected:
     AtAStep() : near_(recorded(kNearer, of_nearer_)), far_(recorded(kFarther, of_farther_)) {
         for (const std::size_t nearer : {std::size_t{0}, std::size_t{1}}) {
             const ShapeMap& shape = object_.rings[0].shape;
             for (std::size_t n = 0; n < shape.cells.size(); ++n) {
-                const std::size_t place = n / static_cast<std::size_t>(shape.bands);
-                object_.rings[0].shape.cells[n] = place % 2 == nearer ? kNearer : kFarther;
+                const std::size_t column = n / static_cast<std::size_t>(shape.bands);
+                object_.rings[0].shape.cells[n] = column % 2 == nearer ? kNearer : kFarther;
             }
             if (pixel_at(object_, camera_, kPixel, kPixel, plain_).lambda_q20 == near_) break;
         }
     }
-    // Of surfaces with these alphas.
+    // Pixel if the surfaces have these alphas.
     [[nodiscard]] ShapePixel pixel(int nearer_alpha, int farther_alpha) {
         return pixel_at(object_, camera_, kPixel, kPixel, [=, this](int view, int column, int row) {
             const bool is_nearer = of_nearer_.contains({view, column, row});
@@ -127,10 +127,10 @@ private:
     Texels of_nearer_, of_farther_;
 
 protected:
-    std::int32_t near_, far_;  // axial depths of the two
+    std::int32_t near_, far_;  // axial depths of both surfaces
 };
 
-TEST_F(AtAStep, WhatDoesNotCoverItsPixelIsLaidOverWhatDoes) {
+TEST_F(AtAStep, ASurfaceThatDoesNotCoverItsPixelIsCompositedOverOneThatDoes) {
     const auto expect = [&](int nearer_alpha, int farther_alpha, int grey, int alpha, std::int32_t lambda_q20) {
         SCOPED_TRACE(std::to_string(nearer_alpha) + " before " + std::to_string(farther_alpha));
         const ShapePixel shown = pixel(nearer_alpha, farther_alpha);
@@ -150,8 +150,8 @@ TEST_F(AtAStep, WhatDoesNotCoverItsPixelIsLaidOverWhatDoes) {
     expect(0, 100, 80, 100, far_);
 }
 
-// Cells along p are less than a jump apart, and the pixel's surface lies between them.
-TEST_F(Midway, WhereAMeanDoesNotCoverThePixelTheFarthestCellMay) {
+// Cells along p differ by less than a jump, and the surface is interpolated between them.
+TEST_F(Midway, AnInterpolatedSurfaceIsCompositedOverTheFarthestCell) {
     constexpr ShapeCell kNearer{60, 3}, kFarthest{160, 3};
     object_.rings[0].shape.jump = 100;
     std::set<std::tuple<int, int, int>> of_farthest;
@@ -176,7 +176,7 @@ TEST_F(Midway, WhereAMeanDoesNotCoverThePixelTheFarthestCellMay) {
     EXPECT_EQ(pixel(0, 255).colour, (Rgba8{80, 80, 80, 255}));
     EXPECT_EQ(pixel(0, 255).lambda_q20, farthest);
     EXPECT_EQ(pixel(0, 100).colour, (Rgba8{80, 80, 80, 100}));
-    // Where one of the cells around has no surface the ray may pass beside the object.
+    // If a surrounding cell has no surface, the ray may pass beside the object.
     for (ShapeCell& cell : cells) {
         if (cell == kFarthest) cell = {};
     }

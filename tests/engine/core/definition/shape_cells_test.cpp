@@ -1,5 +1,5 @@
-// The surface between cells (engine/RECONSTRUCTION.md, section 6), and its preparation for a whole column, which must
-// say the same on every SIMD target.
+// Tests of the surface between cells (engine/RECONSTRUCTION.md, section 6) and of SurfaceColumn, which must equal it on
+// every SIMD target.
 #include "engine/core/definition/shape_cells.hpp"
 #include "engine/core/fast/surface_column.hpp"
 #include "tests/support/random.hpp"
@@ -36,15 +36,16 @@ TEST(BetweenLines, TakesTheNearerLineAcrossAJump) {
     }
 }
 
-TEST(BetweenLines, OneAloneAnswersAndTheSecondOnlyWhereItHasWeight) {
+TEST(BetweenLines, UsesTheOnlyLineWithASurfaceIfItHasWeight) {
     EXPECT_EQ(between_lines({100, kBoth}, kNone, 7, 20), (SurfaceCell{800, kBothShow, 100, false}));
     EXPECT_EQ(between_lines(kNone, {100, kBoth}, 1, 20), (SurfaceCell{800, kBothShow, 100, false}));
     EXPECT_EQ(between_lines(kNone, {100, kBoth}, 0, 20), (SurfaceCell{-1, kBothShow, 100, false}));
     EXPECT_EQ(between_lines(kNone, kNone, 4, 20), SurfaceCell{});
-    EXPECT_EQ(between_lines({0, kBoth}, kNone, 4, 20), (SurfaceCell{0, kBothShow, 0, false}));  // a surface, too
+    EXPECT_EQ(between_lines({0, kBoth}, kNone, 4, 20),
+              (SurfaceCell{0, kBothShow, 0, false}));  // depth 0 is a surface, too
 }
 
-TEST(BetweenLines, LeansAsItsCellsDo) {
+TEST(BetweenLines, InterpolatesTheLeanOfItsCells) {
     constexpr ShapeCell kOfFirst{100, kFirst}, kOfSecond{100, kSecond}, kOfBoth{100, kBoth}, kFar{200, kFirst};
     for (int part = 0; part < 8; ++part) {
         EXPECT_EQ(between_lines(kOfFirst, kOfSecond, part, 20).lean, 2 * part);
@@ -56,7 +57,7 @@ TEST(BetweenLines, LeansAsItsCellsDo) {
     EXPECT_EQ(between_lines(kNone, kOfSecond, 5, 20).lean, 16);
 }
 
-TEST(BetweenCells, LeansAsTheCellsOfItsGroupDo) {
+TEST(BetweenCells, InterpolatesTheLeanOfItsGroup) {
     const SurfaceCell one[2][2] = {{{80, 0}, {80, 8}}, {{80, 16}, {80, 8}}};
     const SurfaceCell two[2][2] = {{{80, 0}, {80, 8}}, {{400, 16}, {400, 12}}};
     for (int p = 0; p < 8; ++p) {
@@ -82,13 +83,13 @@ TEST(BetweenCells, IsBilinearOnOneSurface) {
     }
 }
 
-TEST(BetweenCells, StepsWhereTheGreaterWeightSays) {
+TEST(BetweenCells, SelectsTheGroupOfGreaterWeight) {
     const SurfaceCell cells[2][2] = {{{80}, {80}}, {{248}, {248}}};  // 21 depths apart
     for (int p = 0; p < 8; ++p) {
         EXPECT_EQ(between_cells(cells, p, 3, 20).depth_q3, p <= 4 ? 80 : 248) << p;
         EXPECT_EQ(between_cells(cells, p, 3, 21).depth_q3, 80 + 21 * p) << p;
     }
-    // What lies between near and far belongs to the nearer half: 164 is in their middle, 165 is not.
+    // Depths up to the mean of near and far, 164, belong to the nearer group.
     const SurfaceCell three[2][2] = {{{80}, {164}}, {{248}, {}}};
     EXPECT_EQ(between_cells(three, 3, 4, 20).depth_q3, (80 * 20 + 164 * 20 + 20) / 40);
     const SurfaceCell other[2][2] = {{{80}, {165}}, {{248}, {}}};
@@ -99,14 +100,14 @@ TEST(BetweenCells, BehindTheNearerGroupIsTheFartherOne) {
     const SurfaceCell cells[2][2] = {{{80}, {88}}, {{248}, {256}}};  // 22 depths apart at most
     for (int p = 1; p < 8; ++p) {
         EXPECT_EQ(surfaces_between(cells, p, 4, 20).behind.depth_q3, p <= 4 ? 252 : -1) << p;
-        EXPECT_FALSE(surfaces_between(cells, p, 4, 22).behind.exists()) << p;  // one surface
+        EXPECT_FALSE(surfaces_between(cells, p, 4, 22).behind.exists()) << p;  // a single surface
     }
-    EXPECT_FALSE(surfaces_between(cells, 0, 4, 20).behind.exists());  // without weight
+    EXPECT_FALSE(surfaces_between(cells, 0, 4, 20).behind.exists());  // weight 0
     const SurfaceCell nothing[2][2] = {};
     EXPECT_FALSE(surfaces_between(nothing, 3, 4, 20).behind.exists());
 }
 
-TEST(BetweenCells, TheFarthestIsOneOfAllCellsWhateverTheirWeights) {
+TEST(BetweenCells, TheFarthestIncludesCellsOfWeightZero) {
     const SurfaceCell cells[2][2] = {{{80, 3, 11, true}, {88, 3, 12, true}}, {{248, 3, 31, true}, {256, 3, 32, true}}};
     for (int p = 0; p < 8; ++p) {
         for (const int jump : {20, 22}) {
@@ -126,7 +127,7 @@ TEST(BetweenCells, TheFarthestIsOneOfAllCellsWhateverTheirWeights) {
     }
 }
 
-TEST(BetweenCells, IsNothingWhereAllWeightIsOnNothing) {
+TEST(BetweenCells, IsEmptyIfNoCellWithASurfaceHasWeight) {
     SurfaceCell cells[2][2] = {};
     cells[1][1] = {80};
     EXPECT_FALSE(between_cells(cells, 0, 5, 20).exists());
@@ -134,18 +135,18 @@ TEST(BetweenCells, IsNothingWhereAllWeightIsOnNothing) {
     EXPECT_EQ(between_cells(cells, 1, 1, 20), SurfaceCell{80});
 }
 
-// Of weight 0 but there: it makes a step of what would be one surface, and may be the deepest.
-TEST(BetweenCells, HeedsCellsWithoutWeight) {
+// A cell of weight 0 can separate the cells into two groups, and can be the deepest.
+TEST(BetweenCells, IncludesCellsOfWeightZero) {
     const SurfaceCell cells[2][2] = {{{80, 8, 10}, {160, 8, 20}}, {{400, 8, 50}, {-1, 8, 90}}};
     EXPECT_EQ(between_cells(cells, 0, 4, 20), (SurfaceCell{120, kBothShow, 90}));
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
+// --- SurfaceColumn --------------------------------------------------------------------------------------------------
 
 struct Columns {
     std::vector<ShapeCell> cells[2][2];  // [p][line]
     CellColumns around;
-    ShapeMap shape;  // its bands, jump and thickness
+    ShapeMap shape;  // only bands, jump and thickness are set
 };
 
 Columns random_columns(test::Random& random) {
@@ -157,7 +158,7 @@ Columns random_columns(test::Random& random) {
     columns.around.line_part = random.whole(0, 7);
     const int roughness = random.whole(0, 2) == 0 ? 100 : random.whole(0, 12);
     const double empty = random.whole(0, 1) == 0 ? 0 : random.real(0, 1);
-    const int low = random.whole(0, bands);  // nothing below, nor from `high` on
+    const int low = random.whole(0, bands);  // bands outside of low .. high - 1 are empty
     const int high = random.whole(low, bands);
     const int middle = random.whole(0, 255);
     const bool leans = random.whole(0, 1) == 0;
@@ -195,7 +196,7 @@ std::int32_t in_16_bits(const SurfaceCell& cell) {
     return cell.exists() ? cell.depth_q3 | cell.lean << kDepthBits : kNoSurface;
 }
 
-// What an entry says where it does not send its reader to `steps`.
+// Depth of an entry without kSurfaceSteps.
 int smooth_depth_q3(std::int32_t entry, int h_part) {
     return (8 * (entry & ((1 << kLowBits) - 1)) + h_part * (entry >> 16) + 32) >> 6;
 }
@@ -204,12 +205,12 @@ void expect_column(const Columns& columns) {
     constexpr std::size_t kStart = 5;
     const std::size_t most = surface_entries(columns.shape.bands);
     SurfaceEntries entries;
-    entries.hold(kStart + most + 1);
+    entries.grow(kStart + most + 1);
     constexpr std::int32_t kUntouched = -12345;
     for (auto* const numbers : {&entries.smooth, &entries.deepest, &entries.steps}) {
         std::fill(numbers->begin(), numbers->end(), kUntouched);
     }
-    const SurfaceColumn column = lay_surfaces(columns.around, columns.shape, kStart, entries);
+    const SurfaceColumn column = build_surface_column(columns.around, columns.shape, kStart, entries);
     for (const auto* const numbers : {&entries.smooth, &entries.deepest}) {
         EXPECT_EQ((*numbers)[kStart - 1], kUntouched);
         EXPECT_EQ((*numbers)[kStart + most], kUntouched);
@@ -245,8 +246,8 @@ void expect_column(const Columns& columns) {
                 ASSERT_EQ(expected.lean, kBothShow) << band << " " << h_part;
                 continue;
             }
-            const int place = 8 * (smooth & ((1 << kLowBits) - 1)) + h_part * (smooth >> 16);
-            const std::int32_t both = entries.steps[kSurfaceParts * kStart + static_cast<std::size_t>(place)];
+            const int index = 8 * (smooth & ((1 << kLowBits) - 1)) + h_part * (smooth >> 16);
+            const std::int32_t both = entries.steps[kSurfaceParts * kStart + static_cast<std::size_t>(index)];
             ASSERT_EQ(both & 0xFFFF, in_16_bits(expected)) << band << " " << h_part;
             ASSERT_EQ(both >> 16 & 0xFFFF, in_16_bits(behind)) << band << " " << h_part;
         }
@@ -256,7 +257,7 @@ void expect_column(const Columns& columns) {
     EXPECT_LE(column.beyond, 256);
 }
 
-TEST(SurfaceColumn, SaysWhatTheDefinitionSaysOnEverySimdTarget) {
+TEST(SurfaceColumn, EqualsTheDefinitionOnEverySimdTarget) {
     std::int64_t targets = hwy::SupportedTargets();
     while (targets != 0) {
         const std::int64_t target = targets & -targets;
@@ -275,10 +276,10 @@ TEST(SurfaceColumn, SaysWhatTheDefinitionSaysOnEverySimdTarget) {
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-TEST(SurfaceColumn, OfARayWithoutAShapeSaysNothing) {
+TEST(SurfaceColumn, OfARayWithoutAShapeIsEmpty) {
     SurfaceEntries entries;
-    entries.hold(1);
-    const SurfaceColumn column = lay_nothing(0, entries);
+    entries.grow(1);
+    const SurfaceColumn column = build_empty_column(0, entries);
     EXPECT_EQ(column.last, 0);
     EXPECT_EQ(entries.smooth[0], kSurfaceNothing);
     EXPECT_EQ(column.nearest, 256);

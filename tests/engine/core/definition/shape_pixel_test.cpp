@@ -1,5 +1,5 @@
-// The scalar definition of rendering with a shape map (engine/RECONSTRUCTION.md, sections 5 to 8): against the images
-// it must give back, and against floating-point geometry on a ball whose shape is known.
+// Tests of the scalar definition of rendering with a shape map (engine/RECONSTRUCTION.md, sections 5 to 8): against the
+// stored images at captured poses, and against floating-point geometry on a ball.
 #include "engine/core/definition/shape_pixel.hpp"
 #include "engine/core/definition/reconstruct.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -59,10 +59,10 @@ TEST_P(CapturedPoseWithShape, GivesBackTheStoredImageWhateverTheCells) {
 
 INSTANTIATE_TEST_SUITE_P(Planes, CapturedPoseWithShape, testing::Values(3, 4, 12, 13, 64));
 
-// --- Where a sample falls -------------------------------------------------------------------------------------------
+// --- Position of a sample -------------------------------------------------------------------------------------------
 
-// Texels that say where they are: a bilinear sample of them is the place it was taken at.
-TEST(ShapeSample, FallsWhereFloatingPointProjectionSays) {
+// Texels encode their own position, so that a bilinear sample of them is its position.
+TEST(ShapeSample, PositionEqualsFloatingPointProjection) {
     const RingObjectOptions options{
         .views = 36, .width = 120, .height = 120, .fl_px = 180, .planes = 8, .camera_height = 0.2};
     const Rig rig = test::ring_rig(options);
@@ -84,7 +84,7 @@ TEST(ShapeSample, FallsWhereFloatingPointProjectionSays) {
                       d_q3 = static_cast<int>(in(0, 8 * 255));
             const ShapeSetup setup = set_up_shape(object, registers, i, j);
             if (!setup.has_shape()) continue;
-            // The ray by its horizontal length, the foot, and the point at depth d.
+            // Ray scaled to horizontal length 1, foot, and point at depth d.
             const glm::dvec3 ray = camera.ray(i + 0.5, j + 0.5) /
                                    std::hypot(camera.ray(i + 0.5, j + 0.5).x, camera.ray(i + 0.5, j + 0.5).z);
             const double to_foot = -(eye.x * ray.x + eye.z * ray.z);
@@ -116,7 +116,7 @@ struct Differences {
     double mean_depth = 0, most_depth = 0, mean_grey = 0;
 };
 
-// Against ray casting, over the pixels whose rays pass the ball's middle at less than 0.8 of its radius.
+// Compares with ray casting over the pixels whose rays pass the ball's centre at less than 0.8 of its radius.
 Differences against_ray_casting(const RaySpaceObject& object, const test::Sphere& sphere, const Camera& camera) {
     Differences result;
     const Texel texel = stored(object);
@@ -151,9 +151,9 @@ TEST_F(Ball, IsAValidObject) {
     EXPECT_TRUE(status.ok()) << status.error().message;
 }
 
-// The surface between cells is a bilinear one of cells of 1/31 object radius; a depth step is 0.008. From other heights
-// the band is followed to first order only, so the most is that of a march step of half a band.
-TEST_F(Ball, ViewsFromAnywhereMeetItsSurface) {
+// The surface is bilinear between cells of 1/31 object radius; a depth step is 0.008. From other heights the band is a
+// first-order approximation, so the error is at most that of a march step of half a band.
+TEST_F(Ball, ViewsFromAllDirectionsMeetItsSurface) {
     const auto expect_near = [&](const char* what, const Camera& camera) {
         SCOPED_TRACE(what);
         const Differences off = against_ray_casting(object_, sphere_, camera);
@@ -180,9 +180,9 @@ TEST_F(Ball, ViewsFromAnywhereMeetItsSurface) {
     expect_near("farther and tilted", tilted(187, 20, 5));
 }
 
-// --- Hostile numbers ------------------------------------------------------------------------------------------------
+// --- Extreme numbers ------------------------------------------------------------------------------------------------
 
-// Every number of the map and of the views at an end of its range or anywhere within: to be run with UBSan.
+// Numbers of the map and of the views at the ends of their ranges or random within them; useful with UBSan.
 TEST(ShapePixelProperty, ExtremeNumbersStayDefined) {
     const RingObjectOptions options{
         .views = 6, .width = 8, .height = 8, .fl_px = 11, .planes = 4, .x_cells = 16, .u_cells = 16};
@@ -202,7 +202,7 @@ TEST(ShapePixelProperty, ExtremeNumbersStayDefined) {
         constexpr std::int32_t k20 = 1 << 20, k28 = 1 << 28, k30 = 1 << 30;
         RaySpaceObject object = original;
         ShapeMap& shape = object.rings[0].shape;
-        // Every other object keeps its cameras, every other its bands: else hardly a ray would get as far as a texel.
+        // Every other object keeps its cameras, every other its bands; otherwise few rays would reach a texel.
         if (random() % 2 == 0) {
             shape.bands_per_unit_q12 = in(1, 1 << 26);
             shape.h_low_q20 = below(k28);
@@ -237,7 +237,7 @@ TEST(ShapePixelProperty, ExtremeNumbersStayDefined) {
         }
         const Status status = validate_object(object, "extreme");
         ASSERT_TRUE(status.ok()) << status.error().message;
-        // From nearly overhead rays have the least horizontal length.
+        // Rays from nearly overhead have the least horizontal length.
         const double beside = random() % 2 == 0 ? 0.12 : 1;
         const glm::dvec3 eye(beside * (0.4 + 0.1 * double(random() % 10)), 0.2 * double(random() % 21) - 2,
                              beside * (0.2 * double(random() % 15) + 0.1));

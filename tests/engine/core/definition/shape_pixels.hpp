@@ -1,5 +1,5 @@
 #pragma once
-// One pixel of an object with a shape map, by the scalar definition and from texels of a test's own.
+// Renders one pixel of an object with a shape map by the scalar definition, from texels that the test provides.
 
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/core/definition/shape_pixel.hpp"
@@ -12,7 +12,7 @@ namespace rs::test {
 
 using Texel = std::function<Rgba8(int view, int column, int row)>;
 
-// Texels without detail.
+// Texel source without detail.
 struct PlainTexels {
     const Texel& color;
     int detail(int, int, int) const { return 0; }

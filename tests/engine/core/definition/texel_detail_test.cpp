@@ -1,4 +1,4 @@
-// The filters of section 7 of engine/RECONSTRUCTION.md.
+// Tests of the filters of section 7 of engine/RECONSTRUCTION.md.
 #include "engine/core/definition/texel_detail.hpp"
 
 #include <gtest/gtest.h>
@@ -40,9 +40,9 @@ TEST(TexelDetail, IsZeroOnTheBorderAndBesideTransparency) {
     EXPECT_EQ(texel_detail_at(image, 2, 2), 50);
 }
 
-// Cubic interpolation is exact for luma that is quadratic in x. Along one axis the sharp filter brings bilinear
-// interpolation five eighths of the way to it: 5/4 of the mean of both axes' parts, of which one is 0.
-TEST(SampleDetail, BringsALineFiveEighthsOfTheWayToCubicInterpolation) {
+// Cubic interpolation is exact for luma that is quadratic in x. Along one axis the sharp filter adds 5/8 of its
+// difference to bilinear interpolation: 5/4 of the mean of both axes' parts, of which one is 0.
+TEST(SampleDetail, AddsFiveEighthsOfTheDifferenceToCubicInterpolation) {
     constexpr double kCurvature = 16;  // luma = kCurvature / 2 * x * x
     constexpr int kDetail = -5;        // 5/16 of it, negated
     constexpr int kOpaque = 64 * 255;
@@ -54,8 +54,8 @@ TEST(SampleDetail, BringsALineFiveEighthsOfTheWayToCubicInterpolation) {
     }
 }
 
-TEST(SampleDetail, SmoothIsALowPassFilterOfEveryPlace) {
-    // Weights 1/2 and 1/8 of a single bright pixel: half of it stays.
+TEST(SampleDetail, SmoothIsALowPassFilterAtEveryPosition) {
+    // Weights 1/2 and 1/8: half of a single bright pixel remains.
     const int detail = texel_detail(140, 100, 100, 100, 100);
     for (int f = 0; f < 8; ++f) {
         const double added = sample_detail(TexelFilter::kSmooth, f, 7 - f, 64 * 255, 64 * detail) / (64.0 * 255);

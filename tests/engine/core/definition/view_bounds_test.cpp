@@ -1,5 +1,4 @@
-// The widest view that prepare_view lets through leaves the arithmetic its 63 bits (engine/RECONSTRUCTION.md,
-// "Ranges").
+// The widest view that prepare_view accepts stays within 63-bit arithmetic (engine/RECONSTRUCTION.md, "Ranges").
 #include "engine/core/definition/ray_setup.hpp"
 #include "engine/core/definition/view_registers.hpp"
 #include "tests/support/ring_object.hpp"
@@ -11,7 +10,8 @@
 namespace rs::engine {
 namespace {
 
-// One pixel that looks along a ray of horizontal length `length` through the axis, at 45 degrees to a plane of four.
+// Camera of one pixel, whose ray has the horizontal length `length` and passes the axis at 45 degrees to one of four
+// planes.
 Camera wide_camera(double length) {
     const glm::dvec3 along = glm::normalize(glm::dvec3(1, 0, -1));
     const glm::dvec3 across = glm::normalize(glm::dvec3(1, 0, 1));
@@ -43,7 +43,7 @@ TEST(ViewBounds, TheWidestRayHasALengthOf63Bits) {
     ASSERT_TRUE(point.exists);
     const auto square =
         static_cast<__int128>(point.n_q28) * point.n_q28 + static_cast<__int128>(point.t_q28) * point.t_q28;
-    // Rounding of the registers adds up to 512 to either over 8192 pixels each way.
+    // Rounding of the registers adds at most 512 to either component over 8192 pixels in both directions.
     const __int128 margin = 2 * static_cast<__int128>(1024) * (std::int64_t{1} << 31);
     EXPECT_LT(square + margin, std::numeric_limits<std::int64_t>::max());
 }

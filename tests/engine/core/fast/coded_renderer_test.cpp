@@ -1,4 +1,4 @@
-// Rendering from coded images, decoded as views need them, gives the bits of rendering the unpacked object.
+// Rendering from coded images, decoded on demand, equals rendering the unpacked object bit for bit.
 
 #include "encode/codec/dense_encoder.hpp"
 #include "engine/core/definition/shape_pixel.hpp"
@@ -30,8 +30,8 @@ using test::Random;
 constexpr std::int64_t kTinyBudget = 1;
 constexpr std::int64_t kPlenty = std::int64_t{1} << 30;
 
-// Waves of all colours that move a little from view to view, so that images are predicted from one another; an uneven
-// silhouette with a soft rim. It leaves tiles without a texel, and where `fills` is set touches the frame.
+// Colour waves that move slightly from view to view, so that images are predicted from one another, with an uneven
+// silhouette and a soft alpha matte. Some tiles are empty; with `fills` the silhouette touches the frame.
 Image<Rgba8> waves(int width, int height, int view, bool fills) {
     Image<Rgba8> image(width, height);
     for (int y = 0; y < height; ++y) {
@@ -48,7 +48,7 @@ Image<Rgba8> waves(int width, int height, int view, bool fills) {
     return image;
 }
 
-// An object whose images are only coded, and the same unpacked.
+// Object with coded images only, and the same object unpacked.
 struct CodedObject {
     RaySpaceObject coded;
     RaySpaceObject unpacked;
@@ -75,7 +75,7 @@ CodedObject coded_object(Random& random, bool with_shape) {
                                          .alpha_bits = random.whole(1, 4),
                                          .tile_width_log2 = random.whole(4, 6),
                                          .tile_height_log2 = random.whole(4, 6),
-                                         .effort = encode::kLeastEffort};
+                                         .effort = encode::kMinEffort};
     object.coded.coded = std::make_shared<const codec::CodedImages>(encode::encode_dense(
         object.coded, [&](int view) { return waves(options.width, options.height, view, fills); }, settings));
     for (PlanarImage& image : object.coded.images) image = {};
@@ -187,7 +187,7 @@ TEST(CodedRenderer, RendersFromSeveralThreadsAtOnce) {
     }
 }
 
-TEST(CodedTexels, AreThoseOfTheUnpackedImagesWithTheirRims) {
+TEST(CodedTexels, EqualThoseOfTheUnpackedImagesWithTheirBorders) {
     bool has_details = false;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         SCOPED_TRACE(seed);
@@ -225,7 +225,7 @@ TEST(CodedTexels, AreThoseOfTheUnpackedImagesWithTheirRims) {
     EXPECT_TRUE(has_details);
 }
 
-TEST(CodedTexels, DecodeWhatIsAskedForAndKeepToTheBudget) {
+TEST(CodedTexels, DecodeOnDemandAndStayWithinTheBudget) {
     Random random(3);
     CodedObject object = coded_object(random, false);
     while (object.coded.views.size() < 8 || object.coded.coded->tile_columns() < 3) {
@@ -254,7 +254,7 @@ TEST(CodedTexels, DecodeWhatIsAskedForAndKeepToTheBudget) {
         EXPECT_LE(texels->decoded_bytes(), budget);
         texels->ensure(p, 0, coded->width - 1);
         const std::int64_t held = texels->decoded_bytes();
-        texels->begin_view();  // nothing is taken from the view that is under way
+        texels->begin_view();  // images of an active view are not freed
         EXPECT_EQ(texels->decoded_bytes(), held);
         texels->end_view();
         texels->end_view();
@@ -273,7 +273,7 @@ void expect_columns_cover(const RaySpaceObject& object, const ViewRegisters& reg
     if (!setup.has_ray) return;
     const auto covers = [&](const ShapeImage& image, int view, int column) {
         if (image.view != view) return false;
-        const ColumnRange range = columns_read(object, image);
+        const ColumnRange range = sampled_columns(object, image);
         return range.first <= column && column <= range.last;
     };
     const auto read = [&](int view, int column, int) {
@@ -287,12 +287,12 @@ void expect_columns_cover(const RaySpaceObject& object, const ViewRegisters& reg
         int detail(int view, int column, int row) const { return color(view, column, row).r; }
     };
     shape_pixel(object, registers, setup, registers.rise_q24(i, j), Texels{read});
-    const ColumnRange range = columns_read(object, setup.first);
+    const ColumnRange range = sampled_columns(object, setup.first);
     ++counts.ranges;
     counts.narrow_ranges += range.last - range.first + 1 < object.width / 3;
 }
 
-TEST(ShapeColumns, CoverEveryTexelThatIsRead) {
+TEST(ShapeColumns, CoverEveryTexelRead) {
     ColumnCounts counts;
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         SCOPED_TRACE(seed);
@@ -314,10 +314,10 @@ TEST(ShapeColumns, CoverEveryTexelThatIsRead) {
         }
     }
     EXPECT_GT(counts.reads, 50000);
-    EXPECT_GT(counts.narrow_ranges, counts.ranges / 3);  // it would be no use otherwise
+    EXPECT_GT(counts.narrow_ranges, counts.ranges / 3);  // ranges must be useful
 }
 
-TEST(CodedRenderer, NeighboursStandInForImagesThatAreNotLoaded) {
+TEST(CodedRenderer, ReplacesMissingImagesByNeighbours) {
     Random random(11);
     CodedObject object = coded_object(random, true);
     while (object.coded.views.size() < 8) object = coded_object(random, true);
@@ -337,7 +337,7 @@ TEST(CodedRenderer, NeighboursStandInForImagesThatAreNotLoaded) {
         EXPECT_EQ(render(*renderer, *registers), render(*whole, *registers));
     }
 
-    // Level 1 is predicted from level 0, which is gone now.
+    // Level 1 is predicted from level 0, which is removed.
     for (std::size_t v = 0; v < some.images.size(); ++v) {
         if (some.levels[v] == 0) some.images[v] = {};
     }

@@ -22,7 +22,7 @@ TEST(DoneFlag, WorkIsDoneOnce) {
     EXPECT_FALSE(flag.done());
 }
 
-TEST(DoneFlag, WhoWaitsTriesAgainWhereWorkThrows) {
+TEST(DoneFlag, AWaitingThreadRetriesIfWorkThrows) {
     for (int trial = 0; trial < 50; ++trial) {
         DoneFlag flag;
         std::atomic<int> calls = 0, thrown = 0;
@@ -39,7 +39,7 @@ TEST(DoneFlag, WhoWaitsTriesAgainWhereWorkThrows) {
                 }
             });
         }
-        for (std::thread& thread : threads) thread.join();  // waited for ever where the flag stayed busy
+        for (std::thread& thread : threads) thread.join();  // would not return if the flag stayed busy
         EXPECT_TRUE(flag.done());
         EXPECT_EQ(calls, kFailures + 1);
         EXPECT_EQ(thrown, kFailures);

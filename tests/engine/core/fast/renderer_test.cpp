@@ -1,4 +1,4 @@
-// The fast renderer equals the scalar definition bit for bit: random objects, sizes and poses, every SIMD target.
+// The fast renderer equals the scalar definition bit for bit for random objects, sizes and poses, on every SIMD target.
 
 #include "engine/core/fast/renderer.hpp"
 #include "engine/core/definition/reconstruct.hpp"
@@ -27,7 +27,7 @@ Camera plane_camera(Random& random, bool upright) {
     if (upright) camera = upright_camera(camera);
     camera.cx += random.real(-20, 20);
     camera.cy += random.real(-20, 20);
-    if (random.whole(0, 9) == 0) {  // upside down: a half turn about the viewing axis
+    if (random.whole(0, 9) == 0) {  // upside down: rotated by 180 degrees about the viewing axis
         camera.world_from_camera[0] = -camera.world_from_camera[0];
         camera.world_from_camera[1] = -camera.world_from_camera[1];
     }
@@ -58,7 +58,7 @@ void expect_equal_on_random_views(bool upright, std::uint64_t first_seed, int ob
             const Result<ViewRegisters> registers = prepare_view(object, camera);
             if (!registers) continue;
             ASSERT_EQ(registers->upright(), upright);
-            // A view with an odd stride inside a larger image; what is outside must stay as it is.
+            // View with an odd stride inside a larger image; pixels outside of the view must not change.
             const Rgba8 kMark{1, 2, 3, 4};
             const int border = random.whole(0, 5);
             Image<Rgba8> canvas(camera.width + 2 * border, camera.height + 2 * border, kMark);
@@ -69,7 +69,7 @@ void expect_equal_on_random_views(bool upright, std::uint64_t first_seed, int ob
             for (const Rgba8& p : expected.pixels()) shown += p.a != 0 && !(p == kMark);
         }
     }
-    // The views must show enough of the objects for their equality to mean something.
+    // Guards against a vacuous test: the views must show enough of the objects.
     EXPECT_GT(shown, std::int64_t{objects} * views * 20);
 }
 
@@ -115,7 +115,7 @@ TEST(Renderer, GivesTheSameBytesOnAnyNumberOfThreads) {
     }
 }
 
-TEST(Renderer, NeighboursStandInForImagesThatAreNotLoaded) {
+TEST(Renderer, ReplacesMissingImagesByNeighbours) {
     const test::RingObjectOptions options{.views = 16, .width = 64, .height = 64, .fl_px = 90};
     RaySpaceObject whole = test::ring_object(options);
     RaySpaceObject partial = whole;

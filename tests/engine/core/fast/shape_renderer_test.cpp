@@ -1,5 +1,5 @@
-// The fast renderer of objects with a shape map equals the scalar definition bit for bit, colour and depth: random
-// maps, sizes and poses, every SIMD target.
+// The fast renderer of objects with a shape map equals the scalar definition bit for bit in colour and depth, for
+// random maps, sizes and poses, on every SIMD target.
 
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/core/fast/renderer.hpp"
@@ -72,7 +72,7 @@ Camera shape_camera(Random& random, const test::RingObjectOptions& options, Pose
     camera = upright_camera(camera);
     camera.cy += random.real(-10, 10);
     if (!free) camera.cy -= camera.fl_y * height / distance;
-    if (random.whole(0, 9) == 0) {  // upside down: a half turn about the viewing axis
+    if (random.whole(0, 9) == 0) {  // upside down: rotated by 180 degrees about the viewing axis
         camera.world_from_camera[0] = -camera.world_from_camera[0];
         camera.world_from_camera[1] = -camera.world_from_camera[1];
     }
@@ -85,7 +85,7 @@ struct CanvasPair {
     bool operator==(const CanvasPair&) const = default;
 };
 
-// On a canvas with a border, to see that nothing else is written.
+// Renders on a canvas with a border, to check that nothing else is written.
 template <class Render>
 CanvasPair on_canvas(const Camera& camera, int border, const Render& render) {
     CanvasPair canvas{Image<Rgba8>(camera.width + 2 * border, camera.height + 2 * border, {1, 2, 3, 4}),
@@ -95,13 +95,13 @@ CanvasPair on_canvas(const Camera& camera, int border, const Render& render) {
     return canvas;
 }
 
-struct Seen {
+struct PixelCounts {
     std::int64_t pixels = 0;
     std::int64_t opaque = 0;  // alpha above 0
 };
 
-Seen expect_equal(Pose pose, std::uint64_t first_seed, int objects, int views) {
-    Seen seen;
+PixelCounts expect_equal(Pose pose, std::uint64_t first_seed, int objects, int views) {
+    PixelCounts counts;
     for (std::uint64_t seed = first_seed; seed < first_seed + static_cast<std::uint64_t>(objects); ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
@@ -129,20 +129,20 @@ Seen expect_equal(Pose pose, std::uint64_t first_seed, int objects, int views) {
             });
             EXPECT_EQ(rendered.colour, defined.colour);
             EXPECT_EQ(rendered.lambda, defined.lambda);
-            if (!(rendered == defined)) return seen;
-            seen.pixels += std::int64_t{camera.width} * camera.height;
+            if (!(rendered == defined)) return counts;
+            counts.pixels += std::int64_t{camera.width} * camera.height;
             for (int j = border; j < border + camera.height; ++j) {
                 for (int i = border; i < border + camera.width; ++i) {
                     const bool shown = defined.colour(i, j).a > 0;
-                    seen.opaque += shown;
+                    counts.opaque += shown;
                     EXPECT_EQ(defined.lambda(i, j) > 0, shown);
                 }
             }
         }
     }
-    // The views must show enough for their equality to mean something.
-    EXPECT_GT(seen.opaque * 20, seen.pixels);
-    return seen;
+    // Guards against a vacuous test: the views must show enough of the objects.
+    EXPECT_GT(counts.opaque * 20, counts.pixels);
+    return counts;
 }
 
 TEST(ShapeRendererProperty, EqualsTheScalarDefinitionOnTheRing) {
@@ -217,7 +217,7 @@ TEST(ShapeRenderer, ShowsReferencePlanesWhereImagesAreMissing) {
     EXPECT_EQ(images[0], images[1]);
 }
 
-TEST(Renderer, SaysHowFarTheReferencePlaneIs) {
+TEST(Renderer, DepthIsThatOfTheReferencePlane) {
     const test::RingObjectOptions options{.views = 12, .width = 64, .height = 64, .fl_px = 90};
     const RaySpaceObject object = test::ring_object(options);
     const Result<Renderer> renderer = Renderer::create(object);
@@ -238,7 +238,7 @@ TEST(Renderer, SaysHowFarTheReferencePlaneIs) {
                 if (rendered.colour(i, j).a == 0) {
                     EXPECT_EQ(depth, 0);
                 } else {
-                    // The point lies on a vertical plane through the axis that is nearly square to the ray.
+                    // The point is on a vertical plane through the axis that is nearly perpendicular to the ray.
                     const glm::dvec3 point = camera.centre() + depth * camera.ray(i + 0.5, j + 0.5);
                     EXPECT_LT(std::abs(point.z), std::abs(point.x) * std::tan(kPi / 6) + 1e-4);
                 }
@@ -252,7 +252,7 @@ TEST(DepthImage, IsInTheRigsUnitsFromTheCamerasOwnCentre) {
     object.units_per_radius = 2.5;
     const Result<Renderer> renderer = Renderer::create(object);
     ASSERT_TRUE(renderer.ok());
-    for (const double radii : {3.0, 900.0}) {  // the view from 900 radii is brought to 200
+    for (const double radii : {3.0, 900.0}) {  // the viewpoint at 900 radii is moved to 200
         const Camera camera = look_at_camera({0, 0, radii * 2.5}, {0, 0, 0}, 2 * std::atan(1 / radii), 41, 33);
         const Result<ViewRegisters> registers = prepare_view(object, camera);
         ASSERT_TRUE(registers.ok());
@@ -266,7 +266,7 @@ TEST(DepthImage, IsInTheRigsUnitsFromTheCamerasOwnCentre) {
                     EXPECT_EQ(depth(i, j), 0);
                 } else {
                     ++shown;
-                    // The plane is within 15 degrees of square to a ray, and a ray within 19 of the axis.
+                    // The plane is within 15 degrees of perpendicular to a ray, a ray within 19 of the axis.
                     EXPECT_NEAR(depth(i, j), radii * 2.5, 2.5 * std::tan(radians(34)));
                 }
             }

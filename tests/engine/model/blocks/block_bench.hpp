@@ -1,5 +1,5 @@
 #pragma once
-// A block alone on a clock, with its FIFOs.
+// Test bench: a single block with its FIFOs on a clock.
 
 #include "engine/model/clock/block.hpp"
 #include "engine/model/clock/fifo.hpp"
@@ -10,7 +10,7 @@
 
 namespace rs::engine::model::test {
 
-// What stands in the FIFO before the first cycle.
+// Adds an item that is visible in the next cycle.
 template <class Item>
 void put(Fifo<Item>& fifo, Item item) {
     fifo.push(std::move(item));
@@ -24,9 +24,9 @@ public:
         block.clock(now_++);
         for (FifoState* fifo : fifos_) fifo->commit();
     }
-    // Steps until `out` holds one more item, and says how many steps that took: in the cycle before, it was not
-    // visible. -1: not within `most`.
-    int until(Block& block, const FifoState& out, int most = 400) {
+    // Steps until `out` holds one more item; returns the number of steps, or -1 if none appears within `most` steps.
+    // The item was not visible one cycle earlier.
+    int cycles_until(Block& block, const FifoState& out, int most = 400) {
         const int before = out.count();
         for (int n = 1; n <= most; ++n) {
             step(block);

@@ -1,5 +1,5 @@
 #pragma once
-// What the blocks that a parallel board's pixels pass are given in tests of them alone.
+// Registers and columns for unit tests of the pixel blocks of a parallel board.
 
 #include "engine/model/blocks/parallel/column_setup.hpp"
 #include "tests/engine/model/parallel_test_objects.hpp"

@@ -1,4 +1,4 @@
-// The two-phase rules: what is pushed is seen a cycle later, room made by a pop too; crossings two edges later.
+// Two-phase rules: pushes and the space freed by pops are visible one cycle later; in crossing FIFOs two edges later.
 
 #include "engine/model/clock/fifo.hpp"
 #include "engine/model/clock/crossing_fifo.hpp"
@@ -13,7 +13,7 @@ Done item(int n) {
     return {n};
 }
 
-TEST(Fifo, APushIsSeenInTheNextCycle) {
+TEST(Fifo, APushIsVisibleInTheNextCycle) {
     Fifo<Done> fifo("f", 3, 1);
     fifo.push(item(7));
     EXPECT_FALSE(fifo.can_pop());
@@ -22,7 +22,7 @@ TEST(Fifo, APushIsSeenInTheNextCycle) {
     EXPECT_EQ(fifo.front().number, 7);
 }
 
-TEST(Fifo, RoomOfAPopIsSeenInTheNextCycle) {
+TEST(Fifo, SpaceOfAPopIsVisibleInTheNextCycle) {
     Fifo<Done> fifo("f", 1, 1);
     fifo.push(item(1));
     fifo.commit();
@@ -77,10 +77,10 @@ TEST(FifoDeathTest, BrokenRulesStopTheProgram) {
     EXPECT_DEATH(fifo.pop(), "check failed");
     fifo.push(item(1));
     EXPECT_DEATH(fifo.push(item(2)), "check failed");  // one write port
-    EXPECT_DEATH(fifo.pop(), "check failed");          // not seen yet
+    EXPECT_DEATH(fifo.pop(), "check failed");          // not visible yet
 }
 
-TEST(CrossingFifo, APushIsSeenAtTheReadersSecondEdge) {
+TEST(CrossingFifo, APushIsVisibleAtTheReadersSecondEdge) {
     CrossingFifo<Done> fifo("f", 4, 1);
     fifo.push(item(5));
     fifo.commit_writer();
@@ -92,7 +92,7 @@ TEST(CrossingFifo, APushIsSeenAtTheReadersSecondEdge) {
     EXPECT_EQ(fifo.pop().number, 5);
 }
 
-TEST(CrossingFifo, RoomOfAPopIsSeenAtTheWritersSecondEdge) {
+TEST(CrossingFifo, SpaceOfAPopIsVisibleAtTheWritersSecondEdge) {
     CrossingFifo<Done> fifo("f", 1, 1);
     fifo.push(item(5));
     fifo.commit_writer();

@@ -1,4 +1,4 @@
-// The published board's limits: on both sides of each edge.
+// Limits of the published board, on both sides of each limit.
 
 #include "engine/model/layout/object_image.hpp"
 #include "tests/support/ring_object.hpp"
@@ -12,7 +12,7 @@ const ObjectLayout& published() {
     return layout_of(BoardKind::raw_images);
 }
 
-// An object of the given shape; the board looks at sizes, not at pixels.
+// An object with the given sizes; the board checks sizes, not pixels.
 RaySpaceObject shaped(std::size_t views, int side, int planes, int map_side) {
     RaySpaceObject object;
     object.name = "shaped";

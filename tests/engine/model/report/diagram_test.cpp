@@ -1,4 +1,4 @@
-// DIAGRAM.md and the code say the same; the waveform and the report are what their readers expect.
+// DIAGRAM.md equals the tables generated from the code; waveform and report have valid formats.
 
 #include "engine/model/report/diagram.hpp"
 #include "engine/model/report/report.hpp"
@@ -23,7 +23,7 @@ std::string text_of(const std::filesystem::path& path) {
     return text.str();
 }
 
-TEST(Diagram, ThePageHoldsTheTablesOfTheCode) {
+TEST(Diagram, ThePageContainsTheTablesOfTheCode) {
     const std::string page = text_of(std::filesystem::path(RAYSPACE_SOURCE_DIR) / "engine/model/DIAGRAM.md");
     for (const std::string& name : built_in_configs()) {
         const BoardTop board(*read_board_config(name));
@@ -58,7 +58,7 @@ TEST(Diagram, EveryFifoHasOneBlockAtEachEnd) {
     for (const std::string& name : built_in_configs()) expect_one_block_at_each_end(BoardTop(*read_board_config(name)));
 }
 
-// One pipe stands for all in the page, so all must declare the same.
+// The page shows one pipe for all, so all pipes must declare the same blocks and FIFOs.
 TEST(Diagram, AllPipesDeclareTheSame) {
     const BoardTop board(*read_board_config("parallel"));
     std::map<std::string, std::set<std::string>> declared;
@@ -95,7 +95,7 @@ struct SmallRun {
     BoardView view;
 };
 
-TEST(Report, SharesAddUpAndTheJsonSaysWhatTheReportSays) {
+TEST(Report, SharesAddUpAndTheJsonEqualsTheReport) {
     SmallRun small;
     const Result<BoardRun> run = small.board.render({{small.view}, {small.view}});
     ASSERT_TRUE(run.ok());
@@ -115,7 +115,7 @@ TEST(Report, SharesAddUpAndTheJsonSaysWhatTheReportSays) {
     EXPECT_EQ(svg.rfind("</svg>\n"), svg.size() - 7);
 }
 
-// Reads the VCD as a viewer does: declared signals only, times that grow, values of the declared width.
+// Reads the VCD like a viewer: only declared signals, increasing times, values of the declared width.
 TEST(Waveform, IsAValidVcd) {
     const rs::test::TemporaryFolder scratch;
     SmallRun small;

@@ -1,4 +1,4 @@
-// The hardware's divider and multiplier, step by step, against the operations that RECONSTRUCTION.md is written in.
+// Divider and multiplier of the hardware, step by step, compared with the operations of RECONSTRUCTION.md.
 
 #include "engine/model/signals/arithmetic.hpp"
 #include "engine/core/definition/fixed_point.hpp"
@@ -55,7 +55,7 @@ TEST(Colour, AllAlphaLevelsAreThoseOfTheDefinition) {
         for (int n = 0; n < 4096; ++n) {
             const YuvaPixel pixel{0, n & 255, (n * 7) & 255, (n * 13) & 255, 85 * level};
             const Rgba8 c = rgba_from_yuva(pixel.y, pixel.u, pixel.v, (level * 255 + 1) / 3);
-            const std::uint32_t word = converted(pixel);
+            const std::uint32_t word = convert_to_rgba(pixel);
             ASSERT_EQ(word, static_cast<std::uint32_t>(c.r) | static_cast<std::uint32_t>(c.g) << 8U |
                                 static_cast<std::uint32_t>(c.b) << 16U | static_cast<std::uint32_t>(c.a) << 24U);
         }

@@ -1,4 +1,4 @@
-// Configurations: what is read, and what is refused with which words.
+// Board configurations: reading, and error messages of invalid ones.
 
 #include "engine/model/signals/board_config.hpp"
 #include "engine/model/board_top.hpp"
@@ -26,7 +26,7 @@ TEST(BoardConfig, TheBuiltInIsThePublishedBoard) {
     EXPECT_EQ(config->limits.views_per_cycle, 15);
 }
 
-TEST(BoardConfig, WhatIsWrittenIsReadBack) {
+TEST(BoardConfig, WrittenConfigurationsAreReadBack) {
     const Result<BoardConfig> config =
         parse_board_config(R"({"name": "slow", "clock_mhz": 20, "memory": {"read_latency": 3}})", "f");
     ASSERT_TRUE(config.ok());

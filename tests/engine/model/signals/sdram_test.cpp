@@ -1,4 +1,4 @@
-// The rules of the memory chips: every command is illegal one cycle early and legal on time.
+// SDRAM timing rules: every command is illegal one cycle early and legal on time.
 
 #include "engine/model/signals/sdram.hpp"
 
@@ -9,7 +9,7 @@ namespace {
 
 using enum SdramCommand;
 
-// Times that differ from each other and from 1, so that one cannot stand in for another.
+// Distinct times, all different from 1, so that a mix-up is detected.
 constexpr SdramTiming kTiming{.activate_to_column = 3,
                               .precharge_to_activate = 4,
                               .activate_to_precharge = 7,
@@ -74,7 +74,7 @@ TEST_F(SdramRules, ReadToWriteTurnsTheBusRound) {
     EXPECT_TRUE(sdram_.allows(read, 1, 115));
 }
 
-TEST_F(SdramRules, RefreshWantsAllBanksClosedAndHoldsEverybodyUp) {
+TEST_F(SdramRules, RefreshRequiresClosedBanksAndDelaysAllCommands) {
     sdram_.issue(activate, kBank, 100);
     EXPECT_FALSE(sdram_.allows(refresh, 0, 200));
     sdram_.issue(precharge_all, 0, 200);

@@ -1,4 +1,4 @@
-// Latency and throughput of the blocks of decompression: nothing a cycle early, the result on time.
+// Latency and throughput of the decompression blocks: results appear exactly on time, not a cycle early.
 
 #include "engine/model/limits/coded_layout.hpp"
 #include "tests/engine/model/blocks/block_bench.hpp"
@@ -10,7 +10,7 @@ namespace {
 using test::Bench;
 using test::put;
 
-// A view of an object of 12 views whose classes are known.
+// A view of an object of 12 views with known classes.
 struct CodedRegisters {
     CodedRegisters()
         : object(rs::test::ring_object({.views = 12, .width = 80, .height = 70})), board(test::compressed()) {
@@ -30,36 +30,36 @@ struct CodedRegisters {
     int slot = 0;
 };
 
-BlockAsk ask_of(int block_row, bool first) {
+BlockRequest request_of(int block_row, bool first) {
     return {0, first, true, 2, 40, block_row, 0xFF};
 }
 
-TEST(CodedBlockTiming, BlockScanGivesAPixelPerCycleAndAnAskBehindItsRun) {
+TEST(CodedBlockTiming, BlockScanOutputsAPixelPerCycleAndARequestAfterItsRun) {
     const CodedRegisters r;
     Fifo<ColumnWalk> in("in", 4, 1);
-    Fifo<BlockAsk> asks("asks", 16, 1);
+    Fifo<BlockRequest> asks("asks", 16, 1);
     Fifo<CodedPixel> pixels("pixels", 64, 1);
     BlockScan block(r.file, in, asks, pixels);
     Bench bench({&in, &asks, &pixels});
     put(in, {0, true, 2, 40, std::int64_t{5} << 16, 1 << 16});  // rows 5 .. 45
-    EXPECT_EQ(bench.until(block, pixels), 2);
-    for (int n = 1; n < 3; ++n) EXPECT_EQ(bench.until(block, pixels), 1);
-    EXPECT_EQ(asks.count(), 0);  // rows 5, 6 and 7 have come
+    EXPECT_EQ(bench.cycles_until(block, pixels), 2);
+    for (int n = 1; n < 3; ++n) EXPECT_EQ(bench.cycles_until(block, pixels), 1);
+    EXPECT_EQ(asks.count(), 0);  // rows 5, 6 and 7 are scanned
     bench.step(block);
     ASSERT_EQ(asks.count(), 1);
     EXPECT_EQ(asks.front().rows, 0b11100000U);
     EXPECT_EQ(asks.front().block_row, 0);
     EXPECT_TRUE(asks.front().first);
-    for (int n = 4; n < 42; ++n) EXPECT_EQ(bench.until(block, pixels), 1);
-    EXPECT_EQ(bench.until(block, pixels, 20), -1);  // 41 rows and an empty one
-    EXPECT_EQ(asks.count(), 6);                     // blocks 0 .. 5
+    for (int n = 4; n < 42; ++n) EXPECT_EQ(bench.cycles_until(block, pixels), 1);
+    EXPECT_EQ(bench.cycles_until(block, pixels, 20), -1);  // 41 rows and an empty one
+    EXPECT_EQ(asks.count(), 6);                            // blocks 0 .. 5
     EXPECT_EQ(in.count(), 0);
 }
 
 TEST(CodedBlockTiming, BlockScanEndsARunAfterSixteenPixels) {
     const CodedRegisters r;
     Fifo<ColumnWalk> in("in", 4, 1);
-    Fifo<BlockAsk> asks("asks", 16, 1);
+    Fifo<BlockRequest> asks("asks", 16, 1);
     Fifo<CodedPixel> pixels("pixels", 64, 1);
     BlockScan block(r.file, in, asks, pixels);
     Bench bench({&in, &asks, &pixels});
@@ -78,20 +78,20 @@ TEST(CodedBlockTiming, BlockScanEndsARunAfterSixteenPixels) {
     EXPECT_EQ(begins, 3);
 }
 
-TEST(CodedBlockTiming, TileFinderTakesABlockPerCycleAndAsksOncePerTile) {
+TEST(CodedBlockTiming, TileFinderTakesABlockPerCycleAndRequestsOncePerTile) {
     const CodedRegisters r;
-    Fifo<BlockAsk> in("in", 8, 1);
+    Fifo<BlockRequest> in("in", 8, 1);
     Fifo<MemoryRead> reads("reads", 8, 1);
     Fifo<FoundTile> out("out", 8, 1);
     TileFinder block(0, r.file, in, reads, out);
     Bench bench({&in, &reads, &out});
     const std::pair<int, bool> asked[] = {{2, true}, {3, false}, {4, false}, {4, true}};
     for (const auto& [block_row, first] : asked) {
-        put(in, ask_of(block_row, first));
+        put(in, request_of(block_row, first));
     }
-    for (int n = 0; n < 4; ++n) EXPECT_EQ(bench.until(block, out), 1);
+    for (int n = 0; n < 4; ++n) EXPECT_EQ(bench.cycles_until(block, out), 1);
     const ObjectRegisters& object = r.file.objects[0];
-    ASSERT_EQ(reads.count(), 3);  // the second block is of the first one's tile; a new column knows of none
+    ASSERT_EQ(reads.count(), 3);  // the second block is in the tile of the first; a new column starts without a tile
     const int column = (2 * object.tile_columns + 1) * object.table_pitch / 2;
     EXPECT_EQ(reads.front().address, object.tile_table + static_cast<WordAddress>(column));
     EXPECT_FALSE(out.pop().same);
@@ -101,50 +101,50 @@ TEST(CodedBlockTiming, TileFinderTakesABlockPerCycleAndAsksOncePerTile) {
     EXPECT_TRUE(out.front().high);  // tile row 1
 }
 
-TEST(CodedBlockTiming, TileReaderAsksInTheCycleOfTheWord) {
+TEST(CodedBlockTiming, TileReaderRequestsInTheCycleOfTheWord) {
     Fifo<FoundTile> in("in", 4, 1);
     Fifo<MemoryWord> words("words", 4, 1);
     Fifo<MemoryRead> reads("reads", 4, 1);
-    Fifo<AskedTile> out("out", 4, 1);
+    Fifo<RequestedTile> out("out", 4, 1);
     TileReader block(0, in, words, reads, out);
     Bench bench({&in, &words, &reads, &out});
     for (const FoundTile& found :
          {FoundTile{{}, false, true}, FoundTile{{}, true, false}, FoundTile{{}, false, false}}) {
         put(in, found);
     }
-    EXPECT_EQ(bench.until(block, out, 9), -1);
+    EXPECT_EQ(bench.cycles_until(block, out, 9), -1);
     put(words, {(std::uint64_t{777} << 32U) | 5U});
-    EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
     ASSERT_EQ(reads.count(), 1);
     EXPECT_EQ(reads.front().address, 777U);
-    EXPECT_EQ(bench.until(block, out), 1);  // the same tile: no word
-    EXPECT_EQ(bench.until(block, out, 9), -1);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);  // the same tile: no word
+    EXPECT_EQ(bench.cycles_until(block, out, 9), -1);
     put(words, {kNoTile});
-    EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
     EXPECT_EQ(reads.count(), 1);
 }
 
 TEST(CodedBlockTiming, RecordReaderTakesACyclePerWordAndOneForANewTile) {
     const CodedRegisters r;
-    Fifo<AskedTile> in("in", 8, 1);
+    Fifo<RequestedTile> in("in", 8, 1);
     Fifo<MemoryWord> heads("heads", 4, 1);
     Fifo<MemoryRead> reads("reads", 16, 1);
-    Fifo<AskedRecord> out("out", 8, 1);
+    Fifo<RequestedRecord> out("out", 8, 1);
     RecordReader block(0, r.file, in, heads, reads, out);
     Bench bench({&in, &heads, &reads, &out});
     // Column 40 is the second block of a tile: blocks 4 .. 7 of classes 1, 2, 0, 1.
     const std::uint64_t classes = (std::uint64_t{1} << 12U) | (std::uint64_t{2} << 15U) | (std::uint64_t{1} << 21U);
     put(heads, {classes | std::uint64_t{0xFFFF} << 48U});
-    put(in, {ask_of(0, true), AskedTile::Kind::read, 1000});
+    put(in, {request_of(0, true), RequestedTile::Kind::read, 1000});
     for (int row = 1; row < 4; ++row) {
-        put(in, {ask_of(row, false), AskedTile::Kind::same, 0});
+        put(in, {request_of(row, false), RequestedTile::Kind::same, 0});
     }
-    EXPECT_EQ(bench.until(block, out), 2);
+    EXPECT_EQ(bench.cycles_until(block, out), 2);
     EXPECT_EQ(reads.count(), 1);
-    EXPECT_EQ(bench.until(block, out), 1);  // 26 bytes from byte 4: four words
-    EXPECT_EQ(bench.until(block, out), 4);  // class 0
+    EXPECT_EQ(bench.cycles_until(block, out), 1);  // 26 bytes from byte 4: four words
+    EXPECT_EQ(bench.cycles_until(block, out), 4);  // class 0
     EXPECT_EQ(reads.count(), 5);
-    EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
     const WordAddress expected[] = {1001, 1001, 1002, 1003, 1004, 1004};
     for (const WordAddress address : expected) {
         EXPECT_EQ(reads.pop().address, address);
@@ -153,40 +153,40 @@ TEST(CodedBlockTiming, RecordReaderTakesACyclePerWordAndOneForANewTile) {
     const int lanes[] = {0, 4, 0, 6};
     const int words[] = {1, 4, 0, 2};
     for (int n = 0; n < 4; ++n) {
-        const AskedRecord record = out.pop();
+        const RequestedRecord record = out.pop();
         out.commit();
         EXPECT_EQ(record.lane, lanes[n]);
         EXPECT_EQ(record.words, words[n]);
     }
 }
 
-TEST(CodedBlockTiming, BlockMotionTakesACyclePerWordOneToHandOverAndOneForASecondAsk) {
+TEST(CodedBlockTiming, BlockMotionTakesACyclePerWordOneForOutputAndOneForASecondRequest) {
     const CodedRegisters r;
-    Fifo<AskedRecord> in("in", 4, 1);
+    Fifo<RequestedRecord> in("in", 4, 1);
     Fifo<MemoryWord> words("words", 4, 1);
     Fifo<BlockRecord> out("out", 4, 1);
-    Fifo<BlockAsk> asks("asks", 4, 1);
+    Fifo<BlockRequest> asks("asks", 4, 1);
     BlockMotion block(0, r.file, in, words, out, &asks);
     Bench bench({&in, &words, &out, &asks});
-    AskedRecord asked{ask_of(2, true), 3, true, {7, 9}, 6, 2};
+    RequestedRecord asked{request_of(2, true), 3, true, {7, 9}, 6, 2};
     put(in, asked);
     for (const std::uint64_t word :
          {std::uint64_t{codec::board_motion_word({1, -3, 4})} << 48U, std::uint64_t{0x060504030201}}) {
         put(words, {word});
     }
-    EXPECT_EQ(bench.until(block, out), 3);
+    EXPECT_EQ(bench.cycles_until(block, out), 3);
     ASSERT_EQ(asks.count(), 1);
     EXPECT_EQ(asks.front().image, 9);
     EXPECT_EQ(asks.front().column, 37);
     EXPECT_EQ(asks.front().block_row, 2);
     EXPECT_EQ(asks.front().rows, 0xF0U);
     EXPECT_TRUE(asks.front().first);
-    EXPECT_EQ(bench.until(block, asks), 1);
+    EXPECT_EQ(bench.cycles_until(block, asks), 1);
     EXPECT_EQ(out.front().block[1], 2);
     EXPECT_EQ(out.front().quarter[0][3], 6);
     asked.class_number = asked.words = 0;  // an empty block
     put(in, asked);
-    EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
     EXPECT_EQ(asks.count(), 2);
 }
 
@@ -207,13 +207,13 @@ TEST(CodedBlockTiming, RecordSelectGivesAPixelPerCycle) {
     BlockRecord record;
     record.flat = {1, 2, 3};
     put(records, record);
-    EXPECT_EQ(bench.until(block, out), 1);
-    EXPECT_EQ(bench.until(block, out), 1);
-    EXPECT_EQ(bench.until(block, out, 9), -1);  // row 8 is in the next block
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out, 9), -1);  // row 8 is in the next block
     record.block_row = 1;
     put(records, record);
-    EXPECT_EQ(bench.until(block, out), 1);
-    EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
     EXPECT_EQ(records.count(), 0);
 }
 
@@ -243,20 +243,20 @@ TEST(CodedBlockTiming, BookLookupLoadsAWordPerCycleThenGivesAPixelPerCycleOfLate
     EXPECT_EQ(steps, all + 1);
     bench.step(block);  // the last word
     EXPECT_EQ(out.count(), 0);
-    EXPECT_EQ(bench.until(block, out), 7);
+    EXPECT_EQ(bench.cycles_until(block, out), 7);
     pixel.hops = 2;  // one prediction
     put(in, pixel);
-    EXPECT_EQ(bench.until(block, out), 7);
+    EXPECT_EQ(bench.cycles_until(block, out), 7);
     for (const int hops : {4, 1}) {
         pixel.hops = hops;
         put(in, pixel);
     }
-    EXPECT_EQ(bench.until(block, out), 9);  // three predictions
-    EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 9);  // three predictions
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
     EXPECT_EQ(block.book_loads(), 1U);
 }
 
-// What DIAGRAM.md says of the chip.
+// Bits of the codebook banks, as in DIAGRAM.md.
 TEST(CodedBlockTiming, TheBanksHaveTheBitsOfTheDiagram) {
     EXPECT_EQ(BookBanks::kBits, 1'605'632U);
 }

@@ -8,7 +8,7 @@
 namespace rs::engine::model {
 namespace {
 
-// The bus alone, with a board that always has words.
+// The bus without other blocks; the board side always has words.
 struct BusBench {
     explicit BusBench(const PciSettings& s) : settings(s), bus(settings, programs, words, commands, transferred) {}
     void step() {
@@ -47,7 +47,7 @@ TEST(HostBus, ABurstTakesItsClocks) {
         settings.burst_words = burst;
         BusBench bench(settings);
         bench.send(48);
-        std::vector<std::uint64_t> ends;  // of the bursts: the clock of the last word
+        std::vector<std::uint64_t> ends;  // bus clock of the last word of each burst
         std::size_t seen = 0;
         for (int n = 0; n < 3000; ++n) {
             bench.step();
@@ -106,14 +106,14 @@ TEST(DiskController, AWordCrossesThePrivateBusInSixteenCycles) {
         loaded.commit();
         ready.commit();
     };
-    const auto until_word = [&](int count) {
+    const auto cycles_until_word = [&](int count) {
         const std::uint64_t begin = now;
         while (words.count() < count && now < begin + 100) step();
         return now - begin;
     };
-    until_word(1);
-    EXPECT_EQ(until_word(2), 16U);
-    EXPECT_EQ(until_word(3), 16U);
+    cycles_until_word(1);
+    EXPECT_EQ(cycles_until_word(2), 16U);
+    EXPECT_EQ(cycles_until_word(3), 16U);
     EXPECT_EQ(words.pop().address, 50U);
     words.commit();
     EXPECT_FALSE(words.front().last);
@@ -129,7 +129,7 @@ TEST(DiskController, AWordCrossesThePrivateBusInSixteenCycles) {
     ASSERT_TRUE(ready.can_pop());
     EXPECT_EQ(ready.front().number, 3);
     EXPECT_TRUE(registers.loaded[3].valid);
-    EXPECT_FALSE(registers.objects[3].valid);  // the render controller takes it over
+    EXPECT_FALSE(registers.objects[3].valid);  // the render controller copies the registers
 }
 
 }  // namespace

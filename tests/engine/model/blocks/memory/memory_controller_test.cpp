@@ -1,4 +1,4 @@
-// The memory controller alone: latency, row misses, batches, the maintenance window, and answers that have no room.
+// Memory controller: latency, row misses, batches, the maintenance window, and full answer FIFOs.
 
 #include "engine/model/blocks/memory/memory_controller.hpp"
 
@@ -19,7 +19,7 @@ struct PortBench {
         for (FifoState* f : std::initializer_list<FifoState*>{&reads, &words, &writes, &written, &loads, &loaded})
             f->commit();
     }
-    void ask(WordAddress address, bool null = false) {
+    void request(WordAddress address, bool null = false) {
         reads.push({address, null});
         reads.commit();
     }
@@ -27,8 +27,8 @@ struct PortBench {
         writes.push({address, data, last});
         writes.commit();
     }
-    // Steps until a word has come back.
-    int until_word() {
+    // Steps until a word has been returned.
+    int cycles_until_word() {
         for (int n = 1; n < 100; ++n) {
             step();
             if (words.can_pop()) return n;
@@ -51,43 +51,43 @@ struct PortBench {
 TEST(MemoryController, AReadTakesFiveCyclesAndAClosedOrOtherRowCostsItsCommands) {
     PortBench bench;
     bench.sdram.set_word(7, 70);
-    bench.ask(7);
-    EXPECT_EQ(bench.until_word(), 1 + 5);  // activate, then the read
+    bench.request(7);
+    EXPECT_EQ(bench.cycles_until_word(), 1 + 5);  // activate, then the read
     EXPECT_EQ(bench.words.pop().data, 70U);
     bench.words.commit();
-    bench.ask(8);
-    EXPECT_EQ(bench.until_word(), 5);
+    bench.request(8);
+    EXPECT_EQ(bench.cycles_until_word(), 5);
     bench.words.pop();
     bench.words.commit();
-    bench.ask(7 + (1 << 10));
-    EXPECT_EQ(bench.until_word(), 2 + 5);  // precharge, activate, the read
+    bench.request(7 + (1 << 10));
+    EXPECT_EQ(bench.cycles_until_word(), 2 + 5);  // precharge, activate, the read
     EXPECT_EQ(bench.controller.counters().row_misses, 2U);
     EXPECT_EQ(bench.controller.counters().words_read[0], 3U);
 }
 
-TEST(MemoryController, ANullReadTakesATurnAndNoCommand) {
+TEST(MemoryController, ANullReadTakesASlotAndNoCommand) {
     PortBench bench;
     bench.sdram.set_word(0, 5);
-    bench.ask(0, true);
-    EXPECT_EQ(bench.until_word(), 5);
+    bench.request(0, true);
+    EXPECT_EQ(bench.cycles_until_word(), 5);
     EXPECT_EQ(bench.words.front().data, 0U);
     EXPECT_EQ(bench.sdram.commands(SdramCommand::activate), 0U);
     EXPECT_EQ(bench.controller.counters().nulls[0], 1U);
 }
 
-TEST(MemoryController, NeverAsksForMoreThanTheAnswersHaveRoomFor) {
+TEST(MemoryController, NeverRequestsMoreThanTheAnswerFifoHolds) {
     PortBench bench;
-    for (WordAddress n = 0; n < 20; ++n) bench.ask(n);
+    for (WordAddress n = 0; n < 20; ++n) bench.request(n);
     for (int n = 0; n < 50; ++n) bench.step();
     EXPECT_EQ(bench.words.count(), 4);
     EXPECT_EQ(bench.reads.count(), 16);
     EXPECT_EQ(bench.controller.last_activity(), Activity::output_full);
 }
 
-TEST(MemoryController, ReadsInARowOfOpenColumnsComeOneACycle) {
+TEST(MemoryController, ReadsOfAnOpenRowTakeOneCycleEach) {
     PortBench bench;
-    for (WordAddress n = 0; n < 3; ++n) bench.ask(n);
-    EXPECT_EQ(bench.until_word(), 6);
+    for (WordAddress n = 0; n < 3; ++n) bench.request(n);
+    EXPECT_EQ(bench.cycles_until_word(), 6);
     for (int n = 0; n < 2; ++n) {
         bench.words.pop();
         bench.step();
@@ -95,14 +95,14 @@ TEST(MemoryController, ReadsInARowOfOpenColumnsComeOneACycle) {
     }
 }
 
-TEST(MemoryController, WritesWaitForABatchWhileSomebodyReadsAndTurnTheBusRoundOnce) {
+TEST(MemoryController, WritesWaitForABatchDuringReadsAndTurnTheBusOnce) {
     PortBench bench;
-    for (WordAddress n = 0; n < 4; ++n) bench.ask(n);
+    for (WordAddress n = 0; n < 4; ++n) bench.request(n);
     for (WordAddress n = 0; n < 7; ++n) bench.write(100 + n, n);
     for (int n = 0; n < 5; ++n) bench.step();  // activate and four reads
     EXPECT_EQ(bench.controller.counters().image_words, 0U);
     EXPECT_EQ(bench.controller.counters().words_read[0], 4U);
-    // Nobody reads: what there is is written, three cycles after the last read and one for the turn.
+    // No port reads: the available words are written, three cycles after the last read and one turnaround cycle.
     for (int n = 0; n < 3; ++n) bench.step();
     EXPECT_EQ(bench.controller.last_activity(), Activity::turnaround);
     EXPECT_EQ(bench.controller.counters().image_words, 0U);
@@ -123,7 +123,7 @@ TEST(MemoryController, TheLastWordOfAViewIsReported) {
     EXPECT_EQ(bench.written.count(), 1);
 }
 
-// Cycles in which the port is lost to maintenance, over a few windows.
+// Port cycles used by maintenance, over several windows.
 std::uint64_t maintenance_cycles(int load_words) {
     PortBench bench;
     for (int n = 0; n < load_words; ++n) {

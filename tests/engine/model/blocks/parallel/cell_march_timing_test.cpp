@@ -1,4 +1,4 @@
-// Turns of the cell march: nothing a cycle early, the result on time.
+// Turns of the cell march: results appear exactly on time, not a cycle early.
 
 #include "engine/model/blocks/parallel/cell_march.hpp"
 #include "tests/engine/model/blocks/block_bench.hpp"
@@ -14,7 +14,7 @@ using test::PixelRegisters;
 using test::put;
 
 // Column 1, between two equal lines and at the first of two places in p: bands 2 and 6 of seven have a surface at depth
-// 100, and the object goes on to 120.
+// 100; the object extends to depth 120.
 struct March {
     March() {
         r.file.objects[static_cast<std::size_t>(r.slot)].shape.thickness = 20;
@@ -26,7 +26,7 @@ struct March {
             bench.step(block);
         }
     }
-    // A column whose band 1 alone has surfaces, or band 2 the same: their depths by [p][line].
+    // A column with surfaces only in band 1, or also the same in band 2: their depths by [p][line].
     void put_band_1(const ColumnSetup& column, const int (&depths)[2][2], bool and_band_2 = false) {
         put(columns, column);
         bench.step(block);
@@ -47,15 +47,15 @@ struct March {
     PixelRegisters r;
     Fifo<ColumnSetup> columns{"columns", 4, 1};
     Fifo<MemoryWord> words{"words", 4, 1};
-    Fifo<RisenPixel> in{"in", 4, 1};
-    Fifo<MarchAgain> again{"again", 4, 1};
-    Fifo<MetSurface> met{"met", 4, 1};
+    Fifo<PixelBandRay> in{"in", 4, 1};
+    Fifo<ReturnedPixel> again{"again", 4, 1};
+    Fifo<SurfaceHit> met{"met", 4, 1};
     Fifo<FinishedPixel> empty{"empty", 4, 1};
     CellMarch block{r.file, columns, words, in, again, met, empty};
     Bench bench{&columns, &words, &in, &again, &met, &empty};
 };
 
-// The middle of a band, where its cell alone counts.
+// The middle of a band, where only its cell has weight.
 constexpr std::int32_t middle_of(int band) {
     return (band << 12) + (1 << 11);
 }
@@ -65,48 +65,48 @@ TEST(CellMarchTiming, TakesATurnOfTwoLooksInEveryStageOfItsRing) {
     EXPECT_EQ(kTurn, 11);
     March m;
     m.push(0, 0, 0);  // no ray
-    EXPECT_EQ(m.bench.until(m.block, m.empty), kTurn + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), kTurn + 1);
     m.push(1, middle_of(4), 0);  // bands 4 and 5 are empty
-    EXPECT_EQ(m.bench.until(m.block, m.empty), kTurn + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), kTurn + 1);
     EXPECT_EQ(m.block.looks(), 1U);
-    m.push(1, middle_of(2), 0);  // band 2 at the foot, and in another turn at its depth
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * kTurn + 1);
+    m.push(1, middle_of(2), 0);  // band 2 at the foot, and at its depth in another turn
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.met), 2 * kTurn + 1);
     EXPECT_TRUE(m.met.front().final);
     EXPECT_EQ(m.met.pop().depth_q3, 800);
     m.met.commit();
-    // A band in 64 depths: 9 steps of 28. Looks at depths 14, 42 (near band 2, but not so far yet), 70, 98.
+    // A band per 64 depths: 9 steps of 28. Looks at depths 14, 42 (near band 2, but before its surface), 70, 98.
     m.push(1, middle_of(1), 1 << 14);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * kTurn + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.met), 2 * kTurn + 1);
     EXPECT_EQ(m.block.looks(), 3U + 4U);
     EXPECT_FALSE(m.met.front().final);
     EXPECT_EQ(m.met.front().next.begin, 112);
     EXPECT_EQ(m.met.front().depth_q3, 800);
 }
 
-// Rays march beside one another: a turn enters in every cycle.
+// Rays march concurrently: a turn enters in every cycle.
 TEST(CellMarchTiming, GivesAPixelPerCycleOfOneTurn) {
     March m;
     for (int n = 0; n < 3; ++n) {
         put(m.in, {pixel_of(1 + 16 * n), middle_of(4), middle_of(4), 0});
     }
-    EXPECT_EQ(m.bench.until(m.block, m.empty), CellMarch::kStages + 1);
-    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
-    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), CellMarch::kStages + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), 1);
 }
 
-TEST(CellMarchTiming, GoesOnWithPixelsThatComeBackFirst) {
+TEST(CellMarchTiming, ReturnedPixelsPrecedeNewOnes) {
     March m;
     m.push(1, middle_of(1), 1 << 14);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.met), 2 * CellMarch::kStages + 1);
     m.push(17, middle_of(4), 0);
     m.again.push({1, m.met.pop().next});
     m.met.commit();
     m.again.commit();
     // The look behind 112 is at depth 126: the object still goes on there.
-    EXPECT_EQ(m.bench.until(m.block, m.met), CellMarch::kStages + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.met), CellMarch::kStages + 1);
     EXPECT_EQ(m.met.front().pixel.id, 1);
     EXPECT_EQ(m.met.front().depth_q3, 8 * 112);
-    EXPECT_EQ(m.bench.until(m.block, m.empty), 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), 1);
     EXPECT_EQ(m.empty.front().id, 17);
 }
 
@@ -116,10 +116,10 @@ TEST(CellMarchTiming, WaitsForTheLastWordOfItsColumn) {
     m.push(2, middle_of(9), 0);
     for (int n = 0; n < 7; ++n) {
         put(m.words, {0});
-        EXPECT_EQ(m.bench.until(m.block, m.empty, 20), -1);
+        EXPECT_EQ(m.bench.cycles_until(m.block, m.empty, 20), -1);
     }
     put(m.words, {0});
-    EXPECT_EQ(m.bench.until(m.block, m.empty), CellMarch::kStages + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.empty), CellMarch::kStages + 1);
 }
 
 // A word of the second line is written as cells, through one of the ports of their memory.
@@ -128,7 +128,7 @@ TEST(CellMarchTiming, LooksOnceInACycleThatWritesCells) {
     put(m.columns, column_of(RayKind::shape, 2));
     m.bench.step(m.block);
     put(m.words, {0});
-    m.push(1, middle_of(1), 1 << 14);  // the second of the two looks is put off with the word of the second line
+    m.push(1, middle_of(1), 1 << 14);  // the second look is delayed by the word of the second line
     m.bench.step(m.block);
     EXPECT_EQ(m.block.looks(), 2U);
     put(m.words, {0});
@@ -137,7 +137,7 @@ TEST(CellMarchTiming, LooksOnceInACycleThatWritesCells) {
     EXPECT_EQ(m.block.looks(), 3U);
 }
 
-// What is kept of two lines and read beside a ray is the surface of section 6.
+// The stored and interpolated surface of two lines is that of section 6.
 TEST(CellMarchTiming, ShowsTheSurfaceBetweenItsCells) {
     March m;
     ColumnSetup column = column_of(RayKind::shape, 2);
@@ -147,29 +147,30 @@ TEST(CellMarchTiming, ShowsTheSurfaceBetweenItsCells) {
     const int jump = m.r.file.objects[static_cast<std::size_t>(m.r.slot)].shape.jump;
     EXPECT_EQ(jump, 20);
     m.push(2, middle_of(1) - (1 << 10), 0);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.met), 2 * CellMarch::kStages + 1);
     EXPECT_EQ(m.met.pop().depth_q3, 8 * (102 + 112) / 2);
     m.met.commit();
-    // The next column beside the same cells, nearer to the second line: the words are there, and take as many cycles.
+    // The next column beside the same cells, nearer to the second line: the words are already stored, and take as many
+    // cycles.
     column.column = 3;
     column.line_part = 6;
     column.same_cells = true;
     put(m.columns, column);
     m.push(3, middle_of(1) - (1 << 10), 0);
-    EXPECT_EQ(m.bench.until(m.block, m.met), 1 + 8 + 2 * CellMarch::kStages);
+    EXPECT_EQ(m.bench.cycles_until(m.block, m.met), 1 + 8 + 2 * CellMarch::kStages);
     EXPECT_EQ(m.met.front().depth_q3, 8 * (106 + 116) / 2);
 }
 
-// Two places in p on two surfaces: the nearer one has more weight, and the farthest cell lies behind both. A pixel that
-// comes back takes the foot's turns again.
-TEST(CellMarchTiming, GivesAPixelThatComesBackWhatLiesBehindTheLastSurface) {
+// Two places in p on two surfaces: the nearer one has more weight, and the farthest cell is behind both. A returned
+// pixel repeats the turns of the foot.
+TEST(CellMarchTiming, ReturnedPixelsHitTheSurfaceBehindTheLast) {
     March m;
     ColumnSetup column = column_of(RayKind::shape, 2);
     column.p_part = 3;
     m.put_band_1(column, {{100, 100}, {140, 150}}, true);
     m.push(2, middle_of(1), 0);
     for (const int depth_q3 : {8 * 100, 8 * 140, 8 * 150}) {
-        EXPECT_EQ(m.bench.until(m.block, m.met), 2 * CellMarch::kStages + 1);
+        EXPECT_EQ(m.bench.cycles_until(m.block, m.met), 2 * CellMarch::kStages + 1);
         EXPECT_EQ(m.met.front().depth_q3, depth_q3);
         EXPECT_EQ(m.met.front().final, depth_q3 == 8 * 150);
         m.again.push({2, m.met.pop().next});

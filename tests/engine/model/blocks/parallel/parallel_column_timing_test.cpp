@@ -1,5 +1,5 @@
-// Latency and throughput of the blocks that set up a parallel board's columns: nothing a cycle early, the result on
-// time.
+// Latency and throughput of the column set-up blocks of a parallel board: results appear exactly on time, not a cycle
+// early.
 
 #include "engine/core/definition/fixed_point.hpp"
 #include "engine/model/blocks/parallel/band_reader.hpp"
@@ -33,10 +33,10 @@ struct ColumnRegisters {
     int slot = 0;
 };
 
-// Answers every request a cycle later, with word(address), and says when `out` has one more.
+// Answers every request a cycle later with word(address); returns the number of cycles until `out` has one more item.
 template <class Word>
-int until_answered(Bench& bench, Block& block, Fifo<MemoryRead>& reads, Fifo<MemoryWord>& words, const FifoState& out,
-                   const Word& word) {
+int cycles_until_answered(Bench& bench, Block& block, Fifo<MemoryRead>& reads, Fifo<MemoryWord>& words,
+                          const FifoState& out, const Word& word) {
     for (int n = 1; n < 400; ++n) {
         const int before = out.count();
         bench.step(block);
@@ -48,7 +48,7 @@ int until_answered(Bench& bench, Block& block, Fifo<MemoryRead>& reads, Fifo<Mem
     return -1;
 }
 
-TEST(ParallelArithmetic, SquareRootsAreThoseOfTheLaw) {
+TEST(ParallelArithmetic, SquareRootsEqualTheDefinition) {
     std::mt19937_64 random(3);
     for (int n = 0; n < 20'000; ++n) {
         const std::uint64_t square = random() >> (1 + random() % 63);
@@ -68,7 +68,7 @@ TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
     BracketFinder block(r.file, in, reads, words, out);
     Bench bench({&in, &reads, &words, &out});
     put(in, {0, false, 0, 0, 0, 0, 0, 0, 0});
-    EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
     EXPECT_EQ(out.pop().kind, RayKind::none);
     out.commit();
     // The crossing of image n is n * 1000 (u = 0), every gap has 3 lines from 3 n on.
@@ -79,8 +79,8 @@ TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
         return at == 2 ? std::uint64_t{3 | 2 << 16} | (3 * n) << 32U : n * 1000;
     };
     put(in, {0, true, 1, 3400, 7, 3, 0, 1 << 28, 0});
-    // Crossing of 3: ask, take, 9; gap 3: ask, take; crossing of 4: ask, take, 9; decide.
-    EXPECT_EQ(until_answered(bench, block, reads, words, out, word), 11 + 2 + 11 + 1);
+    // Crossing of 3: request, take, 9; gap 3: request, take; crossing of 4: request, take, 9; decide.
+    EXPECT_EQ(cycles_until_answered(bench, block, reads, words, out, word), 11 + 2 + 11 + 1);
     BracketedRay found = out.pop();
     out.commit();
     EXPECT_EQ(found.kind, RayKind::shape);
@@ -95,7 +95,7 @@ TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
     in.push(
         {0, true, 1, 3400, 7, 5, 0, 1 << 28, 0});  // two gaps too far: the crossing of 5 serves as the second of gap 4
     in.commit();
-    EXPECT_EQ(until_answered(bench, block, reads, words, out, word), 11 + (2 + 11 + 1) + (2 + 11 + 1));
+    EXPECT_EQ(cycles_until_answered(bench, block, reads, words, out, word), 11 + (2 + 11 + 1) + (2 + 11 + 1));
     found = out.pop();
     out.commit();
     EXPECT_EQ(found.first, 3);
@@ -103,7 +103,7 @@ TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
     const auto no_lines = [&](WordAddress address) {
         return word(address) == (3U | 2U << 16U | std::uint64_t{9} << 32U) ? 3U << 16U : word(address);
     };
-    EXPECT_EQ(until_answered(bench, block, reads, words, out, no_lines), 11 + 2 + 1);
+    EXPECT_EQ(cycles_until_answered(bench, block, reads, words, out, no_lines), 11 + 2 + 1);
     EXPECT_EQ(out.pop().kind, RayKind::foot);
 }
 
@@ -116,17 +116,17 @@ TEST(ParallelColumnTiming, RaysOfPlaneObjectsPassTheBracketFinder) {
     BracketFinder block(r.file, in, reads, words, out);
     Bench bench({&in, &reads, &words, &out});
     put(in, {0, true, 1, 3400, 7, 3, 0, 0, 0});
-    EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
     EXPECT_EQ(out.front().kind, RayKind::plane);
     EXPECT_EQ(out.front().first, 3);
 }
 
-TEST(ParallelColumnTiming, ImageReaderAsksAWordPerCycle) {
+TEST(ParallelColumnTiming, ImageReaderRequestsAWordPerCycle) {
     const ColumnRegisters r(true);
     Fifo<BracketedRay> in("in", 4, 1);
     Fifo<MemoryRead> reads("reads", 2, 1);
     Fifo<MemoryWord> words("words", 2, 1);
-    Fifo<LinedRay> out("out", 4, 1);
+    Fifo<RayWithLines> out("out", 4, 1);
     ImageReader block(r.file, in, reads, words, out);
     Bench bench({&in, &reads, &words, &out});
     const WordAddress lines = r.file.objects[0].lines;
@@ -140,7 +140,7 @@ TEST(ParallelColumnTiming, ImageReaderAsksAWordPerCycle) {
         ray.first = 1;
         ray.second = 5;
         put(in, ray);
-        EXPECT_EQ(until_answered(bench, block, reads, words, out, word), cycles);
+        EXPECT_EQ(cycles_until_answered(bench, block, reads, words, out, word), cycles);
         if (kind == RayKind::shape) {
             EXPECT_EQ(out.front().image[0].fl_y_q16, record_words(4) + 1);
             EXPECT_EQ(out.front().image[1].l2_q30, 5 * record_words(4) + plane_words(2) + 2);
@@ -152,13 +152,13 @@ TEST(ParallelColumnTiming, ImageReaderAsksAWordPerCycle) {
 
 TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
     const ColumnRegisters r(true);
-    Fifo<LinedRay> in("in", 4, 1);
+    Fifo<RayWithLines> in("in", 4, 1);
     Fifo<ColumnSetup> out("out", 4, 1);
     ColumnSetupStage block(r.file, in, out);
     Bench bench({&in, &out});
-    LinedRay ray;
+    RayWithLines ray;
     put(in, ray);
-    EXPECT_EQ(bench.until(block, out), 2);  // no ray
+    EXPECT_EQ(bench.cycles_until(block, out), 2);  // no ray
     ray.ray.kind = RayKind::shape;
     ray.ray.n_q28 = 1 << 28;
     ray.ray.t_q28 = 1 << 26;
@@ -168,7 +168,7 @@ TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
     ray.ray.first_line = 5;
     put(in, ray);
     EXPECT_EQ(ColumnSetupStage::kShapeLatency, 159);
-    EXPECT_EQ(bench.until(block, out), 159);
+    EXPECT_EQ(bench.cycles_until(block, out), 159);
     out.pop();
     out.commit();
     EXPECT_EQ(out.front().weight, 64);
@@ -177,29 +177,30 @@ TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
     EXPECT_EQ(out.front().line_part, 0);
     EXPECT_EQ(out.front().map_place, (std::array<int, 2>{4, 5}));
     EXPECT_EQ(out.front().p_part, 0);
-    ray.ray.n_q28 = 1 << 24;  // the foot lies 2^9 radii away
+    ray.ray.n_q28 = 1 << 24;  // the foot is 2^9 radii away
     ray.ray.t_q28 = 0;
     RegisterFile far = r.file;
     far.banks[0].views[0].planes[0].c_q20 = (1 << 28) - 1;
-    Fifo<LinedRay> far_in("in", 4, 1);
+    Fifo<RayWithLines> far_in("in", 4, 1);
     ColumnSetupStage far_block(far, far_in, out);
     Bench far_bench({&far_in, &out});
     put(far_in, ray);
-    EXPECT_EQ(far_bench.until(far_block, out), ColumnSetupStage::kTooFarLatency);
+    EXPECT_EQ(far_bench.cycles_until(far_block, out), ColumnSetupStage::kTooFarLatency);
     ray.ray.kind = RayKind::plane;
     ray.image[0].l0_q20 = 3 << 20;
     ray.image[0].fl_y_q16 = 60 << 16;
     ray.image[0].cx_q16 = 20 << 16;
     put(in, ray);
-    EXPECT_EQ(bench.until(block, out), VerticalCompensation::kLatency);
+    EXPECT_EQ(bench.cycles_until(block, out), VerticalCompensation::kLatency);
 }
 
-// Lines before the first and behind the last of a gap are its neighbours', or, where those have none, its own.
+// Lines before the first and after the last line of a gap are those of the neighbouring gaps, or the gap's own if those
+// have none.
 TEST(ParallelColumnTiming, ColumnSetupFindsTheLinesBesideTheRayInNeighbouringGapsToo) {
     const ColumnRegisters r(true);
     const ObjectRegisters& object = r.file.objects[static_cast<std::size_t>(r.slot)];
     const auto lines_at = [&](int from_first, std::int64_t first_line, int lines, bool before, bool behind) {
-        LinedRay ray;
+        RayWithLines ray;
         ray.ray.kind = RayKind::shape;
         ray.ray.n_q28 = 1 << 28;
         ray.ray.from_first_q20 = from_first;
@@ -223,7 +224,7 @@ TEST(ParallelColumnTiming, ColumnSetupFindsTheLinesBesideTheRayInNeighbouringGap
     EXPECT_EQ(lines_at(1600, 5, 2, true, true), (Lines{5, 6, 4}));
 }
 
-TEST(ParallelColumnTiming, BandReaderAsksAWordPerCycleAndWaitsForAStripe) {
+TEST(ParallelColumnTiming, BandReaderRequestsAWordPerCycleAndWaitsForAStripe) {
     const ColumnRegisters r(true);  // 48 columns
     Fifo<ColumnSetup> in("in", 64, 1);
     Fifo<Done> stripe_free("free", 2, 1);
@@ -238,39 +239,39 @@ TEST(ParallelColumnTiming, BandReaderAsksAWordPerCycleAndWaitsForAStripe) {
     column.map_line = {1, 4};
     column.map_place = {2, 3};
     put(in, column);
-    EXPECT_EQ(bench.until(block, march), 19);
+    EXPECT_EQ(bench.cycles_until(block, march), 19);
     EXPECT_EQ(rise.count(), 1);
     EXPECT_EQ(place.count(), 1);
-    // 9 places of 7 bands, which stand in 2 words.
-    for (int n = 0; n < 8; ++n) EXPECT_EQ(bench.until(block, reads), 1);
-    EXPECT_EQ(bench.until(block, reads, 5), -1);
+    // 9 places of 7 bands, stored in 2 words each.
+    for (int n = 0; n < 8; ++n) EXPECT_EQ(bench.cycles_until(block, reads), 1);
+    EXPECT_EQ(bench.cycles_until(block, reads, 5), -1);
     for (const int word : {22, 76, 23, 77, 24, 78, 25, 79}) {
         EXPECT_EQ(reads.pop().address, r.file.objects[0].shape.cells + static_cast<WordAddress>(word));
         reads.commit();
     }
-    // A ray beside the same cells, though elsewhere between them, asks for nothing; one beside others does.
+    // A ray beside the same cells, at another position between them, requests nothing; a ray beside other cells does.
     EXPECT_FALSE(march.pop().same_cells);
     march.commit();
     column.line_part = 3;
     put(in, column);
-    EXPECT_EQ(bench.until(block, march), 19);
-    EXPECT_EQ(bench.until(block, reads, 9), -1);
+    EXPECT_EQ(bench.cycles_until(block, march), 19);
+    EXPECT_EQ(bench.cycles_until(block, reads, 9), -1);
     EXPECT_TRUE(march.pop().same_cells);
     march.commit();
     column.map_line = {1, 5};
     put(in, column);
-    EXPECT_EQ(bench.until(block, march), 19);
-    for (int n = 0; n < 8; ++n) EXPECT_EQ(bench.until(block, reads), 1);
+    EXPECT_EQ(bench.cycles_until(block, march), 19);
+    for (int n = 0; n < 8; ++n) EXPECT_EQ(bench.cycles_until(block, reads), 1);
     EXPECT_FALSE(march.pop().same_cells);
     march.commit();
     column.kind = RayKind::none;
     for (int n = 3; n < 48; ++n) {
         put(in, column);
     }
-    for (int n = 3; n < 32; ++n) EXPECT_EQ(bench.until(block, march), 1);
-    EXPECT_EQ(bench.until(block, march, 50), -1);  // two stripes are under way
+    for (int n = 3; n < 32; ++n) EXPECT_EQ(bench.cycles_until(block, march), 1);
+    EXPECT_EQ(bench.cycles_until(block, march, 50), -1);  // two stripes are in flight
     put(stripe_free, {});
-    EXPECT_EQ(bench.until(block, march), 1);
+    EXPECT_EQ(bench.cycles_until(block, march), 1);
     EXPECT_EQ(march.count(), 30);
 }
 

@@ -1,5 +1,4 @@
-// Latency and throughput of what a parallel board's pipe reads ahead, its codebooks, and of the blocks that join the
-// pipes.
+// Latency and throughput of the codebook prefetch of a parallel board's pipe, and of the blocks that join the pipes.
 
 #include "engine/model/blocks/parallel/dispatch.hpp"
 #include "engine/model/blocks/texels/double_buffered_codebook.hpp"
@@ -14,20 +13,20 @@ using test::put;
 using test::ViewsOfThreeObjects;
 
 struct Lookup {
-    // Answers requests at once for so many steps; how many words were asked for.
+    // Runs `steps` cycles and answers requests at once; returns the number of answered words.
     int run(int steps) {
-        int asked = 0;
+        int answered = 0;
         for (int n = 0; n < steps; ++n) {
             if (reads.can_pop()) {
                 reads.pop();
                 words.push({0});
-                ++asked;
+                ++answered;
             }
             reads.commit();
             words.commit();
             bench.step(block);
         }
-        return asked;
+        return answered;
     }
     void view(int number) { put(jobs, {number}); }
     void pixel(int number, int hops) {
@@ -48,7 +47,7 @@ struct Lookup {
     Bench bench{&jobs, &done, &in, &reads, &words, &out};
 };
 
-TEST(ParallelTexelTiming, DoubleBufferedCodebookLoadsBesideLookUpsOfLatencySeven) {
+TEST(ParallelTexelTiming, DoubleBufferedCodebookLoadsDuringLookUpsOfLatencySeven) {
     Lookup l;
     const auto words = [&](int slot) {
         return static_cast<int>(l.r.file.objects[static_cast<std::size_t>(l.r.slots[slot])].book_words);
@@ -57,22 +56,22 @@ TEST(ParallelTexelTiming, DoubleBufferedCodebookLoadsBesideLookUpsOfLatencySeven
     l.pixel(0, 1);
     EXPECT_EQ(l.run(words(0) + 3), words(0));
     EXPECT_EQ(l.out.count(), 0);
-    EXPECT_EQ(l.bench.until(l.block, l.out), 6);  // the books' last word came in the step before the last
-    l.view(1);                                    // the same object
-    l.view(2);                                    // a raw one
-    l.view(3);                                    // another: beside it, look-ups go on
+    EXPECT_EQ(l.bench.cycles_until(l.block, l.out), 6);  // the books' last word came in the step before the last
+    l.view(1);                                           // the same object
+    l.view(2);                                           // a raw one
+    l.view(3);                                           // another object: look-ups continue during its load
     EXPECT_EQ(l.run(4 + 100), 100);
     l.pixel(0, 2);
     l.pixel(0, 4);
     l.pixel(0, 1);
-    EXPECT_EQ(l.bench.until(l.block, l.out), 7);
-    EXPECT_EQ(l.bench.until(l.block, l.out), 3);
-    EXPECT_EQ(l.bench.until(l.block, l.out), 1);
+    EXPECT_EQ(l.bench.cycles_until(l.block, l.out), 7);
+    EXPECT_EQ(l.bench.cycles_until(l.block, l.out), 3);
+    EXPECT_EQ(l.bench.cycles_until(l.block, l.out), 1);
     l.run(words(2));
     EXPECT_EQ(l.block.book_loads(), 2U);
 }
 
-TEST(ParallelTexelTiming, DoubleBufferedCodebookReplacesNoBooksOfAViewUnderWay) {
+TEST(ParallelTexelTiming, DoubleBufferedCodebookReplacesNoBooksOfAViewInFlight) {
     Lookup l;
     l.view(0);
     l.run(30'000);
@@ -124,7 +123,7 @@ TEST(ParallelDispatch, AViewIsWrittenWhenAllPipesWithAShareHaveWrittenTheirs) {
         step();
     };
     pipe_writes(1);
-    pipe_writes(1);  // ahead with view 1
+    pipe_writes(1);  // pipe 1 is ahead, at view 1
     pipe_writes(2);
     EXPECT_EQ(written.count(), 0);
     pipe_writes(0);
@@ -143,16 +142,16 @@ TEST(ParallelDispatch, LoadedWordsGoToAllChannelsInTheSameCycle) {
     for (std::uint64_t n = 0; n < 3; ++n) {
         put(in, {1, n, n == 2});
     }
-    EXPECT_EQ(bench.until(block, words[1]), 1);
+    EXPECT_EQ(bench.cycles_until(block, words[1]), 1);
     EXPECT_EQ(words[0].count(), 1);
     bench.step(block);
     words[0].pop();
     words[0].commit();
-    EXPECT_EQ(bench.until(block, words[0], 9), -1);  // the other channel has no room
+    EXPECT_EQ(bench.cycles_until(block, words[0], 9), -1);  // the other channel is full
     put(done[1], {});
-    EXPECT_EQ(bench.until(block, loaded, 9), -1);
+    EXPECT_EQ(bench.cycles_until(block, loaded, 9), -1);
     put(done[0], {});
-    EXPECT_EQ(bench.until(block, loaded), 1);
+    EXPECT_EQ(bench.cycles_until(block, loaded), 1);
 }
 
 TEST(ParallelDispatch, EveryColumnHasOneOwnerAndSharesAreEven) {

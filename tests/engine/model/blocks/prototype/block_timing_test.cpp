@@ -1,4 +1,4 @@
-// Latency and throughput of each block: nothing a cycle early, the result on time, the next one after its interval.
+// Latency, throughput and interval of each block: results appear exactly on time, not a cycle early.
 
 #include "tests/engine/model/blocks/block_bench.hpp"
 #include "tests/engine/model/board_test_objects.hpp"
@@ -30,12 +30,12 @@ TEST(BlockTiming, RasterGeneratorMakesAColumnInPlanesPlusOneCycles) {
     RasterGenerator block(r.file, jobs, columns);
     Bench bench({&jobs, &columns});
     put(jobs, {0});
-    EXPECT_EQ(bench.until(block, columns), 1 + 12 + 1);
-    for (int column = 1; column < 9; ++column) EXPECT_EQ(bench.until(block, columns), 13);
-    EXPECT_EQ(bench.until(block, columns, 40), -1);  // the view has 9 columns
+    EXPECT_EQ(bench.cycles_until(block, columns), 1 + 12 + 1);
+    for (int column = 1; column < 9; ++column) EXPECT_EQ(bench.cycles_until(block, columns), 13);
+    EXPECT_EQ(bench.cycles_until(block, columns, 40), -1);  // the view has 9 columns
 }
 
-// Gives a stage one item and says when its result is visible; then two at once, for the interval.
+// Measures the latency of a stage with one item, then the interval with two items.
 template <class Stage, class In, class Out>
 void expect_latency(const RegisterFile& file, const In& item, int latency, bool has_ray) {
     Fifo<In> in("in", 4, 1);
@@ -43,16 +43,16 @@ void expect_latency(const RegisterFile& file, const In& item, int latency, bool 
     Stage stage(file, in, out);
     Bench bench({&in, &out});
     put(in, item);
-    EXPECT_EQ(bench.until(stage, out), latency);
+    EXPECT_EQ(bench.cycles_until(stage, out), latency);
     EXPECT_EQ(out.front().has_ray, has_ray);
     for (int n = 0; n < 2; ++n) {
         put(in, item);
     }
-    EXPECT_EQ(bench.until(stage, out), latency);
-    EXPECT_EQ(bench.until(stage, out), latency);
+    EXPECT_EQ(bench.cycles_until(stage, out), latency);
+    EXPECT_EQ(bench.cycles_until(stage, out), latency);
 }
 
-// The columns of the view as the raster generator gives them.
+// Columns of the view from the raster generator.
 std::vector<ColumnRay> columns_of(const RegisterFile& file) {
     Fifo<ViewJob> jobs("jobs", 2, 4);
     Fifo<ColumnRay> columns("columns", 20, 72);
@@ -89,7 +89,7 @@ TEST(BlockTiming, VerticalCompensationAndColumnAddress) {
     RayLine near = line;
     near.l0_q20 = (1 << 17) - 1;
     expect_latency<VerticalCompensation, RayLine, ColumnWalk>(r.file, near, 12, false);
-    near.l0_q20 = 1 << 17;  // on the edge: far enough
+    near.l0_q20 = 1 << 17;  // at the limit: far enough
     near.fl_y_q16 = 1 << 20;
     expect_latency<VerticalCompensation, RayLine, ColumnWalk>(r.file, near, 65, true);
     expect_latency<VerticalCompensation, RayLine, ColumnWalk>(r.file, RayLine{}, 2, false);
@@ -104,9 +104,9 @@ TEST(BlockTiming, RowScanGivesAPairEverySecondCycleAndOneMoreForAnOddRow) {
     RowScan block(r.file, in, out);
     Bench bench({&in, &out});
     put(in, {0, true, 0, 1 << 16, 10, 20, 30});
-    EXPECT_EQ(bench.until(block, out), 3);  // the column, two pixels
-    for (int pair = 1; pair < 4; ++pair) EXPECT_EQ(bench.until(block, out), 2);
-    EXPECT_EQ(bench.until(block, out, 20), -1);  // 7 rows: four pairs
+    EXPECT_EQ(bench.cycles_until(block, out), 3);  // the column, two pixels
+    for (int pair = 1; pair < 4; ++pair) EXPECT_EQ(bench.cycles_until(block, out), 2);
+    EXPECT_EQ(bench.cycles_until(block, out, 20), -1);  // 7 rows: four pairs
     for (int pair = 0; pair < 4; ++pair) {
         const PixelPair p = out.pop();
         out.commit();
@@ -147,10 +147,10 @@ TEST(BlockTiming, ColourConversionHasLatencyFiveAndAPixelPerCycle) {
     for (int n = 0; n < 3; ++n) {
         put(in, {0, 10 * n, 128, 128, 255});
     }
-    EXPECT_EQ(bench.until(block, out), 5);
-    EXPECT_EQ(bench.until(block, out), 1);
-    EXPECT_EQ(bench.until(block, out), 1);
-    EXPECT_EQ(bench.until(block, out, 20), -1);
+    EXPECT_EQ(bench.cycles_until(block, out), 5);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out, 20), -1);
 }
 
 TEST(BlockTiming, ImageWriterPacksTwoPixels) {
@@ -162,14 +162,14 @@ TEST(BlockTiming, ImageWriterPacksTwoPixels) {
     for (std::uint32_t n = 1; n <= 4; ++n) {
         put(in, {0, n});
     }
-    EXPECT_EQ(bench.until(block, out), 2);
-    EXPECT_EQ(bench.until(block, out), 2);
+    EXPECT_EQ(bench.cycles_until(block, out), 2);
+    EXPECT_EQ(bench.cycles_until(block, out), 2);
     EXPECT_EQ(out.front().data, (std::uint64_t{2} << 32) | 1U);
     EXPECT_EQ(out.front().address, r.file.images);
     EXPECT_FALSE(out.front().last);
 }
 
-TEST(BlockTiming, MapReaderAsksOnceAndHandsOnTheByte) {
+TEST(BlockTiming, MapReaderRequestsOnceAndOutputsTheByte) {
     Fifo<RayPoint> in("in", 2, 1);
     Fifo<MemoryRead> reads("reads", 2, 1);
     Fifo<MemoryWord> words("words", 2, 1);
@@ -177,11 +177,11 @@ TEST(BlockTiming, MapReaderAsksOnceAndHandsOnTheByte) {
     MapReader block(in, reads, words, out);
     Bench bench({&in, &reads, &words, &out});
     put(in, {0, true, 1, 2, 3, 8 * 50 + 3});
-    EXPECT_EQ(bench.until(block, reads), 1);
+    EXPECT_EQ(bench.cycles_until(block, reads), 1);
     EXPECT_EQ(reads.front().address, 50U);
-    EXPECT_EQ(bench.until(block, out, 10), -1);
+    EXPECT_EQ(bench.cycles_until(block, out, 10), -1);
     put(words, {0xFFFFFFFF'2AFFFFFF});
-    EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 1);
     EXPECT_EQ(out.front().image, 42);
     EXPECT_TRUE(out.front().has_ray);
     EXPECT_EQ(reads.count(), 1);

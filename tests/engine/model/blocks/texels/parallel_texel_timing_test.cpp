@@ -1,5 +1,4 @@
-// Latency and throughput of the blocks that bring texels to a parallel board's samples, and of those that join its
-// pipes.
+// Latency and throughput of the texel blocks of a parallel board.
 
 #include "engine/model/blocks/texels/texel_cache.hpp"
 #include "engine/model/blocks/texels/texel_fills.hpp"
@@ -37,33 +36,33 @@ struct Tags {
     Bench bench{&in, &fills, &out};
 };
 
-TEST(ParallelTexelTiming, TexelTagsTakeACycleMoreForEachBlockThatIsNotThere) {
+TEST(ParallelTexelTiming, TexelTagsTakeACycleMoreForEachMissingBlock) {
     Tags t;
     t.push(sample_at(1, 7, 15, 3, 5));  // four blocks
-    EXPECT_EQ(t.bench.until(t.block, t.out), 5);
+    EXPECT_EQ(t.bench.cycles_until(t.block, t.out), 5);
     EXPECT_EQ(t.fills.count(), 4);
     EXPECT_EQ(t.out.front().fills, 4);
     t.push(sample_at(1, 7, 15, 3, 5));
     t.push(sample_at(1, 7, 15, 0, 0));
     t.push(sample_at(1, 7, 16, 0, 0));  // weights of 0 need no blocks
-    for (int n = 0; n < 3; ++n) EXPECT_EQ(t.bench.until(t.block, t.out), 1);
+    for (int n = 0; n < 3; ++n) EXPECT_EQ(t.bench.cycles_until(t.block, t.out), 1);
     EXPECT_EQ(t.fills.count(), 4);
     t.push(sample_at(1, 7, 16, 0, 0, 1));  // another view of the same object
-    EXPECT_EQ(t.bench.until(t.block, t.out), 1);
+    EXPECT_EQ(t.bench.cycles_until(t.block, t.out), 1);
     t.push(sample_at(1, 7, 16, 0, 0, 3));  // another object
-    EXPECT_EQ(t.bench.until(t.block, t.out), 2);
+    EXPECT_EQ(t.bench.cycles_until(t.block, t.out), 2);
     PlacedSample outside;
     t.push(outside);
-    EXPECT_EQ(t.bench.until(t.block, t.out), 1);
+    EXPECT_EQ(t.bench.cycles_until(t.block, t.out), 1);
     EXPECT_EQ(t.fills.count(), 5);
 }
 
-TEST(ParallelTexelTiming, TexelTagsReplaceTheOlderLineBehindItsLastReader) {
+TEST(ParallelTexelTiming, TexelTagsReplaceTheOlderLineAfterItsLastReader) {
     Tags t;
     // Blocks 0, 4 and 8 of a row share a set.
     for (const int block : {0, 4, 0, 8}) {
         t.push(sample_at(2, 8 * block, 0, 0, 0));
-        EXPECT_EQ(t.bench.until(t.block, t.out), block == 0 && t.fills.count() == 2 ? 1 : 2);
+        EXPECT_EQ(t.bench.cycles_until(t.block, t.out), block == 0 && t.fills.count() == 2 ? 1 : 2);
     }
     ASSERT_EQ(t.fills.count(), 3);
     const TexelFill first = t.fills.pop();
@@ -74,13 +73,13 @@ TEST(ParallelTexelTiming, TexelTagsReplaceTheOlderLineBehindItsLastReader) {
     EXPECT_EQ(t.fills.front().line, second.line);
     EXPECT_EQ(t.fills.front().guard, 2U);  // the second sample read it last
     t.push(sample_at(2, 0, 0, 0, 0));
-    EXPECT_EQ(t.bench.until(t.block, t.out), 1);  // still there
+    EXPECT_EQ(t.bench.cycles_until(t.block, t.out), 1);  // still in the cache
 }
 
 TEST(ParallelTexelTiming, FillFetchTakes64CyclesForACodedBlockAndAWordPerCycleForARawOne) {
     ViewsOfThreeObjects r;
     Fifo<TexelFill> in("in", 4, 1);
-    Fifo<BlockAsk> asks("asks", 64, 1);
+    Fifo<BlockRequest> asks("asks", 64, 1);
     Fifo<CodedPixel> pixels("pixels", 256, 1);
     Fifo<MemoryRead> raw("raw", 64, 1);
     Fifo<FillKind> kinds("kinds", 4, 1);
@@ -88,15 +87,15 @@ TEST(ParallelTexelTiming, FillFetchTakes64CyclesForACodedBlockAndAWordPerCycleFo
     FillFetch block(r.file, in, asks, pixels, raw, kinds, targets);
     Bench bench({&in, &asks, &pixels, &raw, &kinds, &targets});
     put(in, {0, 2, 3, 1, 9, 0});
-    for (int n = 0; n < 64; ++n) EXPECT_EQ(bench.until(block, pixels), 1) << n;
+    for (int n = 0; n < 64; ++n) EXPECT_EQ(bench.cycles_until(block, pixels), 1) << n;
     ASSERT_EQ(asks.count(), 8);
     EXPECT_TRUE(asks.front().first);
     EXPECT_EQ(asks.front().column, 24);
     EXPECT_EQ(asks.front().rows, 0xFFU);
     EXPECT_EQ(targets.front().line, 9);
     put(in, {2, 2, 3, 1, 10, 0});
-    for (int n = 0; n < kRawBlockWords; ++n) EXPECT_EQ(bench.until(block, raw), 1) << n;
-    EXPECT_EQ(bench.until(block, raw, 9), -1);
+    for (int n = 0; n < kRawBlockWords; ++n) EXPECT_EQ(bench.cycles_until(block, raw), 1) << n;
+    EXPECT_EQ(bench.cycles_until(block, raw, 9), -1);
     const ObjectRegisters& object = r.file.objects[static_cast<std::size_t>(r.slots[1])];
     EXPECT_EQ(raw.front().address, object.raw_blocks + static_cast<WordAddress>((2 * 10 + 3) * 9 + 1) * kRawBlockWords);
     EXPECT_EQ(pixels.count(), 64);
@@ -115,22 +114,22 @@ TEST(ParallelTexelTiming, TexelMergeKeepsTheOrderOfTheBlocks) {
     for (int n = 0; n < 64; ++n) {
         put(coded, {0, n, 1, 2, 3});
     }
-    EXPECT_EQ(bench.until(block, out, 9), -1);  // the raw block is first
+    EXPECT_EQ(bench.cycles_until(block, out, 9), -1);  // the raw block is first
     for (std::uint64_t n = 0; n < kRawBlockWords; ++n) {
         put(words, {0x0101010101010101U * (n + 1)});
     }
-    EXPECT_EQ(bench.until(block, out), 4);  // three words
+    EXPECT_EQ(bench.cycles_until(block, out), 4);  // three words
     EXPECT_EQ(out.front().u, 1);
     EXPECT_EQ(out.front().y, 2);
     EXPECT_EQ(out.front().alpha, 3);
-    for (int n = 1; n < 8; ++n) EXPECT_EQ(bench.until(block, out), 1);
-    EXPECT_EQ(bench.until(block, out), 3);  // two words
-    for (int n = 9; n < 16; ++n) EXPECT_EQ(bench.until(block, out), 1);
-    EXPECT_EQ(bench.until(block, out), 4);
-    for (int n = 17; n < 64; ++n) EXPECT_GE(bench.until(block, out), 1);
+    for (int n = 1; n < 8; ++n) EXPECT_EQ(bench.cycles_until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 3);  // two words
+    for (int n = 9; n < 16; ++n) EXPECT_EQ(bench.cycles_until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 4);
+    for (int n = 17; n < 64; ++n) EXPECT_GE(bench.cycles_until(block, out), 1);
     EXPECT_EQ(words.count(), 0);
-    EXPECT_EQ(bench.until(block, out), 2);  // one to begin the coded block
-    for (int n = 1; n < 64; ++n) EXPECT_EQ(bench.until(block, out), 1);
+    EXPECT_EQ(bench.cycles_until(block, out), 2);  // one to begin the coded block
+    for (int n = 1; n < 64; ++n) EXPECT_EQ(bench.cycles_until(block, out), 1);
 }
 
 struct Cache {
@@ -154,34 +153,34 @@ struct Cache {
     Bench bench{&in, &targets, &texels, &out};
 };
 
-TEST(ParallelTexelTiming, TexelCacheReadsInTheCycleBehindTheLastTexel) {
+TEST(ParallelTexelTiming, TexelCacheReadsInTheCycleAfterTheLastTexel) {
     Cache c;
     c.wait_for(5, 1);
     c.wait_for(5, 0);
     put(c.targets, {5, 0});
     c.texels_of_a_block(63, 7);
-    EXPECT_EQ(c.bench.until(c.block, c.out, 100), -1);
+    EXPECT_EQ(c.bench.cycles_until(c.block, c.out, 100), -1);
     c.texels_of_a_block(1, 7);
-    EXPECT_EQ(c.bench.until(c.block, c.out), 2);
-    EXPECT_EQ(c.bench.until(c.block, c.out), 1);
+    EXPECT_EQ(c.bench.cycles_until(c.block, c.out), 2);
+    EXPECT_EQ(c.bench.cycles_until(c.block, c.out), 1);
     EXPECT_EQ(c.out.front().rgba[3], 7U);
 }
 
 TEST(ParallelTexelTiming, TexelCacheWritesNoLineBeforeItsLastReaderHasRead) {
     Cache c;
     c.wait_for(5, 0);
-    c.wait_for(5, 1);  // waits for the block, and so does
-    c.wait_for(6, 1);  // this one, whose block comes into a line that the one before reads
+    c.wait_for(5, 1);  // waits for its block
+    c.wait_for(6, 1);  // waits too; its block goes into a line that the previous sample reads
     put(c.targets, {5, 1});
     put(c.targets, {5, 2});
     c.texels_of_a_block(64, 8);
     c.texels_of_a_block(64, 9);
-    EXPECT_EQ(c.bench.until(c.block, c.out), 1);
+    EXPECT_EQ(c.bench.cycles_until(c.block, c.out), 1);
     EXPECT_EQ(c.out.front().rgba[0], 0U);
     // The guard of 1 is passed from the next cycle on: 64 texels, then the sample; its block is not the next one's.
-    EXPECT_EQ(c.bench.until(c.block, c.out), 65);
+    EXPECT_EQ(c.bench.cycles_until(c.block, c.out), 65);
     EXPECT_EQ(c.texels.count(), 64);
-    EXPECT_EQ(c.bench.until(c.block, c.out), 65);
+    EXPECT_EQ(c.bench.cycles_until(c.block, c.out), 65);
     c.out.pop();
     c.out.commit();
     EXPECT_EQ(c.out.front().rgba[0], 8U);

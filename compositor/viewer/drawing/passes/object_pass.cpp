@@ -1,0 +1,86 @@
+#include "compositor/viewer/drawing/passes/object_pass.hpp"
+
+#include "compositor/gl/draw.hpp"
+#include "engine/core/views/depth_image.hpp"
+
+#include <cmath>
+
+namespace rs::compositor {
+namespace {
+
+// Transmittance of the fog over a distance.
+float fog_transmittance(const std::optional<Fog>& fog, double distance) {
+    if (!fog) return 1;
+    if (distance >= fog->visibility) return 0;
+    const double left = fog->visibility - distance;
+    return static_cast<float>(fog->kind == FogKind::kLinear ? left / fog->visibility : std::exp(-distance / left));
+}
+
+}  // namespace
+
+Result<ObjectPass> ObjectPass::create(std::size_t nodes, ObjectDepth depth) {
+    RS_ASSIGN_OR_RETURN(auto objects, ObjectRenderer::create(nodes, depth));
+    RS_ASSIGN_OR_RETURN(auto placeholders, PlaceholderRenderer::create());
+    return ObjectPass(std::move(objects), std::move(placeholders), depth);
+}
+
+Status ObjectPass::run(FrameContext& frame) {
+    gl::flush();
+    frame.statistics.geometry_s = frame.clock.lap();
+    release_unloaded(frame.nodes);
+    RS_ASSIGN_OR_RETURN(const std::vector<engine::DrawnView> rendered, frame.engine_views.retrieve());
+    frame.statistics.engine_wait_s = frame.clock.lap();
+    for (std::size_t n = 0; n < frame.seen.size(); ++n) {
+        const VisibleNode& node = frame.seen[n];
+        upload(node, rendered[n], frame);
+        frame.blended.push_back({node.view.plane_distance, true, [this, &node, &frame] { draw(node, frame); }});
+    }
+    add_placeholders(frame);
+    frame.statistics.upload_s = frame.clock.lap();
+    return {};
+}
+
+void ObjectPass::release_unloaded(const ObjectNodes& nodes) {
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (!nodes[i].object) objects_.release(i);
+    }
+}
+
+void ObjectPass::upload(const VisibleNode& node, const engine::DrawnView& rendered, FrameContext& frame) {
+    Image<float> depths;
+    if (depth_ == ObjectDepth::kPixel) {
+        const RaySpaceObject& object = frame.nodes[node.index].object->object->renderer.object();
+        depths = engine::depth_image(object, node.view.camera, rendered.depth_q20);
+    }
+    objects_.upload(node.index, node.view, rendered.image, depths);
+    const int width = rendered.image.width();
+    const int height = rendered.image.height();
+    FrameStatistics& statistics = frame.statistics;
+    statistics.nodes[node.index] = {true, width, height, rendered.seconds, rendered.by_board};
+    statistics.engine_s += rendered.seconds;
+    statistics.nodes_rendered += 1;
+    statistics.nodes_by_board += rendered.by_board ? 1 : 0;
+    statistics.pixels_rendered += std::int64_t{width} * height;
+}
+
+void ObjectPass::draw(const VisibleNode& node, const FrameContext& frame) const {
+    objects_.draw(node.index, node.view,
+                  {.screen_px = {frame.target.drawn.width(), frame.target.drawn.height()},
+                   .fog = frame.fog ? frame.fog->colour : glm::vec3(0),
+                   .own_light = fog_transmittance(frame.fog, node.view.plane_distance),
+                   .opacity = frame.nodes[node.index].opacity});
+}
+
+void ObjectPass::add_placeholders(FrameContext& frame) const {
+    for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+        if (!frame.nodes.placeholder_in_view(i, frame.view)) continue;
+        const Placeholder& placeholder = *frame.nodes[i].placeholder;
+        frame.statistics.nodes[i].missing = !frame.nodes[i].object;
+        frame.statistics.nodes_missing += frame.statistics.nodes[i].missing ? 1 : 0;
+        const double distance = glm::distance(placeholder.world_from_object.translation, frame.view.camera.centre());
+        frame.blended.push_back(
+            {distance, true, [this, &placeholder, &frame] { placeholders_.draw(placeholder, frame.view); }});
+    }
+}
+
+}  // namespace rs::compositor

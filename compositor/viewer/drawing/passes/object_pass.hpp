@@ -1,0 +1,36 @@
+#pragma once
+// Waits for the engine's images of the visible objects, uploads them, and adds objects and placeholders to the blended
+// draws, each at the depth of its reference plane (object_view.hpp).
+
+#include "compositor/viewer/drawing/object_renderer.hpp"
+#include "compositor/viewer/drawing/passes/frame_context.hpp"
+#include "compositor/viewer/drawing/placeholder_renderer.hpp"
+#include "engine/driver/render_session.hpp"
+#include "rayspace/base/result.hpp"
+
+#include <cstddef>
+#include <utility>
+
+namespace rs::compositor {
+
+/// Requires a current gl::Context that outlives it; move-only.
+class ObjectPass {
+public:
+    static Result<ObjectPass> create(std::size_t nodes, ObjectDepth depth);
+    /// The pass must not move until the blended draws are done.
+    Status run(FrameContext& frame);
+
+private:
+    ObjectPass(ObjectRenderer objects, PlaceholderRenderer placeholders, ObjectDepth depth)
+        : objects_(std::move(objects)), placeholders_(std::move(placeholders)), depth_(depth) {}
+    void release_unloaded(const ObjectNodes& nodes);
+    void upload(const VisibleNode& node, const engine::DrawnView& rendered, FrameContext& frame);
+    void draw(const VisibleNode& node, const FrameContext& frame) const;
+    void add_placeholders(FrameContext& frame) const;
+
+    ObjectRenderer objects_;
+    PlaceholderRenderer placeholders_;
+    ObjectDepth depth_;
+};
+
+}  // namespace rs::compositor

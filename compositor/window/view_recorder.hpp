@@ -1,0 +1,44 @@
+#pragma once
+// Writes what a window shows: screenshots, and videos of consecutive frames.
+
+#include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
+#include "rayspace/image_io/image_io.hpp"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace rs::compositor {
+
+/// The first free name of PREFIX-N.ENDING in a folder, with N above `number`, which is set to N.
+std::filesystem::path free_name(const std::filesystem::path& folder, const char* prefix, const char* ending,
+                                int& number);
+
+// One thread. Functions return a message for the user, because a failure does not end the visit.
+class ViewRecorder {
+public:
+    explicit ViewRecorder(std::filesystem::path folder) : folder_(std::move(folder)) {}
+    ViewRecorder(const ViewRecorder&) = delete;
+    ViewRecorder& operator=(const ViewRecorder&) = delete;
+    ~ViewRecorder();  // finishes a video
+
+    /// Writes screenshot-N.png.
+    std::string write_png_screenshot(const Image<Rgba8>& image);
+    /// Writes screenshot-N.jpg.
+    std::string write_jpeg_screenshot(const Image<Rgba8>& image);
+
+    [[nodiscard]] bool is_recording() const { return video_.has_value(); }
+    /// Begins recording-N.mp4. Fails if the video cannot be created.
+    Result<std::string> begin_video(int width, int height, double frames_per_second);
+    /// Adds a frame. Fails if it cannot be written; the video is closed then.
+    Status add_frame(const Image<Rgba8>& image);
+    std::string end_video();
+
+private:
+    std::filesystem::path folder_;
+    std::optional<VideoWriter> video_;
+    int screenshots_ = 0;
+};
+
+}  // namespace rs::compositor

@@ -1,0 +1,9 @@
+#include "engine/executors/entries.hpp"
+
+namespace rs::engine {
+
+std::vector<ExecutorEntry> hardware_entries() {
+    return {};
+}
+
+}  // namespace rs::engine

@@ -1,0 +1,41 @@
+#pragma once
+// The progress of the library's own functions, reported to a ProgressCallback.
+
+#include "rayspace/api/builder.hpp"
+#include "rayspace/base/progress.hpp"
+
+#include <mutex>
+
+namespace rs::api {
+
+class ProgressAdapter final : public Progress {
+public:
+    explicit ProgressAdapter(const ProgressCallback& callback) : callback_(callback) {}
+
+    void start(const std::string& label, std::int64_t total) override {
+        const std::lock_guard lock(mutex_);
+        stage_ = label;
+        total_ = total;
+        done_ = 0;
+        report();
+    }
+    void advance(std::int64_t steps) override {
+        const std::lock_guard lock(mutex_);
+        done_ += steps;
+        report();
+    }
+    void finish() override {}
+
+private:
+    void report() const {
+        if (callback_ && total_ > 0) callback_(stage_, static_cast<double>(done_) / static_cast<double>(total_));
+    }
+
+    const ProgressCallback& callback_;
+    std::mutex mutex_;
+    std::string stage_;
+    std::int64_t total_ = 0;
+    std::int64_t done_ = 0;
+};
+
+}  // namespace rs::api
