@@ -1,6 +1,6 @@
 #pragma once
 // Output of files and folders: written under a temporary name beside the target, synced, and renamed, so that a reader
-// sees the old or the new contents, whatever ends the writer. Temporaries are named ".NAME.partial-RANDOM.EXT" and
+// sees the old or the new contents even if the writer is killed. Temporaries are named ".NAME.partial-RANDOM.EXT" and
 // locked (flock) while they are written; those that a killed process left are removed by the next writer of the same
 // target.
 
@@ -43,7 +43,7 @@ private:
 };
 
 /// Folder that appears under its name when commit() succeeds. Without commit() the temporary folder is removed with its
-/// files. commit() adds the file ".rayspace-folder": the kind of contents, such as "imported photographs", in the first
+/// files. commit() adds the file ".rayspace-folder": the kind of contents, such as "imported photos", in the first
 /// line and the name of a file in each further one.
 ///
 /// An existing folder is replaced as a whole if it is empty, or if it has the same kind of contents and only files
@@ -52,7 +52,7 @@ private:
 class StagedFolder {
 public:
     /// \param contents kind of contents, a noun in the plural
-    /// \param force replace an existing folder whatever it holds, but not one with the current folder inside
+    /// \param force replace an existing folder with any contents, unless it contains the current folder
     static Result<StagedFolder> create(const std::filesystem::path& path, std::string contents, bool force = false);
 
     /// Folder to write the files to.
@@ -77,10 +77,10 @@ inline constexpr const char* kForceHelp = "Replace the output folder even if it 
 /// \return an error that names both if `output` is one of `others`, or a folder that contains one.
 Status refuse_overwriting_inputs(const std::filesystem::path& output, const std::vector<std::filesystem::path>& others);
 
-/// \return the whole file, or an error if it is larger than `cap_bytes`.
+/// Reads a whole file. Fails if it is larger than `cap_bytes`.
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t cap_bytes);
 
-/// Writes a StagedFile in one call; an older file stays as it is if this fails.
+/// Writes a StagedFile in one call; an existing file is unchanged on failure.
 Status write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 Status write_file(const std::filesystem::path& path, const std::string& text);
 

@@ -1,5 +1,5 @@
 #pragma once
-// Opening of input files, which never waits for a pipe or a device.
+// Opens input files without ever blocking on a pipe or a device.
 
 #include "rayspace/base/result.hpp"
 

@@ -55,7 +55,7 @@ Status StagedFile::commit() {
     // A library that wrote temporary_path() itself may have replaced the file that the descriptor holds open.
     const int written = ::open(temporary_.path().c_str(), O_RDONLY | O_CLOEXEC);
     if (written < 0) return output_error(path_, "cannot be finished", errno);
-    // Network file systems report a full disk as late as here.
+    // Network file systems may report a full disk only here.
     const int error = ::fsync(written) != 0 ? errno : 0;
     if (::close(written) != 0 || error != 0)
         return output_error(path_, "cannot be finished", error != 0 ? error : errno);

@@ -19,7 +19,7 @@ fs::path without_trailing_slash(const fs::path& path) {
     return path.has_filename() ? path : path.parent_path();
 }
 
-// Every file below `folder`, as relative paths; folders do not count.
+// Relative paths of all files below `folder`.
 Result<std::set<std::string>> files_below(const fs::path& folder) {
     std::set<std::string> files;
     std::error_code error;
@@ -28,7 +28,7 @@ Result<std::set<std::string>> files_below(const fs::path& folder) {
         if (at->is_directory(error) && !at->is_symlink(error)) continue;
         files.insert(at->path().lexically_relative(folder).string());
     }
-    if (error) return output_error(folder, "cannot be looked into", error.value());
+    if (error) return output_error(folder, "cannot be read", error.value());
     return files;
 }
 
@@ -43,8 +43,8 @@ bool is_within(const fs::path& path, const fs::path& folder) {
     return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-// Path with links resolved, and path whose last name is kept although it may be a link.
-std::vector<fs::path> places_of(const fs::path& given) {
+// The path with links resolved, and the path with links resolved except for the last component.
+std::vector<fs::path> possible_paths(const fs::path& given) {
     std::error_code ignored;
     const fs::path path = without_trailing_slash(given);
     const fs::path resolved = fs::weakly_canonical(path, ignored);
@@ -57,7 +57,7 @@ Status check_replaceable(const fs::path& path, const std::string& contents, bool
     std::error_code error;
     const fs::file_status status = fs::symlink_status(path, error);
     if (status.type() == fs::file_type::not_found) return {};
-    if (error) return output_error(path, "cannot be looked at", error.value());
+    if (error) return output_error(path, "cannot be read", error.value());
     if (!fs::is_directory(status)) {
         return Error{path.string() + ": is there already and is not a folder; remove it or choose another name"};
     }
@@ -100,7 +100,7 @@ Result<StagedFolder> StagedFolder::create(const fs::path& given, std::string con
 
 Status StagedFolder::commit() {
     RS_CHECK(temporary_.descriptor() >= 0);
-    // Somebody may have filled the folder since create().
+    // Another process may have written to the folder since create().
     RS_TRY(check_replaceable(path_, contents_, force_));
     RS_TRY(write_marker(temporary_.path(), contents_));
     return temporary_.move_to(path_);
@@ -112,8 +112,8 @@ Status refuse_overwriting_inputs(const fs::path& output, const std::vector<fs::p
         if (other.empty()) continue;
         std::error_code ignored;
         bool is_lost = fs::equivalent(output, other, ignored);
-        for (const fs::path& folder : places_of(output)) {
-            for (const fs::path& place : places_of(other)) is_lost = is_lost || is_within(place, folder);
+        for (const fs::path& folder : possible_paths(output)) {
+            for (const fs::path& place : possible_paths(other)) is_lost = is_lost || is_within(place, folder);
         }
         if (!is_lost) continue;
         return Error{output.string() + ": would overwrite " + other.string() +

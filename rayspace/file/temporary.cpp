@@ -18,8 +18,8 @@ namespace rs {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMostNameBytes = 60;  // of the target's name; file systems allow 255 in all
-constexpr std::size_t kMostExtensionBytes = 16;
+constexpr std::size_t kMaxNameBytes = 60;  // of the target's name; file systems allow 255 in all
+constexpr std::size_t kMaxExtensionBytes = 16;
 
 struct Registry {
     std::mutex mutex;
@@ -54,26 +54,26 @@ Status check_parent(const fs::path& path) {
 // ".NAME.MARK-", the first part of the name of temporaries of `path`.
 std::string stem_of(const fs::path& path, const char* mark) {
     std::string name = path.filename().string();
-    if (name.size() > kMostNameBytes) {
-        std::size_t end = kMostNameBytes;
-        while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80) --end;  // whole UTF-8 characters
+    if (name.size() > kMaxNameBytes) {
+        std::size_t end = kMaxNameBytes;
+        while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80) --end;  // UTF-8 boundary
         name.resize(end);
     }
     return "." + name + "." + mark + "-";
 }
 
-// The extension is kept, by which libraries choose a format.
+// Keeps the extension, from which libraries choose the format.
 fs::path random_name(const fs::path& path, const char* mark) {
     std::random_device random;
     char digits[20];
     std::snprintf(digits, sizeof digits, "%08x%08x", random(), random());
     const std::string extension = path.extension().string();
     return path.parent_path() /
-           (stem_of(path, mark) + digits + (extension.size() <= kMostExtensionBytes ? extension : std::string()));
+           (stem_of(path, mark) + digits + (extension.size() <= kMaxExtensionBytes ? extension : std::string()));
 }
 
-// Those that another process is writing are locked. Where locks do not work, nothing is removed.
-void remove_left_behind(const fs::path& target) {
+// Removes temporaries of `target` that are not locked by a running process. Removes nothing if locks are unsupported.
+void remove_stale_temporaries(const fs::path& target) {
     const std::string stem = stem_of(target, "partial");
     std::error_code error;
     std::vector<fs::path> found;
@@ -91,7 +91,7 @@ void remove_left_behind(const fs::path& target) {
     }
 }
 
-// Makes a rename durable. Some file systems cannot; the rename itself has succeeded, so that is no error.
+// Makes a rename durable. Errors are ignored: some file systems do not support it, and the rename itself has succeeded.
 void sync_folder(const fs::path& folder) {
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (descriptor < 0) return;
@@ -106,7 +106,7 @@ Error output_error(const fs::path& path, const std::string& what, int error) {
     if (error == ENOSPC || error == EDQUOT) {
         reason = "no space left on device; free some space or write elsewhere";
     } else if (error == EACCES || error == EPERM || error == EROFS) {
-        reason += "; choose a place that you may write to";
+        reason += "; choose a writable folder";
     } else if (error == EFBIG) {
         reason += "; choose a file system or a file-size limit that allows it";
     }
@@ -115,7 +115,7 @@ Error output_error(const fs::path& path, const std::string& what, int error) {
 
 Result<Temporary> Temporary::create(const fs::path& target, Kind kind) {
     RS_TRY(check_parent(target));
-    remove_left_behind(target);
+    remove_stale_temporaries(target);
     const bool is_folder = kind == Kind::kFolder;
     const int flags = is_folder ? O_RDONLY | O_DIRECTORY : O_RDWR | O_CREAT | O_EXCL;
     for (;;) {
@@ -126,7 +126,7 @@ Result<Temporary> Temporary::create(const fs::path& target, Kind kind) {
         const int error = errno;
         temporary.path_ = path;
         if (temporary.descriptor_ >= 0) ::flock(temporary.descriptor_, LOCK_EX);
-        // Before it was locked, another process may have removed it as left behind.
+        // Another process may have removed it as stale before it was locked.
         std::error_code ignored;
         if (temporary.descriptor_ >= 0 && fs::exists(path, ignored)) {
             const std::lock_guard lock(registry().mutex);
@@ -190,7 +190,7 @@ Status Temporary::move_to(const fs::path& target) {
         }
     }
     sync_folder(parent_of(target));
-    remove();  // of a folder the one that was replaced
+    remove();  // the replaced folder, if any
     return {};
 }
 

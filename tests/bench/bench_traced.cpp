@@ -64,13 +64,13 @@ Scene scene_of(const synthetic::Model& model) {
         }
         scene.textures.push_back(std::move(texture));
     }
-    for (const synthetic::ModelLook& look : model.looks) {
+    for (const synthetic::ModelMaterial& source : model.materials) {
         Material material;
-        material.name = look.name;
+        material.name = source.name;
         material.kind = SurfaceKind::glossy;
-        material.colour = look.colour;
-        material.roughness = look.roughness;
-        if (!look.image.empty()) material.texture = images[look.image];
+        material.colour = source.colour;
+        material.roughness = source.roughness;
+        if (!source.image.empty()) material.texture = images[source.image];
         scene.materials.push_back(material);
     }
     for (const synthetic::ModelGroup& group : model.groups) scene.parts.push_back({group.name, group.meshes});

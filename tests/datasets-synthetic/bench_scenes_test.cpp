@@ -49,7 +49,7 @@ TEST(MeasuringRooms, AreSoundMeshes) {
             for (const capture::Mesh& mesh : group.meshes) {
                 ASSERT_EQ(mesh.normals.size(), mesh.positions.size());
                 ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
-                ASSERT_LT(static_cast<std::size_t>(mesh.material), model.looks.size());
+                ASSERT_LT(static_cast<std::size_t>(mesh.material), model.materials.size());
                 for (const glm::uvec3& t : mesh.triangles) {
                     const glm::vec3 a = mesh.positions[t.x], b = mesh.positions[t.y], c = mesh.positions[t.z];
                     const glm::vec3 cross = glm::cross(b - a, c - a);

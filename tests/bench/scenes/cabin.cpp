@@ -12,7 +12,7 @@ namespace {
 
 using glm::vec3;
 
-constexpr CabinLooks kWith;
+constexpr CabinMaterials kCabin;
 
 constexpr int kRows = 30;
 constexpr float kPitch_m = 0.79F;
@@ -65,8 +65,8 @@ void walls(Model& model) {
     }
     GroupBuilder shell("shell");
     const float half = cabin_half_width(0);
-    shell.sheet(kWith.carpet, {0, 0, half}, {kLength_m, 0, 0}, {0, 0, -2 * half}, 56, 8);
-    shell.box(kWith.aisle, {0, 0, -0.24F}, {kLength_m, 0.006F, 0.24F});
+    shell.sheet(kCabin.carpet, {0, 0, half}, {kLength_m, 0, 0}, {0, 0, -2 * half}, 56, 8);
+    shell.box(kCabin.aisle, {0, 0, -0.24F}, {kLength_m, 0.006F, 0.24F});
     constexpr int kArc = 24, kAlong = 56;
     Grid ceiling(kAlong, kArc);
     for (int row = 0; row <= kArc; ++row) {
@@ -77,13 +77,13 @@ void walls(Model& model) {
             ceiling.uvs[ceiling.index(column, row)] = {x, share};
         }
     }
-    shell.surface(kWith.panel, std::move(ceiling));
+    shell.surface(kCabin.panel, std::move(ceiling));
     for (const float x : {0.0F, kLength_m}) {
-        shell.sheet(kWith.panel, {x, 0, x > 0 ? -1.85F : 1.85F}, {0, 0, x > 0 ? 3.7F : -3.7F}, {0, 2.4F, 0}, 12, 8);
+        shell.sheet(kCabin.panel, {x, 0, x > 0 ? -1.85F : 1.85F}, {0, 0, x > 0 ? 3.7F : -3.7F}, {0, 2.4F, 0}, 12, 8);
         const float inwards = x > 0 ? -1.0F : 1.0F;
-        shell.box(kWith.grey, {std::min(x, x + 0.03F * inwards), 0.02F, -0.42F},
+        shell.box(kCabin.grey, {std::min(x, x + 0.03F * inwards), 0.02F, -0.42F},
                   {std::max(x, x + 0.03F * inwards), 1.95F, 0.42F});
-        shell.box(kWith.metal, {std::min(x, x + 0.06F * inwards), 0.95F, 0.28F},
+        shell.box(kCabin.metal, {std::min(x, x + 0.06F * inwards), 0.95F, 0.28F},
                   {std::max(x, x + 0.06F * inwards), 1.02F, 0.36F});
     }
     model.nodes.push_back({added(model, shell.take()), glm::mat4(1.0F)});
@@ -126,7 +126,7 @@ std::string lights() {
 Model make_cabin() {
     Model model;
     model.name = "cabin";
-    model.looks = cabin_looks();
+    model.materials = cabin_materials();
     seats(model);
     walls(model);
     curtains(model);

@@ -12,7 +12,7 @@ namespace {
 using glm::vec2;
 using glm::vec3;
 
-constexpr CabinLooks kIn;
+constexpr CabinMaterials kCabinPiece;
 constexpr float kTubeRadius_m = 1.85F;
 constexpr float kTubeMiddle_m = 0.75F;
 
@@ -49,7 +49,7 @@ vec2 on_edge(int i, int side) {
 
 }  // namespace
 
-std::vector<ModelLook> cabin_looks() {
+std::vector<ModelMaterial> cabin_materials() {
     return {{"panel", {0.72F, 0.71F, 0.68F}, 0.6F},   {"fabric", {0.05F, 0.09F, 0.2F}, 0.95F},
             {"leather", {0.28F, 0.16F, 0.09F}, 0.5F}, {"grey", {0.38F, 0.39F, 0.4F}, 0.5F},
             {"metal", {0.5F, 0.5F, 0.52F}, 0.35F},    {"carpet", {0.09F, 0.1F, 0.14F}, 0.95F},
@@ -64,30 +64,30 @@ float cabin_half_width(float height_m) {
 
 ModelGroup cabin_seat() {
     GroupBuilder seat("seat");
-    seat.cushion(kIn.fabric, {-0.215F, 0.36F, -0.2F}, {0.215F, 0.5F, 0.26F}, 1, 60, 30);
-    seat.cushion(kIn.fabric, {-0.215F, 0.46F, -0.3F}, {0.215F, 1.06F, -0.15F}, 1, 60, 30);
-    seat.cushion(kIn.leather, {-0.17F, 0.96F, -0.27F}, {0.17F, 1.18F, -0.13F}, 1, 48, 24);
-    seat.cushion(kIn.grey, {-0.22F, 0.42F, -0.335F}, {0.22F, 1.1F, -0.255F}, 2, 32, 16);
+    seat.cushion(kCabinPiece.fabric, {-0.215F, 0.36F, -0.2F}, {0.215F, 0.5F, 0.26F}, 1, 60, 30);
+    seat.cushion(kCabinPiece.fabric, {-0.215F, 0.46F, -0.3F}, {0.215F, 1.06F, -0.15F}, 1, 60, 30);
+    seat.cushion(kCabinPiece.leather, {-0.17F, 0.96F, -0.27F}, {0.17F, 1.18F, -0.13F}, 1, 48, 24);
+    seat.cushion(kCabinPiece.grey, {-0.22F, 0.42F, -0.335F}, {0.22F, 1.1F, -0.255F}, 2, 32, 16);
     for (const float side : {-1.0F, 1.0F}) {
-        seat.cushion(kIn.grey, {side * 0.225F - 0.022F, 0.6F, -0.22F}, {side * 0.225F + 0.022F, 0.645F, 0.2F}, 1, 32,
-                     16);
-        seat.box(kIn.metal, {side * 0.225F - 0.01F, 0.34F, -0.2F}, {side * 0.225F + 0.01F, 0.61F, -0.14F});
+        seat.cushion(kCabinPiece.grey, {side * 0.225F - 0.022F, 0.6F, -0.22F}, {side * 0.225F + 0.022F, 0.645F, 0.2F},
+                     1, 32, 16);
+        seat.box(kCabinPiece.metal, {side * 0.225F - 0.01F, 0.34F, -0.2F}, {side * 0.225F + 0.01F, 0.61F, -0.14F});
         const vec3 leg[] = {{side * 0.15F, 0, 0.16F}, {side * 0.15F, 0.2F, 0.08F}, {side * 0.15F, 0.37F, 0.04F}};
-        seat.tube(kIn.metal, leg, 0.016F, 8);
+        seat.tube(kCabinPiece.metal, leg, 0.016F, 8);
         const vec3 back_leg[] = {{side * 0.15F, 0, -0.2F}, {side * 0.15F, 0.37F, -0.1F}};
-        seat.tube(kIn.metal, back_leg, 0.016F, 8);
+        seat.tube(kCabinPiece.metal, back_leg, 0.016F, 8);
         const vec3 belt[] = {
             {side * 0.2F, 0.46F, -0.16F}, {side * 0.14F, 0.51F, -0.02F}, {side * 0.03F, 0.515F, 0.06F}};
-        seat.tube(kIn.dark, belt, 0.012F, 8);
+        seat.tube(kCabinPiece.dark, belt, 0.012F, 8);
     }
-    seat.box(kIn.metal, {-0.03F, 0.5F, 0.04F}, {0.03F, 0.522F, 0.09F});
-    seat.tube(kIn.leather, piping({-0.2F, 0.52F, -0.165F}, {0.2F, 0.95F, -0.165F}, 36), 0.006F, 6);
+    seat.box(kCabinPiece.metal, {-0.03F, 0.5F, 0.04F}, {0.03F, 0.522F, 0.09F});
+    seat.tube(kCabinPiece.leather, piping({-0.2F, 0.52F, -0.165F}, {0.2F, 0.95F, -0.165F}, 36), 0.006F, 6);
     // On the back: a folded table, a pocket with a card, a screen.
-    seat.box(kIn.grey, {-0.19F, 0.66F, -0.355F}, {0.19F, 0.9F, -0.335F});
-    seat.box(kIn.dark, {-0.03F, 0.9F, -0.35F}, {0.03F, 0.915F, -0.335F});
-    seat.cushion(kIn.fabric, {-0.18F, 0.42F, -0.37F}, {0.18F, 0.64F, -0.32F}, 2, 16, 10);
-    seat.box(kIn.blanket, {-0.1F, 0.5F, -0.352F}, {0.08F, 0.68F, -0.348F});
-    seat.box(kIn.dark, {-0.1F, 0.93F, -0.345F}, {0.1F, 1.06F, -0.33F});
+    seat.box(kCabinPiece.grey, {-0.19F, 0.66F, -0.355F}, {0.19F, 0.9F, -0.335F});
+    seat.box(kCabinPiece.dark, {-0.03F, 0.9F, -0.35F}, {0.03F, 0.915F, -0.335F});
+    seat.cushion(kCabinPiece.fabric, {-0.18F, 0.42F, -0.37F}, {0.18F, 0.64F, -0.32F}, 2, 16, 10);
+    seat.box(kCabinPiece.blanket, {-0.1F, 0.5F, -0.352F}, {0.08F, 0.68F, -0.348F});
+    seat.box(kCabinPiece.dark, {-0.1F, 0.93F, -0.345F}, {0.1F, 1.06F, -0.33F});
     return seat.take();
 }
 
@@ -114,21 +114,22 @@ ModelGroup cabin_window(bool shade_down) {
         }
         opening.push_back(on_wall(inner.x, inner.y));
     }
-    window.surface(kIn.panel, std::move(wall));
+    window.surface(kCabinPiece.panel, std::move(wall));
     // The reveal widens towards the inside.
     std::vector<vec3> outside;
     for (const vec3& p : opening) {
         const vec3 middle = on_wall(0.5F * kWindowPitch_m, kMiddle);
         outside.push_back(middle + 0.86F * (p - middle) + vec3(0, 0, 0.07F));
     }
-    window.strip(kIn.panel, outside, opening);
-    window.tube(kIn.grey, opening, 0.01F, 6);
+    window.strip(kCabinPiece.panel, outside, opening);
+    window.tube(kCabinPiece.grey, opening, 0.01F, 6);
     if (shade_down) {
-        window.box(kIn.panel, {0.5F * kWindowPitch_m - kHalf.x, 0.95F, cabin_half_width(1.0F) + 0.03F},
+        window.box(kCabinPiece.panel, {0.5F * kWindowPitch_m - kHalf.x, 0.95F, cabin_half_width(1.0F) + 0.03F},
                    {0.5F * kWindowPitch_m + kHalf.x, kMiddle + kHalf.y, cabin_half_width(1.0F) + 0.036F});
     }
     // Dado below the window.
-    window.box(kIn.grey, {0, 0.03F, cabin_half_width(0.1F) - 0.03F}, {kWindowPitch_m, 0.25F, cabin_half_width(0.1F)});
+    window.box(kCabinPiece.grey, {0, 0.03F, cabin_half_width(0.1F) - 0.03F},
+               {kWindowPitch_m, 0.25F, cabin_half_width(0.1F)});
     return window.take();
 }
 
@@ -154,23 +155,23 @@ ModelGroup cabin_bin() {
             shell.uvs[shell.index(column, row)] = {share, p.y};
         }
     }
-    bin.surface(kIn.panel, std::move(shell));
-    bin.cushion(kIn.metal, {0.47F, 1.69F, 0.82F}, {0.59F, 1.73F, 0.86F}, 1, 24, 12);
+    bin.surface(kCabinPiece.panel, std::move(shell));
+    bin.cushion(kCabinPiece.metal, {0.47F, 1.69F, 0.82F}, {0.59F, 1.73F, 0.86F}, 1, 24, 12);
     const std::vector<vec3> rail{
         {0, 1.585F, 0.955F}, {0.5F * kBinLength_m, 1.585F, 0.955F}, {kBinLength_m, 1.585F, 0.955F}};
-    bin.tube(kIn.grey, rail, 0.018F, 10);
+    bin.tube(kCabinPiece.grey, rail, 0.018F, 10);
     return bin.take();
 }
 
 ModelGroup service_panel() {
     GroupBuilder panel("service panel");
-    panel.cushion(kIn.grey, {-0.11F, 1.53F, 0.98F}, {0.11F, 1.58F, 1.5F}, 2, 24, 12);
+    panel.cushion(kCabinPiece.grey, {-0.11F, 1.53F, 0.98F}, {0.11F, 1.58F, 1.5F}, 2, 24, 12);
     for (int seat = 0; seat < 3; ++seat) {
         const float z = 1.08F + 0.15F * static_cast<float>(seat);
-        panel.lathe(kIn.metal, {-0.05F, 1.5F, z},
+        panel.lathe(kCabinPiece.metal, {-0.05F, 1.5F, z},
                     {{0, 0}, {0.018F, 0.004F}, {0.026F, 0.02F}, {0.028F, 0.04F}, {0, 0.04F}}, 16);
-        panel.lathe(kIn.dark, {0.05F, 1.51F, z}, {{0, 0}, {0.016F, 0}, {0.02F, 0.015F}, {0.02F, 0.03F}, {0, 0.03F}},
-                    16);
+        panel.lathe(kCabinPiece.dark, {0.05F, 1.51F, z},
+                    {{0, 0}, {0.016F, 0}, {0.02F, 0.015F}, {0.02F, 0.03F}, {0, 0.03F}}, 16);
     }
     return panel.take();
 }
@@ -190,16 +191,16 @@ ModelGroup curtain(std::int64_t fringe_triangles) {
             folds.uvs[folds.index(column, row)] = {share, up};
         }
     }
-    cloth.surface(kIn.curtain, std::move(folds));
+    cloth.surface(kCabinPiece.curtain, std::move(folds));
     const std::vector<vec3> rod{{0, kHigh + 0.01F, kInner}, {0, kHigh + 0.01F, kOuter}};
-    cloth.tube(kIn.metal, rod, 0.012F, 8);
+    cloth.tube(kCabinPiece.metal, rod, 0.012F, 8);
     Random random(93);
     constexpr int kTassels = 24;
     const std::int64_t share = fringe_triangles / kTassels;
     for (int i = 0; i < kTassels; ++i) {
         const std::int64_t count = i + 1 < kTassels ? share : fringe_triangles - share * (kTassels - 1);
         const float z = kInner + (kOuter - kInner) * (static_cast<float>(i) + 0.5F) / kTassels;
-        cloth.blades(kIn.blanket,
+        cloth.blades(kCabinPiece.blanket,
                      {.foot = {0, kLow + 0.005F, z},
                       .up = {0, -1, 0},
                       .spread = 0.025F,

@@ -5,12 +5,12 @@
 
 namespace rs::synthetic {
 
-/// Indices into Model::looks.
-struct CabinLooks {
+/// Indices into Model::materials.
+struct CabinMaterials {
     int panel = 0, fabric = 1, leather = 2, grey = 3, metal = 4, carpet = 5, aisle = 6, curtain = 7, dark = 8,
         blanket = 9;
 };
-std::vector<ModelLook> cabin_looks();
+std::vector<ModelMaterial> cabin_materials();
 
 inline constexpr float kWindowPitch_m = 0.53F;
 inline constexpr float kBinLength_m = 1.06F;

@@ -27,13 +27,13 @@ void GroupBuilder::set_frame(vec3 origin, float turn_rad) {
     frame_ = {origin, rotation({0, 1, 0}, turn_rad)};
 }
 
-capture::Mesh& GroupBuilder::mesh_of(int look) {
+capture::Mesh& GroupBuilder::mesh_of(int material) {
     for (capture::Mesh& mesh : group_.meshes) {
-        if (mesh.material == look) return mesh;
+        if (mesh.material == material) return mesh;
     }
     group_.meshes.emplace_back();
     group_.meshes.back().name = group_.name;
-    group_.meshes.back().material = look;
+    group_.meshes.back().material = material;
     return group_.meshes.back();
 }
 
@@ -45,17 +45,17 @@ void GroupBuilder::place(capture::Mesh& mesh, std::size_t first) const {
     }
 }
 
-void GroupBuilder::box(int look, vec3 low, vec3 high) {
+void GroupBuilder::box(int material, vec3 low, vec3 high) {
     const vec3 x{high.x - low.x, 0, 0}, y{0, high.y - low.y, 0}, z{0, 0, high.z - low.z};
-    sheet(look, low + z, x, y);
-    sheet(look, low + x + z, -z, y);
-    sheet(look, low + x, -x, y);
-    sheet(look, low, z, y);
-    sheet(look, low, x, z);
-    sheet(look, low + y + z, x, -z);
+    sheet(material, low + z, x, y);
+    sheet(material, low + x + z, -z, y);
+    sheet(material, low + x, -x, y);
+    sheet(material, low, z, y);
+    sheet(material, low, x, z);
+    sheet(material, low + y + z, x, -z);
 }
 
-void GroupBuilder::sheet(int look, vec3 corner, vec3 right, vec3 up, int columns, int rows, float uv_per_m) {
+void GroupBuilder::sheet(int material, vec3 corner, vec3 right, vec3 up, int columns, int rows, float uv_per_m) {
     Grid grid(columns, rows);
     grid.positions.clear();
     grid.uvs.clear();
@@ -70,42 +70,42 @@ void GroupBuilder::sheet(int look, vec3 corner, vec3 right, vec3 up, int columns
             grid.normals.push_back(normal);
         }
     }
-    surface(look, std::move(grid));
+    surface(material, std::move(grid));
 }
 
-void GroupBuilder::strip(int look, std::span<const vec3> a, std::span<const vec3> b) {
+void GroupBuilder::strip(int material, std::span<const vec3> a, std::span<const vec3> b) {
     RS_CHECK(a.size() == b.size() && a.size() >= 2);
     Grid grid(static_cast<int>(a.size()) - 1, 1);
     grid.positions.assign(a.begin(), a.end());
     grid.positions.insert(grid.positions.end(), b.begin(), b.end());
     grid.uvs.clear();
     for (const vec3& p : grid.positions) grid.uvs.emplace_back(0.5F * (p.x + p.z), 0.5F * p.y);
-    surface(look, std::move(grid));
+    surface(material, std::move(grid));
 }
 
-void GroupBuilder::surface(int look, Grid grid) {
-    capture::Mesh& mesh = mesh_of(look);
+void GroupBuilder::surface(int material, Grid grid) {
+    capture::Mesh& mesh = mesh_of(material);
     const std::size_t first = mesh.positions.size();
     append_grid(mesh, std::move(grid));
     place(mesh, first);
 }
 
-void GroupBuilder::lathe(int look, vec3 foot, std::span<const vec2> profile, int segments) {
-    capture::Mesh& mesh = mesh_of(look);
+void GroupBuilder::lathe(int material, vec3 foot, std::span<const vec2> profile, int segments) {
+    capture::Mesh& mesh = mesh_of(material);
     const std::size_t first = mesh.positions.size();
     append_lathe(mesh, profile, {.segments = segments});
     for (std::size_t i = first; i < mesh.positions.size(); ++i) mesh.positions[i] += foot;
     place(mesh, first);
 }
 
-void GroupBuilder::tube(int look, std::span<const vec3> path, float radius, int sides) {
-    capture::Mesh& mesh = mesh_of(look);
+void GroupBuilder::tube(int material, std::span<const vec3> path, float radius, int sides) {
+    capture::Mesh& mesh = mesh_of(material);
     const std::size_t first = mesh.positions.size();
     append_tube(mesh, path, std::span<const float>(&radius, 1), {.sides = sides});
     place(mesh, first);
 }
 
-void GroupBuilder::cushion(int look, vec3 low, vec3 high, int roots, int columns, int rows) {
+void GroupBuilder::cushion(int material, vec3 low, vec3 high, int roots, int columns, int rows) {
     Grid grid(columns, rows, true);
     grid.positions.clear();
     grid.uvs.clear();
@@ -123,17 +123,17 @@ void GroupBuilder::cushion(int look, vec3 low, vec3 high, int roots, int columns
                                   static_cast<float>(row) / static_cast<float>(rows));
         }
     }
-    surface(look, std::move(grid));
+    surface(material, std::move(grid));
 }
 
-void GroupBuilder::blades(int look, const Blades& like, std::int64_t triangles, Random& random) {
+void GroupBuilder::blades(int material, const Blades& like, std::int64_t triangles, Random& random) {
     RS_CHECK(triangles == 0 || triangles >= 6);
-    constexpr int kOfOne = 9;  // triangles per blade; odd for all blades
+    constexpr int kTrianglesPerBlade = 9;  // odd
     const Frame frame = frame_facing(like.foot, like.up, {0, 0, 1});
-    capture::Mesh& mesh = mesh_of(look);
+    capture::Mesh& mesh = mesh_of(material);
     while (triangles > 0) {
-        std::int64_t of_this = kOfOne;
-        if (triangles < 2 * kOfOne) of_this = triangles % 2 == 1 ? triangles : 3;
+        std::int64_t of_this = kTrianglesPerBlade;
+        if (triangles < 2 * kTrianglesPerBlade) of_this = triangles % 2 == 1 ? triangles : 3;
         triangles -= of_this;
         const float turn = random.uniform(0.0F, portable::kTwoPiF);
         const float away = std::sqrt(random.uniform());

@@ -22,24 +22,24 @@ public:
     void set_frame(glm::vec3 origin, float turn_rad = 0.0F);
 
     // 12 triangles.
-    void box(int look, glm::vec3 low, glm::vec3 high);
+    void box(int material, glm::vec3 low, glm::vec3 high);
     /// Parallelogram corner + s right + t up that faces cross(right, up). 2 triangles per cell; texture coordinates are
     /// metres along both sides times `uv_per_m`.
-    void sheet(int look, glm::vec3 corner, glm::vec3 right, glm::vec3 up, int columns = 1, int rows = 1,
+    void sheet(int material, glm::vec3 corner, glm::vec3 right, glm::vec3 up, int columns = 1, int rows = 1,
                float uv_per_m = 0.5F);
     /// Strip between two polylines of equal length that faces cross(along, from `a` to `b`).
-    void strip(int look, std::span<const glm::vec3> a, std::span<const glm::vec3> b);
+    void strip(int material, std::span<const glm::vec3> a, std::span<const glm::vec3> b);
     /// Solid of revolution above `foot`; the profile is (radius, height), from the axis at the bottom to that at the
     /// top.
-    void lathe(int look, glm::vec3 foot, std::span<const glm::vec2> profile, int segments);
-    void lathe(int look, glm::vec3 foot, std::initializer_list<glm::vec2> profile, int segments) {
-        lathe(look, foot, std::span<const glm::vec2>(profile.begin(), profile.size()), segments);
+    void lathe(int material, glm::vec3 foot, std::span<const glm::vec2> profile, int segments);
+    void lathe(int material, glm::vec3 foot, std::initializer_list<glm::vec2> profile, int segments) {
+        lathe(material, foot, std::span<const glm::vec2>(profile.begin(), profile.size()), segments);
     }
-    void tube(int look, std::span<const glm::vec3> path, float radius, int sides);
+    void tube(int material, std::span<const glm::vec3> path, float radius, int sides);
     /// Superellipsoid that fills a box. columns * (rows - 1) * 2 triangles.
     /// \param roots number of square roots applied to its sines and cosines: 0 is an ellipsoid, 2 nearly a box
-    void cushion(int look, glm::vec3 low, glm::vec3 high, int roots, int columns, int rows);
-    void surface(int look, Grid grid);
+    void cushion(int material, glm::vec3 low, glm::vec3 high, int roots, int columns, int rows);
+    void surface(int material, Grid grid);
     /// Thin bent blades of about the given length that grow from a disc of radius `spread` around `foot`.
     struct Blades {
         glm::vec3 foot{0.0F};
@@ -50,14 +50,14 @@ public:
         float bend = 0.5F;
     };
     /// \param triangles exact number, 0 or at least 6
-    void blades(int look, const Blades& like, std::int64_t triangles, Random& random);
+    void blades(int material, const Blades& like, std::int64_t triangles, Random& random);
 
     [[nodiscard]] std::int64_t triangles() const { return triangle_count(group_); }
     /// Moves the group out of the builder.
     ModelGroup take() { return std::move(group_); }
 
 private:
-    capture::Mesh& mesh_of(int look);
+    capture::Mesh& mesh_of(int material);
     // Transforms the vertices from `first` on from the local frame to the group.
     void place(capture::Mesh& mesh, std::size_t first) const;
 

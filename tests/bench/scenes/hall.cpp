@@ -13,7 +13,7 @@ namespace {
 
 using glm::vec3;
 
-constexpr HallLooks kOf;
+constexpr HallMaterials kHall;
 
 constexpr float kBay_m = 3.6F;
 constexpr float kHalfWidth_m = 5.4F;
@@ -50,9 +50,9 @@ void wall_bay(GroupBuilder& shell) {
     constexpr float kLeft = 0.9F, kRight = kBay_m - 0.9F, kSill = 0.9F, kSpring = 3.2F, kDeep = 0.35F;
     constexpr float kMiddle = 0.5F * (kLeft + kRight), kRadius = 0.5F * (kRight - kLeft);
     constexpr int kArch = 20;
-    shell.sheet(kOf.plaster, {0, 0, 0}, {kLeft, 0, 0}, {0, kWall_m, 0});
-    shell.sheet(kOf.plaster, {kRight, 0, 0}, {kBay_m - kRight, 0, 0}, {0, kWall_m, 0});
-    shell.sheet(kOf.plaster, {kLeft, 0, 0}, {kRight - kLeft, 0, 0}, {0, kSill, 0});
+    shell.sheet(kHall.plaster, {0, 0, 0}, {kLeft, 0, 0}, {0, kWall_m, 0});
+    shell.sheet(kHall.plaster, {kRight, 0, 0}, {kBay_m - kRight, 0, 0}, {0, kWall_m, 0});
+    shell.sheet(kHall.plaster, {kLeft, 0, 0}, {kRight - kLeft, 0, 0}, {0, kSill, 0});
     std::vector<vec3> arch, above, behind;
     for (int i = 0; i <= kArch; ++i) {
         const float turn = portable::kPiF * (1.0F - static_cast<float>(i) / kArch);
@@ -61,24 +61,24 @@ void wall_bay(GroupBuilder& shell) {
         above.emplace_back(p.x, kWall_m, 0);
         behind.push_back(p - vec3(0, 0, kDeep));
     }
-    shell.strip(kOf.plaster, arch, above);
-    shell.strip(kOf.stone, behind, arch);
-    shell.sheet(kOf.stone, {kLeft, kSill, 0}, {0, 0, -kDeep}, {0, kSpring - kSill, 0});
-    shell.sheet(kOf.stone, {kRight, kSill, -kDeep}, {0, 0, kDeep}, {0, kSpring - kSill, 0});
-    shell.box(kOf.marble, {kLeft - 0.08F, kSill - 0.06F, -kDeep}, {kRight + 0.08F, kSill, 0.1F});
+    shell.strip(kHall.plaster, arch, above);
+    shell.strip(kHall.stone, behind, arch);
+    shell.sheet(kHall.stone, {kLeft, kSill, 0}, {0, 0, -kDeep}, {0, kSpring - kSill, 0});
+    shell.sheet(kHall.stone, {kRight, kSill, -kDeep}, {0, 0, kDeep}, {0, kSpring - kSill, 0});
+    shell.box(kHall.marble, {kLeft - 0.08F, kSill - 0.06F, -kDeep}, {kRight + 0.08F, kSill, 0.1F});
     constexpr float kBar = 0.02F, kBarZ = -0.2F;
     for (int i = 1; i < 4; ++i) {
         const float x = kLeft + 0.45F * static_cast<float>(i);
         const float rise = std::sqrt(kRadius * kRadius - (x - kMiddle) * (x - kMiddle));
-        shell.box(kOf.iron, {x - kBar, kSill, kBarZ - kBar}, {x + kBar, kSpring + rise, kBarZ + kBar});
+        shell.box(kHall.iron, {x - kBar, kSill, kBarZ - kBar}, {x + kBar, kSpring + rise, kBarZ + kBar});
     }
     for (const float y : {1.5F, 2.1F, 2.7F, kSpring}) {
-        shell.box(kOf.iron, {kLeft, y - kBar, kBarZ - kBar}, {kRight, y + kBar, kBarZ + kBar});
+        shell.box(kHall.iron, {kLeft, y - kBar, kBarZ - kBar}, {kRight, y + kBar, kBarZ + kBar});
     }
     // A pilaster and a skirting.
-    shell.box(kOf.stone, {-0.25F, 0, 0}, {0.25F, kWall_m - 0.3F, 0.12F});
-    shell.box(kOf.stone, {-0.32F, kWall_m - 0.3F, 0}, {0.32F, kWall_m, 0.2F});
-    shell.box(kOf.dark_marble, {0.25F, 0, 0}, {kBay_m - 0.25F, 0.18F, 0.04F});
+    shell.box(kHall.stone, {-0.25F, 0, 0}, {0.25F, kWall_m - 0.3F, 0.12F});
+    shell.box(kHall.stone, {-0.32F, kWall_m - 0.3F, 0}, {0.32F, kWall_m, 0.2F});
+    shell.box(kHall.dark_marble, {0.25F, 0, 0}, {kBay_m - 0.25F, 0.18F, 0.04F});
 }
 
 void vault(GroupBuilder& shell, const HallPlan& plan) {
@@ -94,7 +94,7 @@ void vault(GroupBuilder& shell, const HallPlan& plan) {
             inside.uvs[inside.index(column, row)] = {x, turn};
         }
     }
-    shell.surface(kOf.plaster, std::move(inside));
+    shell.surface(kHall.plaster, std::move(inside));
     for (int bay = 1; bay < plan.bays; ++bay) {
         std::vector<vec3> rib;
         for (int i = 0; i <= kArc; ++i) {
@@ -103,21 +103,21 @@ void vault(GroupBuilder& shell, const HallPlan& plan) {
                              kVaultFoot_m + (kVaultRadius_m - 0.02F) * portable::sin(turn),
                              (kVaultRadius_m - 0.02F) * portable::cos(turn));
         }
-        shell.tube(kOf.stone, rib, 0.12F, 8);
+        shell.tube(kHall.stone, rib, 0.12F, 8);
     }
     for (const float side : {-1.0F, 1.0F}) {
         const float inner = side * (kColumnZ_m - 0.3F), outer = side * (kColumnZ_m + 0.3F);
-        shell.box(kOf.marble, {0, kColumnHeight_m, std::min(inner, outer)},
+        shell.box(kHall.marble, {0, kColumnHeight_m, std::min(inner, outer)},
                   {length, kVaultFoot_m, std::max(inner, outer)});
         const float wall = side * kHalfWidth_m;
         const float low = std::min(outer, wall), high = std::max(outer, wall);
-        shell.sheet(kOf.plaster, {0, kWall_m, low}, {length, 0, 0}, {0, 0, high - low}, 2 * plan.bays, 2);
+        shell.sheet(kHall.plaster, {0, kWall_m, low}, {length, 0, 0}, {0, 0, high - low}, 2 * plan.bays, 2);
     }
 }
 
 // End wall that faces +X, at the origin's X.
 void end_wall(GroupBuilder& shell) {
-    shell.sheet(kOf.plaster, {0, 0, kHalfWidth_m}, {0, 0, -2 * kHalfWidth_m}, {0, kWall_m, 0}, 12, 6);
+    shell.sheet(kHall.plaster, {0, 0, kHalfWidth_m}, {0, 0, -2 * kHalfWidth_m}, {0, kWall_m, 0}, 12, 6);
     std::vector<vec3> low, high;
     for (int i = 0; i <= 24; ++i) {
         const float turn = portable::kPiF * static_cast<float>(i) / 24;
@@ -125,17 +125,17 @@ void end_wall(GroupBuilder& shell) {
         low.emplace_back(0, kWall_m, z);
         high.emplace_back(0, kVaultFoot_m + kVaultRadius_m * portable::sin(turn), z);
     }
-    shell.strip(kOf.plaster, low, high);
-    shell.box(kOf.dark_marble, {0, 0, -kHalfWidth_m}, {0.05F, 0.18F, kHalfWidth_m});
+    shell.strip(kHall.plaster, low, high);
+    shell.box(kHall.dark_marble, {0, 0, -kHalfWidth_m}, {0.05F, 0.18F, kHalfWidth_m});
     // A medallion.
     std::vector<vec3> ring;
     for (int i = 0; i <= 32; ++i) {
         const float turn = portable::kTwoPiF * static_cast<float>(i) / 32;
         ring.emplace_back(0.04F, 6.4F + 1.1F * portable::sin(turn), 1.1F * portable::cos(turn));
     }
-    shell.tube(kOf.stone, ring, 0.1F, 10);
-    shell.tube(kOf.brass, std::vector<vec3>{{0.02F, 5.3F, 0}, {0.02F, 7.5F, 0}}, 0.05F, 8);
-    shell.tube(kOf.brass, std::vector<vec3>{{0.02F, 6.4F, -1.1F}, {0.02F, 6.4F, 1.1F}}, 0.05F, 8);
+    shell.tube(kHall.stone, ring, 0.1F, 10);
+    shell.tube(kHall.brass, std::vector<vec3>{{0.02F, 5.3F, 0}, {0.02F, 7.5F, 0}}, 0.05F, 8);
+    shell.tube(kHall.brass, std::vector<vec3>{{0.02F, 6.4F, -1.1F}, {0.02F, 6.4F, 1.1F}}, 0.05F, 8);
 }
 
 void floor_tiles(GroupBuilder& shell, const HallPlan& plan) {
@@ -144,8 +144,8 @@ void floor_tiles(GroupBuilder& shell, const HallPlan& plan) {
         for (int row = 0; row < 18; ++row) {
             const vec3 corner{kTile * static_cast<float>(column), 0,
                               -kHalfWidth_m + kTile * static_cast<float>(row + 1)};
-            shell.sheet((column + row) % 2 == 0 ? kOf.marble : kOf.dark_marble, corner, {kTile, 0, 0}, {0, 0, -kTile},
-                        1, 1, 1.1F);
+            shell.sheet((column + row) % 2 == 0 ? kHall.marble : kHall.dark_marble, corner, {kTile, 0, 0},
+                        {0, 0, -kTile}, 1, 1, 1.1F);
         }
     }
 }
@@ -159,24 +159,24 @@ void stairs(GroupBuilder& shell, Model& model, std::size_t baluster_group) {
     constexpr float kHalf = 1.5F;
     for (int step = 0; step < kSteps; ++step) {
         const vec3 p = step_middle(step);
-        shell.box(kOf.marble, {p.x - kTread_m / 2, 0, -kHalf}, {p.x + kTread_m / 2 + 0.02F, p.y, kHalf});
-        shell.box(kOf.carpet, {p.x - kTread_m / 2, p.y, -0.7F}, {p.x + kTread_m / 2 + 0.03F, p.y + 0.012F, 0.7F});
+        shell.box(kHall.marble, {p.x - kTread_m / 2, 0, -kHalf}, {p.x + kTread_m / 2 + 0.02F, p.y, kHalf});
+        shell.box(kHall.carpet, {p.x - kTread_m / 2, p.y, -0.7F}, {p.x + kTread_m / 2 + 0.03F, p.y + 0.012F, 0.7F});
         for (const float z : {-kHalf + 0.12F, kHalf - 0.12F}) {
             model.nodes.push_back({baluster_group, standing({p.x, p.y, z})});
         }
     }
-    shell.box(kOf.stone, {0, kGallery_m - 0.3F, -kVaultRadius_m}, {kGalleryDepth_m, kGallery_m, kVaultRadius_m});
+    shell.box(kHall.stone, {0, kGallery_m - 0.3F, -kVaultRadius_m}, {kGalleryDepth_m, kGallery_m, kVaultRadius_m});
     for (const float z : {-2.6F, -1.7F, 1.7F, 2.6F}) {
-        shell.box(kOf.stone, {1.9F, 0, z - 0.15F}, {2.2F, kGallery_m - 0.3F, z + 0.15F});
+        shell.box(kHall.stone, {1.9F, 0, z - 0.15F}, {2.2F, kGallery_m - 0.3F, z + 0.15F});
     }
     const vec3 first = step_middle(0), last = step_middle(kSteps - 1);
     for (const float side : {-1.0F, 1.0F}) {
         const float z = side * (kHalf - 0.12F);
         const std::vector<vec3> rail{{first.x, first.y + 0.85F, z}, {last.x, last.y + 0.85F, z}};
-        shell.tube(kOf.oak, rail, 0.06F, 10);
+        shell.tube(kHall.oak, rail, 0.06F, 10);
         const std::vector<vec3> along{{kGalleryDepth_m - 0.12F, kGallery_m + 0.85F, z},
                                       {kGalleryDepth_m - 0.12F, kGallery_m + 0.85F, side * kVaultRadius_m}};
-        shell.tube(kOf.oak, along, 0.06F, 10);
+        shell.tube(kHall.oak, along, 0.06F, 10);
         for (int i = 0; i < 5; ++i) {
             const float at = side * (kHalf - 0.12F + 0.28F * static_cast<float>(i + 1));
             model.nodes.push_back({baluster_group, standing({kGalleryDepth_m - 0.12F, kGallery_m, at})});
@@ -240,7 +240,7 @@ void add_plants(Model& model, const HallPlan& plan) {
 Model make(const HallPlan& plan) {
     Model model;
     model.name = plan.name;
-    model.looks = hall_looks();
+    model.materials = hall_materials();
     model.images = hall_images();
     const float length = length_of(plan);
     const std::size_t columns = add_group(model, fluted_column(plan.flutes, plan.shaft_rows));

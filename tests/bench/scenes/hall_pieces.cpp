@@ -13,7 +13,7 @@ namespace {
 using glm::vec2;
 using glm::vec3;
 
-constexpr HallLooks kLooks;
+constexpr HallMaterials kHallPiece;
 
 // Marble with veins at the zero crossings of layered noise. The texture is tileable: the noise is periodic.
 Image<Rgba8> stone_image(vec3 ground, vec3 vein, std::uint32_t seed) {
@@ -39,7 +39,7 @@ Image<Rgba8> stone_image(vec3 ground, vec3 vein, std::uint32_t seed) {
 void legs(GroupBuilder& piece, vec2 half, float height) {
     for (const float x : {-half.x, half.x}) {
         for (const float z : {-half.y, half.y}) {
-            piece.lathe(kLooks.oak, {x, 0, z},
+            piece.lathe(kHallPiece.oak, {x, 0, z},
                         {{0, 0},
                          {0.025F, 0},
                          {0.035F, 0.1F},
@@ -54,7 +54,7 @@ void legs(GroupBuilder& piece, vec2 half, float height) {
 
 }  // namespace
 
-std::vector<ModelLook> hall_looks() {
+std::vector<ModelMaterial> hall_materials() {
     return {{"plaster", {0.74F, 0.70F, 0.62F}},
             {"marble", {0.9F, 0.9F, 0.9F}, 0.35F, "marble.png"},
             {"dark_marble", {0.9F, 0.9F, 0.9F}, 0.35F, "dark.png"},
@@ -77,8 +77,8 @@ std::map<std::string, Image<Rgba8>> hall_images() {
 ModelGroup fluted_column(int flutes, int rows) {
     GroupBuilder piece("column");
     constexpr float kShaftLow = 0.42F, kShaftHigh = 4.5F, kRadius = 0.3F;
-    piece.box(kLooks.marble, {-0.45F, 0, -0.45F}, {0.45F, 0.14F, 0.45F});
-    piece.lathe(kLooks.marble, {0, 0.14F, 0},
+    piece.box(kHallPiece.marble, {-0.45F, 0, -0.45F}, {0.45F, 0.14F, 0.45F});
+    piece.lathe(kHallPiece.marble, {0, 0.14F, 0},
                 {{0.42F, 0},
                  {0.45F, 0.03F},
                  {0.45F, 0.07F},
@@ -104,8 +104,8 @@ ModelGroup fluted_column(int flutes, int rows) {
                 2.0F * static_cast<float>(column) / static_cast<float>(shaft.columns), 2.0F * up};
         }
     }
-    piece.surface(kLooks.marble, std::move(shaft));
-    piece.lathe(kLooks.marble, {0, kShaftHigh, 0},
+    piece.surface(kHallPiece.marble, std::move(shaft));
+    piece.lathe(kHallPiece.marble, {0, kShaftHigh, 0},
                 {{0.28F, 0},
                  {0.32F, 0.03F},
                  {0.32F, 0.06F},
@@ -115,13 +115,13 @@ ModelGroup fluted_column(int flutes, int rows) {
                  {0.42F, 0.33F},
                  {0.42F, 0.36F}},
                 32);
-    piece.box(kLooks.marble, {-0.46F, kShaftHigh + 0.36F, -0.46F}, {0.46F, kColumnHeight_m, 0.46F});
+    piece.box(kHallPiece.marble, {-0.46F, kShaftHigh + 0.36F, -0.46F}, {0.46F, kColumnHeight_m, 0.46F});
     return piece.take();
 }
 
 ModelGroup baluster() {
     GroupBuilder piece("baluster");
-    piece.lathe(kLooks.marble, {0, 0, 0},
+    piece.lathe(kHallPiece.marble, {0, 0, 0},
                 {{0, 0},
                  {0.07F, 0},
                  {0.07F, 0.06F},
@@ -141,9 +141,9 @@ ModelGroup baluster() {
 ModelGroup hall_table() {
     GroupBuilder piece("table");
     legs(piece, {0.8F, 0.38F}, 0.72F);
-    piece.box(kLooks.oak, {-0.84F, 0.64F, -0.42F}, {0.84F, 0.72F, 0.42F});
-    piece.box(kLooks.oak, {-0.95F, 0.72F, -0.5F}, {0.95F, 0.76F, 0.5F});
-    piece.lathe(kLooks.clay, {0.1F, 0.76F, 0.05F},
+    piece.box(kHallPiece.oak, {-0.84F, 0.64F, -0.42F}, {0.84F, 0.72F, 0.42F});
+    piece.box(kHallPiece.oak, {-0.95F, 0.72F, -0.5F}, {0.95F, 0.76F, 0.5F});
+    piece.lathe(kHallPiece.clay, {0.1F, 0.76F, 0.05F},
                 {{0, 0}, {0.07F, 0}, {0.13F, 0.08F}, {0.15F, 0.16F}, {0.14F, 0.16F}, {0.11F, 0.08F}, {0, 0.02F}}, 24);
     return piece.take();
 }
@@ -151,22 +151,22 @@ ModelGroup hall_table() {
 ModelGroup hall_chair() {
     GroupBuilder piece("chair");
     legs(piece, {0.19F, 0.19F}, 0.42F);
-    piece.cushion(kLooks.leather, {-0.23F, 0.4F, -0.22F}, {0.23F, 0.5F, 0.23F}, 1, 16, 8);
+    piece.cushion(kHallPiece.leather, {-0.23F, 0.4F, -0.22F}, {0.23F, 0.5F, 0.23F}, 1, 16, 8);
     for (const float x : {-0.2F, 0.2F}) {
         const vec3 post[] = {{x, 0.42F, -0.2F}, {x, 0.75F, -0.23F}, {x, 1.05F, -0.28F}};
-        piece.tube(kLooks.oak, post, 0.018F, 5);
+        piece.tube(kHallPiece.oak, post, 0.018F, 5);
     }
     for (const float y : {0.62F, 0.76F, 0.9F}) {
-        piece.box(kLooks.oak, {-0.19F, y, -0.26F}, {0.19F, y + 0.07F, -0.235F});
+        piece.box(kHallPiece.oak, {-0.19F, y, -0.26F}, {0.19F, y + 0.07F, -0.235F});
     }
     return piece.take();
 }
 
 ModelGroup hall_bench() {
     GroupBuilder piece("bench");
-    for (const float x : {-0.7F, 0.7F}) piece.box(kLooks.stone, {x - 0.1F, 0, -0.2F}, {x + 0.1F, 0.38F, 0.2F});
-    piece.box(kLooks.oak, {-1.0F, 0.38F, -0.24F}, {1.0F, 0.44F, 0.24F});
-    piece.cushion(kLooks.leather, {-0.98F, 0.43F, -0.23F}, {0.98F, 0.52F, 0.23F}, 2, 16, 8);
+    for (const float x : {-0.7F, 0.7F}) piece.box(kHallPiece.stone, {x - 0.1F, 0, -0.2F}, {x + 0.1F, 0.38F, 0.2F});
+    piece.box(kHallPiece.oak, {-1.0F, 0.38F, -0.24F}, {1.0F, 0.44F, 0.24F});
+    piece.cushion(kHallPiece.leather, {-0.98F, 0.43F, -0.23F}, {0.98F, 0.52F, 0.23F}, 2, 16, 8);
     return piece.take();
 }
 
@@ -175,21 +175,21 @@ ModelGroup chandelier() {
     constexpr int kArms = 8;
     constexpr float kDrop = 2.0F, kRadius = 0.75F;
     const vec3 rod[] = {{0, 0, 0}, {0, -kDrop + 0.4F, 0}};
-    piece.tube(kLooks.brass, rod, 0.015F, 8);
+    piece.tube(kHallPiece.brass, rod, 0.015F, 8);
     std::vector<vec3> ring;
     for (int i = 0; i <= 30; ++i) {
         ring.push_back(portable::around(portable::kTwoPiF * static_cast<float>(i) / 30, kRadius, -kDrop));
     }
-    piece.tube(kLooks.brass, ring, 0.02F, 6);
-    piece.cushion(kLooks.brass, {-0.1F, -kDrop + 0.2F, -0.1F}, {0.1F, -kDrop + 0.45F, 0.1F}, 0, 16, 8);
+    piece.tube(kHallPiece.brass, ring, 0.02F, 6);
+    piece.cushion(kHallPiece.brass, {-0.1F, -kDrop + 0.2F, -0.1F}, {0.1F, -kDrop + 0.45F, 0.1F}, 0, 16, 8);
     for (int arm = 0; arm < kArms; ++arm) {
         const float turn = portable::kTwoPiF * static_cast<float>(arm) / kArms;
         const vec3 bow[] = {portable::around(turn, 0.08F, -kDrop + 0.3F), portable::around(turn, 0.4F, -kDrop + 0.12F),
                             portable::around(turn, kRadius, -kDrop)};
-        piece.tube(kLooks.brass, bow, 0.012F, 5);
+        piece.tube(kHallPiece.brass, bow, 0.012F, 5);
         const vec3 foot = portable::around(turn, kRadius, -kDrop + 0.02F);
-        piece.lathe(kLooks.brass, foot, {{0, 0}, {0.05F, 0.01F}, {0.06F, 0.03F}, {0, 0.02F}}, 10);
-        piece.lathe(kLooks.candle, foot, {{0.014F, 0.02F}, {0.014F, 0.16F}, {0, 0.165F}}, 8);
+        piece.lathe(kHallPiece.brass, foot, {{0, 0}, {0.05F, 0.01F}, {0.06F, 0.03F}, {0, 0.02F}}, 10);
+        piece.lathe(kHallPiece.candle, foot, {{0.014F, 0.02F}, {0.014F, 0.16F}, {0, 0.165F}}, 8);
     }
     return piece.take();
 }
@@ -197,11 +197,12 @@ ModelGroup chandelier() {
 ModelGroup plant(std::int64_t leaf_triangles, std::uint64_t seed) {
     GroupBuilder piece("plant");
     piece.lathe(
-        kLooks.clay, {0, 0, 0},
+        kHallPiece.clay, {0, 0, 0},
         {{0, 0}, {0.2F, 0}, {0.28F, 0.4F}, {0.3F, 0.4F}, {0.3F, 0.45F}, {0.26F, 0.45F}, {0.25F, 0.4F}, {0, 0.4F}}, 24);
     Random random(seed);
-    piece.blades(kLooks.leaf, {.foot = {0, 0.4F, 0}, .spread = 0.15F, .length = 0.85F, .width = 0.05F, .bend = 0.5F},
-                 leaf_triangles, random);
+    piece.blades(kHallPiece.leaf,
+                 {.foot = {0, 0.4F, 0}, .spread = 0.15F, .length = 0.85F, .width = 0.05F, .bend = 0.5F}, leaf_triangles,
+                 random);
     return piece.take();
 }
 

@@ -5,13 +5,13 @@
 
 namespace rs::synthetic {
 
-/// Indices into Model::looks.
-struct HallLooks {
+/// Indices into Model::materials.
+struct HallMaterials {
     int plaster = 0, marble = 1, dark_marble = 2, stone = 3, oak = 4, leather = 5, brass = 6, candle = 7, leaf = 8,
         clay = 9, iron = 10, carpet = 11;
 };
-std::vector<ModelLook> hall_looks();
-/// marble.png and dark.png, referenced by the looks.
+std::vector<ModelMaterial> hall_materials();
+/// marble.png and dark.png, referenced by the materials.
 std::map<std::string, Image<Rgba8>> hall_images();
 
 inline constexpr float kColumnHeight_m = 5.0F;

@@ -14,14 +14,14 @@
 
 namespace rs::synthetic {
 
-struct ModelLook {
+struct ModelMaterial {
     std::string name;
     glm::vec3 colour{0.8F};  // linear
     float roughness = 0.9F;
     std::string image = {};  // key of Model::images; repeating texture, multiplied by the colour
 };
 
-/// The material name of a mesh is that of its look.
+/// Mesh::material is an index into Model::materials.
 struct ModelGroup {
     std::string name;
     std::vector<capture::Mesh> meshes;
@@ -40,7 +40,7 @@ struct ModelView {
 
 struct Model {
     std::string name;
-    std::vector<ModelLook> looks;
+    std::vector<ModelMaterial> materials;
     std::map<std::string, Image<Rgba8>> images;  // file name -> image
     std::vector<ModelGroup> groups;
     std::vector<ModelNode> nodes;

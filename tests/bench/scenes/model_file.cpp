@@ -61,14 +61,14 @@ public:
 
 OrderedJson materials_of(const Model& model, const std::vector<std::string>& images) {
     OrderedJson materials = OrderedJson::array();
-    for (const ModelLook& look : model.looks) {
-        OrderedJson surface{{"baseColorFactor", {look.colour.r, look.colour.g, look.colour.b, 1.0}},
+    for (const ModelMaterial& material : model.materials) {
+        OrderedJson surface{{"baseColorFactor", {material.colour.r, material.colour.g, material.colour.b, 1.0}},
                             {"metallicFactor", 0},
-                            {"roughnessFactor", look.roughness}};
+                            {"roughnessFactor", material.roughness}};
         for (std::size_t i = 0; i < images.size(); ++i) {
-            if (images[i] == look.image) surface["baseColorTexture"] = {{"index", i}};
+            if (images[i] == material.image) surface["baseColorTexture"] = {{"index", i}};
         }
-        materials.push_back({{"name", look.name}, {"pbrMetallicRoughness", surface}, {"doubleSided", true}});
+        materials.push_back({{"name", material.name}, {"pbrMetallicRoughness", surface}, {"doubleSided", true}});
     }
     return materials;
 }
@@ -88,7 +88,7 @@ OrderedJson gltf_of(const Model& model, const std::string& name, Buffer& buffer)
         for (const capture::Mesh& mesh : group.meshes) {
             OrderedJson attributes{{"POSITION", buffer.add_positions(mesh.positions)},
                                    {"NORMAL", buffer.add(mesh.normals, "VEC3", kFloat, kOfVertices)}};
-            if (!model.looks[static_cast<std::size_t>(mesh.material)].image.empty()) {
+            if (!model.materials[static_cast<std::size_t>(mesh.material)].image.empty()) {
                 attributes["TEXCOORD_0"] = buffer.add(mesh.uvs, "VEC2", kFloat, kOfVertices);
             }
             const int indices = buffer.add(mesh.triangles, "SCALAR", kUnsigned, kOfIndices);

@@ -13,7 +13,7 @@ struct VariantCurve {
     std::vector<Measurement> points;
 };
 
-std::vector<VariantCurve> grouped(const std::vector<Measurement>& measured) {
+std::vector<VariantCurve> group_by_variant(const std::vector<Measurement>& measured) {
     std::vector<VariantCurve> groups;
     for (const Measurement& point : measured) {
         const auto same = [&](const VariantCurve& group) {
@@ -26,7 +26,7 @@ std::vector<VariantCurve> grouped(const std::vector<Measurement>& measured) {
     return groups;
 }
 
-ChosenCurve chosen_of(const std::vector<VariantCurve>& variants) {
+ChosenCurve choose_best(const std::vector<VariantCurve>& variants) {
     const auto fewer = [](const VariantCurve& a, const VariantCurve& b) { return a.points.size() < b.points.size(); };
     const auto most = std::max_element(variants.begin(), variants.end(), fewer);
     auto best = static_cast<std::size_t>(most - variants.begin());
@@ -48,14 +48,14 @@ ChosenCurve chosen_of(const std::vector<VariantCurve>& variants) {
 }  // namespace
 
 std::vector<ChosenCurve> best_variants(const std::vector<Measurement>& measured) {
-    const std::vector<VariantCurve> groups = grouped(measured);
+    const std::vector<VariantCurve> groups = group_by_variant(measured);
     std::vector<ChosenCurve> curves;
     for (const VariantCurve& group : groups) {
         if (find_curve(curves, group.codec) != nullptr) continue;
         std::vector<VariantCurve> variants;
         std::copy_if(groups.begin(), groups.end(), std::back_inserter(variants),
                      [&](const VariantCurve& other) { return other.codec == group.codec; });
-        curves.push_back(chosen_of(variants));
+        curves.push_back(choose_best(variants));
     }
     return curves;
 }
