@@ -35,7 +35,7 @@ struct NodeTransform {
     double scale = 1;       // > 0
     bool mirrored = false;  // x to -x
 
-    /// Of an orthogonal matrix and a scale, without translation.
+    /// Matrix of a rotation and a scale, without translation.
     static NodeTransform of(const glm::dmat3& orthogonal, double scale);
 
     [[nodiscard]] Similarity parent_from_node() const;

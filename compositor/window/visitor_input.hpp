@@ -14,11 +14,11 @@ class VisitorInput {
 public:
     void take(const Event& event);
 
-    // What was done since the last call, which is `seconds` ago.
+    // Input since the last call, which is `seconds` ago.
     NavigationInput movement(double seconds);
     // Keys that are no movement, in the order in which they went down.
     std::vector<Key> commands();
-    // Where the left button was pressed and let go without being dragged: a click, at most one a call.
+    // Position of a click of the left button (pressed and released without a drag); at most one per call.
     std::optional<glm::dvec2> click();
 
 private:
