@@ -3,7 +3,7 @@
 /// Interface of the segmenters: which pixels of a photo show the object.
 ///
 /// One segmenter is chosen per turn (segmenter_choice.hpp), segment_turn() runs it over all photos, and the edge of a
-/// binary mask is refined by estimate_alpha() and unmix(). A new segmenter is a class here and a row of
+/// binary mask is refined by estimate_alpha() and unmix(). A new segmenter is a class here and a branch of
 /// choose_segmenter().
 
 #include "rayspace/base/result.hpp"
