@@ -147,7 +147,7 @@ TEST_F(View, InvalidLightListsAreRefused) {
     EXPECT_EQ(run.err, "rs-view: error: " + in("evening.json") + ": lights[0].file: " + in("none.ies") +
                            ": cannot be opened: No such file or directory\n");
     EXPECT_FALSE(std::filesystem::exists(in("x.png")));
-    EXPECT_EQ(run({"probe", in("hall.wrl"), "--position", "0,1,0", "-o", in("x.png")}).exit_code, 2);
+    EXPECT_EQ(this->run({"probe", in("hall.wrl"), "--position", "0,1,0", "-o", in("x.png")}).exit_code, 2);
     EXPECT_EQ(
         render({in("hall.wrl"), "--renderer", "path", "--passes", "2", "--seconds", "1", "-o", in("x.png")}).exit_code,
         2);

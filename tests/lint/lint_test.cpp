@@ -232,6 +232,7 @@ TEST(Names, AreNotReserved) {
                                           "__LINE__",
                                           "__COUNTER__",
                                           "__VA_ARGS__",
+                                          "__doc__",
                                           "__FILE__",
                                           "_SC_PHYS_PAGES",
                                           "_SC_PAGESIZE",

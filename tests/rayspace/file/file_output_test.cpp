@@ -139,7 +139,7 @@ TEST(StagedFile, AFullDiskIsAnErrorAndLeavesNothing) {
 }
 
 StagedFolder open_folder(const fs::path& path) {
-    auto folder = StagedFolder::create(path, "pictures");
+    auto folder = StagedFolder::create(path, "images");
     EXPECT_TRUE(folder.ok()) << folder.error().message;
     return std::move(folder).value();
 }
@@ -188,11 +188,11 @@ TEST(StagedFolder, RefusesFilesThatItDidNotWrite) {
         put_text(folder.temporary_path() / "picture", "ours");
         ASSERT_TRUE(folder.commit().ok());
     }
-    EXPECT_TRUE(StagedFolder::create(root / "set", "pictures").ok());
+    EXPECT_TRUE(StagedFolder::create(root / "set", "images").ok());
     fs::remove(root / "set" / "picture");
-    EXPECT_TRUE(StagedFolder::create(root / "set", "pictures").ok()) << "without a file it is still ours";
+    EXPECT_TRUE(StagedFolder::create(root / "set", "images").ok()) << "without a file it is still ours";
     put_text(root.path() / "set" / "notes.txt", "mine");
-    const auto refused = StagedFolder::create(root / "set", "pictures");
+    const auto refused = StagedFolder::create(root / "set", "images");
     ASSERT_FALSE(refused.ok());
     EXPECT_THAT(refused.error().message, AllOf(HasSubstr("notes.txt"), HasSubstr("--force")));
     EXPECT_EQ(contents(root.path() / "set" / "notes.txt"), "mine");
@@ -214,8 +214,8 @@ TEST(StagedFolder, ForceReplacesWhateverAFolderHolds) {
     const TemporaryFolder root;
     fs::create_directory(root / "home");
     put_text(root.path() / "home" / "thesis.tex", "years of work");
-    EXPECT_FALSE(StagedFolder::create(root / "home", "pictures").ok());
-    auto folder = StagedFolder::create(root / "home", "pictures", true);
+    EXPECT_FALSE(StagedFolder::create(root / "home", "images").ok());
+    auto folder = StagedFolder::create(root / "home", "images", true);
     ASSERT_TRUE(folder.ok()) << folder.error().message;
     put_text(folder->temporary_path() / "a", "new");
     EXPECT_TRUE(fs::exists(root / "home" / "thesis.tex")) << "until commit()";
@@ -223,9 +223,9 @@ TEST(StagedFolder, ForceReplacesWhateverAFolderHolds) {
     EXPECT_EQ(names_in(root / "home"), (std::vector<std::string>{".rayspace-folder", "a"}));
     EXPECT_EQ(names_in(root.path()), std::vector<std::string>{"home"});
     put_text(root / "file", "x");
-    EXPECT_FALSE(StagedFolder::create(root / "file", "pictures", true).ok());
+    EXPECT_FALSE(StagedFolder::create(root / "file", "images", true).ok());
     fs::create_directory_symlink("home", root / "link");
-    EXPECT_FALSE(StagedFolder::create(root / "link", "pictures", true).ok());
+    EXPECT_FALSE(StagedFolder::create(root / "link", "images", true).ok());
 }
 
 TEST(StagedFolder, TheCurrentFolderIsNotReplaced) {
@@ -233,8 +233,8 @@ TEST(StagedFolder, TheCurrentFolderIsNotReplaced) {
     fs::create_directories(root / "work" / "inner");
     const fs::path before = fs::current_path();
     fs::current_path(root / "work" / "inner");
-    const auto folder = StagedFolder::create(root / "work", "pictures", true);
-    const auto beside = StagedFolder::create("set", "pictures", true);
+    const auto folder = StagedFolder::create(root / "work", "images", true);
+    const auto beside = StagedFolder::create("set", "images", true);
     fs::current_path(before);
     ASSERT_FALSE(folder.ok());
     EXPECT_THAT(folder.error().message, HasSubstr("contains the current folder"));
@@ -259,11 +259,11 @@ TEST(Temporary, WhatKilledProcessesLeftIsRemovedByTheNextWriterOfTheSameTarget) 
     put_text(root.path() / ".set.partial-0123456789abcdef" / "images" / "a", "left");
     {
         const auto live = StagedFile::create(root / "b.bin");
-        const auto live_folder = StagedFolder::create(root / "set", "pictures");
+        const auto live_folder = StagedFolder::create(root / "set", "images");
         ASSERT_TRUE(live.ok() && live_folder.ok());
         EXPECT_TRUE(StagedFile::create(root / "a.bin").ok());
         EXPECT_TRUE(StagedFile::create(root / "b.bin").ok());
-        EXPECT_TRUE(StagedFolder::create(root / "set", "pictures").ok());
+        EXPECT_TRUE(StagedFolder::create(root / "set", "images").ok());
         EXPECT_TRUE(fs::exists(live->temporary_path())) << "still written";
         EXPECT_TRUE(fs::exists(live_folder->temporary_path())) << "still written";
     }
@@ -312,12 +312,12 @@ TEST(StagedFolder, LeavesOtherPeoplesFoldersAlone) {
     const TemporaryFolder root;
     fs::create_directory(root / "home");
     put_text(root.path() / "home" / "thesis.tex", "years of work");
-    const auto folder = StagedFolder::create(root / "home", "pictures");
+    const auto folder = StagedFolder::create(root / "home", "images");
     ASSERT_FALSE(folder.ok());
     EXPECT_THAT(folder.error().message, AllOf(HasSubstr("thesis.tex"), HasSubstr("--force")));
     put_text(root / "file", "x");
-    EXPECT_THAT(StagedFolder::create(root / "file", "pictures").error().message, HasSubstr("is not a folder"));
-    EXPECT_THAT(StagedFolder::create(root.path() / "none" / "set", "pictures").error().message,
+    EXPECT_THAT(StagedFolder::create(root / "file", "images").error().message, HasSubstr("is not a folder"));
+    EXPECT_THAT(StagedFolder::create(root.path() / "none" / "set", "images").error().message,
                 HasSubstr("create it first"));
     EXPECT_EQ(names_in(root.path()), (std::vector<std::string>{"file", "home"}));
 }
@@ -334,7 +334,7 @@ TEST(StagedFolder, LooksAgainBeforeItReplaces) {
 TEST(StagedFolder, IsThereWholeWheneverItsWriterIsKilled) {
     const TemporaryFolder root;
     const auto replace = [&](const std::string& text) {
-        Result<StagedFolder> folder = StagedFolder::create(root / "set", "pictures");
+        Result<StagedFolder> folder = StagedFolder::create(root / "set", "images");
         if (!folder) return false;
         for (const char* const name : {"a", "b", "c"}) put_text(folder->temporary_path() / name, text);
         return folder->commit().ok();
