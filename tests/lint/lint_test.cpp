@@ -239,6 +239,7 @@ TEST(Names, AreNotReserved) {
                                           "_SC_PAGE_SIZE",
                                           "_SC_NPROCESSORS_ONLN",
                                           "__lsan_default_suppressions",
+                                          "__doc__",
                                           "_INDEXED"};
     for (const fs::path& source : sources()) {
         if (source == "tests/lint/lint_test.cpp") continue;  // the list above

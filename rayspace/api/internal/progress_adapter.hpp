@@ -4,6 +4,7 @@
 #include "rayspace/api/builder.hpp"
 #include "rayspace/base/progress.hpp"
 
+#include <algorithm>
 #include <mutex>
 
 namespace rs::api {
@@ -28,7 +29,9 @@ public:
 
 private:
     void report() const {
-        if (callback_ && total_ > 0) callback_(stage_, static_cast<double>(done_) / static_cast<double>(total_));
+        if (!callback_ || total_ <= 0) return;
+        // Totals may be estimates.
+        callback_(stage_, std::min(1.0, static_cast<double>(done_) / static_cast<double>(total_)));
     }
 
     const ProgressCallback& callback_;
