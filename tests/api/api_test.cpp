@@ -103,7 +103,7 @@ TEST_F(Api, PhotosAreDecodedOneByOne) {
         const auto i = static_cast<std::size_t>(n);
         for (std::size_t row = 0; row < 4; ++row) {
             EXPECT_THAT((*cameras)[i].camera.world_from_camera[row],
-                        testing::Pointwise(testing::DoubleNear(1e-12), (*read)[i].camera.world_from_camera[row]));
+                        testing::Pointwise(testing::DoubleNear(1e-9), (*read)[i].camera.world_from_camera[row]));
         }
     }
     EXPECT_FALSE(opened.photo(kViews).ok());

@@ -88,7 +88,7 @@ TEST_F(SynthCommand, NeverReplacesTheFolderOfItsInput) {
 
     const auto expect_refused = [&](const ToolRun& run, const std::string& output, const std::string& input) {
         EXPECT_EQ(run.exit_code, 1);
-        EXPECT_THAT(run.err, HasSubstr(output + ": writing the set would replace"));
+        EXPECT_THAT(run.err, HasSubstr(output + ": would overwrite"));
         EXPECT_THAT(run.err, HasSubstr(input));
     };
     expect_refused(small(in("set/inside.obj"), in("set")), "set", "inside.obj");

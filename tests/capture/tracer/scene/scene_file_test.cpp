@@ -288,7 +288,7 @@ TEST_F(SceneFileTest, WrongValuesAreErrorsThatNameThePlace) {
                 HasSubstr("does not exist; add the file"));
     EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "environment": {}})"), HasSubstr("give one of"));
     EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "environment": {"file": "gone.exr"}})"),
-                HasSubstr("gone.exr is not there"));
+                HasSubstr("gone.exr does not exist"));
     EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "lights": [{"type": "laser"}]})"),
                 HasSubstr("lights[0].type: must be"));
     EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "lights": [{"type": "rectangle", "edge_u": [0, 0, 1]}]})"),
