@@ -16,7 +16,7 @@ page() {
 }
 
 name=$(basename "$TOOL")
-for subcommand in $("$TOOL" --help | sed -n '/^Subcommands:/,$s/^  \([a-z][a-z-]*\) .*/\1/p'); do
+for subcommand in $("$TOOL" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z][a-z-]*\) .*/\1/p'); do
   page "$name-$subcommand" "$TOOL $subcommand"
 done
 page "$name" "$TOOL"

@@ -1,4 +1,4 @@
-// Public library.
+// The public library as its users call it.
 
 #include "rayspace/api/builder.hpp"
 #include "rayspace/api/evaluation.hpp"
@@ -24,7 +24,7 @@ using testing::HasSubstr;
 
 constexpr int kViews = 12;
 
-// Object built from rendered images of balls.
+// An object of the drawn balls.
 class Api : public testing::Test {
 protected:
     static void SetUpTestSuite() {
@@ -103,7 +103,7 @@ TEST_F(Api, PhotosAreDecodedOneByOne) {
         const auto i = static_cast<std::size_t>(n);
         for (std::size_t row = 0; row < 4; ++row) {
             EXPECT_THAT((*cameras)[i].camera.world_from_camera[row],
-                        testing::Pointwise(testing::DoubleNear(1e-9), (*read)[i].camera.world_from_camera[row]));
+                        testing::Pointwise(testing::DoubleNear(1e-8), (*read)[i].camera.world_from_camera[row]));
         }
     }
     EXPECT_FALSE(opened.photo(kViews).ok());
@@ -167,7 +167,7 @@ TEST_F(Api, RendererSharesTheObject) {
     EXPECT_EQ(kept->photo(3).value(), object().photo(3).value());
 }
 
-// User-defined executor: the core with limits, or with defects.
+// An executor from outside: the core with limits, or with defects.
 class TestExecutor final : public Executor {
 public:
     TestExecutor() : core_(std::move(ExecutorTable().create("core")).value()) { traits_.name = "test"; }
@@ -287,7 +287,7 @@ TEST(ApiVersion, IsThatOfTheProject) {
     EXPECT_THAT(text, HasSubstr("VERSION " + version_text() + " "));
 }
 
-// Public headers depend on the standard library only.
+// Users need nothing but the standard library.
 TEST(ApiHeaders, IncludeOnlyTheStandardLibraryAndOneAnother) {
     static const std::regex kInclude(R"(^#include ([<"])([^>"]+)[>"])");
     int headers = 0;

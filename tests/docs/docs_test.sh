@@ -17,4 +17,5 @@ trap 'rm -rf "$WORK"' EXIT
 for page in rs-encode rs-encode-build rs-encode-evaluate; do
   [ -s "$WORK/$page.1" ] || { echo "docs_test: there is no man page $page"; exit 1; }
 done
+[ "$(find "$WORK" -name "*.1" | wc -l)" -eq 6 ] || { echo "docs_test: there are other man pages than one per command"; exit 1; }
 grep -q -- '\\-\\-output' "$WORK/rs-encode-build.1" || { echo "docs_test: rs-encode-build.1 lacks --output"; exit 1; }
