@@ -69,20 +69,20 @@ Status check_replaceable(const fs::path& path, const std::string& contents, bool
     if (files.empty()) return {};
     const std::string remedy = "; choose another name, or replace the folder with --force";
     std::set<std::string> ours{kMarker};
+    std::string found_contents = contents;
     if (files.contains(kMarker)) {
         RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path / kMarker, kMarkerCap_bytes));
         std::istringstream lines(std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
-        std::string line;
-        std::getline(lines, line);
-        if (line != contents) {
-            return Error{path.string() + ": holds " + printable(line) + ", not " + contents + remedy};
-        }
-        while (std::getline(lines, line)) ours.insert(line);
+        std::getline(lines, found_contents);
+        for (std::string line; std::getline(lines, line);) ours.insert(line);
     }
     const auto other = std::ranges::find_if(files, [&](const std::string& file) { return !ours.contains(file); });
-    if (other == files.end()) return {};
-    return Error{path.string() + ": holds files that this program did not write, such as " + printable(*other) +
-                 remedy};
+    if (other != files.end()) {
+        return Error{path.string() + ": holds files that this program did not write, such as " + printable(*other) +
+                     remedy};
+    }
+    if (found_contents == contents) return {};
+    return Error{path.string() + ": holds " + printable(found_contents) + ", not " + contents + remedy};
 }
 
 }  // namespace

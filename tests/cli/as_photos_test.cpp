@@ -111,7 +111,7 @@ TEST_F(AsPhotos, AFolderMayHaveABackdropsName) {
     std::filesystem::copy_file(folder_ / "box.obj", folder_ / "wall" / "board.png");
     const test::ToolRun run = synth({"--as-photos", "--board", in("wall/board.png")}, "wall");
     EXPECT_EQ(run.exit_code, 1);
-    EXPECT_NE(run.err.find("would replace"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("would overwrite"), std::string::npos) << run.err;
 }
 
 TEST_F(AsPhotos, InvalidValuesAreUsageErrorsInOneLine) {

@@ -186,8 +186,8 @@ TEST_F(BadInput, InvalidOutputs) {
         {"rs-capture", {"synth", in("room.obj"), "--views", "2", "--size", "8x8", "--spp", "1", "-q"}},
         {"rs-capture", {"import", in("photos"), "--calibration", "nominal", "-q"}},
         {"rs-street", {"--seconds", "0.1", "--small"}},
-        {"rs-showroom", {"--scene", "hall", "--small"}},
-        {"rs-view", {in("room.obj"), "--orbit", "2", "--size", "32x24", "-q"}},
+        {"rs-showroom", {"--small"}},
+        {"rs-view", {"render", in("room.obj"), "--orbit", "2", "--size", "32x24", "-q"}},
     };
     for (const auto& [tool, arguments] : commands) {
         SCOPED_TRACE(tool + " " + arguments.front());
@@ -237,12 +237,12 @@ TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
         {"set/transforms.json",
          "rs-encode",
          {"build", in("set"), "-o", in("set/transforms.json"), "-q"},
-         "ends in .rso",
+         "must end in .rso",
          2},
         {"texture.png",
          "rs-encode",
          {"build", in("set"), "-o", in("o.rso"), "--report", in("texture.png")},
-         "ends in .html",
+         "must end in .html",
          2},
         {"set/transforms.json",
          "rs-engine",
@@ -261,7 +261,7 @@ TEST_F(BadInput, OutputThatWouldReplaceAnInputOrAnotherOutput) {
          "rs-capture",
          {"import", in("photos"), "--known", in("imported/transforms.json"), "-o", in("again"), "--report",
           in("imported/transforms.json"), "-q"},
-         "ends in .html",
+         "must end in .html",
          2},
     };
     for (const Case& wrong : cases) {

@@ -26,13 +26,13 @@ class View : public testing::Test {
 protected:
     std::string in(const std::string& name) const { return (work_ / name).string(); }
     void write(const std::string& name, const std::string& text) const { std::ofstream(work_ / name) << text; }
-    test::ToolRun run(const std::vector<std::string>& arguments) const {
+    test::ToolRun view(const std::vector<std::string>& arguments) const {
         return test::run_tool(scratch_.path(), "rs-view", arguments);
     }
     test::ToolRun render(std::vector<std::string> arguments) const {
         arguments.insert(arguments.begin(), "render");
         arguments.insert(arguments.end(), {"-q", "--size", "64x48"});
-        return run(arguments);
+        return view(arguments);
     }
 
     test::TemporaryFolder work_;
@@ -109,7 +109,7 @@ TEST_F(View, LightIsTracedOnRequest) {
     std::vector<std::string> probe = base;
     probe.insert(probe.begin(), "probe");
     probe.insert(probe.end(), {"--position", "0,1,0", "--passes", "2", "-q", "-o", in("probe.exr")});
-    run_ = run(probe);
+    run_ = view(probe);
     ASSERT_EQ(run_.exit_code, 0) << run_.err;
     const auto info = read_image_info(in("probe.exr"));
     ASSERT_TRUE(info);
@@ -147,7 +147,7 @@ TEST_F(View, InvalidLightListsAreRefused) {
     EXPECT_EQ(run.err, "rs-view: error: " + in("evening.json") + ": lights[0].file: " + in("none.ies") +
                            ": cannot be opened: No such file or directory\n");
     EXPECT_FALSE(std::filesystem::exists(in("x.png")));
-    EXPECT_EQ(this->run({"probe", in("hall.wrl"), "--position", "0,1,0", "-o", in("x.png")}).exit_code, 2);
+    EXPECT_EQ(view({"probe", in("hall.wrl"), "--position", "0,1,0", "-o", in("x.png")}).exit_code, 2);
     EXPECT_EQ(
         render({in("hall.wrl"), "--renderer", "path", "--passes", "2", "--seconds", "1", "-o", in("x.png")}).exit_code,
         2);
@@ -164,7 +164,7 @@ TEST_F(View, SavedLightsGiveTheSameImage) {
           R"({"lights": [{"kind": "luminaire", "file": "lamp.ies", "location": [0.4, 1.7, 0.1], "turn_deg": 12.34},
                          {"kind": "point", "name": "buried", "location": [0, 0.5, 0], "candela": 1},
                          {"kind": "disc", "name": "off", "location": [0, 1, 0], "aim": [0, -1, 0], "size": 0.1, "lumens": 0}]})");
-    const test::ToolRun saved = run({"lights", in("hall.wrl"), "--lights", in("lamp.json"), "-o", in("all.json")});
+    const test::ToolRun saved = view({"lights", in("hall.wrl"), "--lights", in("lamp.json"), "-o", in("all.json")});
     ASSERT_EQ(saved.exit_code, 0) << saved.err;
     EXPECT_THAT(saved.err, HasSubstr("'buried' is inside a solid"));
     EXPECT_THAT(saved.err, HasSubstr("'off' has no power"));
@@ -172,7 +172,7 @@ TEST_F(View, SavedLightsGiveTheSameImage) {
     if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
     ASSERT_EQ(render({in("hall.wrl"), "--lights", in("all.json"), "-o", in("b.png")}).exit_code, 0);
     EXPECT_EQ(read_image(in("a.png")).value(), read_image(in("b.png")).value());
-    ASSERT_EQ(this->run({"lights", in("hall.wrl"), "--lights", in("all.json"), "-o", in("again.json")}).exit_code, 0);
+    ASSERT_EQ(view({"lights", in("hall.wrl"), "--lights", in("all.json"), "-o", in("again.json")}).exit_code, 0);
     EXPECT_EQ(read_file(in("all.json"), 1 << 20).value(), read_file(in("again.json"), 1 << 20).value());
 }
 
@@ -285,9 +285,9 @@ TEST_F(View, WithoutAWindowTheFirstViewIsWritten) {
     std::filesystem::current_path(work_.path());
     unsetenv("DISPLAY");
     unsetenv("WAYLAND_DISPLAY");
-    const test::ToolRun run = this->run({in("hall.wrl"), "--size", "64x48"});
+    const test::ToolRun run = view({in("hall.wrl"), "--size", "64x48"});
     setenv("LIBGL_DRIVERS_PATH", work_.path().c_str(), 1);
-    const test::ToolRun without_drivers = this->run({"open", in("hall.wrl"), "--size", "64x48"});
+    const test::ToolRun without_drivers = view({"open", in("hall.wrl"), "--size", "64x48"});
     unsetenv("LIBGL_DRIVERS_PATH");
     std::filesystem::current_path(before);
     EXPECT_EQ(without_drivers.exit_code, 1);
@@ -306,7 +306,7 @@ TEST_F(View, HelpOfEachSubcommandFitsOnAScreen) {
         {"lights"}, {"tile"},   {"tile", "plan"}, {"tile", "trace"}, {"tile", "assemble"}};
     for (std::vector<std::string> command : commands) {
         command.emplace_back("--help");
-        const test::ToolRun help = run(command);
+        const test::ToolRun help = view(command);
         SCOPED_TRACE(help.out);
         EXPECT_EQ(help.exit_code, 0);
         EXPECT_LE(std::count(help.out.begin(), help.out.end(), '\n'), 40);
@@ -325,7 +325,7 @@ TEST_F(View, OldFlagsNameTheirSubcommand) {
         {{"hall.wrl", "--tile", "0:0,0,8x8", "-o", "x.png"}, "use 'rs-view tile trace SCENE"},
     };
     for (const auto& [arguments, advice] : cases) {
-        const test::ToolRun refused = run(arguments);
+        const test::ToolRun refused = view(arguments);
         EXPECT_EQ(refused.exit_code, 2);
         EXPECT_THAT(refused.err, HasSubstr(advice));
         EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
@@ -353,7 +353,7 @@ TEST_F(View, AssembledTilesEqualTheFrame) {
     const auto with = [&](std::vector<std::string> command, const std::vector<std::string>& more) {
         command.insert(command.end(), frames.begin(), frames.end());
         command.insert(command.end(), more.begin(), more.end());
-        run_ = run(command);
+        run_ = view(command);
         return run_.exit_code;
     };
     const int whole = with({"render"}, {"-o", in("whole")});
