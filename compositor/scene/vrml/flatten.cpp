@@ -137,7 +137,7 @@ private:
         RaySpaceNode object;
         const std::vector<std::string>& urls = node.field("url").texts;
         const auto file = urls.empty() ? std::nullopt : local_path(urls.front(), folder());
-        if (!file) return warn(node, "is not a local file; left out");
+        if (!file) return warn(node, "has no url of a local file; left out");
         if (!(node.number("size") > 0)) return warn(node, "its size must be above 0; left out");
         if (!state.deviation.empty()) warn(node, state.deviation + "; drawn without");
         object.file = *file;

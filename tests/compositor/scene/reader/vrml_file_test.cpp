@@ -104,8 +104,8 @@ TEST(VrmlFile, ARaySpaceNodeThatCannotBeShownIsSaid) {
         "Transform { scale 1 2 1 children RaySpace { url \"a.rso\" } }");
     EXPECT_EQ(scene.objects.size(), 1U);
     EXPECT_THAT(scene.warnings,
-                ElementsAre(HasSubstr("line 2: RaySpace: names no file"), HasSubstr("line 3: RaySpace: its size"),
-                            HasSubstr("line 4: RaySpace: names no file"), HasSubstr("line 5: RaySpace: is stretched")));
+                ElementsAre(HasSubstr("line 2: RaySpace: has no url of a local file"), HasSubstr("line 3: RaySpace: its size"),
+                            HasSubstr("line 4: RaySpace: has no url of a local file"), HasSubstr("line 5: RaySpace: is stretched")));
 }
 
 TEST(VrmlFile, MaterialsAreLinearLight) {
