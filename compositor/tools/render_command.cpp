@@ -70,6 +70,7 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command =
         app.add_subcommand("render", "Render an image, a video or a folder of frames, without a window");
+    command->get_help_ptr()->group("");  // the list has to fit on a screen
     add_scene_options(*command, options->scene);
     command->add_option("-o,--output", options->output, "FILE.png, FILE.mp4 or a folder")->required()->type_name("");
     add_view_options(*command, options->view);

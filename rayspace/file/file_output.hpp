@@ -68,7 +68,7 @@ private:
 };
 
 /// Description of the option --force of tools that write folders.
-inline constexpr const char* kForceHelp = "Replace the output folder even if it holds other files";
+inline constexpr const char* kForceHelp = "replace the output folder even if it holds other files";
 
 /// Refuses an output that would overwrite an input or another output of the same command. Tools call it before they
 /// write. Links are followed, and hard links are recognised.

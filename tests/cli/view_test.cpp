@@ -257,7 +257,7 @@ TEST_F(View, RoomsAreWalkedThroughWithinABudget) {
     stats_of({"--executor", "board:none"});
     EXPECT_EQ(run_.exit_code, 1);
     stats_of({"--executor", "fpga"});
-    EXPECT_THAT(run_.err, HasSubstr("give one of scalar, core, board:CONFIG"));
+    EXPECT_THAT(run_.err, HasSubstr("use one of scalar, core, board:CONFIG"));
     stats_of({"--memory", "1"});
     EXPECT_EQ(run_.exit_code, 0);
     EXPECT_THAT(run_.err, HasSubstr("more than the budget of 1 MiB"));
@@ -268,7 +268,7 @@ TEST_F(View, OtherFilesAreRefusedInOneLine) {
     write("hall.txt", "hello");
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"broken.wrl", "broken.wrl: line 4: the list of children"},
-        {"hall.txt", "hall.txt: is no scene by its name"},
+        {"hall.txt", "hall.txt: has no extension of a scene"},
         {"gone.wrl", "gone.wrl"}};
     for (const auto& [name, expected] : cases) {
         const test::ToolRun run = render({in(name), "-o", in("shot.png")});
