@@ -3,8 +3,8 @@
 
 #include "encode/raymap/line_grid.hpp"
 #include "encode/raymap/silhouettes/work_view.hpp"
-#include "rayspace/image/image.hpp"
 #include "rayspace/api/types/shape_map.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <cstdint>
 #include <vector>

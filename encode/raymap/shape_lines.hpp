@@ -4,8 +4,8 @@
 
 #include "encode/raymap/silhouettes/visual_hull.hpp"
 #include "encode/raymap/silhouettes/work_view.hpp"
-#include "rayspace/image/image.hpp"
 #include "rayspace/api/types/shape_map.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <vector>
 

@@ -1,10 +1,10 @@
 #pragma once
 // Collects the contents of build and evaluation reports (encode/report/build_report.hpp).
 
+#include "encode/evaluation/evaluation.hpp"
 #include "encode/raymap/shape_map.hpp"
 #include "encode/report/build_report.hpp"
 #include "encode/set/capture_set.hpp"
-#include "encode/evaluation/evaluation.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/file/file_output.hpp"

@@ -103,9 +103,10 @@ TEST(VrmlFile, ARaySpaceNodeThatCannotBeShownIsSaid) {
         "RaySpace { }\nRaySpace { url \"a.rso\" size 0 }\nRaySpace { url \"http://a/b.rso\" }\n"
         "Transform { scale 1 2 1 children RaySpace { url \"a.rso\" } }");
     EXPECT_EQ(scene.objects.size(), 1U);
-    EXPECT_THAT(scene.warnings,
-                ElementsAre(HasSubstr("line 2: RaySpace: has no url of a local file"), HasSubstr("line 3: RaySpace: its size"),
-                            HasSubstr("line 4: RaySpace: has no url of a local file"), HasSubstr("line 5: RaySpace: is stretched")));
+    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("line 2: RaySpace: has no url of a local file"),
+                                            HasSubstr("line 3: RaySpace: its size"),
+                                            HasSubstr("line 4: RaySpace: has no url of a local file"),
+                                            HasSubstr("line 5: RaySpace: is stretched")));
 }
 
 TEST(VrmlFile, MaterialsAreLinearLight) {
