@@ -146,6 +146,7 @@ void add_walls_command(CLI::App& app, std::function<Status()>& run) {
     auto options = std::make_shared<WallsOptions>();
     CLI::App* command = app.add_subcommand(
         "walls", "Project a scene off-axis onto the walls of a CAVE or a power wall, in windows or images");
+    command->get_help_ptr()->group("");  // the list has to fit on a screen
     add_scene_options(*command, options->scene);
     command->add_option("-o,--output", options->walls.output, "folder for an image per wall; without, windows")
         ->type_name("FOLDER");

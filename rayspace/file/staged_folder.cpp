@@ -47,10 +47,11 @@ bool is_within(const fs::path& path, const fs::path& folder) {
 std::vector<fs::path> possible_paths(const fs::path& given) {
     std::error_code ignored;
     const fs::path path = without_trailing_slash(given);
-    const fs::path resolved = fs::weakly_canonical(path, ignored);
-    if (path.filename() == "." || path.filename() == "..") return {resolved};
+    if (path.filename() == "." || path.filename() == "..") return {fs::weakly_canonical(path, ignored)};
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-    return {resolved, fs::weakly_canonical(folder, ignored) / path.filename()};
+    // weakly_canonical() does not follow a link whose target does not exist.
+    const fs::path target = fs::is_symlink(path, ignored) ? folder / fs::read_symlink(path, ignored) : path;
+    return {fs::weakly_canonical(target, ignored), fs::weakly_canonical(folder, ignored) / path.filename()};
 }
 
 Status check_replaceable(const fs::path& path, const std::string& contents, bool force) {

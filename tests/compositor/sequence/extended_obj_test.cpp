@@ -95,7 +95,7 @@ TEST(ExtendedObj, DamagedLinesAreRefusedWithFileAndLine) {
     }
     const auto twice = parse("camera 0 0 0 1 1 1 60\ncamera 0 0 0 1 1 1 60\n");
     ASSERT_FALSE(twice);
-    EXPECT_THAT(twice.error().message, StartsWith("scene.obj:18: is a second camera"));
+    EXPECT_THAT(twice.error().message, StartsWith("scene.obj:18: there are two cameras"));
 }
 
 TEST(ExtendedObj, GroupsBelongToTheObjectBeforeThem) {
