@@ -10,7 +10,7 @@ Status ObjectRequestPass::run(FrameContext& frame) const {
         auto view = frame.nodes.view_of(i, frame.view.camera);
         if (!view) continue;
         requests.push_back({frame.nodes[i].handle, view->camera, depths_});
-        frame.visible_nodes.push_back({i, std::move(*view)});
+        frame.visible_nodes.push_back({i, *view});
     }
     frame.statistics.nodes_not_seen = static_cast<int>(frame.nodes.size() - frame.visible_nodes.size());
     return frame.engine_views.submit(std::move(requests));
