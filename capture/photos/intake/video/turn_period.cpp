@@ -13,7 +13,7 @@
 namespace rs::capture {
 namespace {
 
-constexpr std::size_t kMaxSamples = 480;
+constexpr std::size_t kMaxPeriodSamples = 480;
 constexpr double kChanged = 0.6;              // of the median difference: above it the pose has changed
 constexpr double kMaxRepeatDifference = 0.4;  // of the median difference
 constexpr double kEarlierTolerance = 1.4;     // of the best difference: an earlier repeat within it is preferred
@@ -162,7 +162,7 @@ TurnRange find_turn(const std::vector<FrameCopy>& copies, const Image<std::uint8
 
     double angle = 0;
     for (std::size_t frame = all.begin; frame < all.end; ++frame) angle += speed[frame];
-    const std::size_t count = std::min(all.end - all.begin, kMaxSamples);
+    const std::size_t count = std::min(all.end - all.begin, kMaxPeriodSamples);
     std::vector<std::size_t> frames;
     double passed = 0;
     for (std::size_t frame = all.begin; frame < all.end; ++frame) {
