@@ -292,6 +292,9 @@ TEST(RefuseOverwritingInputs, ComparesFilesWhateverTheirNames) {
     EXPECT_TRUE(is_refused(root / "set", root / "set"));
     EXPECT_TRUE(is_refused(root / "set", root.path() / "set" / "inner")) << "a link in the folder is lost with it";
     EXPECT_TRUE(is_refused(root / "new", root / "new")) << "another output";
+    fs::create_symlink("new", root / "link-to-new");
+    EXPECT_TRUE(is_refused(root / "link-to-new", root / "new"));
+    EXPECT_TRUE(is_refused(root / "new", root / "link-to-new"));
     EXPECT_FALSE(is_refused(root.path() / "set" / "b", root / "set"));
     EXPECT_FALSE(is_refused(root / "set", root / "set2"));
     EXPECT_FALSE(is_refused(root / "other", root / "in"));
