@@ -10,7 +10,8 @@ mkdir -p "$FOLDER"
 # page NAME COMMAND: FOLDER/NAME.1 of COMMAND --help, whose first line is the summary.
 page() {
   local summary
-  summary=$($2 --help | sed -n '/./{s/[.]$//;p;q;}')
+  # awk reads to the end: a tool that writes to a closed pipe would fail the script.
+  summary=$($2 --help | awk 'NF && !found { sub(/[.]$/, ""); print; found = 1 }')
   "$HELP2MAN" --no-info --no-discard-stderr --version-string="$VERSION" --source=Rayspace --manual="Rayspace tools" \
     --name="$summary" --output="$FOLDER/$1.1" "$2"
 }
