@@ -40,6 +40,7 @@ struct Light {
     double cut_off_rad = kPi / 4;
     // Lights all geometry; otherwise only nodes whose GeometryNode::lights names it.
     bool everywhere = true;
+    bool casts_shadows = true;
 
     // Area lights: half sides of a rectangle, or two radii of a disc. Emission is towards cross(half_u, half_v).
     glm::dvec3 half_u{0.5, 0, 0};

@@ -41,7 +41,10 @@ public:
         if (lights.sample_centre(index, packet.surfaces, packet.lit, incident_)) add(packet);
     }
     void add_virtual(const VirtualLight& light, float bound, const GatherPacket& packet) {
-        if (light_from_virtual(light, bound, materials_.tables(), packet.surfaces, packet.lit, incident_)) add(packet);
+        if (light_from_virtual(light, bound, materials_.tables(), packet.surfaces, packet.lit, incident_)) {
+            incident_.casters = {};
+            add(packet);
+        }
     }
     // Radiance that a lane's vertex reflects to its viewer.
     [[nodiscard]] glm::vec3 reflected(std::size_t lane) const { return reflected_.at(lane); }
@@ -49,7 +52,7 @@ public:
 private:
     void add(const GatherPacket& packet) {
         if (!reflect_light(packet.surfaces, incident_, materials_.tables(), shadows_)) return;
-        rays_.occluded(shadows_.active, shadows_.ray);
+        rays_.occluded(shadows_.active, shadows_.ray, incident_.casters);
         add_light(shadows_, reflected_);
     }
 

@@ -62,7 +62,9 @@ Image<RgbaF> light_probe(const Tracer& tracer, const glm::dvec3& position, const
     render.show_areas = true;
     render.show_environment = true;
     Image<RgbaF> map = tracer.render(all_directions(position, options.width), render, progress).image;
-    for (const Light& light : tracer.lights()) add_light(light, tracer, position, map);
+    for (const Light& light : tracer.lights()) {
+        if (light.everywhere) add_light(light, tracer, position, map);
+    }
     return map;
 }
 

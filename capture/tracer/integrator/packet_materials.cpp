@@ -58,6 +58,7 @@ void PacketMaterials::set_lane(std::size_t lane, const LightTransport::Vertex& v
     surfaces.viewer.set(lane, vertex.surface.viewer());
     surfaces.albedo[lane] = vertex.surface.albedo();
     surfaces.lambda[lane] = vertex.surface.lambda();
+    surfaces.light_group[lane] = vertex.point.light_group;
 }
 
 VirtualLight PacketMaterials::make_virtual_light(const LightTransport::Vertex& vertex, const glm::vec3& flux,

@@ -165,8 +165,7 @@ void RadiosityTracer::gather(Packet& packet, int bounce) const {
         if (path.ray == nullptr) continue;
         any_ray = path.ray;
         if (path.vertex->surface.is_specular()) continue;
-        const glm::vec3 start = path.vertex->ray_origin(path.vertex->point.geometric_normal, true);
-        path.vertex->selection = LightSet::select_all(start);
+        path.vertex->selection = LightSet::select_all(path.vertex->lit_point());
         vertices.set(lane, *path.vertex, materials_);
     }
     if (!vertices.any_lit) return;
@@ -191,7 +190,7 @@ glm::vec3 RadiosityTracer::gather_areas(const Vertex& vertex, Sampler& sampler) 
     glm::vec3 sum(0.0F);
     for (std::size_t index = 0; index < lights.light_count(); ++index) {
         if (lights.is_point(index)) continue;
-        const auto light = lights.sample_point(index, vertex.selection.position, [&] { return sampler.next_2d(); });
+        const auto light = lights.sample_point(index, vertex.selection.at, [&] { return sampler.next_2d(); });
         if (light) sum += transport_.reflect_light(*light, vertex);
     }
     if (!lights.environment().is_black()) {

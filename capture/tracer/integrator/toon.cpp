@@ -73,33 +73,35 @@ float ToonTracer::intensity(const LightTransport::Vertex& vertex, Sampler& sampl
     const float through = transport().model_of(vertex.point).translucency;
     float lit = 0, sum = 0;
     glm::vec3 net_irradiance(0.0F);
-    const auto add = [&](float strength, const glm::vec3& direction, float distance) {
+    const auto add = [&](float strength, const glm::vec3& direction, float distance, const ShadowCasters& casters) {
         sum += strength;
         net_irradiance += strength * direction;
         const float cosine = glm::dot(vertex.frame.normal, direction);
         const float received = cosine > 0.0F ? (1.0F - through) * cosine : -through * cosine;
         if (!(received > 0.0F)) return;
         const glm::vec3 start = vertex.ray_origin(direction, cosine > 0.0F);
-        if (!transport().rays().occluded(start, direction, distance * (1.0F - 1e-4F), vertex.point.time))
+        if (!transport().rays().occluded(start, direction, distance * (1.0F - 1e-4F), vertex.point.time, casters))
             lit += strength * received;
     };
-    if (sky_irradiance_ > 0.0F) add(sky_irradiance_, sky_direction_, kInfiniteDistance);
+    if (sky_irradiance_ > 0.0F) add(sky_irradiance_, sky_direction_, kInfiniteDistance, {});
     const LightSet& lights = transport().lights();
-    const glm::vec3 position = vertex.ray_origin(vertex.point.geometric_normal, true);
+    const LitPoint at = vertex.lit_point();
     const int rays = std::max(style_.shadow_rays, 1);
     const glm::vec2 shift = style_.shadow_rays > 0 ? sampler.next_2d() : glm::vec2(0.0F);
     for (int ray = 0; ray < rays; ++ray) {
         const auto point_on_light = [&] { return quasirandom_point(shift, ray); };
         for (std::size_t i = 0; i < lights.light_count(); ++i) {
-            const auto light = style_.shadow_rays > 0 ? lights.sample_point(i, position, point_on_light)
-                                                      : lights.sample_centre(i, position);
+            const auto light =
+                style_.shadow_rays > 0 ? lights.sample_point(i, at, point_on_light) : lights.sample_centre(i, at);
             if (!light || (light->delta && ray > 0)) continue;
             const float share = light->delta ? 1.0F : 1.0F / static_cast<float>(rays);
-            add(share * luminance(light->radiance) / light->pdf, light->direction, light->distance);
+            add(share * luminance(light->radiance) / light->pdf, light->direction, light->distance, light->casters);
         }
     }
-    const float largest = std::max(glm::length(net_irradiance), 0.5F * sum) + isotropic_irradiance_;
-    return largest > 0.0F ? (lit + isotropic_irradiance_) / largest : 0.0F;
+    const float isotropic =
+        isotropic_irradiance_ + kPiF * luminance(transport().scene().scopes.ambient(vertex.point.light_group));
+    const float largest = std::max(glm::length(net_irradiance), 0.5F * sum) + isotropic;
+    return largest > 0.0F ? (lit + isotropic) / largest : 0.0F;
 }
 
 }  // namespace rs::capture

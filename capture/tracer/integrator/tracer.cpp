@@ -279,9 +279,11 @@ bool Tracer::is_unoccluded(const glm::dvec3& position, const glm::dvec3& directi
                                    0.0F);
 }
 
-void Tracer::set_lights(std::vector<Light> lights) {
+void Tracer::set_lights(std::vector<Light> lights, LightScopes scopes) {
     state_->scene.lights = std::move(lights);
-    state_->lights->set_lights(state_->scene.lights);
+    state_->scene.scopes = std::move(scopes);
+    state_->rays->update_scopes();
+    state_->lights->set_lights();
 }
 
 std::size_t Tracer::instance_count() const {
@@ -315,12 +317,12 @@ Tracer::Builds Tracer::builds() const {
 
 void Tracer::set_environment(Environment environment) {
     state_->lights->set_environment(std::move(environment));
-    state_->lights->set_lights(state_->scene.lights);
+    state_->lights->set_lights();
 }
 
 void Tracer::set_environment(float scale, float turn_rad) {
     state_->lights->set_environment(scale, turn_rad);
-    state_->lights->set_lights(state_->scene.lights);
+    state_->lights->set_lights();
 }
 
 Result<Tracer> Tracer::create(Scene scene) {

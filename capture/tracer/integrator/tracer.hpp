@@ -83,8 +83,9 @@ public:
     bool accumulate(const Camera& camera, const RenderOptions& options, int count, Accumulation& into,
                     Progress* progress = nullptr, const std::atomic<bool>* stop = nullptr) const;
 
-    /// Replaces the scene's lights, which must satisfy check_light(). Not thread-safe with rendering.
-    void set_lights(std::vector<Light> lights);
+    /// Replaces the scene's lights, which must satisfy check_light(), and their scopes, which must fit the scene's
+    /// meshes and instances. Not thread-safe with rendering.
+    void set_lights(std::vector<Light> lights, LightScopes scopes = {});
     /// Replaces the environment (pixels finite and not negative), or only its scale and rotation (fields of
     /// Environment), which is free. Not thread-safe with rendering.
     void set_environment(Environment environment);

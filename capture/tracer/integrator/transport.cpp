@@ -122,7 +122,7 @@ glm::vec3 LightTransport::reflect_light(const LightSample& light, const Vertex& 
     const glm::vec3 start = vertex.ray_origin(light.direction, wi.z > 0.0F);
     // Ends just before the light, which may be a surface itself.
     const float reach = light.distance * (1.0F - 1e-4F);
-    if (rays_.occluded(start, light.direction, reach, vertex.point.time)) return black;
+    if (rays_.occluded(start, light.direction, reach, vertex.point.time, light.casters)) return black;
     const float weight = light.delta ? 1.0F : mis_weight(light.pdf, value.pdf);
     return value.f_cos * light.radiance * (weight / light.pdf);
 }

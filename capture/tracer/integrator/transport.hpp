@@ -107,6 +107,11 @@ public:
             return (thin ? point.position : point.lifted_position) + point.geometric_normal * step_off;
         }
 
+        // Position for light sampling.
+        [[nodiscard]] LitPoint lit_point() const {
+            return {ray_origin(point.geometric_normal, true), point.light_group};
+        }
+
         // Stores this vertex as the sample's guide if it is the path's first rough surface. `distance` is the path
         // length.
         void record_guide(float distance, RadianceSample& sample) const {
@@ -134,9 +139,7 @@ public:
 
     [[nodiscard]] Vertex vertex_at(const SurfacePoint& point, const glm::vec3& direction) const;
     // Prepares the vertex for light sampling.
-    void select_lights(Vertex& vertex) const {
-        vertex.selection = lights_.select(vertex.ray_origin(vertex.point.geometric_normal, true));
-    }
+    void select_lights(Vertex& vertex) const { vertex.selection = lights_.select(vertex.lit_point()); }
     // Radiance of one randomly chosen light source that the vertex reflects to its viewer, MIS-weighted against one
     // BSDF sample.
     [[nodiscard]] glm::vec3 sample_light(const Vertex& vertex, float u_source, const glm::vec2& u) const;

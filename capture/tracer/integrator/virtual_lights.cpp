@@ -154,8 +154,13 @@ void VirtualLights::follow_photon(float time, Sampler& sampler, std::vector<Virt
     glm::vec3 flux(0.0F);
     for (int depth = 1; depth < options_.max_bounces; ++depth) {
         SurfacePoint point;
-        if (!transport_.rays().intersect(segment.origin, segment.direction, time, point)) return;
-        if (transport_.rays().intersect_primitives(segment.origin, segment.direction, point.distance)) return;
+        const bool in_scope = depth == 1 && photon->scoped_light != kUnscoped;
+        if (in_scope ? !transport_.rays().intersect_in_scope(photon->scoped_light, segment.origin, segment.direction,
+                                                             time, point)
+                     : !transport_.rays().intersect(segment.origin, segment.direction, time, point))
+            return;
+        if (!in_scope && transport_.rays().intersect_primitives(segment.origin, segment.direction, point.distance))
+            return;
         if (depth == 1) flux = photon->flux_at(point.position);
         flux *= media.transmittance(point.distance);
         if (!(max_component(flux) > 0.0F)) return;

@@ -55,7 +55,9 @@ bool WhittedTracer::shade(const LightTransport::Vertex& vertex, const Ray& /*ray
         const auto shadow = make_shadow_ray(i, vertex, sampler);
         if (!shadow) continue;
         const RayScene::Ray& to = shadow->ray;
-        if (!transport_.rays().occluded(to.origin, to.direction, to.reach, to.time)) radiance += shadow->light;
+        if (!transport_.rays().occluded(to.origin, to.direction, to.reach, to.time, shadow->casters)) {
+            radiance += shadow->light;
+        }
     }
     return true;
 }
@@ -64,10 +66,9 @@ std::optional<WhittedTracer::ShadowRay> WhittedTracer::make_shadow_ray(std::size
                                                                        const LightTransport::Vertex& vertex,
                                                                        Sampler& sampler) const {
     const LightSet& lights = transport_.lights();
-    // Lights are sampled for the origin of shadow rays.
-    const glm::vec3 position = vertex.ray_origin(vertex.point.geometric_normal, true);
-    const auto light = soft_shadows_ ? lights.sample_point(index, position, [&] { return sampler.next_2d(); })
-                                     : lights.sample_centre(index, position);
+    const LitPoint at = vertex.lit_point();
+    const auto light = soft_shadows_ ? lights.sample_point(index, at, [&] { return sampler.next_2d(); })
+                                     : lights.sample_centre(index, at);
     if (!light) return std::nullopt;
     if (!light->delta && is_metal(vertex)) return std::nullopt;
     const glm::vec3 wi = vertex.frame.to_local(light->direction);
@@ -75,7 +76,8 @@ std::optional<WhittedTracer::ShadowRay> WhittedTracer::make_shadow_ray(std::size
     if (!(max_component(f_cos) > 0.0F)) return std::nullopt;
     return ShadowRay{{vertex.ray_origin(light->direction, wi.z > 0.0F), light->direction, vertex.point.time,
                       light->distance * (1.0F - 1e-4F)},
-                     f_cos * light->radiance / light->pdf};
+                     f_cos * light->radiance / light->pdf,
+                     light->casters};
 }
 
 bool WhittedTracer::is_metal(const LightTransport::Vertex& vertex) const {
@@ -86,7 +88,8 @@ bool WhittedTracer::is_metal(const LightTransport::Vertex& vertex) const {
 glm::vec3 WhittedTracer::ambient_light(const LightTransport::Vertex& vertex) const {
     if (is_metal(vertex)) return glm::vec3(0.0F);
     return vertex.surface.colour() *
-           ambient_radiance(vertex.frame.normal, transport_.model_of(vertex.point).translucency);
+           (ambient_radiance(vertex.frame.normal, transport_.model_of(vertex.point).translucency) +
+            transport_.scene().scopes.ambient(vertex.point.light_group));
 }
 
 glm::vec3 WhittedTracer::ambient_radiance(const glm::vec3& normal, float translucency) const {

@@ -60,6 +60,7 @@ private:
     struct ShadowRay {
         RayScene::Ray ray;
         glm::vec3 light;
+        ShadowCasters casters;
     };
     // Sixteen neighbouring rays with their hits.
     struct Packet;

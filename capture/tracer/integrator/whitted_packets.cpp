@@ -81,6 +81,7 @@ void WhittedTracer::intersect_packet(std::span<const CameraRay> rays, std::span<
         glm::vec3 colour = material.colour;
         if (!mesh.colours.empty()) colour *= interpolate_colour(mesh, hit.triangle[lane], hit.u[lane], hit.v[lane]);
         packet.surfaces.colour.set(lane, colour);
+        packet.surfaces.light_group[lane] = transport_.scene().scopes.group_of(hit.mesh[lane], hit.instance[lane]);
     }
     place_surfaces(packet.triangles, packet.hits.ray.direction, transport_.rays().step_off(), packet.surfaces);
     for (std::size_t lane = 0; lane < rays.size(); ++lane) {
@@ -137,13 +138,15 @@ void WhittedTracer::prepare_shading(Packet& packet) const {
         packet.reflected.y[lane] = surfaces.colour.y[lane] * ambient_.y;
         packet.reflected.z[lane] = surfaces.colour.z[lane] * ambient_.z;
     }
-    if (irradiance_.is_black() && !packet.any_specular_rays) return;
+    const LightScopes& scopes = transport_.scene().scopes;
+    if (irradiance_.is_black() && !packet.any_specular_rays && scopes.empty()) return;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         if (packet.lit[lane] == 0) continue;
         const PacketMaterial& material = *packet.material[lane];
         glm::vec3 reflected(0.0F);  // metals: no ambient light
         if (material.kind != SurfaceKind::metal) {
-            reflected = surfaces.colour.at(lane) * ambient_radiance(surfaces.normal.at(lane), material.translucency);
+            reflected = surfaces.colour.at(lane) * (ambient_radiance(surfaces.normal.at(lane), material.translucency) +
+                                                    scopes.ambient(surfaces.light_group[lane]));
         }
         packet.reflected.set(lane, reflected);
     }
@@ -156,7 +159,8 @@ void WhittedTracer::add_light_samples(std::size_t light, std::span<CameraRay> ra
         for (std::size_t lane = 0; lane < rays.size(); ++lane) {
             if (packet.lit[lane] == 0) continue;
             const auto draw = [&] { return rays[lane].sampler.next_2d(); };
-            const auto sample = transport_.lights().sample_point(light, packet.surfaces.near_start.at(lane), draw);
+            const LitPoint at{packet.surfaces.near_start.at(lane), packet.surfaces.light_group[lane]};
+            const auto sample = transport_.lights().sample_point(light, at, draw);
             if (sample) set_lane(lane, *sample, incident);
         }
     } else if (!transport_.lights().sample_centre(light, packet.surfaces, packet.lit, incident)) {
@@ -164,7 +168,7 @@ void WhittedTracer::add_light_samples(std::size_t light, std::span<CameraRay> ra
     }
     ShadowLanes& shadows = packet.shadows;
     if (!reflect_light(packet.surfaces, incident, materials_.tables(), shadows)) return;
-    transport_.rays().occluded(shadows.active, shadows.ray);
+    transport_.rays().occluded(shadows.active, shadows.ray, incident.casters);
     add_light(shadows, packet.reflected);
 }
 

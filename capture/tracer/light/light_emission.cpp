@@ -9,7 +9,8 @@
 namespace rs::capture {
 
 float LightSet::flux_of(const Source& source) const {
-    const float disc = kPiF * extent_.radius * extent_.radius;
+    const float radius = extent_of(source).radius;
+    const float disc = kPiF * radius * radius;
     switch (source.kind) {
         case SourceKind::environment:
         case SourceKind::distant:
@@ -44,43 +45,50 @@ std::optional<Photon> LightSet::emit(float u_source, const glm::vec2& u_place, c
         case SourceKind::environment: {
             const EnvironmentMap::Sample drawn = environment_.sample(u_direction);
             if (!(drawn.pdf > 0.0F)) return std::nullopt;
-            return emit_distant(-drawn.direction, environment_.radiance(drawn.direction) / (drawn.pdf * probability),
-                                u_place);
+            return emit_distant(extent_, -drawn.direction,
+                                environment_.radiance(drawn.direction) / (drawn.pdf * probability), u_place);
         }
         case SourceKind::distant: {
             const Light& light = lights_[source.index];
-            return emit_distant(light.towards, light.colour * (kPiF / probability), u_place);
+            Photon photon =
+                emit_distant(extent_of(source), light.towards, light.colour * (kPiF / probability), u_place);
+            photon.scoped_light = source.casters.scoped_light;
+            return photon;
         }
         case SourceKind::area: {
             const Area& area = areas_[source.index];
             const glm::vec2 at = area.model->point(u_place);
-            return Photon{area.centre + area.half_u * at.x + area.half_v * at.y,
+            Photon photon{area.centre + area.half_u * at.x + area.half_v * at.y,
                           Frame(area.normal).to_world(sample_cosine_hemisphere(u_direction)), area.normal,
                           area.radiance * (kPiF * area.area / probability)};
+            photon.scoped_light = source.casters.scoped_light;
+            return photon;
         }
         case SourceKind::emitters:
             return emit_emitter(std::min((u_source - below) / probability, 0x1.fffffep-1F), probability, u_place,
                                 u_direction);
         case SourceKind::local:
-            return emit_local(lights_[source.index], probability, u_direction);
+            return emit_local(source, probability, u_direction);
     }
     return std::nullopt;
 }
 
-// Emits from a disc outside the scene whose projection covers it.
-Photon LightSet::emit_distant(const glm::vec3& direction, const glm::vec3& irradiance, const glm::vec2& u) const {
-    const glm::vec2 at = sample_disc(u) * extent_.radius;
+Photon LightSet::emit_distant(const Extent& extent, const glm::vec3& direction, const glm::vec3& irradiance,
+                              const glm::vec2& u) {
+    const glm::vec2 at = sample_disc(u) * extent.radius;
     const Frame frame(direction);
-    return {extent_.centre - direction * (2.0F * extent_.radius) + frame.tangent * at.x + frame.bitangent * at.y,
-            direction, glm::vec3(0.0F), irradiance * (kPiF * extent_.radius * extent_.radius)};
+    return {extent.centre - direction * (2.0F * extent.radius) + frame.tangent * at.x + frame.bitangent * at.y,
+            direction, glm::vec3(0.0F), irradiance * (kPiF * extent.radius * extent.radius)};
 }
 
-std::optional<Photon> LightSet::emit_local(const Light& light, float probability, const glm::vec2& u) {
+std::optional<Photon> LightSet::emit_local(const Source& source, float probability, const glm::vec2& u) const {
+    const Light& light = lights_[source.index];
     const auto drawn = model_of(light).sample(light, u);
     if (!drawn) return std::nullopt;
     Photon photon{};
     photon.origin = glm::vec3(light.location);
     photon.point = &light;
+    photon.scoped_light = source.casters.scoped_light;
     photon.direction = drawn->direction;
     photon.inverse_pdf = drawn->inverse_pdf / probability;
     return photon;

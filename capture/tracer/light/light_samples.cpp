@@ -35,15 +35,14 @@ void LightSet::add_proxy(const Mesh& mesh) {
     proxies_.push_back(proxy);
 }
 
-std::optional<LightSample> LightSet::sample_centre(std::size_t index, const glm::vec3& position) const {
-    if (index >= sources_.size()) return sample_proxy(proxies_[index - sources_.size()], position);
+std::optional<LightSample> LightSet::sample_centre(std::size_t index, const LitPoint& at) const {
+    if (index >= sources_.size()) return sample_proxy(proxies_[index - sources_.size()], at.position);
     const Source& source = sources_[index];
     if (source.kind == SourceKind::environment || source.kind == SourceKind::emitters) return std::nullopt;
-    if (source.kind == SourceKind::distant) return sample_light(lights_[source.index], position, 1.0F);
     // Cheap test before the look-up of a photometric web.
-    if (!(estimate(source, position) > 0.0F)) return std::nullopt;
-    if (source.kind == SourceKind::local) return sample_light(lights_[source.index], position, 1.0F);
-    return sample_area(areas_[source.index], position, 1.0F, glm::vec2(0.0F));
+    if (!(estimate(source, at) > 0.0F)) return std::nullopt;
+    if (source.kind == SourceKind::area) return sample_area(source, at.position, 1.0F, glm::vec2(0.0F));
+    return sample_light(source, at.position, 1.0F);
 }
 
 std::optional<LightSample> LightSet::sample_proxy(const EmissiveMeshProxy& proxy, const glm::vec3& position) {
@@ -63,17 +62,16 @@ std::optional<LightSample> LightSet::sample_proxy(const EmissiveMeshProxy& proxy
     return LightSample{direction, clear, proxy.emission, std::max(distance2 / facing, 1.0F / kPiF), false};
 }
 
-std::optional<LightSample> LightSet::sample_point(std::size_t index, const glm::vec3& position,
+std::optional<LightSample> LightSet::sample_point(std::size_t index, const LitPoint& at,
                                                   const std::function<glm::vec2()>& draw) const {
     if (index >= sources_.size()) return std::nullopt;
     const Source& source = sources_[index];
-    if (source.kind == SourceKind::environment || !(estimate(source, position) > 0.0F)) return std::nullopt;
+    if (source.kind == SourceKind::environment || !(estimate(source, at) > 0.0F)) return std::nullopt;
     if (source.kind == SourceKind::area) {
-        const Area& area = areas_[source.index];
-        return sample_area(area, position, 1.0F, area.model->point(draw()));
+        return sample_area(source, at.position, 1.0F, areas_[source.index].model->point(draw()));
     }
-    if (source.kind != SourceKind::emitters) return sample_light(lights_[source.index], position, 1.0F);
-    const Selection certain{position, source.power, 1.0F};  // selection probability 1
+    if (source.kind != SourceKind::emitters) return sample_light(source, at.position, 1.0F);
+    const Selection certain{at, source.power, 1.0F};  // selection probability 1
     const float u_emitter = draw().x;
     return sample_emitter(certain, u_emitter, draw());
 }
@@ -85,35 +83,43 @@ void set_lane(std::size_t lane, const LightSample& sample, LightLanes& incident)
     incident.radiance.set(lane, sample.radiance);
     incident.pdf[lane] = sample.pdf;
     incident.delta = sample.delta;
+    incident.casters = sample.casters;
 }
 
 bool LightSet::sample_centre(std::size_t index, const SurfaceLanes& surfaces, const MaskLanes& active,
                              LightLanes& incident) const {
     const Lanes3& positions = surfaces.near_start;
     MaskLanes reached = active;
+    incident.casters = {};
     if (index < sources_.size()) {
         const Source& source = sources_[index];
+        incident.casters = source.casters;
+        if (source.casters.scoped_light != kUnscoped) {
+            for (std::size_t lane = 0; lane < kLanes; ++lane) {
+                if (active[lane] != 0 && !illuminates(source, surfaces.light_group[lane])) reached[lane] = 0;
+            }
+        }
         switch (source.kind) {
             case SourceKind::environment:
             case SourceKind::emitters:
                 return false;
             case SourceKind::distant: {
                 // Independent of the position.
-                const auto light = sample_light(lights_[source.index], glm::vec3(0.0F), 1.0F);
+                const auto light = sample_light(source, glm::vec3(0.0F), 1.0F);
                 if (!light) return false;
-                light_from_direction(light->direction, light->radiance, active, incident);
+                light_from_direction(light->direction, light->radiance, reached, incident);
                 return true;
             }
             case SourceKind::local:
                 if (model_of(lights_[source.index]).is_isotropic()) {
-                    return light_from_point(points_[source.index], positions, active, incident);
+                    return light_from_point(points_[source.index], positions, reached, incident);
                 }
-                if (!cull_point_light(points_[source.index], surfaces, active, reached)) return false;
+                if (!cull_point_light(points_[source.index], surfaces, MaskLanes(reached), reached)) return false;
                 break;
             case SourceKind::area: {
                 const Area& area = areas_[source.index];
                 return light_from_area({area.centre, area.normal, area.radiance, area.area, source.power}, positions,
-                                       active, incident);
+                                       reached, incident);
             }
         }
     }
@@ -121,7 +127,7 @@ bool LightSet::sample_centre(std::size_t index, const SurfaceLanes& surfaces, co
     bool any_lit = false;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
         if (reached[lane] == 0) continue;
-        const auto light = sample_centre(index, positions.at(lane));
+        const auto light = sample_centre(index, LitPoint{positions.at(lane), surfaces.light_group[lane]});
         if (!light) continue;
         set_lane(lane, *light, incident);
         any_lit = true;

@@ -30,7 +30,7 @@ LightSet::LightSet(const Scene& scene, Environment environment, const Extent& ex
         brightness_.push_back(mean_emission(material, scene_.textures));
     }
     gather_emitters();
-    set_lights(scene.lights);
+    set_lights();
 }
 
 void LightSet::update_instances(const Extent& extent) {
@@ -38,19 +38,38 @@ void LightSet::update_instances(const Extent& extent) {
     if (has_emissive_instances_) gather_emitters();
     if (emitter_source_.has_value() != (emitter_power_ > 0)) {
         const float turned = turn_rad_;
-        set_lights(std::vector<Light>(initial_lights_));
+        set_lights();
         turn(turned);
         return;
     }
     if (emitter_source_) sources_[*emitter_source_].power = emitters_irradiance();
+    find_scope_extents();
     sum_flux();
+}
+
+void LightSet::find_scope_extents() {
+    scope_extents_.clear();
+    for (const Source& source : sources_) {
+        const std::uint32_t light = source.casters.scoped_light;
+        if (light == kUnscoped || source.kind != SourceKind::distant) continue;
+        const ScopeBounds bounds = bounds_of_scope(scene_, light);
+        scope_extents_[light] = bounds.empty()
+                                    ? extent_
+                                    : Extent{0.5F * (bounds.lower + bounds.upper),
+                                             std::max(0.5F * glm::distance(bounds.lower, bounds.upper), 1e-6F)};
+    }
+}
+
+const LightSet::Extent& LightSet::extent_of(const Source& source) const {
+    const auto scoped = scope_extents_.find(source.casters.scoped_light);
+    return scoped != scope_extents_.end() ? scoped->second : extent_;
 }
 
 float LightSet::emitters_irradiance() const {
     return static_cast<float>(emitter_power_) / (extent_.radius * extent_.radius);
 }
 
-void LightSet::set_lights(const std::vector<Light>& lights) {
+void LightSet::set_lights() {
     sources_.clear();
     areas_.clear();
     initial_lights_.clear();
@@ -65,10 +84,11 @@ void LightSet::set_lights(const std::vector<Light>& lights) {
         emitter_source_ = sources_.size();
         sources_.push_back({SourceKind::emitters, 0, emitters_irradiance()});
     }
-    for (const Light& light : lights) add_light(light);
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i) add_light(i);
     lights_ = initial_lights_;
     turn_rad_ = 0.0F;
     place_lights(0.0F);
+    find_scope_extents();
     sum_flux();
 }
 
@@ -83,7 +103,11 @@ void LightSet::set_environment(float scale, float turn_rad) {
     environment_.set_turn(turn_rad);
 }
 
-void LightSet::add_light(const Light& light) {
+void LightSet::add_light(std::size_t index_in_scene) {
+    const Light& light = scene_.lights[index_in_scene];
+    const ShadowCasters casters{
+        .any = light.casts_shadows,
+        .scoped_light = light.everywhere ? kUnscoped : static_cast<std::uint32_t>(index_in_scene)};
     const LightModel& model = model_of(light);
     const float power = luminance(light.colour) * static_cast<float>(model.strength(light));
     if (!(power > 0.0F)) return;
@@ -98,14 +122,14 @@ void LightSet::add_light(const Light& light) {
                        .min_cos = reach.min_cos});
     switch (model.form) {
         case LightForm::kDistant:
-            sources_.push_back({SourceKind::distant, index, power});
+            sources_.push_back({SourceKind::distant, index, power, casters});
             break;
         case LightForm::kPoint:
-            sources_.push_back({SourceKind::local, index, power});
+            sources_.push_back({SourceKind::local, index, power, casters});
             break;
         case LightForm::kArea:
             areas_.push_back({.light = index, .source = sources_.size(), .model = &model});
-            sources_.push_back({SourceKind::area, areas_.size() - 1, power});
+            sources_.push_back({SourceKind::area, areas_.size() - 1, power, casters});
             break;
     }
 }
@@ -135,7 +159,9 @@ void LightSet::place_lights(float turn_rad) {
     }
 }
 
-float LightSet::estimate(const Source& source, const glm::vec3& position) const {
+float LightSet::estimate(const Source& source, const LitPoint& at) const {
+    if (!illuminates(source, at.light_group)) return 0.0F;
+    const glm::vec3& position = at.position;
     if (source.kind == SourceKind::area) {
         const Area& area = areas_[source.index];
         const glm::vec3 way = position - area.centre;
@@ -153,11 +179,11 @@ float LightSet::estimate(const Source& source, const glm::vec3& position) const 
     return light.power / std::max(glm::dot(light.attenuation, glm::vec3(1.0F, d, distance2)), light.least_attenuation);
 }
 
-LightSet::Selection LightSet::select(const glm::vec3& position) const {
-    Selection selection{position};
+LightSet::Selection LightSet::select(const LitPoint& at) const {
+    Selection selection{at};
     int reaching = 0;
     for (const Source& source : sources_) {
-        const float estimated = estimate(source, position);
+        const float estimated = estimate(source, at);
         selection.total += estimated;
         reaching += estimated > 0.0F;
     }
@@ -165,8 +191,8 @@ LightSet::Selection LightSet::select(const glm::vec3& position) const {
     return selection;
 }
 
-LightSet::Selection LightSet::select_all(const glm::vec3& position) {
-    return {position, std::numeric_limits<float>::infinity(), 2.0F};
+LightSet::Selection LightSet::select_all(const LitPoint& at) {
+    return {at, std::numeric_limits<float>::infinity(), 2.0F};
 }
 
 std::optional<LightSample> LightSet::sample_sky(const glm::vec2& u) const {
@@ -211,7 +237,7 @@ std::optional<LightSample> LightSet::sample(const Selection& selection, float u_
     const Source* chosen = nullptr;
     float probability = 0.0F;
     for (const Source& source : sources_) {
-        const float source_probability = selection_probability(selection, estimate(source, selection.position));
+        const float source_probability = selection_probability(selection, estimate(source, selection.at));
         if (!(source_probability > 0.0F)) continue;
         // The last source that reaches the position takes the rounding remainder.
         if (chosen != nullptr) u_source -= probability;
@@ -224,26 +250,31 @@ std::optional<LightSample> LightSet::sample(const Selection& selection, float u_
             return sample_environment(probability, u);
         case SourceKind::distant:
         case SourceKind::local:
-            return sample_light(lights_[chosen->index], selection.position, probability);
+            return sample_light(*chosen, selection.at.position, probability);
         case SourceKind::area:
-            return sample_area(areas_[chosen->index], selection.position, probability,
-                               areas_[chosen->index].model->point(u));
+            return sample_area(*chosen, selection.at.position, probability, areas_[chosen->index].model->point(u));
         case SourceKind::emitters:
             return sample_emitter(selection, std::min(u_source / probability, 0x1.fffffep-1F), u);
     }
     return std::nullopt;
 }
 
-std::optional<LightSample> LightSet::sample_light(const Light& light, const glm::vec3& position, float probability) {
+std::optional<LightSample> LightSet::sample_light(const Source& source, const glm::vec3& position,
+                                                  float probability) const {
+    const Light& light = lights_[source.index];
     const glm::vec3 irradiance = irradiance_at(light, position);
     if (!(max_component(irradiance) > 0.0F)) return std::nullopt;
     if (model_of(light).form == LightForm::kDistant) {
-        return LightSample{-glm::vec3(light.towards), std::numeric_limits<float>::infinity(), irradiance, probability,
-                           true};
+        return LightSample{-glm::vec3(light.towards),
+                           std::numeric_limits<float>::infinity(),
+                           irradiance,
+                           probability,
+                           true,
+                           source.casters};
     }
     const glm::vec3 to_light = glm::vec3(light.location) - position;
     const float distance = glm::length(to_light);
-    return LightSample{to_light / distance, distance, irradiance, probability, true};
+    return LightSample{to_light / distance, distance, irradiance, probability, true, source.casters};
 }
 
 std::optional<LightSample> LightSet::sample_environment(float probability, const glm::vec2& u) const {
@@ -253,8 +284,9 @@ std::optional<LightSample> LightSet::sample_environment(float probability, const
                        probability * drawn.pdf, false};
 }
 
-std::optional<LightSample> LightSet::sample_area(const Area& area, const glm::vec3& position, float probability,
-                                                 const glm::vec2& at) {
+std::optional<LightSample> LightSet::sample_area(const Source& source, const glm::vec3& position, float probability,
+                                                 const glm::vec2& at) const {
+    const Area& area = areas_[source.index];
     const glm::vec3 to_light = area.centre + area.half_u * at.x + area.half_v * at.y - position;
     const float distance2 = glm::dot(to_light, to_light);
     if (!(distance2 > 0.0F)) return std::nullopt;
@@ -262,7 +294,8 @@ std::optional<LightSample> LightSet::sample_area(const Area& area, const glm::ve
     const glm::vec3 direction = to_light / distance;
     const float cos_light = -glm::dot(direction, area.normal);
     if (cos_light <= 1e-6F) return std::nullopt;
-    return LightSample{direction, distance, area.radiance, probability * distance2 / (cos_light * area.area), false};
+    return LightSample{direction, distance,      area.radiance, probability * distance2 / (cos_light * area.area),
+                       false,     source.casters};
 }
 
 std::optional<LightSample> LightSet::sample_emitter(const Selection& selection, float u_emitter,
@@ -272,7 +305,7 @@ std::optional<LightSample> LightSet::sample_emitter(const Selection& selection, 
     const EmitterPoint point = emitter_point(emitter, u);
     if (point.hole) return std::nullopt;
     const int material = emitter.mesh->material;
-    const glm::vec3 to_light = point.position - selection.position;
+    const glm::vec3 to_light = point.position - selection.at.position;
     const float distance2 = glm::dot(to_light, to_light);
     if (!(distance2 > 0.0F)) return std::nullopt;
     const float distance = std::sqrt(distance2);
@@ -334,7 +367,7 @@ std::optional<LightSet::Crossing> LightSet::cross_area(std::size_t index, const 
     const float s = glm::dot(glm::cross(p, area.half_v), area.normal) / area.parallelogram;
     const float t = glm::dot(glm::cross(area.half_u, p), area.normal) / area.parallelogram;
     if (!area.model->covers({s, t})) return std::nullopt;
-    const float probability = selection_probability(selection, estimate(sources_[area.source], selection.position));
+    const float probability = selection_probability(selection, estimate(sources_[area.source], selection.at));
     return Crossing{area.radiance, probability * distance * distance / (cos_light * area.area)};
 }
 

@@ -13,7 +13,9 @@
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/light/light_model.hpp"
 
+#include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -26,6 +28,13 @@ struct LightSample {
     glm::vec3 radiance;
     float pdf;  // > 0
     bool delta;
+    ShadowCasters casters = {};
+};
+
+// A point of a surface to be lit.
+struct LitPoint {
+    glm::vec3 position{0.0F};
+    std::uint32_t light_group = 0;  // index into LightScopes::groups
 };
 // Copies a sample to a lane.
 void set_lane(std::size_t lane, const LightSample& sample, LightLanes& incident);
@@ -40,8 +49,8 @@ public:
     /// `environment` replaces the scene's own. Keeps a reference to `scene`, which must outlive the set unchanged.
     LightSet(const Scene& scene, Environment environment, const Extent& extent);
 
-    // Replaces all lights.
-    void set_lights(const std::vector<Light>& lights);
+    // Replaces all lights by those of the scene.
+    void set_lights();
 
     // Updates emissive instances after instances of the scene have moved. Instances that move while the shutter is open
     // are not sampled; paths find their light by hitting them.
@@ -59,14 +68,14 @@ public:
 
     // Selection probabilities at a position.
     struct Selection {
-        glm::vec3 position{0.0F};
+        LitPoint at{};
         float total = 0.0F;    // sum of the estimates of all sources
         float uniform = 0.0F;  // 1 / n; 0 if no source reaches the position
     };
-    [[nodiscard]] Selection select(const glm::vec3& position) const;
+    [[nodiscard]] Selection select(const LitPoint& at) const;
     // Selection for sampling every source once: with sample_centre() if is_point(), otherwise with sample_point(), and
     // sample_sky() for the environment.
-    [[nodiscard]] static Selection select_all(const glm::vec3& position);
+    [[nodiscard]] static Selection select_all(const LitPoint& at);
 
     /// \param u_source selects the source
     /// \param u selects the point on it
@@ -88,14 +97,14 @@ public:
     }
     // A source other than the environment as one point: area lights and emissive meshes by their centre. `radiance /
     // pdf` is irradiance. Empty if the light does not reach the position.
-    [[nodiscard]] std::optional<LightSample> sample_centre(std::size_t index, const glm::vec3& position) const;
+    [[nodiscard]] std::optional<LightSample> sample_centre(std::size_t index, const LitPoint& at) const;
     // The same for sixteen surfaces at their near_start. Lanes on which the light has no effect may be unlit. Returns
     // false if no lane is lit.
     bool sample_centre(std::size_t index, const SurfaceLanes& surfaces, const MaskLanes& active,
                        LightLanes& incident) const;
     // The same, but area lights by a random point, and all emissive meshes by one random point together. `draw` returns
     // random numbers in [0, 1).
-    [[nodiscard]] std::optional<LightSample> sample_point(std::size_t index, const glm::vec3& position,
+    [[nodiscard]] std::optional<LightSample> sample_point(std::size_t index, const LitPoint& at,
                                                           const std::function<glm::vec2()>& draw) const;
 
     // Samples the environment; empty if there is none.
@@ -127,6 +136,7 @@ private:
         SourceKind kind;
         std::size_t index;  // into lights_ or areas_
         float power;        // estimated irradiance; of local sources at distance 1
+        ShadowCasters casters = {};
     };
     struct Area {
         std::size_t light = 0;   // index into lights_
@@ -164,18 +174,21 @@ private:
     void gather_emitters();
     void gather_emitter(const Mesh& mesh);
     void add_proxy(const Mesh& mesh);
-    void add_light(const Light& light);
+    void add_light(std::size_t index_in_scene);
     void place_lights(float turn_rad);
-    [[nodiscard]] float estimate(const Source& source, const glm::vec3& position) const;
+    [[nodiscard]] float estimate(const Source& source, const LitPoint& at) const;
+    [[nodiscard]] bool illuminates(const Source& source, std::uint32_t light_group) const {
+        return scene_.scopes.illuminates(source.casters.scoped_light, light_group);
+    }
     [[nodiscard]] static float selection_probability(const Selection& selection, float estimate) {
         return estimate > 0.0F ? 0.5F * (selection.uniform + estimate / selection.total) : 0.0F;
     }
     [[nodiscard]] std::optional<LightSample> sample_environment(float probability, const glm::vec2& u) const;
-    [[nodiscard]] static std::optional<LightSample> sample_light(const Light& light, const glm::vec3& position,
-                                                                 float probability);
+    [[nodiscard]] std::optional<LightSample> sample_light(const Source& source, const glm::vec3& position,
+                                                          float probability) const;
     // `at`: coordinates along half_u and half_v.
-    [[nodiscard]] static std::optional<LightSample> sample_area(const Area& area, const glm::vec3& position,
-                                                                float probability, const glm::vec2& at);
+    [[nodiscard]] std::optional<LightSample> sample_area(const Source& source, const glm::vec3& position,
+                                                         float probability, const glm::vec2& at) const;
     [[nodiscard]] std::optional<LightSample> sample_emitter(const Selection& selection, float u_emitter,
                                                             const glm::vec2& u) const;
 
@@ -183,9 +196,13 @@ private:
     [[nodiscard]] EmitterPoint emitter_point(const Emitter& emitter, const glm::vec2& u) const;
     [[nodiscard]] float flux_of(const Source& source) const;
     void sum_flux();
-    [[nodiscard]] Photon emit_distant(const glm::vec3& direction, const glm::vec3& irradiance,
-                                      const glm::vec2& u) const;
-    [[nodiscard]] static std::optional<Photon> emit_local(const Light& light, float probability, const glm::vec2& u);
+    void find_scope_extents();
+    // From a disc outside the extent, in `direction`.
+    [[nodiscard]] static Photon emit_distant(const Extent& extent, const glm::vec3& direction,
+                                             const glm::vec3& irradiance, const glm::vec2& u);
+    // Extent that the light of a distant source must cover.
+    [[nodiscard]] const Extent& extent_of(const Source& source) const;
+    [[nodiscard]] std::optional<Photon> emit_local(const Source& source, float probability, const glm::vec2& u) const;
     [[nodiscard]] std::optional<Photon> emit_emitter(float u_emitter, float probability, const glm::vec2& u_place,
                                                      const glm::vec2& u_direction) const;
 
@@ -205,7 +222,8 @@ private:
     bool has_emissive_instances_ = false;
     double emitter_power_ = 0;  // sum of area * brightness
     std::vector<Source> sources_;
-    std::vector<float> flux_;  // flux of this and all previous sources, as a share
+    std::map<std::uint32_t, Extent> scope_extents_;  // by index into Scene::lights of a scoped light
+    std::vector<float> flux_;                        // flux of this and all previous sources, as a share
     std::optional<std::size_t> environment_source_;
     std::optional<std::size_t> emitter_source_;
 };

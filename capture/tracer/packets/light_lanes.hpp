@@ -15,7 +15,9 @@ struct LightLanes {
     Lanes distance;
     Lanes3 radiance;
     Lanes pdf;
-    bool delta = true;  // for all lanes; `pdf` is 1 and unused then
+    // For all lanes:
+    bool delta = true;  // `pdf` is 1 and unused
+    ShadowCasters casters;
 };
 
 // A point light, spot light or luminaire without its photometric web or cone falloff.

@@ -26,10 +26,11 @@ struct SurfaceLanes {
     Lanes3 normal;                 // shading normal; orient_surfaces() bends it towards the viewer
     Lanes3 tangent, bitangent;
     Lanes2 uv;
-    Lanes3 colour;  // the material's times the vertices' times the texture's
-    Lanes3 viewer;  // wo, local
-    Lanes albedo;   // E(wo)
-    Lanes lambda;   // smith_lambda() of wo
+    Lanes3 colour;                       // the material's times the vertices' times the texture's
+    Lanes3 viewer;                       // wo, local
+    Lanes albedo;                        // E(wo)
+    Lanes lambda;                        // smith_lambda() of wo
+    LanesOf<std::uint32_t> light_group;  // index into LightScopes::groups
 };
 
 // Computes positions, normals and ray origins. Of the material only the translucency must be set. `step_off`: see

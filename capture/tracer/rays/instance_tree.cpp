@@ -25,7 +25,8 @@ Result<InstanceTree> InstanceTree::build(RTCDeviceTy* device, const Scene& scene
         tree_set.trees_.push_back(std::move(tree));
     }
     tree_set.top_.reset(rtcNewScene(device));
-    rtcSetSceneFlags(tree_set.top_.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(tree_set.top_.get(),
+                     static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     tree_set.placements_.resize(scene.instances.size());
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const MeshTree& tree = tree_set.trees_[scene.instances[i].part];

@@ -36,7 +36,8 @@ void ReleaseEmbree::operator()(RTCSceneTy* scene) const {
 Result<MeshTree> MeshTree::build(RTCDeviceTy* device, const std::vector<Mesh>& meshes, const Scene& scene) {
     MeshTree tree;
     tree.embree_.reset(rtcNewScene(device));
-    rtcSetSceneFlags(tree.embree_.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(tree.embree_.get(),
+                     static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION));
     rtcSetSceneBuildQuality(tree.embree_.get(), RTC_BUILD_QUALITY_HIGH);
     glm::vec3 lower(std::numeric_limits<float>::infinity());
     glm::vec3 upper(-std::numeric_limits<float>::infinity());

@@ -1,5 +1,6 @@
 // Packet tracing of RayScene.
 #include "capture/tracer/rays/ray_scene.hpp"
+#include "capture/tracer/rays/scope_query.hpp"
 #include "rayspace/base/check.hpp"
 
 #include <embree3/rtcore.h>
@@ -86,16 +87,25 @@ void RayScene::occluded_many(std::span<const Ray> rays, std::span<std::uint8_t> 
         for (std::size_t i = 0; i < count; ++i) {
             const Ray& ray = rays[first + i];
             const bool occluded =
-                packet.tfar[i] < 0.0F || primitive_occludes(ray.origin, ray.direction, ray.reach, ray.time);
+                packet.tfar[i] < 0.0F || primitive_occludes(ray.origin, ray.direction, ray.reach, ray.time, {});
             hidden[first + i] = occluded ? 1 : 0;
         }
     }
 }
 
 // Primitives support single rays only.
-bool RayScene::primitive_occludes(const glm::vec3& origin, const glm::vec3& direction, float distance,
-                                  float time) const {
+bool RayScene::primitive_occludes(const glm::vec3& origin, const glm::vec3& direction, float distance, float time,
+                                  const ShadowCasters& casters) const {
     if (!primitives_) return false;
+    if (casters.scoped_light != kUnscoped) {
+        const std::vector<bool>& in_scope = primitives_in_scope_[casters.scoped_light];
+        for (std::size_t i = 0; i < in_scope.size(); ++i) {
+            if (!in_scope[i]) continue;
+            const auto answer = scene_->primitives[i]->answer(origin, direction);
+            if (answer && answer->distance < distance) return true;
+        }
+        return false;
+    }
     RTCIntersectContext context = incoherent();
     RTCRay ray{origin.x,    origin.y, origin.z, 0.0F,        direction.x, direction.y,
                direction.z, time,     distance, 0xFFFFFFFFU, 0,           0};
@@ -116,28 +126,33 @@ void RayScene::intersect(const MaskLanes& active, RayHitLanes& met) const {
     rtcIntersect16(active.of.data(), instances_->embree(), &context, packet);
 }
 
-void RayScene::occluded(const MaskLanes& active, RayLanes& rays) const {
+void RayScene::occluded(const MaskLanes& active, RayLanes& rays, const ShadowCasters& casters) const {
+    if (!casters.any) return;
     auto* packet = reinterpret_cast<RTCRay16*>(&rays);
-    RTCIntersectContext context = coherent();
+    ScopeQuery in_scope(*scene_, casters.scoped_light, RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+    RTCIntersectContext all = coherent();
+    RTCIntersectContext& context = casters.scoped_light == kUnscoped ? all : in_scope.context;
     const Lanes reach = rays.reach;
     rtcOccluded16(active.of.data(), static_meshes_->embree(), &context, packet);
     if (instances_) {
         MaskLanes remaining;
         for (std::size_t i = 0; i < kLanes; ++i) remaining[i] = rays.reach[i] < 0.0F ? 0 : active[i];
-        context = incoherent();
+        context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
         rtcOccluded16(remaining.of.data(), instances_->embree(), &context, packet);
     }
     if (!primitives_) return;
     for (std::size_t i = 0; i < kLanes; ++i) {
         if (active[i] == 0 || rays.reach[i] < 0.0F) continue;
-        if (primitive_occludes(rays.origin.at(i), rays.direction.at(i), reach[i], rays.time[i])) rays.reach[i] = -1.0F;
+        if (primitive_occludes(rays.origin.at(i), rays.direction.at(i), reach[i], rays.time[i], casters)) {
+            rays.reach[i] = -1.0F;
+        }
     }
 }
 
 const Mesh& RayScene::gather_triangle(const RayHitLanes& met, std::size_t lane, TriangleLanes& triangles) const {
     const HitLanes& hit = met.hit;
     const unsigned instance = hit.instance[lane];
-    const Mesh& mesh = mesh_of(hit.mesh[lane], instance);
+    const Mesh& mesh = scene_->mesh_of(hit.mesh[lane], instance);
     const glm::uvec3 t = mesh.triangles[hit.triangle[lane]];
     const bool has_normals = !mesh.normals.empty(), has_uvs = !mesh.uvs.empty();
     for (std::size_t i = 0; i < 3; ++i) {

@@ -1,5 +1,6 @@
 #include "capture/tracer/rays/ray_scene.hpp"
 
+#include "capture/tracer/rays/scope_query.hpp"
 #include "capture/tracer/scene/texture_lookup.hpp"
 
 #include <embree3/rtcore.h>
@@ -122,6 +123,7 @@ Result<RayScene> RayScene::build(const Scene& scene) {
         result.instances_ = std::move(moving);
     }
     result.add_primitives();
+    result.update_scopes();
     if (rtcGetDeviceError(result.device_.get()) != RTC_ERROR_NONE) {
         return Error{"ray tracing: Embree could not build its acceleration structure; use smaller meshes"};
     }
@@ -151,6 +153,7 @@ void RayScene::update(std::span<const std::size_t> moved) {
     if (!instances_) return;
     instances_->update(moved);
     compute_bounds();
+    update_scopes();
 }
 
 RayScene::Builds RayScene::builds() const {
@@ -169,9 +172,32 @@ bool RayScene::intersect_visible(const glm::vec3& origin, const glm::vec3& direc
     return false;
 }
 
+void RayScene::update_scopes() {
+    primitives_in_scope_.assign(scene_->lights.size(), {});
+    for (std::uint32_t light = 0; light < scene_->lights.size(); ++light) {
+        if (scene_->lights[light].everywhere || scene_->primitives.empty()) continue;
+        const ScopeBounds bounds = bounds_of_scope(*scene_, light);
+        for (const auto& primitive : scene_->primitives) {
+            const RayPrimitive::Box box = primitive->bounds();
+            primitives_in_scope_[light].push_back(bounds.contains(0.5F * (box.lower + box.upper)));
+        }
+    }
+}
+
 bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, float time, SurfacePoint& point) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    return intersect_trees(context, origin, direction, time, point);
+}
+
+bool RayScene::intersect_in_scope(std::uint32_t light, const glm::vec3& origin, const glm::vec3& direction, float time,
+                                  SurfacePoint& point) const {
+    ScopeQuery query(*scene_, light, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    return intersect_trees(query.context, origin, direction, time, point);
+}
+
+bool RayScene::intersect_trees(RTCIntersectContext& context, const glm::vec3& origin, const glm::vec3& direction,
+                               float time, SurfacePoint& point) const {
     RTCRayHit query{};
     query.ray = {origin.x,    origin.y,    origin.z,
                  0.0F,        direction.x, direction.y,
@@ -187,11 +213,6 @@ bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, fl
     return true;
 }
 
-const Mesh& RayScene::mesh_of(unsigned mesh, unsigned instance) const {
-    return instance == RTC_INVALID_GEOMETRY_ID ? scene_->meshes[mesh]
-                                               : scene_->parts[scene_->instances[instance].part].meshes[mesh];
-}
-
 void RayScene::place(unsigned instance, float time, Corners& corners) const {
     if (instance == RTC_INVALID_GEOMETRY_ID) return;
     const InstanceTransform placed = instances_->transform_at(instance, time);
@@ -201,7 +222,7 @@ void RayScene::place(unsigned instance, float time, Corners& corners) const {
 }
 
 void RayScene::surface_at(const Hit& hit, const glm::vec3& direction, float time, SurfacePoint& point) const {
-    const Mesh& mesh = mesh_of(hit.mesh, hit.instance);
+    const Mesh& mesh = scene_->mesh_of(hit.mesh, hit.instance);
     const glm::uvec3 t = mesh.triangles[hit.triangle];
     Corners of(mesh, t);
     place(hit.instance, time, of);
@@ -213,6 +234,7 @@ void RayScene::surface_at(const Hit& hit, const glm::vec3& direction, float time
     point.position = corners[0] * weights[0] + corners[1] * weights[1] + corners[2] * weights[2];
     point.distance = hit.distance;
     point.material = mesh.material;
+    point.light_group = scene_->scopes.group_of(hit.mesh, hit.instance);
     point.uv = interpolate_uv(mesh, hit.triangle, hit.u, hit.v);
     point.colour = interpolate_colour(mesh, hit.triangle, hit.u, hit.v);
 
@@ -273,15 +295,18 @@ RayScene::Bundle RayScene::distances(const std::array<glm::vec3, kBundle>& origi
     return found;
 }
 
-bool RayScene::occluded(const glm::vec3& origin, const glm::vec3& direction, float distance, float time) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+bool RayScene::occluded(const glm::vec3& origin, const glm::vec3& direction, float distance, float time,
+                        const ShadowCasters& casters) const {
+    if (!casters.any) return false;
+    ScopeQuery in_scope(*scene_, casters.scoped_light, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    RTCIntersectContext all;
+    rtcInitIntersectContext(&all);
+    RTCIntersectContext& context = casters.scoped_light == kUnscoped ? all : in_scope.context;
     RTCRay ray{origin.x,    origin.y, origin.z, 0.0F,        direction.x, direction.y,
                direction.z, time,     distance, 0xFFFFFFFFU, 0,           0};
     rtcOccluded1(static_meshes_->embree(), &context, &ray);
     if (ray.tfar >= 0.0F && instances_) rtcOccluded1(instances_->embree(), &context, &ray);
-    if (ray.tfar >= 0.0F && primitives_) rtcOccluded1(primitives_.get(), &context, &ray);
-    return ray.tfar < 0.0F;
+    return ray.tfar < 0.0F || primitive_occludes(origin, direction, distance, time, casters);
 }
 
 }  // namespace rs::capture

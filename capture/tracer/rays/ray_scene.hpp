@@ -21,6 +21,8 @@
 #include <span>
 #include <vector>
 
+struct RTCIntersectContext;
+
 namespace rs::capture {
 
 // Intersection of a ray with a surface. Normals are unit length and face the ray's origin.
@@ -40,6 +42,7 @@ struct SurfacePoint {
     bool front_side;        // the triangle's winding is counter-clockwise as seen from the ray's origin
     float time;             // of the ray
     bool is_light_sampled;  // LightSet samples its emission; false for instances that move while the shutter is open
+    std::uint32_t light_group;  // index into LightScopes::groups
 };
 
 class RayScene {
@@ -51,12 +54,17 @@ public:
 
     /// Applies changed matrices of these instances. Not thread-safe with tracing.
     void update(std::span<const std::size_t> moved);
+    /// Applies changed light scopes. Not thread-safe with tracing.
+    void update_scopes();
 
     // All functions below are const and thread-safe; directions have unit length.
 
     /// Finds the nearest hit beyond `origin`.
     /// \param time 0..1
     bool intersect(const glm::vec3& origin, const glm::vec3& direction, float time, SurfacePoint& point) const;
+    /// Finds the nearest surface that light of a scoped light can hit (LightScopes).
+    bool intersect_in_scope(std::uint32_t light, const glm::vec3& origin, const glm::vec3& direction, float time,
+                            SurfacePoint& point) const;
     /// Finds the nearest hit that is visible to camera rays, i.e. not of the surroundings (Scene).
     bool intersect_visible(const glm::vec3& origin, const glm::vec3& direction, float time, SurfacePoint& point) const;
     // Distances to the nearest hits of kBundle parallel, nearby rays; infinity for rays without a hit.
@@ -89,7 +97,7 @@ public:
     void occluded_many(std::span<const Ray> rays, std::span<std::uint8_t> hidden) const;
     // The active lanes of a packet, initialised by RayHitLanes::begin(); other lanes are unchanged.
     void intersect(const MaskLanes& active, RayHitLanes& met) const;
-    void occluded(const MaskLanes& active, RayLanes& rays) const;
+    void occluded(const MaskLanes& active, RayLanes& rays, const ShadowCasters& casters = {}) const;
     // Copies the triangle hit by a lane to `triangles` and returns its mesh.
     const Mesh& gather_triangle(const RayHitLanes& met, std::size_t lane, TriangleLanes& triangles) const;
     // Surface properties at a hit.
@@ -98,8 +106,10 @@ public:
     [[nodiscard]] std::optional<RayPrimitive::Answer> intersect_primitives(const glm::vec3& origin,
                                                                            const glm::vec3& direction,
                                                                            float distance) const;
-    // Returns true if anything lies between origin and origin + direction * distance, primitives included.
-    [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction, float distance, float time) const;
+    // Returns true if a shadow caster lies between origin and origin + direction * distance, primitives included: those
+    // of a scoped light if their centre is within the bounds of the surfaces that it illuminates.
+    [[nodiscard]] bool occluded(const glm::vec3& origin, const glm::vec3& direction, float distance, float time,
+                                const ShadowCasters& casters = {}) const;
 
     // Returns true if anything moves while the shutter is open; otherwise the time of rays is ignored.
     [[nodiscard]] bool blurred() const { return instances_ && instances_->blurred(); }
@@ -131,14 +141,17 @@ private:
             if (!mesh.normals.empty()) normals = {mesh.normals[t.x], mesh.normals[t.y], mesh.normals[t.z]};
         }
     };
-    [[nodiscard]] const Mesh& mesh_of(unsigned mesh, unsigned instance) const;
     void place(unsigned instance, float time, Corners& corners) const;
+    bool intersect_trees(RTCIntersectContext& context, const glm::vec3& origin, const glm::vec3& direction, float time,
+                         SurfacePoint& point) const;
     void add_primitives();
     [[nodiscard]] bool primitive_occludes(const glm::vec3& origin, const glm::vec3& direction, float distance,
-                                          float time) const;
+                                          float time, const ShadowCasters& casters) const;
     void compute_bounds();
 
     const Scene* scene_ = nullptr;
+    // [index into Scene::lights][primitive] is in the scope of the light; empty for lights without scope.
+    std::vector<std::vector<bool>> primitives_in_scope_;
     EmbreeDevice device_;
     std::optional<MeshTree> static_meshes_;
     std::optional<InstanceTree> instances_;  // empty without instances

@@ -3,6 +3,7 @@
 //
 // Units and axes as in rayspace/base/conventions.hpp: Y up, the turntable's axis is Y. Colours are linear-light RGB.
 
+#include "capture/tracer/scene/light_scopes.hpp"
 #include "rayspace/image/image.hpp"
 #include "rayspace/light/light.hpp"
 
@@ -119,9 +120,15 @@ struct Scene {
     // Normal maps: a texel's r, g, b are a direction of any length along u, v and the normal; (0, 0, 1) is neutral.
     std::vector<Texture> reliefs;
     std::vector<Light> lights;  // ambient terms are ignored; area lights are not visible to camera rays
+    LightScopes scopes;
     Environment environment;
     std::vector<std::shared_ptr<const RayPrimitive>> primitives;  // not visible to camera rays
 
+    /// \param mesh index into `meshes`, or into the meshes of the instance's part
+    /// \param instance kNoInstance for static meshes
+    [[nodiscard]] const Mesh& mesh_of(std::uint32_t mesh, std::uint32_t instance) const {
+        return instance == kNoInstance ? meshes[mesh] : parts[instances[instance].part].meshes[mesh];
+    }
     [[nodiscard]] bool surrounds(int material) const { return material >= first_surrounding_material; }
     [[nodiscard]] bool has_surroundings() const { return surrounds(static_cast<int>(materials.size()) - 1); }
 };

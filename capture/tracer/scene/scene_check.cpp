@@ -116,6 +116,25 @@ Problem check_lights(const Scene& scene) {
     return std::nullopt;
 }
 
+Problem check_scopes(const Scene& scene) {
+    const LightScopes& scopes = scene.scopes;
+    if (scopes.empty()) return std::nullopt;
+    if (scopes.of_mesh.size() != scene.meshes.size() || scopes.of_instance.size() != scene.instances.size()) {
+        return "light scopes: each mesh and each instance must have a group";
+    }
+    const auto exists = [&](std::uint32_t group) { return group < scopes.groups.size(); };
+    if (!std::ranges::all_of(scopes.of_mesh, exists) || !std::ranges::all_of(scopes.of_instance, exists)) {
+        return "light scopes: a group does not exist";
+    }
+    for (const LightScopes::Group& group : scopes.groups) {
+        if (!is_radiance(group.ambient)) return "light scopes: ambient light must be finite and not negative";
+        for (const std::uint32_t light : group.lights) {
+            if (light >= scene.lights.size()) return "light scopes: light " + std::to_string(light) + " does not exist";
+        }
+    }
+    return std::nullopt;
+}
+
 Problem check_parts(const Scene& scene) {
     for (const Texture& texture : scene.textures) {
         if (texture.pixels.empty()) return "texture \"" + texture.name + "\" has no pixels";
@@ -144,6 +163,7 @@ Problem check_parts(const Scene& scene) {
     }
     if (Problem problem = check_instances(scene)) return problem;
     if (Problem problem = check_lights(scene)) return problem;
+    if (Problem problem = check_scopes(scene)) return problem;
     if (!in_range(scene.environment.scale, 0.0F, 1e9F)) return "environment: scale must be within 0..1e9";
     if (!std::isfinite(scene.environment.turn_rad)) return "environment: the turn must be finite";
     if (!has_valid_pixels(scene.environment.pixels)) return "environment: pixels must be finite and not negative";
