@@ -143,9 +143,15 @@ private:
         OverlayPass overlay;
     };
     static Result<Passes> make_passes(const Scene& scene, std::size_t nodes, ObjectDepth depth);
-    FrameCompositor(const Scene& scene, std::shared_ptr<engine::RenderSession> engine, ObjectNodes nodes,
-                    BackgroundRenderer background, LitGeometry geometry, FrameTarget target, Passes passes,
-                    const FrameOptions& options);
+    struct Parts {
+        std::shared_ptr<engine::RenderSession> engine;
+        ObjectNodes nodes;
+        BackgroundRenderer background;
+        LitGeometry geometry;
+        FrameTarget target;
+        Passes passes;
+    };
+    FrameCompositor(Parts parts, const std::optional<Fog>& fog, const FrameOptions& options);
 
     [[nodiscard]] FrameContext context_of(const Camera& camera);
     Status draw(const Camera& camera, bool needs_depths);
