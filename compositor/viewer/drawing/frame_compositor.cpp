@@ -1,6 +1,6 @@
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 
-#include "compositor/scene/light/raster_lights.hpp"
+#include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/viewer/views/engine_views.hpp"
 
 #include <utility>
