@@ -1,7 +1,7 @@
 #include "compositor/tools/scene_options.hpp"
 
 #include "compositor/scene/light/scene_lights.hpp"
-#include "compositor/scene/normal_map.hpp"
+#include "compositor/scene/material.hpp"
 #include "compositor/scene/object_argument.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
 #include "rayspace/base/printable.hpp"
