@@ -2,7 +2,6 @@
 
 #include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/scene/material.hpp"
-#include "compositor/scene/object_argument.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
