@@ -57,8 +57,9 @@ Status run_render(const RenderOptions& options) {
     RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     progress.start();
     const RenderView render = [&](const Camera& camera) { return renderer.render(camera); };
-    RS_TRY(write_frames(options.output, options.force, kind, options.frames_per_second, cameras, render,
-                        progress.of_frames()));
+    const FrameOutput output{
+        .path = options.output, .kind = kind, .force = options.force, .frames_per_second = options.frames_per_second};
+    RS_TRY(write_frames(output, cameras, render, progress.of_frames()));
     progress.finish();
     if (!options.streaming) renderer.warn_of_missing_objects(options.executor.memory_mib);
     return options.stats ? write_file(*options.stats, renderer.times().to_json(*loaded.showroom)) : Status();

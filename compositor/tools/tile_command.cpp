@@ -208,8 +208,9 @@ Status run_assemble(const AssembleOptions& options) {
     FrameProgress progress(tiled.quiet, cameras.size(), false);
     progress.start();
     const RenderView render = [&](const Camera& camera) { return renderer.render(camera); };
-    RS_TRY(write_frames(options.output, options.force, kind, options.frames_per_second, cameras, render,
-                        progress.of_frames()));
+    const FrameOutput output{
+        .path = options.output, .kind = kind, .force = options.force, .frames_per_second = options.frames_per_second};
+    RS_TRY(write_frames(output, cameras, render, progress.of_frames()));
     progress.finish();
     renderer.warn_of_missing_objects(tiled.executor.memory_mib);
     return {};
