@@ -1,4 +1,3 @@
-#include "compositor/lighting/light_warnings.hpp"
 #include "compositor/tools/camera_options.hpp"
 #include "compositor/tools/commands.hpp"
 #include "compositor/tools/drawing_options.hpp"
@@ -117,8 +116,7 @@ Status write_first_view(const std::string& file, const OpenOptions& options, con
 
 Status run_open(const OpenOptions& options) {
     RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
-    RS_ASSIGN_OR_RETURN(Scene scene, load_scene(options.scene));
-    print_warnings(light_warnings(scene));
+    RS_ASSIGN_OR_RETURN(Scene scene, open_scene(options.scene, {}));
     Result<Window> window =
         Window::create({.title = scene_name(options.scene), .width = size.width, .height = size.height});
     std::string file;
