@@ -4,12 +4,12 @@
 #include "compositor/tools/headless_renderer.hpp"
 #include "compositor/tools/scene_options.hpp"
 #include "compositor/tools/tracing_options.hpp"
+#include "compositor/viewer/views/framing.hpp"
 #include "compositor/window/visit.hpp"
 #include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -90,10 +90,7 @@ Status show_in_window(Window window, const OpenOptions& options, LoadedScene loa
     if (options.scene.lights) visit_options.lights = *options.scene.lights;
     visit_options.executor = loaded.executor.name;
     visit_options.warn = print_warnings;
-    Viewpoint begin;
-    begin.world_from_camera = first.world_from_camera;
-    begin.field_of_view_rad = 2 * std::atan(0.5 * std::min(first.width, first.height) / first.fl_y);
-    visit_options.viewpoints = {begin};
+    visit_options.viewpoints = {viewpoint_of(first)};
     visit_options.viewpoints.insert(visit_options.viewpoints.end(), loaded.scene.viewpoints.begin(),
                                     loaded.scene.viewpoints.end());
     return visit(std::move(window), loaded.scene, std::move(loaded.showroom), visit_options);
