@@ -2,7 +2,6 @@
 
 #include "compositor/viewer/views/framing.hpp"
 
-#include <chrono>
 #include <utility>
 
 namespace rs::compositor {
@@ -103,14 +102,12 @@ Status SequencePlayer::trace(std::size_t number, const Camera& camera) {
     if (!tracer_ || !moved.objects.empty()) {
         RS_TRY(make_tracer());
     }
-    const auto begin = std::chrono::steady_clock::now();
     for (std::size_t slot = 0; slot < sequence_->slots.size(); ++slot) {
         const auto id = static_cast<std::uint32_t>(slot);
         // Nodes drawn by raster alone are not in the tracer.
         static_cast<void>(tracer_->move(id, moved.geometry[slot].value_or(hidden_transform_)));
     }
     tracer_->begin_image(camera);
-    commit_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     for (int pass = 0; pass < options_.passes; ++pass) tracer_->add_pass();
     compositor_.set_traced(std::make_shared<const Image<Rgba8>>(tracer_->image()));
     return {};

@@ -50,8 +50,6 @@ public:
     [[nodiscard]] const FrameCompositor& compositor() const { return compositor_; }
     /// Number of acceleration structures built for traced frames since create(): one, unless ray-space objects move.
     [[nodiscard]] int tracers_made() const { return tracers_made_; }
-    /// Seconds spent on moving instances and rebuilding the top-level tree in the last traced frame.
-    [[nodiscard]] double commit_s() const { return commit_s_; }
     /// Objects that cannot be displayed; each is reported once.
     std::vector<std::string> take_warnings();
 
@@ -70,7 +68,6 @@ private:
     FrameCompositor compositor_;
     std::vector<std::string> warnings_;
     int tracers_made_ = 0;
-    double commit_s_ = 0;
 };
 
 }  // namespace rs::compositor

@@ -1,5 +1,6 @@
 #pragma once
-// Surface materials of VRML97 (ISO/IEC 14772-1, 4.14 and 6.27). Colours are linear light.
+// Surface materials of VRML97 (ISO/IEC 14772-1, 4.14 and 6.27) with textures and normal maps. Colours are linear light.
+// Functions are pure and thread-safe.
 
 #include "rayspace/image/image.hpp"
 
@@ -20,7 +21,15 @@ struct SceneTexture {
     bool modulates = false;  // multiplies the diffuse colour (grey images, glTF); otherwise replaces it
 };
 
-struct NormalMap;  // normal_map.hpp
+/// Normal map in the tangent frame of the texture coordinates.
+/// One direction of any length per texel: r along s, g along t, b away from the surface; a is 1. (0, 0, 1) keeps the
+/// surface's normal bit for bit. Interpolated between texels, then normalised.
+struct NormalMap {
+    std::filesystem::path file;  // as SceneTexture::file
+    Image<RgbaF> directions;     // the first row is the top, at the largest t
+    bool repeat_s = true;
+    bool repeat_t = true;
+};
 
 enum class AlphaUse { kNone = 0, kMask = 1, kBlend = 2 };
 /// kMask if nearly all alpha values are 0 or 255: drawn with sharp holes and without sorting.
@@ -52,5 +61,13 @@ PhongTerms phong_terms(const Material& material);
 
 /// True for transparent surfaces, which are drawn after all others, back to front.
 bool is_blended(const Material& material);
+
+/// Converts a glTF 2.0 normal texture (3.9.3): bytes 1, 128, 255 are -1, 0, 1.
+/// \param scale factor on r and g.
+std::shared_ptr<const NormalMap> normal_map(const SceneTexture& image, float scale);
+
+/// Converts a height image (its luminance; MTL's bump map) with the Sobel operator.
+/// \param multiplier MTL's -bm: a step from black to white between two columns gives a slope of 4 at both.
+std::shared_ptr<const NormalMap> normal_map_of_heights(const SceneTexture& image, float multiplier);
 
 }  // namespace rs::compositor

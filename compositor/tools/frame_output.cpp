@@ -7,9 +7,9 @@
 namespace rs::compositor {
 namespace {
 
-Status write_folder(const std::string& output, bool force, const std::vector<Camera>& cameras, const RenderView& render,
+Status write_folder(const FrameOutput& output, const std::vector<Camera>& cameras, const RenderView& render,
                     Progress& progress) {
-    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output, "composited views", force));
+    RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(output.path, "composited views", output.force));
     const Rig rig = make_rig_of_views(cameras);
     for (const RigView& view : rig.views) {
         RS_ASSIGN_OR_RETURN(const Image<Rgba8> frame, render(view.camera));
@@ -28,12 +28,13 @@ Status check_frame_count(const std::string& output, OutputKind kind, std::size_t
                  " frames do not fit one image; give a folder or an .mp4 to -o"};
 }
 
-Status write_frames(const std::string& output, bool force, OutputKind kind, double frames_per_second,
-                    const std::vector<Camera>& cameras, const RenderView& render, Progress& progress) {
-    if (kind == OutputKind::video) return write_view_video(output, frames_per_second, cameras, render, progress);
-    if (kind == OutputKind::folder) return write_folder(output, force, cameras, render, progress);
+Status write_frames(const FrameOutput& output, const std::vector<Camera>& cameras, const RenderView& render,
+                    Progress& progress) {
+    if (output.kind == OutputKind::video)
+        return write_view_video(output.path, output.frames_per_second, cameras, render, progress);
+    if (output.kind == OutputKind::folder) return write_folder(output, cameras, render, progress);
     RS_ASSIGN_OR_RETURN(const Image<Rgba8> frame, render(cameras.front()));
-    return write_png(output, frame);
+    return write_png(output.path, frame);
 }
 
 }  // namespace rs::compositor

@@ -15,10 +15,16 @@ namespace rs::compositor {
 /// Fails if several frames would be written into one image.
 Status check_frame_count(const std::string& output, OutputKind kind, std::size_t frames);
 
+struct FrameOutput {
+    std::string path;
+    OutputKind kind = OutputKind::folder;
+    bool force = false;             // of StagedFolder
+    double frames_per_second = 30;  // of a video
+};
+
 /// Renders the cameras in order and writes them to `output`. A folder also gets the cameras (transforms.json).
-/// \param force of StagedFolder
-Status write_frames(const std::string& output, bool force, OutputKind kind, double frames_per_second,
-                    const std::vector<Camera>& cameras, const RenderView& render, Progress& progress);
+Status write_frames(const FrameOutput& output, const std::vector<Camera>& cameras, const RenderView& render,
+                    Progress& progress);
 
 /// Shows the progress of several frames by frame, and that of a single traced frame by pass.
 class FrameProgress {

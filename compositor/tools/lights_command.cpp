@@ -1,4 +1,3 @@
-#include "compositor/lighting/light_warnings.hpp"
 #include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/tools/commands.hpp"
 #include "compositor/tools/scene_options.hpp"
@@ -15,9 +14,7 @@ struct LightsOptions {
 };
 
 Status run_lights(const LightsOptions& options) {
-    RS_ASSIGN_OR_RETURN(const Scene scene, load_scene(options.scene));
-    print_warnings(light_warnings(scene));
-    RS_TRY(check_outputs(options.scene, scene, {options.output}));
+    RS_ASSIGN_OR_RETURN(const Scene scene, open_scene(options.scene, {.outputs = {options.output}}));
     return write_light_list(lights_as_list(scene), options.output);
 }
 

@@ -1,20 +1,64 @@
-#include "compositor/lighting/light_warnings.hpp"
 #include "compositor/tools/camera_options.hpp"
 #include "compositor/tools/commands.hpp"
 #include "compositor/tools/drawing_options.hpp"
 #include "compositor/tools/headless_renderer.hpp"
-#include "compositor/tools/replaced_flags.hpp"
 #include "compositor/tools/scene_options.hpp"
 #include "compositor/tools/tracing_options.hpp"
+#include "compositor/viewer/views/framing.hpp"
 #include "compositor/window/visit.hpp"
 #include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <memory>
+#include <string_view>
+#include <vector>
 
 namespace rs::compositor {
 namespace {
+
+// Flag of rs-view before 0.41 that is an option of a subcommand now.
+struct ReplacedFlag {
+    std::string_view flag;
+    std::string_view subcommand;
+};
+
+// The flags that selected a mode come first: of several that are given, the first one in this list is named.
+constexpr std::array kReplacedFlags{
+    ReplacedFlag{"--sequence", "sequence FOLDER"},
+    ReplacedFlag{"--walls", "walls SCENE --display PRESET|FILE.json"},
+    ReplacedFlag{"--quilt", "quilt SCENE --layout COLSxROWS"},
+    ReplacedFlag{"--probe", "probe SCENE --position X,Y,Z"},
+    ReplacedFlag{"--save-lights", "lights SCENE -o FILE.json"},
+    ReplacedFlag{"--plan", "tile plan SCENE -o FILE.json"},
+    ReplacedFlag{"--tile", "tile trace SCENE --tile F:X,Y,WxH"},
+    ReplacedFlag{"--tiles", "tile assemble SCENE --tiles FOLDER"},
+    ReplacedFlag{"-o", "render SCENE -o FILE"},
+    ReplacedFlag{"--output", "render SCENE -o FILE"},
+    ReplacedFlag{"--headless", "render SCENE -o FILE"},
+    ReplacedFlag{"--path", "render SCENE --path FILE.json -o FILE"},
+    ReplacedFlag{"--orbit", "render SCENE --orbit N -o FILE"},
+    ReplacedFlag{"--passes", "render SCENE --passes N -o FILE"},
+    ReplacedFlag{"--seconds", "render SCENE --seconds S -o FILE"},
+    ReplacedFlag{"--streaming", "render SCENE --streaming -o FILE"},
+    ReplacedFlag{"--upright", "render SCENE --upright -o FILE"},
+    ReplacedFlag{"--stats", "render SCENE --stats FILE.json -o FILE"},
+};
+
+// Throws a CLI::ParseError if `arguments`, which `rs-view open` does not know, is not empty. The message names the
+// subcommand that has the option.
+void refuse_unknown_arguments(const std::vector<std::string>& arguments) {
+    if (arguments.empty()) return;
+    for (const ReplacedFlag& replaced : kReplacedFlags) {
+        const bool is_given = std::ranges::any_of(arguments, [&](const std::string& argument) {
+            return std::string_view(argument).substr(0, argument.find('=')) == replaced.flag;
+        });
+        if (!is_given) continue;
+        throw CLI::ValidationError(std::string(replaced.flag) + " is not an option of 'rs-view open'; use 'rs-view " +
+                                   std::string(replaced.subcommand) + "'");
+    }
+    throw CLI::ExtrasError("open", arguments);
+}
 
 struct OpenOptions {
     SceneOptions scene;
@@ -46,10 +90,7 @@ Status show_in_window(Window window, const OpenOptions& options, LoadedScene loa
     if (options.scene.lights) visit_options.lights = *options.scene.lights;
     visit_options.executor = loaded.executor.name;
     visit_options.warn = print_warnings;
-    Viewpoint begin;
-    begin.world_from_camera = first.world_from_camera;
-    begin.field_of_view_rad = 2 * std::atan(0.5 * std::min(first.width, first.height) / first.fl_y);
-    visit_options.viewpoints = {begin};
+    visit_options.viewpoints = {viewpoint_of(first)};
     visit_options.viewpoints.insert(visit_options.viewpoints.end(), loaded.scene.viewpoints.begin(),
                                     loaded.scene.viewpoints.end());
     return visit(std::move(window), loaded.scene, std::move(loaded.showroom), visit_options);
@@ -72,8 +113,7 @@ Status write_first_view(const std::string& file, const OpenOptions& options, con
 
 Status run_open(const OpenOptions& options) {
     RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
-    RS_ASSIGN_OR_RETURN(Scene scene, load_scene(options.scene));
-    print_warnings(light_warnings(scene));
+    RS_ASSIGN_OR_RETURN(Scene scene, open_scene(options.scene, {}));
     Result<Window> window =
         Window::create({.title = scene_name(options.scene), .width = size.width, .height = size.height});
     std::string file;

@@ -21,7 +21,7 @@ struct ProbeOptions {
 Status run_probe(const ProbeOptions& options) {
     RS_ASSIGN_OR_RETURN(const Triple position, parse_triple(options.position, "--position"));
     RS_ASSIGN_OR_RETURN(const Scene scene, load_scene(options.scene));
-    RS_TRY(check_outputs(options.scene, scene, {options.output}));
+    RS_TRY(check_outputs(options.scene, scene, {.outputs = {options.output}}));
     const Result<TracedRenderer> tracer = TracedRenderer::create(scene, {}, {});
     if (!tracer) return Error{scene_name(options.scene) + ": " + tracer.error().message};
     print_warnings(tracer->warnings());

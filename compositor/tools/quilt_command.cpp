@@ -1,5 +1,4 @@
 #include "compositor/displays/quilt.hpp"
-#include "compositor/lighting/light_warnings.hpp"
 #include "compositor/tools/camera_options.hpp"
 #include "compositor/tools/commands.hpp"
 #include "compositor/tools/drawing_options.hpp"
@@ -103,11 +102,10 @@ Status write_quilts(const std::string& output, bool force, const QuiltLayout& la
 Status run_quilt(const QuiltOptions& options) {
     RS_ASSIGN_OR_RETURN(const PixelSize tile, parse_size(options.tile_size));
     RS_ASSIGN_OR_RETURN(const QuiltLayout layout, parse_quilt(options.layout, tile.width, tile.height, "--layout"));
-    RS_ASSIGN_OR_RETURN(Scene scene, load_scene(options.scene));
-    print_warnings(light_warnings(scene));
+    RS_ASSIGN_OR_RETURN(Scene scene, open_scene(options.scene, {.outputs = {options.output},
+                                                                .inputs = {options.motion.path.value_or("")}}));
     RS_ASSIGN_OR_RETURN(const OutputKind kind, output_kind(options.output));
     if (kind == OutputKind::video) return Error{options.output + ": quilts go into a .png or a folder"};
-    RS_TRY(check_outputs(options.scene, scene, {options.output}, {options.motion.path.value_or("")}));
     RS_ASSIGN_OR_RETURN(const LoadedScene loaded,
                         load_objects(std::move(scene), options.drawing.object_depth, options.executor, true));
     RS_ASSIGN_OR_RETURN(const std::vector<Camera> cameras,

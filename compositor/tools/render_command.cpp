@@ -1,4 +1,3 @@
-#include "compositor/lighting/light_warnings.hpp"
 #include "compositor/tools/camera_options.hpp"
 #include "compositor/tools/commands.hpp"
 #include "compositor/tools/drawing_options.hpp"
@@ -34,11 +33,9 @@ struct RenderOptions {
 
 Status run_render(const RenderOptions& options) {
     RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
-    RS_ASSIGN_OR_RETURN(Scene scene, load_scene(options.scene));
-    print_warnings(light_warnings(scene));
+    RS_ASSIGN_OR_RETURN(Scene scene, open_scene(options.scene, {.outputs = {options.output, options.stats.value_or("")},
+                                                                .inputs = {options.motion.path.value_or("")}}));
     RS_ASSIGN_OR_RETURN(const OutputKind kind, output_kind(options.output));
-    RS_TRY(check_outputs(options.scene, scene, {options.output, options.stats.value_or("")},
-                         {options.motion.path.value_or("")}));
     RS_ASSIGN_OR_RETURN(const LoadedScene loaded, load_objects(std::move(scene), options.drawing.object_depth,
                                                                options.executor, !options.streaming));
     RS_ASSIGN_OR_RETURN(const std::vector<Camera> cameras,
@@ -57,8 +54,9 @@ Status run_render(const RenderOptions& options) {
     RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     progress.start();
     const RenderView render = [&](const Camera& camera) { return renderer.render(camera); };
-    RS_TRY(write_frames(options.output, options.force, kind, options.frames_per_second, cameras, render,
-                        progress.of_frames()));
+    const FrameOutput output{
+        .path = options.output, .kind = kind, .force = options.force, .frames_per_second = options.frames_per_second};
+    RS_TRY(write_frames(output, cameras, render, progress.of_frames()));
     progress.finish();
     if (!options.streaming) renderer.warn_of_missing_objects(options.executor.memory_mib);
     return options.stats ? write_file(*options.stats, renderer.times().to_json(*loaded.showroom)) : Status();
@@ -70,7 +68,7 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
     auto options = std::make_shared<RenderOptions>();
     CLI::App* command =
         app.add_subcommand("render", "Render an image, a video or a folder of frames, without a window");
-    command->get_help_ptr()->group("");  // the list has to fit on a screen
+    hide_help_option(*command);
     add_scene_options(*command, options->scene);
     command->add_option("-o,--output", options->output, "FILE.png, FILE.mp4 or a folder")->required()->type_name("");
     add_view_options(*command, options->view);

@@ -1,8 +1,8 @@
 #include "compositor/tools/scene_options.hpp"
 
+#include "compositor/lighting/light_warnings.hpp"
 #include "compositor/scene/light/scene_lights.hpp"
-#include "compositor/scene/normal_map.hpp"
-#include "compositor/scene/object_argument.hpp"
+#include "compositor/scene/material.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -42,6 +42,10 @@ void add_scene_without_objects_options(CLI::App& command, SceneOptions& options)
     add_lights_option(command, options);
 }
 
+void hide_help_option(CLI::App& command) {
+    command.get_help_ptr()->group("");
+}
+
 void check_scene_options(const SceneOptions& options) {
     if (!options.scene && options.objects.empty()) {
         throw CLI::ValidationError("nothing to show; give a scene file or --object FILE.rso");
@@ -69,9 +73,8 @@ Result<Scene> load_scene(const SceneOptions& options) {
     return scene;
 }
 
-Status check_outputs(const SceneOptions& options, const Scene& scene, const std::vector<std::filesystem::path>& outputs,
-                     std::vector<std::filesystem::path> others) {
-    std::vector<std::filesystem::path> used = std::move(others);
+Status check_outputs(const SceneOptions& options, const Scene& scene, const CommandFiles& files) {
+    std::vector<std::filesystem::path> used = files.inputs;
     for (const auto& file : {options.scene, options.lights}) {
         if (file) used.emplace_back(*file);
     }
@@ -85,11 +88,18 @@ Status check_outputs(const SceneOptions& options, const Scene& scene, const std:
     }
     std::ranges::sort(used);  // nodes share textures
     used.erase(std::unique(used.begin(), used.end()), used.end());
-    for (const std::filesystem::path& output : outputs) {
+    for (const std::filesystem::path& output : files.outputs) {
         RS_TRY(refuse_overwriting_inputs(output, used));
         used.push_back(output);
     }
     return {};
+}
+
+Result<Scene> open_scene(const SceneOptions& options, const CommandFiles& files) {
+    RS_ASSIGN_OR_RETURN(Scene scene, load_scene(options));
+    print_warnings(light_warnings(scene));
+    RS_TRY(check_outputs(options, scene, files));
+    return scene;
 }
 
 std::string scene_name(const SceneOptions& options) {

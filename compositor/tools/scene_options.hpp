@@ -23,6 +23,8 @@ struct SceneOptions {
 void add_scene_options(CLI::App& command, SceneOptions& options);
 /// Adds SCENE, required, and --lights, for subcommands that do not draw objects.
 void add_scene_without_objects_options(CLI::App& command, SceneOptions& options);
+/// Omits -h from the options that --help lists, for lists that would not fit on a screen.
+void hide_help_option(CLI::App& command);
 /// Throws CLI::ValidationError if neither a scene nor an object is given.
 void check_scene_options(const SceneOptions& options);
 
@@ -30,9 +32,17 @@ void check_scene_options(const SceneOptions& options);
 /// scene's warnings.
 Result<Scene> load_scene(const SceneOptions& options);
 
-/// Refuses outputs that would overwrite a file of the scene or of its options, one of `others`, or one another.
-Status check_outputs(const SceneOptions& options, const Scene& scene, const std::vector<std::filesystem::path>& outputs,
-                     std::vector<std::filesystem::path> others = {});
+/// Files of a subcommand in addition to those of its scene. Empty names stand for options that are not given.
+struct CommandFiles {
+    std::vector<std::filesystem::path> outputs;
+    std::vector<std::filesystem::path> inputs = {};
+};
+
+/// Refuses outputs that would overwrite a file of the scene or of its options, an input, or one another.
+Status check_outputs(const SceneOptions& options, const Scene& scene, const CommandFiles& files);
+
+/// load_scene(), then prints the warnings about the scene's lights (light_warnings.hpp) and checks the outputs.
+Result<Scene> open_scene(const SceneOptions& options, const CommandFiles& files);
 
 /// The scene's file name for messages and titles; "rs-view" if there is none.
 std::string scene_name(const SceneOptions& options);

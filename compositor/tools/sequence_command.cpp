@@ -6,6 +6,7 @@
 #include "compositor/tools/drawing_options.hpp"
 #include "compositor/tools/scene_options.hpp"
 #include "compositor/tools/tracing_options.hpp"
+#include "compositor/viewer/views/framing.hpp"
 #include "compositor/window/visit.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
@@ -16,9 +17,7 @@
 #include "rayspace/output/view_output.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -173,7 +172,7 @@ Status render_sequence(const SequenceOptions& options) {
     if (kind == SequenceOutput::kVideo) {
         RS_TRY(check_video(opened, folder));
     }
-    RS_TRY(check_outputs({}, opened.sequence->scene, {output}, {folder}));
+    RS_TRY(check_outputs({}, opened.sequence->scene, {.outputs = {output}, .inputs = {folder}}));
     RS_ASSIGN_OR_RETURN(const gl::Context context, gl::Context::create_surfaceless());
     RS_TRY(start_player(options, opened));
     ProgressBar progress(options.quiet);
@@ -259,11 +258,7 @@ Status show_sequence(const SequenceOptions& options, PixelSize size, const std::
     visit_options.traced = options.renderer.method().has_value();
     visit_options.warn = print_warnings;
     visit_options.open = [&next](const std::string& folder) { next = folder; };
-    const Camera first = camera_of(*sequence, 0, size.width, size.height);
-    Viewpoint begin;
-    begin.world_from_camera = first.world_from_camera;
-    begin.field_of_view_rad = 2 * std::atan(0.5 * std::min(first.width, first.height) / first.fl_y);
-    visit_options.viewpoints = {begin};
+    visit_options.viewpoints = {viewpoint_of(camera_of(*sequence, 0, size.width, size.height))};
     const Scene scene =
         visit_options.weather ? apply_weather(sequence->scene, *visit_options.weather) : sequence->scene;
     auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.memory_bytes = options.memory_mib << 20});

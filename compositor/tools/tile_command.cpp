@@ -5,7 +5,6 @@
 // Tiles hold the traced image alone; `assemble` draws objects and blended surfaces over it. The frames equal those of
 // `rs-view render` with the same options.
 
-#include "compositor/lighting/light_warnings.hpp"
 #include "compositor/tools/camera_options.hpp"
 #include "compositor/tools/commands.hpp"
 #include "compositor/tools/drawing_options.hpp"
@@ -113,9 +112,8 @@ struct OpenFrames {
 // Opens the scene of the frames; refuses to write `output` over an input.
 Result<OpenFrames> open_frames(const TiledFrames& options, const std::string& output, const std::string& tiles = "") {
     RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
-    RS_ASSIGN_OR_RETURN(Scene scene, load_scene(options.scene));
-    print_warnings(light_warnings(scene));
-    RS_TRY(check_outputs(options.scene, scene, {output}, {options.motion.path.value_or(""), tiles}));
+    RS_ASSIGN_OR_RETURN(Scene scene, open_scene(options.scene, {.outputs = {output},
+                                                                .inputs = {options.motion.path.value_or(""), tiles}}));
     RS_ASSIGN_OR_RETURN(LoadedScene loaded,
                         load_objects(std::move(scene), options.drawing.object_depth, options.executor, true));
     RS_ASSIGN_OR_RETURN(std::vector<Camera> cameras,
@@ -208,8 +206,9 @@ Status run_assemble(const AssembleOptions& options) {
     FrameProgress progress(tiled.quiet, cameras.size(), false);
     progress.start();
     const RenderView render = [&](const Camera& camera) { return renderer.render(camera); };
-    RS_TRY(write_frames(options.output, options.force, kind, options.frames_per_second, cameras, render,
-                        progress.of_frames()));
+    const FrameOutput output{
+        .path = options.output, .kind = kind, .force = options.force, .frames_per_second = options.frames_per_second};
+    RS_TRY(write_frames(output, cameras, render, progress.of_frames()));
     progress.finish();
     renderer.warn_of_missing_objects(tiled.executor.memory_mib);
     return {};

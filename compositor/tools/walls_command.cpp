@@ -1,5 +1,4 @@
 #include "compositor/displays/stereo_image.hpp"
-#include "compositor/lighting/light_warnings.hpp"
 #include "compositor/tools/camera_options.hpp"
 #include "compositor/tools/commands.hpp"
 #include "compositor/tools/drawing_options.hpp"
@@ -79,21 +78,25 @@ Status render_walls(const WallsOptions& options, const WallViews& views, const L
     return {};
 }
 
+CommandFiles files_of(const WallsOptions& options) {
+    CommandFiles files;
+    if (options.walls.output) files.outputs = {*options.walls.output};
+    files.inputs = {options.motion.path.value_or("")};
+    for (const std::string& name : {options.walls.display, options.walls.heads.value_or("")}) {
+        std::error_code ignored;  // or the name of a preset, or a port
+        if (std::filesystem::is_regular_file(name, ignored)) files.inputs.emplace_back(name);
+    }
+    return files;
+}
+
 Status run_walls(const WallsOptions& options) {
     constexpr PixelSize kSizeOfVisitor{1280, 720};  // its aspect matters where the view is framed to show everything
-    RS_ASSIGN_OR_RETURN(Scene scene, load_scene(options.scene));
-    print_warnings(light_warnings(scene));
+    RS_ASSIGN_OR_RETURN(Scene scene, open_scene(options.scene, files_of(options)));
     if (options.walls.output) {
         RS_ASSIGN_OR_RETURN(const OutputKind kind, output_kind(*options.walls.output));
         if (kind != OutputKind::folder) {
             return Error{*options.walls.output + ": walls go into a folder; give a folder to -o"};
         }
-        std::vector<std::filesystem::path> others{options.motion.path.value_or("")};
-        for (const std::string& name : {options.walls.display, options.walls.heads.value_or("")}) {
-            std::error_code ignored;  // or the name of a preset, or a port
-            if (std::filesystem::is_regular_file(name, ignored)) others.emplace_back(name);
-        }
-        RS_TRY(check_outputs(options.scene, scene, {*options.walls.output}, std::move(others)));
     }
     RS_ASSIGN_OR_RETURN(PixelSize size, options.walls.size ? parse_size(*options.walls.size) : kSizeOfVisitor);
     RS_ASSIGN_OR_RETURN(LoadedScene loaded, load_objects(std::move(scene), options.drawing.object_depth,
@@ -146,7 +149,7 @@ void add_walls_command(CLI::App& app, std::function<Status()>& run) {
     auto options = std::make_shared<WallsOptions>();
     CLI::App* command = app.add_subcommand(
         "walls", "Project a scene off-axis onto the walls of a CAVE or a power wall, in windows or images");
-    command->get_help_ptr()->group("");  // the list has to fit on a screen
+    hide_help_option(*command);
     add_scene_options(*command, options->scene);
     command->add_option("-o,--output", options->walls.output, "folder for an image per wall; without, windows")
         ->type_name("FOLDER");

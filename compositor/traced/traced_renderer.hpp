@@ -80,7 +80,6 @@ public:
     /// Adds one sample per pixel.
     /// \return false, with nothing changed, if `stop` became true before.
     bool add_pass(Progress* progress = nullptr, const std::atomic<bool>* stop = nullptr);
-    [[nodiscard]] std::int64_t steps_of_pass() const { return capture::Tracer::step_count(camera_); }
     [[nodiscard]] int passes() const { return sum_.samples; }
 
     /// Image with one sample per side x side pixels, which does not count as a pass.

@@ -1,7 +1,7 @@
 #include "compositor/traced/tracer_scene.hpp"
 
 #include "capture/tracer/scene/flatten.hpp"
-#include "compositor/scene/normal_map.hpp"
+#include "compositor/scene/material.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "rayspace/light/directions.hpp"

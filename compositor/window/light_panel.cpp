@@ -1,6 +1,6 @@
 #include "compositor/window/light_panel.hpp"
 
-#include "compositor/lighting/number_step.hpp"
+#include "compositor/lighting/light_edits.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/light/light_model.hpp"
 

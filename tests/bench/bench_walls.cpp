@@ -10,7 +10,6 @@
 #include "compositor/displays/quilt.hpp"
 #include "compositor/displays/walls_file.hpp"
 #include "compositor/gl/context.hpp"
-#include "compositor/scene/object_argument.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Conversion of Assimp's materials. Private to the model reader; not thread-safe.
 
-#include "compositor/scene/normal_map.hpp"
+#include "compositor/scene/material.hpp"
 #include "compositor/scene/scene_images.hpp"
 
 #include <filesystem>

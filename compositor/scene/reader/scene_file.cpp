@@ -7,10 +7,13 @@
 #include "rayspace/image/linear_light.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <initializer_list>
 #include <optional>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 namespace rs::compositor {
 namespace {
@@ -170,6 +173,20 @@ CameraPath read_camera(JsonObject object) {
     return path;
 }
 
+// False unless the text consists of finite numbers separated by commas.
+bool parse_numbers(std::string_view text, std::vector<double>& numbers) {
+    while (true) {
+        double number = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+        if (error != std::errc{} || !(std::abs(number) <= kMaxCoordinate)) return false;
+        numbers.push_back(number);
+        text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+        if (text.empty()) return true;
+        if (text.front() != ',') return false;
+        text.remove_prefix(1);
+    }
+}
+
 }  // namespace
 
 Result<Scene> scene_from_json(const std::string& text, const std::filesystem::path& path) {
@@ -198,6 +215,32 @@ Result<Scene> read_scene(const std::filesystem::path& path) {
     }
     RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(path, kMaxScene_bytes));
     return scene_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);
+}
+
+Result<RaySpaceNode> parse_object_argument(const std::string& text, const glm::dvec3& otherwise) {
+    RaySpaceNode node;
+    node.required = true;
+    NodeTransform transform;
+    transform.translation = otherwise;
+    const std::size_t sign = text.rfind('@');
+    std::error_code ignored;
+    if (sign == std::string::npos || std::filesystem::exists(text, ignored)) {
+        node.file = text;
+    } else {
+        node.file = text.substr(0, sign);
+        std::vector<double> numbers;
+        if (!parse_numbers(std::string_view(text).substr(sign + 1), numbers) || numbers.size() < 3 ||
+            numbers.size() > 5) {
+            return Error{
+                text + ": is not an object with a position; write FILE.rso@X,Y,Z or FILE.rso@X,Y,Z,TURN_DEGREES,SCALE"};
+        }
+        transform.translation = {numbers[0], numbers[1], numbers[2]};
+        if (numbers.size() > 3) transform.angle_rad = radians(numbers[3]);
+        if (numbers.size() > 4) transform.scale = numbers[4];
+        if (!(transform.scale >= kMinPositive)) return Error{text + ": the scale must be above 0"};
+    }
+    node.chain = {transform};
+    return node;
 }
 
 }  // namespace rs::compositor

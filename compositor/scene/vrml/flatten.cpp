@@ -1,10 +1,7 @@
 #include "compositor/scene/vrml/flatten.hpp"
 
-#include "compositor/scene/vrml/appearance.hpp"
-#include "compositor/scene/vrml/shape_lists.hpp"
-#include "compositor/scene/vrml/surroundings_nodes.hpp"
-#include "compositor/scene/vrml/triangulate.hpp"
-#include "compositor/scene/vrml/x3d_shapes.hpp"
+#include "compositor/scene/vrml/node_conversion.hpp"
+#include "compositor/scene/vrml/shapes.hpp"
 #include "rayspace/base/printable.hpp"
 
 #include <algorithm>

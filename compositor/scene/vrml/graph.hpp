@@ -1,7 +1,7 @@
 #pragma once
 // Node graph of VRML97 text, or of X3D in classic encoding, with PROTO expanded and DEF and USE resolved.
 //
-//   file -> read_graph -> flatten.hpp (shapes are cut into triangles by Coin: triangulate.hpp) -> Scene
+//   file -> read_graph -> flatten.hpp (shapes are cut into triangles by Coin: shapes.hpp) -> Scene
 
 #include "compositor/scene/vrml/node_table.hpp"
 #include "rayspace/base/result.hpp"

@@ -1,4 +1,6 @@
-#include "compositor/scene/vrml/shape_lists.hpp"
+// Checks of geometry nodes.
+
+#include "compositor/scene/vrml/shapes.hpp"
 
 #include <algorithm>
 #include <cmath>

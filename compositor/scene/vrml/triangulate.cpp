@@ -1,4 +1,6 @@
-#include "compositor/scene/vrml/triangulate.hpp"
+// Triangulation of geometry nodes by Coin.
+
+#include "compositor/scene/vrml/shapes.hpp"
 
 #include "compositor/scene/vrml/node_table.hpp"
 #include "rayspace/image/linear_light.hpp"

@@ -1,4 +1,6 @@
-#include "compositor/scene/vrml/x3d_shapes.hpp"
+// Conversion of X3D's additional shapes to those of VRML97.
+
+#include "compositor/scene/vrml/shapes.hpp"
 
 #include "rayspace/base/conventions.hpp"
 

@@ -1,6 +1,6 @@
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 
-#include "compositor/scene/light/raster_lights.hpp"
+#include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/viewer/views/engine_views.hpp"
 
 #include <utility>
@@ -44,9 +44,13 @@ Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::sha
     RS_ASSIGN_OR_RETURN(auto geometry, LitGeometry::create(scene, *nodes, options.shadows));
     RS_ASSIGN_OR_RETURN(auto passes, make_passes(scene, nodes->size(), options.object_depth));
     RS_ASSIGN_OR_RETURN(auto target, FrameTarget::create(options.width, options.height, options.samples));
-    return FrameCompositor(scene, std::move(engine),
-                           ObjectNodes(std::move(nodes), options.object_samples, options.upright_images),
-                           std::move(background), std::move(geometry), std::move(target), std::move(passes), options);
+    Parts parts{.engine = std::move(engine),
+                .nodes = ObjectNodes(std::move(nodes), options.object_samples, options.upright_images),
+                .background = std::move(background),
+                .geometry = std::move(geometry),
+                .target = std::move(target),
+                .passes = std::move(passes)};
+    return FrameCompositor(std::move(parts), scene.fog, options);
 }
 
 Result<FrameCompositor> FrameCompositor::create(const Scene& scene, const std::vector<PlacedObject>& objects,
@@ -56,16 +60,14 @@ Result<FrameCompositor> FrameCompositor::create(const Scene& scene, const std::v
     return create(scene, engine, std::move(nodes), options);
 }
 
-FrameCompositor::FrameCompositor(const Scene& scene, std::shared_ptr<engine::RenderSession> engine, ObjectNodes nodes,
-                                 BackgroundRenderer background, LitGeometry geometry, FrameTarget target, Passes passes,
-                                 const FrameOptions& options)
-    : engine_(std::move(engine)),
-      nodes_(std::move(nodes)),
-      background_(std::move(background)),
-      geometry_(std::move(geometry)),
-      target_(std::move(target)),
-      passes_(std::move(passes)),
-      fog_(scene.fog),
+FrameCompositor::FrameCompositor(Parts parts, const std::optional<Fog>& fog, const FrameOptions& options)
+    : engine_(std::move(parts.engine)),
+      nodes_(std::move(parts.nodes)),
+      background_(std::move(parts.background)),
+      geometry_(std::move(parts.geometry)),
+      target_(std::move(parts.target)),
+      passes_(std::move(parts.passes)),
+      fog_(fog),
       wire_frame_(options.wire_frame),
       time_parts_(options.time_parts),
       samples_(options.samples) {}

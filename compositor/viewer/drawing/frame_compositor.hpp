@@ -15,19 +15,12 @@
 #include "compositor/viewer/drawing/background_renderer.hpp"
 #include "compositor/viewer/drawing/displayed_nodes.hpp"
 #include "compositor/viewer/drawing/frame_statistics.hpp"
-#include "compositor/viewer/drawing/frame_target.hpp"
 #include "compositor/viewer/drawing/lit_geometry.hpp"
 #include "compositor/viewer/drawing/object_nodes.hpp"
-#include "compositor/viewer/drawing/passes/blend_pass.hpp"
-#include "compositor/viewer/drawing/passes/depth_pass.hpp"
-#include "compositor/viewer/drawing/passes/object_pass.hpp"
-#include "compositor/viewer/drawing/passes/object_request_pass.hpp"
-#include "compositor/viewer/drawing/passes/opaque_pass.hpp"
-#include "compositor/viewer/drawing/passes/overlay_pass.hpp"
-#include "compositor/viewer/drawing/passes/shadow_map_pass.hpp"
-#include "compositor/viewer/drawing/passes/traced_underlay_pass.hpp"
-#include "compositor/viewer/drawing/passes/transparent_pass.hpp"
-#include "compositor/viewer/drawing/passes/weather_pass.hpp"
+#include "compositor/viewer/drawing/passes/blend_passes.hpp"
+#include "compositor/viewer/drawing/passes/frame_context.hpp"
+#include "compositor/viewer/drawing/passes/geometry_passes.hpp"
+#include "compositor/viewer/drawing/passes/object_passes.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
 #include "compositor/viewer/views/object_view.hpp"
 #include "engine/driver/render_session.hpp"
@@ -150,9 +143,15 @@ private:
         OverlayPass overlay;
     };
     static Result<Passes> make_passes(const Scene& scene, std::size_t nodes, ObjectDepth depth);
-    FrameCompositor(const Scene& scene, std::shared_ptr<engine::RenderSession> engine, ObjectNodes nodes,
-                    BackgroundRenderer background, LitGeometry geometry, FrameTarget target, Passes passes,
-                    const FrameOptions& options);
+    struct Parts {
+        std::shared_ptr<engine::RenderSession> engine;
+        ObjectNodes nodes;
+        BackgroundRenderer background;
+        LitGeometry geometry;
+        FrameTarget target;
+        Passes passes;
+    };
+    FrameCompositor(Parts parts, const std::optional<Fog>& fog, const FrameOptions& options);
 
     [[nodiscard]] FrameContext context_of(const Camera& camera);
     Status draw(const Camera& camera, bool needs_depths);

@@ -18,7 +18,7 @@
 namespace rs::compositor {
 
 /// Requires a current gl::Context that outlives it; single-threaded, move-only. Scenes contain raster lights
-/// (raster_lights.hpp).
+/// (scene_lights.hpp).
 class LitGeometry {
 public:
     static Result<LitGeometry> create(const Scene& scene, const DisplayedNodes& nodes, bool shadows);

@@ -1,6 +1,6 @@
 #include "compositor/viewer/drawing/surface_renderer.hpp"
 
-#include "compositor/scene/normal_map.hpp"
+#include "compositor/scene/material.hpp"
 #include "compositor/viewer/drawing/geometry_shaders.hpp"
 #include "compositor/viewer/shadows/shadow_shaders.hpp"
 

@@ -63,7 +63,6 @@ public:
 
     /// Number of meshes and images uploaded since create().
     [[nodiscard]] int uploads() const { return uploads_; }
-    [[nodiscard]] int shader_count() const { return static_cast<int>(programs_.size()); }
 
     /// Draws the shadow casters into the current map: opaque surfaces with their alpha masks, culled as in the image.
     void draw_casters(const ShadowPass& pass) const;

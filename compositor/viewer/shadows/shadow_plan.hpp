@@ -68,7 +68,7 @@ bool casts_shadows(const GeometryNode& node);
 /// Bounds of all possible casters in scene coordinates; objects with an upper bound of their size.
 BoundingBox bounds_of_casters(const Scene& scene);
 
-/// \param scene contains raster lights (raster_lights.hpp).
+/// \param scene contains raster lights (scene_lights.hpp).
 /// \param casters bounds of all shadow casters in scene coordinates; empty if there are none.
 ShadowPlan plan_shadows(const Scene& scene, const BoundingBox& casters);
 

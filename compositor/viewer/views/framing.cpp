@@ -73,6 +73,13 @@ Camera camera_at(const Viewpoint& viewpoint, int width, int height) {
     return camera;
 }
 
+Viewpoint viewpoint_of(const Camera& camera) {
+    Viewpoint viewpoint;
+    viewpoint.world_from_camera = camera.world_from_camera;
+    viewpoint.field_of_view_rad = 2 * std::atan(0.5 * std::min(camera.width, camera.height) / camera.fl_y);
+    return viewpoint;
+}
+
 CameraPose pose_at(const Viewpoint& viewpoint, const BoundingBox& bounds) {
     const glm::dvec3 eye(viewpoint.world_from_camera[3]);
     const glm::dvec3 ahead = -glm::dvec3(viewpoint.world_from_camera[2]);

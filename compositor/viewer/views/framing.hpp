@@ -23,6 +23,9 @@ CameraPose framing_pose(const BoundingBox& bounds, double fov_x_rad, double aspe
 /// requires.
 Camera camera_at(const Viewpoint& viewpoint, int width, int height);
 
+/// Viewpoint of a camera with square pixels and a centred principal point: the inverse of camera_at().
+Viewpoint viewpoint_of(const Camera& camera);
+
 /// Eye of the viewpoint, and the point straight ahead at the distance of the box's centre.
 CameraPose pose_at(const Viewpoint& viewpoint, const BoundingBox& bounds);
 

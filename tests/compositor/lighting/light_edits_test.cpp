@@ -2,7 +2,6 @@
 
 #include "compositor/lighting/light_edits.hpp"
 #include "compositor/lighting/light_warnings.hpp"
-#include "compositor/lighting/number_step.hpp"
 
 #include <gtest/gtest.h>
 

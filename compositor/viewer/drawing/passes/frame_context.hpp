@@ -1,17 +1,18 @@
 #pragma once
 // State of one frame, shared by its passes. Each pass reads the results of the passes before it.
 
+#include "compositor/gl/framebuffer.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/scene/weather.hpp"
 #include "compositor/viewer/drawing/background_renderer.hpp"
 #include "compositor/viewer/drawing/frame_statistics.hpp"
-#include "compositor/viewer/drawing/frame_target.hpp"
 #include "compositor/viewer/drawing/lit_geometry.hpp"
 #include "compositor/viewer/drawing/object_nodes.hpp"
 #include "compositor/viewer/drawing/surface_renderer.hpp"
 #include "compositor/viewer/views/engine_views.hpp"
 #include "compositor/viewer/views/object_view.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
+#include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 
 #include <chrono>
@@ -21,6 +22,18 @@
 #include <vector>
 
 namespace rs::compositor {
+
+/// The framebuffers of a frame: a multisampled one that is drawn into, and one that its samples are averaged into.
+struct FrameTarget {
+    gl::Framebuffer drawn;
+    std::optional<gl::Framebuffer> resolved;  // only if `drawn` has several samples per pixel
+
+    /// Fails if the driver cannot create framebuffers of this size.
+    static Result<FrameTarget> create(int width, int height, int samples);
+    /// The framebuffer with one sample per pixel.
+    [[nodiscard]] const gl::Framebuffer& shown() const { return resolved ? *resolved : drawn; }
+    [[nodiscard]] float depth_at(int x, int y) const { return drawn.depth_at(x, y, shown()); }
+};
 
 /// Measures the parts of a frame.
 class PartClock {

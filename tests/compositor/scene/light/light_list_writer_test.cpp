@@ -1,6 +1,5 @@
 // Light lists survive writing and reading, and a scene's own lights survive as lists.
 
-#include "compositor/scene/light/raster_lights.hpp"
 #include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
 #include "compositor/scene/reader/vrml_file.hpp"

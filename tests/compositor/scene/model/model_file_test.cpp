@@ -1,6 +1,6 @@
 #include "compositor/scene/model/model_file.hpp"
 
-#include "compositor/scene/normal_map.hpp"
+#include "compositor/scene/material.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "tests/support/temporary_folder.hpp"
 

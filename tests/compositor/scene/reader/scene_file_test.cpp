@@ -1,6 +1,5 @@
 #include "compositor/scene/reader/scene_file.hpp"
 
-#include "compositor/scene/object_argument.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>

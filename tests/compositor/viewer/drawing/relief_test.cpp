@@ -1,6 +1,6 @@
 // Normal and bump maps, raster and traced. Skipped without OpenGL.
 
-#include "compositor/scene/normal_map.hpp"
+#include "compositor/scene/material.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "tests/compositor/gl_test.hpp"
 #include "tests/compositor/viewer/shadows/shadow_scene.hpp"

@@ -1,6 +1,5 @@
 #pragma once
-// Waits for the engine's images of the visible objects, uploads them, and adds objects and placeholders to the blended
-// draws, each at the depth of its reference plane (object_view.hpp).
+// Passes of ray-space objects: the first requests their images from the engine, the second adds them to the frame.
 
 #include "compositor/viewer/drawing/object_renderer.hpp"
 #include "compositor/viewer/drawing/passes/frame_context.hpp"
@@ -13,6 +12,24 @@
 
 namespace rs::compositor {
 
+/// First pass of a frame: determines which objects are visible and submits their views to the engine, which renders
+/// them while geometry is drawn.
+///
+/// The camera is transformed into each node's coordinates (equation 3); only the pixels that the node can cover are
+/// requested.
+class ObjectRequestPass {
+public:
+    /// \param depths request a depth per pixel
+    explicit ObjectRequestPass(bool depths) : depths_(depths) {}
+    /// Fails if the engine rejects a view; the error names the object.
+    Status run(FrameContext& frame) const;
+
+private:
+    bool depths_;
+};
+
+/// Waits for the engine's images of the visible objects, uploads them, and adds objects and placeholders to the blended
+/// draws, each at the depth of its reference plane (object_view.hpp).
 /// Requires a current gl::Context that outlives it; move-only.
 class ObjectPass {
 public:

@@ -1,9 +1,10 @@
-#include "compositor/viewer/drawing/passes/object_pass.hpp"
+#include "compositor/viewer/drawing/passes/object_passes.hpp"
 
 #include "compositor/gl/draw.hpp"
 #include "engine/core/views/depth_image.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace rs::compositor {
 namespace {
@@ -17,6 +18,18 @@ float fog_transmittance(const std::optional<Fog>& fog, double distance) {
 }
 
 }  // namespace
+
+Status ObjectRequestPass::run(FrameContext& frame) const {
+    std::vector<engine::ViewRequest> requests;
+    for (std::size_t i = 0; i < frame.nodes.size(); ++i) {
+        auto view = frame.nodes.view_of(i, frame.view.camera);
+        if (!view) continue;
+        requests.push_back({frame.nodes[i].handle, view->camera, depths_});
+        frame.visible_nodes.push_back({i, *view});
+    }
+    frame.statistics.nodes_not_seen = static_cast<int>(frame.nodes.size() - frame.visible_nodes.size());
+    return frame.engine_views.submit(std::move(requests));
+}
 
 Result<ObjectPass> ObjectPass::create(std::size_t nodes, ObjectDepth depth) {
     RS_ASSIGN_OR_RETURN(auto objects, ObjectRenderer::create(nodes, depth));
