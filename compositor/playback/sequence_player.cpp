@@ -90,7 +90,6 @@ Status SequencePlayer::make_tracer() {
     }
     RS_ASSIGN_OR_RETURN(auto tracer, TracedRenderer::create(scene_, objects, *options_.tracing));
     if (tracers_made_++ == 0) {
-        for (const std::string& warning : tracer.warnings()) warnings_.push_back(warning);
     }
     tracer_.emplace(std::move(tracer));
     return {};

@@ -15,7 +15,6 @@ Result<std::shared_ptr<TracedRenderer>> make_tracer(const LoadedScene& loaded, c
     RS_ASSIGN_OR_RETURN(const std::vector<PlacedObject> objects, loaded.all_objects());
     Result<TracedRenderer> tracer = TracedRenderer::create(loaded.scene, objects, traced);
     if (!tracer) return Error{name + ": " + tracer.error().message};
-    print_warnings(tracer->warnings());
     return std::make_shared<TracedRenderer>(std::move(*tracer));
 }
 

@@ -24,7 +24,6 @@ Status run_probe(const ProbeOptions& options) {
     RS_TRY(check_outputs(options.scene, scene, {.outputs = {options.output}}));
     const Result<TracedRenderer> tracer = TracedRenderer::create(scene, {}, {});
     if (!tracer) return Error{scene_name(options.scene) + ": " + tracer.error().message};
-    print_warnings(tracer->warnings());
     ProgressBar progress(options.quiet);
     return write_exr(options.output, tracer->probe({position.x, position.y, position.z}, options.passes, progress));
 }

@@ -51,7 +51,6 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
         rays.push_back(std::make_shared<ObjectPrimitive>(object, darker));
         room.scene.primitives.push_back(rays.back());
     }
-    std::vector<Light> lights = room.scene.lights;
     const bool has_emission = std::ranges::any_of(
         room.scene.materials, [](const auto& material) { return material.emission != glm::vec3(0); });
     RS_ASSIGN_OR_RETURN(auto tracer, capture::Tracer::create(std::move(room.scene)));
@@ -67,11 +66,7 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
     renderer.moving_ = std::move(room.moving);
     renderer.has_emission_ = has_emission;
     renderer.objects_ = std::move(rays);
-    renderer.describe_lights(scene, std::move(lights));
-    if (room.unsupported_lights > 0) {
-        renderer.warnings_.push_back(std::to_string(room.unsupported_lights) +
-                                     " lights that shine on parts of the scene only are not traced");
-    }
+    renderer.describe_lights(scene);
     return renderer;
 }
 
@@ -91,36 +86,31 @@ bool TracedRenderer::move(std::uint32_t id, const glm::dmat4& moved, const std::
     return !changed.empty();
 }
 
-void TracedRenderer::describe_lights(const Scene& scene, std::vector<Light> lights) {
+void TracedRenderer::describe_lights(const Scene& scene) {
     render_.ambient = ambient_of(scene);
     render_.show_environment = scene.environment && scene.environment->seen;
-    headlight_ = scene.navigation.headlight && lights.empty() && !scene.environment && !has_emission_;
-    lights_ = std::move(lights);
+    headlight_ = scene.navigation.headlight && scene.lights.empty() && !scene.environment && !has_emission_;
     environment_ = scene.environment ? scene.environment->pixels : nullptr;
 }
 
 void TracedRenderer::set_lights(const Scene& scene, double exposure_ev) {
-    std::vector<Light> lights = traced_lights(scene);
     const auto& pixels = scene.environment ? scene.environment->pixels : nullptr;
     if (pixels != environment_) {
         tracer_.set_environment(traced_environment(scene));
     } else if (pixels) {
         tracer_.set_environment(scene.environment->scale, scene.environment->turn_rad);
     }
-    tracer_.set_lights(lights);
+    tracer_.set_lights(traced_lights(scene), traced_scopes(scene));
     options_.exposure_ev = exposure_ev;
     const auto darker = static_cast<float>(std::exp2(-exposure_ev));
     render_.toon.brightness = darker;
     for (const auto& object : objects_) object->set_brightness(darker);
-    describe_lights(scene, std::move(lights));
+    describe_lights(scene);
 }
 
 void TracedRenderer::begin(const Camera& camera) {
     tracer_.commit();
-    if (!headlight_) return;
-    std::vector<Light> lights = lights_;
-    lights.push_back(headlight_of(camera.forward()));
-    tracer_.set_lights(std::move(lights));
+    if (headlight_) tracer_.set_lights({headlight_of(camera.forward())});
 }
 
 capture::RenderOptions TracedRenderer::render_options(const Camera& camera) const {

@@ -19,7 +19,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace rs::compositor {
@@ -94,15 +93,12 @@ public:
     /// Image for display; filtered for radiosity (discontinuity_filter.hpp).
     [[nodiscard]] Image<Rgba8> image() const;
 
-    /// Messages about unsupported parts of the scene.
-    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
-
 private:
     TracedRenderer(capture::Tracer tracer, const TracedOptions& options)
         : tracer_(std::move(tracer)), options_(options) {}
 
     void begin(const Camera& camera);
-    void describe_lights(const Scene& scene, std::vector<Light> lights);
+    void describe_lights(const Scene& scene);
     [[nodiscard]] capture::RenderOptions render_options(const Camera& camera) const;
     [[nodiscard]] Image<Rgba8> tone_map(Image<RgbaF> radiance) const;
 
@@ -113,10 +109,8 @@ private:
     std::vector<TracerScene::MovableNode> moving_;  // [tracer instance]
     bool has_emission_ = false;                     // some surface is emissive
     bool headlight_ = false;
-    std::vector<Light> lights_;                              // without the headlight
     std::shared_ptr<const Image<RgbaF>> environment_;        // source of the tracer's environment light
     std::vector<std::shared_ptr<ObjectPrimitive>> objects_;  // of the tracer's scene
-    std::vector<std::string> warnings_;
     Camera camera_;
     capture::Accumulation sum_;
 };

@@ -1,6 +1,7 @@
 #include "compositor/traced/tracer_scene.hpp"
 
 #include "capture/tracer/scene/flatten.hpp"
+#include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/scene/material.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <utility>
 
@@ -17,6 +17,10 @@ namespace {
 
 constexpr int kFloorCorners = 96;
 constexpr int kFloorTexels = 64;  // two squares of the checker
+
+bool is_traced(const GeometryNode& node) {
+    return node.mesh->topology == Topology::kTriangles && !is_blended(node.material);
+}
 
 capture::Texture linear_texture(const SceneTexture& from) {
     capture::Texture texture;
@@ -149,9 +153,28 @@ private:
 }  // namespace
 
 std::vector<Light> traced_lights(const Scene& scene) {
-    std::vector<Light> lights;
-    std::ranges::copy_if(scene.lights, std::back_inserter(lights), [](const Light& light) { return light.everywhere; });
+    std::vector<Light> lights = scene.lights;
+    const std::vector<bool> casts_shadows = lights_with_shadows(scene);
+    for (std::size_t i = 0; i < lights.size(); ++i) lights[i].casts_shadows = casts_shadows[i];
     return lights;
+}
+
+capture::LightScopes traced_scopes(const Scene& scene) {
+    capture::LightScopes scopes;
+    if (std::ranges::all_of(scene.lights, &Light::everywhere)) return scopes;
+    scopes.groups.emplace_back();
+    std::map<std::vector<std::uint32_t>, std::uint32_t> known = {{{}, 0}};  // lights -> group
+    for (const GeometryNode& node : scene.geometry) {
+        if (!is_traced(node)) continue;
+        const auto [group, is_new] = known.try_emplace(node.lights, static_cast<std::uint32_t>(scopes.groups.size()));
+        if (is_new) {
+            scopes.groups.push_back({node.lights});
+            for (const std::uint32_t i : node.lights) scopes.groups.back().ambient += scene.lights[i].ambient;
+        }
+        (node.moving ? scopes.of_instance : scopes.of_mesh).push_back(group->second);
+    }
+    if (scene.floor) scopes.of_mesh.push_back(0);
+    return scopes;
 }
 
 capture::Environment traced_environment(const Scene& scene) {
@@ -165,7 +188,7 @@ TracerScene make_tracer_scene(const Scene& scene) {
     std::vector<std::pair<const GeometryNode*, std::size_t>> parts;  // first node of each part
     for (std::size_t n = 0; n < scene.geometry.size(); ++n) {
         const GeometryNode& node = scene.geometry[n];
-        if (node.mesh->topology != Topology::kTriangles || is_blended(node.material)) {
+        if (!is_traced(node)) {
             ++room.raster_only_nodes;
             continue;
         }
@@ -189,7 +212,7 @@ TracerScene make_tracer_scene(const Scene& scene) {
     if (scene.floor) add_floor(*scene.floor, room.scene);
     room.scene.environment = traced_environment(scene);
     room.scene.lights = traced_lights(scene);
-    room.unsupported_lights = static_cast<int>(scene.lights.size() - room.scene.lights.size());
+    room.scene.scopes = traced_scopes(scene);
     return room;
 }
 

@@ -7,8 +7,8 @@
 //                           sqrt(2 / (exponent + 2)), B. Walter and others 2007)
 //     unlit, emissive       emissive surface that illuminates others
 //     alpha-masked textures holes
-// The ambient part of lights is dropped: it approximates interreflection, which is traced. Lines, points and blended
-// surfaces (opacity below 1, textures with many translucent texels) are left to the raster renderer.
+// Of the ambient part of lights, which approximates interreflection, only whitted and toon make use. Lines, points and
+// blended surfaces (opacity below 1, textures with many translucent texels) are left to the raster renderer.
 
 #include "capture/tracer/scene/scene.hpp"
 #include "compositor/scene/scene.hpp"
@@ -27,11 +27,11 @@ struct TracerScene {
     };
     std::vector<MovableNode> moving;  // [scene.instances]
     int raster_only_nodes = 0;        // number of blended nodes and nodes without area
-    int unsupported_lights = 0;       // number of scoped lights, which the tracer does not support
 };
 
-/// Lights and environment for the tracer.
+/// Lights and environment for the tracer. Scopes refer to the meshes and instances of make_tracer_scene().
 std::vector<Light> traced_lights(const Scene& scene);
+capture::LightScopes traced_scopes(const Scene& scene);
 capture::Environment traced_environment(const Scene& scene);
 
 /// Pure; thread-safe, like all functions here.

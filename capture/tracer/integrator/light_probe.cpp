@@ -22,7 +22,11 @@ double solid_angle(int y, int width) {
     return (std::cos(y * step) - std::cos((y + 1) * step)) * 2 * kPi / width;
 }
 
-void add_light(const Light& light, const Tracer& tracer, const glm::dvec3& position, Image<RgbaF>& map) {
+// Scoped lights reach positions within the bounds of their scope.
+void add_light(std::uint32_t index, const Tracer& tracer, const glm::dvec3& position, Image<RgbaF>& map) {
+    const Light& light = tracer.lights()[index];
+    const ShadowCasters casters{light.casts_shadows, light.everywhere ? kUnscoped : index};
+    if (!light.everywhere && !tracer.scope_bounds(index).contains(glm::vec3(position))) return;
     const glm::vec3 irradiance = irradiance_at(light, position);
     if (irradiance == glm::vec3(0)) return;
     const bool distant = model_of(light).form == LightForm::kDistant;
@@ -30,7 +34,7 @@ void add_light(const Light& light, const Tracer& tracer, const glm::dvec3& posit
     const double distance = glm::length(way);
     const glm::dvec3 direction = way / distance;
     const double reach = distant ? std::numeric_limits<double>::infinity() : distance;
-    if (!tracer.is_unoccluded(position, direction, reach)) return;
+    if (!tracer.is_unoccluded(position, direction, reach, casters)) return;
     const int width = map.width();
     const double turns = 0.5 + std::atan2(direction.x, -direction.z) / (2 * kPi);
     const double polar = std::acos(std::clamp(direction.y, -1.0, 1.0)) / kPi;
@@ -62,9 +66,7 @@ Image<RgbaF> light_probe(const Tracer& tracer, const glm::dvec3& position, const
     render.show_areas = true;
     render.show_environment = true;
     Image<RgbaF> map = tracer.render(all_directions(position, options.width), render, progress).image;
-    for (const Light& light : tracer.lights()) {
-        if (light.everywhere) add_light(light, tracer, position, map);
-    }
+    for (std::uint32_t i = 0; i < tracer.lights().size(); ++i) add_light(i, tracer, position, map);
     return map;
 }
 

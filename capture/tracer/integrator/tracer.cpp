@@ -273,10 +273,15 @@ const std::vector<Light>& Tracer::lights() const {
     return state_->scene.lights;
 }
 
-bool Tracer::is_unoccluded(const glm::dvec3& position, const glm::dvec3& direction, double distance) const {
+ScopeBounds Tracer::scope_bounds(std::uint32_t light) const {
+    return bounds_of_scope(state_->scene, light);
+}
+
+bool Tracer::is_unoccluded(const glm::dvec3& position, const glm::dvec3& direction, double distance,
+                           const ShadowCasters& casters) const {
     constexpr double kShorten = 1 - 1e-4;
     return !state_->rays->occluded(glm::vec3(position), glm::vec3(direction), static_cast<float>(distance * kShorten),
-                                   0.0F);
+                                   0.0F, casters);
 }
 
 void Tracer::set_lights(std::vector<Light> lights, LightScopes scopes) {

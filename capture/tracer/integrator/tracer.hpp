@@ -106,8 +106,12 @@ public:
     [[nodiscard]] Builds builds() const;
 
     [[nodiscard]] const std::vector<Light>& lights() const;  // without the rotation of turn_lights()
-    /// Returns true if nothing lies between `position` and the point at `distance` along a unit direction, at time 0.
-    [[nodiscard]] bool is_unoccluded(const glm::dvec3& position, const glm::dvec3& direction, double distance) const;
+    /// Returns true if no shadow caster lies between `position` and the point at `distance` along a unit direction, at
+    /// time 0.
+    [[nodiscard]] bool is_unoccluded(const glm::dvec3& position, const glm::dvec3& direction, double distance,
+                                     const ShadowCasters& casters = {}) const;
+    /// Bounds of the surfaces that a scoped light illuminates.
+    [[nodiscard]] ScopeBounds scope_bounds(std::uint32_t light) const;
 
     /// Rotates the lights and the environment, but not emissive surfaces, about Y from their positions in the scene.
     /// Not thread-safe with rendering.

@@ -1,10 +1,12 @@
 #include "compositor/scene/light/scene_lights.hpp"
 
+#include "rayspace/light/directions.hpp"
 #include "rayspace/light/light_model.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 namespace rs::compositor {
@@ -136,6 +138,24 @@ glm::vec3 reflected_light(const Scene& scene) {
     const double surface = 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
     // Radiance of a white surface that reflects ambient light in full: irradiance / pi.
     return glm::vec3(flux * kReflectance / ((1 - kReflectance) * std::max(surface, 1e-6) * kPi));
+}
+
+std::vector<bool> lights_with_shadows(const Scene& scene) {
+    std::vector<bool> casts;
+    for (const Light& light : scene.lights) {
+        const bool shines = std::max({light.colour.r, light.colour.g, light.colour.b}) > 0;
+        casts.push_back(shines && (light.everywhere || light.kind != LightKind::kDirectional));
+    }
+    for (const GeometryNode& node : scene.geometry) {
+        std::optional<std::uint32_t> key;
+        for (const std::uint32_t i : node.lights) {
+            const Light& light = scene.lights[i];
+            if (light.kind != LightKind::kDirectional || !(luminance(light.colour) > 0)) continue;
+            if (!key || luminance(light.colour) > luminance(scene.lights[*key].colour)) key = i;
+        }
+        if (key) casts[*key] = true;
+    }
+    return casts;
 }
 
 std::vector<Light> raster_lights(const Scene& scene, double exposure_ev) {

@@ -28,6 +28,10 @@ Status add_lights(Scene& scene, LightList list, const std::string& from);
 /// \return radiance of a white surface.
 glm::vec3 reflected_light(const Scene& scene);
 
+/// [light] True for lights that cast shadows. Of the directional lights that illuminate a node by scope only the
+/// brightest does: the others model light reflected by walls. Lights without colour cast none.
+std::vector<bool> lights_with_shadows(const Scene& scene);
+
 /// Punctual lights (rayspace/light/light.hpp), in number and order of Scene::lights, scaled by 2^exposure_ev; then one
 /// for reflected_light() and one for the mean of the environment.
 std::vector<Light> raster_lights(const Scene& scene, double exposure_ev);

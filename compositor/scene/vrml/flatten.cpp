@@ -53,14 +53,18 @@ private:
         warn(path().string() + ": line " + std::to_string(node.line) + ": " + node.type + ": " + what);
     }
 
-    // Directional lights apply to their siblings and everything below these.
+    // Lights that are not global apply to their siblings and everything below these.
     void walk_children(const std::vector<NodePointer>& children, TraversalState state) {
         for (const NodePointer& child : children) {
-            if (child->type != "DirectionalLight" || !child->flag("on")) continue;
+            if (!is_light(*child) || child->flag("global") || !child->flag("on")) continue;
             state.lights.push_back(static_cast<std::uint32_t>(scene_.lights.size()));
             scene_.lights.push_back(light_of(*child, state));
         }
         for (const NodePointer& child : children) walk(*child, state);
+    }
+
+    static bool is_light(const Node& node) {
+        return node.type == "DirectionalLight" || node.type == "PointLight" || node.type == "SpotLight";
     }
 
     void walk(const Node& node, const TraversalState& above) {
@@ -86,8 +90,8 @@ private:
             add_object(node, state);
         } else if (type == "RaySpaceRoom") {
             walk_room(node, state);
-        } else if (type == "PointLight" || type == "SpotLight") {
-            if (node.flag("on")) scene_.lights.push_back(light_of(node, state));
+        } else if (is_light(node)) {
+            if (node.flag("on") && node.flag("global")) scene_.lights.push_back(light_of(node, state));
         } else if (node.has("children")) {
             walk_children(node.field("children").nodes, state);
         } else {

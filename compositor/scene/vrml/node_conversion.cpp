@@ -133,10 +133,8 @@ Light light_of(const Node& node, const TraversalState& state) {
         const glm::dvec3 towards = glm::dmat3(state.world_from_node) * node.triple("direction");
         if (glm::length(towards) > 0) light.towards = glm::normalize(towards);
     }
-    if (node.type == "DirectionalLight") {
-        light.everywhere = false;
-        return light;
-    }
+    light.everywhere = node.flag("global");
+    if (node.type == "DirectionalLight") return light;
     light.kind = node.type == "PointLight" ? LightKind::kPoint : LightKind::kSpot;
     light.location = state.point(node.triple("location"));
     const double scale = state.scale();

@@ -66,12 +66,12 @@ constexpr const char* kNodes[] = {
     "Normal normal vector MFVec3f [ ]",
     "TextureCoordinate texCoord point MFVec2f [ ]",
     "DirectionalLight child ambientIntensity SFFloat 0 color SFColor 1 1 1 direction SFVec3f 0 0 -1 "
-    "intensity SFFloat 1 on SFBool TRUE",
-    "PointLight child ambientIntensity SFFloat 0 attenuation SFVec3f 1 0 0 color SFColor 1 1 1 intensity SFFloat 1 "
-    "location SFVec3f 0 0 0 on SFBool TRUE radius SFFloat 100",
+    "global SFBool FALSE intensity SFFloat 1 on SFBool TRUE",
+    "PointLight child ambientIntensity SFFloat 0 attenuation SFVec3f 1 0 0 color SFColor 1 1 1 global SFBool TRUE "
+    "intensity SFFloat 1 location SFVec3f 0 0 0 on SFBool TRUE radius SFFloat 100",
     "SpotLight child ambientIntensity SFFloat 0 attenuation SFVec3f 1 0 0 beamWidth SFFloat 1.570796 "
-    "color SFColor 1 1 1 cutOffAngle SFFloat 0.785398 direction SFVec3f 0 0 -1 intensity SFFloat 1 "
-    "location SFVec3f 0 0 0 on SFBool TRUE radius SFFloat 100",
+    "color SFColor 1 1 1 cutOffAngle SFFloat 0.785398 direction SFVec3f 0 0 -1 global SFBool TRUE "
+    "intensity SFFloat 1 location SFVec3f 0 0 0 on SFBool TRUE radius SFFloat 100",
     "Viewpoint child fieldOfView SFFloat 0.785398 jump SFBool TRUE orientation SFRotation 0 0 1 0 "
     "position SFVec3f 0 0 10 description SFString \"\"",
     "NavigationInfo child avatarSize MFFloat [ 0.25 1.6 0.75 ] headlight SFBool TRUE speed SFFloat 1 "

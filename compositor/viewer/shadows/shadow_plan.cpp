@@ -1,5 +1,6 @@
 #include "compositor/viewer/shadows/shadow_plan.hpp"
 
+#include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
 
 #include <algorithm>
@@ -63,16 +64,7 @@ void set_rows(const glm::dmat4& clip_from_world, int depth_row, LightShadow& sha
 class Planner {
 public:
     Planner(const Scene& scene, const BoundingBox& casters)
-        : scene_(scene), casters_(casters), is_key_(scene.lights.size()) {
-        for (const GeometryNode& node : scene.geometry) {
-            const std::uint32_t* key = nullptr;
-            for (const std::uint32_t& i : node.lights) {
-                if (shape_of_light(scene.lights[i]) != ShadowShape::kParallel) continue;
-                if (key == nullptr || brightness(i) > brightness(*key)) key = &i;
-            }
-            if (key != nullptr) is_key_[*key] = true;
-        }
-    }
+        : scene_(scene), casters_(casters), has_shadows_(lights_with_shadows(scene)) {}
 
     ShadowPlan plan() {
         plan_.of_light.resize(scene_.lights.size());
@@ -97,7 +89,7 @@ private:
         for (std::uint32_t i = 0; i < scene_.lights.size(); ++i) {
             const ShadowShape shape = shape_of_light(scene_.lights[i]);
             if (shape == ShadowShape::kNone || (shape == ShadowShape::kCube) != cubes) continue;
-            if (shape == ShadowShape::kParallel && !scene_.lights[i].everywhere && !is_key_[i]) continue;
+            if (!has_shadows_[i]) continue;
             found.push_back(i);
         }
         std::ranges::stable_sort(found,
@@ -188,7 +180,7 @@ private:
 
     const Scene& scene_;
     BoundingBox casters_;
-    std::vector<bool> is_key_;  // [light]: brightest directional light among the scoped ones of some node
+    std::vector<bool> has_shadows_;  // [light]
     ShadowPlan plan_;
 };
 

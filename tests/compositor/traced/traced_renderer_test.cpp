@@ -43,18 +43,103 @@ TEST(TracerScene, TakesWhatItCanAndCountsTheRest) {
     auto lines = std::make_shared<Mesh>(*scene.geometry[0].mesh);
     lines->topology = Topology::kLines;
     scene.geometry[2].mesh = lines;
-    scene.lights.push_back(scene.lights[0]);
-    scene.lights.back().everywhere = false;
     scene.floor = Floor{};
     const TracerScene room = make_tracer_scene(scene);
     EXPECT_EQ(room.raster_only_nodes, 2);
-    EXPECT_EQ(room.unsupported_lights, 1);
     EXPECT_EQ(room.scene.lights.size(), 1U);
+    EXPECT_TRUE(room.scene.scopes.empty());
     ASSERT_EQ(room.scene.meshes.size(), 2U);  // the white box and the floor
     const capture::Mesh& floor = room.scene.meshes[1];
     const glm::uvec3 t = floor.triangles[5];
     EXPECT_GT(glm::cross(floor.positions[t.y] - floor.positions[t.x], floor.positions[t.z] - floor.positions[t.x]).y,
               0);
+}
+
+// Two boxes on a slab under a one-sided roof, and a directional light from above that illuminates the slab and the
+// first box only.
+struct ScopedRoom {
+    Scene scene;
+    enum : std::size_t { kSlab, kInside, kOutside, kRoof };
+
+    ScopedRoom() {
+        scene.geometry = {box_node({8, 0.2, 4}, {0, -0.1, 0}, glm::vec3(0.5F)),
+                          box_node({1, 1, 1}, {-2, 0.5, 0}, glm::vec3(0.5F)),
+                          box_node({1, 1, 1}, {2, 0.5, 0}, glm::vec3(0.5F))};
+        // Faces down.
+        auto sheet = std::make_shared<Mesh>();
+        for (const auto& [x, z] : {std::pair(-5.0F, -5.0F), {5.0F, -5.0F}, {5.0F, 5.0F}, {-5.0F, 5.0F}}) {
+            sheet->vertices.push_back({.position = {x, 3, z}, .normal = {0, -1, 0}});
+        }
+        sheet->indices = {0, 1, 2, 0, 2, 3};
+        sheet->two_sided = false;
+        scene.geometry.push_back({.mesh = sheet, .material = scene.geometry[0].material});
+        scene.lights = {{.colour = glm::vec3(1), .towards = glm::normalize(glm::dvec3(1, -1, 0)), .everywhere = false}};
+        for (const std::size_t node : {kSlab, kInside, kRoof}) scene.geometry[node].lights = {0};
+    }
+
+    // Radiance that leaves the surface below `at`.
+    [[nodiscard]] float seen_below(const glm::dvec3& at, TracedMethod method) const {
+        auto renderer = renderer_of(scene);
+        EXPECT_TRUE(renderer) << renderer.error().message;
+        renderer->set_method(method);
+        renderer->begin_image(looking_from(at, at - glm::dvec3(0, 1, 0), 3));
+        for (int pass = 0; pass < 16; ++pass) EXPECT_TRUE(renderer->add_pass());
+        return renderer->radiance()(1, 1).r;
+    }
+};
+
+TEST(ScopedLights, IlluminateTheirNodesThroughTheBackOfOneSidedRoofs) {
+    const ScopedRoom room;
+    const float direct = 0.5F * std::sqrt(0.5F);  // diffuse colour times the cosine
+    for (const TracedMethod method : {TracedMethod::kWhitted, TracedMethod::kRadiosity, TracedMethod::kPath}) {
+        SCOPED_TRACE(static_cast<int>(method));
+        EXPECT_NEAR(room.seen_below({-3.5, 2, 0}, method), direct, 0.35F * direct);  // slab
+        EXPECT_NEAR(room.seen_below({-2, 2, 0}, method), direct, 0.35F * direct);    // box in the scope
+        EXPECT_LT(room.seen_below({-1, 2, 0}, method), 0.3F * direct);               // shadow of that box
+        EXPECT_LT(room.seen_below({2, 2, 0}, method), 0.3F * direct);                // box out of the scope
+        EXPECT_NEAR(room.seen_below({3, 2, 0}, method), direct, 0.35F * direct);     // no shadow of that box
+    }
+}
+
+TEST(ScopedLights, TwoSidedRoofsInTheScopeShade) {
+    ScopedRoom room;
+    auto sheet = std::make_shared<Mesh>(*room.scene.geometry[ScopedRoom::kRoof].mesh);
+    sheet->two_sided = true;
+    room.scene.geometry[ScopedRoom::kRoof].mesh = sheet;
+    EXPECT_EQ(room.seen_below({-3.5, 2, 0}, TracedMethod::kWhitted), 0);
+    room.scene.geometry[ScopedRoom::kRoof].lights.clear();
+    EXPECT_GT(room.seen_below({-3.5, 2, 0}, TracedMethod::kWhitted), 0.3F);
+}
+
+TEST(ScopedLights, OnlyTheBrightestDirectionalLightOfANodeCastsShadows) {
+    ScopedRoom room;
+    room.scene.lights.push_back(room.scene.lights[0]);
+    room.scene.lights[1].colour = glm::vec3(0.25F);
+    for (const std::size_t node : {ScopedRoom::kSlab, ScopedRoom::kInside}) {
+        room.scene.geometry[node].lights = {0, 1};
+    }
+    EXPECT_NEAR(room.seen_below({-1, 2, 0}, TracedMethod::kWhitted), 0.25F * 0.5F * std::sqrt(0.5F), 1e-3F);
+    const TracerScene traced = make_tracer_scene(room.scene);
+    EXPECT_TRUE(traced.scene.lights[0].casts_shadows);
+    EXPECT_FALSE(traced.scene.lights[1].casts_shadows);
+}
+
+TEST(ScopedLights, AmbientPartsIlluminateTheScopeByWhitted) {
+    ScopedRoom room;
+    room.scene.lights[0].ambient = glm::vec3(0.5F);
+    EXPECT_NEAR(room.seen_below({-1, 2, 0}, TracedMethod::kWhitted), 0.25F, 1e-3F);  // in the shadow
+    EXPECT_EQ(room.seen_below({2, 2, 0}, TracedMethod::kWhitted), 0);
+}
+
+TEST(ScopedLights, MovingNodesKeepTheirScope) {
+    ScopedRoom room;
+    room.scene.geometry[ScopedRoom::kInside].moving = 1;
+    room.scene.geometry[ScopedRoom::kOutside].moving = 2;
+    const float direct = 0.5F * std::sqrt(0.5F);
+    EXPECT_NEAR(room.seen_below({-2, 2, 0}, TracedMethod::kWhitted), direct, 1e-3F);
+    EXPECT_EQ(room.seen_below({-1, 2, 0}, TracedMethod::kWhitted), 0);
+    EXPECT_EQ(room.seen_below({2, 2, 0}, TracedMethod::kWhitted), 0);
+    EXPECT_NEAR(room.seen_below({3, 2, 0}, TracedMethod::kWhitted), direct, 1e-3F);
 }
 
 TEST(TracerScene, MaterialsBecomeSurfaces) {

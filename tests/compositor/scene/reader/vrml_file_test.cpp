@@ -146,6 +146,20 @@ TEST(VrmlFile, DirectionalLightsShineOnTheirGroupOnly) {
     EXPECT_THAT(scene.geometry[2].lights, IsEmpty());
 }
 
+TEST(VrmlFile, LightsOfX3DAreGlobalOrShineOnTheirGroup) {
+    const Scene scene = scene_of(
+        "Group { children [ Shape { geometry Box { } } DirectionalLight { global TRUE } PointLight { global FALSE } ] "
+        "} "
+        "Shape { geometry Sphere { } }");
+    ASSERT_EQ(scene.lights.size(), 2U);
+    EXPECT_EQ(scene.lights[0].kind, LightKind::kPoint);
+    EXPECT_FALSE(scene.lights[0].everywhere);
+    EXPECT_EQ(scene.lights[1].kind, LightKind::kDirectional);
+    EXPECT_TRUE(scene.lights[1].everywhere);
+    EXPECT_THAT(scene.geometry[0].lights, ElementsAre(0U));
+    EXPECT_THAT(scene.geometry[1].lights, IsEmpty());
+}
+
 TEST(VrmlFile, LightsAreMovedAndScaledWithTheirParents) {
     const Scene scene = scene_of(
         "Transform { translation 1 0 0 scale 2 2 2 children SpotLight { location 0 1 0 direction 1 0 0 radius 10 "
