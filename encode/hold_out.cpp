@@ -1,7 +1,7 @@
 #include "encode/hold_out.hpp"
 
 #include "encode/raymap/rings.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <algorithm>

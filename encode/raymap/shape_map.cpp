@@ -1,7 +1,7 @@
 #include "encode/raymap/shape_map.hpp"
 
 #include "encode/raymap/ring_depth_estimator.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/object/yuv.hpp"
 
 #include <utility>

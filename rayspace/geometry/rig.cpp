@@ -1,6 +1,6 @@
 #include "rayspace/geometry/rig.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig_json.hpp"

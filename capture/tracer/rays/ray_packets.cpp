@@ -1,6 +1,6 @@
 // Packet tracing of RayScene.
 #include "capture/tracer/rays/ray_scene.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <embree3/rtcore.h>
 

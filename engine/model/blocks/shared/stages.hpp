@@ -3,7 +3,7 @@
 // no space. A member of blocks, not a block.
 
 #include "engine/model/clock/block.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <cstddef>
 #include <optional>
