@@ -1,8 +1,7 @@
 #include "encode/codec/board/board_encoder.hpp"
 
-#include "encode/codec/board/board_alpha.hpp"
 #include "encode/codec/board/board_block.hpp"
-#include "encode/codec/board/board_stages.hpp"
+#include "encode/codec/board/board_codebooks.hpp"
 #include "encode/codec/motion_search.hpp"
 #include "encode/codec/ring_references.hpp"
 #include "rayspace/base/parallel_loop.hpp"
