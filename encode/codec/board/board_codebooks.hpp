@@ -7,7 +7,7 @@
 
 #include "encode/codec/board/board_block.hpp"
 #include "encode/codec/board/vector_quantiser.hpp"
-#include "encode/codec/source_image.hpp"
+#include "encode/codec/encoder_images.hpp"
 #include "rayspace/codec/code/board_code.hpp"
 
 #include <array>
