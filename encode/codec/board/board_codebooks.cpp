@@ -1,7 +1,6 @@
 #include "encode/codec/board/board_codebooks.hpp"
 
 #include "rayspace/base/parallel_loop.hpp"
-#include "rayspace/codec/code/board_code.hpp"
 #include "rayspace/codec/prediction_unit.hpp"
 
 #include <algorithm>
