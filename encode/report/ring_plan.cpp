@@ -1,4 +1,4 @@
-#include "encode/report/ring_plan.hpp"
+#include "encode/report/build_report.hpp"
 
 #include "encode/raymap/rings.hpp"
 #include "rayspace/base/conventions.hpp"

@@ -2,7 +2,6 @@
 // the input.
 
 #include "encode/report/build_report.hpp"
-#include "encode/report/ring_plan.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "rayspace/page/html_page.hpp"
