@@ -2,9 +2,9 @@
 
 #include "encode/compact_json.hpp"
 #include "encode/raymap/captured_view.hpp"
-#include "encode/raymap/rings.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
+#include "rayspace/geometry/rig.hpp"
 #include "rayspace/object/yuv.hpp"
 
 #include <cmath>

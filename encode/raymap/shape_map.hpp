@@ -9,12 +9,12 @@
 // calibrated separately, is left out. Each line between two photos merges both depth maps (shape_lines.hpp), and each
 // of its cells is shown by the photos in which it is not occluded (visibility.hpp).
 
-#include "encode/raymap/rings.hpp"
 #include "encode/raymap/semi_global.hpp"
 #include "encode/raymap/shape_lines.hpp"
 #include "encode/set/capture_set.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
+#include "rayspace/geometry/rig.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
 #include <string>

@@ -1,8 +1,8 @@
 #include "encode/report/build_report.hpp"
 
-#include "encode/raymap/rings.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
+#include "rayspace/geometry/rig.hpp"
 #include "rayspace/page/line_plot.hpp"
 #include "rayspace/page/svg_parts.hpp"
 
