@@ -1,7 +1,6 @@
 #include "encode/raymap/shape_lines.hpp"
 
 #include "encode/raymap/captured_view.hpp"
-#include "encode/raymap/floating_cells.hpp"
 #include "encode/raymap/line_grid.hpp"
 #include "encode/raymap/semi_global.hpp"
 #include "encode/raymap/visibility.hpp"
