@@ -1,8 +1,8 @@
 #include "encode/build.hpp"
 
-#include "encode/compact_json.hpp"
 #include "encode/raymap/captured_view.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/json_text.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/object/yuv.hpp"

@@ -3,7 +3,7 @@
 #include "rayspace/geometry/rig.hpp"
 
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/base/strict_json.hpp"
+#include "rayspace/base/json_text.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image_io/image_io.hpp"
 
