@@ -7,7 +7,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/base/parallel_loop.hpp"
-#include "rayspace/format/shape_coding.hpp"
+#include "rayspace/format/content_coding.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "rayspace/format/line_coding.hpp"
+#include "rayspace/format/content_coding.hpp"
 
 #include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
