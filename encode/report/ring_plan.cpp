@@ -3,7 +3,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/page/line_plot.hpp"
+#include "rayspace/page/plots.hpp"
 #include "rayspace/page/svg_parts.hpp"
 
 #include <algorithm>

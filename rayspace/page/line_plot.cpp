@@ -1,4 +1,4 @@
-#include "rayspace/page/line_plot.hpp"
+#include "rayspace/page/plots.hpp"
 
 #include "rayspace/api/types/check.hpp"
 #include "rayspace/page/svg_parts.hpp"
