@@ -7,6 +7,7 @@
 
 namespace rs {
 
+/// A series of a line plot.
 struct PlotSeries {
     std::string name;
     std::vector<double> x;

@@ -2,7 +2,6 @@
 
 #include "rayspace/api/types/check.hpp"
 #include "rayspace/image/linear_light.hpp"
-#include "rayspace/image/srgb_codes.hpp"
 
 #include <algorithm>
 #include <cmath>
