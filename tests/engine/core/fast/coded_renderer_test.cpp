@@ -4,7 +4,7 @@
 #include "engine/core/definition/shape_pixel.hpp"
 #include "engine/core/fast/coded_texels.hpp"
 #include "engine/core/fast/renderer.hpp"
-#include "engine/core/fast/shape_columns.hpp"
+#include "engine/core/fast/shape_walk.hpp"
 #include "engine/core/views/conformance.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/codec/stream/decode_image.hpp"
