@@ -5,7 +5,7 @@
 #include "engine/core/fast/coded_texels.hpp"
 #include "engine/core/fast/renderer.hpp"
 #include "engine/core/fast/shape_walk.hpp"
-#include "engine/core/views/conformance.hpp"
+#include "engine/core/views/compare.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/geometry/ray_space.hpp"
