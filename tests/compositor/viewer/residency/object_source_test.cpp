@@ -2,7 +2,7 @@
 
 #include "compositor/viewer/residency/object_source.hpp"
 
-#include "engine/model/simulated_board.hpp"
+#include "engine/model/board.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "tests/compositor/objects.hpp"
 #include "tests/support/coded_object.hpp"
