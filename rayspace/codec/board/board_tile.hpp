@@ -28,15 +28,8 @@ struct BoardMotion {
 BoardMotion board_motion(std::uint16_t word);
 std::uint16_t board_motion_word(const BoardMotion& motion);  // its inverse
 
-/// Decodes a tile as decode_dense_tile() does; any bytes decode to some samples. For an image with one reference,
-/// `reference` counts as 0. Cost: about 0.2 microseconds per 64 samples of each plane.
-void decode_board_tile(const BoardCode& code, const ImageHead& head, std::span<const std::byte> bytes,
-                       const TileRect& place, const std::array<ConstPlaneViews, 2>& references,
-                       ReferenceListener* listener, const PlaneViews& out);
-
-/// Decodes one block from its record, at (x, y) of the image.
-void decode_board_block(const BoardCode& code, const RecordClass& record_class, std::span<const std::byte> record,
-                        int x, int y, int reference_count, const std::array<ConstPlaneViews, 2>& references,
-                        ReferenceListener* listener, const PlaneViews& out);
+/// Decodes a tile as decode_dense_tile() does; any bytes decode to some samples. In an image with one reference, each
+/// record's `reference` counts as 0. Cost: about 0.2 microseconds per 64 samples of each plane.
+void decode_board_tile(const BoardCode& code, const CodedTile& tile, const PlaneViews& out);
 
 }  // namespace rs::codec
