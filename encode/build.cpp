@@ -117,7 +117,8 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
     }
     if (has_shape) {
         RS_ASSIGN_OR_RETURN(ShapeMapOutput shapes,
-                            add_shape_maps(set, rig, rings, options.shape, options.raw_images, object, progress));
+                            add_shape_maps({.set = set, .rig = rig, .rings = rings, .keep_images = options.raw_images},
+                                           options.shape, object, progress));
         built.warnings.insert(built.warnings.end(), shapes.warnings.begin(), shapes.warnings.end());
         built.depths = std::move(shapes.samples);
         built.completed = std::move(shapes.completed);
