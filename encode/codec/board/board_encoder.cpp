@@ -5,7 +5,7 @@
 #include "encode/codec/motion_search.hpp"
 #include "encode/codec/ring_references.hpp"
 #include "rayspace/base/parallel_loop.hpp"
-#include "rayspace/codec/board/board_tile.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 #include "rayspace/codec/stream/decode_image.hpp"
 
 #include <algorithm>

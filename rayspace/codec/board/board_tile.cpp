@@ -1,4 +1,4 @@
-#include "rayspace/codec/board/board_tile.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "rayspace/codec/stream/byte_account.hpp"
 
-#include "rayspace/codec/board/board_tile.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 #include "rayspace/codec/bool_decoder.hpp"
 #include "rayspace/codec/context_states.hpp"
 #include "rayspace/codec/dense_tile_decoder.hpp"

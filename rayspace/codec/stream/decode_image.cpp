@@ -1,7 +1,7 @@
 #include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 
-#include "rayspace/codec/board/board_tile.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -1,6 +1,6 @@
 #include "engine/model/blocks/decompression/block_motion.hpp"
 
-#include "rayspace/codec/board/board_tile.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 
 namespace rs::engine::model {
 

@@ -1,7 +1,11 @@
 #pragma once
-// Decoder of one tile of a board image: encode/FORMAT.md, section "Board tiles". Integer and normative; shared by
-// engine and tools. It needs only table look-ups and additions, so that hardware can decode one pixel per cycle.
+// Board profile of coded images: its part of chunk CODE, with record classes and codebooks (board_chunk.cpp;
+// encode/FORMAT.md, section "CODE"), and the decoder of a tile (board_tile.cpp; section "Board tiles"). The decoder is
+// integer and normative, and shared by engine and tools. It needs only table look-ups and additions, so that hardware
+// can decode one pixel per cycle.
 
+#include "rayspace/base/byte_stream.hpp"
+#include "rayspace/base/result.hpp"
 #include "rayspace/codec/code/board_code.hpp"
 #include "rayspace/codec/dense_tile.hpp"
 
@@ -11,6 +15,20 @@
 #include <span>
 
 namespace rs::codec {
+
+/// Writes the code. The books must have the sizes required by the classes.
+void put_board_code(const BoardCode& code, ByteWriter& out);
+
+/// Reads to the end of the payload. Memory: at most 270 KB for any input.
+Status take_board_code(ByteReader& in, BoardCode& code);
+
+/// The largest number of block and quarter stages of any record class of a kind (0: flat, 1: predicted).
+struct StageCounts {
+    int block = 0;
+    int quarter = 0;
+};
+StageCounts stage_counts(const BoardCode& code, std::size_t kind);
+bool uses_alpha(const BoardCode& code);
 
 inline constexpr int kBoardBlock = 8;          // side of a block
 inline constexpr int kBoardTileBlocks = 16;    // blocks per tile, column by column
