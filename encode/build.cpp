@@ -1,10 +1,10 @@
 #include "encode/build.hpp"
 
-#include "encode/compact_json.hpp"
 #include "encode/raymap/captured_view.hpp"
-#include "encode/raymap/rings.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/json_text.hpp"
 #include "rayspace/base/parallel.hpp"
+#include "rayspace/geometry/rig.hpp"
 #include "rayspace/object/yuv.hpp"
 
 #include <cmath>
@@ -117,7 +117,8 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
     }
     if (has_shape) {
         RS_ASSIGN_OR_RETURN(ShapeMapOutput shapes,
-                            add_shape_maps(set, rig, rings, options.shape, options.raw_images, object, progress));
+                            add_shape_maps({.set = set, .rig = rig, .rings = rings, .keep_images = options.raw_images},
+                                           options.shape, object, progress));
         built.warnings.insert(built.warnings.end(), shapes.warnings.begin(), shapes.warnings.end());
         built.depths = std::move(shapes.samples);
         built.completed = std::move(shapes.completed);

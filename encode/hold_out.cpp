@@ -1,8 +1,8 @@
 #include "encode/hold_out.hpp"
 
-#include "encode/raymap/rings.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/geometry/rig.hpp"
 
 #include <algorithm>
 #include <charconv>

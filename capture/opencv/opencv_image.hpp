@@ -4,7 +4,6 @@
 
 #include "rayspace/image/image.hpp"
 #include "rayspace/image/linear_light.hpp"
-#include "rayspace/image/srgb_codes.hpp"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>

@@ -3,7 +3,7 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/light/luminaire.hpp"
-#include "rayspace/page/polar_plot.hpp"
+#include "rayspace/page/plots.hpp"
 #include "rayspace/page/svg_parts.hpp"
 #include "rayspace/tool/tool_main.hpp"
 

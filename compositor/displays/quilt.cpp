@@ -1,7 +1,7 @@
 #include "compositor/displays/quilt.hpp"
 
 #include "compositor/displays/stereo_image.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 

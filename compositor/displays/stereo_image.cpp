@@ -1,6 +1,6 @@
 #include "compositor/displays/stereo_image.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 

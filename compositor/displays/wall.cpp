@@ -1,6 +1,6 @@
 #include "compositor/displays/wall.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <cmath>
 #include <cstdio>

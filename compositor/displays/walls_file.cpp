@@ -1,8 +1,8 @@
 #include "compositor/displays/walls_file.hpp"
 
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/json_text.hpp"
 #include "rayspace/base/printable.hpp"
-#include "rayspace/base/strict_json.hpp"
 #include "rayspace/file/file_output.hpp"
 
 #include <algorithm>

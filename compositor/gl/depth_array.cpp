@@ -1,6 +1,6 @@
 #include "compositor/gl/depth_array.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <epoxy/gl.h>
 

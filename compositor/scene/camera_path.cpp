@@ -1,6 +1,6 @@
 #include "compositor/scene/camera_path.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 #include <cmath>

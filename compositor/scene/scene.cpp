@@ -1,6 +1,6 @@
 #include "compositor/scene/scene.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 namespace rs::compositor {
 

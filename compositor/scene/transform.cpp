@@ -1,6 +1,6 @@
 #include "compositor/scene/transform.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 

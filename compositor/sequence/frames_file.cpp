@@ -1,7 +1,7 @@
 #include "compositor/sequence/frames_file.hpp"
 
+#include "rayspace/base/json_text.hpp"
 #include "rayspace/base/printable.hpp"
-#include "rayspace/base/strict_json.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/image/linear_light.hpp"

@@ -1,6 +1,6 @@
 #include "datasets-synthetic/objects/object_assembly.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #pragma once
 // Smooth curves through control points, in the plane (lathe profiles, brush strokes) or in space (stems, wires).
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <glm/glm.hpp>
 

@@ -1,6 +1,6 @@
 #include "datasets-synthetic/shapes/grid_surface.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <utility>
 

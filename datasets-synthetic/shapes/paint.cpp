@@ -2,7 +2,7 @@
 
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/portable_math.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #include "datasets-synthetic/shapes/frame.hpp"
 #include "datasets-synthetic/shapes/grid_surface.hpp"
 #include "datasets-synthetic/shapes/portable_math.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <algorithm>

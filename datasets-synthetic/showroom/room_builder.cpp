@@ -2,7 +2,7 @@
 
 #include "datasets-synthetic/shapes/lathe.hpp"
 #include "datasets-synthetic/shapes/sweep.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/linear_light.hpp"
 

@@ -1,7 +1,7 @@
 #include "datasets-synthetic/showroom/world_file.hpp"
 
 #include "datasets-synthetic/showroom/evening.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image_io/image_io.hpp"

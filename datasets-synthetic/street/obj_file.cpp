@@ -1,7 +1,7 @@
 #include "datasets-synthetic/street/obj_file.hpp"
 
 #include "datasets-synthetic/shapes/paint.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <array>
 #include <charconv>

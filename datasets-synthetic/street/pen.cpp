@@ -3,7 +3,7 @@
 #include "datasets-synthetic/shapes/ellipsoid.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/portable_math.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <vector>

@@ -6,7 +6,7 @@
 #include "datasets-synthetic/street/road.hpp"
 #include "datasets-synthetic/street/traffic.hpp"
 #include "datasets-synthetic/street/vehicles.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image_io/image_io.hpp"
 

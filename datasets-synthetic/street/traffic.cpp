@@ -1,7 +1,7 @@
 #include "datasets-synthetic/street/traffic.hpp"
 
 #include "datasets-synthetic/shapes/random.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 #include "datasets-synthetic/street/pen.hpp"
 #include "datasets-synthetic/street/traffic.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <array>
 #include <map>

@@ -1,8 +1,8 @@
 #include "encode/codec/dense_encoder.hpp"
 
 #include "encode/codec/coders.hpp"
+#include "encode/codec/encoder_images.hpp"
 #include "encode/codec/ring_references.hpp"
-#include "encode/codec/source_image.hpp"
 #include "encode/codec/tile_encoder.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/base/parallel_loop.hpp"

@@ -3,9 +3,8 @@
 // neighbours on the ring. Every tile chooses its modes by rate and distortion; the probabilities are measured on the
 // whole object.
 
-#include "encode/codec/encoded_images.hpp"
+#include "encode/codec/encoder_images.hpp"
 #include "encode/codec/search_effort.hpp"
-#include "encode/codec/source_image.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/codec/code/coded_images.hpp"
 #include "rayspace/image/image.hpp"

@@ -40,11 +40,18 @@ struct TransformTarget {
     }
 };
 
-// Quantises the target. Returns true if any level is not zero. `reconstruction` receives the decoder's samples (size *
-// size).
+// Result of one transform.
+struct CodedTransform {
+    codec::Levels& levels;
+    int& last;                               // set if any level is not zero
+    std::uint8_t* reconstruction = nullptr;  // the decoder's samples, size * size
+};
+
+// Quantises the target. Returns true if any level is not zero.
 bool code_transform(const TransformTarget& target, const QuantiserSettings& settings, const CostTable& costs,
-                    int refits, codec::Levels& levels, int& last, std::uint8_t* reconstruction) {
+                    int refits, const CodedTransform& out) {
     const int size = target.samples.size;
+    std::uint8_t* const reconstruction = out.reconstruction;
     const auto start_with_prediction = [&] {
         for (int y = 0; y < size; ++y)
             std::copy_n(target.predicted + y * target.stride, size, reconstruction + y * size);
@@ -64,11 +71,11 @@ bool code_transform(const TransformTarget& target, const QuantiserSettings& sett
     for (int round = 0;; ++round) {
         std::int32_t coefficients[kMacroblockSamples];
         forward_transform(residual, size, coefficients);
-        levels = {};
-        const bool any = quantise(coefficients, settings, costs, levels, last);
+        out.levels = {};
+        const bool any = quantise(coefficients, settings, costs, out.levels, out.last);
         start_with_prediction();
         if (!any) return false;
-        codec::add_residual(levels, settings.step, size, reconstruction, size);
+        codec::add_residual(out.levels, settings.step, size, reconstruction, size);
         if (target.all_valid || round == refits) return true;
         for (int y = 0; y < size; ++y) {
             for (int x = 0; x < size; ++x) {
@@ -209,8 +216,9 @@ void ModeDecision::evaluate(const PredictionUnit& unit, const Candidate& candida
                 target.samples.mask += down * target.samples.stride + right;
                 target.predicted += down * target.stride + right;
                 std::uint8_t reconstruction[kMacroblockSamples];
-                trial.plane_coded[p][t] = code_transform(target, settings, costs_, task_.effort.refits,
-                                                         trial.levels[p][t], trial.last[p][t], reconstruction);
+                trial.plane_coded[p][t] = code_transform(
+                    target, settings, costs_, task_.effort.refits,
+                    {.levels = trial.levels[p][t], .last = trial.last[p][t], .reconstruction = reconstruction});
                 trial.coded = trial.coded || trial.plane_coded[p][t];
                 error += kPlaneWeights[p] * target.error_of(reconstruction, size);
             }

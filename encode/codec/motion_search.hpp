@@ -1,7 +1,7 @@
 #pragma once
 // Block motion search for a unit in another image.
 
-#include "encode/codec/source_image.hpp"
+#include "encode/codec/encoder_images.hpp"
 #include "rayspace/codec/kernels/prediction.hpp"
 
 #include <span>

@@ -35,8 +35,13 @@ public:
         for (int y = 0; y < place_.height; y += kMacroblock) {
             for (int x = 0; x < place_.width; x += kMacroblock) macroblock(x / kBlock, y / kBlock);
         }
-        codec::AlphaFinisher(recorder_, *task_.code, state_.grid, state_.alpha, state_.depths, task_.references, place_,
-                             task_.out[3])
+        codec::AlphaFinisher(recorder_, *task_.code,
+                             {.grid = state_.grid,
+                              .mask = state_.alpha,
+                              .depths = state_.depths,
+                              .references = task_.references,
+                              .place = place_,
+                              .out = task_.out[3]})
             .finish();
         codec::filter_edges(state_.grid, *task_.code, task_.head.step, place_, task_.out);
     }

@@ -3,8 +3,8 @@
 // does.
 
 #include "encode/codec/coders.hpp"
+#include "encode/codec/encoder_images.hpp"
 #include "encode/codec/search_effort.hpp"
-#include "encode/codec/source_image.hpp"
 #include "rayspace/codec/code/dense_code.hpp"
 #include "rayspace/codec/dense_tile.hpp"
 

@@ -56,8 +56,20 @@ private:
     std::vector<Rows> rows_;
 };
 
-// For each column and each of its levels: calls measure(column, ray, depth, rows), then change(row - rows.begin, cost)
-// for each row inside the hull.
+// Points of one column of a view at one depth.
+struct ColumnAtDepth {
+    const WorkView& view;
+    int column = 0;
+    const HorizontalRay& ray;  // of the column
+    double depth = 0;
+    int top = 0;  // first row
+    int rows = 0;
+
+    [[nodiscard]] glm::dvec2 place() const { return ray.place_at(depth); }
+};
+
+// For each column and each of its levels: calls measure(ColumnAtDepth) for the rows that have the level, then
+// change(row - first row, cost) for each of them inside the hull.
 template <class Measure, class Change>
 void for_each_level(CostVolume& volume, const WorkView& view, const DepthRange& range, const Measure& measure,
                     const Change& change) {
@@ -67,7 +79,12 @@ void for_each_level(CostVolume& volume, const WorkView& view, const DepthRange& 
         for (int level = 0; level < range.count; ++level) {
             const Rows rows = of_column.rows(level);
             if (rows.count() <= 0) continue;
-            measure(column, ray, range.at(level), rows);
+            measure(ColumnAtDepth{.view = view,
+                                  .column = column,
+                                  .ray = ray,
+                                  .depth = range.at(level),
+                                  .top = volume.box.top + rows.begin,
+                                  .rows = rows.count()});
             of_column.for_each(
                 level, [&](int row, std::uint8_t& cost) { change(static_cast<std::size_t>(row - rows.begin), cost); });
         }
@@ -81,35 +98,33 @@ struct ProjectedRows {
     std::int32_t step_q16 = 0;
 };
 
-std::optional<ProjectedRows> project_rows(const WorkView& view, const WorkView& neighbour, const HorizontalRay& ray,
-                                          double depth, int top, int rows) {
-    const double axial = ray.axial_at(depth);
+std::optional<ProjectedRows> project_rows(const ColumnAtDepth& own, const WorkView& neighbour) {
+    const double axial = own.ray.axial_at(own.depth);
     if (axial <= kNearest) return std::nullopt;
-    const ProjectedColumn seen = neighbour.see(ray.place_at(depth));
+    const ProjectedColumn seen = neighbour.see(own.place());
     if (seen.axial <= kNearest) return std::nullopt;
-    const double step = (neighbour.fl_y / seen.axial) * (axial / view.fl_y);
-    const double at_top = neighbour.row_of(view.height_of(top + 0.5, axial), seen.axial);
-    const double at_bottom = at_top + step * rows;
+    const double step = (neighbour.fl_y / seen.axial) * (axial / own.view.fl_y);
+    const double at_top = neighbour.row_of(own.view.height_of(own.top + 0.5, axial), seen.axial);
+    const double at_bottom = at_top + step * own.rows;
     if (!(std::abs(at_top) < kFarthestRow && std::abs(at_bottom) < kFarthestRow)) return std::nullopt;
     return ProjectedRows{seen, static_cast<std::int32_t>(std::lround(std::ldexp(at_top, 16))),
                          static_cast<std::int32_t>(std::lround(std::ldexp(step, 16)))};
 }
 
-// Matching costs of `rows` rows from `top` of one column, at one depth, against one neighbor.
-void compare_column(const WorkView& view, const WorkView& neighbour, const HorizontalRay& ray, double depth, int column,
-                    int top, int rows, std::uint8_t* costs) {
-    std::fill(costs, costs + rows, kUnknownMatch);
-    const std::optional<ProjectedRows> seen = project_rows(view, neighbour, ray, depth, top, rows);
+// Matching costs of the rows against one neighbor.
+void compare_column(const ColumnAtDepth& own, const WorkView& neighbour, std::uint8_t* costs) {
+    std::fill(costs, costs + own.rows, kUnknownMatch);
+    const std::optional<ProjectedRows> seen = project_rows(own, neighbour);
     if (!seen) return;
     // Interpolated between two columns of the neighbor, in 1/32 px.
     const double left = seen->column.column - 0.5;
     const auto c0 = static_cast<int>(std::floor(left));
     if (c0 < -1 || c0 >= neighbour.width) return;
-    match_column({.own = view.columns.row(column) + top,
+    match_column({.own = own.view.columns.row(own.column) + own.top,
                   .first = neighbour.columns.row(std::max(c0, 0)),
                   .second = neighbour.columns.row(std::min(c0 + 1, neighbour.width - 1)),
                   .part = static_cast<int>((left - c0) * 32),
-                  .rows = rows,
+                  .rows = own.rows,
                   .height = neighbour.height,
                   .position_q16 = seen->position_q16,
                   .step_q16 = seen->step_q16},
@@ -127,16 +142,16 @@ struct NeighbourSurface {
     std::vector<HorizontalRay> rays;
 };
 
-void compare_depths(const WorkView& view, const NeighbourSurface& found, const HorizontalRay& ray, double depth,
-                    float cost_per_unit, int top, int rows, std::uint8_t* least) {
-    const std::optional<ProjectedRows> seen = project_rows(view, found.view, ray, depth, top, rows);
+// Costs of the distance to the surface of one neighbor, where they are below those in `least`.
+void compare_depths(const ColumnAtDepth& own, const NeighbourSurface& found, float cost_per_unit, std::uint8_t* least) {
+    const std::optional<ProjectedRows> seen = project_rows(own, found.view);
     if (!seen || !(seen->column.column >= 0 && seen->column.column < found.view.width)) return;
     const auto column = static_cast<int>(seen->column.column);
     const HorizontalRay& their_ray = found.rays[static_cast<std::size_t>(column)];
     compare_depth_column({.depths = found.depth.row(column),
-                          .depth = static_cast<float>(glm::dot(ray.place_at(depth) - their_ray.foot, their_ray.along)),
+                          .depth = static_cast<float>(glm::dot(own.place() - their_ray.foot, their_ray.along)),
                           .cost_per_unit = cost_per_unit,
-                          .rows = rows,
+                          .rows = own.rows,
                           .height = found.view.height,
                           .position_q16 = seen->position_q16,
                           .step_q16 = seen->step_q16},
@@ -276,12 +291,11 @@ void match_colours(CostVolume& volume, const WorkView& view, const Neighbours& n
     all.insert(all.end(), neighbours.across.begin(), neighbours.across.end());
     std::vector<std::uint8_t> costs(static_cast<std::size_t>(box.height()) * all.size());
     std::vector<std::uint8_t> merged(static_cast<std::size_t>(box.height()));
-    const auto compare = [&](int column, const HorizontalRay& ray, double depth, const Rows& rows) {
+    const auto compare = [&](const ColumnAtDepth& own) {
         for (std::size_t n = 0; n < all.size(); ++n) {
-            compare_column(view, all[n]->view, ray, depth, column, box.top + rows.begin, rows.count(),
-                           costs.data() + n * static_cast<std::size_t>(rows.count()));
+            compare_column(own, all[n]->view, costs.data() + n * static_cast<std::size_t>(own.rows));
         }
-        merge_matches(costs.data(), rows.count(), static_cast<int>(neighbours.beside.size()),
+        merge_matches(costs.data(), own.rows, static_cast<int>(neighbours.beside.size()),
                       static_cast<int>(neighbours.across.size()), merged.data());
     };
     for_each_level(volume, view, range, compare, [&](std::size_t row, std::uint8_t& cost) { cost = merged[row]; });
@@ -297,10 +311,10 @@ void add_inconsistency(CostVolume& volume, const WorkView& view, const Neighbour
     }
     const auto cost_per_unit = static_cast<float>(kCostPerLevel / range.step);
     std::vector<std::uint8_t> least(static_cast<std::size_t>(box.height()));
-    const auto approach = [&](int, const HorizontalRay& ray, double depth, const Rows& rows) {
+    const auto approach = [&](const ColumnAtDepth& own) {
         std::fill(least.begin(), least.end(), kUnknownMatch);
         for (const NeighbourSurface& surface : surfaces) {
-            compare_depths(view, surface, ray, depth, cost_per_unit, box.top + rows.begin, rows.count(), least.data());
+            compare_depths(own, surface, cost_per_unit, least.data());
         }
     };
     for_each_level(volume, view, range, approach, [&](std::size_t row, std::uint8_t& cost) {

@@ -1,4 +1,4 @@
-#include "encode/raymap/floating_cells.hpp"
+#include "encode/raymap/shape_lines.hpp"
 
 #include <algorithm>
 #include <cmath>

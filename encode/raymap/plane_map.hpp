@@ -2,7 +2,6 @@
 // The RS map of the paper (section 2, "nearest neighbour"): for each cell (x, u) of each reference plane, the captured
 // photo whose ray through the plane point x is nearest in angle. The object is assumed to lie on the plane.
 
-#include "encode/raymap/rings.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 

@@ -1,14 +1,13 @@
 #include "encode/raymap/shape_lines.hpp"
 
 #include "encode/raymap/captured_view.hpp"
-#include "encode/raymap/floating_cells.hpp"
 #include "encode/raymap/line_grid.hpp"
 #include "encode/raymap/semi_global.hpp"
 #include "encode/raymap/visibility.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/base/parallel_loop.hpp"
-#include "rayspace/format/shape_coding.hpp"
+#include "rayspace/format/content_coding.hpp"
 
 #include <algorithm>
 #include <array>

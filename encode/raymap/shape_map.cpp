@@ -1,7 +1,7 @@
 #include "encode/raymap/shape_map.hpp"
 
 #include "encode/raymap/ring_depth_estimator.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/object/yuv.hpp"
 
 #include <utility>
@@ -20,13 +20,15 @@ std::string lost_parts_text(const CompletedImages& completed, const Rig& rig) {
 
 }  // namespace
 
-Result<ShapeMapOutput> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
-                                      const ShapeOptions& options, bool keep_images, RaySpaceObject& object,
+Result<ShapeMapOutput> add_shape_maps(const ShapeMapInput& input, const ShapeOptions& options, RaySpaceObject& object,
                                       Progress* progress) {
+    const CaptureSet& set = input.set;
+    const Rig& rig = input.rig;
+    const std::vector<ViewRing>& rings = input.rings;
     RS_CHECK(set.completed.empty());
     ShapeMapOutput found;
     const auto keep = [&](int v, const Image<Rgba8>& image) {
-        if (keep_images) object.images[static_cast<std::size_t>(v)] = planar_from_rgba(image);
+        if (input.keep_images) object.images[static_cast<std::size_t>(v)] = planar_from_rgba(image);
     };
     std::vector<RingDepthEstimator> estimators;
     estimators.reserve(rings.size());

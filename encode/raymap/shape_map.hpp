@@ -9,12 +9,12 @@
 // calibrated separately, is left out. Each line between two photos merges both depth maps (shape_lines.hpp), and each
 // of its cells is shown by the photos in which it is not occluded (visibility.hpp).
 
-#include "encode/raymap/rings.hpp"
 #include "encode/raymap/semi_global.hpp"
 #include "encode/raymap/shape_lines.hpp"
 #include "encode/set/capture_set.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
+#include "rayspace/geometry/rig.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
 #include <string>
@@ -47,17 +47,20 @@ struct ShapeMapOutput {
     std::vector<std::string> warnings;  // one line each
 };
 
+/// The photos of an object.
+struct ShapeMapInput {
+    const CaptureSet& set;               // read photo by photo; has no completed photos yet
+    const Rig& rig;                      // set.upright, in object radii
+    const std::vector<ViewRing>& rings;  // from find_rings()
+    bool keep_images = false;            // stores the photos, with completed masks, in the object
+};
+
 /// Adds the shape map of each ring to an object. Deterministic.
-/// \param set            read photo by photo; has no completed photos yet.
-/// \param rig            set.upright, in object radii.
-/// \param rings          from find_rings().
-/// \param keep_images  whether to store the photos, with completed masks, in the object.
-/// \param object         has its views and rings, but not their shapes.
+/// \param object  has its views and rings, but not their shapes.
 /// \return warnings and depth maps for display; errors of reading.
 /// Memory: at the working size 10 bytes per pixel and photo, 4 bytes per full-size pixel of `completed`, and for each
 /// thread about 3 bytes per object pixel and depth level.
-Result<ShapeMapOutput> add_shape_maps(const CaptureSet& set, const Rig& rig, const std::vector<ViewRing>& rings,
-                                      const ShapeOptions& options, bool keep_images, RaySpaceObject& object,
+Result<ShapeMapOutput> add_shape_maps(const ShapeMapInput& input, const ShapeOptions& options, RaySpaceObject& object,
                                       Progress* progress = nullptr);
 
 }  // namespace rs::encode

@@ -1,8 +1,7 @@
 #include "encode/report/build_report.hpp"
 
-#include "encode/report/ring_plan.hpp"
 #include "rayspace/page/html_page.hpp"
-#include "rayspace/page/line_plot.hpp"
+#include "rayspace/page/plots.hpp"
 #include "rayspace/page/svg_parts.hpp"
 
 #include <numeric>

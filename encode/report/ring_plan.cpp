@@ -1,9 +1,9 @@
-#include "encode/report/ring_plan.hpp"
+#include "encode/report/build_report.hpp"
 
-#include "encode/raymap/rings.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
-#include "rayspace/page/line_plot.hpp"
+#include "rayspace/geometry/rig.hpp"
+#include "rayspace/page/plots.hpp"
 #include "rayspace/page/svg_parts.hpp"
 
 #include <algorithm>

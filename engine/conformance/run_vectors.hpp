@@ -1,5 +1,6 @@
 #pragma once
-// Runs the conformance set: compares the images of implementations with the hashes of the scalar definition.
+// Runs the conformance set: compares the images of implementations, or their files, with the hashes of the scalar
+// definition.
 
 #include "engine/conformance/vectors.hpp"
 #include "rayspace/api/types/executor.hpp"
@@ -22,6 +23,14 @@ struct Implementation {
     // `object` has its images as stored in the file (coded images are not unpacked).
     std::function<Result<ExecuteView>(const ConformanceCase& test_case, RaySpaceObject object)> open;
 };
+
+/// Writes a view to FOLDER/CASE/VIEW.rgba and VIEW.depth (engine/conformance/PROTOCOL.md); creates folders as needed.
+Status write_view_files(const std::filesystem::path& folder, const std::string& test_case, std::size_t view,
+                        const ExecutedView& executed);
+
+/// Reads a view. \return error if the colour file is missing or a file is not of width x height pixels
+Result<ExecutedView> read_view_files(const std::filesystem::path& folder, const std::string& test_case,
+                                     std::size_t view, int width, int height);
 
 /// Runs an executor. Declines objects and views that it does not render unchanged.
 Implementation implementation_of(std::shared_ptr<Executor> executor);

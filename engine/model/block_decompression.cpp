@@ -36,11 +36,13 @@ std::array<Block*, 5> blocks_of(HopBlocks& b) {
 
 HopBlocks::HopBlocks(int hop, const RegisterFile& registers, HopFifos& f, Fifo<BlockRequest>* next_asks,
                      Fifo<CodedPixel>& next_pixels)
-    : tile_finder(hop, registers, f.asks, f.table_reads, f.found),
-      tile_reader(hop, f.found, f.table_words, f.tile_reads, f.tiles),
-      record_reader(hop, registers, f.tiles, f.tile_words, f.record_reads, f.asked_records),
-      block_motion(hop, registers, f.asked_records, f.record_words, f.records, next_asks),
-      record_select(hop, registers, f.pixels, f.records, next_pixels) {}
+    : tile_finder(hop, registers, {.in = f.asks, .requests = f.table_reads, .out = f.found}),
+      tile_reader(hop, {.in = f.found, .entries = f.table_words, .requests = f.tile_reads, .out = f.tiles}),
+      record_reader(hop, registers,
+                    {.in = f.tiles, .heads = f.tile_words, .requests = f.record_reads, .out = f.asked_records}),
+      block_motion(hop, registers,
+                   {.in = f.asked_records, .words = f.record_words, .out = f.records, .asks = next_asks}),
+      record_select(hop, registers, {.in = f.pixels, .records = f.records, .out = next_pixels}) {}
 
 RecordChains::RecordChains(const RegisterFile& registers, const std::string& suffix)
     : FifoGroup(suffix), hop_fifos(all_fifos(suffix)), hops(all_blocks(registers, hop_fifos, complete)) {
@@ -69,8 +71,8 @@ void RecordChains::add_chain_ports(std::vector<ReadPort>& ports) {
 
 BlockDecompression::BlockDecompression(const RegisterFile& registers, Fifo<ColumnWalk>& walks, Fifo<YuvaPixel>& samples)
     : RecordChains(registers),
-      block_scan(registers, walks, hop_fifos[0]->asks, hop_fifos[0]->pixels),
-      book_lookup(registers, complete, book_reads, book_words, samples) {}
+      block_scan(registers, {.in = walks, .asks = hop_fifos[0]->asks, .pixels = hop_fifos[0]->pixels}),
+      book_lookup(registers, {.in = complete, .requests = book_reads, .words = book_words, .out = samples}) {}
 
 void BlockDecompression::add_to(Simulator& simulator) {
     simulator.add(Domain::board, block_scan);

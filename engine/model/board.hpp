@@ -7,6 +7,7 @@
 #include "engine/model/board_top.hpp"
 #include "engine/model/layout/memory_map.hpp"
 #include "engine/model/layout/object_image.hpp"
+#include "rayspace/api/types/executor.hpp"
 #include "rayspace/image/image.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
@@ -91,5 +92,9 @@ private:
     std::size_t collected_loads_ = 0;
     std::uint32_t loads_ = 0;  // loads placed or started; gives the serial numbers of the objects
 };
+
+// Simulated board as an executor with the interface and the results of the hardware (simulated_board.cpp).
+// Objects are loaded from the board's disk in simulated time, or with `instant_loads` placed into memory at once.
+std::unique_ptr<Executor> make_simulated_board(const BoardConfig& config, bool instant_loads = false);
 
 }  // namespace rs::engine::model

@@ -77,10 +77,10 @@ std::unique_ptr<BoardBody> body_of(const BoardConfig& config, const RegisterFile
 }  // namespace
 
 SampleReading::SampleReading(const RegisterFile& registers, Fifo<ColumnWalk>& walks, Fifo<YuvaPixel>& samples)
-    : column_address(registers, walks, placed),
-      row_scan(registers, placed, pairs),
-      sample_fetch(pairs, sample_reads, tags),
-      sample_select(tags, sample_words, samples) {}
+    : column_address(registers, {.in = walks, .out = placed}),
+      row_scan(registers, {.in = placed, .out = pairs}),
+      sample_fetch({.in = pairs, .requests = sample_reads, .tags = tags}),
+      sample_select({.tags = tags, .words = sample_words, .out = samples}) {}
 
 void SampleReading::add_to(Simulator& simulator) {
     for (Block* block : std::initializer_list<Block*>{&column_address, &row_scan, &sample_fetch, &sample_select}) {
@@ -97,16 +97,21 @@ template <class Reading>
 SingleBoard<Reading>::SingleBoard(const BoardConfig& config, const RegisterFile& registers,
                                   Fifo<MemoryWrite>& load_words, Fifo<Done>& object_loaded)
     : sdram(config.memory.shape, config.memory.timing),
-      raster_generator(registers, fifos.jobs, fifos.columns),
-      ray_position(registers, fifos.columns, fifos.points),
-      map_reader(fifos.points, fifos.map_reads, fifos.map_words, fifos.mapped),
-      line_reader(registers, fifos.mapped, fifos.line_reads, fifos.line_words, fifos.lines),
-      vertical_compensation(registers, fifos.lines, fifos.walks),
+      raster_generator(registers, {}, {.jobs = fifos.jobs, .columns = fifos.columns}),
+      ray_position(registers, {.in = fifos.columns, .out = fifos.points}),
+      map_reader({.in = fifos.points, .requests = fifos.map_reads, .answers = fifos.map_words, .out = fifos.mapped}),
+      line_reader(registers,
+                  {.in = fifos.mapped, .requests = fifos.line_reads, .answers = fifos.line_words, .out = fifos.lines}),
+      vertical_compensation(registers, {.in = fifos.lines, .out = fifos.walks}),
       reading(registers, fifos.walks, fifos.samples),
-      colour_conversion(fifos.samples, fifos.pixels),
-      image_writer(registers, fifos.pixels, fifos.image_writes),
-      memory("memory_controller", config.memory, sdram, read_ports(*this), fifos.image_writes, fifos.view_written,
-             load_words, object_loaded) {}
+      colour_conversion({.in = fifos.samples, .out = fifos.pixels}),
+      image_writer(registers, {.in = fifos.pixels, .out = fifos.image_writes}),
+      memory("memory_controller", config.memory, sdram,
+             {.read_ports = read_ports(*this),
+              .image_writes = fifos.image_writes,
+              .view_written = fifos.view_written,
+              .loads = load_words,
+              .object_loaded = object_loaded}) {}
 
 template <class Reading>
 void SingleBoard<Reading>::add_pipes(Simulator& simulator) {
@@ -125,8 +130,8 @@ void SingleBoard<Reading>::add_pipes(Simulator& simulator) {
 ParallelBoard::ParallelBoard(const BoardConfig& config, const RegisterFile& registers, Fifo<MemoryWrite>& load_words,
                              Fifo<Done>& object_loaded)
     : pipes(all_pipes(config, registers)),
-      view_dispatcher(registers, jobs, dispatch_ports(pipes), view_written),
-      load_broadcast(load_words, load_ports(pipes), object_loaded) {}
+      view_dispatcher(registers, {.in = jobs, .pipes = dispatch_ports(pipes), .view_written = view_written}),
+      load_broadcast({.in = load_words, .channels = load_ports(pipes), .loaded = object_loaded}) {}
 
 std::vector<DmaPort> ParallelBoard::dma_ports() {
     std::vector<DmaPort> ports;
@@ -144,11 +149,21 @@ BoardTop::BoardTop(const BoardConfig& board_config, std::uint64_t shuffle_seed)
       registers(register_file(config)),
       object_ready(*this, "object_ready", 2, static_cast<int>(std::bit_width(registers.objects.size() - 1))),
       body(body_of(config, registers, load_words, object_loaded)),
-      render_control(config, registers, programs, commands, body->views_in(), body->views_out(), images_ready,
-                     buffer_free, object_ready),
-      host_dma(registers, images_ready, body->dma_ports(), image_words, transferred, buffer_free),
-      disk_controller(config.disk, registers, load_words, object_loaded, object_ready),
-      host_bus(config.pci, programs, image_words, commands, transferred),
+      render_control(config, registers, programs,
+                     {.commands = commands,
+                      .jobs = body->views_in(),
+                      .view_written = body->views_out(),
+                      .images_ready = images_ready,
+                      .buffer_free = buffer_free,
+                      .object_ready = object_ready}),
+      host_dma(registers, {.images_ready = images_ready,
+                           .channels = body->dma_ports(),
+                           .words = image_words,
+                           .transferred = transferred,
+                           .buffer_free = buffer_free}),
+      disk_controller(config.disk, registers,
+                      {.words = load_words, .loaded = object_loaded, .object_ready = object_ready}),
+      host_bus(config.pci, programs, {.words = image_words, .commands = commands, .transferred = transferred}),
       simulator(simulator_options(config, shuffle_seed)) {
     simulator.add(Domain::board, render_control);
     body->add_pipes(simulator);

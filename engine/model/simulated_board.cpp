@@ -1,6 +1,5 @@
-#include "engine/model/simulated_board.hpp"
-
 #include "engine/model/board.hpp"
+
 #include "engine/model/layout/object_image.hpp"
 
 #include <utility>

@@ -1,7 +1,7 @@
 #include "engine/tools/commands.hpp"
 
 #include "engine/conformance/run_vectors.hpp"
-#include "engine/core/views/conformance.hpp"
+#include "engine/core/views/compare.hpp"
 #include "rayspace/api/types/executor_table.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/format/object_file.hpp"

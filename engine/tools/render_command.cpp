@@ -1,7 +1,7 @@
 #include "engine/tools/commands.hpp"
 
+#include "engine/core/definition/view_registers.hpp"
 #include "engine/core/fast/renderer.hpp"
-#include "engine/core/views/depth_image.hpp"
 #include "engine/tools/requested_views.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"

@@ -2,7 +2,6 @@
 
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/model/layout/object_image.hpp"
-#include "engine/model/report/diagram.hpp"
 #include "engine/model/report/report.hpp"
 #include "engine/model/report/waveform.hpp"
 #include "engine/tools/requested_views.hpp"

@@ -3,7 +3,7 @@
 #include "encode/build.hpp"
 #include "encode/encode_images.hpp"
 #include "encode/set/capture_set.hpp"
-#include "rayspace/api/internal/progress_adapter.hpp"
+#include "rayspace/api/internal/type_conversion.hpp"
 #include "rayspace/base/result.hpp"
 
 #include <utility>

@@ -1,6 +1,6 @@
 #include "rayspace/api/camera.hpp"
 
-#include "rayspace/api/internal/camera_conversion.hpp"
+#include "rayspace/api/internal/type_conversion.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/result.hpp"
 

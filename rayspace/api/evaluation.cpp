@@ -3,8 +3,7 @@
 #include "encode/evaluation/evaluation.hpp"
 #include "encode/hold_out.hpp"
 #include "engine/core/views/compare.hpp"
-#include "rayspace/api/internal/camera_conversion.hpp"
-#include "rayspace/api/internal/progress_adapter.hpp"
+#include "rayspace/api/internal/type_conversion.hpp"
 #include "rayspace/base/result.hpp"
 
 namespace rs::api {

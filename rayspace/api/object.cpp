@@ -2,7 +2,7 @@
 
 #include "encode/build.hpp"
 #include "engine/core/views/orbit.hpp"
-#include "rayspace/api/internal/camera_conversion.hpp"
+#include "rayspace/api/internal/type_conversion.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/codec/stream/decode_image.hpp"

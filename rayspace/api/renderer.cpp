@@ -2,8 +2,7 @@
 
 #include "engine/core/definition/view_registers.hpp"
 #include "engine/core/fast/renderer.hpp"
-#include "engine/core/views/depth_image.hpp"
-#include "rayspace/api/internal/camera_conversion.hpp"
+#include "rayspace/api/internal/type_conversion.hpp"
 #include "rayspace/base/result.hpp"
 
 #include <mutex>

@@ -1,7 +1,7 @@
 #include "rayspace/base/zstd_frame.hpp"
 
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/byte_stream.hpp"
-#include "rayspace/base/check.hpp"
 
 #include <zstd.h>
 

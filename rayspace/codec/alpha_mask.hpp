@@ -48,23 +48,30 @@ constexpr int mask_context(int alpha) {
     return alpha < 64 ? 2 : alpha < 112 ? 3 : alpha < 144 ? 4 : alpha < 192 ? 5 : alpha < 255 ? 6 : 7;
 }
 
-/// Finishes a tile's alpha after its masks and units are known: smooths it, or codes the further bits.
-/// \param depths  values for syntax::alpha_depth if the coder writes; filled in.
+/// A tile whose masks and units are known.
+struct MaskedTile {
+    const TileGrid& grid;
+    const AlphaLevels& mask;
+    AlphaLevels& depths;  // values for syntax::alpha_depth if the coder writes; filled in
+    const std::array<ConstPlaneViews, 2>& references;
+    const TileRect& place;
+    const ImageView<std::uint8_t>& out;  // alpha of the image
+};
+
+/// Finishes a tile's alpha: smooths it, or codes the further bits.
 template <class Coder>
 class AlphaFinisher {
 public:
-    AlphaFinisher(Coder& coder, const DenseCode& code, const TileGrid& grid, const AlphaLevels& mask,
-                  AlphaLevels& depths, const std::array<ConstPlaneViews, 2>& references, const TileRect& place,
-                  const ImageView<std::uint8_t>& out)
+    AlphaFinisher(Coder& coder, const DenseCode& code, const MaskedTile& tile)
         : coder_(coder),
           bits_(code.alpha_bits),
           edge_(code.edge_alpha),
-          grid_(grid),
-          mask_(mask),
-          depths_(depths),
-          references_(references),
-          place_(place),
-          out_(out) {}
+          grid_(tile.grid),
+          mask_(tile.mask),
+          depths_(tile.depths),
+          references_(tile.references),
+          place_(tile.place),
+          out_(tile.out) {}
 
     void finish() {
         for (int by = 0; by < place_.height / kBlock; ++by) {

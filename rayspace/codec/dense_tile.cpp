@@ -26,11 +26,9 @@ private:
 
 }  // namespace
 
-void decode_dense_tile(const DenseCode& code, const ImageHead& head, std::span<const std::byte> bytes,
-                       const TileRect& place, const std::array<ConstPlaneViews, 2>& references,
-                       ReferenceListener* listener, const PlaneViews& out) {
-    Reader reader(bytes, code);
-    DenseTileDecoder(reader, code, head, place, references, listener, out).decode();
+void decode_dense_tile(const DenseCode& code, const CodedTile& tile, const PlaneViews& out) {
+    Reader reader(tile.bytes, code);
+    DenseTileDecoder(reader, code, tile, out).decode();
 }
 
 void clear_tile(const TileRect& place, const PlaneViews& out) {

@@ -43,12 +43,18 @@ struct TileRect {
     int height = 0;
 };
 
-/// Decodes the tile at `place` into `out`; other threads may write other tiles. references[r] is the image
-/// head.reference[r]. Any bytes decode to some samples: there are no errors. Cost: about a microsecond per 64 samples
-/// of each plane.
-void decode_dense_tile(const DenseCode& code, const ImageHead& head, std::span<const std::byte> bytes,
-                       const TileRect& place, const std::array<ConstPlaneViews, 2>& references,
-                       ReferenceListener* listener, const PlaneViews& out);
+/// A tile to decode, and the images that it is predicted from.
+struct CodedTile {
+    const ImageHead& head;  // of the tile's image
+    std::span<const std::byte> bytes;
+    TileRect place;
+    const std::array<ConstPlaneViews, 2>& references;  // [r]: the image head.reference[r]
+    ReferenceListener* listener = nullptr;             // may be null
+};
+
+/// Decodes a tile into `out`, an image; other threads may write other tiles. Any bytes decode to some samples: there
+/// are no errors. Cost: about a microsecond per 64 samples of each plane.
+void decode_dense_tile(const DenseCode& code, const CodedTile& tile, const PlaneViews& out);
 
 /// Clears a tile without bytes: transparent.
 void clear_tile(const TileRect& place, const PlaneViews& out);

@@ -17,26 +17,32 @@ namespace rs::codec {
 template <class Coder>
 class DenseTileDecoder {
 public:
-    DenseTileDecoder(Coder& reader, const DenseCode& code, const ImageHead& head, const TileRect& place,
-                     const std::array<ConstPlaneViews, 2>& references, ReferenceListener* listener,
-                     const PlaneViews& out)
+    /// \param reader  reads tile.bytes.
+    DenseTileDecoder(Coder& reader, const DenseCode& code, const CodedTile& tile, const PlaneViews& out)
         : code_(code),
-          head_(head),
+          head_(tile.head),
           reader_(reader),
-          place_(place),
-          left_(place.left),
-          top_(place.top),
-          references_(references),
-          listener_(listener),
+          place_(tile.place),
+          left_(tile.place.left),
+          top_(tile.place.top),
+          references_(tile.references),
+          listener_(tile.listener),
           out_(out),
-          around_{head.references(), head.global_motion} {}
+          around_{tile.head.references(), tile.head.global_motion} {}
 
     void decode() {
         for (int y = 0; y < place_.height; y += kMacroblock) {
             for (int x = 0; x < place_.width; x += kMacroblock) macroblock(x / kBlock, y / kBlock);
         }
         if (code_.has_masks) {
-            AlphaFinisher(reader_, code_, grid_, alpha_, depths_, references_, place_, out_[3]).finish();
+            AlphaFinisher(reader_, code_,
+                          {.grid = grid_,
+                           .mask = alpha_,
+                           .depths = depths_,
+                           .references = references_,
+                           .place = place_,
+                           .out = out_[3]})
+                .finish();
         }
         filter_edges(grid_, code_, head_.step, place_, out_);
     }

@@ -33,7 +33,7 @@ private:
     int descriptor_ = -1;
 };
 
-/// Removes the temporaries of this process, for the moment before a signal ends it (rayspace/tool/interruption.hpp).
+/// Removes the temporaries of this process, for the moment before a signal ends it (rayspace/tool/tool_main.cpp).
 /// Later operations on them fail. Thread-safe.
 void remove_temporaries();
 

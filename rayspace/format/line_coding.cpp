@@ -1,6 +1,6 @@
-#include "rayspace/format/line_coding.hpp"
+#include "rayspace/format/content_coding.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <array>

@@ -1,6 +1,6 @@
-#include "rayspace/format/map_coding.hpp"
+#include "rayspace/format/content_coding.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 #include <string>

@@ -4,7 +4,7 @@
 
 #include "rayspace/base/result.hpp"
 #include "rayspace/format/container.hpp"
-#include "rayspace/format/map_coding.hpp"
+#include "rayspace/format/content_coding.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
 #include <cstddef>
@@ -28,7 +28,7 @@ using Payload = std::vector<std::byte>;
 
 /// RING r: all of object.rings[r] except its cells, and the lines of the ring's views. Views of other rings are
 /// rejected.
-enum class LineCoding : std::uint8_t { kPlain = 0, kResiduals = 1 };  // rayspace/format/line_coding.hpp
+enum class LineCoding : std::uint8_t { kPlain = 0, kResiduals = 1 };  // rayspace/format/line_coding.cpp
 Payload ring_payload(const RaySpaceObject& object, std::size_t ring, LineCoding coding = LineCoding::kResiduals);
 Status parse_ring(std::span<const std::byte> payload, RaySpaceObject& object, std::size_t ring);
 

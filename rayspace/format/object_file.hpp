@@ -6,7 +6,10 @@
 #include "rayspace/format/container.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
+#include <cstdint>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 namespace rs {
 
@@ -30,6 +33,21 @@ struct ReadObjectOptions {
 /// max_level are neither read nor checked.
 Result<RaySpaceObject> read_object(const std::filesystem::path& path, const ReadObjectOptions& options = {});
 Result<RaySpaceObject> read_object(const ContainerReader& container, const ReadObjectOptions& options = {});
+
+/// Memory of the whole object, for callers with a memory budget, including coded images even if they are shared.
+/// Thread-safe.
+std::int64_t object_memory_bytes(const RaySpaceObject& object);
+
+/// Upper bounds of the memory for read_object(), close to the real values; computed without reading the images.
+struct ReadMemory {
+    std::int64_t most_bytes = 0;    // peak while reading
+    std::int64_t object_bytes = 0;  // the object after reading; at least object_memory_bytes() it
+    int width = 0;                  // px, of its images
+    int height = 0;
+    std::int64_t images = 0;
+};
+/// Reads the small chunks and the heads of shape maps. Errors as in read_object().
+Result<ReadMemory> estimate_read_memory(const ContainerReader& container, const ReadObjectOptions& options = {});
 
 /// Summary of a file's chunks, for `rs-encode info`.
 struct ChunkSummary {

@@ -1,4 +1,4 @@
-#include "rayspace/format/shape_coding.hpp"
+#include "rayspace/format/content_coding.hpp"
 
 #include "rayspace/codec/adaptation.hpp"
 #include "rayspace/codec/bool_decoder.hpp"

@@ -1,6 +1,6 @@
 #include "rayspace/geometry/camera.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 #include <cmath>

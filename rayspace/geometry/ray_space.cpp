@@ -1,6 +1,6 @@
 #include "rayspace/geometry/ray_space.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <cmath>

@@ -1,70 +1,20 @@
 #include "rayspace/geometry/rig.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/file/file_output.hpp"
-#include "rayspace/geometry/rig_json.hpp"
-#include "rayspace/image_io/image_io.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <span>
+#include <numeric>
 
 namespace rs {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uint64_t kMaxRigFile_bytes = std::uint64_t{64} << 20;
-
-bool all_finite(const Camera& camera) {
-    bool finite = std::isfinite(camera.fl_x) && std::isfinite(camera.fl_y) && std::isfinite(camera.cx) &&
-                  std::isfinite(camera.cy);
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) finite = finite && std::isfinite(camera.world_from_camera[column][row]);
-    }
-    return finite;
-}
-
-bool is_utf8(const std::string& text) {
-    try {
-        (void)nlohmann::json(text).dump();
-        return true;
-    } catch (const nlohmann::json::exception&) {
-        return false;
-    }
-}
+constexpr double kRingGap_rad = radians(5);
 
 }  // namespace
-
-Result<Rig> read_rig(const fs::path& path) {
-    std::error_code ignored;
-    const fs::path file = fs::is_directory(path, ignored) ? path / kRigFileName : path;
-    if (!fs::exists(file, ignored)) {
-        return Error{file.string() + ": does not exist; give a capture set's folder or its " + kRigFileName};
-    }
-    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(file, kMaxRigFile_bytes));
-    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    return parse_rig(text, file.string(), [&](const RigView& first) -> Result<ImageSize> {
-        RS_ASSIGN_OR_RETURN(const auto info, read_image_info(image_path(file.parent_path(), first)));
-        return ImageSize{info.width, info.height};
-    });
-}
-
-Status write_rig(const fs::path& transforms_json, const Rig& rig) {
-    const std::string where = transforms_json.string();
-    for (std::size_t i = 0; i < rig.views.size(); ++i) {
-        const RigView& view = rig.views[i];
-        const std::string place = where + ": frame " + std::to_string(i);
-        if (!all_finite(view.camera)) return Error{place + ": its camera holds a number that is not finite"};
-        if (!is_utf8(view.file_path) || !is_utf8(view.depth_file_path)) {
-            return Error{place + ": its image's name is not valid UTF-8; rename the file"};
-        }
-    }
-    if (!std::isfinite(rig.object_radius)) return Error{where + ": the object radius is not finite"};
-    if (!std::isfinite(rig.foot_height.value_or(0))) return Error{where + ": the foot's height is not finite"};
-    const std::string text = rig_to_json(rig);
-    return write_file(transforms_json, text);
-}
 
 fs::path image_path(const fs::path& folder, const RigView& view) {
     fs::path as_given = folder / view.file_path;
@@ -102,6 +52,33 @@ Rig make_ring(const RingOptions& options) {
         rig.views.push_back(std::move(view));
     }
     return rig;
+}
+
+std::vector<ViewRing> find_rings(const Rig& rig) {
+    const auto centre = [&](int i) { return rig.views[static_cast<std::size_t>(i)].camera.centre(); };
+    const auto elevation = [&](int i) { return std::atan2(centre(i).y, std::hypot(centre(i).x, centre(i).z)); };
+    const auto azimuth = [&](int i) {
+        // Angles slightly below zero count as zero, so that a ring whose first camera is on +Z starts with it.
+        const double angle = std::atan2(centre(i).x, centre(i).z);
+        return angle < -1e-9 ? angle + 2 * kPi : angle;
+    };
+
+    std::vector<int> by_elevation(rig.views.size());
+    std::iota(by_elevation.begin(), by_elevation.end(), 0);
+    std::stable_sort(by_elevation.begin(), by_elevation.end(),
+                     [&](int a, int b) { return elevation(a) < elevation(b); });
+
+    std::vector<ViewRing> rings;
+    for (std::size_t n = 0; n < by_elevation.size(); ++n) {
+        if (n == 0 || elevation(by_elevation[n]) - elevation(by_elevation[n - 1]) > kRingGap_rad) rings.emplace_back();
+        rings.back().views.push_back(by_elevation[n]);
+        rings.back().elevation_rad += elevation(by_elevation[n]);
+    }
+    for (ViewRing& ring : rings) {
+        ring.elevation_rad /= static_cast<double>(ring.views.size());
+        std::stable_sort(ring.views.begin(), ring.views.end(), [&](int a, int b) { return azimuth(a) < azimuth(b); });
+    }
+    return rings;
 }
 
 }  // namespace rs

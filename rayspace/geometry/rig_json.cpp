@@ -1,18 +1,25 @@
-#include "rayspace/geometry/rig_json.hpp"
+// Reading and writing of rigs as transforms.json.
+
+#include "rayspace/geometry/rig.hpp"
 
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/base/strict_json.hpp"
+#include "rayspace/base/json_text.hpp"
+#include "rayspace/file/file_output.hpp"
+#include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 namespace rs {
+namespace fs = std::filesystem;
 namespace {
 
 using nlohmann::json;
 using nlohmann::ordered_json;
 
+constexpr std::uint64_t kMaxRigFile_bytes = std::uint64_t{64} << 20;
 constexpr std::size_t kMaxPath_bytes = 4096;
 constexpr double kMinFocal_px = 1e-3;
 constexpr double kMaxFocal_px = 1e7;
@@ -20,6 +27,14 @@ constexpr double kMinAngle_rad = 1e-9;  // allows the angle of every possible fo
 constexpr double kMaxPrincipal_px = 1e6;
 constexpr double kMaxLength = 1e12;
 constexpr double kRigidTolerance = 1e-3;
+
+struct ImageSize {
+    int width = 0;  // px
+    int height = 0;
+};
+
+// Called for the first frame if neither the file nor that frame states the image size.
+using FindImageSize = std::function<Result<ImageSize>(const RigView& first)>;
 
 // Intrinsics stated by one JSON object, the file or a frame.
 struct Intrinsics {
@@ -177,8 +192,6 @@ std::string dump_json(const ordered_json& value) {
     return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
-}  // namespace
-
 Result<Rig> parse_rig(const std::string& text, const std::string& where, const FindImageSize& find_size) {
     return read_json(text, where, [&](JsonObject& top) {
         if (!top.has("frames")) throw top.wrong("frames is missing; is this a transforms.json?");
@@ -193,6 +206,40 @@ Result<Rig> parse_rig(const std::string& text, const std::string& where, const F
         }
         rig.extras = top.take_rest();
         return rig;
+    });
+}
+
+bool all_finite(const Camera& camera) {
+    bool finite = std::isfinite(camera.fl_x) && std::isfinite(camera.fl_y) && std::isfinite(camera.cx) &&
+                  std::isfinite(camera.cy);
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) finite = finite && std::isfinite(camera.world_from_camera[column][row]);
+    }
+    return finite;
+}
+
+bool is_utf8(const std::string& text) {
+    try {
+        (void)json(text).dump();
+        return true;
+    } catch (const json::exception&) {
+        return false;
+    }
+}
+
+}  // namespace
+
+Result<Rig> read_rig(const fs::path& path) {
+    std::error_code ignored;
+    const fs::path file = fs::is_directory(path, ignored) ? path / kRigFileName : path;
+    if (!fs::exists(file, ignored)) {
+        return Error{file.string() + ": does not exist; give a capture set's folder or its " + kRigFileName};
+    }
+    RS_ASSIGN_OR_RETURN(const auto bytes, read_file(file, kMaxRigFile_bytes));
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    return parse_rig(text, file.string(), [&](const RigView& first) -> Result<ImageSize> {
+        RS_ASSIGN_OR_RETURN(const auto info, read_image_info(image_path(file.parent_path(), first)));
+        return ImageSize{info.width, info.height};
     });
 }
 
@@ -219,6 +266,22 @@ std::string rig_to_json(const Rig& rig) {
         text += (i == 0 ? "\n    " : ",\n    ") + dump_json(frame_to_json(rig.views[i], !shared));
     }
     return text + "\n  ]\n}\n";
+}
+
+Status write_rig(const fs::path& transforms_json, const Rig& rig) {
+    const std::string where = transforms_json.string();
+    for (std::size_t i = 0; i < rig.views.size(); ++i) {
+        const RigView& view = rig.views[i];
+        const std::string place = where + ": frame " + std::to_string(i);
+        if (!all_finite(view.camera)) return Error{place + ": its camera holds a number that is not finite"};
+        if (!is_utf8(view.file_path) || !is_utf8(view.depth_file_path)) {
+            return Error{place + ": its image's name is not valid UTF-8; rename the file"};
+        }
+    }
+    if (!std::isfinite(rig.object_radius)) return Error{where + ": the object radius is not finite"};
+    if (!std::isfinite(rig.foot_height.value_or(0))) return Error{where + ": the foot's height is not finite"};
+    const std::string text = rig_to_json(rig);
+    return write_file(transforms_json, text);
 }
 
 }  // namespace rs

@@ -1,7 +1,6 @@
 #include "rayspace/image/premultiplied_sampling.hpp"
 
 #include "rayspace/image/linear_light.hpp"
-#include "rayspace/image/srgb_codes.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 #include "rayspace/page/html_page.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>

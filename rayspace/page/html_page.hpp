@@ -36,7 +36,7 @@ public:
     /// Adds images, reduced to at most longest_side_px.
     Status images(std::span<const CaptionedImage> row, int longest_side_px = 400,
                   ImageLayout layout = ImageLayout::kWrap);
-    /// Adds SVG markup of a drawing (line_plot.hpp, ring_plan.hpp), unescaped.
+    /// Adds SVG markup of a drawing (plots.hpp, build_report.hpp), unescaped.
     void drawing(const std::string& svg);
 
     /// Content added in between is collapsed until the reader opens it. Not nested.

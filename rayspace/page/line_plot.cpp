@@ -1,6 +1,6 @@
-#include "rayspace/page/line_plot.hpp"
+#include "rayspace/page/plots.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/page/svg_parts.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include "rayspace/page/page_images.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/image/linear_light.hpp"
 
 #include <algorithm>

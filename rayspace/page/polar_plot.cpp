@@ -1,8 +1,7 @@
-#include "rayspace/page/polar_plot.hpp"
+#include "rayspace/page/plots.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/page/line_plot.hpp"
 #include "rayspace/page/svg_parts.hpp"
 
 #include <algorithm>

@@ -3,19 +3,77 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/input_file.hpp"
-#include "rayspace/tool/interruption.hpp"
+#include "rayspace/file/temporary.hpp"
+
+#include <pthread.h>
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <new>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 namespace rs {
 namespace {
+
+constexpr int kWake = SIGUSR2;  // ends the watcher's wait when the guard ends
+
+// During its lifetime, SIGINT, SIGTERM and SIGHUP remove the temporary output of this process (temporary.hpp) before
+// they end it in the default way. Must be created on the main thread before any other thread, so that all threads
+// inherit its signal mask.
+class InterruptionGuard {
+public:
+    InterruptionGuard();
+    InterruptionGuard(const InterruptionGuard&) = delete;
+    InterruptionGuard& operator=(const InterruptionGuard&) = delete;
+    ~InterruptionGuard();
+
+private:
+    void watch();
+
+    sigset_t watched_{};
+    sigset_t mask_before_{};
+    std::atomic<bool> done_{false};
+    std::thread watcher_;
+};
+
+InterruptionGuard::InterruptionGuard() {
+    sigemptyset(&watched_);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        // Signals ignored by the caller (nohup, a shell's background jobs) stay ignored.
+        struct sigaction action {};
+        const bool ignored = sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+        if (!ignored) sigaddset(&watched_, signal);
+    }
+    sigaddset(&watched_, kWake);
+    // A signal handler may call few functions; a thread that waits for the signal may call all.
+    pthread_sigmask(SIG_BLOCK, &watched_, &mask_before_);
+    watcher_ = std::thread([this] { watch(); });
+}
+
+InterruptionGuard::~InterruptionGuard() {
+    done_ = true;
+    pthread_kill(watcher_.native_handle(), kWake);  // wakes only the watcher
+    watcher_.join();
+    pthread_sigmask(SIG_SETMASK, &mask_before_, nullptr);
+}
+
+void InterruptionGuard::watch() {
+    int received = 0;
+    do {
+        if (sigwait(&watched_, &received) != 0 || done_) return;
+    } while (received == kWake);
+    remove_temporaries();
+    // Ends by the signal's default action, so that the shell sees the usual status.
+    std::signal(received, SIG_DFL);
+    pthread_sigmask(SIG_UNBLOCK, &watched_, nullptr);
+    std::raise(received);
+}
 
 // Joins the lines of a message, which may quote a library's output: an error is one line.
 std::string folded(const std::string& message) {

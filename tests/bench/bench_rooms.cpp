@@ -11,7 +11,6 @@
 #include "compositor/viewer/frame_times.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "rayspace/format/object_file.hpp"
-#include "rayspace/format/object_memory.hpp"
 #include "rayspace/tool/tool_main.hpp"
 #include "tests/compositor/six_rooms.hpp"
 #include "tests/support/coded_object.hpp"

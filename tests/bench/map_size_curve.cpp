@@ -10,7 +10,7 @@
 #include "engine/core/views/compare.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/chunks/shape_chunk.hpp"
-#include "rayspace/page/line_plot.hpp"
+#include "rayspace/page/plots.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <cstdio>

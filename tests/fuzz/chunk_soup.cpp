@@ -1,6 +1,6 @@
 #include "tests/fuzz/chunk_soup.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>

@@ -1,7 +1,7 @@
 // Entries of parsers that take file names: the bytes are written to a folder of the process.
 #include "capture/tracer/scene/mesh_file.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "rayspace/image_io/video_reader.hpp"
 #include "tests/fuzz/entries.hpp"

@@ -1,5 +1,5 @@
 #include "compositor/displays/head_datagram.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "tests/fuzz/entries.hpp"
 
 #include <algorithm>

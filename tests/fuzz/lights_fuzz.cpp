@@ -1,5 +1,5 @@
 #include "compositor/scene/light/scene_lights.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "tests/fuzz/entries.hpp"
 
 #include <string>

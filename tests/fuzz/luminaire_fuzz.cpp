@@ -1,4 +1,4 @@
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/light/luminaire.hpp"
 #include "tests/fuzz/entries.hpp"
 

@@ -1,5 +1,5 @@
 #include "capture/calibration/known/known_files.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "tests/fuzz/entries.hpp"
 

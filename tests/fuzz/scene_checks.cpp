@@ -1,6 +1,6 @@
 #include "tests/fuzz/scene_checks.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #include "capture/photos/masks/network_settings.hpp"
 #include "capture/photos/masks/onnx_summary.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "tests/fuzz/entries.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "compositor/sequence/extended_obj.hpp"
 #include "compositor/sequence/frames_file.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "tests/fuzz/entries.hpp"
 
 #include <cmath>

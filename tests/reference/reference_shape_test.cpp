@@ -4,7 +4,7 @@
 #include "tests/reference/decoder/reference_shape.hpp"
 #include "rayspace/format/chunks/shape_chunk.hpp"
 #include "rayspace/format/container.hpp"
-#include "rayspace/format/shape_coding.hpp"
+#include "rayspace/format/content_coding.hpp"
 #include "tests/support/random_shape.hpp"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,6 @@
 
 #include "encode/raymap/captured_view.hpp"
 #include "encode/raymap/plane_map.hpp"
-#include "encode/raymap/rings.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 #include "rayspace/object/yuv.hpp"
@@ -80,7 +79,7 @@ inline RaySpaceObject ring_object(const RingObjectOptions& options) {
         object.views.push_back(*encode::captured_view(view.camera, options.planes));
         object.images.push_back(planar_from_rgba(noise_image(view.camera, random)));
     }
-    for (const encode::ViewRing& ring : encode::find_rings(rig)) {
+    for (const ViewRing& ring : find_rings(rig)) {
         object.rings.push_back(encode::make_plane_map(
             rig, ring, {.planes = options.planes, .x_cells = options.x_cells, .u_cells = options.u_cells}));
     }

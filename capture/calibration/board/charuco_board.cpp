@@ -1,7 +1,7 @@
 #include "capture/calibration/board/charuco_board.hpp"
 
 #include "capture/calibration/board/aruco_dictionary.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,7 +1,7 @@
 #include "capture/calibration/points/tracks.hpp"
 
 #include "capture/calibration/points/features.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 

@@ -1,7 +1,7 @@
 #include "capture/photos/background/background_estimate.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 
 #include <opencv2/imgproc.hpp>

@@ -3,7 +3,7 @@
 #include "capture/opencv/connected_components.hpp"
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/background/log_ratio.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 #include "rayspace/image/linear_light.hpp"

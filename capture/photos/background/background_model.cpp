@@ -8,7 +8,7 @@
 #include "capture/photos/background/disc_inpainting.hpp"
 #include "capture/photos/background/shadow_rows.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <opencv2/core.hpp>
 

@@ -5,7 +5,7 @@
 #include "capture/photos/background/plate_propagation.hpp"
 #include "capture/photos/background/swept_region.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 
 #include <opencv2/core.hpp>

@@ -4,7 +4,7 @@
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/background/background_estimate.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/median.hpp"
 
 #include <opencv2/core.hpp>

@@ -1,6 +1,6 @@
 #include "capture/photos/background/log_ratio.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <opencv2/imgproc.hpp>
 

@@ -1,7 +1,7 @@
 #include "capture/photos/background/plate_propagation.hpp"
 
 #include "capture/photos/intake/colour_difference.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/background/log_ratio.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgproc.hpp>

@@ -1,7 +1,7 @@
 #include "capture/photos/foreground/flat_grey_foreground.hpp"
 
 #include "capture/opencv/connected_components.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <opencv2/core.hpp>
 

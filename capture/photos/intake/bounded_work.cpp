@@ -1,6 +1,6 @@
 #include "capture/photos/intake/bounded_work.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/parallel.hpp"
 
 #include <tbb/task_arena.h>

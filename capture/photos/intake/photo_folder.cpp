@@ -1,6 +1,6 @@
 #include "capture/photos/intake/photo_folder.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "rayspace/image_io/photo_size.hpp"
 

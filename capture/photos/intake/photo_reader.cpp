@@ -1,7 +1,7 @@
 #include "capture/photos/intake/photo_reader.hpp"
 
 #include "capture/photos/intake/reduction.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "rayspace/image_io/photo_size.hpp"
 

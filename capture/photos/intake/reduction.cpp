@@ -1,8 +1,7 @@
 #include "capture/photos/intake/reduction.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/image/linear_light.hpp"
-#include "rayspace/image/srgb_codes.hpp"
 
 #include <algorithm>
 #include <cmath>

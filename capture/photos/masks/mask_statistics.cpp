@@ -1,6 +1,6 @@
 #include "capture/photos/masks/mask_statistics.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,6 +1,6 @@
 #include "capture/photos/masks/network_settings.hpp"
 
-#include "rayspace/base/strict_json.hpp"
+#include "rayspace/base/json_text.hpp"
 #include "rayspace/file/file_output.hpp"
 
 #include <cmath>

@@ -5,8 +5,8 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/page/html_page.hpp"
-#include "rayspace/page/line_plot.hpp"
 #include "rayspace/page/page_images.hpp"
+#include "rayspace/page/plots.hpp"
 
 #include <opencv2/imgproc.hpp>
 

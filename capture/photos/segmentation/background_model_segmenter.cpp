@@ -6,7 +6,7 @@
 #include "capture/photos/foreground/flat_grey_foreground.hpp"
 #include "capture/photos/intake/exposure.hpp"
 #include "capture/photos/intake/survey.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <opencv2/imgproc.hpp>
 

@@ -1,6 +1,6 @@
 #include "capture/photos/segmentation/chroma_key_segmenter.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include "capture/photos/segmentation/foreground_cache.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/file/file_output.hpp"
 
 #include <zstd.h>

@@ -5,7 +5,7 @@
 #include "capture/photos/intake/photo_reader.hpp"
 #include "capture/photos/intake/reduction.hpp"
 #include "capture/photos/intake/survey.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>

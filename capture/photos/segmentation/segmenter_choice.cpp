@@ -7,7 +7,7 @@
 #include "capture/photos/segmentation/network_segmenter.hpp"
 #include "capture/photos/segmentation/provided_masks.hpp"
 #include "capture/photos/segmentation/soft_shadow.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <cmath>
 #include <utility>

@@ -3,7 +3,7 @@
 #include "capture/opencv/connected_components.hpp"
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/foreground/alpha_estimation.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/image/linear_light.hpp"
 
 #include <opencv2/imgproc.hpp>

@@ -1,6 +1,6 @@
 #include "capture/tracer/integrator/light_probe.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/light/light_model.hpp"
 

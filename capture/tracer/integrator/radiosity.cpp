@@ -1,6 +1,6 @@
 #include "capture/tracer/integrator/radiosity.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/parallel.hpp"
 
 #include <algorithm>

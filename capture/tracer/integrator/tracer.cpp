@@ -6,7 +6,7 @@
 #include "capture/tracer/integrator/toon.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
 #include "capture/tracer/scene/scene_check.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"
 

@@ -1,7 +1,7 @@
 // Packet tracing of RayScene.
 #include "capture/tracer/rays/ray_scene.hpp"
 #include "capture/tracer/rays/scope_query.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <embree3/rtcore.h>
 

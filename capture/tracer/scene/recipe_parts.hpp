@@ -4,7 +4,7 @@
 
 #include "capture/tracer/scene/scene.hpp"
 #include "capture/tracer/scene/toon_style.hpp"
-#include "rayspace/base/strict_json.hpp"
+#include "rayspace/base/json_text.hpp"
 
 #include <filesystem>
 

@@ -6,8 +6,8 @@
 #include "capture/tracer/scene/studio.hpp"
 #include "capture/tracer/scene/surroundings.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/json_text.hpp"
 #include "rayspace/base/printable.hpp"
-#include "rayspace/base/strict_json.hpp"
 #include "rayspace/file/file_output.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>

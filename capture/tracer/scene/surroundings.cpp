@@ -1,7 +1,7 @@
 #include "capture/tracer/scene/surroundings.hpp"
 
 #include "capture/tracer/scene/flatten.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <iterator>
 #include <utility>

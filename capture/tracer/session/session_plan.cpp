@@ -1,7 +1,7 @@
 #include "capture/tracer/session/session_plan.hpp"
 
 #include "capture/tracer/session/seeded_draws.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "compositor/scene/light/lights_file.hpp"
 
-#include "rayspace/base/strict_json.hpp"
+#include "rayspace/base/json_text.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "rayspace/light/light_model.hpp"

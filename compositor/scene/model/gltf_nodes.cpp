@@ -2,8 +2,8 @@
 
 #include "compositor/scene/scene_images.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/json_text.hpp"
 #include "rayspace/base/printable.hpp"
-#include "rayspace/base/strict_json.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>

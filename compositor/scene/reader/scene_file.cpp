@@ -2,7 +2,7 @@
 
 #include "compositor/scene/model/model_file.hpp"
 #include "compositor/scene/reader/vrml_file.hpp"
-#include "rayspace/base/strict_json.hpp"
+#include "rayspace/base/json_text.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image/linear_light.hpp"
 

@@ -1,7 +1,7 @@
 #include "compositor/scene/vrml/node_table.hpp"
 
 #include "compositor/scene/vrml/field_values.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 #include "compositor/scene/vrml1/tree.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <utility>
 

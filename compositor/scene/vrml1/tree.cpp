@@ -2,7 +2,7 @@
 
 #include "compositor/scene/vrml/field_values.hpp"
 #include "compositor/scene/vrml/graph_builder.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "compositor/viewer/residency/object_cache.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,6 @@
 #include "compositor/viewer/residency/object_source.hpp"
 
 #include "rayspace/format/object_file.hpp"
-#include "rayspace/format/object_memory.hpp"
 
 #include <tbb/task_arena.h>
 

@@ -2,7 +2,7 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
-#include "rayspace/format/object_memory.hpp"
+#include "rayspace/format/object_file.hpp"
 
 #include <algorithm>
 #include <cmath>

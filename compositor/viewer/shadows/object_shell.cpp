@@ -2,7 +2,6 @@
 
 #include "compositor/viewer/views/screen_rectangle.hpp"
 #include "engine/core/definition/view_registers.hpp"
-#include "engine/core/views/depth_image.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
 

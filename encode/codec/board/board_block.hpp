@@ -2,7 +2,7 @@
 // Residual of a block of 8x8 pixels in the stages of the board profile.
 
 #include "encode/codec/board/vector_quantiser.hpp"
-#include "encode/codec/source_image.hpp"
+#include "encode/codec/encoder_images.hpp"
 #include "rayspace/codec/code/board_code.hpp"
 #include "rayspace/codec/dense_tile.hpp"
 

@@ -1,12 +1,11 @@
 #include "encode/codec/board/board_encoder.hpp"
 
-#include "encode/codec/board/board_alpha.hpp"
 #include "encode/codec/board/board_block.hpp"
-#include "encode/codec/board/board_stages.hpp"
+#include "encode/codec/board/board_codebooks.hpp"
 #include "encode/codec/motion_search.hpp"
 #include "encode/codec/ring_references.hpp"
 #include "rayspace/base/parallel_loop.hpp"
-#include "rayspace/codec/board/board_tile.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 #include "rayspace/codec/stream/decode_image.hpp"
 
 #include <algorithm>

@@ -3,8 +3,7 @@
 // of the others are predicted from the adjacent references on the ring. Codebooks are trained on the object; every
 // block chooses its record class by rate and distortion.
 
-#include "encode/codec/encoded_images.hpp"
-#include "encode/codec/source_image.hpp"
+#include "encode/codec/encoder_images.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 

@@ -106,22 +106,22 @@ struct BlendedSurface {
     std::int32_t lambda_q20 = 0;
 };
 
-// Blends both images at depth d_q3. `rise_q24`: the rise of the pixel's direction (ViewRegisters::rise_q24).
+// Blends both images at a surface's depth. `rise_q24`: the rise of the pixel's direction (ViewRegisters::rise_q24).
 template <class Texels>
 BlendedSurface blend_surface(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
-                             std::int32_t d_q3, int lean, std::int32_t rise_q24, const Texels& texels) {
+                             const SurfaceCell& surface, std::int32_t rise_q24, const Texels& texels) {
     BlendedSurface shown;
-    shown.lambda_q20 = setup.lambda0_q20 + ((d_q3 * setup.lambda1_q21) >> 4);
+    shown.lambda_q20 = setup.lambda0_q20 + ((surface.depth_q3 * setup.lambda1_q21) >> 4);
     if (shown.lambda_q20 <= 0) return {};
     const std::int32_t y_q16 = (registers.b_q20 >> 4) + multiply_shift(shown.lambda_q20, rise_q24, 28);
     const auto sample = [&](const ShapeImage& image) {
-        return sample_image(object, image, d_q3, y_q16, registers.filter, texels);
+        return sample_image(object, image, surface.depth_q3, y_q16, registers.filter, texels);
     };
     const SampleSum first = setup.weight < 256 ? sample(setup.first) : SampleSum{};
     const SampleSum second = setup.weight > 0 ? sample(setup.second) : SampleSum{};
     // Every point of the object projects into every silhouette.
     if ((first.exists && first.a == 0) || (second.exists && second.a == 0)) return {};
-    if (first.exists && second.exists) shown.sum = mix(first, second, apply_lean(setup.weight, lean));
+    if (first.exists && second.exists) shown.sum = mix(first, second, apply_lean(setup.weight, surface.lean));
     if (first.exists != second.exists) shown.sum = first.exists ? mix(first, first, 0) : mix(second, second, 0);
     return shown;
 }
@@ -143,22 +143,22 @@ inline ShapePixel blend_over(const ShapePixel& nearer, const ShapePixel& farther
 template <class Texels>
 ShapePixel shape_pixel(const RaySpaceObject& object, const ViewRegisters& registers, const ShapeSetup& setup,
                        std::int32_t rise_q24, const Texels& texels) {
-    const auto shown_at = [&](std::int32_t d_q3, int lean = kBothShow) {
-        return blend_surface(object, registers, setup, d_q3, lean, rise_q24, texels);
+    const auto shown_at = [&](const SurfaceCell& surface) {
+        return blend_surface(object, registers, setup, surface, rise_q24, texels);
     };
     const auto pixel = [](const BlendedSurface& shown) { return ShapePixel{resolve(shown.sum), shown.lambda_q20}; };
-    if (!setup.has_shape()) return pixel(shown_at(0));
+    if (!setup.has_shape()) return pixel(shown_at({.depth_q3 = 0}));
 
     const ShapeMap& shape = object.rings[static_cast<std::size_t>(registers.ring)].shape;
     CellMarch march(shape, setup, registers.b_q20, rise_q24);
     SurfaceCell cell = march.next();
     if (setup.weight == 0 || setup.weight == 256) {
         // On a captured line only that image is sampled, independently of the depth.
-        return pixel(shown_at(cell.exists() ? cell.depth_q3 : setup.foot_depth_q3));
+        return pixel(shown_at({.depth_q3 = cell.exists() ? cell.depth_q3 : setup.foot_depth_q3}));
     }
     ShapePixel nearer;  // first visible surface, which does not cover the pixel
     for (; cell.exists(); cell = march.next()) {
-        const BlendedSurface shown = shown_at(cell.depth_q3, cell.lean);
+        const BlendedSurface shown = shown_at(cell);
         if (shown.sum.a == 0) continue;
         const ShapePixel here = pixel(shown);
         nearer = blend_over(nearer, here);

@@ -100,9 +100,15 @@ CellColumns cells_around(const ShapeMap& shape, const Bracket& bracket, std::int
     return columns;
 }
 
+// Depth steps of a ray: step n is at low + n * step behind the foot. All 0 for a ray without a shape.
+struct DepthSteps {
+    std::int64_t low_q20 = 0;
+    std::int64_t step_q24 = 0;
+};
+
 // Coefficients of the projection into view n of the ring.
 ShapeImage along_ray(const RaySpaceObject& object, const Ring& ring, int n, int plane, const VerticalPlaneRay& ray,
-                     std::int64_t depth_low_q20, std::int64_t depth_step_q24) {
+                     const DepthSteps& depth) {
     const int view = ring.views[static_cast<std::size_t>(n)];
     const CapturedLine& line = object.views[static_cast<std::size_t>(view)].lines[static_cast<std::size_t>(plane)];
     const NormalLine& normal =
@@ -116,11 +122,11 @@ ShapeImage along_ray(const RaySpaceObject& object, const Ring& ring, int n, int 
     const std::int64_t n_along_q16 = (ray.sine_q30 * line.q1_q16 - ray.cosine_q30 * normal.q2_q16) >> 30;
     ShapeImage image;
     image.view = view;
-    image.l0_q20 = static_cast<std::int32_t>(l_foot_q20 + ((depth_low_q20 * l_along_q30) >> 30));
-    image.l1_q24 = static_cast<std::int32_t>((depth_step_q24 * l_along_q30) >> 30);
-    image.n0_q12 = static_cast<std::int32_t>((n_foot_q16 + ((depth_low_q20 * n_along_q16) >> 20)) >> 4);
+    image.l0_q20 = static_cast<std::int32_t>(l_foot_q20 + ((depth.low_q20 * l_along_q30) >> 30));
+    image.l1_q24 = static_cast<std::int32_t>((depth.step_q24 * l_along_q30) >> 30);
+    image.n0_q12 = static_cast<std::int32_t>((n_foot_q16 + ((depth.low_q20 * n_along_q16) >> 20)) >> 4);
     image.n1_q12 =
-        static_cast<std::int32_t>(std::clamp((depth_step_q24 * n_along_q16) >> 28, -kMaxPerStep, kMaxPerStep));
+        static_cast<std::int32_t>(std::clamp((depth.step_q24 * n_along_q16) >> 28, -kMaxPerStep, kMaxPerStep));
     return image;
 }
 
@@ -151,25 +157,23 @@ ShapeSetup set_up_shape(const RaySpaceObject& object, const ViewRegisters& regis
     setup.inverse_rho_q20 = static_cast<std::int32_t>((std::int64_t{1} << 40) / rho_q20);
 
     const Bracket bracket = find_bracket(ring, static_cast<int>(place), point);
-    std::int64_t depth_low_q20 = 0;
-    std::int64_t depth_step_q24 = 0;
+    DepthSteps depth;
     if (bracket.gap >= 0) {
-        depth_low_q20 = shape.depth_low_q20;
-        depth_step_q24 = shape.depth_step_q24;
+        depth = {shape.depth_low_q20, shape.depth_step_q24};
         setup.cells = cells_around(shape, bracket, ray.p_q20);
         setup.foot_depth_q3 =
-            static_cast<std::int32_t>(std::clamp<std::int64_t>(-depth_low_q20 * 128 / depth_step_q24, 0, 255 * 8));
+            static_cast<std::int32_t>(std::clamp<std::int64_t>(-depth.low_q20 * 128 / depth.step_q24, 0, 255 * 8));
         setup.weight =
             static_cast<std::int32_t>((bracket.from_first_q20 * 512 + bracket.width_q20) / (2 * bracket.width_q20));
         const int next = (bracket.gap + 1) % static_cast<int>(ring.views.size());
-        setup.first = along_ray(object, ring, bracket.gap, point.plane, ray, depth_low_q20, depth_step_q24);
-        setup.second = along_ray(object, ring, next, point.plane, ray, depth_low_q20, depth_step_q24);
+        setup.first = along_ray(object, ring, bracket.gap, point.plane, ray, depth);
+        setup.second = along_ray(object, ring, next, point.plane, ray, depth);
     } else {
-        setup.first = along_ray(object, ring, static_cast<int>(place), point.plane, ray, 0, 0);
+        setup.first = along_ray(object, ring, static_cast<int>(place), point.plane, ray, depth);
     }
     setup.lambda0_q20 =
-        static_cast<std::int32_t>(lambda_foot_q20 + floor_divide(depth_low_q20 * (std::int64_t{1} << 28), ray.r_q28));
-    setup.lambda1_q21 = static_cast<std::int32_t>((depth_step_q24 << 25) / ray.r_q28);
+        static_cast<std::int32_t>(lambda_foot_q20 + floor_divide(depth.low_q20 * (std::int64_t{1} << 28), ray.r_q28));
+    setup.lambda1_q21 = static_cast<std::int32_t>((depth.step_q24 << 25) / ray.r_q28);
     return setup;
 }
 

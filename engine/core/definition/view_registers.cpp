@@ -99,17 +99,18 @@ TexelFilter best_filter(const RaySpaceObject& object, const Ring& ring, const Ca
     return scale <= kSmoothUpTo ? TexelFilter::kSmooth : TexelFilter::kBilinear;
 }
 
+// Viewpoint of prepare_view in object radii: the camera's centre, moved to at most 200 radii.
+glm::dvec3 prepared_viewpoint(const RaySpaceObject& object, const Camera& camera) {
+    const glm::dvec3 centre = camera.centre() / object.units_per_radius;
+    return centre * std::min(1.0, kMaxViewpointDistance / glm::length(centre));
+}
+
 }  // namespace
 
 bool ViewRegisters::upright() const {
     return rise.per_column == 0 && std::all_of(planes.begin(), planes.end(), [](const PlaneRegisters& plane) {
                return plane.along_normal.per_row == 0 && plane.along_tangent.per_row == 0;
            });
-}
-
-glm::dvec3 prepared_viewpoint(const RaySpaceObject& object, const Camera& camera) {
-    const glm::dvec3 centre = camera.centre() / object.units_per_radius;
-    return centre * std::min(1.0, kMaxViewpointDistance / glm::length(centre));
 }
 
 Status check_registers(const RaySpaceObject& object, const ViewRegisters& r) {
@@ -193,6 +194,21 @@ Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& c
                                     static_cast<std::int32_t>(fixed(line.c, 20)), *along_normal, *along_tangent});
     }
     return registers;
+}
+
+Image<float> depth_image(const RaySpaceObject& object, const Camera& camera, ConstImageView<std::int32_t> lambda_q20) {
+    const glm::dvec3 centre = camera.centre() / object.units_per_radius;
+    const double to_viewpoint = glm::dot(prepared_viewpoint(object, camera) - centre, camera.forward());
+    Image<float> depth(lambda_q20.width(), lambda_q20.height());
+    for (int j = 0; j < depth.height(); ++j) {
+        for (int i = 0; i < depth.width(); ++i) {
+            const std::int32_t lambda = lambda_q20(i, j);
+            if (lambda == 0) continue;
+            depth(i, j) = static_cast<float>((std::ldexp(static_cast<double>(lambda), -20) + to_viewpoint) *
+                                             object.units_per_radius);
+        }
+    }
+    return depth;
 }
 
 }  // namespace rs::engine

@@ -1,11 +1,14 @@
 #pragma once
-// Computes the registers of a view (rayspace/api/types/view_registers.hpp) from a camera.
+// Computes the registers of a view (rayspace/api/types/view_registers.hpp) from a camera, and the depth image of the
+// camera from the depths that a view of these registers gives.
 
 #include "rayspace/api/types/view_registers.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
+#include "rayspace/image/image.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
+#include <cstdint>
 #include <optional>
 
 namespace rs::engine {
@@ -24,7 +27,9 @@ Result<ViewRegisters> prepare_view(const RaySpaceObject& object, const Camera& c
 /// RECONSTRUCTION.md at every pixel. Renderers require valid registers and do not check them.
 Status check_registers(const RaySpaceObject& object, const ViewRegisters& registers);
 
-/// Viewpoint of prepare_view in object radii: the camera's centre, moved to at most 200 radii.
-glm::dvec3 prepared_viewpoint(const RaySpaceObject& object, const Camera& camera);
+/// Depth image of a rendered view in the units of the object's rig, like the tracer's depth channel: axial depth from
+/// the camera's centre, also if prepare_view moved a distant viewpoint nearer; 0 where alpha is 0.
+/// \param lambda_q20  from Renderer::render for the view of `camera`
+Image<float> depth_image(const RaySpaceObject& object, const Camera& camera, ConstImageView<std::int32_t> lambda_q20);
 
 }  // namespace rs::engine

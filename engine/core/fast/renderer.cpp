@@ -5,7 +5,7 @@
 #include "engine/core/fast/column_walk.hpp"
 #include "engine/core/fast/shape_walk.hpp"
 #include "rayspace/base/parallel_loop.hpp"
-#include "rayspace/format/object_memory.hpp"
+#include "rayspace/format/object_file.hpp"
 
 #include <tbb/enumerable_thread_specific.h>
 

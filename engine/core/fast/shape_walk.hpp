@@ -88,6 +88,15 @@ struct ShapeWalk {
 
 ShapeWalk set_up_walk(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers);
 
+// Columns [first, last] of a captured image, to decode them in advance; empty if last < first.
+struct ColumnRange {
+    int first = 0;
+    int last = -1;
+};
+
+/// All columns that sample_image() (shape_pixel.hpp) reads at any depth 0 .. 255; the range may be a little larger.
+ColumnRange sampled_columns(const RaySpaceObject& object, const ShapeImage& image);
+
 /// Sets up the view columns first_column .. first_column + kStripColumns - 1, as far as they exist, and ensures the
 /// texels that they read. Overwrites `strip` and reuses its memory.
 void set_up_shape_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,

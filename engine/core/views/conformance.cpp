@@ -1,4 +1,4 @@
-#include "engine/core/views/conformance.hpp"
+#include "engine/core/views/compare.hpp"
 
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/core/fast/renderer.hpp"

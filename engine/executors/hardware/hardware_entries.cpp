@@ -1,6 +1,6 @@
 #include "engine/executors/entries.hpp"
+#include "engine/model/board.hpp"
 #include "engine/model/signals/board_config.hpp"
-#include "engine/model/simulated_board.hpp"
 
 namespace rs::engine {
 

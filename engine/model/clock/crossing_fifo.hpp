@@ -3,7 +3,7 @@
 // visible to the reader at the second edge of its clock after the push; space freed by a pop is visible to the writer
 // at the second edge of its clock after the pop. If edges of both clocks coincide, the board's is first.
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <cstdint>
 #include <string>

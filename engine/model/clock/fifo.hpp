@@ -7,7 +7,7 @@
 // One push and one pop per cycle, as in a RAM with a write port and a read port. A violation is a defect of the block
 // and stops the program (RS_CHECK).
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <bit>
 #include <cstdint>

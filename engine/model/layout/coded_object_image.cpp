@@ -1,4 +1,4 @@
-#include "engine/model/layout/coded_object_image.hpp"
+#include "engine/model/layout/object_image.hpp"
 
 #include "engine/model/limits/coded_layout.hpp"
 

@@ -74,4 +74,25 @@ const ObjectLayout& layout_of(BoardKind kind);
 // Alpha rounded to 2 bits, as boards of BoardKind::raw_images hold it.
 RaySpaceObject with_board_alpha(RaySpaceObject object);
 
+// Images of profile `board` (coded_layout.hpp), defined in coded_object_image.cpp.
+
+// Fails if not all images of the object are loaded, or if they do not have profile `board`; the message names the
+// remedy.
+Status has_board_images(const RaySpaceObject& object);
+
+// Words per region for images and codebooks only.
+std::array<std::uint64_t, kObjectRegions> coded_words(const codec::CodedImages& coded);
+
+// Adds the segments and sets the registers of the images. `books`: address of the codebooks.
+void add_coded_images(const codec::CodedImages& coded, const Placement& placement, WordAddress books,
+                      ObjectRegisters& registers, std::vector<MemorySegment>& segments);
+
+// Layout of every memory channel of a parallel board (parallel_layout.hpp), defined in parallel_object_image.cpp.
+
+// Words per region. Region::flat_tiles also holds raw images.
+std::array<std::uint64_t, kObjectRegions> parallel_object_words(const RaySpaceObject& object);
+
+// `object` must be drawable by a parallel board.
+ObjectImage parallel_object_image(const RaySpaceObject& object, const Placement& placement);
+
 }  // namespace rs::engine::model

@@ -1,7 +1,6 @@
-#include "engine/model/layout/parallel_object_image.hpp"
+#include "engine/model/layout/object_image.hpp"
 
 #include "engine/model/blocks/shared/map_reader.hpp"
-#include "engine/model/layout/coded_object_image.hpp"
 #include "engine/model/limits/coded_layout.hpp"
 #include "engine/model/limits/parallel_layout.hpp"
 #include "engine/model/signals/messages.hpp"

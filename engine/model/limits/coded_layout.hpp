@@ -12,7 +12,7 @@
 //
 // The tiles of an image are consecutive, column by column.
 
-#include "rayspace/codec/board/board_tile.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 #include "rayspace/codec/code/coded_images.hpp"
 
 #include <cstdint>

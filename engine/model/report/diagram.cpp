@@ -1,4 +1,4 @@
-#include "engine/model/report/diagram.hpp"
+#include "engine/model/report/report.hpp"
 
 #include <map>
 

@@ -1,5 +1,6 @@
 #pragma once
-// Report of a run of the board: cycles of every block by activity, traffic on memory and bus, and the limiting block.
+// Reports of a board: cycles of every block of a run by activity, traffic on memory and bus, the limiting block, and
+// the tables of its diagram.
 
 #include "engine/model/board.hpp"
 
@@ -66,5 +67,10 @@ std::string report_json(const BoardReport& report);
 
 // Stacked bars of activity shares, one bar per block. `title` is the heading.
 std::string report_chart_svg(const BoardReport& report, const std::string& title);
+
+// Tables of DIAGRAM.md, generated from the declarations of a board's blocks and FIFOs; a test compares them with the
+// page. Two tables as Markdown: blocks with clock, timing and ports; FIFOs with depth, width and the blocks at their
+// ends. For a parallel board one pipe represents all ("_pN"), and a third table lists its block RAM.
+std::string diagram_tables(const BoardTop& board);
 
 }  // namespace rs::engine::model

@@ -1,6 +1,6 @@
 #include "engine/model/signals/sdram.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 

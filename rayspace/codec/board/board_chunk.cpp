@@ -1,4 +1,4 @@
-#include "rayspace/codec/board/board_chunk.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 
 #include "rayspace/base/zstd_frame.hpp"
 

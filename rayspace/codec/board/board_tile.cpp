@@ -1,4 +1,4 @@
-#include "rayspace/codec/board/board_tile.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -54,6 +54,61 @@ void clear_block(int x, int y, const PlaneViews& out) {
     clear_tile({x, y, kBoardBlock, kBoardBlock}, out);
 }
 
+// Record of the block at (x, y) of the image.
+struct BlockRecord {
+    const RecordClass& record_class;
+    std::span<const std::byte> bytes;
+    int x = 0;
+    int y = 0;
+};
+
+void decode_block(const BoardCode& code, const CodedTile& tile, const BlockRecord& record, const PlaneViews& out) {
+    const auto& [record_class, bytes, x, y] = record;
+    Samples samples;
+    std::size_t next = 0;
+    if (record_class.predicted) {
+        BoardMotion motion = board_motion(static_cast<std::uint16_t>(byte_at(bytes, 0) | (byte_at(bytes, 1) << 8U)));
+        if (tile.head.references() < 2) motion.reference = 0;
+        const ConstPlaneViews& from = tile.references[static_cast<std::size_t>(motion.reference)];
+        const int left = x + motion.x;
+        const int top = y + motion.y;
+        if (tile.listener != nullptr) {
+            const int right_end = out[0].width() - 1;
+            const int bottom_end = out[0].height() - 1;
+            tile.listener->need(motion.reference, std::clamp(left, 0, right_end), std::clamp(top, 0, bottom_end),
+                                std::clamp(left + kBoardBlock - 1, 0, right_end) + 1,
+                                std::clamp(top + kBoardBlock - 1, 0, bottom_end) + 1);
+        }
+        predict(from, left, top, samples);
+        next = 2;
+    } else {
+        for (auto& plane : samples) plane.fill(static_cast<int>(byte_at(bytes, next++)));
+    }
+    const Books& books = code.books[record_class.predicted ? 1 : 0];
+    for (std::size_t stage = 0; stage < static_cast<std::size_t>(record_class.block_stages); ++stage) {
+        add_block(books.block[stage], byte_at(bytes, next++), samples);
+    }
+    for (std::size_t stage = 0; stage < static_cast<std::size_t>(record_class.quarter_stages); ++stage) {
+        for (std::size_t q = 0; q < 4; ++q) add_quarter(books.quarter[stage], byte_at(bytes, next++), q, samples);
+    }
+    for (std::size_t plane = 0; plane < 3; ++plane) {
+        for (int row = 0; row < kBoardBlock; ++row) {
+            std::uint8_t* const line = out[plane].row(y + row) + x;
+            for (int column = 0; column < kBoardBlock; ++column) {
+                line[column] = static_cast<std::uint8_t>(
+                    std::clamp(samples[plane][static_cast<std::size_t>(8 * row + column)], 0, 255));
+            }
+        }
+    }
+    for (int row = 0; row < kBoardBlock; ++row) std::memset(out[3].row(y + row) + x, 255, kBoardBlock);
+    if (!record_class.alpha || code.alpha.empty()) return;
+    for (int q = 0; q < 4; ++q) {
+        const std::uint8_t* const entry = code.alpha.data() + std::size_t{16} * byte_at(bytes, next++);
+        for (int row = 0; row < 4; ++row)
+            std::memcpy(out[3].row(y + q / 2 * 4 + row) + x + q % 2 * 4, entry + 4 * row, 4);
+    }
+}
+
 }  // namespace
 
 std::uint64_t board_tile_classes(std::span<const std::byte> bytes) {
@@ -70,58 +125,10 @@ std::uint16_t board_motion_word(const BoardMotion& motion) {
     return static_cast<std::uint16_t>((motion.reference << 15) | ((motion.x + 128) << 7) | (motion.y + 64));
 }
 
-void decode_board_block(const BoardCode& code, const RecordClass& record_class, std::span<const std::byte> record,
-                        int x, int y, int reference_count, const std::array<ConstPlaneViews, 2>& references,
-                        ReferenceListener* listener, const PlaneViews& out) {
-    Samples samples;
-    std::size_t next = 0;
-    if (record_class.predicted) {
-        BoardMotion motion = board_motion(static_cast<std::uint16_t>(byte_at(record, 0) | (byte_at(record, 1) << 8U)));
-        if (reference_count < 2) motion.reference = 0;
-        const ConstPlaneViews& from = references[static_cast<std::size_t>(motion.reference)];
-        const int left = x + motion.x;
-        const int top = y + motion.y;
-        if (listener != nullptr) {
-            const int right_end = out[0].width() - 1;
-            const int bottom_end = out[0].height() - 1;
-            listener->need(motion.reference, std::clamp(left, 0, right_end), std::clamp(top, 0, bottom_end),
-                           std::clamp(left + kBoardBlock - 1, 0, right_end) + 1,
-                           std::clamp(top + kBoardBlock - 1, 0, bottom_end) + 1);
-        }
-        predict(from, left, top, samples);
-        next = 2;
-    } else {
-        for (auto& plane : samples) plane.fill(static_cast<int>(byte_at(record, next++)));
-    }
-    const Books& books = code.books[record_class.predicted ? 1 : 0];
-    for (std::size_t stage = 0; stage < static_cast<std::size_t>(record_class.block_stages); ++stage) {
-        add_block(books.block[stage], byte_at(record, next++), samples);
-    }
-    for (std::size_t stage = 0; stage < static_cast<std::size_t>(record_class.quarter_stages); ++stage) {
-        for (std::size_t q = 0; q < 4; ++q) add_quarter(books.quarter[stage], byte_at(record, next++), q, samples);
-    }
-    for (std::size_t plane = 0; plane < 3; ++plane) {
-        for (int row = 0; row < kBoardBlock; ++row) {
-            std::uint8_t* const line = out[plane].row(y + row) + x;
-            for (int column = 0; column < kBoardBlock; ++column) {
-                line[column] = static_cast<std::uint8_t>(
-                    std::clamp(samples[plane][static_cast<std::size_t>(8 * row + column)], 0, 255));
-            }
-        }
-    }
-    for (int row = 0; row < kBoardBlock; ++row) std::memset(out[3].row(y + row) + x, 255, kBoardBlock);
-    if (!record_class.alpha || code.alpha.empty()) return;
-    for (int q = 0; q < 4; ++q) {
-        const std::uint8_t* const entry = code.alpha.data() + std::size_t{16} * byte_at(record, next++);
-        for (int row = 0; row < 4; ++row)
-            std::memcpy(out[3].row(y + q / 2 * 4 + row) + x + q % 2 * 4, entry + 4 * row, 4);
-    }
-}
-
-void decode_board_tile(const BoardCode& code, const ImageHead& head, std::span<const std::byte> bytes,
-                       const TileRect& place, const std::array<ConstPlaneViews, 2>& references,
-                       ReferenceListener* listener, const PlaneViews& out) {
-    const auto& classes = code.classes[head.references() > 0 ? 1 : 0];
+void decode_board_tile(const BoardCode& code, const CodedTile& tile, const PlaneViews& out) {
+    const std::span<const std::byte> bytes = tile.bytes;
+    const TileRect& place = tile.place;
+    const auto& classes = code.classes[tile.head.references() > 0 ? 1 : 0];
     const std::uint64_t tile_classes = board_tile_classes(bytes);
     std::size_t next = kBoardTileHeadBytes;
     for (int block = 0; block < kBoardTileBlocks; ++block) {
@@ -135,8 +142,12 @@ void decode_board_tile(const BoardCode& code, const ImageHead& head, std::span<c
         if (number == 0) {
             clear_block(place.left + x, place.top + y, out);
         } else {
-            decode_board_block(code, classes[number], bytes.subspan(begin, std::min(size, bytes.size() - begin)),
-                               place.left + x, place.top + y, head.references(), references, listener, out);
+            decode_block(code, tile,
+                         {.record_class = classes[number],
+                          .bytes = bytes.subspan(begin, std::min(size, bytes.size() - begin)),
+                          .x = place.left + x,
+                          .y = place.top + y},
+                         out);
         }
     }
 }

@@ -1,6 +1,6 @@
 #include "rayspace/codec/stream/byte_account.hpp"
 
-#include "rayspace/codec/board/board_tile.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 #include "rayspace/codec/bool_decoder.hpp"
 #include "rayspace/codec/context_states.hpp"
 #include "rayspace/codec/dense_tile_decoder.hpp"
@@ -79,8 +79,12 @@ std::vector<AccountEntry> account_of_tiles(const CodedImages& coded) {
         const CodedImage& image = coded.images[view];
         if (!image.tiles[tile].present) return decode_tile(coded, view, tile, references, nullptr, out);
         Bits bits{};
-        CountingReader reader(image.tile_bytes(tile), coded.dense, bits);
-        DenseTileDecoder(reader, coded.dense, image.head, tile_rect(coded, tile), references, nullptr, out).decode();
+        const CodedTile coded_tile{.head = image.head,
+                                   .bytes = image.tile_bytes(tile),
+                                   .place = tile_rect(coded, tile),
+                                   .references = references};
+        CountingReader reader(coded_tile.bytes, coded.dense, bits);
+        DenseTileDecoder(reader, coded.dense, coded_tile, out).decode();
         const std::lock_guard lock(mutex);
         for (std::size_t p = 0; p < kPurposes; ++p) sum[p] += bits[p];
     });

@@ -1,7 +1,7 @@
 #include "rayspace/codec/stream/coded_chunks.hpp"
 
 #include "rayspace/base/byte_stream.hpp"
-#include "rayspace/codec/board/board_chunk.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
 #include <algorithm>

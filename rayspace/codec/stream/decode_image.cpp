@@ -1,7 +1,7 @@
 #include "rayspace/codec/stream/decode_image.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 
-#include "rayspace/codec/board/board_tile.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -22,12 +22,16 @@ void decode_tile(const CodedImages& coded, std::size_t view, std::size_t tile,
                  const std::array<ConstPlaneViews, 2>& references, ReferenceListener* listener, const PlaneViews& out) {
     const CodedImage& image = coded.images[view];
     const TileRect place = tile_rect(coded, tile);
-    if (!image.tiles[tile].present) {
-        clear_tile(place, out);
-    } else if (coded.profile == Profile::kBoard) {
-        decode_board_tile(coded.board, image.head, image.tile_bytes(tile), place, references, listener, out);
+    if (!image.tiles[tile].present) return clear_tile(place, out);
+    const CodedTile coded_tile{.head = image.head,
+                               .bytes = image.tile_bytes(tile),
+                               .place = place,
+                               .references = references,
+                               .listener = listener};
+    if (coded.profile == Profile::kBoard) {
+        decode_board_tile(coded.board, coded_tile, out);
     } else {
-        decode_dense_tile(coded.dense, image.head, image.tile_bytes(tile), place, references, listener, out);
+        decode_dense_tile(coded.dense, coded_tile, out);
     }
 }
 

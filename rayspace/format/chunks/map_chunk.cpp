@@ -3,7 +3,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/zstd_frame.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
-#include "rayspace/format/map_coding.hpp"
+#include "rayspace/format/content_coding.hpp"
 #include "rayspace/format/object_ranges.hpp"
 
 #include <algorithm>

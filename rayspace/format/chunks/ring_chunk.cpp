@@ -4,7 +4,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/zstd_frame.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
-#include "rayspace/format/line_coding.hpp"
+#include "rayspace/format/content_coding.hpp"
 #include "rayspace/format/object_ranges.hpp"
 
 #include <algorithm>

@@ -1,11 +1,11 @@
 #include "rayspace/format/chunks/shape_chunk.hpp"
 
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/byte_stream.hpp"
-#include "rayspace/base/check.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
+#include "rayspace/format/content_coding.hpp"
 #include "rayspace/format/object_ranges.hpp"
-#include "rayspace/format/shape_coding.hpp"
 
 #include <algorithm>
 #include <cmath>

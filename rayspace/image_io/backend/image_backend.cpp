@@ -239,9 +239,23 @@ Result<Image<float>> read_channel(const std::string& path) {
     });
 }
 
-// Encodes rows of `spec` into memory.
-Result<std::vector<std::byte>> encode(const char* format, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
-                                      const void* pixels, std::ptrdiff_t pixel_bytes, std::ptrdiff_t row_bytes,
+struct PixelRows {
+    const void* pixels = nullptr;
+    OIIO::TypeDesc channel;
+    std::ptrdiff_t pixel_bytes = 0;
+    std::ptrdiff_t row_bytes = 0;
+};
+
+template <class Pixel>
+PixelRows rows_of(ConstImageView<Pixel> image, OIIO::TypeDesc channel) {
+    return {.pixels = image.data(),
+            .channel = channel,
+            .pixel_bytes = sizeof(Pixel),
+            .row_bytes = image.stride() * static_cast<std::ptrdiff_t>(sizeof(Pixel))};
+}
+
+// Encodes an image of `spec` into memory.
+Result<std::vector<std::byte>> encode(const char* format, const OIIO::ImageSpec& spec, const PixelRows& rows,
                                       const std::string& shown) {
     return catch_exceptions(shown, [&]() -> Result<std::vector<std::byte>> {
         auto output = OIIO::ImageOutput::create(format);
@@ -250,7 +264,7 @@ Result<std::vector<std::byte>> encode(const char* format, const OIIO::ImageSpec&
         output->threads(1);
         // With a proxy nothing is written to the disk; the name only appears in messages.
         if (!output->set_ioproxy(&memory) || !output->open(shown, spec) ||
-            !output->write_image(type, pixels, pixel_bytes, row_bytes) || !output->close()) {
+            !output->write_image(rows.channel, rows.pixels, rows.pixel_bytes, rows.row_bytes) || !output->close()) {
             return Error{shown + ": cannot be encoded: " + one_line(output->geterror())};
         }
         const auto* const first = reinterpret_cast<const std::byte*>(memory.buffer().data());
@@ -266,8 +280,7 @@ Result<std::vector<std::byte>> encode_png(ConstImageView<Rgba8> image, const std
     constexpr int kFilterUp = 0x20;  // PNG_FILTER_UP of libpng
     spec.attribute("png:compressionLevel", 4);
     spec.attribute("png:filter", kFilterUp);
-    return encode("png", spec, OIIO::TypeUInt8, image.data(), sizeof(Rgba8),
-                  image.stride() * static_cast<std::ptrdiff_t>(sizeof(Rgba8)), shown);
+    return encode("png", spec, rows_of(image, OIIO::TypeUInt8), shown);
 }
 
 Result<std::vector<std::byte>> encode_jpeg(ConstImageView<Rgba8> image, int quality, const std::string& shown) {
@@ -275,8 +288,7 @@ Result<std::vector<std::byte>> encode_jpeg(ConstImageView<Rgba8> image, int qual
     spec.attribute("oiio:ColorSpace", "sRGB");
     spec.attribute("compression", "jpeg:" + std::to_string(quality));
     spec.attribute("jpeg:subsampling", "4:2:0");
-    return encode("jpeg", spec, OIIO::TypeUInt8, image.data(), sizeof(Rgba8),
-                  image.stride() * static_cast<std::ptrdiff_t>(sizeof(Rgba8)), shown);
+    return encode("jpeg", spec, rows_of(image, OIIO::TypeUInt8), shown);
 }
 
 Result<std::vector<std::byte>> encode_exr(ConstImageView<RgbaF> image, const std::string& shown) {
@@ -288,7 +300,12 @@ Result<std::vector<std::byte>> encode_exr(ConstImageView<RgbaF> image, const std
     OIIO::ImageSpec spec(image.width(), image.height(), 4, OIIO::TypeFloat);
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("compression", "zip");
-    return encode("openexr", spec, OIIO::TypeFloat, associated.data(), sizeof(RgbaF), OIIO::AutoStride, shown);
+    return encode("openexr", spec,
+                  {.pixels = associated.data(),
+                   .channel = OIIO::TypeFloat,
+                   .pixel_bytes = sizeof(RgbaF),
+                   .row_bytes = OIIO::AutoStride},
+                  shown);
 }
 
 Result<std::vector<std::byte>> encode_exr_channel(ConstImageView<float> channel, const std::string& shown) {
@@ -297,8 +314,7 @@ Result<std::vector<std::byte>> encode_exr_channel(ConstImageView<float> channel,
     spec.z_channel = 0;
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("compression", "zip");
-    return encode("openexr", spec, OIIO::TypeFloat, channel.data(), sizeof(float),
-                  channel.stride() * static_cast<std::ptrdiff_t>(sizeof(float)), shown);
+    return encode("openexr", spec, rows_of(channel, OIIO::TypeFloat), shown);
 }
 
 const Backend& table() {

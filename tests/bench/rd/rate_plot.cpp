@@ -1,7 +1,7 @@
 #include "tests/bench/rd/rate_plot.hpp"
 
 #include "rayspace/page/html_page.hpp"
-#include "rayspace/page/line_plot.hpp"
+#include "rayspace/page/plots.hpp"
 #include "rayspace/page/svg_parts.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #pragma once
 // Plots the curves of all sets in one image: a panel per set, logarithmic rate axis, one common legend.
-// (rayspace/page/line_plot.hpp draws single plots with linear axes and too few colours.)
+// (rayspace/page/plots.hpp draws single plots with linear axes and too few colours.)
 
 #include "tests/bench/rd/anchors/best_variant.hpp"
 #include "tests/bench/rd/report.hpp"

@@ -1,6 +1,6 @@
 #include "tests/bench/scenes/hall.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "tests/bench/scenes/group_builder.hpp"
 #include "tests/bench/scenes/hall_pieces.hpp"
 #include "tests/bench/scenes/light_list.hpp"

@@ -2,7 +2,7 @@
 
 #include "encode/codec/motion_search.hpp"
 
-#include "encode/codec/source_image.hpp"
+#include "encode/codec/encoder_images.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 
 #include "encode/raymap/plane_map.hpp"
 #include "encode/raymap/captured_view.hpp"
-#include "encode/raymap/rings.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/ray_space.hpp"
+#include "rayspace/geometry/rig.hpp"
 #include "tests/support/plane_ray.hpp"
 #include "tests/support/ring_object.hpp"
 

@@ -2,11 +2,10 @@
 // the input.
 
 #include "encode/report/build_report.hpp"
-#include "encode/report/ring_plan.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "rayspace/page/html_page.hpp"
-#include "rayspace/page/line_plot.hpp"
+#include "rayspace/page/plots.hpp"
 #include "rayspace/page/svg_parts.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -1,7 +1,6 @@
 // Tests of the conformance set of the project, and of implementations that do not conform.
 
 #include "engine/conformance/run_vectors.hpp"
-#include "engine/conformance/view_files.hpp"
 #include "rayspace/api/types/executor_table.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -3,8 +3,8 @@
 
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/driver/render_session.hpp"
+#include "engine/model/board.hpp"
 #include "engine/model/layout/object_image.hpp"
-#include "engine/model/simulated_board.hpp"
 #include "tests/support/random_shape.hpp"
 #include "tests/support/ring_object.hpp"
 

@@ -2,7 +2,7 @@
 // Objects with images of profile `board` for tests of block decompression: random ones, which no encoder produces, and
 // encoded ones.
 
-#include "rayspace/codec/board/board_chunk.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 #include "rayspace/codec/stream/decode_image.hpp"
 #include "tests/engine/model/board_test_objects.hpp"
 #include "tests/support/coded_object.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Objects and configurations for the tests of the parallel board.
 
-#include "rayspace/geometry/rig_json.hpp"
+#include "rayspace/geometry/rig.hpp"
 #include "tests/engine/model/coded_test_objects.hpp"
 #include "tests/support/random_shape.hpp"
 

@@ -1,4 +1,4 @@
-#include "rayspace/format/line_coding.hpp"
+#include "rayspace/format/content_coding.hpp"
 
 #include "rayspace/base/zstd_frame.hpp"
 #include "rayspace/format/object_chunks.hpp"

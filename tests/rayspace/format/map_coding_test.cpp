@@ -1,4 +1,4 @@
-#include "rayspace/format/map_coding.hpp"
+#include "rayspace/format/content_coding.hpp"
 
 #include "tests/support/random.hpp"
 

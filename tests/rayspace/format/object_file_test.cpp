@@ -1,7 +1,7 @@
 #include "rayspace/format/object_file.hpp"
 
 #include "rayspace/base/zstd_frame.hpp"
-#include "rayspace/format/map_coding.hpp"
+#include "rayspace/format/content_coding.hpp"
 #include "rayspace/format/object_chunks.hpp"
 #include "tests/rayspace/format/file_chunks.hpp"
 #include "tests/support/put_number.hpp"

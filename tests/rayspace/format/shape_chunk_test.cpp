@@ -1,7 +1,7 @@
 #include "rayspace/format/chunks/shape_chunk.hpp"
 
+#include "rayspace/format/content_coding.hpp"
 #include "rayspace/format/object_file.hpp"
-#include "rayspace/format/shape_coding.hpp"
 #include "tests/support/put_number.hpp"
 #include "tests/support/small_shape.hpp"
 

@@ -1,7 +1,7 @@
 // FORMAT.md, "HEAD", "RIGJ", "VIEW", "RING", "RMAP", and "PICT" of coding 0, with their numbers of "Ranges".
 #include "tests/reference/golden_maker/golden_damage.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 #include <cstring>

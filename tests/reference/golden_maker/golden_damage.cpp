@@ -1,6 +1,6 @@
 #include "tests/reference/golden_maker/golden_damage.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <zstd.h>
 

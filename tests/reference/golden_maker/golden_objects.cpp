@@ -1,6 +1,6 @@
 #include "tests/reference/golden_maker/golden_objects.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "tests/reference/random_stream.hpp"
 #include "tests/support/coded_object.hpp"
 #include "tests/support/small_shape.hpp"

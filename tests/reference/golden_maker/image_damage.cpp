@@ -1,7 +1,7 @@
 // FORMAT.md, "CODE", and "PICT" of coding 1.
 #include "tests/reference/golden_maker/golden_damage.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <optional>
 

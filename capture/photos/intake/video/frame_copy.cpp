@@ -1,6 +1,6 @@
 #include "capture/photos/intake/video/frame_copy.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/median.hpp"
 
 #include <opencv2/imgproc.hpp>

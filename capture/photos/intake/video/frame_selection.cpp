@@ -1,7 +1,7 @@
 #include "capture/photos/intake/video/frame_selection.hpp"
 
 #include "capture/photos/intake/video/turning_speed.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <algorithm>
 #include <cmath>

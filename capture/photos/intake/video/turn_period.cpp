@@ -1,6 +1,6 @@
 #include "capture/photos/intake/video/turn_period.hpp"
 
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/median.hpp"
 
 #include <algorithm>

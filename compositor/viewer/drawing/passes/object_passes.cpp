@@ -1,7 +1,7 @@
 #include "compositor/viewer/drawing/passes/object_passes.hpp"
 
 #include "compositor/gl/draw.hpp"
-#include "engine/core/views/depth_image.hpp"
+#include "engine/core/definition/view_registers.hpp"
 
 #include <cmath>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "engine/model/blocks/decompression/block_motion.hpp"
 
-#include "rayspace/codec/board/board_tile.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 
 namespace rs::engine::model {
 
@@ -41,16 +41,15 @@ ReferenceRequests reference_requests(const BlockRequest& request, int image, int
     return requests;
 }
 
-BlockMotion::BlockMotion(int hop, const RegisterFile& registers, Fifo<RequestedRecord>& in, Fifo<MemoryWord>& words,
-                         Fifo<BlockRecord>& out, Fifo<BlockRequest>* asks)
+BlockMotion::BlockMotion(int hop, const RegisterFile& registers, const Ports& ports)
     : Block("block_motion_" + std::to_string(hop),
-            asks == nullptr ? "a word per cycle, and one to hand over"
-                            : "a word per cycle, one to hand over, one more for a second ask"),
+            ports.asks == nullptr ? "a word per cycle, and one to hand over"
+                                  : "a word per cycle, one to hand over, one more for a second ask"),
       registers_(registers),
-      in_(reads(in)),
-      words_(reads(words)),
-      out_(writes(out)),
-      asks_(asks) {
+      in_(reads(ports.in)),
+      words_(reads(ports.words)),
+      out_(writes(ports.out)),
+      asks_(ports.asks) {
     if (asks_ != nullptr) writes(*asks_);
 }
 

@@ -30,9 +30,13 @@ ReferenceRequests reference_requests(const BlockRequest& request, int image, int
 
 class BlockMotion final : public Block {
 public:
-    // `asks` is null for the last hop, where no record is predicted.
-    BlockMotion(int hop, const RegisterFile& registers, Fifo<RequestedRecord>& in, Fifo<MemoryWord>& words,
-                Fifo<BlockRecord>& out, Fifo<BlockRequest>* asks);
+    struct Ports {
+        Fifo<RequestedRecord>& in;
+        Fifo<MemoryWord>& words;
+        Fifo<BlockRecord>& out;
+        Fifo<BlockRequest>* asks;  // null for the last hop, where no record is predicted
+    };
+    BlockMotion(int hop, const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
         return "words " + std::to_string(collected_) + (second_ ? ", one more request" : "");

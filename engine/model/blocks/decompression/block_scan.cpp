@@ -2,14 +2,13 @@
 
 namespace rs::engine::model {
 
-BlockScan::BlockScan(const RegisterFile& registers, Fifo<ColumnWalk>& in, Fifo<BlockRequest>& asks,
-                     Fifo<CodedPixel>& pixels)
+BlockScan::BlockScan(const RegisterFile& registers, const Ports& ports)
     : Block("block_scan", "1 cycle to take a column, then a pixel per cycle; a run of at most " +
                               std::to_string(kMaxPixels) + " pixels is asked for in the cycle after its last"),
       registers_(registers),
-      in_(reads(in)),
-      asks_(writes(asks)),
-      pixels_(writes(pixels)) {}
+      in_(reads(ports.in)),
+      asks_(writes(ports.asks)),
+      pixels_(writes(ports.pixels)) {}
 
 Activity BlockScan::tick(std::uint64_t) {
     if (!active_) {

@@ -13,7 +13,12 @@ namespace rs::engine::model {
 class BlockScan final : public Block {
 public:
     static constexpr int kMaxPixels = 16;  // pixels of a run
-    BlockScan(const RegisterFile& registers, Fifo<ColumnWalk>& in, Fifo<BlockRequest>& asks, Fifo<CodedPixel>& pixels);
+    struct Ports {
+        Fifo<ColumnWalk>& in;
+        Fifo<BlockRequest>& asks;
+        Fifo<CodedPixel>& pixels;
+    };
+    BlockScan(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override { return "pixels of the run " + std::to_string(run_); }
 

@@ -69,16 +69,15 @@ YuvaPixel decode_coded_pixel(const BookBanks& banks, const CodedPixel& pixel) {
     return out;
 }
 
-BookLookup::BookLookup(const RegisterFile& registers, Fifo<CodedPixel>& in, Fifo<MemoryRead>& requests,
-                       Fifo<MemoryWord>& words, Fifo<YuvaPixel>& out)
+BookLookup::BookLookup(const RegisterFile& registers, const Ports& ports)
     : Block("book_lookup", "latency " + std::to_string(kStages + 1) +
                                ", a pixel per cycle, one more for each prediction but the first; a word of new books "
                                "per cycle"),
       registers_(registers),
-      in_(reads(in)),
-      requests_(writes(requests)),
-      words_(reads(words)),
-      stage_(kStages, writes(out)) {}
+      in_(reads(ports.in)),
+      requests_(writes(ports.requests)),
+      words_(reads(ports.words)),
+      stage_(kStages, writes(ports.out)) {}
 
 Activity BookLookup::load() {
     const ObjectRegisters& object = registers_.object_of(in_.front().view);

@@ -41,8 +41,13 @@ YuvaPixel decode_coded_pixel(const BookBanks& banks, const CodedPixel& pixel);
 class BookLookup final : public Block {
 public:
     static constexpr int kStages = 6;
-    BookLookup(const RegisterFile& registers, Fifo<CodedPixel>& in, Fifo<MemoryRead>& requests, Fifo<MemoryWord>& words,
-               Fifo<YuvaPixel>& out);
+    struct Ports {
+        Fifo<CodedPixel>& in;
+        Fifo<MemoryRead>& requests;
+        Fifo<MemoryWord>& words;
+        Fifo<YuvaPixel>& out;
+    };
+    BookLookup(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
         return loading_ ? "book words written " + std::to_string(written_)

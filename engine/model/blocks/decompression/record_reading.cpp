@@ -3,13 +3,12 @@
 
 namespace rs::engine::model {
 
-TileFinder::TileFinder(int hop, const RegisterFile& registers, Fifo<BlockRequest>& in, Fifo<MemoryRead>& requests,
-                       Fifo<FoundTile>& out)
+TileFinder::TileFinder(int hop, const RegisterFile& registers, const Ports& ports)
     : Block("tile_finder_" + std::to_string(hop), "a block per cycle"),
       registers_(registers),
-      in_(reads(in)),
-      requests_(writes(requests)),
-      out_(writes(out)) {}
+      in_(reads(ports.in)),
+      requests_(writes(ports.requests)),
+      out_(writes(ports.out)) {}
 
 Activity TileFinder::tick(std::uint64_t) {
     if (!in_.can_pop()) return Activity::idle;
@@ -30,13 +29,12 @@ Activity TileFinder::tick(std::uint64_t) {
     return Activity::busy;
 }
 
-TileReader::TileReader(int hop, Fifo<FoundTile>& in, Fifo<MemoryWord>& entries, Fifo<MemoryRead>& requests,
-                       Fifo<RequestedTile>& out)
+TileReader::TileReader(int hop, const Ports& ports)
     : Block("tile_reader_" + std::to_string(hop), "a block per cycle, that of a new tile with its word"),
-      in_(reads(in)),
-      entries_(reads(entries)),
-      requests_(writes(requests)),
-      out_(writes(out)) {}
+      in_(reads(ports.in)),
+      entries_(reads(ports.entries)),
+      requests_(writes(ports.requests)),
+      out_(writes(ports.out)) {}
 
 Activity TileReader::tick(std::uint64_t) {
     if (!in_.can_pop()) return Activity::idle;
@@ -58,15 +56,14 @@ Activity TileReader::tick(std::uint64_t) {
     return Activity::busy;
 }
 
-RecordReader::RecordReader(int hop, const RegisterFile& registers, Fifo<RequestedTile>& in, Fifo<MemoryWord>& heads,
-                           Fifo<MemoryRead>& requests, Fifo<RequestedRecord>& out)
+RecordReader::RecordReader(int hop, const RegisterFile& registers, const Ports& ports)
     : Block("record_reader_" + std::to_string(hop),
             "a record in as many cycles as it has words, 1 without; 1 more for a new tile"),
       registers_(registers),
-      in_(reads(in)),
-      heads_(reads(heads)),
-      requests_(writes(requests)),
-      out_(writes(out)) {}
+      in_(reads(ports.in)),
+      heads_(reads(ports.heads)),
+      requests_(writes(ports.requests)),
+      out_(writes(ports.out)) {}
 
 Activity RecordReader::tick(std::uint64_t) {
     if (to_request_ > 0) {

@@ -10,8 +10,12 @@ namespace rs::engine::model {
 
 class TileFinder final : public Block {
 public:
-    TileFinder(int hop, const RegisterFile& registers, Fifo<BlockRequest>& in, Fifo<MemoryRead>& requests,
-               Fifo<FoundTile>& out);
+    struct Ports {
+        Fifo<BlockRequest>& in;
+        Fifo<MemoryRead>& requests;
+        Fifo<FoundTile>& out;
+    };
+    TileFinder(int hop, const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
 
 private:
@@ -27,8 +31,13 @@ private:
 
 class TileReader final : public Block {
 public:
-    TileReader(int hop, Fifo<FoundTile>& in, Fifo<MemoryWord>& entries, Fifo<MemoryRead>& requests,
-               Fifo<RequestedTile>& out);
+    struct Ports {
+        Fifo<FoundTile>& in;
+        Fifo<MemoryWord>& entries;
+        Fifo<MemoryRead>& requests;
+        Fifo<RequestedTile>& out;
+    };
+    TileReader(int hop, const Ports& ports);
     Activity tick(std::uint64_t now) override;
 
 private:
@@ -44,8 +53,13 @@ private:
 
 class RecordReader final : public Block {
 public:
-    RecordReader(int hop, const RegisterFile& registers, Fifo<RequestedTile>& in, Fifo<MemoryWord>& heads,
-                 Fifo<MemoryRead>& requests, Fifo<RequestedRecord>& out);
+    struct Ports {
+        Fifo<RequestedTile>& in;
+        Fifo<MemoryWord>& heads;
+        Fifo<MemoryRead>& requests;
+        Fifo<RequestedRecord>& out;
+    };
+    RecordReader(int hop, const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override { return "words to request " + std::to_string(to_request_); }
 

@@ -38,13 +38,12 @@ CodedPixel apply_hop(const CodedPixel& pixel, const BlockRecord& record, bool is
     return out;
 }
 
-RecordSelect::RecordSelect(int hop, const RegisterFile& registers, Fifo<CodedPixel>& in, Fifo<BlockRecord>& records,
-                           Fifo<CodedPixel>& out)
+RecordSelect::RecordSelect(int hop, const RegisterFile& registers, const Ports& ports)
     : Block("record_select_" + std::to_string(hop), "a pixel per cycle"),
       registers_(registers),
-      in_(reads(in)),
-      records_(reads(records)),
-      out_(writes(out)) {}
+      in_(reads(ports.in)),
+      records_(reads(ports.records)),
+      out_(writes(ports.out)) {}
 
 Activity RecordSelect::tick(std::uint64_t) {
     if (!in_.can_pop()) return Activity::idle;

@@ -14,8 +14,12 @@ CodedPixel apply_hop(const CodedPixel& pixel, const BlockRecord& record, bool is
 
 class RecordSelect final : public Block {
 public:
-    RecordSelect(int hop, const RegisterFile& registers, Fifo<CodedPixel>& in, Fifo<BlockRecord>& records,
-                 Fifo<CodedPixel>& out);
+    struct Ports {
+        Fifo<CodedPixel>& in;
+        Fifo<BlockRecord>& records;
+        Fifo<CodedPixel>& out;
+    };
+    RecordSelect(int hop, const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override { return text(record_); }
 

@@ -8,16 +8,15 @@ int HostBus::burst_clocks(const PciSettings& settings, int words) {
     return settings.grant_clocks + 1 + settings.target_clocks + 2 * words * (1 + settings.wait_per_transfer) + 1;
 }
 
-HostBus::HostBus(const PciSettings& settings, const HostPrograms& programs, CrossingFifo<ImageWord>& words,
-                 CrossingFifo<StartCommand>& commands, CrossingFifo<Done>& transferred)
+HostBus::HostBus(const PciSettings& settings, const HostPrograms& programs, const Ports& ports)
     : Block("host_bus", "a burst of " + std::to_string(settings.burst_words) + " words in " +
                             std::to_string(burst_clocks(settings, settings.burst_words)) +
                             " bus clocks, a register write in " + std::to_string(settings.register_clocks)),
       settings_(settings),
       programs_(programs),
-      words_(reads(words)),
-      commands_(writes(commands)),
-      transferred_(writes(transferred)) {}
+      words_(reads(ports.words)),
+      commands_(writes(ports.commands)),
+      transferred_(writes(ports.transferred)) {}
 
 void HostBus::enter(State state, int clocks) {
     state_ = state;

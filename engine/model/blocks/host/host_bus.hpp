@@ -20,8 +20,12 @@ namespace rs::engine::model {
 
 class HostBus final : public Block {
 public:
-    HostBus(const PciSettings& settings, const HostPrograms& programs, CrossingFifo<ImageWord>& words,
-            CrossingFifo<StartCommand>& commands, CrossingFifo<Done>& transferred);
+    struct Ports {
+        CrossingFifo<ImageWord>& words;
+        CrossingFifo<StartCommand>& commands;
+        CrossingFifo<Done>& transferred;
+    };
+    HostBus(const PciSettings& settings, const HostPrograms& programs, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override;
 

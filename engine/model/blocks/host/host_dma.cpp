@@ -2,15 +2,14 @@
 
 namespace rs::engine::model {
 
-HostDma::HostDma(const RegisterFile& registers, Fifo<Done>& images_ready, std::vector<DmaPort> channels,
-                 CrossingFifo<ImageWord>& words, CrossingFifo<Done>& transferred, Fifo<Done>& buffer_free)
+HostDma::HostDma(const RegisterFile& registers, const Ports& ports)
     : Block("host_dma", "a request and a word per cycle"),
       registers_(registers),
-      images_ready_(reads(images_ready)),
-      channels_(declare_ports(std::move(channels))),
-      words_(writes(words)),
-      transferred_(reads(transferred)),
-      buffer_free_(writes(buffer_free)) {}
+      images_ready_(reads(ports.images_ready)),
+      channels_(declare_ports(ports.channels)),
+      words_(writes(ports.words)),
+      transferred_(reads(ports.transferred)),
+      buffer_free_(writes(ports.buffer_free)) {}
 
 std::vector<DmaPort> HostDma::declare_ports(std::vector<DmaPort> channels) {
     for (const DmaPort& channel : channels) {

@@ -21,8 +21,14 @@ struct DmaPort {
 
 class HostDma final : public Block {
 public:
-    HostDma(const RegisterFile& registers, Fifo<Done>& images_ready, std::vector<DmaPort> channels,
-            CrossingFifo<ImageWord>& words, CrossingFifo<Done>& transferred, Fifo<Done>& buffer_free);
+    struct Ports {
+        Fifo<Done>& images_ready;
+        std::vector<DmaPort> channels;
+        CrossingFifo<ImageWord>& words;
+        CrossingFifo<Done>& transferred;
+        Fifo<Done>& buffer_free;
+    };
+    HostDma(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override;
 

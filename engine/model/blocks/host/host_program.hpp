@@ -3,7 +3,7 @@
 // the board. Not a block: the environment of the board.
 
 #include "engine/model/signals/registers.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <cstdint>
 #include <deque>

@@ -6,14 +6,13 @@ namespace rs::engine::model {
 
 constexpr std::uint64_t kSector_bytes = 512;
 
-DiskController::DiskController(const DiskSettings& settings, RegisterFile& registers, Fifo<MemoryWrite>& words,
-                               Fifo<Done>& loaded, Fifo<Done>& object_ready)
+DiskController::DiskController(const DiskSettings& settings, RegisterFile& registers, const Ports& ports)
     : Block("disk_controller", "a word in " + std::to_string(4 * settings.cycles_per_transfer) + " cycles"),
       settings_(settings),
       registers_(registers),
-      words_(writes(words)),
-      loaded_(reads(loaded)),
-      object_ready_(writes(object_ready)) {}
+      words_(writes(ports.words)),
+      loaded_(reads(ports.loaded)),
+      object_ready_(writes(ports.object_ready)) {}
 
 bool DiskController::is_loading(int slot) const {
     return std::any_of(jobs_.begin(), jobs_.end(), [&](const LoadJob& job) { return job.slot == slot; });

@@ -37,8 +37,12 @@ public:
         std::uint64_t underrun_cycles = 0;
     };
 
-    DiskController(const DiskSettings& settings, RegisterFile& registers, Fifo<MemoryWrite>& words, Fifo<Done>& loaded,
-                   Fifo<Done>& object_ready);
+    struct Ports {
+        Fifo<MemoryWrite>& words;
+        Fifo<Done>& loaded;
+        Fifo<Done>& object_ready;
+    };
+    DiskController(const DiskSettings& settings, RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override;
 

@@ -2,11 +2,11 @@
 
 namespace rs::engine::model {
 
-ImageWriter::ImageWriter(const RegisterFile& registers, Fifo<RgbaPixel>& in, Fifo<MemoryWrite>& out)
+ImageWriter::ImageWriter(const RegisterFile& registers, const Ports& ports)
     : Block("image_writer", "a pixel per cycle, a word every second"),
       registers_(registers),
-      in_(reads(in)),
-      out_(writes(out)) {}
+      in_(reads(ports.in)),
+      out_(writes(ports.out)) {}
 
 Activity ImageWriter::tick(std::uint64_t) {
     if (!in_.can_pop()) return Activity::idle;

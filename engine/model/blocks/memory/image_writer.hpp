@@ -10,7 +10,11 @@ namespace rs::engine::model {
 
 class ImageWriter final : public Block {
 public:
-    ImageWriter(const RegisterFile& registers, Fifo<RgbaPixel>& in, Fifo<MemoryWrite>& out);
+    struct Ports {
+        Fifo<RgbaPixel>& in;
+        Fifo<MemoryWrite>& out;
+    };
+    ImageWriter(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override { return "words left " + std::to_string(left_); }
 

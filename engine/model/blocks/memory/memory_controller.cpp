@@ -15,20 +15,18 @@ int MemoryController::read_cycles(const MemorySettings& settings) {
     return settings.timing.read_latency + settings.timing.interface_latency + 1;
 }
 
-MemoryController::MemoryController(std::string name, const MemorySettings& settings, Sdram& sdram,
-                                   std::vector<ReadPort> ports, Fifo<MemoryWrite>& image_writes,
-                                   Fifo<Done>& view_written, Fifo<MemoryWrite>& loads, Fifo<Done>& object_loaded)
+MemoryController::MemoryController(std::string name, const MemorySettings& settings, Sdram& sdram, const Ports& ports)
     : Block(std::move(name), "a command per cycle; a read's word after " + std::to_string(read_cycles(settings)) +
                                  " cycles; " + std::to_string(window_cycles(settings)) +
                                  " cycles of maintenance behind the refresh every " +
                                  std::to_string(settings.maintenance_interval)),
       settings_(settings),
       sdram_(sdram),
-      ports_(std::move(ports)),
-      image_writes_(reads(image_writes)),
-      view_written_(writes(view_written)),
-      loads_(reads(loads)),
-      object_loaded_(writes(object_loaded)),
+      ports_(ports.read_ports),
+      image_writes_(reads(ports.image_writes)),
+      view_written_(writes(ports.view_written)),
+      loads_(reads(ports.loads)),
+      object_loaded_(writes(ports.object_loaded)),
       in_flight_(std::bit_ceil(static_cast<std::size_t>(read_cycles(settings)))),
       outstanding_(ports_.size()),
       next_window_(static_cast<std::uint64_t>(settings.maintenance_interval)) {

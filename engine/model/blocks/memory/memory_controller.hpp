@@ -37,9 +37,14 @@ public:
         std::uint64_t windows = 0;
     };
 
-    MemoryController(std::string name, const MemorySettings& settings, Sdram& sdram, std::vector<ReadPort> ports,
-                     Fifo<MemoryWrite>& image_writes, Fifo<Done>& view_written, Fifo<MemoryWrite>& loads,
-                     Fifo<Done>& object_loaded);
+    struct Ports {
+        std::vector<ReadPort> read_ports;
+        Fifo<MemoryWrite>& image_writes;
+        Fifo<Done>& view_written;
+        Fifo<MemoryWrite>& loads;
+        Fifo<Done>& object_loaded;
+    };
+    MemoryController(std::string name, const MemorySettings& settings, Sdram& sdram, const Ports& ports);
     Activity tick(std::uint64_t now) override;
 
     [[nodiscard]] const Counters& counters() const { return counters_; }

@@ -4,20 +4,18 @@
 
 namespace rs::engine::model {
 
-BandReader::BandReader(const RegisterFile& registers, const StripeShare& share, Fifo<ColumnSetup>& in,
-                       Fifo<Done>& stripe_free, Fifo<MemoryRead>& requests, Fifo<ColumnSetup>& to_rise,
-                       Fifo<ColumnSetup>& to_march, Fifo<ColumnSetup>& to_place)
+BandReader::BandReader(const RegisterFile& registers, const StripeShare& share, const Ports& ports)
     : Block("band_reader",
             "1 cycle to hand over, " + std::to_string(2 * kMultiplyCycles) +
                 " before and a word per cycle after it where the ray has bands that the last one had not"),
       registers_(registers),
       share_(share),
-      in_(reads(in)),
-      stripe_free_(reads(stripe_free)),
-      requests_(writes(requests)),
-      to_rise_(writes(to_rise)),
-      to_march_(writes(to_march)),
-      to_place_(writes(to_place)) {}
+      in_(reads(ports.in)),
+      stripe_free_(reads(ports.stripe_free)),
+      requests_(writes(ports.requests)),
+      to_rise_(writes(ports.to_rise)),
+      to_march_(writes(ports.to_march)),
+      to_place_(writes(ports.to_place)) {}
 
 Activity BandReader::send_output() {
     if (!to_rise_.can_push() || !to_march_.can_push() || !to_place_.can_push()) return Activity::output_full;

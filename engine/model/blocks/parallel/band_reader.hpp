@@ -17,9 +17,15 @@ namespace rs::engine::model {
 
 class BandReader final : public Block {
 public:
-    BandReader(const RegisterFile& registers, const StripeShare& share, Fifo<ColumnSetup>& in, Fifo<Done>& stripe_free,
-               Fifo<MemoryRead>& requests, Fifo<ColumnSetup>& to_rise, Fifo<ColumnSetup>& to_march,
-               Fifo<ColumnSetup>& to_place);
+    struct Ports {
+        Fifo<ColumnSetup>& in;
+        Fifo<Done>& stripe_free;
+        Fifo<MemoryRead>& requests;
+        Fifo<ColumnSetup>& to_rise;
+        Fifo<ColumnSetup>& to_march;
+        Fifo<ColumnSetup>& to_place;
+    };
+    BandReader(const RegisterFile& registers, const StripeShare& share, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
         return "stripe " + std::to_string(stripe_) + " column " + std::to_string(column_) + ", words to request " +

@@ -4,15 +4,14 @@
 
 namespace rs::engine::model {
 
-BracketFinder::BracketFinder(const RegisterFile& registers, Fifo<MappedRay>& in, Fifo<MemoryRead>& requests,
-                             Fifo<MemoryWord>& answers, Fifo<BracketedRay>& out)
+BracketFinder::BracketFinder(const RegisterFile& registers, const Ports& ports)
     : Block("bracket_finder", "a word per look and a word and " + std::to_string(kMultiplyCycles) +
                                   " cycles per crossing, 1 to decide; 1 without a ray or a shape map"),
       registers_(registers),
-      in_(reads(in)),
-      requests_(writes(requests)),
-      answers_(reads(answers)),
-      out_(writes(out)) {}
+      in_(reads(ports.in)),
+      requests_(writes(ports.requests)),
+      answers_(reads(ports.answers)),
+      out_(writes(ports.out)) {}
 
 // Reads a word of an image record; word_ is valid when answered_ is set.
 Activity BracketFinder::read(int image, int word) {

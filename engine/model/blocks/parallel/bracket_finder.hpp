@@ -14,8 +14,13 @@ namespace rs::engine::model {
 
 class BracketFinder final : public Block {
 public:
-    BracketFinder(const RegisterFile& registers, Fifo<MappedRay>& in, Fifo<MemoryRead>& requests,
-                  Fifo<MemoryWord>& answers, Fifo<BracketedRay>& out);
+    struct Ports {
+        Fifo<MappedRay>& in;
+        Fifo<MemoryRead>& requests;
+        Fifo<MemoryWord>& answers;
+        Fifo<BracketedRay>& out;
+    };
+    BracketFinder(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
         return "gap " + std::to_string(gap_) + ", looks " + std::to_string(looks_);

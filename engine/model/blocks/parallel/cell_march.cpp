@@ -27,18 +27,16 @@ MarchSteps march_steps(std::int32_t per_d_q20) {
     return {steps, 256 / steps};
 }
 
-CellMarch::CellMarch(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MemoryWord>& words,
-                     Fifo<PixelBandRay>& in, Fifo<ReturnedPixel>& again, Fifo<SurfaceHit>& met,
-                     Fifo<FinishedPixel>& empty)
+CellMarch::CellMarch(const RegisterFile& registers, const Ports& ports)
     : Block("cell_march", "two looks per cycle, one in a cycle that writes cells; latency " +
                               std::to_string(kStages + 1) + ", " + std::to_string(kStages) + " more for each turn"),
       registers_(registers),
-      columns_(reads(columns)),
-      words_(reads(words)),
-      in_(reads(in)),
-      again_(reads(again)),
-      met_(writes(met)),
-      empty_(writes(empty)) {}
+      columns_(reads(ports.columns)),
+      words_(reads(ports.words)),
+      in_(reads(ports.in)),
+      again_(reads(ports.again)),
+      met_(writes(ports.met)),
+      empty_(writes(ports.empty)) {}
 
 // A column's set-up becomes valid with the last of its cells.
 bool CellMarch::load(bool& writes_cells) {

@@ -44,8 +44,15 @@ public:
     static constexpr std::size_t kHeldBits = std::size_t{4} * kMaxBands / kCellsPerWord * 64;
     static constexpr std::size_t kPixelBits = std::size_t{kPatchIds} * PixelBandRay::kBits;
 
-    CellMarch(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<MemoryWord>& words,
-              Fifo<PixelBandRay>& in, Fifo<ReturnedPixel>& again, Fifo<SurfaceHit>& met, Fifo<FinishedPixel>& empty);
+    struct Ports {
+        Fifo<ColumnSetup>& columns;
+        Fifo<MemoryWord>& words;
+        Fifo<PixelBandRay>& in;
+        Fifo<ReturnedPixel>& again;
+        Fifo<SurfaceHit>& met;
+        Fifo<FinishedPixel>& empty;
+    };
+    CellMarch(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override { return "words to come " + std::to_string(words_left_); }
     [[nodiscard]] std::uint64_t looks() const { return looks_; }  // looks used by rays

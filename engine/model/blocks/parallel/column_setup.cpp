@@ -97,14 +97,14 @@ bool set_up_shape_column(const BoardView& view, const ObjectRegisters& object, c
     return true;
 }
 
-ColumnSetupStage::ColumnSetupStage(const RegisterFile& registers, Fifo<RayWithLines>& in, Fifo<ColumnSetup>& out)
+ColumnSetupStage::ColumnSetupStage(const RegisterFile& registers, const Ports& ports)
     : SerialStage("column_setup",
                   "latency and interval " + std::to_string(kShapeLatency) + " (" + std::to_string(kTooFarLatency) +
                       " too far; without a shape map " + std::to_string(VerticalCompensation::kLatency) + ", " +
                       std::to_string(VerticalCompensation::kOutsideLatency) + " outside of the image, " +
                       std::to_string(VerticalCompensation::kTooNearLatency) + " too near; " +
                       std::to_string(kNoRayLatency) + " without a ray)",
-                  in, out),
+                  ports),
       registers_(registers) {}
 
 int ColumnSetupStage::work(const RayWithLines& in, ColumnSetup& out) {

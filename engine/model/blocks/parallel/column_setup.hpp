@@ -32,7 +32,7 @@ public:
     static constexpr int kShapeLatency = 1 + (kProductCycles + 2) + kRootCycles + kDivideCycles + 2 + kProductCycles +
                                          1 + (kProductCycles + 3) + kRootCycles + kDivideCycles + 1;
 
-    ColumnSetupStage(const RegisterFile& registers, Fifo<RayWithLines>& in, Fifo<ColumnSetup>& out);
+    ColumnSetupStage(const RegisterFile& registers, const Ports& ports);
 
 private:
     int work(const RayWithLines& in, ColumnSetup& out) override;

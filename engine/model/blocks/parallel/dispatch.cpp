@@ -4,13 +4,12 @@
 
 namespace rs::engine::model {
 
-ViewDispatcher::ViewDispatcher(const RegisterFile& registers, Fifo<ViewJob>& in, std::vector<DispatchPort> pipes,
-                               Fifo<Done>& view_written)
+ViewDispatcher::ViewDispatcher(const RegisterFile& registers, const Ports& ports)
     : Block("view_dispatcher", "a view's start and a view's end per cycle"),
       registers_(registers),
-      in_(reads(in)),
-      pipes_(std::move(pipes)),
-      view_written_(writes(view_written)),
+      in_(reads(ports.in)),
+      pipes_(ports.pipes),
+      view_written_(writes(ports.view_written)),
       begun_(pipes_.size()),
       written_(pipes_.size()) {
     for (const DispatchPort& pipe : pipes_) {
@@ -64,11 +63,11 @@ Activity ViewDispatcher::tick(std::uint64_t) {
     return in_.can_pop() ? Activity::output_full : Activity::idle;
 }
 
-LoadBroadcast::LoadBroadcast(Fifo<MemoryWrite>& in, std::vector<LoadPort> channels, Fifo<Done>& loaded)
+LoadBroadcast::LoadBroadcast(const Ports& ports)
     : Block("load_broadcast", "a word per cycle, to all channels"),
-      in_(reads(in)),
-      channels_(std::move(channels)),
-      loaded_(writes(loaded)) {
+      in_(reads(ports.in)),
+      channels_(ports.channels),
+      loaded_(writes(ports.loaded)) {
     for (const LoadPort& channel : channels_) {
         writes(*channel.words);
         reads(*channel.loaded);

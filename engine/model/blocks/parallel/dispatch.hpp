@@ -22,8 +22,12 @@ struct DispatchPort {
 
 class ViewDispatcher final : public Block {
 public:
-    ViewDispatcher(const RegisterFile& registers, Fifo<ViewJob>& in, std::vector<DispatchPort> pipes,
-                   Fifo<Done>& view_written);
+    struct Ports {
+        Fifo<ViewJob>& in;
+        std::vector<DispatchPort> pipes;
+        Fifo<Done>& view_written;
+    };
+    ViewDispatcher(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override { return "views " + std::to_string(views_.size()); }
 
@@ -51,7 +55,12 @@ struct LoadPort {
 
 class LoadBroadcast final : public Block {
 public:
-    LoadBroadcast(Fifo<MemoryWrite>& in, std::vector<LoadPort> channels, Fifo<Done>& loaded);
+    struct Ports {
+        Fifo<MemoryWrite>& in;
+        std::vector<LoadPort> channels;
+        Fifo<Done>& loaded;
+    };
+    explicit LoadBroadcast(const Ports& ports);
     Activity tick(std::uint64_t now) override;
 
 private:

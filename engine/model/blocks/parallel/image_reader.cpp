@@ -6,16 +6,15 @@ namespace rs::engine::model {
 
 constexpr int kWordsOfImage = 5;
 
-ImageReader::ImageReader(const RegisterFile& registers, Fifo<BracketedRay>& in, Fifo<MemoryRead>& requests,
-                         Fifo<MemoryWord>& answers, Fifo<RayWithLines>& out)
+ImageReader::ImageReader(const RegisterFile& registers, const Ports& ports)
     : Block("picture_reader",
             std::to_string(kMultiplyCycles) +
                 " cycles, 4, 5 or 10 requests, the memory's latency, 1 to hand over; 1 without a ray"),
       registers_(registers),
-      in_(reads(in)),
-      requests_(writes(requests)),
-      answers_(reads(answers)),
-      out_(writes(out)) {}
+      in_(reads(ports.in)),
+      requests_(writes(ports.requests)),
+      answers_(reads(ports.answers)),
+      out_(writes(ports.out)) {}
 
 void ImageReader::send_request() {
     const BracketedRay& ray = in_.front();

@@ -12,8 +12,13 @@ namespace rs::engine::model {
 
 class ImageReader final : public Block {
 public:
-    ImageReader(const RegisterFile& registers, Fifo<BracketedRay>& in, Fifo<MemoryRead>& requests,
-                Fifo<MemoryWord>& answers, Fifo<RayWithLines>& out);
+    struct Ports {
+        Fifo<BracketedRay>& in;
+        Fifo<MemoryRead>& requests;
+        Fifo<MemoryWord>& answers;
+        Fifo<RayWithLines>& out;
+    };
+    ImageReader(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
         return "requested " + std::to_string(requested_) + " answered " + std::to_string(answered_);

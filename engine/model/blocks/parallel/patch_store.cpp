@@ -2,19 +2,17 @@
 
 namespace rs::engine::model {
 
-PatchStore::PatchStore(const RegisterFile& registers, Fifo<PatchJob>& patches, Fifo<FinishedPixel>& pixels,
-                       Fifo<FinishedPixel>& empty, Fifo<MemoryWrite>& image_writes, Fifo<Done>& patch_free,
-                       Fifo<Done>& stripe_free, Fifo<Done>& view_done_scan, Fifo<Done>& view_done_books)
+PatchStore::PatchStore(const RegisterFile& registers, const Ports& ports)
     : Block("patch_store", "a pixel per cycle, beside it a word of a complete patch per cycle"),
       registers_(registers),
-      patches_(reads(patches)),
-      pixels_(reads(pixels)),
-      empty_(reads(empty)),
-      image_writes_(writes(image_writes)),
-      patch_free_(writes(patch_free)),
-      stripe_free_(writes(stripe_free)),
-      view_done_scan_(writes(view_done_scan)),
-      view_done_books_(writes(view_done_books)) {}
+      patches_(reads(ports.patches)),
+      pixels_(reads(ports.pixels)),
+      empty_(reads(ports.empty)),
+      image_writes_(writes(ports.image_writes)),
+      patch_free_(writes(ports.patch_free)),
+      stripe_free_(writes(ports.stripe_free)),
+      view_done_scan_(writes(ports.view_done_scan)),
+      view_done_books_(writes(ports.view_done_books)) {}
 
 bool PatchStore::take_patch() {
     if (!patches_.can_pop()) return false;

@@ -16,9 +16,17 @@ namespace rs::engine::model {
 class PatchStore final : public Block {
 public:
     static constexpr int kBits = kPatchIds * 32;
-    PatchStore(const RegisterFile& registers, Fifo<PatchJob>& patches, Fifo<FinishedPixel>& pixels,
-               Fifo<FinishedPixel>& empty, Fifo<MemoryWrite>& image_writes, Fifo<Done>& patch_free,
-               Fifo<Done>& stripe_free, Fifo<Done>& view_done_scan, Fifo<Done>& view_done_books);
+    struct Ports {
+        Fifo<PatchJob>& patches;
+        Fifo<FinishedPixel>& pixels;
+        Fifo<FinishedPixel>& empty;
+        Fifo<MemoryWrite>& image_writes;
+        Fifo<Done>& patch_free;
+        Fifo<Done>& stripe_free;
+        Fifo<Done>& view_done_scan;
+        Fifo<Done>& view_done_books;
+    };
+    PatchStore(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override;
 

@@ -5,16 +5,15 @@
 
 namespace rs::engine::model {
 
-PixelScan::PixelScan(const RegisterFile& registers, const StripeShare& share, Fifo<ViewJob>& jobs,
-                     Fifo<Done>& patch_free, Fifo<Done>& view_done, Fifo<PatchJob>& patches, Fifo<ScannedPixel>& pixels)
+PixelScan::PixelScan(const RegisterFile& registers, const StripeShare& share, const Ports& ports)
     : Block("pixel_scan", "1 cycle to begin a view, then a pixel per cycle"),
       registers_(registers),
       share_(share),
-      jobs_(reads(jobs)),
-      patch_free_(reads(patch_free)),
-      view_done_(reads(view_done)),
-      patches_(writes(patches)),
-      pixels_(writes(pixels)) {}
+      jobs_(reads(ports.jobs)),
+      patch_free_(reads(ports.patch_free)),
+      view_done_(reads(ports.view_done)),
+      patches_(writes(ports.patches)),
+      pixels_(writes(ports.pixels)) {}
 
 bool PixelScan::begin_patch() {
     if (free_patches_ == 0 || !patches_.can_push()) return false;
@@ -100,13 +99,12 @@ PixelBandRay pixel_band_ray(const ScannedPixel& pixel, const ColumnSetup& column
     return out;
 }
 
-RayRise::RayRise(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<ScannedPixel>& in,
-                 Fifo<PixelBandRay>& out)
+RayRise::RayRise(const RegisterFile& registers, const Ports& ports)
     : Block("ray_rise", "latency " + std::to_string(kStages + 1) + ", a pixel per cycle"),
       registers_(registers),
-      columns_(reads(columns)),
-      in_(reads(in)),
-      stage_(kStages, writes(out)) {}
+      columns_(reads(ports.columns)),
+      in_(reads(ports.in)),
+      stage_(kStages, writes(ports.out)) {}
 
 Activity RayRise::tick(std::uint64_t) {
     const bool stores_column = columns_.can_pop();

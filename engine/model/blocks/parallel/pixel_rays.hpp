@@ -17,8 +17,14 @@ namespace rs::engine::model {
 
 class PixelScan final : public Block {
 public:
-    PixelScan(const RegisterFile& registers, const StripeShare& share, Fifo<ViewJob>& jobs, Fifo<Done>& patch_free,
-              Fifo<Done>& view_done, Fifo<PatchJob>& patches, Fifo<ScannedPixel>& pixels);
+    struct Ports {
+        Fifo<ViewJob>& jobs;
+        Fifo<Done>& patch_free;
+        Fifo<Done>& view_done;
+        Fifo<PatchJob>& patches;
+        Fifo<ScannedPixel>& pixels;
+    };
+    PixelScan(const RegisterFile& registers, const StripeShare& share, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
         return "view " + std::to_string(view_) + " at " + std::to_string(first_column_) + "," +
@@ -62,7 +68,12 @@ PixelBandRay pixel_band_ray(const ScannedPixel& pixel, const ColumnSetup& column
 class RayRise final : public Block {
 public:
     static constexpr int kStages = 5 * kProductCycles;
-    RayRise(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<ScannedPixel>& in, Fifo<PixelBandRay>& out);
+    struct Ports {
+        Fifo<ColumnSetup>& columns;
+        Fifo<ScannedPixel>& in;
+        Fifo<PixelBandRay>& out;
+    };
+    RayRise(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
 
 private:

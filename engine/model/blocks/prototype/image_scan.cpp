@@ -3,11 +3,11 @@
 
 namespace rs::engine::model {
 
-ColumnAddress::ColumnAddress(const RegisterFile& registers, Fifo<ColumnWalk>& in, Fifo<PlacedColumn>& out)
+ColumnAddress::ColumnAddress(const RegisterFile& registers, const Ports& ports)
     : SerialStage(
           "column_address",
           "latency and interval " + std::to_string(kLatency) + " (" + std::to_string(kNoRayLatency) + " without a ray)",
-          in, out),
+          ports),
       registers_(registers) {}
 
 int ColumnAddress::work(const ColumnWalk& in, PlacedColumn& out) {
@@ -26,11 +26,11 @@ int ColumnAddress::work(const ColumnWalk& in, PlacedColumn& out) {
     return kLatency;
 }
 
-RowScan::RowScan(const RegisterFile& registers, Fifo<PlacedColumn>& in, Fifo<PixelPair>& out)
+RowScan::RowScan(const RegisterFile& registers, const Ports& ports)
     : Block("row_scan", "1 cycle to take a column, then a pixel per cycle, a pair every second"),
       registers_(registers),
-      in_(reads(in)),
-      out_(writes(out)) {}
+      in_(reads(ports.in)),
+      out_(writes(ports.out)) {}
 
 Activity RowScan::tick(std::uint64_t) {
     if (!active_) {

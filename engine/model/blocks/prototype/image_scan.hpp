@@ -20,7 +20,7 @@ public:
     static constexpr int kNoRayLatency = 2;
     static constexpr int kLatency = 1 + 5 * kMultiplyCycles + 1 + 1;
 
-    ColumnAddress(const RegisterFile& registers, Fifo<ColumnWalk>& in, Fifo<PlacedColumn>& out);
+    ColumnAddress(const RegisterFile& registers, const Ports& ports);
 
 private:
     int work(const ColumnWalk& in, PlacedColumn& out) override;
@@ -33,7 +33,11 @@ private:
 
 class RowScan final : public Block {
 public:
-    RowScan(const RegisterFile& registers, Fifo<PlacedColumn>& in, Fifo<PixelPair>& out);
+    struct Ports {
+        Fifo<PlacedColumn>& in;
+        Fifo<PixelPair>& out;
+    };
+    RowScan(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
 
 private:

@@ -12,15 +12,14 @@ std::int32_t high(std::uint64_t word) {
 
 }  // namespace
 
-LineReader::LineReader(const RegisterFile& registers, Fifo<MappedRay>& in, Fifo<MemoryRead>& requests,
-                       Fifo<MemoryWord>& answers, Fifo<RayLine>& out)
+LineReader::LineReader(const RegisterFile& registers, const Ports& ports)
     : Block("line_reader", std::to_string(kMultiplyCycles) +
                                " cycles, four requests, the memory's latency, 1 to hand over; 1 without a ray"),
       registers_(registers),
-      in_(reads(in)),
-      requests_(writes(requests)),
-      answers_(reads(answers)),
-      out_(writes(out)) {}
+      in_(reads(ports.in)),
+      requests_(writes(ports.requests)),
+      answers_(reads(ports.answers)),
+      out_(writes(ports.out)) {}
 
 void LineReader::send_request() {
     const MappedRay& ray = in_.front();

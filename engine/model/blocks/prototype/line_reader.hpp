@@ -18,8 +18,13 @@ namespace rs::engine::model {
 
 class LineReader final : public Block {
 public:
-    LineReader(const RegisterFile& registers, Fifo<MappedRay>& in, Fifo<MemoryRead>& requests,
-               Fifo<MemoryWord>& answers, Fifo<RayLine>& out);
+    struct Ports {
+        Fifo<MappedRay>& in;
+        Fifo<MemoryRead>& requests;
+        Fifo<MemoryWord>& answers;
+        Fifo<RayLine>& out;
+    };
+    LineReader(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
         return "requested " + std::to_string(requested_) + " answered " + std::to_string(answered_);

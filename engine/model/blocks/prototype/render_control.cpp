@@ -5,18 +5,17 @@
 namespace rs::engine::model {
 
 RenderControl::RenderControl(const BoardConfig& config, RegisterFile& registers, const HostPrograms& programs,
-                             CrossingFifo<StartCommand>& commands, Fifo<ViewJob>& jobs, Fifo<Done>& view_written,
-                             Fifo<Done>& images_ready, Fifo<Done>& buffer_free, Fifo<Done>& object_ready)
+                             const Ports& ports)
     : Block("render_control", "a command, a view's start and a view's end per cycle"),
       config_(config),
       registers_(registers),
       programs_(programs),
-      commands_(reads(commands)),
-      jobs_(writes(jobs)),
-      view_written_(reads(view_written)),
-      images_ready_(writes(images_ready)),
-      buffer_free_(reads(buffer_free)),
-      object_ready_(reads(object_ready)) {}
+      commands_(reads(ports.commands)),
+      jobs_(writes(ports.jobs)),
+      view_written_(reads(ports.view_written)),
+      images_ready_(writes(ports.images_ready)),
+      buffer_free_(reads(ports.buffer_free)),
+      object_ready_(reads(ports.object_ready)) {}
 
 Activity RenderControl::tick(std::uint64_t now) {
     bool busy = take_command();

@@ -16,9 +16,15 @@ namespace rs::engine::model {
 
 class RenderControl final : public Block {
 public:
-    RenderControl(const BoardConfig& config, RegisterFile& registers, const HostPrograms& programs,
-                  CrossingFifo<StartCommand>& commands, Fifo<ViewJob>& jobs, Fifo<Done>& view_written,
-                  Fifo<Done>& images_ready, Fifo<Done>& buffer_free, Fifo<Done>& object_ready);
+    struct Ports {
+        CrossingFifo<StartCommand>& commands;
+        Fifo<ViewJob>& jobs;
+        Fifo<Done>& view_written;
+        Fifo<Done>& images_ready;
+        Fifo<Done>& buffer_free;
+        Fifo<Done>& object_ready;
+    };
+    RenderControl(const BoardConfig& config, RegisterFile& registers, const HostPrograms& programs, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override;
 

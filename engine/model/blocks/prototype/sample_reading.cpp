@@ -2,11 +2,11 @@
 
 namespace rs::engine::model {
 
-SampleFetch::SampleFetch(Fifo<PixelPair>& in, Fifo<MemoryRead>& requests, Fifo<SampleTag>& tags)
+SampleFetch::SampleFetch(const Ports& ports)
     : Block("sample_fetch", "a read per cycle; 5 reads per pair of pixels, 6 where alpha needs two words"),
-      in_(reads(in)),
-      requests_(writes(requests)),
-      tags_(writes(tags)) {}
+      in_(reads(ports.in)),
+      requests_(writes(ports.requests)),
+      tags_(writes(ports.tags)) {}
 
 Activity SampleFetch::tick(std::uint64_t) {
     if (!in_.can_pop()) return Activity::idle;
@@ -44,11 +44,11 @@ Activity SampleFetch::tick(std::uint64_t) {
     return Activity::busy;
 }
 
-SampleSelect::SampleSelect(Fifo<SampleTag>& tags, Fifo<MemoryWord>& words, Fifo<YuvaPixel>& out)
+SampleSelect::SampleSelect(const Ports& ports)
     : Block("sample_select", "a word per cycle; a pixel is handed on in the cycle of its Y"),
-      tags_(reads(tags)),
-      words_(reads(words)),
-      out_(writes(out)) {}
+      tags_(reads(ports.tags)),
+      words_(reads(ports.words)),
+      out_(writes(ports.out)) {}
 
 Activity SampleSelect::tick(std::uint64_t) {
     if (!tags_.can_pop()) return Activity::idle;

@@ -14,7 +14,12 @@ namespace rs::engine::model {
 
 class SampleFetch final : public Block {
 public:
-    SampleFetch(Fifo<PixelPair>& in, Fifo<MemoryRead>& requests, Fifo<SampleTag>& tags);
+    struct Ports {
+        Fifo<PixelPair>& in;
+        Fifo<MemoryRead>& requests;
+        Fifo<SampleTag>& tags;
+    };
+    explicit SampleFetch(const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override { return "slot " + std::to_string(slot_); }
 
@@ -30,7 +35,12 @@ private:
 
 class SampleSelect final : public Block {
 public:
-    SampleSelect(Fifo<SampleTag>& tags, Fifo<MemoryWord>& words, Fifo<YuvaPixel>& out);
+    struct Ports {
+        Fifo<SampleTag>& tags;
+        Fifo<MemoryWord>& words;
+        Fifo<YuvaPixel>& out;
+    };
+    explicit SampleSelect(const Ports& ports);
     Activity tick(std::uint64_t now) override;
 
 private:

@@ -2,12 +2,12 @@
 
 namespace rs::engine::model {
 
-VerticalCompensation::VerticalCompensation(const RegisterFile& registers, Fifo<RayLine>& in, Fifo<ColumnWalk>& out)
+VerticalCompensation::VerticalCompensation(const RegisterFile& registers, const Ports& ports)
     : SerialStage("vertical_compensation",
                   "latency and interval " + std::to_string(kLatency) + " (" + std::to_string(kOutsideLatency) +
                       " outside of the image, " + std::to_string(kTooNearLatency) + " too near, " +
                       std::to_string(kNoRayLatency) + " without a ray)",
-                  in, out),
+                  ports),
       registers_(registers) {}
 
 int compensate_column(const RegisterFile& registers, const RayLine& in, ColumnWalk& out) {

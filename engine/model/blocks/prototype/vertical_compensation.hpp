@@ -27,7 +27,7 @@ public:
     static constexpr int kOutsideLatency = kTooNearLatency + kMultiplyCycles + 1 + kDivideCycles + 1;
     static constexpr int kLatency = kOutsideLatency + 8;
 
-    VerticalCompensation(const RegisterFile& registers, Fifo<RayLine>& in, Fifo<ColumnWalk>& out);
+    VerticalCompensation(const RegisterFile& registers, const Ports& ports);
 
 private:
     int work(const RayLine& in, ColumnWalk& out) override { return compensate_column(registers_, in, out); }

@@ -10,10 +10,10 @@ std::uint32_t convert_to_rgba(const YuvaPixel& pixel) {
            static_cast<std::uint32_t>(c.b) << 16U | static_cast<std::uint32_t>(c.a) << 24U;
 }
 
-ColourConversion::ColourConversion(Fifo<YuvaPixel>& in, Fifo<RgbaPixel>& out)
+ColourConversion::ColourConversion(const Ports& ports)
     : Block("colour_conversion", "latency " + std::to_string(kStages + 1) + ", a pixel per cycle"),
-      in_(reads(in)),
-      stage_(kStages, writes(out)) {}
+      in_(reads(ports.in)),
+      stage_(kStages, writes(ports.out)) {}
 
 Activity ColourConversion::tick(std::uint64_t) {
     return stage_.step([&](std::optional<RgbaPixel>& out) {

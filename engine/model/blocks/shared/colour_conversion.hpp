@@ -14,7 +14,11 @@ std::uint32_t convert_to_rgba(const YuvaPixel& pixel);
 class ColourConversion final : public Block {
 public:
     static constexpr int kStages = 4;
-    ColourConversion(Fifo<YuvaPixel>& in, Fifo<RgbaPixel>& out);
+    struct Ports {
+        Fifo<YuvaPixel>& in;
+        Fifo<RgbaPixel>& out;
+    };
+    explicit ColourConversion(const Ports& ports);
     Activity tick(std::uint64_t now) override;
 
 private:

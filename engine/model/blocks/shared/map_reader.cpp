@@ -2,12 +2,12 @@
 
 namespace rs::engine::model {
 
-MapReader::MapReader(Fifo<RayPoint>& in, Fifo<MemoryRead>& requests, Fifo<MemoryWord>& answers, Fifo<MappedRay>& out)
+MapReader::MapReader(const Ports& ports)
     : Block("map_reader", "1 cycle to ask, the memory's latency, 1 cycle to hand over; 1 without a ray"),
-      in_(reads(in)),
-      requests_(writes(requests)),
-      answers_(reads(answers)),
-      out_(writes(out)) {}
+      in_(reads(ports.in)),
+      requests_(writes(ports.requests)),
+      answers_(reads(ports.answers)),
+      out_(writes(ports.out)) {}
 
 Activity MapReader::tick(std::uint64_t) {
     if (!in_.can_pop()) return Activity::idle;

@@ -11,7 +11,13 @@ inline constexpr int kNoImageByte = 255;
 
 class MapReader final : public Block {
 public:
-    MapReader(Fifo<RayPoint>& in, Fifo<MemoryRead>& requests, Fifo<MemoryWord>& answers, Fifo<MappedRay>& out);
+    struct Ports {
+        Fifo<RayPoint>& in;
+        Fifo<MemoryRead>& requests;
+        Fifo<MemoryWord>& answers;
+        Fifo<MappedRay>& out;
+    };
+    explicit MapReader(const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override { return requested_ ? "requested" : "not requested"; }
 

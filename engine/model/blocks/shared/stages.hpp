@@ -3,7 +3,7 @@
 // no space. A member of blocks, not a block.
 
 #include "engine/model/clock/block.hpp"
-#include "rayspace/base/check.hpp"
+#include "rayspace/api/types/check.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -83,8 +83,12 @@ private:
 template <class In, class Out>
 class SerialStage : public Block {
 public:
-    SerialStage(std::string name, std::string timing, Fifo<In>& in, Fifo<Out>& out)
-        : Block(std::move(name), std::move(timing)), in_(reads(in)), out_(writes(out)) {}
+    struct Ports {
+        Fifo<In>& in;
+        Fifo<Out>& out;
+    };
+    SerialStage(std::string name, std::string timing, const Ports& ports)
+        : Block(std::move(name), std::move(timing)), in_(reads(ports.in)), out_(writes(ports.out)) {}
 
     Activity tick(std::uint64_t) final {
         if (left_ == 0) {

@@ -4,13 +4,12 @@
 
 namespace rs::engine::model {
 
-RasterGenerator::RasterGenerator(const RegisterFile& registers, Fifo<ViewJob>& jobs, Fifo<ColumnRay>& columns,
-                                 const StripeShare& share)
+RasterGenerator::RasterGenerator(const RegisterFile& registers, const StripeShare& share, const Ports& ports)
     : Block("raster_generator", "a column in K + 1 cycles for K planes; 1 cycle to begin a view"),
       registers_(registers),
       share_(share),
-      jobs_(reads(jobs)),
-      columns_(writes(columns)) {}
+      jobs_(reads(ports.jobs)),
+      columns_(writes(ports.columns)) {}
 
 Activity RasterGenerator::tick(std::uint64_t) {
     if (!active_) {
@@ -48,11 +47,11 @@ Activity RasterGenerator::tick(std::uint64_t) {
     return Activity::busy;
 }
 
-RayPosition::RayPosition(const RegisterFile& registers, Fifo<ColumnRay>& in, Fifo<RayPoint>& out)
+RayPosition::RayPosition(const RegisterFile& registers, const Ports& ports)
     : SerialStage("ray_position",
                   "latency and interval " + std::to_string(kLatency) + " (" + std::to_string(kMissLatency) +
                       " beside the object, " + std::to_string(kNoRayLatency) + " without a ray)",
-                  in, out),
+                  ports),
       registers_(registers) {}
 
 int RayPosition::work(const ColumnRay& in, RayPoint& out) {

@@ -20,8 +20,11 @@ namespace rs::engine::model {
 class RasterGenerator final : public Block {
 public:
     // Outputs the columns of `share` and skips the others: the accumulators need the increments of every column.
-    RasterGenerator(const RegisterFile& registers, Fifo<ViewJob>& jobs, Fifo<ColumnRay>& columns,
-                    const StripeShare& share = {});
+    struct Ports {
+        Fifo<ViewJob>& jobs;
+        Fifo<ColumnRay>& columns;
+    };
+    RasterGenerator(const RegisterFile& registers, const StripeShare& share, const Ports& ports);
     Activity tick(std::uint64_t now) override;
 
 private:
@@ -55,7 +58,7 @@ public:
     static constexpr int kMissLatency = 1 + kDivideCycles + kMultiplyCycles + 1 + 1;
     static constexpr int kLatency = kMissLatency + 3 * kMultiplyCycles + 2;
 
-    RayPosition(const RegisterFile& registers, Fifo<ColumnRay>& in, Fifo<RayPoint>& out);
+    RayPosition(const RegisterFile& registers, const Ports& ports);
 
 private:
     int work(const ColumnRay& in, RayPoint& out) override;

@@ -2,20 +2,18 @@
 
 namespace rs::engine::model {
 
-DoubleBufferedCodebook::DoubleBufferedCodebook(const RegisterFile& registers, Fifo<ViewJob>& jobs,
-                                               Fifo<Done>& view_done, Fifo<CodedPixel>& in, Fifo<MemoryRead>& requests,
-                                               Fifo<MemoryWord>& words, Fifo<YuvaPixel>& out)
+DoubleBufferedCodebook::DoubleBufferedCodebook(const RegisterFile& registers, const Ports& ports)
     : Block("double_buffered_codebook",
             "latency " + std::to_string(kStages + 1) +
                 ", a pixel per cycle, one more for each prediction but the first; beside it a word of "
                 "the next books per cycle"),
       registers_(registers),
-      jobs_(reads(jobs)),
-      view_done_(reads(view_done)),
-      in_(reads(in)),
-      requests_(writes(requests)),
-      words_(reads(words)),
-      stage_(kStages, writes(out)) {}
+      jobs_(reads(ports.jobs)),
+      view_done_(reads(ports.view_done)),
+      in_(reads(ports.in)),
+      requests_(writes(ports.requests)),
+      words_(reads(ports.words)),
+      stage_(kStages, writes(ports.out)) {}
 
 // Takes the next view and starts the load of its codebooks if needed.
 bool DoubleBufferedCodebook::next_view() {

@@ -17,9 +17,15 @@ class DoubleBufferedCodebook final : public Block {
 public:
     static constexpr int kStages = BookLookup::kStages;
     static constexpr std::size_t kBits = 2 * BookBanks::kBits;
-    DoubleBufferedCodebook(const RegisterFile& registers, Fifo<ViewJob>& jobs, Fifo<Done>& view_done,
-                           Fifo<CodedPixel>& in, Fifo<MemoryRead>& requests, Fifo<MemoryWord>& words,
-                           Fifo<YuvaPixel>& out);
+    struct Ports {
+        Fifo<ViewJob>& jobs;
+        Fifo<Done>& view_done;
+        Fifo<CodedPixel>& in;
+        Fifo<MemoryRead>& requests;
+        Fifo<MemoryWord>& words;
+        Fifo<YuvaPixel>& out;
+    };
+    DoubleBufferedCodebook(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
         return "books of loads " + std::to_string(sets_[0].serial) + " and " + std::to_string(sets_[1].serial) +

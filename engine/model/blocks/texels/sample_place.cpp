@@ -74,13 +74,12 @@ SurfaceSamples place_samples(const SurfaceHit& met, const ColumnSetup& column, c
     return samples;
 }
 
-SamplePlace::SamplePlace(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<SurfaceHit>& in,
-                         Fifo<PlacedSample>& out)
+SamplePlace::SamplePlace(const RegisterFile& registers, const Ports& ports)
     : Block("sample_place", "latency " + std::to_string(kStages + 1) + ", a sample per cycle"),
       registers_(registers),
-      columns_(reads(columns)),
-      in_(reads(in)),
-      stage_(kStages, writes(out)) {}
+      columns_(reads(ports.columns)),
+      in_(reads(ports.in)),
+      stage_(kStages, writes(ports.out)) {}
 
 Activity SamplePlace::tick(std::uint64_t) {
     if (columns_.can_pop()) table_.put(columns_.pop());

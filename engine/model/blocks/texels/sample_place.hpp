@@ -26,8 +26,12 @@ SurfaceSamples place_samples(const SurfaceHit& met, const ColumnSetup& column, c
 class SamplePlace final : public Block {
 public:
     static constexpr int kStages = 1 + kProductCycles + kDivideCycles + 2 * kProductCycles + 2;
-    SamplePlace(const RegisterFile& registers, Fifo<ColumnSetup>& columns, Fifo<SurfaceHit>& in,
-                Fifo<PlacedSample>& out);
+    struct Ports {
+        Fifo<ColumnSetup>& columns;
+        Fifo<SurfaceHit>& in;
+        Fifo<PlacedSample>& out;
+    };
+    SamplePlace(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
 
 private:

@@ -20,12 +20,12 @@ std::uint32_t packed(const Rgba8& c) {
 
 }  // namespace
 
-SurfaceBlend::SurfaceBlend(Fifo<FilteredSample>& in, Fifo<FinishedPixel>& out, Fifo<ReturnedPixel>& again)
+SurfaceBlend::SurfaceBlend(const Ports& ports)
     : Block("surface_blend",
             "latency " + std::to_string(kStages + 1) + " behind a surface's last sample, a sample per cycle"),
-      in_(reads(in)),
-      out_(writes(out)),
-      again_(writes(again)) {}
+      in_(reads(ports.in)),
+      out_(writes(ports.out)),
+      again_(writes(ports.again)) {}
 
 SurfaceBlend::Outcome SurfaceBlend::resolve_surface(const SampleHead& last) {
     const SampleSum sum = blend_samples(samples_, last.weight);

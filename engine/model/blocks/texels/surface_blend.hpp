@@ -22,7 +22,12 @@ public:
     static constexpr int kOverStages = 2;
     static constexpr int kStages = kBlendStages + kResolveStages + kOverStages;
     static constexpr std::size_t kKeptBits = std::size_t{kPatchIds} * 32;
-    SurfaceBlend(Fifo<FilteredSample>& in, Fifo<FinishedPixel>& out, Fifo<ReturnedPixel>& again);
+    struct Ports {
+        Fifo<FilteredSample>& in;
+        Fifo<FinishedPixel>& out;
+        Fifo<ReturnedPixel>& again;
+    };
+    explicit SurfaceBlend(const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::uint64_t sent_back() const { return sent_back_; }
 

@@ -2,13 +2,12 @@
 
 namespace rs::engine::model {
 
-TexelCache::TexelCache(Fifo<WaitingSample>& in, Fifo<FillTarget>& targets, Fifo<RgbaPixel>& texels,
-                       Fifo<TexelQuad>& out)
+TexelCache::TexelCache(const Ports& ports)
     : Block("texel_cache", "a sample per cycle, beside it a texel written"),
-      in_(reads(in)),
-      targets_(reads(targets)),
-      texels_(reads(texels)),
-      out_(writes(out)) {}
+      in_(reads(ports.in)),
+      targets_(reads(ports.targets)),
+      texels_(reads(ports.texels)),
+      out_(writes(ports.out)) {}
 
 bool TexelCache::read() {
     if (!in_.can_pop() || !out_.can_push() || in_.front().fills > fills_) return false;
@@ -61,10 +60,10 @@ FilteredSample filter_quad(const TexelQuad& quad) {
     return out;
 }
 
-TexelFilter::TexelFilter(Fifo<TexelQuad>& in, Fifo<FilteredSample>& out)
+TexelFilter::TexelFilter(const Ports& ports)
     : Block("texel_filter", "latency " + std::to_string(kStages + 1) + ", a sample per cycle"),
-      in_(reads(in)),
-      stage_(kStages, writes(out)) {}
+      in_(reads(ports.in)),
+      stage_(kStages, writes(ports.out)) {}
 
 Activity TexelFilter::tick(std::uint64_t) {
     return stage_.step([&](std::optional<FilteredSample>& sample) {

@@ -16,7 +16,13 @@ class TexelCache final : public Block {
 public:
     static constexpr int kLineTexels = 64;
     static constexpr int kBits = kCacheLines * kLineTexels * 32;
-    TexelCache(Fifo<WaitingSample>& in, Fifo<FillTarget>& targets, Fifo<RgbaPixel>& texels, Fifo<TexelQuad>& out);
+    struct Ports {
+        Fifo<WaitingSample>& in;
+        Fifo<FillTarget>& targets;
+        Fifo<RgbaPixel>& texels;
+        Fifo<TexelQuad>& out;
+    };
+    explicit TexelCache(const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
         return "blocks written and not waited for " + std::to_string(fills_) + ", samples read " +
@@ -46,7 +52,11 @@ FilteredSample filter_quad(const TexelQuad& quad);
 class TexelFilter final : public Block {
 public:
     static constexpr int kStages = 6;
-    TexelFilter(Fifo<TexelQuad>& in, Fifo<FilteredSample>& out);
+    struct Ports {
+        Fifo<TexelQuad>& in;
+        Fifo<FilteredSample>& out;
+    };
+    explicit TexelFilter(const Ports& ports);
     Activity tick(std::uint64_t now) override;
 
 private:

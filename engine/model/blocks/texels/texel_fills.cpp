@@ -3,17 +3,15 @@
 
 namespace rs::engine::model {
 
-FillFetch::FillFetch(const RegisterFile& registers, Fifo<TexelFill>& in, Fifo<BlockRequest>& asks,
-                     Fifo<CodedPixel>& pixels, Fifo<MemoryRead>& raw_reads, Fifo<FillKind>& kinds,
-                     Fifo<FillTarget>& targets)
+FillFetch::FillFetch(const RegisterFile& registers, const Ports& ports)
     : Block("fill_fetch", "a coded block in 64 cycles, a raw one in " + std::to_string(kRawBlockWords)),
       registers_(registers),
-      in_(reads(in)),
-      asks_(writes(asks)),
-      pixels_(writes(pixels)),
-      raw_reads_(writes(raw_reads)),
-      kinds_(writes(kinds)),
-      targets_(writes(targets)) {}
+      in_(reads(ports.in)),
+      asks_(writes(ports.asks)),
+      pixels_(writes(ports.pixels)),
+      raw_reads_(writes(ports.raw_reads)),
+      kinds_(writes(ports.kinds)),
+      targets_(writes(ports.targets)) {}
 
 bool FillFetch::begin() {
     if (!kinds_.can_push() || !targets_.can_push()) return false;
@@ -70,15 +68,15 @@ Activity FillFetch::tick(std::uint64_t) {
     return coded_ ? Activity::output_full : Activity::memory_port;
 }
 
-TexelMerge::TexelMerge(Fifo<FillKind>& kinds, Fifo<YuvaPixel>& coded, Fifo<MemoryWord>& raw_words, Fifo<YuvaPixel>& out)
+TexelMerge::TexelMerge(const Ports& ports)
     : Block("texel_merge",
             "1 cycle to begin a block, then a texel per cycle; a raw one's words come before them, 3 for an even "
             "column, 2 "
             "for an odd one"),
-      kinds_(reads(kinds)),
-      coded_(reads(coded)),
-      raw_words_(reads(raw_words)),
-      out_(writes(out)) {}
+      kinds_(reads(ports.kinds)),
+      coded_(reads(ports.coded)),
+      raw_words_(reads(ports.raw_words)),
+      out_(writes(ports.out)) {}
 
 YuvaPixel TexelMerge::raw_texel() const {
     const int row = (64 - left_) % 8;

@@ -12,8 +12,15 @@ namespace rs::engine::model {
 
 class FillFetch final : public Block {
 public:
-    FillFetch(const RegisterFile& registers, Fifo<TexelFill>& in, Fifo<BlockRequest>& asks, Fifo<CodedPixel>& pixels,
-              Fifo<MemoryRead>& raw_reads, Fifo<FillKind>& kinds, Fifo<FillTarget>& targets);
+    struct Ports {
+        Fifo<TexelFill>& in;
+        Fifo<BlockRequest>& asks;
+        Fifo<CodedPixel>& pixels;
+        Fifo<MemoryRead>& raw_reads;
+        Fifo<FillKind>& kinds;
+        Fifo<FillTarget>& targets;
+    };
+    FillFetch(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override {
         return "columns to request " + std::to_string(8 - requested_) + ", pixels to send " +
@@ -48,7 +55,13 @@ private:
 
 class TexelMerge final : public Block {
 public:
-    TexelMerge(Fifo<FillKind>& kinds, Fifo<YuvaPixel>& coded, Fifo<MemoryWord>& raw_words, Fifo<YuvaPixel>& out);
+    struct Ports {
+        Fifo<FillKind>& kinds;
+        Fifo<YuvaPixel>& coded;
+        Fifo<MemoryWord>& raw_words;
+        Fifo<YuvaPixel>& out;
+    };
+    explicit TexelMerge(const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::string state_text() const override { return "texels left " + std::to_string(left_); }
 

@@ -2,13 +2,12 @@
 
 namespace rs::engine::model {
 
-TexelTags::TexelTags(const RegisterFile& registers, Fifo<PlacedSample>& in, Fifo<TexelFill>& fills,
-                     Fifo<WaitingSample>& out)
+TexelTags::TexelTags(const RegisterFile& registers, const Ports& ports)
     : Block("texel_tags", "a sample per cycle, one more for each block that is not there"),
       registers_(registers),
-      in_(reads(in)),
-      fills_(writes(fills)),
-      out_(writes(out)) {}
+      in_(reads(ports.in)),
+      fills_(writes(ports.fills)),
+      out_(writes(ports.out)) {}
 
 int TexelTags::find(int image, int block_column, int block_row) const {
     const int set = set_of(image, block_column, block_row);

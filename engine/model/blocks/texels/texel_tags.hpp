@@ -25,7 +25,12 @@ class TexelTags final : public Block {
 public:
     static constexpr int kSets = kCacheLines / 2;
     static constexpr int kTagBits = kCacheLines * (1 + 5 + 5 + 5 + 10) + kSets;  // valid, tag, last use; older way
-    TexelTags(const RegisterFile& registers, Fifo<PlacedSample>& in, Fifo<TexelFill>& fills, Fifo<WaitingSample>& out);
+    struct Ports {
+        Fifo<PlacedSample>& in;
+        Fifo<TexelFill>& fills;
+        Fifo<WaitingSample>& out;
+    };
+    TexelTags(const RegisterFile& registers, const Ports& ports);
     Activity tick(std::uint64_t now) override;
     [[nodiscard]] std::uint64_t fills_requested() const { return fills_requested_; }
     [[nodiscard]] std::uint64_t samples() const { return samples_; }

@@ -1,7 +1,7 @@
 // The images of the frame compositor. Skipped where no OpenGL context can be had.
 
 #include "engine/core/definition/view_registers.hpp"
-#include "engine/model/simulated_board.hpp"
+#include "engine/model/board.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "tests/compositor/viewer/drawing/compositing.hpp"
 

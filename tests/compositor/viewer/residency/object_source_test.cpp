@@ -2,9 +2,8 @@
 
 #include "compositor/viewer/residency/object_source.hpp"
 
-#include "engine/model/simulated_board.hpp"
+#include "engine/model/board.hpp"
 #include "rayspace/format/object_file.hpp"
-#include "rayspace/format/object_memory.hpp"
 #include "tests/compositor/objects.hpp"
 #include "tests/support/coded_object.hpp"
 #include "tests/support/sphere_object.hpp"

@@ -4,7 +4,7 @@
 #include "encode/codec/board/board_encoder.hpp"
 #include "encode/codec/board/board_block.hpp"
 #include "encode/codec/board/vector_quantiser.hpp"
-#include "rayspace/codec/board/board_tile.hpp"
+#include "rayspace/codec/board/board_profile.hpp"
 #include "rayspace/codec/stream/byte_account.hpp"
 #include "rayspace/codec/stream/coded_chunks.hpp"
 #include "rayspace/codec/stream/decode_image.hpp"

@@ -2,9 +2,9 @@
 // random maps, sizes and poses, on every SIMD target.
 
 #include "engine/core/definition/reconstruct.hpp"
+#include "engine/core/definition/view_registers.hpp"
 #include "engine/core/fast/renderer.hpp"
-#include "engine/core/views/conformance.hpp"
-#include "engine/core/views/depth_image.hpp"
+#include "engine/core/views/compare.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/format/chunks/shape_chunk.hpp"
 #include "rayspace/geometry/ray_space.hpp"

@@ -1,6 +1,5 @@
 // DIAGRAM.md equals the tables generated from the code; waveform and report have valid formats.
 
-#include "engine/model/report/diagram.hpp"
 #include "engine/model/report/report.hpp"
 #include "engine/model/report/waveform.hpp"
 #include "tests/engine/model/board_test_objects.hpp"

@@ -39,7 +39,7 @@ TEST(CodedBlockTiming, BlockScanOutputsAPixelPerCycleAndARequestAfterItsRun) {
     Fifo<ColumnWalk> in("in", 4, 1);
     Fifo<BlockRequest> asks("asks", 16, 1);
     Fifo<CodedPixel> pixels("pixels", 64, 1);
-    BlockScan block(r.file, in, asks, pixels);
+    BlockScan block(r.file, {.in = in, .asks = asks, .pixels = pixels});
     Bench bench({&in, &asks, &pixels});
     put(in, {0, true, 2, 40, std::int64_t{5} << 16, 1 << 16});  // rows 5 .. 45
     EXPECT_EQ(bench.cycles_until(block, pixels), 2);
@@ -61,7 +61,7 @@ TEST(CodedBlockTiming, BlockScanEndsARunAfterSixteenPixels) {
     Fifo<ColumnWalk> in("in", 4, 1);
     Fifo<BlockRequest> asks("asks", 16, 1);
     Fifo<CodedPixel> pixels("pixels", 64, 1);
-    BlockScan block(r.file, in, asks, pixels);
+    BlockScan block(r.file, {.in = in, .asks = asks, .pixels = pixels});
     Bench bench({&in, &asks, &pixels});
     put(in, {0, true, 2, 40, std::int64_t{9} << 16, 0});  // row 9, for 41 pixels
     for (int n = 0; n < 17; ++n) bench.step(block);
@@ -83,7 +83,7 @@ TEST(CodedBlockTiming, TileFinderTakesABlockPerCycleAndRequestsOncePerTile) {
     Fifo<BlockRequest> in("in", 8, 1);
     Fifo<MemoryRead> reads("reads", 8, 1);
     Fifo<FoundTile> out("out", 8, 1);
-    TileFinder block(0, r.file, in, reads, out);
+    TileFinder block(0, r.file, {.in = in, .requests = reads, .out = out});
     Bench bench({&in, &reads, &out});
     const std::pair<int, bool> asked[] = {{2, true}, {3, false}, {4, false}, {4, true}};
     for (const auto& [block_row, first] : asked) {
@@ -106,7 +106,7 @@ TEST(CodedBlockTiming, TileReaderRequestsInTheCycleOfTheWord) {
     Fifo<MemoryWord> words("words", 4, 1);
     Fifo<MemoryRead> reads("reads", 4, 1);
     Fifo<RequestedTile> out("out", 4, 1);
-    TileReader block(0, in, words, reads, out);
+    TileReader block(0, {.in = in, .entries = words, .requests = reads, .out = out});
     Bench bench({&in, &words, &reads, &out});
     for (const FoundTile& found :
          {FoundTile{{}, false, true}, FoundTile{{}, true, false}, FoundTile{{}, false, false}}) {
@@ -130,7 +130,7 @@ TEST(CodedBlockTiming, RecordReaderTakesACyclePerWordAndOneForANewTile) {
     Fifo<MemoryWord> heads("heads", 4, 1);
     Fifo<MemoryRead> reads("reads", 16, 1);
     Fifo<RequestedRecord> out("out", 8, 1);
-    RecordReader block(0, r.file, in, heads, reads, out);
+    RecordReader block(0, r.file, {.in = in, .heads = heads, .requests = reads, .out = out});
     Bench bench({&in, &heads, &reads, &out});
     // Column 40 is the second block of a tile: blocks 4 .. 7 of classes 1, 2, 0, 1.
     const std::uint64_t classes = (std::uint64_t{1} << 12U) | (std::uint64_t{2} << 15U) | (std::uint64_t{1} << 21U);
@@ -166,7 +166,7 @@ TEST(CodedBlockTiming, BlockMotionTakesACyclePerWordOneForOutputAndOneForASecond
     Fifo<MemoryWord> words("words", 4, 1);
     Fifo<BlockRecord> out("out", 4, 1);
     Fifo<BlockRequest> asks("asks", 4, 1);
-    BlockMotion block(0, r.file, in, words, out, &asks);
+    BlockMotion block(0, r.file, {.in = in, .words = words, .out = out, .asks = &asks});
     Bench bench({&in, &words, &out, &asks});
     RequestedRecord asked{request_of(2, true), 3, true, {7, 9}, 6, 2};
     put(in, asked);
@@ -195,7 +195,7 @@ TEST(CodedBlockTiming, RecordSelectGivesAPixelPerCycle) {
     Fifo<CodedPixel> in("in", 16, 1);
     Fifo<BlockRecord> records("records", 4, 1);
     Fifo<CodedPixel> out("out", 16, 1);
-    RecordSelect block(0, r.file, in, records, out);
+    RecordSelect block(0, r.file, {.in = in, .records = records, .out = out});
     Bench bench({&in, &records, &out});
     for (int row = 6; row < 10; ++row) {
         CodedPixel pixel;
@@ -223,7 +223,7 @@ TEST(CodedBlockTiming, BookLookupLoadsAWordPerCycleThenGivesAPixelPerCycleOfLate
     Fifo<MemoryRead> reads("reads", 4, 1);
     Fifo<MemoryWord> words("words", 4, 1);
     Fifo<YuvaPixel> out("out", 8, 1);
-    BookLookup block(r.file, in, reads, words, out);
+    BookLookup block(r.file, {.in = in, .requests = reads, .words = words, .out = out});
     Bench bench({&in, &reads, &words, &out});
     CodedPixel pixel;
     pixel.is_visible = true;

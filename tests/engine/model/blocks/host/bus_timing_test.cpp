@@ -10,7 +10,8 @@ namespace {
 
 // The bus without other blocks; the board side always has words.
 struct BusBench {
-    explicit BusBench(const PciSettings& s) : settings(s), bus(settings, programs, words, commands, transferred) {}
+    explicit BusBench(const PciSettings& s)
+        : settings(s), bus(settings, programs, {.words = words, .commands = commands, .transferred = transferred}) {}
     void step() {
         if (left > 0 && words.can_push())
             words.push(left-- == size + 1 ? head
@@ -94,7 +95,7 @@ TEST(DiskController, AWordCrossesThePrivateBusInSixteenCycles) {
     Fifo<MemoryWrite> words("words", 64, 92);
     Fifo<Done> loaded("loaded", 2, 1);
     Fifo<Done> ready("ready", 2, 5);
-    DiskController disk(settings, registers, words, loaded, ready);
+    DiskController disk(settings, registers, {.words = words, .loaded = loaded, .object_ready = ready});
     disk.load(
         {3,
          {},

@@ -13,7 +13,12 @@ struct PortBench {
     explicit PortBench(const MemorySettings& s = {})
         : settings(s),
           sdram(settings.shape, settings.timing),
-          controller("memory", settings, sdram, {{"a", &reads, &words}}, writes, written, loads, loaded) {}
+          controller("memory", settings, sdram,
+                     {.read_ports = {{"a", &reads, &words}},
+                      .image_writes = writes,
+                      .view_written = written,
+                      .loads = loads,
+                      .object_loaded = loaded}) {}
     void step() {
         controller.clock(now++);
         for (FifoState* f : std::initializer_list<FifoState*>{&reads, &words, &writes, &written, &loads, &loaded})

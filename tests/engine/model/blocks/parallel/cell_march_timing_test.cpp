@@ -51,7 +51,7 @@ struct MarchBench {
     Fifo<ReturnedPixel> again{"again", 4, 1};
     Fifo<SurfaceHit> met{"met", 4, 1};
     Fifo<FinishedPixel> empty{"empty", 4, 1};
-    CellMarch block{r.file, columns, words, in, again, met, empty};
+    CellMarch block{r.file, {.columns = columns, .words = words, .in = in, .again = again, .met = met, .empty = empty}};
     Bench bench{&columns, &words, &in, &again, &met, &empty};
 };
 

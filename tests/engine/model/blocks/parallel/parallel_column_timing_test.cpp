@@ -65,7 +65,7 @@ TEST(ParallelColumnTiming, BracketFinderReadsAWordPerLookAndPerCrossing) {
     Fifo<MemoryRead> reads("reads", 2, 1);
     Fifo<MemoryWord> words("words", 2, 1);
     Fifo<BracketedRay> out("out", 4, 1);
-    BracketFinder block(r.file, in, reads, words, out);
+    BracketFinder block(r.file, {.in = in, .requests = reads, .answers = words, .out = out});
     Bench bench({&in, &reads, &words, &out});
     put(in, {0, false, 0, 0, 0, 0, 0, 0, 0});
     EXPECT_EQ(bench.cycles_until(block, out), 1);
@@ -113,7 +113,7 @@ TEST(ParallelColumnTiming, RaysOfPlaneObjectsPassTheBracketFinder) {
     Fifo<MemoryRead> reads("reads", 2, 1);
     Fifo<MemoryWord> words("words", 2, 1);
     Fifo<BracketedRay> out("out", 4, 1);
-    BracketFinder block(r.file, in, reads, words, out);
+    BracketFinder block(r.file, {.in = in, .requests = reads, .answers = words, .out = out});
     Bench bench({&in, &reads, &words, &out});
     put(in, {0, true, 1, 3400, 7, 3, 0, 0, 0});
     EXPECT_EQ(bench.cycles_until(block, out), 1);
@@ -127,7 +127,7 @@ TEST(ParallelColumnTiming, ImageReaderRequestsAWordPerCycle) {
     Fifo<MemoryRead> reads("reads", 2, 1);
     Fifo<MemoryWord> words("words", 2, 1);
     Fifo<RayWithLines> out("out", 4, 1);
-    ImageReader block(r.file, in, reads, words, out);
+    ImageReader block(r.file, {.in = in, .requests = reads, .answers = words, .out = out});
     Bench bench({&in, &reads, &words, &out});
     const WordAddress lines = r.file.objects[0].lines;
     const auto word = [&](WordAddress address) { return std::uint64_t{address - lines} * 0x100000001U; };
@@ -154,7 +154,7 @@ TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
     const ColumnRegisters r(true);
     Fifo<RayWithLines> in("in", 4, 1);
     Fifo<ColumnSetup> out("out", 4, 1);
-    ColumnSetupStage block(r.file, in, out);
+    ColumnSetupStage block(r.file, {.in = in, .out = out});
     Bench bench({&in, &out});
     RayWithLines ray;
     put(in, ray);
@@ -182,7 +182,7 @@ TEST(ParallelColumnTiming, ColumnSetupTakesTheCyclesOfItsSchedule) {
     RegisterFile far = r.file;
     far.banks[0].views[0].planes[0].c_q20 = (1 << 28) - 1;
     Fifo<RayWithLines> far_in("in", 4, 1);
-    ColumnSetupStage far_block(far, far_in, out);
+    ColumnSetupStage far_block(far, {.in = far_in, .out = out});
     Bench far_bench({&far_in, &out});
     put(far_in, ray);
     EXPECT_EQ(far_bench.cycles_until(far_block, out), ColumnSetupStage::kTooFarLatency);
@@ -232,7 +232,13 @@ TEST(ParallelColumnTiming, BandReaderRequestsAWordPerCycleAndWaitsForAStripe) {
     Fifo<ColumnSetup> rise("rise", 64, 1);
     Fifo<ColumnSetup> march("march", 64, 1);
     Fifo<ColumnSetup> place("place", 64, 1);
-    BandReader block(r.file, {}, in, stripe_free, reads, rise, march, place);
+    BandReader block(r.file, {},
+                     {.in = in,
+                      .stripe_free = stripe_free,
+                      .requests = reads,
+                      .to_rise = rise,
+                      .to_march = march,
+                      .to_place = place});
     Bench bench({&in, &stripe_free, &reads, &rise, &march, &place});
     ColumnSetup column;
     column.kind = RayKind::shape;

@@ -43,7 +43,8 @@ struct LookupBench {
     Fifo<MemoryRead> reads{"reads", 4, 1};
     Fifo<MemoryWord> words{"words", 4, 1};
     Fifo<YuvaPixel> out{"out", 8, 1};
-    DoubleBufferedCodebook block{r.file, jobs, done, in, reads, words, out};
+    DoubleBufferedCodebook block{
+        r.file, {.jobs = jobs, .view_done = done, .in = in, .requests = reads, .words = words, .out = out}};
     Bench bench{&jobs, &done, &in, &reads, &words, &out};
 };
 
@@ -101,7 +102,7 @@ TEST(ParallelDispatch, AViewIsWrittenWhenAllPipesWithAShareHaveWrittenTheirs) {
         ports.push_back(
             {jobs[jobs.size() - 3].get(), jobs[jobs.size() - 2].get(), jobs.back().get(), done.back().get()});
     }
-    ViewDispatcher block(r.file, in, ports, written);
+    ViewDispatcher block(r.file, {.in = in, .pipes = ports, .view_written = written});
     const auto step = [&] {
         block.clock(0);
         for (FifoState* fifo : std::initializer_list<FifoState*>{&in, &written}) fifo->commit();
@@ -137,7 +138,7 @@ TEST(ParallelDispatch, LoadedWordsGoToAllChannelsInTheSameCycle) {
     Fifo<Done> loaded("loaded", 2, 1);
     Fifo<MemoryWrite> words[] = {{"a", 2, 1}, {"b", 2, 1}};
     Fifo<Done> done[] = {{"c", 2, 1}, {"d", 2, 1}};
-    LoadBroadcast block(in, {{&words[0], &done[0]}, {&words[1], &done[1]}}, loaded);
+    LoadBroadcast block({.in = in, .channels = {{&words[0], &done[0]}, {&words[1], &done[1]}}, .loaded = loaded});
     Bench bench({&in, &loaded, &words[0], &words[1], &done[0], &done[1]});
     for (std::uint64_t n = 0; n < 3; ++n) {
         put(in, {1, n, n == 2});

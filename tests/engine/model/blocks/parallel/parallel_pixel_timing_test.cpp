@@ -25,7 +25,9 @@ TEST(ParallelPixelTiming, PixelScanGivesAPixelPerCycleOfFourPatches) {
     Fifo<Done> view_done("done", 2, 1);
     Fifo<PatchJob> patches("patches", 64, 1);
     Fifo<ScannedPixel> out("out", 2048, 1);
-    PixelScan block(r.file, {}, jobs, patch_free, view_done, patches, out);
+    PixelScan block(
+        r.file, {},
+        {.jobs = jobs, .patch_free = patch_free, .view_done = view_done, .patches = patches, .pixels = out});
     Bench bench({&jobs, &patch_free, &view_done, &patches, &out});
     put(jobs, {0});
     EXPECT_EQ(bench.cycles_until(block, out), 2);
@@ -54,7 +56,8 @@ TEST(ParallelPixelTiming, PixelScanHasTwoViewsInFlight) {
     Fifo<Done> view_done("done", 2, 1);
     Fifo<PatchJob> patches("patches", 64, 1);
     Fifo<ScannedPixel> out("out", 64, 1);
-    PixelScan block(file, {}, jobs, patch_free, view_done, patches, out);
+    PixelScan block(
+        file, {}, {.jobs = jobs, .patch_free = patch_free, .view_done = view_done, .patches = patches, .pixels = out});
     Bench bench({&jobs, &patch_free, &view_done, &patches, &out});
     for (int v = 0; v < 3; ++v) {
         put(jobs, {v});
@@ -72,7 +75,7 @@ TEST(ParallelPixelTiming, RayRiseWaitsForItsColumnThenGivesAPixelPerCycle) {
     Fifo<ColumnSetup> columns("columns", 2, 1);
     Fifo<ScannedPixel> in("in", 8, 1);
     Fifo<PixelBandRay> out("out", 8, 1);
-    RayRise block(r.file, columns, in, out);
+    RayRise block(r.file, {.columns = columns, .in = in, .out = out});
     Bench bench({&columns, &in, &out});
     for (const int id : {0, 16, 1}) {
         put(in, pixel_of(id));
@@ -90,7 +93,7 @@ TEST(ParallelPixelTiming, SamplePlaceGivesASamplePerCycleOfLatency53) {
     Fifo<ColumnSetup> columns("columns", 2, 1);
     Fifo<SurfaceHit> in("in", 4, 1);
     Fifo<PlacedSample> out("out", 16, 1);
-    SamplePlace block(r.file, columns, in, out);
+    SamplePlace block(r.file, {.columns = columns, .in = in, .out = out});
     Bench bench({&columns, &in, &out});
     put(columns, column_of(RayKind::shape, 0));
     ColumnSetup behind_eye = column_of(RayKind::shape, 1);
@@ -121,7 +124,7 @@ TEST(ParallelPixelTiming, SamplePlaceGivesASamplePerCycleOfLatency53) {
 TEST(ParallelPixelTiming, FilterAndBlendArePipelines) {
     Fifo<TexelQuad> quads("quads", 4, 1);
     Fifo<FilteredSample> filtered("filtered", 8, 1);
-    TexelFilter filter(quads, filtered);
+    TexelFilter filter({.in = quads, .out = filtered});
     Bench filter_bench({&quads, &filtered});
     for (int n = 0; n < 2; ++n) {
         TexelQuad quad;
@@ -139,7 +142,7 @@ TEST(ParallelPixelTiming, FilterAndBlendArePipelines) {
 
     Fifo<FinishedPixel> resolved("resolved", 4, 1);
     Fifo<ReturnedPixel> again("again", 4, 1);
-    SurfaceBlend blend(filtered, resolved, again);
+    SurfaceBlend blend({.in = filtered, .out = resolved, .again = again});
     Bench blend_bench({&filtered, &resolved, &again});
     EXPECT_EQ(SurfaceBlend::kStages, 16);
     EXPECT_EQ(blend_bench.cycles_until(blend, resolved), 1 + SurfaceBlend::kStages + 1);  // behind the second sample
@@ -166,7 +169,7 @@ TEST(ParallelPixelTiming, SurfaceBlendTakesTheImageWhoseFrameHasThePoint) {
         Fifo<FilteredSample> in("in", 4, 1);
         Fifo<FinishedPixel> out("out", 4, 1);
         Fifo<ReturnedPixel> again("again", 4, 1);
-        SurfaceBlend block(in, out, again);
+        SurfaceBlend block({.in = in, .out = out, .again = again});
         Bench bench({&in, &out, &again});
         FilteredSample sample;
         sample.head.is_there = sample.inside = true;
@@ -192,7 +195,7 @@ TEST(ParallelPixelTiming, SurfaceBlendStoresAPartlyCoveredPixel) {
     Fifo<FilteredSample> in("in", 4, 1);
     Fifo<FinishedPixel> out("out", 4, 1);
     Fifo<ReturnedPixel> again("again", 4, 1);
-    SurfaceBlend block(in, out, again);
+    SurfaceBlend block({.in = in, .out = out, .again = again});
     Bench bench({&in, &out, &again});
     const auto sample = [](int id, std::int32_t alpha, std::int32_t grey, bool final, int next) {
         FilteredSample one;
@@ -252,7 +255,14 @@ TEST(ParallelPixelTiming, PatchStoreWritesAPatchWhenItsLastPixelIsThere) {
     Fifo<Done> stripe_free("stripe_free", 2, 1);
     Fifo<Done> done_scan("done_scan", 2, 1);
     Fifo<Done> done_books("done_books", 2, 1);
-    PatchStore block(r.file, patches, pixels, empty, writes, patch_free, stripe_free, done_scan, done_books);
+    PatchStore block(r.file, {.patches = patches,
+                              .pixels = pixels,
+                              .empty = empty,
+                              .image_writes = writes,
+                              .patch_free = patch_free,
+                              .stripe_free = stripe_free,
+                              .view_done_scan = done_scan,
+                              .view_done_books = done_books});
     Bench bench({&patches, &pixels, &empty, &writes, &patch_free, &stripe_free, &done_scan, &done_books});
     put(patches, {0, 0, 32, 24, 2, 3, true, true});  // two columns of three rows
     for (const int id : {17, 0, 33, 1}) {

@@ -27,7 +27,7 @@ TEST(BlockTiming, RasterGeneratorMakesAColumnInPlanesPlusOneCycles) {
     const PlaneRegisters r;
     Fifo<ViewJob> jobs("jobs", 2, 4);
     Fifo<ColumnRay> columns("columns", 20, 72);
-    RasterGenerator block(r.file, jobs, columns);
+    RasterGenerator block(r.file, {}, {.jobs = jobs, .columns = columns});
     Bench bench({&jobs, &columns});
     put(jobs, {0});
     EXPECT_EQ(bench.cycles_until(block, columns), 1 + 12 + 1);
@@ -40,7 +40,7 @@ template <class Stage, class In, class Out>
 void expect_latency(const RegisterFile& file, const In& item, int latency, bool has_ray) {
     Fifo<In> in("in", 4, 1);
     Fifo<Out> out("out", 4, 1);
-    Stage stage(file, in, out);
+    Stage stage(file, {.in = in, .out = out});
     Bench bench({&in, &out});
     put(in, item);
     EXPECT_EQ(bench.cycles_until(stage, out), latency);
@@ -56,7 +56,7 @@ void expect_latency(const RegisterFile& file, const In& item, int latency, bool 
 std::vector<ColumnRay> columns_of(const RegisterFile& file) {
     Fifo<ViewJob> jobs("jobs", 2, 4);
     Fifo<ColumnRay> columns("columns", 20, 72);
-    RasterGenerator block(file, jobs, columns);
+    RasterGenerator block(file, {}, {.jobs = jobs, .columns = columns});
     Bench bench({&jobs, &columns});
     put(jobs, {0});
     std::vector<ColumnRay> all;
@@ -101,7 +101,7 @@ TEST(BlockTiming, RowScanGivesAPairEverySecondCycleAndOneMoreForAnOddRow) {
     const PlaneRegisters r;
     Fifo<PlacedColumn> in("in", 4, 1);
     Fifo<PixelPair> out("out", 8, 1);
-    RowScan block(r.file, in, out);
+    RowScan block(r.file, {.in = in, .out = out});
     Bench bench({&in, &out});
     put(in, {0, true, 0, 1 << 16, 10, 20, 30});
     EXPECT_EQ(bench.cycles_until(block, out), 3);  // the column, two pixels
@@ -120,7 +120,7 @@ TEST(BlockTiming, SampleFetchTakesFiveSlotsAndSixAcrossAlphaWords) {
     Fifo<PixelPair> in("in", 4, 1);
     Fifo<MemoryRead> reads("reads", 16, 1);
     Fifo<SampleTag> tags("tags", 16, 1);
-    SampleFetch block(in, reads, tags);
+    SampleFetch block({.in = in, .requests = reads, .tags = tags});
     Bench bench({&in, &reads, &tags});
     put(in, {0, {true, true}, {30, 31}, 100, 200, 300});
     put(in, {0, {true, true}, {31, 32}, 100, 200, 300});
@@ -142,7 +142,7 @@ TEST(BlockTiming, SampleFetchTakesFiveSlotsAndSixAcrossAlphaWords) {
 TEST(BlockTiming, ColourConversionHasLatencyFiveAndAPixelPerCycle) {
     Fifo<YuvaPixel> in("in", 8, 1);
     Fifo<RgbaPixel> out("out", 8, 1);
-    ColourConversion block(in, out);
+    ColourConversion block({.in = in, .out = out});
     Bench bench({&in, &out});
     for (int n = 0; n < 3; ++n) {
         put(in, {0, 10 * n, 128, 128, 255});
@@ -157,7 +157,7 @@ TEST(BlockTiming, ImageWriterPacksTwoPixels) {
     const PlaneRegisters r;
     Fifo<RgbaPixel> in("in", 8, 1);
     Fifo<MemoryWrite> out("out", 8, 1);
-    ImageWriter block(r.file, in, out);
+    ImageWriter block(r.file, {.in = in, .out = out});
     Bench bench({&in, &out});
     for (std::uint32_t n = 1; n <= 4; ++n) {
         put(in, {0, n});
@@ -174,7 +174,7 @@ TEST(BlockTiming, MapReaderRequestsOnceAndOutputsTheByte) {
     Fifo<MemoryRead> reads("reads", 2, 1);
     Fifo<MemoryWord> words("words", 2, 1);
     Fifo<MappedRay> out("out", 2, 1);
-    MapReader block(in, reads, words, out);
+    MapReader block({.in = in, .requests = reads, .answers = words, .out = out});
     Bench bench({&in, &reads, &words, &out});
     put(in, {0, true, 1, 2, 3, 8 * 50 + 3});
     EXPECT_EQ(bench.cycles_until(block, reads), 1);

@@ -32,7 +32,7 @@ struct TagsBench {
     Fifo<PlacedSample> in{"in", 8, 1};
     Fifo<TexelFill> fills{"fills", 32, 1};
     Fifo<WaitingSample> out{"out", 32, 1};
-    TexelTags block{r.file, in, fills, out};
+    TexelTags block{r.file, {.in = in, .fills = fills, .out = out}};
     Bench bench{&in, &fills, &out};
 };
 
@@ -84,7 +84,8 @@ TEST(ParallelTexelTiming, FillFetchTakes64CyclesForACodedBlockAndAWordPerCycleFo
     Fifo<MemoryRead> raw("raw", 64, 1);
     Fifo<FillKind> kinds("kinds", 4, 1);
     Fifo<FillTarget> targets("targets", 4, 1);
-    FillFetch block(r.file, in, asks, pixels, raw, kinds, targets);
+    FillFetch block(r.file,
+                    {.in = in, .asks = asks, .pixels = pixels, .raw_reads = raw, .kinds = kinds, .targets = targets});
     Bench bench({&in, &asks, &pixels, &raw, &kinds, &targets});
     put(in, {0, 2, 3, 1, 9, 0});
     for (int n = 0; n < 64; ++n) EXPECT_EQ(bench.cycles_until(block, pixels), 1) << n;
@@ -106,7 +107,7 @@ TEST(ParallelTexelTiming, TexelMergeKeepsTheOrderOfTheBlocks) {
     Fifo<YuvaPixel> coded("coded", 64, 1);
     Fifo<MemoryWord> words("words", 32, 1);
     Fifo<YuvaPixel> out("out", 256, 1);
-    TexelMerge block(kinds, coded, words, out);
+    TexelMerge block({.kinds = kinds, .coded = coded, .raw_words = words, .out = out});
     Bench bench({&kinds, &coded, &words, &out});
     for (const bool is_coded : {false, true}) {
         put(kinds, {is_coded});
@@ -149,7 +150,7 @@ struct CacheBench {
     Fifo<FillTarget> targets{"targets", 4, 1};
     Fifo<RgbaPixel> texels{"texels", 256, 1};
     Fifo<TexelQuad> out{"out", 8, 1};
-    TexelCache block{in, targets, texels, out};
+    TexelCache block{{.in = in, .targets = targets, .texels = texels, .out = out}};
     Bench bench{&in, &targets, &texels, &out};
 };
 

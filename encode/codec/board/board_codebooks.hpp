@@ -1,11 +1,13 @@
 #pragma once
-// Chain of codebooks that records of one kind (flat or predicted) go through, and its training.
+// Codebooks of the board profile and their training: the chain that records of one kind (flat or predicted) go through,
+// and the alpha codebook.
 //
 // The encoder's classes nest: a class has one or more block stages, then quarter stages, and is a prefix of the chain.
 // A single walk along the chain therefore prices all classes.
 
 #include "encode/codec/board/board_block.hpp"
 #include "encode/codec/board/vector_quantiser.hpp"
+#include "encode/codec/encoder_images.hpp"
 #include "rayspace/codec/code/board_code.hpp"
 
 #include <array>
@@ -51,5 +53,19 @@ StageCodebooks train_stages(std::span<const TrainingBlock> blocks,
                             int quarter_stages, double lambda, double share);
 
 codec::Books pack_codebooks(const StageCodebooks& books);
+
+/// Alpha codebook: 256 patterns of 4x4 samples.
+struct AlphaCodebook {
+    Codebook book;  // `samples` minus 128
+    std::vector<std::uint8_t>
+        samples;  // as stored: [entry * 16 + 4 row + column], values that alpha_bits can represent
+    int alpha_bits = 2;
+
+    /// The index of the entry nearest to the 4x4 samples at (x, y).
+    [[nodiscard]] unsigned nearest(const SourceImage& source, int x, int y) const;
+};
+
+/// Trains the codebook on the quarters of partly covered blocks. Entry 0 is fully covered, entry 1 fully transparent.
+AlphaCodebook train_alpha(const std::vector<SourceImage>& sources, int alpha_bits);
 
 }  // namespace rs::encode

@@ -1,11 +1,15 @@
 #pragma once
-// Encoder input image: planes of the coded size and the mask of valid samples.
+// Input and result of the image encoders: the planes of each photo at the coded size with the mask of valid samples,
+// and the coded images with their fidelity.
 
+#include "rayspace/codec/code/coded_images.hpp"
 #include "rayspace/codec/code/dense_code.hpp"
+#include "rayspace/codec/dense_tile.hpp"
 #include "rayspace/image/image.hpp"
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace rs::encode {
@@ -29,5 +33,16 @@ codec::EdgeAlpha estimate_edge_alpha(const std::vector<SourceImage>& sources);
 /// Weights of squared errors of Y, U and V in the sum of squared errors of R, G and B (BT.601), without the cross
 /// terms: 3, 1.772^2 + 0.344^2, 1.402^2 + 0.714^2.
 inline constexpr std::array<float, 3> kPlaneWeights = {3.0F, 3.258F, 2.476F};
+
+struct EncodedImages {
+    codec::CodedImages coded;
+    double psnr_db = 0;  // measure_coded_psnr() against the sources
+};
+
+/// PSNR in dB of R, G and B over all samples of the sources with alpha of 128 or more. Does not depend on the number of
+/// threads.
+/// \param reconstruction  returns the decoded samples of a view; called from several threads.
+double measure_coded_psnr(const std::vector<SourceImage>& sources, int width, int height, int alpha_bits,
+                          const std::function<codec::ConstPlaneViews(std::size_t view)>& reconstruction);
 
 }  // namespace rs::encode

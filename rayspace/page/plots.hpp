@@ -1,11 +1,13 @@
 #pragma once
-// A line plot as inline SVG: named series over common axes, with ticks, grid and legend.
+// Plots as SVG: named series over common axes with ticks, grid and legend (line_plot.cpp), and curves over angles
+// (polar_plot.cpp).
 
 #include <string>
 #include <vector>
 
 namespace rs {
 
+/// A series of a line plot.
 struct PlotSeries {
     std::string name;
     std::vector<double> x;
@@ -47,5 +49,24 @@ std::string draw_svg(const LinePlot& plot);
 
 /// Draws a plot as a standalone SVG file with colours, on white.
 std::string draw_standalone_svg(const LinePlot& plot);
+
+/// A curve of a polar plot.
+struct PolarCurve {
+    std::string name;
+    std::vector<double> angle_rad;  // from the bottom, positive to the right
+    std::vector<double> radius;     // same size as angle_rad, >= 0 and finite
+};
+
+/// Polar plot of named curves over angles, 0 at the bottom, as in photometric diagrams of hanging luminaires.
+struct PolarPlot {
+    std::string title;
+    std::string unit;                // unit of the radius, such as "cd"
+    std::vector<std::string> notes;  // lines under the title
+    std::vector<PolarCurve> curves;  // 5 colours, then they repeat
+    int side_px = 560;
+};
+
+/// Draws the plot in black on white, with rings at round numbers and spokes every 30 degrees. Text is escaped.
+std::string draw_standalone_svg(const PolarPlot& plot);
 
 }  // namespace rs

@@ -1,14 +1,22 @@
 #pragma once
-// The progress of the library's own functions, reported to a ProgressCallback.
+// Conversions between the types of the public headers and those of the library: cameras and progress.
 
 #include "rayspace/api/builder.hpp"
+#include "rayspace/api/camera.hpp"
 #include "rayspace/base/progress.hpp"
+#include "rayspace/geometry/camera.hpp"
+#include "rayspace/geometry/rig.hpp"
 
 #include <algorithm>
 #include <mutex>
 
 namespace rs::api {
 
+rs::Camera to_internal(const Camera& camera);
+Camera to_public(const rs::Camera& camera);
+std::vector<CapturedCamera> cameras_of(const Rig& rig);
+
+/// Reports the progress of the library's own functions to a ProgressCallback.
 class ProgressAdapter final : public Progress {
 public:
     explicit ProgressAdapter(const ProgressCallback& callback) : callback_(callback) {}

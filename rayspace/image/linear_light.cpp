@@ -1,5 +1,3 @@
-#include "rayspace/image/srgb_codes.hpp"
-
 #include "rayspace/image/linear_light.hpp"
 
 #include <bit>

@@ -1,4 +1,0 @@
-#pragma once
-// RS_CHECK, which the public headers use, too.
-
-#include "rayspace/api/types/check.hpp"
