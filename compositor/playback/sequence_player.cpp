@@ -89,8 +89,7 @@ Status SequencePlayer::make_tracer() {
         if (node.object && !node.hidden) objects.push_back(*node.object);
     }
     RS_ASSIGN_OR_RETURN(auto tracer, TracedRenderer::create(scene_, objects, *options_.tracing));
-    if (tracers_made_++ == 0) {
-    }
+    ++tracers_made_;
     tracer_.emplace(std::move(tracer));
     return {};
 }

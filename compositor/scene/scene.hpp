@@ -97,7 +97,7 @@ struct Scene {
     std::vector<std::string> warnings;  // unsupported parts, "FILE: line N: ..."
 };
 
-/// InstantiationState the lighting of another state of the same scene: lights, their scopes, environment and headlight.
+/// Copies the lighting of another state of the same scene: lights, their scopes, environment and headlight.
 void copy_lights(const Scene& from, Scene& to);
 
 /// Bounds of all geometry in scene coordinates; empty if there is none.

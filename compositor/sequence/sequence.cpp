@@ -35,7 +35,10 @@ std::optional<SequenceCamera> camera_of(const Sequence& sequence, std::size_t fr
 }
 
 Scene scene_at(const Sequence& sequence, std::size_t frame) {
-    Scene scene = sequence.scene;
+    return scene_at(sequence.scene, sequence, frame);
+}
+
+Scene scene_at(Scene scene, const Sequence& sequence, std::size_t frame) {
     const SlotTransforms moved = slot_transforms(sequence, frame);
     std::vector<bool> hidden_objects(scene.objects.size());
     for (const auto& [node, chain] : moved.objects) {

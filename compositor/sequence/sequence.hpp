@@ -69,5 +69,7 @@ std::optional<SequenceCamera> camera_of(const Sequence& sequence, std::size_t fr
 
 /// Scene with all moving parts transformed for a frame; hidden parts are removed.
 Scene scene_at(const Sequence& sequence, std::size_t frame);
+/// The same of `scene`: the sequence's scene with other lights or weather.
+Scene scene_at(Scene scene, const Sequence& sequence, std::size_t frame);
 
 }  // namespace rs::compositor

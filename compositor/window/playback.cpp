@@ -39,9 +39,10 @@ std::optional<Camera> Playback::camera(int width, int height) const {
     return camera_of(*sequence_, frame_, width, height);
 }
 
-Scene Playback::scene() const {
-    Scene scene = scene_at(*sequence_, frame_);
-    return weather_ ? apply_weather(std::move(scene), *weather_) : scene;
+Scene Playback::scene(const Scene& lit) const {
+    Scene scene = weather_ ? apply_weather(sequence_->scene, *weather_) : sequence_->scene;
+    copy_lights(lit, scene);
+    return scene_at(std::move(scene), *sequence_, frame_);
 }
 
 void Playback::draw_controls() {

@@ -27,8 +27,8 @@ public:
     [[nodiscard]] double frames_per_second() const { return sequence_->frames_per_second; }
     /// Camera of the frame; nullopt if the visitor navigates freely.
     [[nodiscard]] std::optional<Camera> camera(int width, int height) const;
-    /// Scene of the frame, for the tracer.
-    [[nodiscard]] Scene scene() const;
+    /// Scene of the frame with the lights of `lit`, another state of the sequence's scene; for the tracer.
+    [[nodiscard]] Scene scene(const Scene& lit) const;
 
     void stop() { playing_ = false; }
     void toggle() { playing_ = !playing_; }

@@ -287,9 +287,8 @@ Status Visit::apply_light_edits() {
     desk_.update(desk_view());
     if (std::string news = desk_.take_message(); !news.empty()) report(news);
     if (!desk_.take_change()) return {};
-    const double exposure_ev = desk_.edits().state().exposure_ev;
-    traced_view_.set_lights({desk_.scene(), exposure_ev});
-    return compositor_.set_lights(*desk_.scene(), exposure_ev);
+    traced_view_.set_lights(lighting_to_trace());
+    return compositor_.set_lights(*desk_.scene(), desk_.edits().state().exposure_ev);
 }
 
 void Visit::apply_shadow_setting() {
@@ -303,9 +302,7 @@ void Visit::apply_shadow_setting() {
 Refinement::Lighting Visit::lighting_to_trace() const {
     const double exposure_ev = desk_.edits().state().exposure_ev;
     if (!playback_) return {desk_.scene(), exposure_ev};
-    auto scene = std::make_shared<Scene>(playback_->scene());
-    copy_lights(*desk_.scene(), *scene);
-    return {std::move(scene), exposure_ev};
+    return {std::make_shared<const Scene>(playback_->scene(*desk_.scene())), exposure_ev};
 }
 
 // Updates the traced image; true if a frame must be drawn for it, or if light is not traced.
