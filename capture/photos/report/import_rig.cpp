@@ -107,7 +107,7 @@ Rig calibrated_import_rig(const ImportReport& report, const TurnSilhouette::Box&
     camera["pan_deg"] = degrees(model.pose.pan_rad);
     camera["tilt_deg"] = degrees(model.pose.tilt_rad);
     camera["roll_deg"] = degrees(model.pose.roll_rad);
-    for (const ImagePlacement& place : calibration.places) {  // capture/calibration/model/image_placement.hpp
+    for (const ImagePlacement& place : calibration.places) {
         made["places"].push_back({{"scale", place.scale}, {"shift_px", {place.shift_px.x, place.shift_px.y}}});
     }
     nlohmann::json& deviations = made["standard_deviations"];

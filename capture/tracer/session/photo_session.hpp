@@ -16,7 +16,7 @@
 // "distance" and "camera_height" of the camera's centre from axis and origin, in the scene's unit; exposures; dimming
 // (of the lights); "plate", the turntable's disc; the board's corners in the object's frame; the options; and, for
 // recentred photos, "places": for every view scale and shift_px as in
-// capture/calibration/model/image_placement.hpp.
+// capture/calibration/model/calibration.hpp.
 // The cameras are those before recentring.
 
 #include "capture/tracer/scene/scene.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Recentring of photos as in web shops: each one is shifted and scaled so that the object fills and centres the frame.
 
-#include "capture/calibration/model/image_placement.hpp"
+#include "capture/calibration/model/calibration.hpp"
 #include "capture/tracer/image/ray_image.hpp"
 #include "rayspace/image/image.hpp"
 
