@@ -1,10 +1,9 @@
 #include "capture/calibration/tracks/track_calibration.hpp"
 
+#include "capture/calibration/points/bundle.hpp"
 #include "capture/calibration/points/model_covariance.hpp"
 #include "capture/calibration/points/patch_alignment.hpp"
-#include "capture/calibration/points/patch_growth.hpp"
 #include "capture/calibration/points/placement_estimation.hpp"
-#include "capture/calibration/points/start_search.hpp"
 #include "capture/calibration/silhouettes/turn_diagnosis.hpp"
 #include "capture/calibration/tracks/silhouette_refinement.hpp"
 #include "rayspace/base/conventions.hpp"
