@@ -3,7 +3,6 @@
 #include "capture/opencv/connected_components.hpp"
 #include "capture/photos/background/disc_inpainting.hpp"
 #include "capture/photos/background/plate_propagation.hpp"
-#include "capture/photos/background/swept_region.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/parallel_loop.hpp"
