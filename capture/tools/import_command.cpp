@@ -4,7 +4,7 @@
 #include "capture/photos/intake/photo_folder.hpp"
 #include "capture/photos/intake/photo_source.hpp"
 #include "capture/photos/intake/video/frame_selection.hpp"
-#include "capture/photos/report/import_page.hpp"
+#include "capture/photos/report/import_report.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"

@@ -1,13 +1,15 @@
 #pragma once
 /// \file
-/// Results of an import, for messages, the HTML page and the record in the rig file.
+/// Results of an import, for messages and the record in the rig file, and the HTML page about them.
 
 #include "capture/photos/rig/found_rig.hpp"
 #include "capture/photos/rig/rectification.hpp"
 #include "capture/photos/segmentation/segmenter_choice.hpp"
+#include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -47,5 +49,17 @@ inline bool is_left_out(const ImportReport& report, std::size_t photo) {
     return std::find(report.left_out.begin(), report.left_out.end(), source_name(report, photo)) !=
            report.left_out.end();
 }
+
+/// Longer side of an annotated photo.
+inline constexpr int kAnnotatedSide_px = 560;
+
+/// Reduced photo (its longer side at most kAnnotatedSide_px) with the turntable's axis and the tracked points drawn on
+/// it. `view` is an index into the photos of the report.
+Image<Rgba8> annotated_photo(ConstImageView<Rgba8> photo, const ImportReport& report, int view);
+
+/// Makes a self-contained HTML page about an import, mostly of figures: estimates and their uncertainty, tracked
+/// points, the axis drawn on photos, alpha mattes over magenta. Reads some of the report's photos again to annotate
+/// them. `photos` is the name of the turn in the title. Errors: an unreadable photo.
+Result<std::string> import_page(const std::filesystem::path& photos, const ImportReport& report);
 
 }  // namespace rs::capture
