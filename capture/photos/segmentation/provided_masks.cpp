@@ -1,6 +1,6 @@
 #include "capture/photos/segmentation/provided_masks.hpp"
 
-#include "capture/photos/intake/photo_reader.hpp"
+#include "capture/photos/intake/photo_folder.hpp"
 
 #include <algorithm>
 #include <utility>
