@@ -4,7 +4,6 @@
 #include "capture/tracer/integrator/tracer.hpp"
 #include "capture/tracer/session/capture_set.hpp"
 #include "capture/tracer/session/coverage.hpp"
-#include "capture/tracer/session/recentring.hpp"
 #include "capture/tracer/session/sensor.hpp"
 #include "capture/tracer/session/still_backdrop.hpp"
 #include "rayspace/file/file_output.hpp"

@@ -41,7 +41,7 @@ struct PhotoOptions {
     DiscSurface disc = DiscSurface::rings;
     std::filesystem::path board;    // an image; empty = none
     double board_width = 1.2;       // object radii
-    bool recentred = false;         // shift and scale each photo to its object, like web shops do (recentring.hpp)
+    bool recentred = false;         // shift and scale each photo to its object, like web shops do (coverage.hpp)
     std::string backdrop = "wall";  // "wall", "blue", "white", or the name of an image
     bool force = false;             // replace an existing folder whatever it holds (StagedFolder)
 };
