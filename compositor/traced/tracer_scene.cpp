@@ -1,6 +1,6 @@
 #include "compositor/traced/tracer_scene.hpp"
 
-#include "capture/tracer/scene/flatten.hpp"
+#include "capture/tracer/scene/scene_transform.hpp"
 #include "compositor/scene/normal_map.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"

@@ -61,7 +61,7 @@ class LightTransport;
 
 class Tracer {
 public:
-    /// Checks the scene (scene_check.hpp) and builds its acceleration structures: about 1 s per million triangles.
+    /// Checks the scene (check_scene()) and builds its acceleration structures: about 1 s per million triangles.
     static Result<Tracer> create(Scene scene);
     Tracer(Tracer&&) noexcept;
     Tracer& operator=(Tracer&&) noexcept;

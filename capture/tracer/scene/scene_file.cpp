@@ -1,10 +1,9 @@
 #include "capture/tracer/scene/scene_file.hpp"
 
 #include "capture/tracer/scene/mesh_file.hpp"
-#include "capture/tracer/scene/normalise.hpp"
-#include "capture/tracer/scene/scene_check.hpp"
+#include "capture/tracer/scene/scene.hpp"
+#include "capture/tracer/scene/scene_transform.hpp"
 #include "capture/tracer/scene/studio.hpp"
-#include "capture/tracer/scene/surroundings.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/strict_json.hpp"
