@@ -1,8 +1,8 @@
 #include "datasets-synthetic/street/pen.hpp"
 
-#include "datasets-synthetic/shapes/ellipsoid.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/portable_math.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/conventions.hpp"
 

@@ -1,7 +1,6 @@
 #include "tests/bench/scenes/group_builder.hpp"
 
-#include "datasets-synthetic/shapes/lathe.hpp"
-#include "datasets-synthetic/shapes/sweep.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 #include "rayspace/base/check.hpp"
 
 #include <algorithm>
