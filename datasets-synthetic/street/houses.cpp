@@ -1,4 +1,4 @@
-#include "datasets-synthetic/street/houses.hpp"
+#include "datasets-synthetic/street/street_models.hpp"
 
 #include "datasets-synthetic/shapes/lettering.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"

@@ -1,4 +1,4 @@
-#include "datasets-synthetic/street/road.hpp"
+#include "datasets-synthetic/street/street_models.hpp"
 
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"

@@ -1,11 +1,9 @@
 #include "datasets-synthetic/street/street.hpp"
 
 #include "datasets-synthetic/shapes/random.hpp"
-#include "datasets-synthetic/street/houses.hpp"
 #include "datasets-synthetic/street/obj_file.hpp"
-#include "datasets-synthetic/street/road.hpp"
+#include "datasets-synthetic/street/street_models.hpp"
 #include "datasets-synthetic/street/traffic.hpp"
-#include "datasets-synthetic/street/vehicles.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image_io/image_io.hpp"

@@ -1,4 +1,4 @@
-#include "datasets-synthetic/street/vehicles.hpp"
+#include "datasets-synthetic/street/street_models.hpp"
 
 #include "datasets-synthetic/street/pen.hpp"
 #include "datasets-synthetic/street/traffic.hpp"
