@@ -4,7 +4,6 @@
 #include "capture/photos/segmentation/background_model_segmenter.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/linear_light.hpp"
-#include "tests/capture/photos/backdrop_behind.hpp"
 #include "tests/capture/photos/segment_photo.hpp"
 
 #include <gtest/gtest.h>
