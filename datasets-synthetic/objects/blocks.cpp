@@ -3,7 +3,6 @@
 #include "datasets-synthetic/objects/object_assembly.hpp"
 #include "datasets-synthetic/shapes/curve.hpp"
 #include "datasets-synthetic/shapes/frame.hpp"
-#include "datasets-synthetic/shapes/lettering.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/parameters.hpp"

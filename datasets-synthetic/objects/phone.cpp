@@ -2,7 +2,6 @@
 
 #include "datasets-synthetic/objects/object_assembly.hpp"
 #include "datasets-synthetic/shapes/frame.hpp"
-#include "datasets-synthetic/shapes/lettering.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/parameters.hpp"
 #include "datasets-synthetic/shapes/portable_math.hpp"

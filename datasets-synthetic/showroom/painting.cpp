@@ -1,7 +1,6 @@
 #include "datasets-synthetic/showroom/painting.hpp"
 
 #include "datasets-synthetic/shapes/curve.hpp"
-#include "datasets-synthetic/shapes/lettering.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/random.hpp"
