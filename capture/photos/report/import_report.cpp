@@ -1,7 +1,6 @@
 #include "capture/photos/report/import_report.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
-#include "capture/photos/intake/photo_folder.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/page/html_page.hpp"
@@ -10,7 +9,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace rs::capture {

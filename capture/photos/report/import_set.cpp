@@ -1,7 +1,6 @@
-#include "capture/photos/report/import_set.hpp"
+#include "capture/photos/report/import_report.hpp"
 
 #include "capture/photos/intake/bounded_work.hpp"
-#include "capture/photos/report/import_report.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image_io/image_io.hpp"
