@@ -1,10 +1,8 @@
 #include "datasets-synthetic/objects/bear_body.hpp"
 
 #include "datasets-synthetic/shapes/curve.hpp"
-#include "datasets-synthetic/shapes/surfaces.hpp"
 
 #include <utility>
-#include <vector>
 
 namespace rs::synthetic {
 namespace {

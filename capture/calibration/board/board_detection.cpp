@@ -18,7 +18,6 @@
 #include <map>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace rs::capture {
 namespace {

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <optional>
 #include <utility>
-#include <vector>
 
 namespace rs::capture {
 namespace {

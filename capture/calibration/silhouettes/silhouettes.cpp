@@ -1,21 +1,17 @@
 #include "capture/calibration/silhouettes/silhouettes.hpp"
 
-#include "capture/calibration/model/calibration.hpp"
 #include "capture/calibration/points/model_covariance.hpp"
 #include "capture/calibration/silhouettes/coherence_fit.hpp"
 #include "capture/calibration/silhouettes/silhouette_fit.hpp"
 #include "capture/calibration/silhouettes/silhouette_turn.hpp"
 #include "capture/calibration/silhouettes/turn_diagnosis.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/image/image.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <optional>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>

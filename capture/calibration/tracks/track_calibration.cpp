@@ -1,6 +1,5 @@
 #include "capture/calibration/tracks/track_calibration.hpp"
 
-#include "capture/calibration/points/bundle.hpp"
 #include "capture/calibration/points/model_covariance.hpp"
 #include "capture/calibration/points/patch_alignment.hpp"
 #include "capture/calibration/points/placement_estimation.hpp"

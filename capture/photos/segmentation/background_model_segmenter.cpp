@@ -3,7 +3,6 @@
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/background/log_ratio.hpp"
 #include "capture/photos/foreground/flat_grey_foreground.hpp"
-#include "capture/photos/foreground/foreground_mask.hpp"
 #include "capture/photos/intake/exposure.hpp"
 #include "capture/photos/intake/survey.hpp"
 #include "rayspace/base/check.hpp"

@@ -5,7 +5,6 @@
 #include "capture/tracer/integrator/radiosity.hpp"
 #include "capture/tracer/integrator/toon.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
-#include "capture/tracer/scene/scene.hpp"
 #include "rayspace/base/check.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"

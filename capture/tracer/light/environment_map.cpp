@@ -6,7 +6,6 @@
 #include <cmath>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace rs::capture {
 namespace {

@@ -1,7 +1,6 @@
 #include "capture/tracer/scene/scene_file.hpp"
 
 #include "capture/tracer/scene/mesh_file.hpp"
-#include "capture/tracer/scene/scene.hpp"
 #include "capture/tracer/scene/scene_transform.hpp"
 #include "capture/tracer/scene/studio.hpp"
 #include "rayspace/base/conventions.hpp"

@@ -1,6 +1,5 @@
 #include "tests/bench/scenes/group_builder.hpp"
 
-#include "datasets-synthetic/shapes/surfaces.hpp"
 #include "rayspace/base/check.hpp"
 
 #include <algorithm>

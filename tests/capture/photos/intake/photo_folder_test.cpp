@@ -12,9 +12,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
-#include <string>
 #include <string_view>
-#include <vector>
 
 namespace rs::capture {
 namespace {
