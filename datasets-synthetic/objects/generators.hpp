@@ -46,8 +46,8 @@ Result<capture::Scene> generate_flower(const nlohmann::json& parameters, std::ui
 /// hue          0.075    0..1             of the fur, in turns (0 red, 1/3 green, 2/3 blue)
 Result<capture::Scene> generate_doll(const nlohmann::json& parameters, std::uint64_t seed);
 
-/// An oil lamp: a glass font with coloured oil and a slender glass chimney on a turned brass stand with glass feet; lit.
-/// Hard for image-based rendering because refractions in glass and reflections in brass do not lie on any surface.
+/// An oil lamp: a glass font with coloured oil and a slender glass chimney on a turned brass stand with glass feet;
+/// lit. Hard for image-based rendering because refractions in glass and reflections in brass do not lie on any surface.
 ///
 /// Parameter   default  range       meaning
 /// hue         0.985    0..1        of the oil, in turns (0 red, 1/3 green, 2/3 blue)
@@ -59,9 +59,9 @@ Result<capture::Scene> generate_doll(const nlohmann::json& parameters, std::uint
 /// inside, so that no two surfaces coincide.
 Result<capture::Scene> generate_lamp(const nlohmann::json& parameters, std::uint64_t seed);
 
-/// A see-through wire sculpture: a cage of enamelled struts (a truncated icosahedron on the sphere) with brass joints, a
-/// second cage of thin steel inside, and a painted knot as its core. Hard for image-based rendering because rays cross
-/// several layers: other wires and the core are visible through each opening.
+/// A see-through wire sculpture: a cage of enamelled struts (a truncated icosahedron on the sphere) with brass joints,
+/// a second cage of thin steel inside, and a painted knot as its core. Hard for image-based rendering because rays
+/// cross several layers: other wires and the core are visible through each opening.
 ///
 /// Parameter   default  range         meaning
 /// strut       0.032    0.015..0.06   radius of the outer struts, relative to a cage of radius 1
