@@ -1,12 +1,6 @@
 #include "datasets-synthetic/objects.hpp"
 
-#include "datasets-synthetic/objects/blocks.hpp"
-#include "datasets-synthetic/objects/doll.hpp"
-#include "datasets-synthetic/objects/flower.hpp"
-#include "datasets-synthetic/objects/lamp.hpp"
-#include "datasets-synthetic/objects/lattice.hpp"
-#include "datasets-synthetic/objects/phone.hpp"
-#include "datasets-synthetic/objects/vase.hpp"
+#include "datasets-synthetic/objects/generators.hpp"
 
 namespace rs::synthetic {
 namespace {

@@ -2,7 +2,7 @@
 // Procedural objects, generated from a name, parameters and a seed, bit-identical on every machine.
 //
 // An object's bounding box is centred on the origin and its farthest vertex is at distance 1; Y is up. Recipes
-// (recipes/NAME.json) add lights and environment. The parameters are documented in each object's header (vase.hpp ...).
+// (recipes/NAME.json) add lights and environment. The parameters are documented in objects/generators.hpp.
 
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/base/result.hpp"

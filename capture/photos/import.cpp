@@ -3,7 +3,6 @@
 #include "capture/photos/intake/intake.hpp"
 #include "capture/photos/intake/photo_source.hpp"
 #include "capture/photos/intake/video/frame_selection.hpp"
-#include "capture/photos/report/import_set.hpp"
 #include "capture/photos/segmentation/segment_turn.hpp"
 #include "capture/photos/segmentation/segmentation_checks.hpp"
 #include "rayspace/base/conventions.hpp"

@@ -8,7 +8,7 @@
 ///   segment_turn()       photos, segmenter -> foreground images                    segmentation/segment_turn.hpp
 ///   check_segmentation() foreground images -> problems              segmentation/segmentation_checks.hpp
 ///   find_rig()           foreground images -> lens, axis, angles                   rig/found_rig.hpp
-///   write_import_set()   foreground images, rig -> set      report/import_set.hpp
+///   write_import_set()   foreground images, rig -> set      report/import_report.hpp
 
 #include "capture/photos/report/import_report.hpp"
 #include "capture/photos/rig/found_rig.hpp"

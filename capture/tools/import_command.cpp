@@ -4,7 +4,7 @@
 #include "capture/photos/intake/photo_folder.hpp"
 #include "capture/photos/intake/photo_source.hpp"
 #include "capture/photos/intake/video/frame_selection.hpp"
-#include "capture/photos/report/import_page.hpp"
+#include "capture/photos/report/import_report.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
@@ -260,21 +260,16 @@ Status run_import(const ImportCommandLine& given) {
     return {};
 }
 
-}  // namespace
-
-void add_import_command(CLI::App& app, std::function<Status()>& run) {
-    auto given = std::make_shared<ImportCommandLine>();
-    CLI::App* command =
-        app.add_subcommand("import", "Segment and calibrate turntable photos, or a video, and write a capture set");
+// Photos, the set to write, and properties of the photos.
+void add_photo_options(CLI::App& command, ImportCommandLine& given) {
     command
-        ->add_option("photos", given->import.photos,
-                     "Folder of photos of one turn, in natural order of their names, or a video of the turning object")
+        .add_option("photos", given.import.photos,
+                    "Folder of photos of one turn, in natural order of their names, or a video of the turning object")
         ->required();
-    command->add_option("-o,--output", given->import.output, "Folder to write: transforms.json and images/")
-        ->required();
+    command.add_option("-o,--output", given.import.output, "Folder to write: transforms.json and images/")->required();
     command
-        ->add_option(
-            "--backdrop", given->backdrop,
+        .add_option(
+            "--backdrop", given.backdrop,
             "Background: auto, white, black, alpha (of the images) or R,G,B; auto tests for alpha, then the image "
             "borders")
         ->capture_default_str()
@@ -283,51 +278,58 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
             return parsed ? std::string() : parsed.error().message;
         });
     command
-        ->add_option(
-            "--max-side", given->import.max_side_px,
+        .add_option(
+            "--max-side", given.import.max_side_px,
             "Photos with a side longer than 1.25 times this, in px, are reduced to it first; other options refer "
             "to the original pixels")
         ->capture_default_str()
         ->check(CLI::Range(kMinSide_px, kMaxImageSide_px));
     command
-        ->add_option(
-            "--frames", given->import.frames,
+        .add_option(
+            "--frames", given.import.frames,
             "Number of frames of a video, or of photos of a larger folder, to select: sharp ones, evenly spaced by "
             "angle (default: 72 for a video, 120 for a folder of more than 150 photos, otherwise all)")
         ->check(CLI::Range(kMinSelectedFrames, kMaxSelectedFrames));
+}
+
+// Segmentation and its checks.
+void add_segmentation_options(CLI::App& command, ImportCommandLine& given) {
     command
-        ->add_option("--segmenter", given->segmenter,
-                     "Segmentation method: auto, alpha (of the photos), masks, model (a "
-                     "network, fused with the background model), background (the background model), chroma (a screen "
-                     "of one colour); auto uses the first of these that is available, never chroma")
+        .add_option("--segmenter", given.segmenter,
+                    "Segmentation method: auto, alpha (of the photos), masks, model (a "
+                    "network, fused with the background model), background (the background model), chroma (a screen "
+                    "of one colour); auto uses the first of these that is available, never chroma")
         ->check(CLI::IsMember(kSegmenters))
         ->capture_default_str();
     command
-        ->add_option("--segmentation-model", given->import.segmentation.network,
-                     "FILE.onnx of the network (fp32; U2-Net, IS-Net, BiRefNet); default: RAYSPACE_SEGMENTATION_MODEL")
+        .add_option("--segmentation-model", given.import.segmentation.network,
+                    "FILE.onnx of the network (fp32; U2-Net, IS-Net, BiRefNet); default: RAYSPACE_SEGMENTATION_MODEL")
         ->check(CLI::ExistingFile);
     command
-        ->add_option("--masks", given->import.segmentation.masks,
-                     "Folder with one mask per photo, white where the object is: NAME.png, NAME.jpg.png, NAME_mask.png")
+        .add_option("--masks", given.import.segmentation.masks,
+                    "Folder with one mask per photo, white where the object is: NAME.png, NAME.jpg.png, NAME_mask.png")
         ->check(CLI::ExistingDirectory);
-    command->add_flag("--masks-alpha", given->import.segmentation.masks_are_alpha,
-                      "The masks' grey is the final opacity (default: masks are binary, their soft edge is estimated)");
+    command.add_flag("--masks-alpha", given.import.segmentation.masks_are_alpha,
+                     "The masks' grey is the final opacity (default: masks are binary, their soft edge is estimated)");
     command
-        ->add_option("--shadow", given->shadow,
-                     "The object's shadow on the floor: remove, or keep as a soft black layer")
+        .add_option("--shadow", given.shadow, "The object's shadow on the floor: remove, or keep as a soft black layer")
         ->check(CLI::IsMember({"remove", "keep"}))
         ->capture_default_str();
     command
-        ->add_option("--segmentation-parameters", given->parameters,
-                     "JSON file with thresholds of segmentation that differ from the defaults, for experiments "
-                     "(docs/segmentation.md)")
+        .add_option("--segmentation-parameters", given.parameters,
+                    "JSON file with thresholds of segmentation that differ from the defaults, for experiments "
+                    "(docs/segmentation.md)")
         ->check(CLI::ExistingFile);
-    command->add_flag("--force", given->import.force,
-                      "Write the set even if checks fail, and replace an output folder that contains other files");
+    command.add_flag("--force", given.import.force,
+                     "Write the set even if checks fail, and replace an output folder that contains other files");
+}
+
+// Calibration and values that are known.
+void add_calibration_options(CLI::App& command, ImportCommandLine& given) {
     command
-        ->add_option("--calibration", given->calibration,
-                     "auto (the most accurate that succeeds), board, tracks, silhouettes or nominal (equal steps, a "
-                     "level camera)")
+        .add_option("--calibration", given.calibration,
+                    "auto (the most accurate that succeeds), board, tracks, silhouettes or nominal (equal steps, a "
+                    "level camera)")
         ->check([](const std::string& text) {
             if (kCalibrations.contains(text)) return std::string();
             std::vector<std::string> names;
@@ -336,46 +338,67 @@ void add_import_command(CLI::App& app, std::function<Status()>& run) {
                    (text == "given" ? "; give known values by --known" : "");
         })
         ->capture_default_str();
-    command->add_option(
-        "--board", given->board,
+    command.add_option(
+        "--board", given.board,
         "Calibration board on the turntable: default, or differences from the default of rs-capture board, "
         "e.g. squares=9x9,square-mm=18");
     command
-        ->add_option("--known", given->known,
-                     "Known values, held constant: a transforms.json, a Middlebury *_par.txt, or OpenCV intrinsics "
-                     "(.yml, .yaml, .xml)")
+        .add_option("--known", given.known,
+                    "Known values, held constant: a transforms.json, a Middlebury *_par.txt, or OpenCV intrinsics "
+                    "(.yml, .yaml, .xml)")
         ->check(CLI::ExistingPath);
-    command->add_flag("--equal-steps", given->equal_steps, "All steps are equal; only their common size is estimated");
-    command->add_flag("--principal-point", given->principal_point,
-                      "Estimate the principal point, too (default: the image centre)");
+    command.add_flag("--equal-steps", given.equal_steps, "All steps are equal; only their common size is estimated");
+    command.add_flag("--principal-point", given.principal_point,
+                     "Estimate the principal point, too (default: the image centre)");
+}
+
+// Geometry of the turn, mostly for a nominal rig.
+void add_turn_options(CLI::App& command, ImportCommandLine& given) {
     command
-        ->add_option(
-            "--fov", given->import.fov_deg,
+        .add_option(
+            "--fov", given.import.fov_deg,
             "Horizontal field of view in degrees, held constant (default: calibrated; in a nominal rig from EXIF, "
             "else 25)")
         ->check(CLI::Range(1.0, 120.0));
     command
-        ->add_option(
-            "--degrees-per-view", given->import.degrees_per_view,
+        .add_option(
+            "--degrees-per-view", given.import.degrees_per_view,
             "Step from image to image in degrees, held constant (default: all angles are estimated; in a nominal "
             "rig 360 / number of images)")
         ->check(CLI::Range(0.01, 180.0));
-    command->add_option("--axis-x", given->import.axis_x_px,
-                        "Image column of the turntable's axis in px, for a nominal rig (default: from the "
-                        "silhouettes of the full turn)");
-    CLI::Option* clockwise = command->add_flag("--clockwise", given->clockwise,
-                                               "The object turns clockwise seen from above: its front goes to the left "
-                                               "(default: estimated from the images; clockwise if that fails)");
+    command.add_option("--axis-x", given.import.axis_x_px,
+                       "Image column of the turntable's axis in px, for a nominal rig (default: from the "
+                       "silhouettes of the full turn)");
+    CLI::Option* clockwise = command.add_flag("--clockwise", given.clockwise,
+                                              "The object turns clockwise seen from above: its front goes to the left "
+                                              "(default: estimated from the images; clockwise if that fails)");
     command
-        ->add_flag("--counter-clockwise", given->counter_clockwise,
-                   "The object turns the other way: its front goes to the right")
+        .add_flag("--counter-clockwise", given.counter_clockwise,
+                  "The object turns the other way: its front goes to the right")
         ->excludes(clockwise);
+}
+
+// Reports on the import.
+void add_report_options(CLI::App& command, ImportCommandLine& given) {
     command
-        ->add_option("--report", given->report,
-                     "Also write PAGE.html: estimates, residuals, the axis on the photos, alpha mattes")
+        .add_option("--report", given.report,
+                    "Also write PAGE.html: estimates, residuals, the axis on the photos, alpha mattes")
         ->check(ends_in({".html", ".htm"}));
-    command->add_flag("--json", given->json, "Print the summary as JSON");
-    command->add_flag("-q,--quiet", given->quiet, "No progress bar, no notes");
+    command.add_flag("--json", given.json, "Print the summary as JSON");
+    command.add_flag("-q,--quiet", given.quiet, "No progress bar, no notes");
+}
+
+}  // namespace
+
+void add_import_command(CLI::App& app, std::function<Status()>& run) {
+    auto given = std::make_shared<ImportCommandLine>();
+    CLI::App* command =
+        app.add_subcommand("import", "Segment and calibrate turntable photos, or a video, and write a capture set");
+    add_photo_options(*command, *given);
+    add_segmentation_options(*command, *given);
+    add_calibration_options(*command, *given);
+    add_turn_options(*command, *given);
+    add_report_options(*command, *given);
     command->footer(R"(Examples:
   rs-capture import photos/ -o shoe.set --report shoe.html
   rs-capture import photos/ -o shoe.set --segmentation-model isnet.onnx

@@ -2,7 +2,7 @@
 
 #include "capture/tracer/image/discontinuity_filter.hpp"
 #include "capture/tracer/integrator/light_probe.hpp"
-#include "capture/tracer/scene/scene_check.hpp"
+#include "capture/tracer/scene/scene.hpp"
 #include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/traced/object_primitive.hpp"
 #include "compositor/traced/tracer_scene.hpp"

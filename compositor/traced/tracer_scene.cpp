@@ -1,6 +1,6 @@
 #include "compositor/traced/tracer_scene.hpp"
 
-#include "capture/tracer/scene/flatten.hpp"
+#include "capture/tracer/scene/scene_transform.hpp"
 #include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/scene/material.hpp"
 #include "rayspace/base/parallel.hpp"

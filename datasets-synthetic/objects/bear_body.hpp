@@ -1,9 +1,10 @@
 #pragma once
-// The teddy bear's body: its ellipsoids and fur regions.
+// The teddy bear's body: its ellipsoids, fur regions and bow.
 //
 // The bear sits on y = 0, looks along +Z and is about 2 high.
 
-#include "datasets-synthetic/shapes/ellipsoid.hpp"
+#include "capture/tracer/scene/scene.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 
 #include <vector>
 
@@ -28,5 +29,8 @@ std::vector<Ellipsoid> bear_bare_regions();
 
 // Region of a point on a part: pale fur covers pale parts, the middle of the belly and the inside of the ears.
 BearRegion region_at(const BearPart& part, glm::vec3 normal, glm::vec3 position);
+
+// Appends the satin ribbon around the bear's neck, tied in a bow under its chin.
+void append_bow(capture::Mesh& mesh);
 
 }  // namespace rs::synthetic

@@ -1,15 +1,14 @@
-#include "datasets-synthetic/objects/blocks.hpp"
+#include "datasets-synthetic/objects/generators.hpp"
 
 #include "datasets-synthetic/objects/object_assembly.hpp"
 #include "datasets-synthetic/shapes/curve.hpp"
 #include "datasets-synthetic/shapes/frame.hpp"
-#include "datasets-synthetic/shapes/grid_surface.hpp"
-#include "datasets-synthetic/shapes/lettering.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/parameters.hpp"
 #include "datasets-synthetic/shapes/portable_math.hpp"
 #include "datasets-synthetic/shapes/random.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 
 #include <array>
 #include <cmath>
@@ -23,6 +22,7 @@ namespace {
 using glm::vec2;
 using glm::vec3;
 
+constexpr int kBlockFaces = 6;
 constexpr int kTile_px = 256;
 constexpr float kTile = static_cast<float>(kTile_px);
 
@@ -159,8 +159,9 @@ private:
     Random random_;
 };
 
-}  // namespace
-
+// An atlas of square tiles, kBlockFaces to a row of tiles and one row per block: tile (f, b) covers u in [f, f+1] /
+// kBlockFaces and v in [b, b+1] / blocks. Faces 0 to 3 are the sides, counter-clockwise seen from above; 4 is the top,
+// 5 the underside. The letters of `text` are repeated around the blocks' sides.
 capture::Texture paint_blocks(int blocks, const std::string& text, std::uint64_t seed) {
     Canvas canvas(kTile_px * kBlockFaces, kTile_px * blocks, vec3{0.0F});
     BlockPainter painter(canvas, seed);
@@ -179,11 +180,6 @@ capture::Texture paint_blocks(int blocks, const std::string& text, std::uint64_t
     }
     return std::move(canvas).texture("block faces");
 }
-
-namespace {
-
-using glm::vec2;
-using glm::vec3;
 
 constexpr float kHalf = 0.36F;  // half a block's side
 constexpr int kBlocks = 7;

@@ -1,13 +1,12 @@
-#include "datasets-synthetic/objects/doll.hpp"
+#include "datasets-synthetic/objects/generators.hpp"
 
 #include "datasets-synthetic/objects/bear_body.hpp"
-#include "datasets-synthetic/objects/bow.hpp"
 #include "datasets-synthetic/objects/object_assembly.hpp"
 #include "datasets-synthetic/shapes/curve.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/parameters.hpp"
-#include "datasets-synthetic/shapes/sweep.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 
 #include <algorithm>
 #include <utility>

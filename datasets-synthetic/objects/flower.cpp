@@ -1,15 +1,12 @@
-#include "datasets-synthetic/objects/flower.hpp"
+#include "datasets-synthetic/objects/generators.hpp"
 
 #include "datasets-synthetic/objects/object_assembly.hpp"
 #include "datasets-synthetic/objects/petal.hpp"
 #include "datasets-synthetic/shapes/curve.hpp"
-#include "datasets-synthetic/shapes/ellipsoid.hpp"
-#include "datasets-synthetic/shapes/grid_surface.hpp"
-#include "datasets-synthetic/shapes/lathe.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/parameters.hpp"
-#include "datasets-synthetic/shapes/sweep.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 
 #include <array>
 #include <cmath>
@@ -20,13 +17,15 @@
 namespace rs::synthetic {
 namespace {
 
+using capture::Mesh;
 using glm::vec2;
 using glm::vec3;
 
 constexpr int kSide_px = 256;
 
-}  // namespace
+// Textures. u runs across a petal or leaf, v from base to tip.
 
+// Dark throat, fine veins that fan out, a pale edge. `hue_turns` as in hue_colour.
 capture::Texture paint_petal(float hue_turns, std::uint32_t seed) {
     Canvas canvas(kSide_px, kSide_px, vec3{0.0F});
     const vec3 throat = hue_colour(hue_turns + 0.02F, 0.92F, 0.50F);
@@ -45,6 +44,7 @@ capture::Texture paint_petal(float hue_turns, std::uint32_t seed) {
     return std::move(canvas).texture("petal");
 }
 
+// Midrib, side veins, mottled green.
 capture::Texture paint_leaf(std::uint32_t seed) {
     Canvas canvas(kSide_px, kSide_px, vec3{0.0F});
     canvas.shade({0, 0}, vec2{kSide_px}, [&](vec2 p, vec3) {
@@ -63,6 +63,7 @@ capture::Texture paint_leaf(std::uint32_t seed) {
     return std::move(canvas).texture("leaf");
 }
 
+// Fired clay with lime blooming through, turned in fine grooves. Wraps around along u.
 capture::Texture paint_terracotta(std::uint32_t seed) {
     constexpr int kAround_px = 1024;
     constexpr int kUp_px = 384;
@@ -81,12 +82,6 @@ capture::Texture paint_terracotta(std::uint32_t seed) {
     });
     return std::move(canvas).texture("terracotta");
 }
-
-namespace {
-
-using capture::Mesh;
-using glm::vec2;
-using glm::vec3;
 
 constexpr float kGoldenAngle_rad = 2.3999632F;
 constexpr float kSoilHeight = 0.53F;

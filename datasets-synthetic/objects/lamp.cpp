@@ -1,13 +1,11 @@
-#include "datasets-synthetic/objects/lamp.hpp"
+#include "datasets-synthetic/objects/generators.hpp"
 
 #include "datasets-synthetic/objects/object_assembly.hpp"
 #include "datasets-synthetic/objects/petal.hpp"
 #include "datasets-synthetic/shapes/curve.hpp"
-#include "datasets-synthetic/shapes/ellipsoid.hpp"
-#include "datasets-synthetic/shapes/lathe.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/parameters.hpp"
-#include "datasets-synthetic/shapes/sweep.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,12 +1,11 @@
-#include "datasets-synthetic/objects/lattice.hpp"
+#include "datasets-synthetic/objects/generators.hpp"
 
 #include "datasets-synthetic/objects/object_assembly.hpp"
 #include "datasets-synthetic/shapes/curve.hpp"
-#include "datasets-synthetic/shapes/ellipsoid.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/parameters.hpp"
-#include "datasets-synthetic/shapes/sweep.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 
 #include <array>
 #include <cmath>

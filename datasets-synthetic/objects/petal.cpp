@@ -1,7 +1,7 @@
 #include "datasets-synthetic/objects/petal.hpp"
 
 #include "datasets-synthetic/shapes/curve.hpp"
-#include "datasets-synthetic/shapes/grid_surface.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 #include "rayspace/base/conventions.hpp"
 
 #include <algorithm>

@@ -1,13 +1,12 @@
-#include "datasets-synthetic/objects/phone.hpp"
+#include "datasets-synthetic/objects/generators.hpp"
 
 #include "datasets-synthetic/objects/object_assembly.hpp"
 #include "datasets-synthetic/shapes/frame.hpp"
-#include "datasets-synthetic/shapes/grid_surface.hpp"
-#include "datasets-synthetic/shapes/lettering.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/parameters.hpp"
 #include "datasets-synthetic/shapes/portable_math.hpp"
 #include "datasets-synthetic/shapes/random.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 
 #include <span>
 #include <string>

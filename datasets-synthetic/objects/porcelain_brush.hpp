@@ -1,6 +1,6 @@
 #pragma once
 // The strokes and motifs of cobalt painting on porcelain: lines pressed and lifted, washed leaves and petals, tendrils,
-// peonies. Part of vase_painting.
+// peonies. Used by vase.cpp.
 
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/random.hpp"

@@ -1,16 +1,17 @@
-#include "datasets-synthetic/objects/vase.hpp"
+#include "datasets-synthetic/objects/generators.hpp"
 
 #include "datasets-synthetic/objects/object_assembly.hpp"
 #include "datasets-synthetic/objects/porcelain_brush.hpp"
 #include "datasets-synthetic/shapes/curve.hpp"
-#include "datasets-synthetic/shapes/lathe.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/parameters.hpp"
 #include "datasets-synthetic/shapes/portable_math.hpp"
 #include "datasets-synthetic/shapes/random.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,15 @@ namespace {
 using glm::vec2;
 using glm::vec3;
 
+struct VasePainting {
+    int width_px = 2048;
+    int flowers = 5;  // around the belly
+    std::uint64_t seed = 1;
+};
+
+// The cobalt-blue painting: lappets at the foot, a scroll of peonies around the belly, a meander on the shoulder,
+// plantain leaves on the neck, gold at the rim. Wash and pressure vary by stroke, so that all flowers differ and every
+// view of the vase is unique.
 class VasePainter {
 public:
     VasePainter(std::span<const vec2> profile, const VasePainting& painting)
@@ -214,15 +224,11 @@ private:
     PorcelainBrush* brush_ = nullptr;
 };
 
-}  // namespace
-
+// `outer_profile`: (radius, height) from foot to lip; texture v is arc length along it. Pixels are square at the
+// largest radius; motifs at smaller radii are widened in compensation.
 capture::Texture paint_vase(std::span<const vec2> outer_profile, const VasePainting& painting) {
     return VasePainter(outer_profile, painting).paint();
 }
-
-namespace {
-
-using glm::vec2;
 
 constexpr float kWall = 0.035F;
 

@@ -1,6 +1,4 @@
-#include "datasets-synthetic/shapes/ellipsoid.hpp"
-
-#include "datasets-synthetic/shapes/grid_surface.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 
 #include <algorithm>
 #include <utility>

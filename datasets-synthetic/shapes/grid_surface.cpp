@@ -1,4 +1,4 @@
-#include "datasets-synthetic/shapes/grid_surface.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 
 #include "rayspace/api/types/check.hpp"
 

@@ -1,6 +1,5 @@
-#include "datasets-synthetic/shapes/lathe.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 
-#include "datasets-synthetic/shapes/grid_surface.hpp"
 #include "datasets-synthetic/shapes/portable_math.hpp"
 #include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"

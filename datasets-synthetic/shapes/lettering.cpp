@@ -1,4 +1,4 @@
-#include "datasets-synthetic/shapes/lettering.hpp"
+#include "datasets-synthetic/shapes/paint.hpp"
 
 #include "datasets-synthetic/shapes/portable_math.hpp"
 #include "rayspace/api/types/check.hpp"

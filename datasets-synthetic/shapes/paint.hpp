@@ -7,10 +7,13 @@
 
 #include "capture/tracer/scene/scene.hpp"
 
+#include <glm/glm.hpp>
+
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace rs::synthetic {
 
@@ -58,5 +61,14 @@ private:
 
     Image<RgbaF> pixels_;
 };
+
+// Capital letter of a stroke font, as pen paths (lettering.cpp).
+struct Letter {
+    std::vector<std::vector<glm::vec2>> strokes;  // polylines, curves finely divided; y from 0 (base line) to 1
+    float width = 0.0F;                           // x from 0 to this
+};
+
+// `letter`: 'A' to 'Z'.
+Letter pen_letter(char letter);
 
 }  // namespace rs::synthetic

@@ -1,7 +1,6 @@
-#include "datasets-synthetic/shapes/sweep.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 
 #include "datasets-synthetic/shapes/frame.hpp"
-#include "datasets-synthetic/shapes/grid_surface.hpp"
 #include "datasets-synthetic/shapes/portable_math.hpp"
 #include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"

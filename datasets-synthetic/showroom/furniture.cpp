@@ -1,7 +1,7 @@
 #include "datasets-synthetic/showroom/furniture.hpp"
 
 #include "datasets-synthetic/shapes/paint.hpp"
-#include "datasets-synthetic/showroom/surface_painting.hpp"
+#include "datasets-synthetic/showroom/painting.hpp"
 
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "datasets-synthetic/showroom/room_builder.hpp"
 
-#include "datasets-synthetic/shapes/lathe.hpp"
-#include "datasets-synthetic/shapes/sweep.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 #include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/linear_light.hpp"

@@ -1,6 +1,6 @@
 #include "datasets-synthetic/showroom/room_shell.hpp"
 
-#include "datasets-synthetic/showroom/surface_painting.hpp"
+#include "datasets-synthetic/showroom/painting.hpp"
 
 #include <algorithm>
 

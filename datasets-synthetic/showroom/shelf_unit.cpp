@@ -1,7 +1,6 @@
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/showroom/furniture.hpp"
-#include "datasets-synthetic/showroom/image_painting.hpp"
-#include "datasets-synthetic/showroom/surface_painting.hpp"
+#include "datasets-synthetic/showroom/painting.hpp"
 
 #include <algorithm>
 #include <cctype>

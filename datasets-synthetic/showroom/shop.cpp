@@ -1,11 +1,10 @@
-#include "datasets-synthetic/showroom/shop.hpp"
+#include "datasets-synthetic/showroom/showroom.hpp"
 
 #include "datasets-synthetic/shapes/curve.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/showroom/furniture.hpp"
-#include "datasets-synthetic/showroom/image_painting.hpp"
+#include "datasets-synthetic/showroom/painting.hpp"
 #include "datasets-synthetic/showroom/room_shell.hpp"
-#include "datasets-synthetic/showroom/surface_painting.hpp"
 
 #include <algorithm>
 #include <cmath>

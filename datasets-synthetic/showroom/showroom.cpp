@@ -1,8 +1,6 @@
 #include "datasets-synthetic/showroom/showroom.hpp"
 
 #include "datasets-synthetic/showroom/furniture.hpp"
-#include "datasets-synthetic/showroom/museum.hpp"
-#include "datasets-synthetic/showroom/shop.hpp"
 
 namespace rs::synthetic {
 

@@ -1,6 +1,5 @@
-#include "datasets-synthetic/street/houses.hpp"
+#include "datasets-synthetic/street/street_models.hpp"
 
-#include "datasets-synthetic/shapes/lettering.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/random.hpp"

@@ -1,8 +1,8 @@
 #include "datasets-synthetic/street/pen.hpp"
 
-#include "datasets-synthetic/shapes/ellipsoid.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/portable_math.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 #include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 
@@ -95,8 +95,8 @@ void Pen::prism(const std::string& look, std::span<const vec2> profile, float z_
     finish(mesh);
 }
 
-void Pen::cylinder(const std::string& look, vec3 foot, vec3 axis, float radius, float length, int segments,
-                   float end_radius_share) {
+void Pen::cylinder(const std::string& look, const Cylinder& shape) {
+    const auto [foot, axis, radius, length, segments, end_radius_share] = shape;
     capture::Mesh& mesh = add(look);
     const vec3 u = any_perpendicular(axis);
     const vec3 v = glm::cross(axis, u);

@@ -14,6 +14,15 @@
 
 namespace rs::synthetic {
 
+struct Cylinder {
+    glm::vec3 foot{0, 0, 0};
+    glm::vec3 axis{0, 1, 0};  // unit length, from the foot
+    float radius = 1;         // at the foot
+    float length = 1;
+    int segments = 8;
+    float end_radius_share = 1;  // radius at the end, as a share of that at the foot
+};
+
 class Pen {
 public:
     Pen(World& world, std::string object) : world_(world), object_(std::move(object)) {}
@@ -33,9 +42,8 @@ public:
     // the points above `inset_from` inwards from both ends, like the narrower roof of a car.
     void prism(const std::string& look, std::span<const glm::vec2> profile, float z_low, float z_high, float inset = 0,
                float inset_from = 0);
-    // A closed cylinder from `foot` along the unit vector `axis`.
-    void cylinder(const std::string& look, glm::vec3 foot, glm::vec3 axis, float radius, float length, int segments,
-                  float end_radius_share = 1);
+    // A closed cylinder or frustum of a cone.
+    void cylinder(const std::string& look, const Cylinder& shape);
     // A tree crown: an irregular ellipsoid.
     void crown(const std::string& look, glm::vec3 middle, glm::vec3 radii, int columns, int rows, std::uint32_t seed);
 

@@ -1,4 +1,4 @@
-#include "datasets-synthetic/street/road.hpp"
+#include "datasets-synthetic/street/street_models.hpp"
 
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
@@ -140,7 +140,7 @@ void build_street_furniture(World& world) {
     for (int kind = 0; kind < 2; ++kind) {
         Pen tree(world, "tree_" + std::to_string(kind));
         const float height = kind == 0 ? 3.0F : 2.5F;
-        tree.cylinder("bark", {0, 0, 0}, {0, 1, 0}, 0.17F, height, 7, 0.65F);
+        tree.cylinder("bark", {.radius = 0.17F, .length = height, .segments = 7, .end_radius_share = 0.65F});
         Random random(7, static_cast<std::uint64_t>(kind));
         const int crowns = kind == 0 ? 3 : 2;
         for (int i = 0; i < crowns; ++i) {
@@ -154,8 +154,9 @@ void build_street_furniture(World& world) {
     Pen bush(world, "bush");
     bush.crown("leaves", {0, 1.4F, 0}, {2.6F, 2.0F, 2.2F}, 7, 4, 77);
     Pen lamp(world, "lamp");
-    lamp.cylinder("pole", {0, 0, 0}, {0, 1, 0}, 0.1F, 0.7F, 8, 0.75F);
-    lamp.cylinder("pole", {0, 0.7F, 0}, {0, 1, 0}, 0.065F, kLampHeight_m - 0.6F, 8, 0.8F);
+    lamp.cylinder("pole", {.radius = 0.1F, .length = 0.7F, .end_radius_share = 0.75F});
+    lamp.cylinder("pole",
+                  {.foot = {0, 0.7F, 0}, .radius = 0.065F, .length = kLampHeight_m - 0.6F, .end_radius_share = 0.8F});
     lamp.box("pole", {-0.04F, kLampHeight_m, -0.05F}, {0.04F, kLampHeight_m + 0.09F, 1.3F});
     lamp.box("pole", {-0.17F, kLampHeight_m + 0.02F, 0.85F}, {0.17F, kLampHeight_m + 0.15F, 1.55F});
     lamp.box("lamp_glass", {-0.13F, kLampHeight_m - 0.05F, 0.92F}, {0.13F, kLampHeight_m + 0.03F, 1.48F});

@@ -1,11 +1,9 @@
 #include "datasets-synthetic/street/street.hpp"
 
 #include "datasets-synthetic/shapes/random.hpp"
-#include "datasets-synthetic/street/houses.hpp"
 #include "datasets-synthetic/street/obj_file.hpp"
-#include "datasets-synthetic/street/road.hpp"
+#include "datasets-synthetic/street/street_models.hpp"
 #include "datasets-synthetic/street/traffic.hpp"
-#include "datasets-synthetic/street/vehicles.hpp"
 #include "rayspace/api/types/check.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image_io/image_io.hpp"
@@ -43,9 +41,15 @@ struct Street {
     std::vector<vec3> shop_lights;
 };
 
-// Builds a row of houses from `begin` towards +X of the row's frame, with aligned fronts.
-void build_row(Street& street, RoomBuilder& builder, const std::string& name, vec3 begin, float turn_deg, float length,
-               bool night, Random& random) {
+// A row of houses with aligned fronts, from `begin` towards +X of the row's frame.
+struct HouseRow {
+    std::string name;  // prefix of the houses' names
+    vec3 begin{0};
+    float turn_deg = 0;
+    float length_m = 0;
+};
+
+void build_row(const HouseRow& row, bool night, Street& street, RoomBuilder& builder, Random& random) {
     static constexpr std::array kShops{"ORIENTALIA", "FLORA", "TOYS", "LUMEN", "GEOMETRY", "CAFE"};
     static const std::array<std::vector<std::string>, 6> kGoods{std::vector<std::string>{"vase", "lamp"},
                                                                 {"flower", "flower"},
@@ -54,29 +58,28 @@ void build_row(Street& street, RoomBuilder& builder, const std::string& name, ve
                                                                 {"lattice", "vase"},
                                                                 {"vase", "flower"}};
     float at = 0;
-    for (int number = 0; length - at > 7; ++number) {
+    for (int number = 0; row.length_m - at > 7; ++number) {
         HouseStyle style;
-        style.width_m = std::min(random.uniform(7.5F, 10.5F), length - at);
-        if (length - at - style.width_m < 7) style.width_m = length - at;
+        style.width_m = std::min(random.uniform(7.5F, 10.5F), row.length_m - at);
+        if (row.length_m - at - style.width_m < 7) style.width_m = row.length_m - at;
         style.floors = 2 + random.below(3);
         style.wall = random.below(kWallLooks);
         style.gable = random.uniform() < 0.6F;
         style.night = night;
         style.seed = random.next();
-        // Shops are near the crossing: at the row's beginning or end.
-        static_cast<void>(number);
-        Pen pen(street.world, name + "_" + std::to_string(number));
-        pen.set_frame(begin, turn_deg);
+        Pen pen(street.world, row.name + "_" + std::to_string(number));
+        pen.set_frame(row.begin, row.turn_deg);
         const vec3 corner = pen.point({at, 0, 0});
         const float from_crossing = std::max(std::abs(corner.x), std::abs(pen.point({at + style.width_m, 0, 0}).x));
         const bool on_main = std::abs(corner.z) < kHalfStreet_m + 1;
         const std::size_t shops = street.shop_lights.size();
+        // Shops are near the crossing: at the row's beginning or end.
         if (on_main && from_crossing < 36 && shops < kShops.size() && style.width_m < 14) {
             style.shop = kShops.at(shops);
             style.objects = kGoods.at(shops);
-            street.shop_lights.push_back(shop_light(corner, turn_deg, style));
+            street.shop_lights.push_back(shop_light(corner, row.turn_deg, style));
         }
-        build_house(street.world, pen, builder, corner, turn_deg, style);
+        build_house(street.world, pen, builder, corner, row.turn_deg, style);
         at += style.width_m;
     }
 }
@@ -133,20 +136,21 @@ Street make_street(const StreetOptions& options) {
     build_roads(street.world);
     build_street_furniture(street.world);
     Random random(2024, 1);
+    const auto build = [&](const HouseRow& row) { build_row(row, night, street, builder, random); };
     const float h = kHalfStreet_m;
-    const float row = 62;
+    const float length = 62;
     // Along the main street, both sides and both halves; rows that face -Z run towards -X.
-    build_row(street, builder, "house_ne", {h, 0, -h}, 0, row, night, random);
-    build_row(street, builder, "house_sw", {-h, 0, h}, 180, row, night, random);
-    build_row(street, builder, "house_nw", {-h - row, 0, -h}, 0, row, night, random);
-    build_row(street, builder, "house_se", {h + row, 0, h}, 180, row, night, random);
+    build({.name = "house_ne", .begin = {h, 0, -h}, .turn_deg = 0, .length_m = length});
+    build({.name = "house_sw", .begin = {-h, 0, h}, .turn_deg = 180, .length_m = length});
+    build({.name = "house_nw", .begin = {-h - length, 0, -h}, .turn_deg = 0, .length_m = length});
+    build({.name = "house_se", .begin = {h + length, 0, h}, .turn_deg = 180, .length_m = length});
     // Along the crossing street, behind them.
     const float behind = h + 10.5F;
     const float side = 30;
-    build_row(street, builder, "house_en", {h, 0, -behind - side}, -90, side, night, random);
-    build_row(street, builder, "house_es", {h, 0, behind}, -90, side, night, random);
-    build_row(street, builder, "house_wn", {-h, 0, -behind}, 90, side, night, random);
-    build_row(street, builder, "house_ws", {-h, 0, behind + side}, 90, side, night, random);
+    build({.name = "house_en", .begin = {h, 0, -behind - side}, .turn_deg = -90, .length_m = side});
+    build({.name = "house_es", .begin = {h, 0, behind}, .turn_deg = -90, .length_m = side});
+    build({.name = "house_wn", .begin = {-h, 0, -behind}, .turn_deg = 90, .length_m = side});
+    build({.name = "house_ws", .begin = {-h, 0, behind + side}, .turn_deg = 90, .length_m = side});
     plant_trees(street, random);
     return street;
 }

@@ -1,4 +1,4 @@
-#include "datasets-synthetic/street/vehicles.hpp"
+#include "datasets-synthetic/street/street_models.hpp"
 
 #include "datasets-synthetic/street/pen.hpp"
 #include "datasets-synthetic/street/traffic.hpp"
@@ -17,8 +17,16 @@ void wheels(Pen& pen, std::initializer_list<float> axles, float half_width, floa
     for (const float x : axles) {
         for (const float side : {-1.0F, 1.0F}) {
             const float outer = side * half_width;
-            pen.cylinder("tyre", {x, radius, outer - side * 0.22F}, {0, 0, side}, radius, 0.2F, 14);
-            pen.cylinder("rim", {x, radius, outer - side * 0.05F}, {0, 0, side}, 0.6F * radius, 0.04F, 8, 0.7F);
+            pen.cylinder("tyre", {.foot = {x, radius, outer - side * 0.22F},
+                                  .axis = {0, 0, side},
+                                  .radius = radius,
+                                  .length = 0.2F,
+                                  .segments = 14});
+            pen.cylinder("rim", {.foot = {x, radius, outer - side * 0.05F},
+                                 .axis = {0, 0, side},
+                                 .radius = 0.6F * radius,
+                                 .length = 0.04F,
+                                 .end_radius_share = 0.7F});
         }
     }
 }

@@ -13,7 +13,7 @@
 #include "capture/tracer/integrator/whitted.hpp"
 #include "capture/tracer/packets/packet.hpp"
 #include "capture/tracer/rays/ray_scene.hpp"
-#include "capture/tracer/scene/flatten.hpp"
+#include "capture/tracer/scene/scene_transform.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/geometry/camera.hpp"
 #include "rayspace/image/linear_light.hpp"

@@ -1,6 +1,6 @@
 #include "tests/compositor/occlusion_scene.hpp"
 
-#include "capture/tracer/scene/normalise.hpp"
+#include "capture/tracer/scene/scene_transform.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "tests/compositor/truth_scene.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -2,7 +2,6 @@
 
 #include "capture/tracer/integrator/path.hpp"
 #include "capture/tracer/integrator/sampler.hpp"
-#include "capture/tracer/scene/scene_check.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"
 

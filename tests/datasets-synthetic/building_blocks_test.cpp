@@ -2,14 +2,11 @@
 
 #include "datasets-synthetic/objects/petal.hpp"
 #include "datasets-synthetic/shapes/curve.hpp"
-#include "datasets-synthetic/shapes/ellipsoid.hpp"
-#include "datasets-synthetic/shapes/lathe.hpp"
-#include "datasets-synthetic/shapes/lettering.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/paint.hpp"
 #include "datasets-synthetic/shapes/portable_math.hpp"
 #include "datasets-synthetic/shapes/random.hpp"
-#include "datasets-synthetic/shapes/sweep.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The objects' recipes are valid, and their cameras show the whole object.
 
-#include "capture/tracer/scene/scene_check.hpp"
+#include "capture/tracer/scene/scene.hpp"
 #include "capture/tracer/scene/scene_file.hpp"
 #include "datasets-synthetic/objects.hpp"
 #include "rayspace/base/conventions.hpp"

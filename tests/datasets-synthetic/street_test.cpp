@@ -1,8 +1,8 @@
 // Street files: deterministic bytes, separate objects, traffic that keeps its distance.
 
 #include "datasets-synthetic/street/street.hpp"
+#include "datasets-synthetic/street/street_models.hpp"
 #include "datasets-synthetic/street/traffic.hpp"
-#include "datasets-synthetic/street/vehicles.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "tests/support/temporary_folder.hpp"
 

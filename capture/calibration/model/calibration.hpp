@@ -2,8 +2,9 @@
 // Result of calibrating a turn with any method: the model, the accuracy of each number, and warnings for the
 // photographer.
 
-#include "capture/calibration/model/image_placement.hpp"
 #include "capture/calibration/model/turntable_model.hpp"
+
+#include <glm/glm.hpp>
 
 #include <limits>
 #include <optional>
@@ -43,6 +44,25 @@ struct ModelDeviations {
 struct ViewFit {
     int observations = 0;
     double rms_px = 0;  // root mean square of the residual lengths; 0 without observations
+};
+
+/// Shift and scale of one image of a turn: shops crop and scale the images of a spin individually, so that the object
+/// fills each and is centred. A point p (px) in the image of the fixed camera appears at middle + scale * (p - middle)
+/// + shift_px, where middle is the centre of the frame, which both images share.
+struct ImagePlacement {
+    glm::dvec2 shift_px{0.0};
+    double scale = 1;
+
+    [[nodiscard]] glm::dvec2 seen(const glm::dvec2& p, const glm::dvec2& middle) const {
+        return middle + scale * (p - middle) + shift_px;
+    }
+    [[nodiscard]] glm::dvec2 undone(const glm::dvec2& p, const glm::dvec2& middle) const {
+        return middle + (p - middle - shift_px) / scale;
+    }
+    /// Composition: the placement `inner` followed by this one.
+    [[nodiscard]] ImagePlacement of(const ImagePlacement& inner) const {
+        return {shift_px + scale * inner.shift_px, scale * inner.scale};
+    }
 };
 
 struct Calibration {

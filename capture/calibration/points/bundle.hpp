@@ -97,4 +97,17 @@ double rms_px(const Bundle& bundle);
 /// Robust standard deviation of weighted residual components: 1.4826 times the median of their absolute values.
 double robust_deviation_px(const Bundle& bundle);
 
+/// Start of the bundle adjustment (start_search.cpp).
+struct InitialModel {
+    TurntableModel model;  // after bundles with one common step
+    int agreeing = 0;      // observations within a few pixels of it
+    int agreeing_opposite =
+        0;  // the largest `agreeing` of models with the other direction; 0 if the direction was given
+};
+
+/// Tries equal steps with several focal lengths, tilts and both directions of turning. `tracks` in px of the photos.
+/// Nothing if no start explains them.
+std::optional<InitialModel> find_initial_model(std::span<const Track> tracks, std::span<const MatchedPair> pairs,
+                                               int views, const Lens& middle, const KnownInputs& known);
+
 }  // namespace rs::capture

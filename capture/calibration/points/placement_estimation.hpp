@@ -1,9 +1,8 @@
 #pragma once
-// Estimates shift and scale of images that were moved and scaled individually (image_placement.hpp): no turn in front
+// Estimates shift and scale of images that were moved and scaled individually (ImagePlacement): no turn in front
 // of a fixed camera explains them until this is undone. Runs between point tracking and track_calibration.
 
 #include "capture/calibration/model/calibration.hpp"
-#include "capture/calibration/model/image_placement.hpp"
 #include "capture/calibration/model/turntable_model.hpp"
 #include "capture/calibration/points/bundle.hpp"
 #include "capture/calibration/points/tracks.hpp"

@@ -2,7 +2,7 @@
 // Calibration of a turn from silhouettes alone, for objects without texture: finds the model whose silhouettes are
 // consistent with one body (consistency_residuals.hpp).
 //
-// Silhouettes determine the position and roll of the axis well; the tilt and individual angles (silhouette_angles.hpp)
+// Silhouettes determine the position and roll of the axis well; the tilt and individual angles (coherence_fit.hpp)
 // moderately, unless the object is a body of revolution; the focal length hardly. Undetermined numbers are held near
 // the start by a weak prior (silhouette_fit.hpp) and their deviation is infinite. The direction of turning cannot be
 // determined: the silhouette from below with the other direction is the same except for perspective. The start's

@@ -2,9 +2,7 @@
 
 #include "capture/calibration/points/model_covariance.hpp"
 #include "capture/calibration/points/patch_alignment.hpp"
-#include "capture/calibration/points/patch_growth.hpp"
 #include "capture/calibration/points/placement_estimation.hpp"
-#include "capture/calibration/points/start_search.hpp"
 #include "capture/calibration/silhouettes/turn_diagnosis.hpp"
 #include "capture/calibration/tracks/silhouette_refinement.hpp"
 #include "rayspace/base/conventions.hpp"
@@ -13,8 +11,10 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace rs::capture {
 namespace {
@@ -199,6 +199,92 @@ Bundle evaluate_held_out(const TurntableModel& model, const Bundle& unseen, cons
     return refine_by_alignment(bundle, turn, held, 0).value_or(bundle);
 }
 
+// A bundle and the options of its last adjustment.
+struct AdjustedBundle {
+    Bundle bundle;
+    BundleOptions options;
+};
+
+// First solution, from the detected features; accurate enough for plausibility checks.
+Result<AdjustedBundle> solve_initial_bundle(std::span<const Track> tracks, std::span<const MatchedPair> pairs,
+                                            const TurnImages& turn, const KnownInputs& known, Progress* progress) {
+    const auto start =
+        find_initial_model(tracks, pairs, static_cast<int>(turn.images.size()), known_lens(turn, known), known);
+    if (!start) return Error{"no turn of equal steps explains how the object's points move"};
+    if (progress != nullptr) progress->advance();
+    AdjustedBundle found;
+    found.options.free = free_parameters_beside(known);
+    found.bundle = make_robust_bundle(start->model, tracks, 4.0 * turn.reduction);
+    if (!adjust_robustly(found.bundle, tracks, turn.reduction, !known.distortion, found.options))
+        return Error{kNoSolution};
+    choose_axis_direction(found.bundle);
+    if (progress != nullptr) progress->advance();
+    return found;
+}
+
+struct RefinedBundle {
+    AdjustedBundle used;
+    Bundle held_out;          // tracks that took no part, by the model of the guided matches
+    bool is_aligned = false;  // refined by patch alignment; else the first solution, adjusted accurately
+};
+
+// Repeats the solution with the additional tracks that guided matching finds around an approximate model, and refines
+// it by patch alignment.
+Result<RefinedBundle> refine_with_guided_matches(const PointTracker& tracker, const AdjustedBundle& initial,
+                                                 const TurnImages& turn, const KnownInputs& known) {
+    RS_ASSIGN_OR_RETURN(const std::vector<Track> guided,
+                        tracker.track_guided(initial.bundle.model, kRadiusMargin * farthest_radius(initial.bundle),
+                                             2.0 * turn.reduction));
+    std::vector<Track> part, held_out;
+    split(guided, part, held_out);
+    RefinedBundle refined;
+    auto& [bundle, options] = refined.used;
+    bundle = make_robust_bundle(initial.bundle.model, part, outlier_limit(initial.bundle, turn.reduction));
+    options = initial.options;
+    if (!adjust_robustly(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
+    refined.held_out = make_robust_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
+    limit_track_count(bundle);
+    std::optional<Bundle> finest =
+        refine_by_alignment(bundle, turn, options, kObservationsPerView * static_cast<int>(turn.images.size()));
+    refined.is_aligned = finest && finest->tracks.size() >= kFewestTracks / 2;
+    if (refined.is_aligned) {
+        bundle = *std::move(finest);
+    } else {
+        refined.used = initial;
+        if (!adjust(bundle, options)) return Error{kNoSolution};
+    }
+    return refined;
+}
+
+// Adds the covariance to an adjusted bundle, for the refinement by silhouettes.
+TrackSolution solution_with_covariance(AdjustedBundle adjusted, const TurnImages& turn, double at_px) {
+    const BundleOptions& options = adjusted.options;
+    TrackSolution solution{std::move(adjusted.bundle),
+                           ParameterIndices(options.free, std::vector<bool>(turn.images.size(), true)),
+                           {},
+                           at_px,
+                           {}};
+    solution.covariance = bundle_covariance(solution.bundle, options, kSharedError_px * turn.reduction);
+    solution.deviations = standard_deviations(solution.bundle.model, solution.places, solution.covariance, at_px);
+    return solution;
+}
+
+// Result without warnings; `held_out` are the tracks that took no part, at the solution's model.
+Calibration calibration_of(const TrackSolution& solution, const Bundle& held_out) {
+    const Bundle& bundle = solution.bundle;
+    Calibration calibration;
+    calibration.method = CalibrationMethod::kTracks;
+    calibration.model = bundle.model;
+    calibration.deviations = solution.deviations;
+    calibration.step_rad = median_step(bundle.model.angles_rad);
+    calibration.points = static_cast<int>(bundle.tracks.size());
+    calibration.observations = observation_count(bundle);
+    calibration.rms_px = rms_px(bundle);
+    calibration.held_out_rms_px = rms_px(held_out);
+    calibration.views = view_fits(bundle);
+    return calibration;
+}
+
 // Calibrates for a fixed camera. If the points are explained neither by a turn nor by a tripod that was moved once,
 // `placed` becomes the best turn with images shifted and scaled individually. `placed` is null if that has already been
 // undone.
@@ -212,92 +298,45 @@ Result<TrackCalibration> calibrate_fixed_images(const TurnImages& turn, const Kn
     if (progress != nullptr) progress->start("tracking points", 2 * static_cast<std::int64_t>(views));
     RS_ASSIGN_OR_RETURN(const PointTracker tracker, PointTracker::detect(turn.images, turn.reduction, {}, progress));
     RS_ASSIGN_OR_RETURN(TrackedPoints tracked, tracker.track(progress));
-    TrackCalibration result;
-    result.tracked = std::move(tracked);
-    const std::vector<Track>& tracks = result.tracked.tracks;
-    if (tracks.size() < kFewestTracks) {
-        return Error{"only " + std::to_string(tracks.size()) +
+    if (tracked.tracks.size() < kFewestTracks) {
+        return Error{"only " + std::to_string(tracked.tracks.size()) +
                      " points of the object can be tracked over three or more images; an object with so little "
                      "texture needs a board under it (rs-capture board)"};
     }
     std::vector<Track> part, held_out;
-    split(tracks, part, held_out);
+    split(tracked.tracks, part, held_out);
 
     if (progress != nullptr) progress->start("solving for axis, lens and angles", 3);
-    const auto start =
-        find_initial_model(part, result.tracked.pairs, static_cast<int>(views), known_lens(turn, known), known);
-    if (!start) return Error{"no turn of equal steps explains how the object's points move"};
-    if (progress != nullptr) progress->advance();
-
-    BundleOptions options;
-    options.free = free_parameters_beside(known);
-    Bundle bundle = make_robust_bundle(start->model, part, 4.0 * turn.reduction);
-    if (!adjust_robustly(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
-    choose_axis_direction(bundle);
-    if (progress != nullptr) progress->advance();
-    const double at_px = 0.5 * (has_sideways_axis(bundle.model.pose) ? turn.width : turn.height);
+    RS_ASSIGN_OR_RETURN(const AdjustedBundle initial, solve_initial_bundle(part, tracked.pairs, turn, known, progress));
+    const double at_px = 0.5 * (has_sideways_axis(initial.bundle.model.pose) ? turn.width : turn.height);
     const std::vector<int> candidates = observations_per_view(part, views);
-    Status accepted =
-        check_plausibility(bundle, bundle_standard_deviations(bundle, options, at_px), candidates, turn.names);
+    Status accepted = check_plausibility(
+        initial.bundle, bundle_standard_deviations(initial.bundle, initial.options, at_px), candidates, turn.names);
     if (!accepted) {
-        if (placed != nullptr && !has_single_change(bundle, candidates)) {
-            *placed = estimate_placements(tracks, known_lens(turn, known), views, turn.reduction, known);
+        if (placed != nullptr && !has_single_change(initial.bundle, candidates)) {
+            *placed = estimate_placements(tracked.tracks, known_lens(turn, known), views, turn.reduction, known);
         }
         return accepted.error();
     }
-    const Bundle settled = bundle;
-    const BundleOptions as_settled = options;
-    // With an approximate model, guided matching finds more tracks.
-    RS_ASSIGN_OR_RETURN(
-        const std::vector<Track> guided,
-        tracker.track_guided(bundle.model, kRadiusMargin * farthest_radius(bundle), 2.0 * turn.reduction));
-    part.clear();
-    held_out.clear();
-    split(guided, part, held_out);
-    bundle = make_robust_bundle(bundle.model, part, outlier_limit(bundle, turn.reduction));
-    if (!adjust_robustly(bundle, part, turn.reduction, !known.distortion, options)) return Error{kNoSolution};
-    const Bundle unseen = make_robust_bundle(bundle.model, held_out, outlier_limit(bundle, turn.reduction));
-    limit_track_count(bundle);
-    std::optional<Bundle> finest =
-        refine_by_alignment(bundle, turn, options, kObservationsPerView * static_cast<int>(views));
-    const bool is_aligned = finest && finest->tracks.size() >= kFewestTracks / 2;
-    if (is_aligned) {
-        bundle = *std::move(finest);
-    } else {
-        bundle = settled;
-        options = as_settled;
-        if (!adjust(bundle, options)) return Error{kNoSolution};
-    }
-    TrackSolution solution{
-        std::move(bundle), ParameterIndices(options.free, std::vector<bool>(views, true)), {}, at_px, {}};
-    solution.covariance = bundle_covariance(solution.bundle, options, kSharedError_px * turn.reduction);
-    solution.deviations = standard_deviations(solution.bundle.model, solution.places, solution.covariance, at_px);
+    RS_ASSIGN_OR_RETURN(RefinedBundle refined, refine_with_guided_matches(tracker, initial, turn, known));
+    TrackSolution solution = solution_with_covariance(std::move(refined.used), turn, at_px);
     const auto axis_disagrees = refine_with_silhouettes(solution, turn, kFewestTracks / 2);
-    bundle = std::move(solution.bundle);
     if (progress != nullptr) progress->advance();
 
-    Calibration& calibration = result.calibration;
-    calibration.method = CalibrationMethod::kTracks;
-    calibration.model = bundle.model;
-    calibration.deviations = std::move(solution.deviations);
-    calibration.step_rad = median_step(bundle.model.angles_rad);
-    Bundle judged = settled;  // the observations of the features with the refined model
-    judged.model = bundle.model;
+    const TurntableModel& model = solution.bundle.model;
+    Calibration calibration =
+        calibration_of(solution, evaluate_held_out(model, refined.held_out, turn, refined.is_aligned));
     // Angles and axis of images that were shifted individually depend on the estimated placements, so no warnings about
     // them.
     if (placed != nullptr) {
-        calibration.warnings = step_warnings(bundle.model.angles_rad, calibration.deviations, turn.names);
+        calibration.warnings = step_warnings(model.angles_rad, calibration.deviations, turn.names);
         if (axis_disagrees) calibration.warnings.push_back(*axis_disagrees);
     }
-    const auto of_images = image_warnings(judged, candidates, result.tracked.features, turn.names);
+    Bundle judged = initial.bundle;  // the observations of the features with the refined model
+    judged.model = model;
+    const auto of_images = image_warnings(judged, candidates, tracked.features, turn.names);
     calibration.warnings.insert(calibration.warnings.end(), of_images.begin(), of_images.end());
-    calibration.points = static_cast<int>(bundle.tracks.size());
-    calibration.observations = observation_count(bundle);
-    calibration.rms_px = rms_px(bundle);
-    calibration.held_out_rms_px = rms_px(evaluate_held_out(bundle.model, unseen, turn, is_aligned));
-    calibration.views = view_fits(bundle);
-    result.bundle = std::move(bundle);
-    return result;
+    return TrackCalibration{std::move(calibration), std::move(tracked), std::move(solution.bundle)};
 }
 
 Result<TrackCalibration> calibrate_placed(const TurnImages& turn, const KnownInputs& known, Progress* progress) {

@@ -6,7 +6,6 @@
 #include "capture/photos/background/border_statistics.hpp"
 #include "capture/photos/background/clean_plate.hpp"
 #include "capture/photos/background/disc_inpainting.hpp"
-#include "capture/photos/background/shadow_rows.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
 #include "rayspace/api/types/check.hpp"
 

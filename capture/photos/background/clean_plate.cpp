@@ -3,7 +3,6 @@
 #include "capture/opencv/connected_components.hpp"
 #include "capture/photos/background/disc_inpainting.hpp"
 #include "capture/photos/background/plate_propagation.hpp"
-#include "capture/photos/background/swept_region.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
 #include "rayspace/api/types/check.hpp"
 #include "rayspace/base/parallel_loop.hpp"
@@ -165,8 +164,12 @@ CleanPlate clean_plate_of_turn(const ExposureNormalizedFrames& frames, const Bac
     result.always_covered =
         combined(static_pixels, swept, [](bool is_static, bool is_swept) { return is_static && is_swept; });
     PropagatedPlate plate;
-    propagate_plate(frames, background.colour, result.always_visible, result.always_covered, plate, Growth::kFree,
-                    parameters.propagation);
+    propagate_plate(frames,
+                    {.guess = background.colour,
+                     .seeds = result.always_visible,
+                     .barred = result.always_covered,
+                     .growth = Growth::kFree},
+                    parameters.propagation, plate);
     Image<Rgba8> guess = plate.colour;
     Image<std::uint8_t> known = supported_pixels(plate);
     result.disc = find_turntable_disc(guess, known, swept, parameters.disc);
@@ -183,7 +186,9 @@ CleanPlate clean_plate_of_turn(const ExposureNormalizedFrames& frames, const Bac
     fill_push_pull(guess, inpainted);
     result.always_covered = always_covered_pixels(static_pixels, swept, guess, background.colour, parameters);
     const Image<std::uint8_t> confirmed = confirm_plate(frames, guess, guessed, parameters.propagation);
-    propagate_plate(frames, guess, confirmed, result.always_covered, plate, Growth::kNearGuess, parameters.propagation);
+    propagate_plate(frames,
+                    {.guess = guess, .seeds = confirmed, .barred = result.always_covered, .growth = Growth::kNearGuess},
+                    parameters.propagation, plate);
     result.colour = undenoised_colours(frames, plate);
     result.known = supported_pixels(plate);
     return result;

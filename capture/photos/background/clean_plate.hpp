@@ -2,7 +2,7 @@
 /// \file
 /// Clean plate of a turn: the static background, also where the object covers it in some frames.
 ///
-/// Stages: the region that the object sweeps (swept_region.hpp) leaves the always visible pixels; the plate grows from
+/// Stages: the region that the object sweeps (swept_region()) leaves the always visible pixels; the plate grows from
 /// them inwards (plate_propagation.hpp); gaps are inpainted along rows, or along circles of a turntable disc
 /// (disc_inpainting.hpp), and where frames confirm the guess the plate grows from there, too. Static pixels of the
 /// region that the plate does not explain belong to the object.
@@ -35,5 +35,20 @@ CleanPlate clean_plate_of_turn(const ExposureNormalizedFrames& frames, const Bac
 /// `known` is not 0; elsewhere extended from the neighbourhood, or 0.
 Image<float> plate_noise(const ExposureNormalizedFrames& frames, const Image<Rgba8>& plate,
                          const Image<std::uint8_t>& known, const BackgroundParameters& parameters);
+
+/// First stage of the clean plate: the region of the image that the object sweeps over the turn, by a minimum cut.
+///
+/// A pixel that never changes shows the background, or a part of the object that looks the same from all sides: the
+/// white ground of a painted vase, the flank of a white animal near the axis. A single pixel cannot be classified, but
+/// such parts are surrounded by motion and by an edge. The region is therefore the cheapest one that contains all
+/// moving pixels and stays away from the image border; its contour is expensive through uniform surfaces, cheap along
+/// edges of the background estimate and cheapest where motion ends (graph cut after Boykov and Jolly, 2001). Surfaces
+/// of revolution about the axis, static bands and a foot are then added.
+///
+/// Mask, 255 = swept, of the size of both arguments. `colour`: BackgroundEstimate::colour; `moves`: not 0 where the
+/// frames disagree. The precision is a cell of the grid, of at most SweptRegion::max_grid_cells per side, which bounds
+/// the cost.
+Image<std::uint8_t> swept_region(ConstImageView<Rgba8> colour, ConstImageView<std::uint8_t> moves,
+                                 const BackgroundParameters::SweptRegion& parameters);
 
 }  // namespace rs::capture

@@ -154,22 +154,21 @@ Image<std::uint64_t> joined_over_square(const Image<std::uint64_t>& from, int ra
 
 }  // namespace
 
-void propagate_plate(const ExposureNormalizedFrames& frames, ConstImageView<Rgba8> guess,
-                     ConstImageView<std::uint8_t> seeds, ConstImageView<std::uint8_t> barred, PropagatedPlate& plate,
-                     Growth growth, const BackgroundParameters::Propagation& parameters) {
+void propagate_plate(const ExposureNormalizedFrames& frames, const PlateSeeds& from,
+                     const BackgroundParameters::Propagation& parameters, PropagatedPlate& plate) {
     const int width = frames.width();
     const int height = frames.height();
-    RS_CHECK(guess.width() == width && guess.height() == height);
-    RS_CHECK(seeds.width() == width && seeds.height() == height);
+    RS_CHECK(from.guess.width() == width && from.guess.height() == height);
+    RS_CHECK(from.seeds.width() == width && from.seeds.height() == height);
     if (plate.colour.empty()) {
         plate = {Image<Rgba8>(width, height), Image<std::uint64_t>(width, height)};
     }
-    PlateGrowth plate_growth(frames, barred, parameters, plate);
+    PlateGrowth plate_growth(frames, from.barred, parameters, plate);
     PropagatedPlate seeded{Image<Rgba8>(width, height), Image<std::uint64_t>(width, height)};
     for_each_index(height, [&](int y) {
         for (int x = 0; x < width; ++x) {
-            if (seeds(x, y) == 0 || plate.support(x, y) != 0) continue;
-            const std::uint64_t support = support_of(frames, guess(x, y), x, y, parameters.tolerance_codes);
+            if (from.seeds(x, y) == 0 || plate.support(x, y) != 0) continue;
+            const std::uint64_t support = support_of(frames, from.guess(x, y), x, y, parameters.tolerance_codes);
             if (support == 0) continue;
             seeded.colour(x, y) = smooth_mean(frames, support, x, y);
             seeded.support(x, y) = support_of(frames, seeded.colour(x, y), x, y, parameters.tolerance_codes);
@@ -181,7 +180,7 @@ void propagate_plate(const ExposureNormalizedFrames& frames, ConstImageView<Rgba
         }
     }
     plate_growth.grow([&](int u, int v, const Rgba8& colour) {
-        return growth == Growth::kFree || within_codes(colour, guess(u, v), parameters.guess_tolerance_codes);
+        return from.growth == Growth::kFree || within_codes(colour, from.guess(u, v), parameters.guess_tolerance_codes);
     });
 }
 

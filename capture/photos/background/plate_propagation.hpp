@@ -26,12 +26,18 @@ struct PropagatedPlate {
 /// guesses must not lead away from it.
 enum class Growth { kFree, kNearGuess };
 
-/// Adds the pixels where `seeds` is not 0 and the frames show about the colour `guess` to `plate`, which is empty or
-/// has the frames' size, and grows it from there except into pixels where `barred` is not 0. The masks and `guess`
-/// have the frames' size. At most 64 frames.
-void propagate_plate(const ExposureNormalizedFrames& frames, ConstImageView<Rgba8> guess,
-                     ConstImageView<std::uint8_t> seeds, ConstImageView<std::uint8_t> barred, PropagatedPlate& plate,
-                     Growth growth, const BackgroundParameters::Propagation& parameters);
+/// Start and limits of the growth. All images have the frames' size.
+struct PlateSeeds {
+    ConstImageView<Rgba8> guess;
+    ConstImageView<std::uint8_t> seeds;   ///< not 0: joins the plate if the frames show about the colour `guess`
+    ConstImageView<std::uint8_t> barred;  ///< not 0: never joins the plate
+    Growth growth = Growth::kFree;
+};
+
+/// Adds the seeds that the frames confirm to `plate`, which is empty or has the frames' size, and grows it from there.
+/// At most 64 frames.
+void propagate_plate(const ExposureNormalizedFrames& frames, const PlateSeeds& from,
+                     const BackgroundParameters::Propagation& parameters, PropagatedPlate& plate);
 
 /// Mean of the supporting frames without denoising, sRGB; black where there is no support.
 Image<Rgba8> undenoised_colours(const ExposureNormalizedFrames& frames, const PropagatedPlate& plate);

@@ -1,4 +1,4 @@
-#include "capture/photos/background/swept_region.hpp"
+#include "capture/photos/background/clean_plate.hpp"
 
 #include "capture/opencv/connected_components.hpp"
 #include "capture/opencv/opencv_image.hpp"

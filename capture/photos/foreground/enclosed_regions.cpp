@@ -1,4 +1,4 @@
-#include "capture/photos/foreground/enclosed_regions.hpp"
+#include "capture/photos/foreground/foreground_mask.hpp"
 
 #include "capture/opencv/connected_components.hpp"
 #include "capture/opencv/opencv_image.hpp"

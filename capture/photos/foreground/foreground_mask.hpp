@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Binary foreground mask of one photo by background subtraction. The soft edge follows in alpha_estimation.hpp.
+/// Binary foreground mask of one photo by background subtraction, segment_foreground(). The soft edge follows in
+/// alpha_estimation.hpp.
 ///
 /// 1. foreground_score(): pixels that equal the clean plate are certain background, pixels that no shadow on the plate
 ///    explains are certain foreground. Shadows, and grey or glossy parts of the object, remain undecided.
@@ -9,6 +10,8 @@
 /// 4. Graph cut (graph_cut.hpp): a soft shadow fades into the background without an edge, the object has one all
 /// around.
 /// 5. Clean-up: removes components without certain foreground and specks, fills holes that do not show the background.
+///
+/// segment_by_edges() is the variant for white and grey objects in a studio (enclosed_regions.cpp).
 ///
 /// All functions are pure and thread-safe.
 
@@ -61,5 +64,20 @@ Image<float> foreground_score(const LabPhoto& photo, const CleanPlateView& plate
 /// \return 255 = object, 0 = background
 Image<std::uint8_t> segment_foreground(const LabPhoto& photo, const CleanPlateView& plate,
                                        const ForegroundParameters& parameters);
+
+/// Foreground mask by enclosing edges, for white and grey objects before the light gradient of a studio.
+///
+/// The sides of such objects have the colour of a shadow on the background, and the contrast at their contour vanishes
+/// in places, so that neither colour nor graph cut separate them. But a soft shadow fades into the background, while an
+/// object has an edge all around: a flood fill from the image border that stops at edges reaches the shadow and no part
+/// of the object. What it reaches becomes certain background, what edges enclose certain foreground, and
+/// segment_foreground() labels the rest.
+///
+/// \param plate of the photo's size; must be right behind the object, too, as a fitted gradient is
+///   (background_gradient.hpp). Its `visible` and `occluded` are ignored.
+/// \return 255 = object. Empty where the enclosed area is small relative to the object, because a shadow within a loop
+///   is enclosed, too, and where noise causes edges everywhere. Thread-safe.
+Image<std::uint8_t> segment_by_edges(const LabPhoto& photo, const CleanPlateView& plate,
+                                     const ForegroundParameters& parameters);
 
 }  // namespace rs::capture

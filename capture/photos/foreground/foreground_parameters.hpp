@@ -4,7 +4,7 @@
 /// background.
 ///
 /// One struct per stage: Score (foreground_mask.hpp), GraphCut (graph_cut.hpp), Cleanup (foreground_mask.hpp), Enclosed
-/// (enclosed_regions.hpp), Grey (flat_grey_foreground.hpp), Alpha (alpha_estimation.hpp). Colour differences are CIE
+/// (enclosed_regions.cpp), Grey (flat_grey_foreground.hpp), Alpha (alpha_estimation.hpp). Colour differences are CIE
 /// 1976 delta E (colour_difference.hpp), shades are factors of linear light, shares are 0..1. Foreground scores are
 /// -kCertainScore..kCertainScore.
 

@@ -1,10 +1,11 @@
 #pragma once
 /// \file
-/// Folder with the photos of one turn: the files, their order, and checks that they are consistent. First stage of an
-/// import (capture/photos/import.hpp).
+/// Folder with the photos of one turn: the files, their order, checks that they are consistent, and reading in the
+/// working size of the import: upright, downscaled. First stage of an import (capture/photos/import.hpp).
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/result.hpp"
+#include "rayspace/image/image.hpp"
 
 #include <glm/glm.hpp>
 
@@ -96,5 +97,16 @@ inline constexpr int kMinSide_px = 64;
 /// an unreadable header; a side longer than kMaxPhotoSide_px; two sizes that differ after EXIF orientation (the
 /// message has both files and sizes).
 Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int max_side_px = kMaxImageSide_px);
+
+/// Rotates and mirrors stored pixels by the EXIF orientation, 1..8.
+Image<Rgba8> apply_orientation(Image<Rgba8> stored, int orientation);
+
+/// Downscales an upright photo, or a mask of it, from folder.shown_width x folder.shown_height px to folder.width x
+/// folder.height px.
+Image<Rgba8> to_working_size(Image<Rgba8> upright, const PhotoFolder& folder);
+
+/// Photo i of the folder, folder.width x folder.height px. Peak memory: twice the file's pixels at 4 bytes each.
+/// Thread-safe. Errors: those of read_image(), and a file whose size has changed since the folder was opened.
+Result<Image<Rgba8>> read_photo(const PhotoFolder& folder, std::size_t i);
 
 }  // namespace rs::capture

@@ -1,7 +1,6 @@
 #include "capture/photos/intake/photo_source.hpp"
 
 #include "capture/photos/intake/bounded_work.hpp"
-#include "capture/photos/intake/photo_reader.hpp"
 #include "capture/photos/intake/video/frame_selection.hpp"
 #include "capture/photos/intake/video/video_frames.hpp"
 #include "rayspace/file/file_output.hpp"

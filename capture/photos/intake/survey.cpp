@@ -2,7 +2,6 @@
 
 #include "capture/photos/intake/bounded_work.hpp"
 #include "capture/photos/intake/colour_difference.hpp"
-#include "capture/photos/intake/photo_reader.hpp"
 #include "capture/photos/intake/reduction.hpp"
 #include "rayspace/base/median.hpp"
 

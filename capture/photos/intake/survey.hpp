@@ -2,7 +2,7 @@
 /// \file
 /// First pass over the photos of a turn: downscaled copies and border statistics.
 ///
-/// Repeat detection (repeat.hpp) and background estimation work on them before any photo is segmented. The photos are
+/// Repeat detection (intake.hpp) and background estimation work on them before any photo is segmented. The photos are
 /// read again later, so that memory grows only by the copies.
 
 #include "capture/photos/intake/photo_folder.hpp"

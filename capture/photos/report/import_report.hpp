@@ -1,13 +1,18 @@
 #pragma once
 /// \file
-/// Results of an import, for messages, the HTML page and the record in the rig file.
+/// Results of an import, and the writers of its capture set and of the HTML page about it.
 
+#include "capture/photos/intake/photo_folder.hpp"
 #include "capture/photos/rig/found_rig.hpp"
 #include "capture/photos/rig/rectification.hpp"
+#include "capture/photos/segmentation/segment_turn.hpp"
 #include "capture/photos/segmentation/segmenter_choice.hpp"
+#include "rayspace/base/progress.hpp"
+#include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -47,5 +52,26 @@ inline bool is_left_out(const ImportReport& report, std::size_t photo) {
     return std::find(report.left_out.begin(), report.left_out.end(), source_name(report, photo)) !=
            report.left_out.end();
 }
+
+/// Last stage of an import: writes the capture set of a turn with a known rig (import_set.cpp). The images of a
+/// calibrated turn are rectified; those of a nominal one are the foreground images, unchanged. Writes the images into
+/// `set`/images, which must exist, and transforms.json into `set`. `report` holds the results of the previous stages;
+/// returns it with the numbers of the set added. Errors: those of plan_upright_frame(), unreadable foreground images,
+/// failures of the disk.
+Result<ImportReport> write_import_set(const std::filesystem::path& set, const PhotoFolder& folder,
+                                      const SegmentedTurn& turn, const ForegroundCache& foregrounds,
+                                      ImportReport report, Progress* progress);
+
+/// Longer side of an annotated photo.
+inline constexpr int kAnnotatedSide_px = 560;
+
+/// Reduced photo (its longer side at most kAnnotatedSide_px) with the turntable's axis and the tracked points drawn on
+/// it. `view` is an index into the photos of the report.
+Image<Rgba8> annotated_photo(ConstImageView<Rgba8> photo, const ImportReport& report, int view);
+
+/// Makes a self-contained HTML page about an import, mostly of figures: estimates and their uncertainty, tracked
+/// points, the axis drawn on photos, alpha mattes over magenta. Reads some of the report's photos again to annotate
+/// them. `photos` is the name of the turn in the title. Errors: an unreadable photo.
+Result<std::string> import_page(const std::filesystem::path& photos, const ImportReport& report);
 
 }  // namespace rs::capture

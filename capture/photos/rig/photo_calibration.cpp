@@ -3,7 +3,6 @@
 #include "capture/calibration/silhouettes/silhouettes.hpp"
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/intake/bounded_work.hpp"
-#include "capture/photos/intake/photo_reader.hpp"
 
 #include <algorithm>
 #include <cmath>

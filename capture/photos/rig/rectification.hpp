@@ -8,7 +8,7 @@
 /// table frame of turntable_model.hpp and looks along -Z, straight at the axis: its pose is zero, its lens a pinhole,
 /// and the axis is in the column cx. Its horizon, cy, may be outside the frame.
 
-#include "capture/calibration/model/image_placement.hpp"
+#include "capture/calibration/model/calibration.hpp"
 #include "capture/calibration/model/turntable_model.hpp"
 #include "capture/photos/segmentation/turn_silhouette.hpp"
 #include "rayspace/base/result.hpp"

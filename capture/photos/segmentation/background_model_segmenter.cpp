@@ -2,7 +2,6 @@
 
 #include "capture/opencv/opencv_image.hpp"
 #include "capture/photos/background/log_ratio.hpp"
-#include "capture/photos/foreground/enclosed_regions.hpp"
 #include "capture/photos/foreground/flat_grey_foreground.hpp"
 #include "capture/photos/intake/exposure.hpp"
 #include "capture/photos/intake/survey.hpp"

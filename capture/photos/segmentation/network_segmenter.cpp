@@ -2,7 +2,6 @@
 
 #include "capture/opencv/connected_components.hpp"
 #include "capture/opencv/opencv_image.hpp"
-#include "capture/photos/intake/photo_reader.hpp"
 #include "capture/photos/intake/reduction.hpp"
 #include "capture/photos/intake/survey.hpp"
 #include "rayspace/api/types/check.hpp"

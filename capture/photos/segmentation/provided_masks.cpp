@@ -1,7 +1,5 @@
 #include "capture/photos/segmentation/provided_masks.hpp"
 
-#include "capture/photos/intake/photo_reader.hpp"
-
 #include <algorithm>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "capture/photos/segmentation/segment_turn.hpp"
 
 #include "capture/photos/intake/bounded_work.hpp"
-#include "capture/photos/intake/photo_reader.hpp"
 #include "capture/photos/intake/reduction.hpp"
 #include "capture/photos/segmentation/foreground_image.hpp"
 

@@ -153,10 +153,25 @@ struct FilteredRow {
     explicit FilteredRow(std::size_t width) : weight(width), variance(width) { colour.fill(Plane(width)); }
 };
 
-// Adds the neighbour at `offset` (in pixels of the plane) to the pixels [from, to) of a row. `sharpness` is 1 /
-// tolerated difference of brightness.
-void add_neighbours(const Guides& guides, const Estimates& light, const Plane& brightness, const Plane& sharpness,
-                    std::size_t row, std::ptrdiff_t offset, float weight, int from, int to, FilteredRow& sums) {
+// Inputs of one level.
+struct LevelInputs {
+    const Guides& guides;
+    const Estimates& light;
+    const Plane& brightness;
+    const Plane& sharpness;  // 1 / tolerated difference of brightness
+};
+
+// Neighbour of the pixels [from, to) of a row.
+struct Neighbour {
+    std::ptrdiff_t offset;  // in pixels of the plane
+    float weight;
+    int from, to;
+};
+
+// Adds the neighbour to the pixels of the row that starts at index `row` of the planes.
+void add_neighbours(const LevelInputs& level, std::size_t row, const Neighbour& neighbour, FilteredRow& sums) {
+    const auto& [guides, light, brightness, sharpness] = level;
+    const auto [offset, weight, from, to] = neighbour;
     const auto& [nx, ny, nz] = guides.normal;
     const auto& [px, py, pz] = guides.position;
     const auto& [cr, cg, cb] = guides.colour;
@@ -195,6 +210,7 @@ Estimates filter_level(const Estimates& light, const Guides& guides, int level) 
     }
     Plane sharpness = blur(light.variance, guides, kAround);
     for (float& s : sharpness) s = 1.0F / (deviations * std::sqrt(s) + 1e-6F);
+    const LevelInputs inputs{guides, light, brightness, sharpness};
     Estimates result = light;
     for_each_row(height, [&](int y) {
         const auto row = static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
@@ -203,8 +219,12 @@ Estimates filter_level(const Estimates& light, const Guides& guides, int level) 
             if (y + dy < 0 || y + dy >= height) continue;
             for (int dx = -step; dx <= step; dx += step) {
                 const float weight = (dy == 0 ? 0.5F : 0.25F) * (dx == 0 ? 0.5F : 0.25F);
-                add_neighbours(guides, light, brightness, sharpness, row, static_cast<std::ptrdiff_t>(dy) * width + dx,
-                               weight, std::max(0, -dx), std::clamp(width - dx, 0, width), sums);
+                add_neighbours(inputs, row,
+                               {.offset = static_cast<std::ptrdiff_t>(dy) * width + dx,
+                                .weight = weight,
+                                .from = std::max(0, -dx),
+                                .to = std::clamp(width - dx, 0, width)},
+                               sums);
             }
         }
         for (std::size_t x = 0; x < static_cast<std::size_t>(width); ++x) {

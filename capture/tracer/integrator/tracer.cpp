@@ -5,7 +5,6 @@
 #include "capture/tracer/integrator/radiosity.hpp"
 #include "capture/tracer/integrator/toon.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
-#include "capture/tracer/scene/scene_check.hpp"
 #include "rayspace/api/types/check.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"
@@ -121,6 +120,7 @@ Image<float> first_depths(const RayImage& rays, const PixelRectangle& visible, c
 
 // Pixels that may show the scene, and the key of the image's random numbers.
 struct Tracer::Frame {
+    RayImage rays;
     PixelRectangle visible;
     std::uint64_t key;
 };
@@ -155,19 +155,19 @@ void Tracer::turn_lights(double angle_rad) {
 Tracer::Frame Tracer::make_frame(const Camera& camera, const RenderOptions& options) const {
     // Defocus extends the scene beyond its projected bounds.
     const bool whole = options.show_areas || options.show_environment || options.lens.aperture > 0;
-    return {whole ? PixelRectangle{0, 0, camera.width, camera.height} : visible_rectangle(camera, *state_->rays),
+    return {make_rays(camera),
+            whole ? PixelRectangle{0, 0, camera.width, camera.height} : visible_rectangle(camera, *state_->rays),
             image_key(options.seed, camera)};
 }
 
-std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& transport, const RayImage& image,
-                                                          std::uint64_t key, const RenderOptions& options, int first,
-                                                          int count) const {
+std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& transport, const Frame& frame,
+                                                          const RenderOptions& options, int first, int count) const {
     constexpr int kWhittedDepth = 8;
     RS_CHECK(options.method == RenderMethod::kPath || !state_->scene.has_surroundings());
     switch (options.method) {
         case RenderMethod::kRadiosity:
             return std::make_unique<RadiosityTracer>(transport, VirtualLightOptions{.max_bounces = options.max_bounces},
-                                                     image, key, first, count);
+                                                     frame.rays, frame.key, first, count);
         case RenderMethod::kWhitted:
             return std::make_unique<WhittedTracer>(transport, IrradianceMap(transport.lights().environment()),
                                                    options.ambient, std::min(options.max_bounces, kWhittedDepth),
@@ -175,7 +175,7 @@ std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& 
         case RenderMethod::kToon:
             return std::make_unique<ToonTracer>(transport, IrradianceMap(transport.lights().environment()),
                                                 options.ambient, std::min(options.max_bounces, kWhittedDepth),
-                                                options.toon, pixel_rad_of(image));
+                                                options.toon, pixel_rad_of(frame.rays));
         case RenderMethod::kPath:
             break;
     }
@@ -183,16 +183,15 @@ std::unique_ptr<const Integrator> Tracer::make_integrator(const LightTransport& 
 }
 
 Rendering Tracer::render(const Camera& camera, const RenderOptions& options, Progress* progress) const {
-    return render(make_rays(camera), make_frame(camera, options), options, progress);
+    return render(make_frame(camera, options), options, progress);
 }
 
 Rendering Tracer::render(const RayImage& rays, const RenderOptions& options, Progress* progress) const {
     const PixelRectangle whole{0, 0, rays.width, rays.height};
-    return render(rays, {whole, image_key(options.seed, {rays.centre, rays.forward})}, options, progress);
+    return render(Frame{rays, whole, image_key(options.seed, {rays.centre, rays.forward})}, options, progress);
 }
 
-Rendering Tracer::render(const RayImage& rays, const Frame& frame, const RenderOptions& options,
-                         Progress* progress) const {
+Rendering Tracer::render(const Frame& frame, const RenderOptions& options, Progress* progress) const {
     RS_CHECK(options.samples_per_pixel >= 1 && options.samples_per_pixel <= 65536);
     Accumulation sum;
     // Limits the memory for virtual lights; the result does not depend on the grouping of passes.
@@ -201,21 +200,22 @@ Rendering Tracer::render(const RayImage& rays, const Frame& frame, const RenderO
     while (sum.samples < options.samples_per_pixel) {
         const int count = std::min(at_once, options.samples_per_pixel - sum.samples);
         const bool last = sum.samples + count == options.samples_per_pixel;
-        accumulate(rays, frame, options, count, sum, last ? progress : nullptr, nullptr);
+        accumulate(frame, options, count, sum, last ? progress : nullptr, nullptr);
     }
     Rendering rendering;
     rendering.image = options.filtered ? filtered_mean(sum, frame.visible) : std::move(sum).mean();
-    if (options.depth) rendering.depth = first_depths(rays, frame.visible, *state_->rays, options.threads);
+    if (options.depth) rendering.depth = first_depths(frame.rays, frame.visible, *state_->rays, options.threads);
     return rendering;
 }
 
 bool Tracer::accumulate(const Camera& camera, const RenderOptions& options, int count, Accumulation& into,
                         Progress* progress, const std::atomic<bool>* stop) const {
-    return accumulate(make_rays(camera), make_frame(camera, options), options, count, into, progress, stop);
+    return accumulate(make_frame(camera, options), options, count, into, progress, stop);
 }
 
-bool Tracer::accumulate(const RayImage& rays, const Frame& frame, const RenderOptions& options, int count,
-                        Accumulation& into, Progress* progress, const std::atomic<bool>* stop) const {
+bool Tracer::accumulate(const Frame& frame, const RenderOptions& options, int count, Accumulation& into,
+                        Progress* progress, const std::atomic<bool>* stop) const {
+    const RayImage& rays = frame.rays;
     RS_CHECK(options.filter_radius_px > 0.0F && options.filter_radius_px <= 0.5F);
     RS_CHECK(options.max_bounces >= 0 && count >= 1);
     RS_CHECK(into.samples == 0 || (into.sum.width() == rays.width && into.sum.height() == rays.height));
@@ -225,7 +225,7 @@ bool Tracer::accumulate(const RayImage& rays, const Frame& frame, const RenderOp
     const LightTransport transport(state_->scene, *state_->rays, *state_->lights, state_->models,
                                    {options.show_areas, options.show_environment});
     const std::unique_ptr<const Integrator> integrator =
-        make_integrator(transport, rays, frame.key, options, into.samples, count);
+        make_integrator(transport, frame, options, into.samples, count);
     if (into.samples == 0 && integrator->has_guides()) sum.guides = Image<GuideSum>(rays.width, rays.height);
     const PixelRectangle visible = options.part ? overlap(frame.visible, *options.part) : frame.visible;
     const bool blurred = state_->rays->blurred();

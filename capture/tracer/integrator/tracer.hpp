@@ -61,7 +61,7 @@ class LightTransport;
 
 class Tracer {
 public:
-    /// Checks the scene (scene_check.hpp) and builds its acceleration structures: about 1 s per million triangles.
+    /// Checks the scene (check_scene()) and builds its acceleration structures: about 1 s per million triangles.
     static Result<Tracer> create(Scene scene);
     Tracer(Tracer&&) noexcept;
     Tracer& operator=(Tracer&&) noexcept;
@@ -122,12 +122,10 @@ private:
     struct State;
     struct Frame;
     [[nodiscard]] Frame make_frame(const Camera& camera, const RenderOptions& options) const;
-    [[nodiscard]] Rendering render(const RayImage& rays, const Frame& frame, const RenderOptions& options,
-                                   Progress* progress) const;
-    bool accumulate(const RayImage& rays, const Frame& frame, const RenderOptions& options, int count,
-                    Accumulation& into, Progress* progress, const std::atomic<bool>* stop) const;
-    [[nodiscard]] std::unique_ptr<const Integrator> make_integrator(const LightTransport& transport,
-                                                                    const RayImage& image, std::uint64_t key,
+    [[nodiscard]] Rendering render(const Frame& frame, const RenderOptions& options, Progress* progress) const;
+    bool accumulate(const Frame& frame, const RenderOptions& options, int count, Accumulation& into, Progress* progress,
+                    const std::atomic<bool>* stop) const;
+    [[nodiscard]] std::unique_ptr<const Integrator> make_integrator(const LightTransport& transport, const Frame& frame,
                                                                     const RenderOptions& options, int first,
                                                                     int count) const;
     explicit Tracer(std::unique_ptr<State> state);

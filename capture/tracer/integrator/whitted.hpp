@@ -13,7 +13,7 @@
 
 #include "capture/tracer/integrator/packet_materials.hpp"
 #include "capture/tracer/integrator/transport.hpp"
-#include "capture/tracer/light/irradiance_map.hpp"
+#include "capture/tracer/light/environment_map.hpp"
 
 #include <cstddef>
 #include <cstdint>

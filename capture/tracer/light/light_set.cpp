@@ -1,6 +1,6 @@
 #include "capture/tracer/light/light_set.hpp"
 
-#include "capture/tracer/scene/flatten.hpp"
+#include "capture/tracer/scene/scene_transform.hpp"
 #include "capture/tracer/scene/texture_lookup.hpp"
 #include "rayspace/light/directions.hpp"
 

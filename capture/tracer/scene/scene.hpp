@@ -4,6 +4,7 @@
 // Units and axes as in rayspace/base/conventions.hpp: Y up, the turntable's axis is Y. Colours are linear-light RGB.
 
 #include "capture/tracer/scene/light_scopes.hpp"
+#include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 #include "rayspace/light/light.hpp"
 
@@ -114,7 +115,7 @@ struct Scene {
     std::vector<Instance> instances;
     std::vector<Material> materials;
     // Materials from this index on belong to the surroundings of the object: they emit, reflect and occlude light and
-    // are visible in reflections and through glass, but not to camera rays (surroundings.hpp).
+    // are visible in reflections and through glass, but not to camera rays (add_surroundings()).
     int first_surrounding_material = std::numeric_limits<int>::max();
     std::vector<Texture> textures;
     // Normal maps: a texel's r, g, b are a direction of any length along u, v and the normal; (0, 0, 1) is neutral.
@@ -132,5 +133,13 @@ struct Scene {
     [[nodiscard]] bool surrounds(int material) const { return material >= first_surrounding_material; }
     [[nodiscard]] bool has_surroundings() const { return surrounds(static_cast<int>(materials.size()) - 1); }
 };
+
+/// Checks a scene (scene_check.cpp): every index valid, every number finite and within its stated range. Environment
+/// and texture pixels must be finite and not negative. A scene without triangles is valid. \return an error that names
+/// the scene and the mesh, material, texture or light
+Status check_scene(const Scene& scene);
+
+/// Checks an instance's matrices (Instance); the error does not name the instance.
+Status check_placement(const Instance& instance);
 
 }  // namespace rs::capture

@@ -1,4 +1,4 @@
-#include "capture/tracer/scene/scene_check.hpp"
+#include "capture/tracer/scene/scene.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,8 @@
 #include "capture/tracer/scene/scene_file.hpp"
 
 #include "capture/tracer/scene/mesh_file.hpp"
-#include "capture/tracer/scene/normalise.hpp"
-#include "capture/tracer/scene/scene_check.hpp"
+#include "capture/tracer/scene/scene_transform.hpp"
 #include "capture/tracer/scene/studio.hpp"
-#include "capture/tracer/scene/surroundings.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/json_text.hpp"
 #include "rayspace/base/printable.hpp"

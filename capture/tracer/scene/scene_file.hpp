@@ -17,7 +17,7 @@
 namespace rs::capture {
 
 struct SceneFile {
-    Scene scene;               // normalised: centred (normalise.hpp), farthest vertex at distance 1
+    Scene scene;               // normalised: centred (normalise_meshes()), farthest vertex at distance 1
     double object_radius = 1;  // the largest distance of a vertex from the Y axis
     double ground_height = 0;  // Y of the lowest vertex
     CameraRecipe camera;

@@ -4,7 +4,6 @@
 #include "capture/tracer/integrator/tracer.hpp"
 #include "capture/tracer/session/capture_set.hpp"
 #include "capture/tracer/session/coverage.hpp"
-#include "capture/tracer/session/recentring.hpp"
 #include "capture/tracer/session/sensor.hpp"
 #include "capture/tracer/session/still_backdrop.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -34,65 +33,6 @@ const char* name_of(DiscSurface surface) {
             return "speckled";
     }
     return "";
-}
-
-nlohmann::json turntable_json(const SessionPlan& plan, const Turntable& turntable, const PhotoOptions& options,
-                              double dimming) {
-    const Lens& lens = plan.model.lens;
-    const CameraPose& pose = plan.model.pose;
-    nlohmann::json json = {{"f_px", lens.f_px},
-                           {"cx", lens.cx},
-                           {"cy", lens.cy},
-                           {"k1", lens.k1},
-                           {"k2", lens.k2},
-                           {"pan_rad", pose.pan_rad},
-                           {"tilt_rad", pose.tilt_rad},
-                           {"roll_rad", pose.roll_rad},
-                           {"angles_rad", plan.model.angles_rad},
-                           {"distance", plan.distance},
-                           {"camera_height", plan.camera_height},
-                           {"counter_clockwise", options.session.counter_clockwise},
-                           {"exposures", plan.exposures},
-                           {"dimming", dimming},
-                           {"noise_codes", options.noise_codes},
-                           {"jpeg_quality", options.jpeg_quality},
-                           {"spp", options.samples_per_pixel},
-                           {"seed", options.session.seed}};
-    json["plate"] = {{"surface", name_of(turntable.surface)},
-                     {"radius", turntable.radius},
-                     {"top", turntable.top},
-                     {"thickness", turntable.thickness}};
-    if (turntable.board) {
-        nlohmann::json corners = nlohmann::json::array();
-        for (const glm::dvec3& corner : turntable.board->corners) corners.push_back({corner.x, corner.y, corner.z});
-        json["board"] = {{"corners", std::move(corners)},
-                         {"width_px", turntable.board->image.width()},
-                         {"height_px", turntable.board->image.height()}};
-    }
-    return json;
-}
-
-// Ground-truth rig. `dimming` is the factor on the scene's lights; `photo_of_view` are the photos' paths relative to
-// transforms.json. `places` is empty without recentring.
-Rig truth_rig(const SessionPlan& plan, const Turntable& turntable, double object_radius, const PhotoOptions& options,
-              double dimming, const std::vector<std::string>& photo_of_view, std::span<const ImagePlacement> places) {
-    Rig rig;
-    rig.object_radius = object_radius;
-    rig.foot_height = turntable.top;
-    for (std::size_t i = 0; i < photo_of_view.size(); ++i) {
-        RigView view;
-        view.camera = pinhole_camera(plan, i);
-        view.file_path = photo_of_view[i];
-        rig.views.push_back(std::move(view));
-    }
-    rig.extras["turntable"] = turntable_json(plan, turntable, options, dimming);
-    if (!places.empty()) {
-        nlohmann::json& listed = rig.extras["turntable"]["places"] = nlohmann::json::array();
-        for (const ImagePlacement& place : places) {
-            listed.push_back({{"scale", place.scale}, {"shift_px", {place.shift_px.x, place.shift_px.y}}});
-        }
-    }
-    return rig;
 }
 
 namespace fs = std::filesystem;
@@ -196,6 +136,66 @@ struct Session {
     double dimming;        // of the scene's lights
 };
 
+nlohmann::json turntable_json(const Session& session, const PhotoOptions& options) {
+    const SessionPlan& plan = session.plan;
+    const Turntable& turntable = session.turntable;
+    const Lens& lens = plan.model.lens;
+    const CameraPose& pose = plan.model.pose;
+    nlohmann::json json = {{"f_px", lens.f_px},
+                           {"cx", lens.cx},
+                           {"cy", lens.cy},
+                           {"k1", lens.k1},
+                           {"k2", lens.k2},
+                           {"pan_rad", pose.pan_rad},
+                           {"tilt_rad", pose.tilt_rad},
+                           {"roll_rad", pose.roll_rad},
+                           {"angles_rad", plan.model.angles_rad},
+                           {"distance", plan.distance},
+                           {"camera_height", plan.camera_height},
+                           {"counter_clockwise", options.session.counter_clockwise},
+                           {"exposures", plan.exposures},
+                           {"dimming", session.dimming},
+                           {"noise_codes", options.noise_codes},
+                           {"jpeg_quality", options.jpeg_quality},
+                           {"spp", options.samples_per_pixel},
+                           {"seed", options.session.seed}};
+    json["plate"] = {{"surface", name_of(turntable.surface)},
+                     {"radius", turntable.radius},
+                     {"top", turntable.top},
+                     {"thickness", turntable.thickness}};
+    if (turntable.board) {
+        nlohmann::json corners = nlohmann::json::array();
+        for (const glm::dvec3& corner : turntable.board->corners) corners.push_back({corner.x, corner.y, corner.z});
+        json["board"] = {{"corners", std::move(corners)},
+                         {"width_px", turntable.board->image.width()},
+                         {"height_px", turntable.board->image.height()}};
+    }
+    return json;
+}
+
+// Ground-truth rig. `photo_of_view` are the photos' paths relative to transforms.json. `places` is empty without
+// recentring.
+Rig truth_rig(const Session& session, double object_radius, const PhotoOptions& options,
+              const std::vector<std::string>& photo_of_view, std::span<const ImagePlacement> places) {
+    Rig rig;
+    rig.object_radius = object_radius;
+    rig.foot_height = session.turntable.top;
+    for (std::size_t i = 0; i < photo_of_view.size(); ++i) {
+        RigView view;
+        view.camera = pinhole_camera(session.plan, i);
+        view.file_path = photo_of_view[i];
+        rig.views.push_back(std::move(view));
+    }
+    rig.extras["turntable"] = turntable_json(session, options);
+    if (!places.empty()) {
+        nlohmann::json& listed = rig.extras["turntable"]["places"] = nlohmann::json::array();
+        for (const ImagePlacement& place : places) {
+            listed.push_back({{"scale", place.scale}, {"shift_px", {place.shift_px.x, place.shift_px.y}}});
+        }
+    }
+    return rig;
+}
+
 struct View {
     Image<Rgba8> photo;
     Image<float> alpha;
@@ -289,7 +289,7 @@ Result<CaptureSetSummary> write_photo_session(const Scene& object, double object
     if (!(summary.mean_coverage > 0)) {
         return Error{folder.string() + ": no view shows the object; check the distance or the mesh"};
     }
-    const Rig rig = truth_rig(session.plan, session.turntable, object_radius, options, session.dimming, names, places);
+    const Rig rig = truth_rig(session, object_radius, options, names, places);
     RS_TRY(write_rig(truth / kRigFileName, rig));
     RS_TRY(staged.commit());
     if (progress != nullptr) progress->finish();

@@ -16,7 +16,7 @@
 // "distance" and "camera_height" of the camera's centre from axis and origin, in the scene's unit; exposures; dimming
 // (of the lights); "plate", the turntable's disc; the board's corners in the object's frame; the options; and, for
 // recentred photos, "places": for every view scale and shift_px as in
-// capture/calibration/model/image_placement.hpp.
+// capture/calibration/model/calibration.hpp.
 // The cameras are those before recentring.
 
 #include "capture/tracer/scene/scene.hpp"
@@ -41,7 +41,7 @@ struct PhotoOptions {
     DiscSurface disc = DiscSurface::rings;
     std::filesystem::path board;    // an image; empty = none
     double board_width = 1.2;       // object radii
-    bool recentred = false;         // shift and scale each photo to its object, like web shops do (recentring.hpp)
+    bool recentred = false;         // shift and scale each photo to its object, like web shops do (coverage.hpp)
     std::string backdrop = "wall";  // "wall", "blue", "white", or the name of an image
     bool force = false;             // replace an existing folder whatever it holds (StagedFolder)
 };

@@ -1,6 +1,6 @@
 #include "capture/tracer/session/turntable.hpp"
 
-#include "capture/tracer/scene/normalise.hpp"
+#include "capture/tracer/scene/scene_transform.hpp"
 #include "capture/tracer/session/seeded_draws.hpp"
 #include "capture/tracer/session/still_backdrop.hpp"
 #include "rayspace/base/conventions.hpp"

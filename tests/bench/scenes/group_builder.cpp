@@ -1,7 +1,5 @@
 #include "tests/bench/scenes/group_builder.hpp"
 
-#include "datasets-synthetic/shapes/lathe.hpp"
-#include "datasets-synthetic/shapes/sweep.hpp"
 #include "rayspace/api/types/check.hpp"
 
 #include <algorithm>

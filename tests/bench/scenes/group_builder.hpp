@@ -2,8 +2,8 @@
 // Builds a group from boxes, sheets, lathes, tubes and cushions, in the current local frame. Not thread-safe.
 
 #include "datasets-synthetic/shapes/frame.hpp"
-#include "datasets-synthetic/shapes/grid_surface.hpp"
 #include "datasets-synthetic/shapes/random.hpp"
+#include "datasets-synthetic/shapes/surfaces.hpp"
 #include "tests/bench/scenes/model.hpp"
 
 #include <initializer_list>

@@ -1,6 +1,6 @@
 #include "datasets-synthetic/shapes/parameters.hpp"
 
-#include "capture/tracer/scene/scene_check.hpp"
+#include "capture/tracer/scene/scene.hpp"
 #include "datasets-synthetic/objects.hpp"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 #include "capture/photos/intake/video/video_frames.hpp"
 
 #include "capture/photos/intake/exposure.hpp"
-#include "capture/photos/intake/photo_reader.hpp"
+#include "capture/photos/intake/photo_folder.hpp"
 #include "capture/photos/intake/reduction.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "rayspace/image_io/image_io.hpp"

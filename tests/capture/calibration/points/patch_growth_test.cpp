@@ -1,6 +1,5 @@
-#include "capture/calibration/points/patch_growth.hpp"
-
 #include "capture/calibration/points/patch_alignment.hpp"
+
 #include "rayspace/base/conventions.hpp"
 #include "tests/capture/calibration/point_turns.hpp"
 

@@ -1,4 +1,4 @@
-#include "capture/calibration/points/start_search.hpp"
+#include "capture/calibration/points/bundle.hpp"
 
 #include "rayspace/base/conventions.hpp"
 #include "tests/capture/calibration/point_turns.hpp"

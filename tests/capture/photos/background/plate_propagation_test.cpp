@@ -52,7 +52,7 @@ PropagatedPlate grown(const ExposureNormalizedFrames& frames, const Image<Rgba8>
                       const Image<std::uint8_t>& seeds,
                       const Image<std::uint8_t>& barred = Image<std::uint8_t>(kPlateWidth, kPlateHeight)) {
     PropagatedPlate plate;
-    propagate_plate(frames, guess, seeds, barred, plate, Growth::kFree, kPropagationParameters);
+    propagate_plate(frames, {guess, seeds, barred, Growth::kFree}, kPropagationParameters, plate);
     return plate;
 }
 
@@ -127,8 +127,12 @@ TEST(PropagatePlate, StaysNearTheGuessOnRequest) {
     const PropagatedPlate free = grown(frames, guess, seeds(false));
     EXPECT_NE(free.support(70, 24), 0U);
     PropagatedPlate near;
-    propagate_plate(frames, guess, seeds(false), Image<std::uint8_t>(kPlateWidth, kPlateHeight), near,
-                    Growth::kNearGuess, kPropagationParameters);
+    propagate_plate(frames,
+                    {.guess = guess,
+                     .seeds = seeds(false),
+                     .barred = Image<std::uint8_t>(kPlateWidth, kPlateHeight),
+                     .growth = Growth::kNearGuess},
+                    kPropagationParameters, near);
     EXPECT_NE(near.support(22, 24), 0U);
     EXPECT_EQ(near.support(40, 24), 0U);
 }

@@ -1,6 +1,6 @@
 // Rows without a shadow of the object.
 
-#include "capture/photos/background/shadow_rows.hpp"
+#include "capture/photos/background/background_gradient.hpp"
 
 #include "capture/photos/background/exposure_normalized_frames.hpp"
 #include "rayspace/image/linear_light.hpp"

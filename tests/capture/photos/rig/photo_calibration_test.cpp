@@ -1,7 +1,7 @@
 // Choice of the rig by import: the most accurate method that succeeds, and notes on those that failed.
 
 #include "capture/photos/import.hpp"
-#include "capture/photos/report/import_page.hpp"
+#include "capture/photos/report/import_report.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/calibration/board_photos.hpp"

@@ -1,7 +1,6 @@
 // Dark parts of objects before a black background: noisy, even within two codes, exactly black.
 
 #include "capture/photos/segmentation/background_model_segmenter.hpp"
-#include "tests/capture/photos/backdrop_behind.hpp"
 #include "tests/capture/photos/segment_photo.hpp"
 #include "tests/capture/photos/turn_of_images.hpp"
 

@@ -2,7 +2,6 @@
 
 #include "capture/photos/segmentation/background_model_segmenter.hpp"
 #include "rayspace/base/conventions.hpp"
-#include "tests/capture/photos/backdrop_behind.hpp"
 #include "tests/capture/photos/segment_photo.hpp"
 
 #include <gtest/gtest.h>

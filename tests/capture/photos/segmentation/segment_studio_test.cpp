@@ -1,10 +1,9 @@
 // White and grey objects before the light gradient of a studio: their sides have the colour of a shadow on it.
 
-#include "capture/photos/foreground/enclosed_regions.hpp"
+#include "capture/photos/foreground/foreground_mask.hpp"
 #include "capture/photos/segmentation/background_model_segmenter.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/image/linear_light.hpp"
-#include "tests/capture/photos/backdrop_behind.hpp"
 #include "tests/capture/photos/segment_photo.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // White furnace test: in uniform illumination a surface without absorption is invisible.
 
 #include "capture/tracer/integrator/microfacet.hpp"
-#include "capture/tracer/scene/surroundings.hpp"
+#include "capture/tracer/scene/scene_transform.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 
 #include <gtest/gtest.h>

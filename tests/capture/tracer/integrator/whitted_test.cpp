@@ -1,6 +1,6 @@
 // Whitted ray tracing against analytic formulas.
 
-#include "capture/tracer/light/irradiance_map.hpp"
+#include "capture/tracer/light/environment_map.hpp"
 #include "rayspace/light/directions.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 

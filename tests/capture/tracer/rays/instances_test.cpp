@@ -1,7 +1,7 @@
 // Instances of parts against the flattened scene, and ray time against analytic formulas.
 
 #include "capture/tracer/rays/ray_scene.hpp"
-#include "capture/tracer/scene/flatten.hpp"
+#include "capture/tracer/scene/scene_transform.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // Recipes: all keys, strict validation, normalisation.
 
 #include "capture/tracer/scene/scene_file.hpp"
-#include "capture/tracer/scene/normalise.hpp"
+#include "capture/tracer/scene/scene_transform.hpp"
 #include "capture/tracer/scene/studio.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "tests/capture/tracer/test_shapes.hpp"

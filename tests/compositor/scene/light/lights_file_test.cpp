@@ -2,8 +2,8 @@
 
 #include "compositor/scene/light/lights_file.hpp"
 
-#include "datasets-synthetic/showroom/evening.hpp"
 #include "datasets-synthetic/showroom/showroom.hpp"
+#include "datasets-synthetic/showroom/world_file.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "tests/support/temporary_folder.hpp"

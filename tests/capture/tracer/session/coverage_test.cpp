@@ -1,4 +1,4 @@
-#include "capture/tracer/session/recentring.hpp"
+#include "capture/tracer/session/coverage.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,6 @@
-#include "capture/photos/report/import_page.hpp"
+#include "capture/photos/report/import_report.hpp"
 
 #include "capture/opencv/opencv_image.hpp"
-#include "capture/photos/intake/photo_reader.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/page/html_page.hpp"
@@ -10,7 +9,6 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace rs::capture {
@@ -84,6 +82,12 @@ void draw_points(cv::Mat& image, const TrackCalibration& tracks, int view, doubl
 }
 
 }  // namespace
+
+std::string sizes_text(const PhotoFolder& folder) {
+    std::string text = size_text(folder.shown_width, folder.shown_height) + " photos";
+    if (folder.reduction > 1) text += " reduced to " + size_text(folder.width, folder.height);
+    return text;
+}
 
 Image<Rgba8> annotated_photo(ConstImageView<Rgba8> photo, const ImportReport& report, int view) {
     Image<Rgba8> small = downscale(photo, kAnnotatedSide_px);

@@ -1,11 +1,14 @@
 #pragma once
-// Procedural textures of floors, boards and walls by position in metres, and baked contact shadows of furniture,
-// because the scene's lights cast none. Colours are linear light. Pure functions, thread-safe.
+// Procedural textures: floors, boards and walls by position in metres, baked contact shadows of furniture, because the
+// scene's lights cast none, paintings, and lettering for signs and cards. Colours are linear light. Pure functions,
+// thread-safe.
 
 #include <glm/glm.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <string>
 
 namespace rs::synthetic {
 
@@ -44,5 +47,16 @@ float contact_shadow(glm::vec2 place_m, std::span<const Footprint> footprints);
 
 // Shadow at `distance_m` from an inner edge between two surfaces: the remaining share of light.
 float corner_shadow(float distance_m, float reach_m, float strength);
+
+// Paintings for the museum's walls.
+enum class Painting { hills, sea, fields, circles, birches };
+
+// `share`: position in the image, 0..1 to the right and up; `aspect`: width / height of the image.
+glm::vec3 painting_colour(Painting painting, glm::vec2 share, float aspect, std::uint32_t seed);
+
+// One line of capital letters and spaces, fitted into `size_m` with a margin. Returns the ink's coverage, 0..1, as a
+// function of the position in metres from the lower left corner.
+std::function<float(glm::vec2 place_m)> lettering(const std::string& text, glm::vec2 size_m, float letter_height_m,
+                                                  float pen_m);
 
 }  // namespace rs::synthetic

@@ -1,10 +1,25 @@
 #pragma once
-// Normalises the size of a scene's meshes to the unit of distances in recipes.
+// Transforms of scenes: instances to static meshes, a room to the surroundings of an object, and the normalised size
+// that recipes use as the unit of distances.
 
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
 
+#include <glm/glm.hpp>
+
 namespace rs::capture {
+
+/// Transforms a mesh by an invertible affine matrix. The winding is reversed for mirroring matrices, so that outer
+/// sides stay outer.
+Mesh transform_mesh(const Mesh& mesh, const glm::dmat4& world_from_mesh);
+
+/// The scene at time 0 with meshes in place of parts and instances.
+Scene flattened(Scene scene);
+
+/// Adds the meshes, materials and textures of `room` as surroundings of an object without surroundings: images show the
+/// object alone, lit by the room's lights and walls.
+/// \param object_from_room affine and invertible
+void add_surroundings(Scene& object, Scene room, const glm::dmat4& object_from_room);
 
 // Point of the meshes that is moved to the origin: on the turntable's axis, at height 0.
 enum class ObjectCentre {
