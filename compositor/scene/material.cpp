@@ -34,6 +34,20 @@ PhongTerms phong_terms(const Material& material) {
     return material.phong.value_or(PhongTerms{material.diffuse * material.ambient, material.shininess * 128});
 }
 
+SurfaceProperties surface_of(const Material& material) {
+    if (material.surface) return *material.surface;
+    const bool replaced = material.texture && !material.texture->modulates;
+    const glm::vec3 diffuse = glm::clamp(replaced ? glm::vec3(1) : material.diffuse, glm::vec3(0), glm::vec3(1));
+    const glm::vec3 specular = glm::clamp(material.specular, glm::vec3(0), glm::vec3(1));
+    SurfaceProperties surface = phong_surface(diffuse, specular, material.shininess * 128);
+    surface.emission = glm::max(material.emissive, glm::vec3(0));
+    if (material.opacity < 0.5F) {
+        surface.kind = rs::SurfaceKind::glass;
+        surface.colour = glm::vec3(1);
+    }
+    return surface;
+}
+
 bool is_blended(const Material& material) {
     return material.opacity < 1 || (material.texture && alpha_use(*material.texture) == AlphaUse::kBlend);
 }

@@ -3,6 +3,7 @@
 // Functions are pure and thread-safe.
 
 #include "rayspace/image/image.hpp"
+#include "rayspace/light/surface_properties.hpp"
 
 #include <filesystem>
 #include <glm/glm.hpp>
@@ -54,12 +55,19 @@ struct Material {
     std::shared_ptr<const NormalMap> normals;  // normal map, at the same texture coordinates
     glm::mat3 texture_transform{1};            // applied to (s, t, 1)
     std::optional<PhongTerms> phong = {};      // if empty, derived from `ambient` and `shininess` (phong_terms)
+    // For traced renderers; if empty, derived from the fields above (surface_of).
+    std::optional<SurfaceProperties> surface = {};
+    std::shared_ptr<const SceneTexture> emission_texture = {};  // of `surface`
 
     bool operator==(const Material&) const = default;
 };
 PhongTerms phong_terms(const Material& material);
 
-/// True for transparent surfaces, which are drawn after all others, back to front.
+/// Surface for traced renderers, without textures: `surface`, or that of the VRML97 material (phong_surface), of glass
+/// if its opacity is below 1/2. Not for unlit materials.
+SurfaceProperties surface_of(const Material& material);
+
+/// True for transparent surfaces, which raster renderers draw after all others, back to front.
 bool is_blended(const Material& material);
 
 /// Converts a glTF 2.0 normal texture (3.9.3): bytes 1, 128, 255 are -1, 0, 1.

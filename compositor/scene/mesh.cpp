@@ -1,5 +1,11 @@
 #include "compositor/scene/mesh.hpp"
 
+#include <algorithm>
+#include <array>
+#include <map>
+#include <tuple>
+#include <utility>
+
 namespace rs::compositor {
 
 void BoundingBox::include(const glm::dvec3& point) {
@@ -26,6 +32,28 @@ BoundingBox bounds_of(const Mesh& mesh) {
     BoundingBox box;
     for (const std::uint32_t index : mesh.indices) box.include(mesh.vertices[index].position);
     return box;
+}
+
+bool is_closed(const Mesh& mesh) {
+    if (mesh.topology != Topology::kTriangles) return false;
+    const auto before = [](const glm::vec3& a, const glm::vec3& b) {
+        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+    };
+    std::map<glm::vec3, int, decltype(before)> corners(before);
+    std::map<std::pair<int, int>, int> edges;  // uses in the order of the pair, less those in the other order
+    for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+        std::array<int, 3> triangle{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::vec3& position = mesh.vertices[mesh.indices[i + k]].position;
+            triangle[k] = corners.try_emplace(position, static_cast<int>(corners.size())).first->second;
+        }
+        if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const int from = triangle[k], to = triangle[(k + 1) % 3];
+            edges[std::minmax(from, to)] += from < to ? 1 : -1;
+        }
+    }
+    return !edges.empty() && std::ranges::all_of(edges, [](const auto& edge) { return edge.second == 0; });
 }
 
 Mesh box_mesh(const glm::dvec3& size) {

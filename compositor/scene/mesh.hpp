@@ -39,6 +39,9 @@ struct BoundingBox {
 };
 BoundingBox bounds_of(const Mesh& mesh);
 
+/// True for triangle meshes that enclose a volume: each edge, by the positions of its corners, has two triangles.
+bool is_closed(const Mesh& mesh);
+
 /// Centred at the origin, like VRML97's Box. Sides > 0.
 Mesh box_mesh(const glm::dvec3& size);
 

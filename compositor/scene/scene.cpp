@@ -14,6 +14,12 @@ void include(BoundingBox& all, const BoundingBox& box) {
 
 }  // namespace
 
+bool is_traced(const GeometryNode& node) {
+    if (node.mesh->topology != Topology::kTriangles) return false;
+    if (!is_blended(node.material)) return true;
+    return node.material.lit && surface_of(node.material).kind == rs::SurfaceKind::glass && is_closed(*node.mesh);
+}
+
 void copy_lights(const Scene& from, Scene& to) {
     RS_CHECK(from.geometry.size() == to.geometry.size());
     to.lights = from.lights;

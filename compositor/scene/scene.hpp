@@ -39,6 +39,10 @@ struct GeometryNode {
     std::optional<std::uint32_t> moving = {};
 };
 
+/// True for nodes that traced renderers draw: triangles that are not blended, and closed meshes of glass. All others
+/// are drawn over the traced image by raster renderers.
+bool is_traced(const GeometryNode& node);
+
 /// Image-based object. In node coordinates the unit is the object radius and Y the turntable's axis.
 struct RaySpaceNode {
     std::filesystem::path file;  // .rso

@@ -18,10 +18,6 @@ namespace {
 constexpr int kFloorCorners = 96;
 constexpr int kFloorTexels = 64;  // two squares of the checker
 
-bool is_traced(const GeometryNode& node) {
-    return node.mesh->topology == Topology::kTriangles && !is_blended(node.material);
-}
-
 capture::Texture linear_texture(const SceneTexture& from) {
     capture::Texture texture;
     texture.pixels = Image<RgbaF>(from.image.width(), from.image.height());
@@ -38,20 +34,20 @@ capture::Texture linear_texture(const SceneTexture& from) {
     return texture;
 }
 
-capture::Material surface_of(const Material& from, const glm::vec3& vertex_colour) {
+capture::Material traced_material(const Material& from, const glm::vec3& vertex_colour) {
     capture::Material material;
-    const bool replaced = from.texture && !from.texture->modulates;
-    const glm::vec3 colour = glm::clamp(replaced ? glm::vec3(1) : from.diffuse, glm::vec3(0), glm::vec3(1));
-    material.colour = colour;
-    material.emission = glm::max(from.emissive, glm::vec3(0));
     if (!from.lit) {
+        const bool replaced = from.texture && !from.texture->modulates;
         material.colour = glm::vec3(0);
-        material.emission = colour * vertex_colour;
-    } else if (luminance(from.specular) > 0) {
-        material.kind = capture::SurfaceKind::glossy;
-        const float exponent = from.shininess * 128;
-        material.roughness = std::pow(2 / (exponent + 2), 0.25F);  // GGX alpha is roughness squared
+        material.emission = glm::max(replaced ? glm::vec3(1) : from.diffuse, glm::vec3(0)) * vertex_colour;
+        return material;
     }
+    const SurfaceProperties surface = surface_of(from);
+    material.kind = surface.kind;
+    material.colour = surface.colour;
+    material.roughness = surface.roughness;
+    material.ior = surface.ior;
+    material.emission = surface.emission;
     return material;
 }
 
@@ -122,17 +118,15 @@ public:
         capture::Mesh mesh = mesh_of(node);
         mesh.name = name;
         mesh.material = static_cast<int>(scene_.materials.size());
-        capture::Material material = surface_of(node.material, mean_of(mesh.colours));
+        capture::Material material = traced_material(node.material, mean_of(mesh.colours));
         material.name = name;
         material.two_sided = node.mesh->two_sided;
         if (node.material.texture) {
-            const auto [found, is_new] = textures_.try_emplace(node.material.texture.get(), -1);
-            if (is_new) {
-                found->second = static_cast<int>(scene_.textures.size());
-                scene_.textures.push_back(linear_texture(*node.material.texture));
-            }
-            material.texture = found->second;
-            if (!node.material.lit) material.emission_texture = found->second;
+            material.texture = add_texture(*node.material.texture);
+            if (!node.material.lit) material.emission_texture = material.texture;
+        }
+        if (node.material.lit && node.material.emission_texture) {
+            material.emission_texture = add_texture(*node.material.emission_texture);
         }
         if (node.material.normals && node.material.lit) {
             const NormalMap& map = *node.material.normals;
@@ -145,6 +139,12 @@ public:
     }
 
 private:
+    int add_texture(const SceneTexture& texture) {
+        const auto [found, is_new] = textures_.try_emplace(&texture, static_cast<int>(scene_.textures.size()));
+        if (is_new) scene_.textures.push_back(linear_texture(texture));
+        return found->second;
+    }
+
     capture::Scene& scene_;
     std::map<const SceneTexture*, int> textures_;
     std::map<const NormalMap*, int> reliefs_;

@@ -1,14 +1,10 @@
 #pragma once
 // Converts a scene's geometry and lights for the tracer, in scene units.
 //
-// Conversion of VRML97 materials:
-//     lit                   diffuse surface with the diffuse colour, texture and vertex colours; with a specular colour
-//                           a coat whose roughness gives a highlight of the same width (GGX alpha =
-//                           sqrt(2 / (exponent + 2)), B. Walter and others 2007)
-//     unlit, emissive       emissive surface that illuminates others
-//     alpha-masked textures holes
-// Of the ambient part of lights, which approximates interreflection, only whitted and toon make use. Lines, points and
-// blended surfaces (opacity below 1, textures with many translucent texels) are left to the raster renderer.
+// Materials of glTF and MTL keep their surfaces (model_material.hpp), those of VRML97 become the surfaces of
+// surface_of(); unlit and emissive surfaces illuminate others, and alpha-masked textures have holes. Whitted and toon
+// use the ambient part of lights, which approximates interreflection. Lines, points and blended surfaces (opacity below
+// 1, textures with many translucent texels), but for closed meshes of glass, are left to the raster renderer.
 
 #include "capture/tracer/scene/scene.hpp"
 #include "compositor/scene/scene.hpp"

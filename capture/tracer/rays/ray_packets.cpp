@@ -129,7 +129,7 @@ void RayScene::intersect(const MaskLanes& active, RayHitLanes& met) const {
 void RayScene::occluded(const MaskLanes& active, RayLanes& rays, const ShadowCasters& casters) const {
     if (!casters.any) return;
     auto* packet = reinterpret_cast<RTCRay16*>(&rays);
-    ScopeQuery in_scope(*scene_, casters.scoped_light, RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
+    ScopeQuery in_scope(*scene_, casters.scoped_light, true, RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
     RTCIntersectContext all = coherent();
     RTCIntersectContext& context = casters.scoped_light == kUnscoped ? all : in_scope.context;
     const Lanes reach = rays.reach;

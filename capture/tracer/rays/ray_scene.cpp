@@ -192,7 +192,7 @@ bool RayScene::intersect(const glm::vec3& origin, const glm::vec3& direction, fl
 
 bool RayScene::intersect_in_scope(std::uint32_t light, const glm::vec3& origin, const glm::vec3& direction, float time,
                                   SurfacePoint& point) const {
-    ScopeQuery query(*scene_, light, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    ScopeQuery query(*scene_, light, false, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
     return intersect_trees(query.context, origin, direction, time, point);
 }
 
@@ -298,7 +298,7 @@ RayScene::Bundle RayScene::distances(const std::array<glm::vec3, kBundle>& origi
 bool RayScene::occluded(const glm::vec3& origin, const glm::vec3& direction, float distance, float time,
                         const ShadowCasters& casters) const {
     if (!casters.any) return false;
-    ScopeQuery in_scope(*scene_, casters.scoped_light, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
+    ScopeQuery in_scope(*scene_, casters.scoped_light, true, RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
     RTCIntersectContext all;
     rtcInitIntersectContext(&all);
     RTCIntersectContext& context = casters.scoped_light == kUnscoped ? all : in_scope.context;

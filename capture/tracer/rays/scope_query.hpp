@@ -14,9 +14,10 @@ struct ScopeQuery {
     RTCIntersectContext context;  // first member: the filter function casts its address
     const Scene& scene;
     std::uint32_t light;
+    bool is_shadow_ray;  // towards the light; otherwise in the direction of the light
 
-    ScopeQuery(const Scene& of, std::uint32_t scoped_light, RTCIntersectContextFlags flags)
-        : scene(of), light(scoped_light) {
+    ScopeQuery(const Scene& of, std::uint32_t scoped_light, bool shadow_ray, RTCIntersectContextFlags flags)
+        : scene(of), light(scoped_light), is_shadow_ray(shadow_ray) {
         rtcInitIntersectContext(&context);
         context.flags = flags;
         context.filter = reject_others;
@@ -35,13 +36,14 @@ private:
                                    RTCHitN_Ng_z(arguments->hit, n, i));
             const glm::vec3 direction(RTCRayN_dir_x(arguments->ray, n, i), RTCRayN_dir_y(arguments->ray, n, i),
                                       RTCRayN_dir_z(arguments->ray, n, i));
-            if (!query.accepts(mesh, instance, glm::dot(normal, direction) < 0.0F)) arguments->valid[i] = 0;
+            const bool hits_front = glm::dot(normal, direction) < 0.0F;
+            if (!query.accepts(mesh, instance, hits_front != query.is_shadow_ray)) arguments->valid[i] = 0;
         }
     }
 
-    [[nodiscard]] bool accepts(unsigned mesh, unsigned instance, bool front_side) const {
+    [[nodiscard]] bool accepts(unsigned mesh, unsigned instance, bool lit_from_front) const {
         if (!scene.scopes.illuminates(light, scene.scopes.group_of(mesh, instance))) return false;
-        return front_side ||
+        return lit_from_front ||
                !scene.materials[static_cast<std::size_t>(scene.mesh_of(mesh, instance).material)].is_one_sided();
     }
 };

@@ -3,11 +3,12 @@
 
 #include "capture/tracer/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
+#include "rayspace/models/model_material.hpp"
 
 #include <filesystem>
 #include <map>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 struct aiScene;
@@ -23,8 +24,7 @@ public:
         : source_(source), file_(file), textures_(textures) {}
 
     /// Loads a colour image and returns its index in `textures`.
-    /// \param hole_alpha pixels with alpha below it become holes: none for 0, all for infinity
-    Result<int> colours(const std::string& name, float hole_alpha);
+    Result<int> colours(const ModelTexture& from);
 
     /// Mean red, green and blue of a linear (not sRGB) image of values 0..1.
     Result<glm::vec3> mean_numbers(const std::string& name);
@@ -33,7 +33,7 @@ private:
     const aiScene& source_;
     const std::filesystem::path& file_;
     std::vector<Texture>& textures_;
-    std::map<std::pair<std::string, float>, int> loaded_;
+    std::map<std::tuple<std::string, float, bool, bool>, int> loaded_;  // by the fields of ModelTexture
 };
 
 /// Appends the materials in order to scene.materials and their textures to scene.textures.

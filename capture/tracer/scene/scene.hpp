@@ -7,6 +7,7 @@
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 #include "rayspace/light/light.hpp"
+#include "rayspace/light/surface_properties.hpp"
 
 #include <glm/glm.hpp>
 
@@ -19,15 +20,7 @@
 
 namespace rs::capture {
 
-enum class SurfaceKind {
-    diffuse,  // Lambert
-    glossy,   // a GGX dielectric coat (ior, roughness) over a Lambert base of `colour`
-    metal,    // GGX conductor, reflectance at normal incidence `colour`, roughness
-    mirror,   // perfectly smooth, reflectance `colour`
-    // Smooth dielectric interface (ior); the transmittance inside is `colour` per unit length. In nested glass the
-    // innermost one absorbs (up to 4 levels), but each surface refracts as if against air.
-    glass,
-};
+using rs::SurfaceKind;
 
 struct Material {
     std::string name;

@@ -83,7 +83,7 @@ public:
 private:
     void add(unsigned index, const glm::dmat4& world_from_node, const char* name) {
         const aiMesh& source = *model_.mMeshes[index];
-        const model::ModelMaterial& look = materials_.at(source.mMaterialIndex);
+        const model::MaterialWithSides& look = materials_.at(source.mMaterialIndex);
         std::shared_ptr<const Mesh>& mesh = meshes_[index];
         if (!mesh) mesh = convert(source, look.two_sided);
         if (mesh->indices.empty()) return;

@@ -2,6 +2,7 @@
 
 #include "rayspace/base/printable.hpp"
 #include "rayspace/image_io/image_io.hpp"
+#include "rayspace/models/model_material.hpp"
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/ObjMaterial.h>
@@ -48,7 +49,7 @@ float shininess_of(float roughness) {
 ModelMaterials::ModelMaterials(const aiScene& model, std::filesystem::path file)
     : model_(model), file_(std::move(file)) {}
 
-const ModelMaterial& ModelMaterials::at(unsigned index) {
+const MaterialWithSides& ModelMaterials::at(unsigned index) {
     const auto known = converted_.find(index);
     if (known != converted_.end()) return known->second;
     return converted_.emplace(index, convert(*model_.mMaterials[index])).first->second;
@@ -77,8 +78,8 @@ std::shared_ptr<const SceneTexture> ModelMaterials::image(const std::string& nam
     return read;
 }
 
-ModelMaterial ModelMaterials::convert(const aiMaterial& source) {
-    ModelMaterial result;
+MaterialWithSides ModelMaterials::convert(const aiMaterial& source) {
+    MaterialWithSides result;
     Material& material = result.material;
     material.ambient = 1;
     material.emissive = vec(property<aiColor3D>(source, AI_MATKEY_COLOR_EMISSIVE).value_or(aiColor3D(0)));
@@ -119,7 +120,36 @@ ModelMaterial ModelMaterials::convert(const aiMaterial& source) {
         material.texture = std::move(texture);
     }
     material.normals = relief(source);
+    add_surface(source, material);
     return result;
+}
+
+void ModelMaterials::add_surface(const aiMaterial& source, Material& material) {
+    const auto mean_of = [&](const std::string& name) -> Result<glm::vec3> {
+        const auto read = image(name, true, true);
+        if (!read) return glm::vec3(1);
+        glm::dvec3 sum(0);
+        for (const Rgba8& p : read->image.pixels()) sum += glm::dvec3(p.r, p.g, p.b);
+        return glm::vec3(sum / (255.0 * static_cast<double>(read->image.pixels().size())));
+    };
+    const std::string extension = file_.extension().string();
+    const bool is_gltf = extension.size() > 1 && (extension[1] == 'g' || extension[1] == 'G');
+    const Result<ModelMaterial> read = read_model_material(source, is_gltf, mean_of);
+    if (!read || !material.lit) return;
+    material.surface = read->surface;
+    if (read->emission && read->surface.emission != glm::vec3(0)) {
+        material.emission_texture = image(read->emission->name, read->emission->repeat_u, read->emission->repeat_v);
+    }
+    // Glass is blended by raster renderers.
+    constexpr float kGlassOpacity = 0.25F;
+    if (read->surface.kind == rs::SurfaceKind::glass) material.opacity = std::min(material.opacity, kGlassOpacity);
+    // Pixels below the cutoff of an alpha mask are holes.
+    if (!read->colours || !material.texture || !material.texture->has_alpha) return;
+    const float hole_alpha = read->colours->hole_alpha;
+    if (hole_alpha == kBlendedHoleAlpha) return;
+    auto masked = std::make_shared<SceneTexture>(*material.texture);
+    for (Rgba8& p : masked->image.pixels()) p.a = static_cast<float>(p.a) < hole_alpha * 255 ? 0 : 255;
+    material.texture = std::move(masked);
 }
 
 // glTF's normal texture, MTL's norm, or MTL's bump map. Normals take precedence over heights.

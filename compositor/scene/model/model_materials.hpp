@@ -15,7 +15,7 @@ struct aiMaterial;
 
 namespace rs::compositor::model {
 
-struct ModelMaterial {
+struct MaterialWithSides {
     Material material;
     bool two_sided = true;
 };
@@ -24,18 +24,20 @@ class ModelMaterials {
 public:
     ModelMaterials(const aiScene& model, std::filesystem::path file);
     /// \param index material of the model; results are cached.
-    const ModelMaterial& at(unsigned index);
+    const MaterialWithSides& at(unsigned index);
     std::vector<std::string> warnings;
 
 private:
-    ModelMaterial convert(const aiMaterial& source);
+    MaterialWithSides convert(const aiMaterial& source);
+    /// Sets the surface for traced renderers.
+    void add_surface(const aiMaterial& source, Material& material);
     std::shared_ptr<const NormalMap> relief(const aiMaterial& source);
     std::shared_ptr<const SceneTexture> image(const std::string& name, bool repeat_s, bool repeat_t);
 
     const aiScene& model_;
     std::filesystem::path file_;
     SceneImages images_;
-    std::map<unsigned, ModelMaterial> converted_;
+    std::map<unsigned, MaterialWithSides> converted_;
 };
 
 }  // namespace rs::compositor::model

@@ -192,6 +192,7 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const Shadow
         RS_TRY(renderer.update_item(item));
         item.texture_transform = node.material.texture_transform;
         item.transparent = node.material.opacity < 1 || item.alpha == AlphaUse::kBlend;
+        item.traced_glass = item.transparent && is_traced(node);
         item.two_sided = node.mesh->two_sided;
         renderer.item_of_node_[i] = renderer.items_.size();
         renderer.items_.push_back(std::move(item));
@@ -270,12 +271,12 @@ void SurfaceRenderer::draw(const Item& item, const gl::Program& program, const F
     gl::draw(program, *item.mesh, state);
 }
 
-SurfaceRenderer::VisibleItems SurfaceRenderer::collect_visible(const FrameView& view) {
+SurfaceRenderer::VisibleItems SurfaceRenderer::collect_visible(const FrameView& view, bool traced) {
     VisibleItems seen;
     for (std::size_t i = 0; i < items_.size(); ++i) {
         const Item& item = items_[i];
         if (item.hidden || !can_be_visible(item.bounds, view.clip_from_world)) continue;
-        if (item.transparent) {
+        if (item.transparent && !(traced && item.traced_glass)) {
             seen.transparent.push_back({i, glm::distance(item.bounds.middle(), view.camera.centre())});
         } else {
             seen.opaque.push_back(i);
@@ -297,7 +298,7 @@ SurfaceRenderer::VisibleItems SurfaceRenderer::collect_visible(const FrameView& 
 std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const FrameView& view, bool wire_frame,
                                                                        OpaqueMode mode) {
     set_frame(view);
-    VisibleItems seen = collect_visible(view);
+    VisibleItems seen = collect_visible(view, mode != OpaqueMode::kLit);
     if (mode == OpaqueMode::kNone) seen.opaque.clear();
     for (const std::size_t i : seen.opaque) {
         const Item& item = items_[i];
@@ -311,7 +312,9 @@ std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const Fra
 void SurfaceRenderer::draw_fog(const FrameView& view) const {
     if (!scene_.fog) return;
     for (const Item& item : items_) {
-        if (item.hidden || item.transparent || !can_be_visible(item.bounds, view.clip_from_world)) continue;
+        if (item.hidden || (item.transparent && !item.traced_glass) ||
+            !can_be_visible(item.bounds, view.clip_from_world))
+            continue;
         draw(item, *item.fog_program, view,
              {.depth_write = false,
               .blending = gl::Blending::kOverPremultiplied,

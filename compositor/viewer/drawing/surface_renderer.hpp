@@ -90,6 +90,7 @@ private:
         glm::ivec4 shadow_counts{0};  // those with maps: directional, point, narrow spot, wide spot
         glm::mat3 texture_transform{1};
         bool transparent = false;
+        bool traced_glass = false;  // transparent, but part of a traced image
         bool two_sided = true;
         bool mirrored = false;  // by its transform
         bool hidden = false;
@@ -105,7 +106,8 @@ private:
         std::vector<std::size_t> opaque;  // indices into items_, front to back
         std::vector<Transparent> transparent;
     };
-    VisibleItems collect_visible(const FrameView& view);
+    /// \param traced under a traced image, glass is opaque
+    VisibleItems collect_visible(const FrameView& view, bool traced);
     void draw(const Item& item, const gl::Program& program, const FrameView& view, gl::DrawState state) const;
 
     Scene scene_;

@@ -67,12 +67,15 @@ struct ScopedRoom {
                           box_node({1, 1, 1}, {2, 0.5, 0}, glm::vec3(0.5F))};
         // Faces down.
         auto sheet = std::make_shared<Mesh>();
-        for (const auto& [x, z] : {std::pair(-5.0F, -5.0F), {5.0F, -5.0F}, {5.0F, 5.0F}, {-5.0F, 5.0F}}) {
+        for (const auto& [x, z] : {std::pair(-9.0F, -9.0F), {9.0F, -9.0F}, {9.0F, 9.0F}, {-9.0F, 9.0F}}) {
             sheet->vertices.push_back({.position = {x, 3, z}, .normal = {0, -1, 0}});
         }
         sheet->indices = {0, 1, 2, 0, 2, 3};
         sheet->two_sided = false;
-        scene.geometry.push_back({.mesh = sheet, .material = scene.geometry[0].material});
+        GeometryNode roof;
+        roof.mesh = sheet;
+        roof.material = scene.geometry[kSlab].material;
+        scene.geometry.push_back(roof);
         scene.lights = {{.colour = glm::vec3(1), .towards = glm::normalize(glm::dvec3(1, -1, 0)), .everywhere = false}};
         for (const std::size_t node : {kSlab, kInside, kRoof}) scene.geometry[node].lights = {0};
     }

@@ -137,7 +137,7 @@ TEST(LightSetProperty, DrawsAreUnbiasedWhereverTheyAreNeeded) {
         for (const Light& light : scene.lights) {
             if (light.kind != LightKind::kDisc) expected += irradiance_at(light, position).g;
         }
-        const LightSet::Selection selection = lights.select(position);
+        const LightSet::Selection selection = lights.select({position});
         double drawn = 0, squares = 0;
         constexpr int kDraws = 20000;
         for (int i = 0; i < kDraws; ++i) {

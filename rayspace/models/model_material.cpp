@@ -1,0 +1,153 @@
+#include "rayspace/models/model_material.hpp"
+
+#include <assimp/GltfMaterial.h>
+#include <assimp/ObjMaterial.h>
+#include <assimp/material.h>
+
+#include <algorithm>
+#include <cctype>
+#include <initializer_list>
+#include <limits>
+
+namespace rs {
+namespace {
+
+template <class T>
+std::optional<T> property(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
+    T value{};
+    if (material.Get(key, type, index, value) != AI_SUCCESS) return std::nullopt;
+    return value;
+}
+
+glm::vec3 to_vec(const aiColor3D& c) {
+    return {c.r, c.g, c.b};
+}
+
+glm::vec3 as_reflectance(const glm::vec3& c) {
+    return glm::clamp(c, glm::vec3(0.0F), glm::vec3(1.0F));
+}
+
+glm::vec3 colour_property(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
+    return to_vec(property<aiColor3D>(material, key, type, index).value_or(aiColor3D(0.0F)));
+}
+
+std::optional<ModelTexture> texture_of(const aiMaterial& material, std::initializer_list<aiTextureType> types,
+                                       float hole_alpha) {
+    for (const aiTextureType type : types) {
+        aiString name;
+        if (material.GetTextureCount(type) == 0 || material.GetTexture(type, 0, &name) != AI_SUCCESS) continue;
+        if (name.length == 0) continue;
+        const auto repeats = [&](const char* key, unsigned of_type, unsigned index) {
+            return property<int>(material, key, of_type, index).value_or(aiTextureMapMode_Wrap) !=
+                   aiTextureMapMode_Clamp;
+        };
+        return ModelTexture{name.C_Str(), repeats(AI_MATKEY_MAPPINGMODE_U(type, 0)),
+                            repeats(AI_MATKEY_MAPPINGMODE_V(type, 0)), hole_alpha};
+    }
+    return std::nullopt;
+}
+
+// Alpha threshold for holes of the base colour texture (glTF 2.0, 3.9.4).
+float hole_alpha_of(const aiMaterial& source) {
+    const std::string mode = property<aiString>(source, AI_MATKEY_GLTF_ALPHAMODE).value_or(aiString("OPAQUE")).C_Str();
+    if (mode == "BLEND") return kBlendedHoleAlpha;
+    if (mode != "MASK") return 0.0F;
+    const float cutoff = property<float>(source, AI_MATKEY_GLTF_ALPHACUTOFF).value_or(0.5F);
+    const float factor = property<aiColor4D>(source, AI_MATKEY_BASE_COLOR).value_or(aiColor4D(1.0F)).a;
+    if (cutoff <= 0.0F) return 0.0F;
+    return factor > 0.0F ? cutoff / factor : std::numeric_limits<float>::infinity();
+}
+
+Status read_gltf(const aiMaterial& source, const TextureMean& mean_of, ModelMaterial& material) {
+    SurfaceProperties& surface = material.surface;
+    if (const auto base = property<aiColor4D>(source, AI_MATKEY_BASE_COLOR)) {
+        surface.colour = as_reflectance({base->r, base->g, base->b});
+    }
+    float metallic = property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1.0F);
+    float roughness = property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1.0F);
+    // Assimp's slot for the combined metallic-roughness texture.
+    if (const auto texture = texture_of(source, {aiTextureType_UNKNOWN}, 0)) {
+        RS_ASSIGN_OR_RETURN(const glm::vec3 mean, mean_of(texture->name));
+        roughness *= mean.g;
+        metallic *= mean.b;
+    }
+    surface.roughness = std::clamp(roughness, 0.0F, 1.0F);
+    const float transmission = property<float>(source, AI_MATKEY_TRANSMISSION_FACTOR).value_or(0.0F);
+    surface.ior = std::clamp(property<float>(source, AI_MATKEY_REFRACTI).value_or(1.5F), 1.0F, 10.0F);
+    surface.kind = transmission >= 0.5F ? SurfaceKind::glass
+                   : metallic >= 0.5F   ? SurfaceKind::metal
+                                        : SurfaceKind::glossy;
+    surface.emission = glm::max(colour_property(source, AI_MATKEY_COLOR_EMISSIVE), glm::vec3(0.0F));
+    material.emission = texture_of(source, {aiTextureType_EMISSIVE}, 0);
+    material.colours = texture_of(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}, hole_alpha_of(source));
+    return {};
+}
+
+// MTL's illumination models: 3, 5 mirror reflection; 4, 6, 7, 9 transparency (MTL specification, "illum").
+void read_mtl(const aiMaterial& source, ModelMaterial& material) {
+    SurfaceProperties& surface = material.surface;
+    const glm::vec3 diffuse =
+        as_reflectance(to_vec(property<aiColor3D>(source, AI_MATKEY_COLOR_DIFFUSE).value_or(aiColor3D(0.8F))));
+    const glm::vec3 specular = as_reflectance(colour_property(source, AI_MATKEY_COLOR_SPECULAR));
+    const float specular_peak = std::max({specular.r, specular.g, specular.b});
+    const float exponent = std::max(property<float>(source, AI_MATKEY_SHININESS).value_or(0.0F), 0.0F);
+    const float opacity = property<float>(source, AI_MATKEY_OPACITY).value_or(1.0F);
+    const int illum = property<int>(source, AI_MATKEY_OBJ_ILLUM).value_or(2);
+    const float ior = property<float>(source, AI_MATKEY_REFRACTI).value_or(1.0F);
+    surface.ior = ior > 1.0F ? std::min(ior, 10.0F) : 1.5F;
+    surface.colour = diffuse;
+    surface.emission = glm::max(colour_property(source, AI_MATKEY_COLOR_EMISSIVE), glm::vec3(0.0F));
+    // Lamps in MTL scenes are usually single polygons just below a ceiling, emitting downwards.
+    material.two_sided = surface.emission == glm::vec3(0.0F);
+    const bool transparent = illum == 4 || illum == 6 || illum == 7 || illum == 9 || opacity < 0.5F;
+    const bool reflecting = (illum == 3 || illum == 5) && specular_peak > 0.0F;
+    const auto metallic = property<float>(source, AI_MATKEY_METALLIC_FACTOR);
+    const auto roughness = property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR);
+    if (transparent) {
+        surface.kind = SurfaceKind::glass;
+        const glm::vec3 filter = as_reflectance(colour_property(source, AI_MATKEY_COLOR_TRANSPARENT));  // Tf
+        surface.colour = filter == glm::vec3(0.0F) ? glm::vec3(1.0F) : filter;
+    } else if (metallic && *metallic >= 0.5F) {
+        surface.kind = SurfaceKind::metal;
+        surface.roughness = std::clamp(roughness.value_or(0.3F), 0.0F, 1.0F);
+    } else if (roughness) {
+        surface.kind = SurfaceKind::glossy;
+        surface.roughness = std::clamp(*roughness, 0.0F, 1.0F);
+    } else if (reflecting && std::max({diffuse.r, diffuse.g, diffuse.b}) < 0.05F) {
+        surface.kind = SurfaceKind::mirror;
+        surface.colour = specular;
+    } else if (specular_peak > 0.0F && exponent > 0.0F && illum >= 2) {
+        surface.kind = SurfaceKind::glossy;
+        surface.roughness = roughness_of_exponent(exponent);
+    }
+    material.colours = texture_of(source, {aiTextureType_DIFFUSE}, kBlendedHoleAlpha);
+    // Many exporters write Kd 0 for textured materials, which would make the texture black.
+    if (material.colours && surface.colour == glm::vec3(0.0F)) surface.colour = glm::vec3(1.0F);
+}
+
+}  // namespace
+
+Result<ModelMaterial> read_model_material(const aiMaterial& source, bool is_gltf, const TextureMean& mean_of) {
+    ModelMaterial material;
+    material.name = property<aiString>(source, AI_MATKEY_NAME).value_or(aiString("material")).C_Str();
+    if (is_gltf) {
+        RS_TRY(read_gltf(source, mean_of, material));
+    } else {
+        read_mtl(source, material);
+    }
+    return material;
+}
+
+std::string decode_uri(const std::string& uri) {
+    std::string decoded;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        const bool escaped = uri[i] == '%' && i + 2 < uri.size() &&
+                             std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
+                             std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
+        decoded += escaped ? static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i];
+        if (escaped) i += 2;
+    }
+    return decoded;
+}
+
+}  // namespace rs

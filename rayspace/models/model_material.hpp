@@ -1,0 +1,45 @@
+#pragma once
+// Converts materials of glTF and MTL, as Assimp reads them, to surfaces for ray tracing. Thread-safe.
+
+#include "rayspace/base/result.hpp"
+#include "rayspace/light/surface_properties.hpp"
+
+#include <functional>
+#include <optional>
+#include <string>
+
+struct aiMaterial;
+
+namespace rs {
+
+/// ModelTexture::hole_alpha of blended surfaces and of MTL.
+inline constexpr float kBlendedHoleAlpha = 0.5F;
+
+/// Colour texture of a material.
+struct ModelTexture {
+    std::string name;      // as in the file: relative, embedded or percent-encoded
+    bool repeat_u = true;  // else clamped
+    bool repeat_v = true;
+    float hole_alpha = 0;  // pixels with a smaller alpha are holes: none for 0, all for infinity
+};
+
+struct ModelMaterial {
+    std::string name;
+    SurfaceProperties surface;
+    bool two_sided = true;  // false only for emissive surfaces of MTL: lamps that shine to one side
+    std::optional<ModelTexture> colours;
+    std::optional<ModelTexture> emission;
+};
+
+/// Mean red, green and blue (0..1) of an image of linear values.
+using TextureMean = std::function<Result<glm::vec3>(const std::string& name)>;
+
+/// \param is_gltf the material is from a glTF file; else from MTL
+/// \param mean_of used for metallic-roughness textures, of which only the mean counts
+/// \return errors of `mean_of` only
+Result<ModelMaterial> read_model_material(const aiMaterial& source, bool is_gltf, const TextureMean& mean_of);
+
+/// Decodes the percent-encoding ("%20") of URIs.
+std::string decode_uri(const std::string& uri);
+
+}  // namespace rs
