@@ -52,7 +52,7 @@ void add_renderer_options(CLI::App& command, RendererOptions& options) {
     command.add_flag("--soft-shadows", options.soft_shadows, "whitted and toon: area lights cast soft shadows");
     command
         .add_option("--toon-lines", options.toon_line_length,
-                    "toon: width of a line from its edge; 0: none (default: 1/3000 of the scene)")
+                    "toon: width of a line from its edge; 0: none (default: 2 px at median depth)")
         ->check(CLI::Range(0.0, 1e6).description(""))
         ->type_name("LENGTH");
 }

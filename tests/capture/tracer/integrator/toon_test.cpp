@@ -151,6 +151,23 @@ TEST(Toon, MirrorsAndGlassShowTones) {
     EXPECT_GE(colours_of(image).size(), 5U);
 }
 
+TEST(Toon, PixelsAreMeasuredAtTheMedianDistance) {
+    // A near wall covers the image from the left up to `share` of its width, a far one all of it.
+    const auto pixel_size = [](float share, const Camera& camera) {
+        Scene scene = scene_of(make_quad({-9, -9, -6}, {18, 0, 0}, {0, 18, 0}), material_of(SurfaceKind::diffuse));
+        const auto half_width = static_cast<float>(0.5 * camera.width * 4 / camera.fl_x);
+        scene.meshes.push_back(make_quad({-9, -9, 0}, {9 + (2 * share - 1) * half_width, 0, 0}, {0, 18, 0}));
+        const Result<Tracer> tracer = Tracer::create(std::move(scene));
+        EXPECT_TRUE(tracer) << tracer.error().message;
+        return tracer->median_pixel_size(camera);
+    };
+    const Camera camera = front_camera(4, 10, 100);
+    EXPECT_NEAR(pixel_size(0.7F, camera) * camera.fl_x, 4, 0.04);
+    EXPECT_NEAR(pixel_size(0.3F, camera) * camera.fl_x, 10, 0.1);
+    const Camera away = look_at_camera({0, 0, 4}, {0, 0, 8}, radians(10), 100, 100);
+    EXPECT_NEAR(pixel_size(0.7F, away) * away.fl_x, 7, 0.1);  // centre of the bounds: z = -3, x near 0
+}
+
 TEST(Toon, SoftShadowsHaveTonesToo) {
     const auto floor_under_block = [](int shadow_rays) {
         Scene scene = scene_of(make_quad({-5, 0, 5}, {10, 0, 0}, {0, 0, -10}), material_of(SurfaceKind::diffuse));
