@@ -51,6 +51,7 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
     renderer.render_.method = options.method;
     renderer.render_.max_bounces = options.max_bounces;
     renderer.render_.soft_shadows = options.soft_shadows;
+    renderer.render_.toon = options.toon;
     if (options.line_radius) renderer.render_.toon.edge_radius = static_cast<float>(*options.line_radius);
     renderer.render_.toon.shadow_rays = options.soft_shadows ? kToonShadowRays : 0;
     renderer.render_.toon.brightness = darker;  // tones do not depend on the exposure
