@@ -103,7 +103,8 @@ Status run_quilt(const QuiltOptions& options) {
     RS_ASSIGN_OR_RETURN(const PixelSize tile, parse_size(options.tile_size));
     RS_ASSIGN_OR_RETURN(const QuiltLayout layout, parse_quilt(options.layout, tile.width, tile.height, "--layout"));
     RS_ASSIGN_OR_RETURN(Scene scene, open_scene(options.scene, {.outputs = {options.output},
-                                                                .inputs = {options.motion.path.value_or("")}}));
+                                                                .inputs = {options.motion.path.value_or(""),
+                                                                           options.renderer.toon_style.value_or("")}}));
     RS_ASSIGN_OR_RETURN(const OutputKind kind, output_kind(options.output));
     if (kind == OutputKind::video) return Error{options.output + ": quilts go into a .png or a folder"};
     RS_ASSIGN_OR_RETURN(const LoadedScene loaded,

@@ -34,7 +34,8 @@ struct RenderOptions {
 Status run_render(const RenderOptions& options) {
     RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
     RS_ASSIGN_OR_RETURN(Scene scene, open_scene(options.scene, {.outputs = {options.output, options.stats.value_or("")},
-                                                                .inputs = {options.motion.path.value_or("")}}));
+                                                                .inputs = {options.motion.path.value_or(""),
+                                                                           options.renderer.toon_style.value_or("")}}));
     RS_ASSIGN_OR_RETURN(const OutputKind kind, output_kind(options.output));
     RS_ASSIGN_OR_RETURN(const LoadedScene loaded, load_objects(std::move(scene), options.drawing.object_depth,
                                                                options.executor, !options.streaming));

@@ -172,7 +172,8 @@ Status render_sequence(const SequenceOptions& options) {
     if (kind == SequenceOutput::kVideo) {
         RS_TRY(check_video(opened, folder));
     }
-    RS_TRY(check_outputs({}, opened.sequence->scene, {.outputs = {output}, .inputs = {folder}}));
+    RS_TRY(check_outputs({}, opened.sequence->scene,
+                         {.outputs = {output}, .inputs = {folder, options.renderer.toon_style.value_or("")}}));
     RS_ASSIGN_OR_RETURN(const gl::Context context, gl::Context::create_surfaceless());
     RS_TRY(start_player(options, opened));
     ProgressBar progress(options.quiet);

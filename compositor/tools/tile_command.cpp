@@ -113,7 +113,8 @@ struct OpenFrames {
 Result<OpenFrames> open_frames(const TiledFrames& options, const std::string& output, const std::string& tiles = "") {
     RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
     RS_ASSIGN_OR_RETURN(Scene scene, open_scene(options.scene, {.outputs = {output},
-                                                                .inputs = {options.motion.path.value_or(""), tiles}}));
+                                                                .inputs = {options.motion.path.value_or(""), tiles,
+                                                                           options.renderer.toon_style.value_or("")}}));
     RS_ASSIGN_OR_RETURN(LoadedScene loaded,
                         load_objects(std::move(scene), options.drawing.object_depth, options.executor, true));
     RS_ASSIGN_OR_RETURN(std::vector<Camera> cameras,
@@ -240,8 +241,9 @@ void add_plan_command(CLI::App& tile, std::function<Status()>& run) {
         ->type_name("");
     add_frames_options(*command, options->frames);
     command->footer("Example: rs-view tile plan hall.wrl --orbit 4 --passes 1024 -o plan.json");
-    command->callback([options, &run] {
+    command->callback([command, options, &run] {
         check_scene_options(options->frames.scene);
+        check_renderer_options(*command, options->frames.renderer);
         run = [options] { return run_plan(*options); };
     });
 }
@@ -258,8 +260,9 @@ void add_trace_command(CLI::App& tile, std::function<Status()>& run) {
         ->type_name("");
     add_frames_options(*command, options->frames);
     command->footer("Example: rs-view tile trace hall.wrl --passes 1024 --tile 0:256,0,256x256 -o tiles/0-256-0.png");
-    command->callback([options, &run] {
+    command->callback([command, options, &run] {
         check_scene_options(options->frames.scene);
+        check_renderer_options(*command, options->frames.renderer);
         run = [options] { return run_trace(*options); };
     });
 }
@@ -279,8 +282,9 @@ void add_assemble_command(CLI::App& tile, std::function<Status()>& run) {
     add_frames_options(*command, options->frames);
     command->add_flag("--force", options->force, kForceHelp);
     command->footer("Example: rs-view tile assemble hall.wrl --passes 1024 --tiles tiles -o hall.png");
-    command->callback([options, &run] {
+    command->callback([command, options, &run] {
         check_scene_options(options->frames.scene);
+        check_renderer_options(*command, options->frames.renderer);
         run = [options] { return run_assemble(*options); };
     });
 }

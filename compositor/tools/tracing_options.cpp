@@ -1,5 +1,6 @@
 #include "compositor/tools/tracing_options.hpp"
 
+#include "compositor/traced/toon_file.hpp"
 #include "rayspace/base/printable.hpp"
 
 #include <charconv>
@@ -51,10 +52,13 @@ void add_renderer_options(CLI::App& command, RendererOptions& options) {
         ->capture_default_str();
     command.add_flag("--soft-shadows", options.soft_shadows, "whitted and toon: area lights cast soft shadows");
     command
-        .add_option("--toon-lines", options.toon_line_length,
-                    "toon: width of a line from its edge; 0: none (default: 1/3000 of the scene)")
+        .add_option("--toon-style", options.toon_style,
+                    "toon: tones, edges (compositor/traced/README.md); width: --toon-lines LENGTH (0: none)")
+        ->type_name("FILE.json");
+    command.add_option("--toon-lines", options.toon_line_length, "toon: width of a line from its edge; 0: none")
         ->check(CLI::Range(0.0, 1e6).description(""))
-        ->type_name("LENGTH");
+        ->type_name("LENGTH")
+        ->group("");
 }
 
 void add_lens_options(CLI::App& command, RendererOptions& options) {
@@ -87,10 +91,18 @@ void add_pass_options(CLI::App& command, PassOptions& options) {
 }
 
 void check_renderer_options(const CLI::App& command, const RendererOptions& options) {
-    if (options.method()) return;
-    for (const char* const name : {"--soft-shadows", "--toon-lines", "--lens", "--passes", "--seconds"}) {
+    const auto is_given = [&](const char* name) {
         const CLI::Option* const option = command.get_option_no_throw(name);
-        if (option == nullptr || option->count() == 0) continue;
+        return option != nullptr && option->count() > 0;
+    };
+    const std::optional<TracedMethod> method = options.method();
+    for (const char* const name : {"--toon-lines", "--toon-style"}) {
+        if (method != TracedMethod::kToon && is_given(name))
+            throw CLI::ValidationError(std::string(name) + " needs --renderer toon");
+    }
+    if (method) return;
+    for (const char* const name : {"--soft-shadows", "--lens", "--passes", "--seconds"}) {
+        if (!is_given(name)) continue;
         throw CLI::ValidationError(std::string(name) +
                                    " needs a traced renderer; add --renderer path, or another that traces");
     }
@@ -102,6 +114,9 @@ Result<TracedOptions> traced_options(const RendererOptions& options) {
     traced.exposure_ev = options.exposure_ev;
     traced.soft_shadows = options.soft_shadows;
     traced.line_radius = options.toon_line_length;
+    if (options.toon_style) {
+        RS_ASSIGN_OR_RETURN(traced.toon, read_toon_style(*options.toon_style));
+    }
     if (!options.lens) return traced;
     RS_ASSIGN_OR_RETURN(const CameraLens lens, parse_lens(*options.lens, options.focus));
     traced.lens = lens;

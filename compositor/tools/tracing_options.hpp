@@ -19,7 +19,8 @@ struct RendererOptions {
     std::string renderer = "raster";
     double exposure_ev = 0;
     bool soft_shadows = false;
-    std::optional<double> toon_line_length;  // scene units; by default a fraction of the scene's diagonal
+    std::optional<double> toon_line_length;  // scene units; by default 2 px at the median distance
+    std::optional<std::string> toon_style;   // file, toon_file.hpp
     std::optional<std::string> lens;         // diameter in mm, or f/N
     std::optional<double> focus;             // scene units
     /// The method of a traced renderer; nullopt for raster.
@@ -32,7 +33,8 @@ struct PassOptions {
     std::optional<double> seconds;
 };
 
-/// Adds --renderer, --exposure, --soft-shadows and --toon-lines.
+/// Adds --renderer, --exposure, --soft-shadows, --toon-style and --toon-lines. The help shows --toon-lines in the line
+/// of --toon-style, because the help of `render` and `walls` would not fit on a screen otherwise.
 void add_renderer_options(CLI::App& command, RendererOptions& options);
 /// Adds --lens and --focus.
 void add_lens_options(CLI::App& command, RendererOptions& options);
@@ -40,11 +42,11 @@ void add_lens_options(CLI::App& command, RendererOptions& options);
 void require_traced_renderer(CLI::App& command, RendererOptions& options);
 /// Adds --passes and --seconds.
 void add_pass_options(CLI::App& command, PassOptions& options);
-/// Throws CLI::ValidationError if an option of `command` needs a traced renderer and --renderer is raster.
+/// Throws CLI::ValidationError if an option of `command` needs toon or a traced renderer and --renderer is another one.
 void check_renderer_options(const CLI::App& command, const RendererOptions& options);
 
 /// Options of the tracer; for raster those that a window uses when the user switches to traced light. Fails on a lens
-/// that cannot be parsed or has no focus.
+/// that cannot be parsed or has no focus, and on a file of a toon style that cannot be read.
 Result<TracedOptions> traced_options(const RendererOptions& options);
 
 /// Traces one frame, at least one pass. `progress` counts the passes unless the time is limited.

@@ -81,7 +81,7 @@ Status render_walls(const WallsOptions& options, const WallViews& views, const L
 CommandFiles files_of(const WallsOptions& options) {
     CommandFiles files;
     if (options.walls.output) files.outputs = {*options.walls.output};
-    files.inputs = {options.motion.path.value_or("")};
+    files.inputs = {options.motion.path.value_or(""), options.renderer.toon_style.value_or("")};
     for (const std::string& name : {options.walls.display, options.walls.heads.value_or("")}) {
         std::error_code ignored;  // or the name of a preset, or a port
         if (std::filesystem::is_regular_file(name, ignored)) files.inputs.emplace_back(name);
@@ -112,7 +112,7 @@ Status run_walls(const WallsOptions& options) {
 // Windows move by keys and are rasterized.
 void check_window_options(const CLI::App& command) {
     for (const char* const name : {"--path", "--orbit", "--passes", "--seconds", "--upright", "--quiet",
-                                   "--soft-shadows", "--toon-lines", "--force"}) {
+                                   "--soft-shadows", "--toon-lines", "--toon-style", "--force"}) {
         if (command.count(name) == 0) continue;
         throw CLI::ValidationError(std::string(name) + " needs -o: the folder to write images of the walls to");
     }

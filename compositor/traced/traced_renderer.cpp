@@ -16,6 +16,7 @@ namespace rs::compositor {
 namespace {
 
 constexpr int kToonShadowRays = 16;
+constexpr double kToonLine_px = 2;  // default width of a line from its edge, at the median distance
 
 glm::vec3 ambient_of(const Scene& scene) {
     glm::vec3 ambient = reflected_light(scene);
@@ -23,15 +24,6 @@ glm::vec3 ambient_of(const Scene& scene) {
         if (light.everywhere) ambient += light.ambient;
     }
     return ambient;
-}
-
-// Default line radius. Lines at silhouettes are as wide as this, lines within a surface twice: a pixel or two when the
-// whole scene is in view.
-double default_line_radius(const Scene& scene) {
-    constexpr double kOfDiagonal = 1.0 / 3000;
-    const BoundingBox bounds = bounds_of(scene);
-    return bounds.empty() ? capture::ToonStyle{}.edge_radius
-                          : kOfDiagonal * glm::distance(bounds.lowest, bounds.highest);
 }
 
 }  // namespace
@@ -59,7 +51,8 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
     renderer.render_.method = options.method;
     renderer.render_.max_bounces = options.max_bounces;
     renderer.render_.soft_shadows = options.soft_shadows;
-    renderer.render_.toon.edge_radius = static_cast<float>(options.line_radius.value_or(default_line_radius(scene)));
+    renderer.render_.toon = options.toon;
+    if (options.line_radius) renderer.render_.toon.edge_radius = static_cast<float>(*options.line_radius);
     renderer.render_.toon.shadow_rays = options.soft_shadows ? kToonShadowRays : 0;
     renderer.render_.toon.brightness = darker;  // tones do not depend on the exposure
     renderer.render_.show_areas = true;
@@ -111,6 +104,8 @@ void TracedRenderer::set_lights(const Scene& scene, double exposure_ev) {
 void TracedRenderer::begin(const Camera& camera) {
     tracer_.commit();
     if (headlight_) tracer_.set_lights({headlight_of(camera.forward())});
+    if (!options_.line_radius)
+        render_.toon.edge_radius = static_cast<float>(kToonLine_px * tracer_.median_pixel_size(camera));
 }
 
 capture::RenderOptions TracedRenderer::render_options(const Camera& camera) const {

@@ -14,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace rs::compositor {
 
@@ -23,7 +24,7 @@ public:
     /// The scene and the exposure to trace, as they are now.
     using Lighting = Refinement::Lighting;
 
-    explicit TracedView(TracedOptions options) : options_(options) {}
+    explicit TracedView(TracedOptions options) : options_(std::move(options)) {}
 
     /// The lights have changed; the view is traced again.
     void set_lights(const Lighting& lighting);

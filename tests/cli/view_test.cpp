@@ -139,6 +139,31 @@ TEST_F(View, ToonShadingIgnoresTheExposure) {
     EXPECT_EQ(render({in("hall.wrl"), "--lens", "25", "--focus", "2", "-o", in("y.png")}).exit_code, 2);
 }
 
+TEST_F(View, ToonStylesAreReadFromFiles) {
+    write("hall.wrl", kShadedFloor);
+    write("style.json", R"({"thresholds": [], "values": [0.5]})");
+    write("wrong.json", R"({"tones": 3})");
+    const std::vector<std::string> base = {in("hall.wrl"), "--passes", "1", "-o", in("x.png")};
+    const auto run = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), base.begin(), base.end());
+        return run_ = render(more);
+    };
+    for (const char* const renderer : {"whitted", "raster"}) {
+        EXPECT_EQ(run({"--renderer", renderer, "--toon-style", in("style.json")}).exit_code, 2);
+        EXPECT_THAT(run_.err, HasSubstr("--toon-style needs --renderer toon"));
+        EXPECT_EQ(run({"--renderer", renderer, "--toon-lines", "0.1"}).exit_code, 2);
+        EXPECT_THAT(run_.err, HasSubstr("--toon-lines needs --renderer toon"));
+    }
+    EXPECT_EQ(run({"--renderer", "toon", "--toon-style", in("wrong.json")}).exit_code, 1);
+    EXPECT_THAT(run_.err, HasSubstr(in("wrong.json") + ": has a key 'tones' that means nothing here"));
+    run({"--renderer", "toon", "--toon-style", in("style.json")});
+    if (run_.exit_code != 0 && run_.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run_.err;
+    ASSERT_EQ(run_.exit_code, 0) << run_.err;
+    EXPECT_NEAR(read_image(in("x.png")).value()(8, 24).g, 188, 1);  // the only tone, as sRGB
+    EXPECT_EQ(view({"tile", "plan", in("hall.wrl"), "--toon-style", in("style.json"), "-o", in("p.json")}).exit_code,
+              2);
+}
+
 TEST_F(View, InvalidLightListsAreRefused) {
     write("hall.wrl", kShadedFloor);
     write("evening.json", R"({"lights": [{"kind": "luminaire", "file": "none.ies", "location": [0, 1, 0]}]})");

@@ -4,6 +4,7 @@
 #include "capture/tracer/scene/mesh_file.hpp"
 #include "capture/tracer/scene/scene_file.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
+#include "compositor/traced/toon_file.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image_io/image_io.hpp"
@@ -103,6 +104,10 @@ std::vector<Kind> kinds() {
          R"({"object":{"generator":"triangle"},"look":"toon","toon":{"thresholds":[0.9,0.4],"values":[1,0.6,0.2],)"
          R"("edge_radius":0.01,"edge_angle_deg":30,"shadow_rays":4},"camera":{"aperture_radii":0.1,"focus_radii":3}})",
          [](const fs::path& path) { return one_line(capture::load_scene_file(path, a_triangle)); }},
+        {"style.json",
+         R"({"thresholds":[0.9,0.4],"values":[1,0.6,0.2],"edge_depth":2,"edge_colour":[0.1,0,0],)"
+         R"("steps":"colour","edge_test":"depth"})",
+         [](const fs::path& path) { return one_line(compositor::read_toon_style(path)); }},
     };
 }
 

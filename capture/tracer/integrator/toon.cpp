@@ -22,7 +22,7 @@ glm::vec2 quasirandom_point(const glm::vec2& shift, int index) {
 
 ToonTracer::ToonTracer(const LightTransport& transport, IrradianceMap irradiance, const glm::vec3& ambient,
                        int max_depth, ToonStyle style, float pixel_rad)
-    : WhittedTracer(transport, std::move(irradiance), ambient, max_depth),
+    : WhittedTracer(transport, std::move(irradiance), ambient, max_depth, style.shadow_rays > 0),
       style_(std::move(style)),
       edges_(transport.rays(), style_, pixel_rad),
       isotropic_irradiance_(kPiF * luminance(ambient)) {
@@ -53,6 +53,7 @@ void ToonTracer::find_sky_light() {
 bool ToonTracer::trace(const glm::vec3& origin, const glm::vec3& direction, float time, Sampler& sampler,
                        glm::vec3& radiance) const {
     const bool met = WhittedTracer::trace(origin, direction, time, sampler, radiance);
+    if (style_.steps == ToonStyle::Steps::colour) radiance = quantise_colour(radiance);
     radiance = glm::min(radiance, glm::vec3(style_.brightness));
     return met;
 }
@@ -63,10 +64,17 @@ bool ToonTracer::shade(const LightTransport::Vertex& vertex, const Ray& ray, Sam
         radiance += style_.brightness * style_.edge_colour;
         return false;
     }
+    if (style_.steps == ToonStyle::Steps::colour) return WhittedTracer::shade(vertex, ray, sampler, radiance);
     // Metals are treated as mirrors.
     if (vertex.surface.is_specular() || transport().model_of(vertex.point).kind == SurfaceKind::metal) return true;
     radiance += style_.brightness * style_.tone(intensity(vertex, sampler)) * vertex.surface.colour();
     return true;
+}
+
+glm::vec3 ToonTracer::quantise_colour(const glm::vec3& radiance) const {
+    const float largest = max_component(radiance);
+    if (!(largest > 0.0F)) return radiance;
+    return radiance * (style_.brightness * style_.tone(largest / style_.brightness) / largest);
 }
 
 float ToonTracer::intensity(const LightTransport::Vertex& vertex, Sampler& sampler) const {

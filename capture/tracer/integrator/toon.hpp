@@ -12,6 +12,8 @@
 // largest irradiance, with strength largest - smallest irradiance. A is isotropic: the environment's smallest
 // irradiance plus the ambient (indirect) light. Normals are interpolated vertex normals. Emission is unchanged, up
 // to 1.
+//
+// For comparison, ToonStyle::Steps::colour quantises the radiance of Whitted ray tracing per camera ray (section 2).
 
 #include "capture/tracer/integrator/toon_edges.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
@@ -39,6 +41,8 @@ protected:
 
 private:
     void find_sky_light();
+    // Quantises the largest component of a camera ray's radiance; keeps the ratios of the components.
+    [[nodiscard]] glm::vec3 quantise_colour(const glm::vec3& radiance) const;
     [[nodiscard]] float intensity(const LightTransport::Vertex& vertex, Sampler& sampler) const;
 
     ToonStyle style_;

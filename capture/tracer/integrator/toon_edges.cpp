@@ -78,6 +78,7 @@ glm::vec3 diameter_direction(std::size_t diameter, const glm::vec3& u, const glm
 
 ToonEdges::ToonEdges(const RayScene& rays, const ToonStyle& style, float pixel_rad)
     : rays_(rays),
+      depth_alone_(style.edge_test == ToonStyle::EdgeTest::depth),
       radius_(style.edge_radius),
       spacing_(style.edge_radius / kSteps),
       jump_(style.edge_depth > 0.0F ? style.edge_depth : 2.0F * style.edge_radius),
@@ -111,6 +112,10 @@ bool ToonEdges::is_near_edge(const SurfacePoint& point, const glm::vec3& directi
         std::copy_n(depths.begin(), kSteps, diameter.depths.begin());
         std::copy_n(depths.begin() + kSteps, kSteps, diameter.depths.begin() + kSteps + 1);
         diameter.depths[kSteps] = before;
+        if (depth_alone_) {
+            if (std::ranges::any_of(depths, [&](float depth) { return depth - before > jump_; })) return true;
+            continue;
+        }
         diameter.slope = glm::dot(point.geometric_normal, axis) / cos_ray;
         const Extent extent = find_extent(diameter);
         if (extent.has_edge || has_crease(diameter, extent, ray)) return true;

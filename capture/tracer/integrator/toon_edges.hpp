@@ -13,7 +13,7 @@
 // the rest of the diameter. On the remaining extent, a crease is where both the slope and the surface normal turn by
 // more than the style's angle: facets of a smooth mesh at a grazing angle change the slope only. Slopes are those of
 // chords, except between the last two depths, where the crease may lie anywhere: there those of the facets.
-// A threshold on depth alone would report edges all over steep planes.
+// A threshold on depth alone reports edges all over steep planes (ToonStyle::EdgeTest::depth, for comparison).
 
 #include "capture/tracer/rays/ray_scene.hpp"
 #include "capture/tracer/scene/toon_style.hpp"
@@ -68,6 +68,7 @@ private:
                                             bool and_facets = false) const;
 
     const RayScene& rays_;
+    bool depth_alone_;
     float radius_, spacing_, jump_, pixel_rad_;
     float cos_angle_, sin_angle_;
     float min_bend_px_;  // times the disc's radius: smallest slope change at the rim that may be a crease

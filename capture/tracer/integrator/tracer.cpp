@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -282,6 +283,30 @@ bool Tracer::is_unoccluded(const glm::dvec3& position, const glm::dvec3& directi
     constexpr double kShorten = 1 - 1e-4;
     return !state_->rays->occluded(glm::vec3(position), glm::vec3(direction), static_cast<float>(distance * kShorten),
                                    0.0F, casters);
+}
+
+double Tracer::median_pixel_size(const Camera& camera) const {
+    constexpr int kRaysAcross = 16;
+    const RayScene& scene = *state_->rays;
+    if (scene.empty()) return 0;
+    const RayImage rays = make_rays(camera);
+    const glm::vec3 centre(rays.centre);
+    std::vector<float> distances;
+    for (int row = 0; row < kRaysAcross; ++row) {
+        for (int column = 0; column < kRaysAcross; ++column) {
+            const double x = (column + 0.5) * rays.width / kRaysAcross, y = (row + 0.5) * rays.height / kRaysAcross;
+            SurfacePoint point;
+            if (scene.intersect_visible(centre, glm::vec3(glm::normalize(rays.ray(x, y))), 0.0F, point))
+                distances.push_back(point.distance);
+        }
+    }
+    float distance = glm::distance(centre, 0.5F * (scene.lower() + scene.upper()));
+    if (!distances.empty()) {
+        const auto median = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+        std::ranges::nth_element(distances, median);
+        distance = *median;
+    }
+    return static_cast<double>(distance) * static_cast<double>(pixel_rad_of(rays));
 }
 
 void Tracer::set_lights(std::vector<Light> lights, LightScopes scopes) {

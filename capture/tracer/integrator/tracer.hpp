@@ -110,6 +110,10 @@ public:
     /// time 0.
     [[nodiscard]] bool is_unoccluded(const glm::dvec3& position, const glm::dvec3& direction, double distance,
                                      const ShadowCasters& casters = {}) const;
+    /// Width of a pixel, in scene units, at the median distance of the visible surfaces. The distance is measured along
+    /// 16 x 16 rays that are evenly spaced over the whole image, at time 0; if none hits a surface, it is that of the
+    /// centre of the scene's bounds. 0 for scenes without geometry. Deterministic, thread-safe.
+    [[nodiscard]] double median_pixel_size(const Camera& camera) const;
     /// Bounds of the surfaces that a scoped light illuminates.
     [[nodiscard]] ScopeBounds scope_bounds(std::uint32_t light) const;
 

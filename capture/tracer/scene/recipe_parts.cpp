@@ -93,15 +93,28 @@ void read_shares(JsonObject& object, const char* key, std::vector<float>& values
 }  // namespace
 
 void read_toon(JsonObject object, ToonStyle& style) {
+    object.read("edge_radius", style.edge_radius, 0, 1);
+    object.read("shadow_rays", style.shadow_rays, 0, 1024);
+    read_toon_look(object, style, 2);
+    object.expect_no_unknown_keys();
+}
+
+void read_toon_look(JsonObject& object, ToonStyle& style, double max_depth) {
     double angle_deg = 30;
     read_shares(object, "thresholds", style.thresholds);
     read_shares(object, "values", style.values);
-    object.read("edge_radius", style.edge_radius, 0, 1);
-    object.read("edge_depth", style.edge_depth, 0, 2);
+    if (const auto steps = object.find("steps")) {
+        style.steps = static_cast<ToonStyle::Steps>(steps->one_of({"intensity", "colour"}));
+    }
+    object.read("edge_depth", style.edge_depth, 0, max_depth);
     object.read("edge_angle_deg", angle_deg, 1, 180);
     object.read("edge_colour", style.edge_colour, 0, 1);
-    object.read("shadow_rays", style.shadow_rays, 0, 1024);
-    object.expect_no_unknown_keys();
+    if (const auto test = object.find("edge_test")) {
+        style.edge_test = static_cast<ToonStyle::EdgeTest>(test->one_of({"slope", "depth"}));
+    }
+    if (style.edge_test == ToonStyle::EdgeTest::depth && object.has("edge_angle_deg")) {
+        throw object.wrong("edge_angle_deg has no effect with \"edge_test\": \"depth\"; remove one of them");
+    }
     style.edge_angle_rad = static_cast<float>(radians(angle_deg));
     if (style.values.size() != style.thresholds.size() + 1) {
         throw object.wrong("values must be one more than \"thresholds\": a tone for what is less than all of them");

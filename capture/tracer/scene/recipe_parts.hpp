@@ -30,6 +30,9 @@ void read_material(JsonObject object, Material& material);
 void read_camera(JsonObject object, CameraRecipe& camera);
 void read_lights(const JsonValue& list, Scene& scene);
 void read_toon(JsonObject object, ToonStyle& style);
+// The part of read_toon() for any renderer: without the keys "edge_radius" and "shadow_rays". Ignores unknown keys.
+// \param max_depth limit of "edge_depth", in the scene's units
+void read_toon_look(JsonObject& object, ToonStyle& style, double max_depth);
 // Files are relative to `folder`.
 void read_environment(JsonObject object, const std::filesystem::path& folder, Environment& environment);
 

@@ -8,6 +8,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
+#include <optional>
 
 namespace rs::compositor {
 namespace {
@@ -316,6 +317,31 @@ TEST(TracedRenderer, MovedNodesLookAsReadThere) {
     ASSERT_TRUE(moved->move(7, way, glm::translate(way, {0.5, 0, 0})));
     const Image<RgbaF> blurred = image_of(*moved);
     EXPECT_NE(blurred, after);
+}
+
+// Total width of the lines in the middle row of an image of a box, px. The box hides its sides, so that its outline is
+// its front face, which is 4.8 from the camera.
+double line_width_px(const std::optional<double>& line_radius, int side) {
+    Scene scene;
+    scene.geometry = {box_node({2, 2, 0.4}, {0, 0, 0}, glm::vec3(1))};
+    scene.lights = {{.colour = glm::vec3(1), .towards = {0, 0, -1}}};
+    auto renderer = TracedRenderer::create(scene, {}, {.method = TracedMethod::kToon, .line_radius = line_radius});
+    EXPECT_TRUE(renderer) << renderer.error().message;
+    renderer->begin_image(looking_from({0, 0, 5}, {0, 0, 0}, side));
+    for (int pass = 0; pass < 16; ++pass) EXPECT_TRUE(renderer->add_pass());
+    const Image<RgbaF> image = renderer->radiance();
+    double width_px = 0;
+    for (int x = 0; x < side; ++x) {
+        const RgbaF& p = image(x, side / 2);
+        width_px += static_cast<double>(p.a * (1 - p.g));
+    }
+    return width_px;
+}
+
+TEST(TracedRenderer, LinesAreTwoPixelsWideAtTheMedianDistance) {
+    for (const int side : {96, 288}) EXPECT_NEAR(line_width_px({}, side), 2 * 2, 0.5) << side;
+    EXPECT_NEAR(line_width_px(4.8 * 5 / 96, 96), 2 * 5, 0.5);
+    EXPECT_NEAR(line_width_px(0, 96), 0, 1e-3);
 }
 
 TEST(TracedRenderer, ExposureCountsInStops) {

@@ -160,6 +160,28 @@ TEST(ToonEdges, SteepPlanesHaveNoneWhereTheirDepthAloneWouldSaySo) {
     EXPECT_GT(by_depth_alone, 1000);
 }
 
+// At a tilt of 63 degrees the depth changes by the threshold, twice the radius, within the radius.
+TEST(ToonEdges, TheTestByDepthAloneBlackensSteepPlanesAndFindsNoCreases) {
+    RenderOptions options = lines(0.02F);
+    options.toon.edge_test = ToonStyle::EdgeTest::depth;
+    const auto plane = [&](int tilt_deg) {
+        const auto tilt = static_cast<float>(radians(tilt_deg));
+        const glm::vec3 down(0, -std::cos(tilt), std::sin(tilt));
+        return count_lines(
+            render(scene_of(make_quad(glm::vec3(-9, 0, 0) - 9.0F * down, 18.0F * down, {18, 0, 0}), white()),
+                   front_camera(4, 4, 32), options)
+                .image);
+    };
+    EXPECT_EQ(plane(55), 0);
+    EXPECT_EQ(plane(75), 32 * 32);
+    // Corner of 90 degrees that points to the camera, so that the faces are tilted by 45 degrees.
+    Scene corner = scene_of(make_quad({-9, -9, -9}, {9, 0, 9}, {0, 18, 0}), white());
+    corner.meshes.push_back(make_quad({0, -9, 0}, {9, 0, -9}, {0, 18, 0}));
+    Scene same = corner;
+    EXPECT_EQ(count_lines(render(std::move(corner), front_camera(4, 4, 32), options).image), 0);
+    EXPECT_GT(count_lines(render(std::move(same), front_camera(4, 4, 32), lines(0.02F)).image), 0);
+}
+
 TEST(ToonEdges, ASmoothSphereHasAnOutlineOnly) {
     constexpr float kRadius = 0.02F;
     const Camera camera = front_camera(4, 34, 400);

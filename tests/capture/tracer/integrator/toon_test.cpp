@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace rs::capture::test {
 namespace {
@@ -149,6 +150,43 @@ TEST(Toon, MirrorsAndGlassShowTones) {
         EXPECT_TRUE(known) << r;
     }
     EXPECT_GE(colours_of(image).size(), 5U);
+}
+
+TEST(Toon, PixelsAreMeasuredAtTheMedianDistance) {
+    // A near wall covers the image from the left up to `share` of its width, a far one all of it.
+    const auto pixel_size = [](float share, const Camera& camera) {
+        Scene scene = scene_of(make_quad({-9, -9, -6}, {18, 0, 0}, {0, 18, 0}), material_of(SurfaceKind::diffuse));
+        const auto half_width = static_cast<float>(0.5 * camera.width * 4 / camera.fl_x);
+        scene.meshes.push_back(make_quad({-9, -9, 0}, {9 + (2 * share - 1) * half_width, 0, 0}, {0, 18, 0}));
+        const Result<Tracer> tracer = Tracer::create(std::move(scene));
+        EXPECT_TRUE(tracer) << tracer.error().message;
+        return tracer->median_pixel_size(camera);
+    };
+    const Camera camera = front_camera(4, 10, 100);
+    EXPECT_NEAR(pixel_size(0.7F, camera) * camera.fl_x, 4, 0.04);
+    EXPECT_NEAR(pixel_size(0.3F, camera) * camera.fl_x, 10, 0.1);
+    const Camera away = look_at_camera({0, 0, 4}, {0, 0, 8}, radians(10), 100, 100);
+    EXPECT_NEAR(pixel_size(0.7F, away) * away.fl_x, 7, 0.1);  // centre of the bounds: z = -3, x near 0
+}
+
+TEST(Toon, SteppedColoursDependOnTheBrightnessOfLights) {
+    const auto wall = [](float radiance, float brightness) {
+        // 0.8 is the largest component of the wall's colour.
+        Scene scene = scene_of(make_quad({-5, -5, 0}, {10, 0, 0}, {0, 10, 0}),
+                               material_of(SurfaceKind::diffuse, {0.8F, 0.4F, 0}));
+        scene.lights = {directional_light({0, 0, -1}, glm::vec3(radiance * kPiF / 0.8F))};
+        RenderOptions options = toon();
+        options.toon.steps = ToonStyle::Steps::colour;
+        options.toon.brightness = brightness;
+        return mean_radiance(render(std::move(scene), front_camera(4, 10, 4), options).image);
+    };
+    for (const auto& [radiance, tone] : {std::pair(3.0F, 1.0), {0.6F, 0.8}, {0.4F, 0.5}, {0.1F, 0.3}}) {
+        const glm::dvec3 colour = wall(radiance, 1);
+        EXPECT_NEAR(colour.r, tone, 1e-5) << radiance;
+        EXPECT_NEAR(colour.g, tone / 2, 1e-5) << radiance;
+        EXPECT_EQ(colour.b, 0);
+    }
+    EXPECT_NEAR(wall(0.6F, 0.5F).r, 0.5, 1e-5);  // 1.2 after an exposure of one stop
 }
 
 TEST(Toon, SoftShadowsHaveTonesToo) {

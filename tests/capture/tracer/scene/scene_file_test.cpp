@@ -227,7 +227,7 @@ TEST_F(SceneFileTest, CartoonsHaveAStyle) {
     const Result<SceneFile> styled = load(R"({"object": {"mesh": "bare.obj"}, "look": "toon",
         "camera": {"aperture_radii": 0.1, "focus_radii": 3},
         "toon": {"thresholds": [0.7, 0.2], "values": [0.9, 0.6, 0.2], "edge_radius": 0.01, "edge_depth": 0.05,
-                 "edge_angle_deg": 45, "edge_colour": [0.1, 0, 0.2], "shadow_rays": 8}})");
+                 "edge_angle_deg": 45, "edge_colour": [0.1, 0, 0.2], "shadow_rays": 8, "steps": "colour"}})");
     ASSERT_TRUE(styled) << styled.error().message;
     EXPECT_EQ(styled->camera.aperture_radii, 0.1);
     EXPECT_EQ(styled->camera.focus_radii, 3);
@@ -240,6 +240,8 @@ TEST_F(SceneFileTest, CartoonsHaveAStyle) {
     EXPECT_NEAR(style.edge_angle_rad, kPi / 4, 1e-6);
     EXPECT_EQ(style.edge_colour, glm::vec3(0.1F, 0, 0.2F));
     EXPECT_EQ(style.shadow_rays, 8);
+    EXPECT_EQ(style.steps, ToonStyle::Steps::colour);
+    EXPECT_EQ(style.edge_test, ToonStyle::EdgeTest::slope);
 }
 
 TEST_F(SceneFileTest, WrongStylesOfCartoonsAreErrors) {
