@@ -255,8 +255,22 @@ void expect_whitted_packets_equal_single_rays(const Scene& scene, float environm
     }
 }
 
+// Some meshes are lit by two scoped lights, of which one casts no shadows.
+Scene scene_of_scoped_lights() {
+    Scene scene = scene_of_all_details();
+    const auto first = static_cast<std::uint32_t>(scene.lights.size());
+    scene.lights.push_back(directional_light({1, -2, -1}, glm::vec3(1, 2, 3)));
+    scene.lights.push_back(point_light({1, 2, 2}, glm::vec3(4, 2, 1)));
+    scene.lights[first].everywhere = scene.lights[first + 1].everywhere = false;
+    scene.lights[first + 1].casts_shadows = false;
+    scene.scopes.groups = {{}, {{first, first + 1}, glm::vec3(0.1F, 0.2F, 0)}, {{first}}};
+    for (std::uint32_t i = 0; i < scene.meshes.size(); ++i) scene.scopes.of_mesh.push_back(i % 3);
+    for (std::uint32_t i = 0; i < scene.instances.size(); ++i) scene.scopes.of_instance.push_back((i + 1) % 3);
+    return scene;
+}
+
 TEST(Packets, OfWhittedGiveTheBitsOfSingleRays) {
-    for (const Scene& scene : {scene_of_all_kinds(), scene_of_all_details()}) {
+    for (const Scene& scene : {scene_of_all_kinds(), scene_of_all_details(), scene_of_scoped_lights()}) {
         for (const bool soft_shadows : {false, true}) {
             expect_whitted_packets_equal_single_rays(scene, 0.3F, {true, true}, soft_shadows);
             expect_whitted_packets_equal_single_rays(scene, 0, {}, soft_shadows);
