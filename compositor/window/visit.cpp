@@ -174,9 +174,27 @@ void Visit::on_key(Key command) {
     }
 }
 
+// Fog, sky and wet or snowy surfaces are parts of the scene, so another weather needs another compositor.
+Status Visit::change_weather() {
+    desk_.set_scene(playback_->scene_in_weather());
+    VisitOptions options = options_;
+    options.shadows = panel_.shadows;
+    options.exposure_ev = desk_.edits().state().exposure_ev;
+    const glm::ivec2 size(compositor_.width(), compositor_.height());
+    traced_view_.drop(compositor_);
+    RS_ASSIGN_OR_RETURN(FrameCompositor compositor, make_compositor(*desk_.scene(), *showroom_, size, options));
+    compositor_ = std::move(compositor);
+    for (std::size_t i = 0; i < turns_rad_.size(); ++i) compositor_.turn_object(i, turns_rad_[i]);
+    return {};
+}
+
 // Advances the sequence; true if another frame of it is shown.
 Result<bool> Visit::play(double seconds) {
     if (!playback_) return false;
+    if (playback_->take_quit()) window_.close();
+    if (playback_->take_weather_change()) {
+        RS_TRY(change_weather());
+    }
     if (panel_.traced && !playback_->saving()) playback_->stop();
     if (playback_->saved_all()) {
         playback_->end_saving();

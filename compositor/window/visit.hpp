@@ -81,6 +81,7 @@ private:
     void on_key(Key command);
     void go_to_viewpoint(std::size_t number);
     [[nodiscard]] std::string viewpoint_name(std::size_t number) const;
+    Status change_weather();
     void begin_travel(const Visitor& to);
     bool move(double seconds);
     void pick(const glm::dvec2& at_px);

@@ -326,6 +326,32 @@ TEST_F(SequenceInWindow, FramesAreTracedWithTheEditedLights) {
     EXPECT_EQ(visit_->image(), raster);
 }
 
+TEST_F(SequenceInWindow, WeatherChangesAndEditedLightsStay) {
+    const Image<Rgba8> fair = visit_->image();
+    playback().set_weather(Weather{.fog = true, .visibility = 25});
+    ASSERT_TRUE(step());
+    const Image<Rgba8> fog = visit_->image();
+    EXPECT_NE(fog, fair);
+    playback().set_weather(Weather{.rain = true});
+    ASSERT_TRUE(step());
+    EXPECT_NE(visit_->image(), fog);
+    playback().set_weather(std::nullopt);
+    ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->image(), fair);
+    dim_the_lamp();
+    ASSERT_TRUE(step());
+    const LightingState edited = visit_->lights().edits().state();
+    const Image<Rgba8> dim = visit_->image();
+    EXPECT_NE(dim, fair);
+    playback().set_weather(Weather{.snow = true});
+    ASSERT_TRUE(step());
+    EXPECT_NE(visit_->image(), dim);
+    playback().set_weather(std::nullopt);
+    ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->lights().edits().state(), edited);
+    EXPECT_EQ(visit_->image(), dim);
+}
+
 TEST(WindowWithoutDisplay, SaysWhatToDo) {
     const char* const display = std::getenv("DISPLAY");
     const std::string before = display != nullptr ? display : "";
