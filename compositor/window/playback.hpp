@@ -33,6 +33,8 @@ public:
 
     /// Camera of the frame; nullopt if the visitor navigates freely.
     [[nodiscard]] std::optional<Camera> camera(int width, int height) const;
+    /// Ends the use of the sequence's camera, until it is selected in the controls.
+    void release_camera() { follows_ = false; }
     /// Scene of the frame with the lights of `lit`, another state of the sequence's scene; for the tracer.
     [[nodiscard]] Scene scene(const Scene& lit) const;
 

@@ -95,6 +95,7 @@ void Visit::begin_travel(const Visitor& to) {
 void Visit::go_to_viewpoint(std::size_t number) {
     viewpoint_ = number;
     panel_.viewpoint = number;
+    if (playback_) playback_->release_camera();
     begin_travel(visitor_at(options_.viewpoints[number], middle_));
     report(viewpoint_name(number));
 }

@@ -124,7 +124,11 @@ TEST_F(PlayerTest, TracedFramesMoveThingsWithoutNewTreesAndStandInFog) {
 }
 
 TEST(WeatherWords, AreStrict) {
-    EXPECT_TRUE(parse_weather("rain,fog"));
+    for (const char* words : {"rain", "snow", "fog", "rain,fog", "snow,fog"}) {
+        ASSERT_TRUE(parse_weather(words)) << words;
+        EXPECT_EQ(weather_words(*parse_weather(words)), words);
+    }
+    EXPECT_EQ(weather_words(Weather{}), "none");
     for (const char* wrong : {"", "hail", "rain,", "rain,rain", "rain,snow", "Rain"}) {
         EXPECT_FALSE(parse_weather(wrong)) << wrong;
     }

@@ -294,10 +294,10 @@ protected:
         EXPECT_GE(visit_->panel().passes, 2);
         return visit_->image();
     }
-    void dim_the_lamp() {
-        LightEntry lamp = visit_->lights().edits().state().entries.at(0);
-        lamp.colour = {0.2, 0.5, 0.1};
-        visit_->lights().edits().set_light(0, lamp);
+    void dim_a_light() {
+        LightEntry light = visit_->lights().edits().state().entries.at(0);
+        light.colour = {0.2, 0.5, 0.1};
+        visit_->lights().edits().set_light(0, light);
     }
 
     static inline std::unique_ptr<test::VirtualDisplay> display_;
@@ -315,7 +315,7 @@ TEST_F(SequenceInWindow, FramesAreTracedWithTheEditedLights) {
     const Image<Rgba8> second = traced();
     EXPECT_EQ(playback().frame(), 1U);
     EXPECT_NE(second, first);
-    dim_the_lamp();
+    dim_a_light();
     EXPECT_NE(traced(), second);
     press(Key::kFrameBack);
     EXPECT_NE(traced(), first);
@@ -338,7 +338,7 @@ TEST_F(SequenceInWindow, WeatherChangesAndEditedLightsStay) {
     playback().set_weather(std::nullopt);
     ASSERT_TRUE(step());
     EXPECT_EQ(visit_->image(), fair);
-    dim_the_lamp();
+    dim_a_light();
     ASSERT_TRUE(step());
     const LightingState edited = visit_->lights().edits().state();
     const Image<Rgba8> dim = visit_->image();
