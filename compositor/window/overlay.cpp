@@ -1,7 +1,6 @@
 #include "compositor/window/overlay.hpp"
 
 #include "rayspace/base/conventions.hpp"
-#include "rayspace/base/printable.hpp"
 
 #include <imgui.h>
 

@@ -175,7 +175,7 @@ TEST_F(VisitInWindow, TTracesTheLightAndHoldsTheViewStill) {
     EXPECT_NE(visit_->image(), raster);         // the wall is lit by other means,
     EXPECT_NEAR(red_pixels(), red_before, 20);  // the drum stands before it as it did,
     EXPECT_THAT(frozen_notice(visit_->panel()), ::testing::HasSubstr("T releases it"));
-    const glm::dvec3 eye = visit_->visitor().eye;  // and nobody moves.
+    const glm::dvec3 eye = visit_->visitor().eye;  // and the visitor stands still.
     visit_->window().inject(KeyEvent{Key::kForward, true});
     ASSERT_TRUE(step(1));
     EXPECT_EQ(visit_->visitor().eye, eye);
