@@ -1,5 +1,6 @@
 #include "compositor/lighting/light_edits.hpp"
 
+#include "rayspace/base/printable.hpp"
 #include "rayspace/light/light_model.hpp"
 
 #include <algorithm>
@@ -130,6 +131,13 @@ std::string free_light_name(const LightingState& state, const std::string& base)
         if (std::ranges::none_of(state.entries, [&](const LightEntry& entry) { return entry.name == name; }))
             return name;
     }
+}
+
+std::string light_label(const LightEntry& entry, std::size_t index) {
+    const std::string own = printable(entry.name);
+    std::string label = own.empty() ? model_of(entry).words.kind + (" " + std::to_string(index + 1)) : own;
+    if (!entry.file.empty()) label += " (" + printable(entry.file.filename().string()) + ")";
+    return label;
 }
 
 double rounded_to_digits(double value, int digits) {

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace rs::compositor {
@@ -84,6 +85,10 @@ LightEntry new_light(LightKind kind, const glm::dvec3& location);
 
 // First unused name: "kitchen" -> "kitchen 2" -> "kitchen 3".
 std::string free_light_name(const LightingState& state, const std::string& base);
+
+// Name of a light in user interfaces: its own, else its kind and its number in the list, from 1; and its photometric
+// file. Without control characters.
+std::string light_label(const LightEntry& entry, std::size_t index);
 
 // Steps of numbers in user interfaces: brightness by factors, which suits candles and the sun alike; lengths and
 // angles by steps of a power of ten. Results have few digits. Pure; thread-safe.

@@ -4,6 +4,7 @@
 #include "rayspace/light/directions.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rs::compositor {
 namespace {
@@ -34,6 +35,15 @@ Result<Weather> parse_weather(const std::string& words) {
     }
     if (weather.rain && weather.snow) return Error{"--weather: rain and snow at once; give one of them"};
     return weather;
+}
+
+std::string weather_words(const Weather& weather) {
+    std::string words;
+    for (const auto& [is_on, word] :
+         {std::pair(weather.rain, "rain"), std::pair(weather.snow, "snow"), std::pair(weather.fog, "fog")}) {
+        if (is_on) words += (words.empty() ? "" : ",") + std::string(word);
+    }
+    return words.empty() ? "none" : words;
 }
 
 Scene apply_weather(Scene scene, const Weather& weather) {

@@ -25,6 +25,9 @@ struct Weather {
 /// Parses "rain,fog": distinct words from rain, snow and fog, separated by commas. Rain and snow exclude each other.
 Result<Weather> parse_weather(const std::string& words);
 
+/// Inverse of parse_weather(); "none" without rain, snow and fog.
+std::string weather_words(const Weather& weather);
+
 /// Scene under an overcast sky: less sun, grey light from above; exponential fog as in VRML97 (thin in rain), the
 /// background blended towards the fog's colour; Scene::cover. Denser fog of the scene itself is kept.
 Scene apply_weather(Scene scene, const Weather& weather);

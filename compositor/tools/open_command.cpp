@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <string_view>
 #include <vector>
@@ -76,8 +77,18 @@ Result<Camera> first_camera(const OpenOptions& options, const LoadedScene& loade
     return cameras.front();
 }
 
+// The scene's file, else the first object's.
+std::string displayed_name(const SceneOptions& options) {
+    if (!options.scene && !options.objects.empty()) {
+        const std::string& object = options.objects.front();
+        return std::filesystem::path(object.substr(0, object.find('@'))).filename().string();
+    }
+    return std::filesystem::path(scene_name(options)).filename().string();
+}
+
 Status show_in_window(Window window, const OpenOptions& options, LoadedScene loaded, const Camera& first) {
     VisitOptions visit_options;
+    visit_options.scene_name = displayed_name(options.scene);
     visit_options.samples = options.drawing.samples;
     visit_options.wire_frame = options.drawing.wire_frame;
     visit_options.shadows = options.drawing.shadows;
@@ -114,8 +125,8 @@ Status write_first_view(const std::string& file, const OpenOptions& options, con
 Status run_open(const OpenOptions& options) {
     RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
     RS_ASSIGN_OR_RETURN(Scene scene, open_scene(options.scene, {}));
-    Result<Window> window =
-        Window::create({.title = scene_name(options.scene), .width = size.width, .height = size.height});
+    Result<Window> window = Window::create(
+        {.title = displayed_name(options.scene) + " - rs-view", .width = size.width, .height = size.height});
     std::string file;
     if (!window) {
         int number = 0;

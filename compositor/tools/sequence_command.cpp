@@ -242,11 +242,13 @@ Status render_sequences(const SequenceOptions& options) {
 // Shows a sequence until the window is closed or another sequence is opened, whose path goes to `next`.
 Status show_sequence(const SequenceOptions& options, PixelSize size, const std::shared_ptr<const Sequence>& sequence,
                      std::string& next) {
-    auto window = Window::create({.title = sequence->name, .width = size.width, .height = size.height});
+    const std::string name = sequence->name.empty() ? "sequence" : sequence->name;
+    auto window = Window::create({.title = name + " - rs-view", .width = size.width, .height = size.height});
     if (!window) return Error{window.error().message + "; give -o to write an image or a video"};
     RS_ASSIGN_OR_RETURN(const std::optional<Weather> weather, requested_weather(options));
     RS_ASSIGN_OR_RETURN(const TracedOptions tracing, traced_options(options.renderer));
     VisitOptions visit_options;
+    visit_options.scene_name = name;
     visit_options.sequence = sequence;
     visit_options.weather = weather ? weather : sequence->weather;
     visit_options.samples = options.drawing.samples;

@@ -110,7 +110,7 @@ void check_renderer_options(const CLI::App& command, const RendererOptions& opti
 
 Result<TracedOptions> traced_options(const RendererOptions& options) {
     TracedOptions traced;
-    traced.method = options.method().value_or(TracedMethod::kPath);
+    traced.method = options.method().value_or(TracedMethod::kRadiosity);
     traced.exposure_ev = options.exposure_ev;
     traced.soft_shadows = options.soft_shadows;
     traced.line_radius = options.toon_line_length;

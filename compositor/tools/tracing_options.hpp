@@ -45,8 +45,9 @@ void add_pass_options(CLI::App& command, PassOptions& options);
 /// Throws CLI::ValidationError if an option of `command` needs toon or a traced renderer and --renderer is another one.
 void check_renderer_options(const CLI::App& command, const RendererOptions& options);
 
-/// Options of the tracer; for raster those that a window uses when the user switches to traced light. Fails on a lens
-/// that cannot be parsed or has no focus, and on a file of a toon style that cannot be read.
+/// Options of the tracer; for raster those that a window uses when the user switches to traced light, with radiosity,
+/// whose first images have less noise than those of path tracing. Fails on a lens that cannot be parsed or has no
+/// focus, and on a file of a toon style that cannot be read.
 Result<TracedOptions> traced_options(const RendererOptions& options);
 
 /// Traces one frame, at least one pass. `progress` counts the passes unless the time is limited.

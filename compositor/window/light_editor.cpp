@@ -47,18 +47,38 @@ bool LightEditor::take_change() {
         }
     }
     if (edits_.revision() == lit_revision_) return false;
+    relight();
+    return true;
+}
+
+void LightEditor::relight() {
     lit_revision_ = edits_.revision();
     auto lit = std::make_shared<Scene>(*base_);
     const Status added = add_lights(*lit, list_of(edits_.state()), profile);
     RS_CHECK(added.ok());  // checked by load()
     lit_ = std::move(lit);
-    return true;
+}
+
+void LightEditor::set_scene(const Scene& scene) {
+    end_drag();
+    edits_.end_gesture();
+    base_ = std::make_shared<const Scene>(scene);
+    warned_.reset();
+    if (edits_.can_undo() || edits_.can_redo()) {
+        relight();
+        return;
+    }
+    edits_ = LightEdits(state_of(lights_as_list(scene), edits_.state().exposure_ev));
+    lit_revision_ = edits_.revision();
+    lit_ = base_;
 }
 
 void LightEditor::open(bool open) {
     open_ = open;
     if (open && files_.empty()) scan_folder(folder_);
-    if (!open) end_drag();
+    if (open) return;
+    end_drag();
+    edits_.end_gesture();  // if the panel is closed during a drag
 }
 
 void LightEditor::end_drag() {
@@ -133,7 +153,9 @@ bool LightEditor::on_key(Key command) {
             report(edits_.redo() ? "redone" : "nothing to redo");
             return true;
         case Key::kDelete:
-            if (open_) edits_.remove_selected();
+            if (!open_) return true;
+            end_drag();  // its index would be that of another light
+            edits_.remove_selected();
             return true;
         case Key::kDuplicate:
             if (open_) edits_.duplicate({200 * lift_, 0, 0});

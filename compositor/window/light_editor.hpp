@@ -36,6 +36,10 @@ public:
     /// True once after lights changed: scene() is then a new scene.
     bool take_change();
 
+    /// Replaces the scene by one with the same geometry, in other weather. Takes over its lights if none has been
+    /// edited, otherwise keeps the edited ones. scene() is then a new scene, which take_change() does not report.
+    void set_scene(const Scene& scene);
+
     [[nodiscard]] bool is_open() const { return open_; }
     void open(bool open);
 
@@ -72,6 +76,7 @@ public:
     void report(const std::string& news) { news_ = news; }
 
 private:
+    void relight();
     void end_drag();
     void follow(const EditorView& view);
 

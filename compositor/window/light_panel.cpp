@@ -15,11 +15,15 @@
 namespace rs::compositor {
 namespace {
 
+// Lengths in px at an interface scale of 1.
 constexpr float kPanelMargin_px = 10;
 constexpr float kWidth_px = 400;
 constexpr float kField_px = 88;
 constexpr float kButton_px = 44;
 constexpr float kListRows = 7;
+constexpr float kUnscaledFont_px = 13;
+// Key of the panel's ImGui storage: the wheel changes the number under the pointer.
+constexpr ImGuiID kWheelKey = 1;
 const ImVec4 kWarning{1, 0.6F, 0.3F, 1};
 
 struct Range {
@@ -30,18 +34,31 @@ constexpr Range kPlaces{-kMaxLightDistance, kMaxLightDistance};
 constexpr Range kPowers{0, kMaxLightStrength};
 constexpr Range kLengths{kShortest, kMaxLightDistance};
 
+float panel_px(float at_scale_1) {
+    return at_scale_1 * ImGui::GetFontSize() / kUnscaledFont_px;
+}
+
 bool step_button(const char* text) {
-    const bool pressed = ImGui::Button(text, {kButton_px, 0});
+    const bool pressed = ImGui::Button(text, {panel_px(kButton_px), 0});
     ImGui::SameLine(0, 2);
     return pressed;
 }
 
-bool drag(double& value, double speed, const Range& range, const char* format) {
-    ImGui::SetNextItemWidth(kField_px);
+// Notches of the wheel over the field that was drawn last.
+int wheel_notches() {
+    if (!ImGui::IsItemHovered() || ImGui::IsItemActive()) return 0;
+    ImGui::GetStateStorage()->SetBool(kWheelKey, true);
+    return static_cast<int>(std::lround(std::clamp(ImGui::GetIO().MouseWheel, -10.0F, 10.0F)));
+}
+
+// \param notches of the wheel, which the caller applies
+bool drag(double& value, double speed, const Range& range, const char* format, int& notches) {
+    ImGui::SetNextItemWidth(panel_px(kField_px));
     double changed = value;
     const bool moved = ImGui::DragScalar("##value", ImGuiDataType_Double, &changed, static_cast<float>(speed),
                                          &range.lowest, &range.highest, format);
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("drag; double-click to type");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("drag, or turn the wheel; double-click to type");
+    notches = wheel_notches();
     ImGui::SameLine(0, 2);
     if (!moved || !std::isfinite(changed)) return false;
     changed = std::clamp(changed, range.lowest, range.highest);
@@ -50,7 +67,7 @@ bool drag(double& value, double speed, const Range& range, const char* format) {
     return true;
 }
 
-// Buttons multiply by 10 and 1.1.
+// Buttons multiply by 10 and 1.1, the wheel by 1.1.
 bool factor_field(const char* label, double& value, double first, const Range& range) {
     ImGui::PushID(label);
     double changed = value;
@@ -60,7 +77,9 @@ bool factor_field(const char* label, double& value, double first, const Range& r
     factor("/10", 0.1);
     factor("/1.1", 1 / 1.1);
     const double speed = std::max(value, 0.1 * first) * 0.01;
-    if (double dragged = value; drag(dragged, speed, range, "%.4g")) changed = dragged;
+    int notches = 0;
+    if (double dragged = value; drag(dragged, speed, range, "%.4g", notches)) changed = dragged;
+    if (notches != 0) changed = scaled(value, std::pow(1.1, notches), first, range.lowest, range.highest);
     factor("x1.1", 1.1);
     factor("x10", 10);
     ImGui::TextUnformatted(label);
@@ -68,7 +87,7 @@ bool factor_field(const char* label, double& value, double first, const Range& r
     return std::exchange(value, changed) != changed;
 }
 
-// Buttons add 10^order and ten times that.
+// Buttons add 10^order and ten times that, the wheel 10^order.
 bool step_field(const char* label, double& value, int order, const Range& range) {
     ImGui::PushID(label);
     double changed = value;
@@ -79,7 +98,9 @@ bool step_field(const char* label, double& value, int order, const Range& range)
     };
     step(order + 1, -1);
     step(order, -1);
-    if (double dragged = value; drag(dragged, std::pow(10.0, order) * 0.5, range, "%.5g")) changed = dragged;
+    int notches = 0;
+    if (double dragged = value; drag(dragged, std::pow(10.0, order) * 0.5, range, "%.5g", notches)) changed = dragged;
+    if (notches != 0) changed = shifted(value, order, notches, range.lowest, range.highest);
     step(order, 1);
     step(order + 1, 1);
     ImGui::TextUnformatted(label);
@@ -94,20 +115,13 @@ void triple_field(const char* what, const std::array<const char*, 3>& labels, gl
     ImGui::PopID();
 }
 
-std::string label_of(const LightEntry& entry, std::size_t number) {
-    std::string label = std::to_string(number + 1) + "  " + model_of(entry).words.kind;
-    if (!entry.name.empty()) label += "  " + printable(entry.name);
-    if (!entry.file.empty()) label += "  (" + printable(entry.file.filename().string()) + ")";
-    return label;
-}
-
 void draw_list(LightEditor& desk) {
     LightEdits& edits = desk.edits();
     if (ImGui::BeginListBox("##lights", {-1, kListRows * ImGui::GetTextLineHeightWithSpacing()})) {
         for (std::size_t i = 0; i < edits.state().entries.size(); ++i) {
             ImGui::PushID(static_cast<int>(i));
             const bool selected = edits.selected() == i;
-            if (ImGui::Selectable(label_of(edits.state().entries[i], i).c_str(), selected)) {
+            if (ImGui::Selectable(light_label(edits.state().entries[i], i).c_str(), selected)) {
                 edits.select(selected ? std::nullopt : std::optional(i));
             }
             ImGui::PopID();
@@ -117,7 +131,7 @@ void draw_list(LightEditor& desk) {
 }
 
 void draw_list_buttons(LightEditor& desk, const EditorView& view) {
-    ImGui::SetNextItemWidth(kField_px);
+    ImGui::SetNextItemWidth(panel_px(kField_px));
     if (ImGui::BeginCombo("##add", "add ...")) {
         for (std::size_t i = 0; i < kLightKinds; ++i) {
             const auto kind = static_cast<LightKind>(i);
@@ -149,7 +163,7 @@ void edit_power(LightEntry& entry) {
 
 void edit_colour(LightEntry& entry) {
     glm::vec3 colour(entry.colour);
-    ImGui::SetNextItemWidth(3 * kField_px);
+    ImGui::SetNextItemWidth(panel_px(3 * kField_px));
     if (ImGui::ColorEdit3("colour", &colour.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR)) {
         entry.colour = glm::clamp(glm::dvec3(colour), 0.0, kMaxLightStrength);
     }
@@ -181,7 +195,7 @@ void edit_shape(LightEntry& entry) {
 void edit_light(LightEntry& entry) {
     char name[128];
     std::snprintf(name, sizeof name, "%s", entry.name.c_str());
-    ImGui::SetNextItemWidth(3 * kField_px);
+    ImGui::SetNextItemWidth(panel_px(3 * kField_px));
     if (ImGui::InputText("name", name, sizeof name)) entry.name = name;
     edit_power(entry);
     edit_colour(entry);
@@ -193,7 +207,7 @@ void edit_light(LightEntry& entry) {
 }
 
 void draw_files(LightEditor& desk, const LightEntry& entry) {
-    ImGui::SetNextItemWidth(3 * kField_px);
+    ImGui::SetNextItemWidth(panel_px(3 * kField_px));
     if (ImGui::BeginCombo("file", printable(entry.file.filename().string()).c_str())) {
         for (const std::filesystem::path& file : desk.files()) {
             if (!ImGui::Selectable(printable(file.filename().string()).c_str(), file == entry.file)) continue;
@@ -203,7 +217,7 @@ void draw_files(LightEditor& desk, const LightEntry& entry) {
     }
     char folder[1024];
     std::snprintf(folder, sizeof folder, "%s", desk.folder().c_str());
-    ImGui::SetNextItemWidth(3 * kField_px);
+    ImGui::SetNextItemWidth(panel_px(3 * kField_px));
     if (ImGui::InputText("folder", folder, sizeof folder, ImGuiInputTextFlags_EnterReturnsTrue)) {
         desk.scan_folder(folder);
     }
@@ -221,7 +235,7 @@ void edit_surroundings(LightingState& state) {
 void draw_profile(LightEditor& desk) {
     char profile[1024];
     std::snprintf(profile, sizeof profile, "%s", desk.profile.c_str());
-    ImGui::SetNextItemWidth(2 * kField_px);
+    ImGui::SetNextItemWidth(panel_px(2 * kField_px));
     if (ImGui::InputText("##profile", profile, sizeof profile)) desk.profile = profile;
     ImGui::SameLine();
     if (ImGui::Button("load")) {
@@ -239,14 +253,20 @@ void draw_profile(LightEditor& desk) {
 void LightPanel::draw(LightEditor& desk, const EditorView& view) {
     const ImGuiIO& io = ImGui::GetIO();
     LightEdits& edits = desk.edits();
-    ImGui::SetNextWindowPos({io.DisplaySize.x - kPanelMargin_px, kPanelMargin_px}, ImGuiCond_Always, {1, 0});
-    ImGui::SetNextWindowSizeConstraints({kWidth_px, 0}, {kWidth_px, io.DisplaySize.y - 2 * kPanelMargin_px});
+    const float margin = panel_px(kPanelMargin_px);
+    const float width = panel_px(kWidth_px);
+    const float top = ImGui::GetFrameHeight() + margin;  // below the toolbar
+    ImGui::SetNextWindowPos({io.DisplaySize.x - margin, top}, ImGuiCond_FirstUseEver, {1, 0});
+    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, std::max(io.DisplaySize.y - top - margin, margin)});
     ImGui::SetNextWindowBgAlpha(0.85F);
-    constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
-                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                                        ImGuiWindowFlags_NoNav;
-    if (ImGui::Begin("lights", nullptr, kFlags)) {
+    ImGuiWindowFlags flags = ImGuiWindowFlags_NoResize | ImGuiWindowFlags_AlwaysAutoResize |
+                             ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                             ImGuiWindowFlags_NoNav;
+    if (wheel_is_taken_) flags |= ImGuiWindowFlags_NoScrollWithMouse;
+    bool stays_open = true;
+    wheel_is_taken_ = false;
+    if (ImGui::Begin("lights", &stays_open, flags)) {
+        ImGui::GetStateStorage()->SetBool(kWheelKey, false);
         ImGui::PushButtonRepeat(true);
         LightingState surroundings = edits.state();
         edit_surroundings(surroundings);
@@ -290,12 +310,14 @@ void LightPanel::draw(LightEditor& desk, const EditorView& view) {
         }
         ImGui::Separator();
         draw_profile(desk);
+        wheel_is_taken_ = ImGui::GetStateStorage()->GetBool(kWheelKey);
     }
     ImGui::End();
     if (changing_ && !ImGui::IsAnyItemActive()) {
         edits.end_gesture();
         changing_ = false;
     }
+    if (!stays_open) desk.open(false);
 }
 
 }  // namespace rs::compositor

@@ -7,12 +7,21 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
 
 namespace rs::compositor {
 namespace {
 
 constexpr float kMargin_px = 10;
+constexpr float kFontSize_px = 13;  // ImGui's default, at a scale of 1
+
+// Length at the interface's scale.
+float overlay_px(float at_scale_1) {
+    return at_scale_1 * ImGui::GetFontSize() / kFontSize_px;
+}
 
 struct HelpLine {
     const char* keys;
@@ -33,13 +42,13 @@ constexpr std::array kHelp = {
     HelpLine{"click", "pick an object"},
     HelpLine{"F", "wire frame"},
     HelpLine{"O", "shadows, on and off"},
-    HelpLine{"T", "trace the light, and back"},
+    HelpLine{"T", "trace the light in a frozen view, and back"},
     HelpLine{"L", "edit the lights: click one, drag its arrows, its middle or its aim"},
     HelpLine{"control Z, Y", "undo, redo a change of light"},
     HelpLine{"control D, delete", "duplicate, delete the light"},
     HelpLine{"P  R", "screenshot, record"},
     HelpLine{"K  , .", "sequences: play, a frame back, on"},
-    HelpLine{"tab", "this panel"},
+    HelpLine{"tab", "statistics and settings"},
     HelpLine{"H", "this help"},
     HelpLine{"escape", "leave"},
 };
@@ -47,6 +56,42 @@ constexpr std::array kHelp = {
 constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                     ImGuiWindowFlags_NoNav;
+
+constexpr ImGuiWindowFlags kMovable = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings |
+                                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+
+void draw_viewpoint_menu(PanelState& state) {
+    if (!ImGui::BeginMenu("viewpoints", !state.viewpoints.empty())) return;
+    for (std::size_t i = 0; i < state.viewpoints.size(); ++i) {
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::MenuItem(state.viewpoints[i].c_str(), nullptr, i == state.viewpoint)) state.next_viewpoint = i;
+        ImGui::PopID();
+    }
+    ImGui::EndMenu();
+}
+
+void draw_renderer_menu(PanelState& state) {
+    if (!ImGui::BeginMenu("renderer")) return;
+    if (ImGui::MenuItem("raster", nullptr, !state.traced)) state.traced = false;
+    for (const NamedMethod& named : kTracedMethods) {
+        if (!ImGui::MenuItem(named.name, nullptr, state.traced && state.method == named.method)) continue;
+        state.traced = true;
+        state.method = named.method;
+    }
+    ImGui::EndMenu();
+}
+
+void draw_toolbar(PanelState& state) {
+    if (!ImGui::BeginMainMenuBar()) return;
+    draw_viewpoint_menu(state);
+    draw_renderer_menu(state);
+    ImGui::MenuItem("record", nullptr, &state.recording);
+    ImGui::MenuItem("panel", nullptr, &state.show_panel);
+    ImGui::MenuItem("help", nullptr, &state.show_help);
+    ImGui::Separator();
+    ImGui::TextUnformatted(state.scene.c_str());
+    ImGui::EndMainMenuBar();
+}
 
 void draw_figures(const PanelState& state) {
     ImGui::Text("%.1f ms a frame, %.0f frames/s", state.frame_ms, state.frame_ms > 0 ? 1000 / state.frame_ms : 0.0);
@@ -117,13 +162,34 @@ void draw_switches(PanelState& state) {
     ImGui::Checkbox("help", &state.show_help);
 }
 
+void edit_text(const char* label, std::string& text) {
+    std::array<char, 512> typed{};
+    std::snprintf(typed.data(), typed.size(), "%s", text.c_str());
+    if (ImGui::InputText(label, typed.data(), typed.size())) text = typed.data();
+}
+
+void draw_saved_names(PanelState& state) {
+    const ImGuiTreeNodeFlags flags =
+        state.playback != nullptr ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None;
+    if (!ImGui::TreeNodeEx("saved images and videos", flags)) return;
+    edit_text("folder", state.saved.folder);
+    edit_text("image", state.saved.image);
+    edit_text("video", state.saved.video);
+    ImGui::TreePop();
+}
+
 void draw_panel(PanelState& state) {
-    ImGui::SetNextWindowPos({kMargin_px, kMargin_px});
+    const float margin = overlay_px(kMargin_px);
+    const float top = ImGui::GetFrameHeight() + margin;
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({margin, top}, ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x, std::max(display.y - top - margin, margin)});
     ImGui::SetNextWindowBgAlpha(0.75F);
-    if (ImGui::Begin("panel", nullptr, kPlain)) {
+    if (ImGui::Begin("statistics and settings", &state.show_panel, kMovable)) {
         draw_figures(state);
         draw_switches(state);
         if (state.playback != nullptr) state.playback->draw_controls();
+        draw_saved_names(state);
         draw_objects(state);
         if (state.picked >= 0 && state.picked < static_cast<int>(state.objects.size())) {
             auto turn = static_cast<float>(degrees(state.turn_rad));
@@ -153,19 +219,40 @@ void draw_help() {
 
 void draw_news(const std::string& news) {
     const ImGuiIO& io = ImGui::GetIO();
-    ImGui::SetNextWindowPos({kMargin_px, io.DisplaySize.y - kMargin_px}, ImGuiCond_Always, {0, 1});
+    const float margin = overlay_px(kMargin_px);
+    ImGui::SetNextWindowPos({margin, io.DisplaySize.y - margin}, ImGuiCond_Always, {0, 1});
     ImGui::SetNextWindowBgAlpha(0.75F);
     if (ImGui::Begin("news", nullptr, kPlain | ImGuiWindowFlags_NoInputs)) ImGui::TextUnformatted(news.c_str());
     ImGui::End();
 }
 
+void draw_frozen_notice(const std::string& notice) {
+    const float top = ImGui::GetFrameHeight() + overlay_px(kMargin_px);
+    ImGui::SetNextWindowPos({ImGui::GetIO().DisplaySize.x / 2, top}, ImGuiCond_Always, {0.5F, 0});
+    ImGui::SetNextWindowBgAlpha(0.75F);
+    if (ImGui::Begin("frozen", nullptr, kPlain | ImGuiWindowFlags_NoInputs)) ImGui::TextUnformatted(notice.c_str());
+    ImGui::End();
+}
+
 }  // namespace
+
+std::string frozen_notice(const PanelState& state) {
+    if (!state.traced || state.walk_on) return "";
+    return "view frozen while its light is traced: T releases it; with 'walk on' in the panel (tab) it moves";
+}
 
 Overlay::Overlay(Window& window) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // no settings file
     ImGui::StyleColorsDark();
+    const auto scale = static_cast<float>(window.interface_scale());
+    ImFontConfig font;
+    font.SizePixels = std::floor(kFontSize_px * scale);
+    font.OversampleH = font.OversampleV = 1;  // the default font is a bitmap
+    font.PixelSnapH = true;
+    ImGui::GetIO().Fonts->AddFontDefault(&font);
+    ImGui::GetStyle().ScaleAllSizes(scale);
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
     ImGui_ImplOpenGL3_Init("#version 450 core");
 }
@@ -188,8 +275,10 @@ void Overlay::draw(PanelState& state, const std::function<void()>& more) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();
+    draw_toolbar(state);
     if (state.show_panel) draw_panel(state);
     if (more) more();
+    if (const std::string notice = frozen_notice(state); !notice.empty()) draw_frozen_notice(notice);
     if (state.show_help) draw_help();
     if (!state.news.empty()) draw_news(state.news);
     ImGui::Render();

@@ -1,12 +1,16 @@
 #pragma once
-// ImGui overlay of a window: panel with statistics and switches, help, and a message line.
+// ImGui overlay of a window: toolbar, panel with statistics and settings, help, a message line, and a notice while the
+// view is frozen.
 
 #include "compositor/traced/traced_renderer.hpp"
 #include "compositor/viewer/views/navigation.hpp"
 #include "compositor/window/playback.hpp"
+#include "compositor/window/view_recorder.hpp"
 #include "compositor/window/window.hpp"
 
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,9 +25,13 @@ struct ObjectLine {
     std::string absence;      // reason why the object is not displayed; empty if it is
 };
 
-/// State displayed by the panel, and changed by its controls.
+/// State displayed by toolbar and panel, and changed by their controls.
 struct PanelState {
-    bool show_panel = true;
+    std::string scene;                    // name, in the toolbar
+    std::vector<std::string> viewpoints;  // names
+    std::size_t viewpoint = 0;
+    std::optional<std::size_t> next_viewpoint;  // selected in the toolbar
+    bool show_panel = false;
     bool show_help = false;
     bool wire_frame = false;
     bool shadows = true;
@@ -35,6 +43,7 @@ struct PanelState {
     NavigationMode mode = NavigationMode::kWalk;
     double speed = 1;  // scene units per second
     bool take_screenshot = false;
+    SavedNames saved;
 
     double frame_ms = 0;  // median of the last frames
     double geometry_ms = 0;
@@ -54,7 +63,11 @@ struct PanelState {
     Playback* playback = nullptr;  // null without a sequence
 };
 
-/// Filters input and draws over a window; one per process. Must be destroyed before the window.
+/// Notice that traced light has frozen the view, with the key that releases it; empty if the view can move.
+std::string frozen_notice(const PanelState& state);
+
+/// Filters input and draws over a window; one per process. Must be destroyed before the window. Fonts and margins have
+/// the scale of the display on which the window was created.
 class Overlay {
 public:
     explicit Overlay(Window& window);

@@ -2,13 +2,23 @@
 
 #include <imgui.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace rs::compositor {
 
 Playback::Playback(std::shared_ptr<const Sequence> sequence, std::optional<Weather> weather)
-    : sequence_(std::move(sequence)), weather_(weather) {}
+    : sequence_(std::move(sequence)), weather_(weather), selected_weather_(weather.value_or(Weather{})) {}
+
+void Playback::set_weather(const std::optional<Weather>& weather) {
+    if (weather == weather_) return;
+    weather_ = weather;
+    weather_changed_ = true;
+    shown_ = false;
+}
+
+Scene Playback::scene_in_weather() const {
+    return weather_ ? apply_weather(sequence_->scene, *weather_) : sequence_->scene;
+}
 
 void Playback::step(int frames) {
     const auto count = static_cast<std::ptrdiff_t>(sequence_->frames.size());
@@ -40,9 +50,22 @@ std::optional<Camera> Playback::camera(int width, int height) const {
 }
 
 Scene Playback::scene(const Scene& lit) const {
-    Scene scene = weather_ ? apply_weather(sequence_->scene, *weather_) : sequence_->scene;
+    Scene scene = scene_in_weather();
     copy_lights(lit, scene);
     return scene_at(std::move(scene), *sequence_, frame_);
+}
+
+void Playback::draw_weather() {
+    const std::string now = weather_ ? weather_words(*weather_) : "none";
+    if (!ImGui::BeginCombo("weather", now.c_str())) return;
+    if (ImGui::Selectable("none", !weather_)) set_weather(std::nullopt);
+    for (bool Weather::*const kind : {&Weather::rain, &Weather::snow, &Weather::fog}) {
+        Weather weather = selected_weather_;
+        weather.rain = weather.snow = weather.fog = false;
+        weather.*kind = true;
+        if (ImGui::Selectable(weather_words(weather).c_str(), weather_ == weather)) set_weather(weather);
+    }
+    ImGui::EndCombo();
 }
 
 void Playback::draw_controls() {
@@ -69,9 +92,11 @@ void Playback::draw_controls() {
         shown_ = false;
         if (saving_) frame_ = 0;
     }
-    ImGui::InputText("##folder", typed_.data(), typed_.size());
+    draw_weather();
+    ImGui::InputText("##sequence", typed_.data(), typed_.size());
     ImGui::SameLine();
-    if (ImGui::Button("open")) folder_ = typed_.data();
+    if (ImGui::Button("open sequence")) folder_ = typed_.data();
+    if (ImGui::Button("Quit")) quit_requested_ = true;
 }
 
 }  // namespace rs::compositor

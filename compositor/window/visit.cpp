@@ -2,6 +2,7 @@
 
 #include "compositor/viewer/views/framing.hpp"
 #include "rayspace/base/median.hpp"
+#include "rayspace/base/printable.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -28,7 +29,7 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
       options_(options),
       traced_view_(options.tracing),
       desk_(scene, options.exposure_ev, options.lights),
-      recorder_(options.images),
+      recorder_({.folder = options.images.string()}),
       last_(std::chrono::steady_clock::now()) {
     navigation_.speed = scene.navigation.speed;
     if (const BoundingBox bounds = bounds_of(scene); !bounds.empty()) middle_ = bounds.middle();
@@ -47,23 +48,29 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
     panel_.device = window_.context().device_name();
     if (options.sequence) playback_.emplace(options.sequence, options.weather);
     panel_.playback = playback_ ? &*playback_ : nullptr;
-    report("press H for help");
+    panel_.scene = printable(options.scene_name);
+    panel_.saved.folder = options.images.string();
+    for (std::size_t i = 0; i < options.viewpoints.size(); ++i) panel_.viewpoints.push_back(viewpoint_name(i));
+}
+
+Result<FrameCompositor> Visit::make_compositor(const Scene& scene, Showroom& showroom, const glm::ivec2& size,
+                                               const VisitOptions& options) {
+    return FrameCompositor::create(scene, showroom.engine(), showroom.nodes(),
+                                   {.width = size.x,
+                                    .height = size.y,
+                                    .samples = options.samples,
+                                    .shadows = options.shadows,
+                                    .exposure_ev = options.exposure_ev,
+                                    .object_depth = options.object_depth,
+                                    .object_samples = options.object_samples,
+                                    .upright_images = true});
 }
 
 Result<std::unique_ptr<Visit>> Visit::create(Window window, const Scene& scene, std::unique_ptr<Showroom> showroom,
                                              const VisitOptions& options) {
     RS_CHECK(!options.viewpoints.empty());
     const glm::ivec2 size = glm::max(window.framebuffer_px(), glm::ivec2(1));
-    RS_ASSIGN_OR_RETURN(FrameCompositor compositor,
-                        FrameCompositor::create(scene, showroom->engine(), showroom->nodes(),
-                                                {.width = size.x,
-                                                 .height = size.y,
-                                                 .samples = options.samples,
-                                                 .shadows = options.shadows,
-                                                 .exposure_ev = options.exposure_ev,
-                                                 .object_depth = options.object_depth,
-                                                 .object_samples = options.object_samples,
-                                                 .upright_images = true}));
+    RS_ASSIGN_OR_RETURN(FrameCompositor compositor, make_compositor(scene, *showroom, size, options));
     return std::unique_ptr<Visit>(
         new Visit(std::move(window), std::move(showroom), std::move(compositor), scene, options));
 }
@@ -87,9 +94,15 @@ void Visit::begin_travel(const Visitor& to) {
 
 void Visit::go_to_viewpoint(std::size_t number) {
     viewpoint_ = number;
+    panel_.viewpoint = number;
+    if (playback_) playback_->release_camera();
     begin_travel(visitor_at(options_.viewpoints[number], middle_));
-    const std::string& name = options_.viewpoints[number].description;
-    report(name.empty() ? "viewpoint " + std::to_string(number + 1) : name);
+    report(viewpoint_name(number));
+}
+
+std::string Visit::viewpoint_name(std::size_t number) const {
+    const std::string name = printable(options_.viewpoints[number].description);
+    return name.empty() ? "viewpoint " + std::to_string(number + 1) : name;
 }
 
 void Visit::pick(const glm::dvec2& at_px) {
@@ -162,9 +175,27 @@ void Visit::on_key(Key command) {
     }
 }
 
+// Fog, sky and wet or snowy surfaces are parts of the scene, so another weather needs another compositor.
+Status Visit::change_weather() {
+    desk_.set_scene(playback_->scene_in_weather());
+    VisitOptions options = options_;
+    options.shadows = panel_.shadows;
+    options.exposure_ev = desk_.edits().state().exposure_ev;
+    const glm::ivec2 size(compositor_.width(), compositor_.height());
+    traced_view_.drop(compositor_);
+    RS_ASSIGN_OR_RETURN(FrameCompositor compositor, make_compositor(*desk_.scene(), *showroom_, size, options));
+    compositor_ = std::move(compositor);
+    for (std::size_t i = 0; i < turns_rad_.size(); ++i) compositor_.turn_object(i, turns_rad_[i]);
+    return {};
+}
+
 // Advances the sequence; true if another frame of it is shown.
 Result<bool> Visit::play(double seconds) {
     if (!playback_) return false;
+    if (playback_->take_quit()) window_.close();
+    if (playback_->take_weather_change()) {
+        RS_TRY(change_weather());
+    }
     if (panel_.traced && !playback_->saving()) playback_->stop();
     if (playback_->saved_all()) {
         playback_->end_saving();
@@ -182,6 +213,7 @@ Result<bool> Visit::play(double seconds) {
 }
 
 void Visit::take_screenshots() {
+    recorder_.set_names(panel_.saved);
     if (playback_ && playback_->take_jpeg()) report(recorder_.write_jpeg_screenshot(compositor_.image()));
     if (std::exchange(panel_.take_screenshot, false)) report(recorder_.write_png_screenshot(compositor_.image()));
 }
@@ -192,6 +224,7 @@ void Visit::record() {
         const Result<std::string> begun = recorder_.begin_video(compositor_.width(), compositor_.height(), rate);
         report(begun ? *begun : begun.error().message);
         panel_.recording = begun.ok();
+        if (!begun && playback_ && playback_->saving()) playback_->end_saving();
     }
     if (!recorder_.is_recording()) return;
     if (!panel_.recording) {
@@ -200,6 +233,7 @@ void Visit::record() {
     }
     if (Status status = recorder_.add_frame(compositor_.image()); !status) {
         panel_.recording = false;
+        if (playback_ && playback_->saving()) playback_->end_saving();
         report(status.error().message);
     }
 }
@@ -270,15 +304,19 @@ void Visit::handle_events() {
         const bool of_mouse = std::holds_alternative<WheelEvent>(event) ||
                               (std::holds_alternative<ButtonEvent>(event) && std::get<ButtonEvent>(event).down);
         if (of_mouse && overlay_->captures_mouse()) continue;
-        if (std::holds_alternative<KeyEvent>(event) && overlay_->captures_keys()) continue;
+        // Keys that were held before a text field was opened are still released.
+        const auto* const key = std::get_if<KeyEvent>(&event);
+        if (key != nullptr && key->down && overlay_->captures_keys()) continue;
         if (!desk_.on_event(event, desk_view())) input_.take(event);
     }
     for (const Key command : input_.commands()) on_key(command);
+    if (const auto next = std::exchange(panel_.next_viewpoint, std::nullopt)) go_to_viewpoint(*next);
 }
 
 Status Visit::resize_if_needed(const glm::ivec2& size) {
     if (size.x == compositor_.width() && size.y == compositor_.height()) return {};
     if (recorder_.is_recording()) panel_.recording = false;  // a video has one size
+    if (playback_ && playback_->saving()) playback_->end_saving();
     return compositor_.resize(size.x, size.y);
 }
 

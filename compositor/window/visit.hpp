@@ -31,7 +31,8 @@ namespace rs::compositor {
 
 struct VisitOptions {
     std::vector<Viewpoint> viewpoints;   // at least one; the camera starts at the first
-    std::filesystem::path images = ".";  // folder of screenshots and recordings
+    std::string scene_name;              // in the toolbar
+    std::filesystem::path images = ".";  // initial folder of screenshots and recordings
     int samples = 4;
     bool wire_frame = false;
     ObjectDepth object_depth = ObjectDepth::kPlane;
@@ -73,9 +74,14 @@ private:
     Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor compositor, const Scene& scene,
           const VisitOptions& options);
 
+    static Result<FrameCompositor> make_compositor(const Scene& scene, Showroom& showroom, const glm::ivec2& size,
+                                                   const VisitOptions& options);
+
     void handle_events();
     void on_key(Key command);
     void go_to_viewpoint(std::size_t number);
+    [[nodiscard]] std::string viewpoint_name(std::size_t number) const;
+    Status change_weather();
     void begin_travel(const Visitor& to);
     bool move(double seconds);
     void pick(const glm::dvec2& at_px);

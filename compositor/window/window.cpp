@@ -6,7 +6,9 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -89,7 +91,7 @@ Error no_window(const std::string& what) {
     const char* reason = nullptr;
     glfwGetError(&reason);
     return Error{"window: " + what + (reason != nullptr ? std::string(" (") + reason + ")" : std::string()) +
-                 "; on a machine without a display use --headless with -o"};
+                 "; on a machine without a display write images with -o (rs-view render)"};
 }
 
 }  // namespace
@@ -186,6 +188,22 @@ glm::ivec2 Window::framebuffer_px() const {
     glm::ivec2 size(0);
     glfwGetFramebufferSize(state_->window, &size.x, &size.y);
     return size;
+}
+
+double interface_scale(double content_scale, int window_units, int framebuffer_px) {
+    constexpr double kSteps = 4;
+    constexpr double kHighest = 4;
+    const double units_scale = static_cast<double>(std::max(framebuffer_px, 1)) / std::max(window_units, 1);
+    const double scale = content_scale / units_scale;
+    return std::isfinite(scale) ? std::clamp(std::round(kSteps * scale) / kSteps, 1.0, kHighest) : 1;
+}
+
+double Window::interface_scale() const {
+    glm::vec2 content(1);
+    glm::ivec2 units(1);
+    glfwGetWindowContentScale(state_->window, &content.x, &content.y);
+    glfwGetWindowSize(state_->window, &units.x, &units.y);
+    return compositor::interface_scale(content.x, units.x, framebuffer_px().x);
 }
 
 std::vector<Event> Window::poll() {

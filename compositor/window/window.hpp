@@ -22,6 +22,11 @@ struct WindowOptions {
     gl::ContextOptions context = {};
 };
 
+/// Factor for fonts and margins in window units: the display's content scale, as far as window units do not have it
+/// already, in steps of a quarter, 1..4.
+/// \param content_scale of the display relative to 96 dpi
+double interface_scale(double content_scale, int window_units, int framebuffer_px);
+
 /// Move-only. Several may be open; drawing goes to the one created or made current last.
 class Window {
 public:
@@ -39,6 +44,9 @@ public:
 
     /// Framebuffer size; may change in poll(), and be 0 while the window is minimised.
     [[nodiscard]] glm::ivec2 framebuffer_px() const;
+
+    /// Factor for fonts and margins in window units (interface_scale below).
+    [[nodiscard]] double interface_scale() const;
 
     /// Events since the last call, except those consumed by the panel (Overlay).
     std::vector<Event> poll();

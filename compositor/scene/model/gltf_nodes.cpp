@@ -230,7 +230,15 @@ private:
             light.beam_width_rad = number(given["spot"], "innerConeAngle", 0);
             light.cut_off_rad = std::clamp(number(given["spot"], "outerConeAngle", kPi / 4), 0.0, kPi / 2);
         }
+        light.name = name_of_light(given).value_or(name_of_light(node).value_or(""));
         scene_.lights.push_back(light);
+    }
+
+    // Light lists cannot hold zero characters.
+    static std::optional<std::string> name_of_light(const json& named) {
+        if (!named.contains("name") || !named["name"].is_string()) return std::nullopt;
+        const auto name = named["name"].get<std::string>();
+        return name.substr(0, name.find('\0'));
     }
 
     const json& top_;

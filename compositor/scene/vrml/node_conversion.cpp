@@ -126,6 +126,7 @@ Material material_of(const Node* appearance, const Mesh& mesh, const std::filesy
 
 Light light_of(const Node& node, const TraversalState& state) {
     Light light;
+    light.name = node.name;
     const glm::vec3 colour = linear_colour(node.triple("color"));
     light.colour = colour * static_cast<float>(std::clamp(node.number("intensity"), 0.0, 1.0));
     light.ambient = colour * static_cast<float>(std::clamp(node.number("ambientIntensity"), 0.0, 1.0));

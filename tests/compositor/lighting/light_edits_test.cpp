@@ -110,6 +110,17 @@ TEST(LightEdits, ListsGoInAndOut) {
     EXPECT_EQ(state_of(list, 3), state);
 }
 
+TEST(LightEdits, LabelsAreNamesOrKindsWithNumbers) {
+    LightEntry entry;
+    entry.kind = LightKind::kSpot;
+    EXPECT_EQ(light_label(entry, 2), "spot 3");
+    entry.name = "desk\nlamp";
+    EXPECT_EQ(light_label(entry, 2), "desk\\x0Alamp");
+    entry = new_light(LightKind::kLuminaire, {0, 0, 0});
+    entry.file = "lamps/tube.ies";
+    EXPECT_EQ(light_label(entry, 0), "luminaire 1 (tube.ies)");
+}
+
 TEST(NumberStep, FactorsKeepFourDigitsAndGoBothWays) {
     EXPECT_EQ(scaled(300, 10, 1, 0, 1e12), 3000);
     EXPECT_EQ(scaled(300, 0.1, 1, 0, 1e12), 30);

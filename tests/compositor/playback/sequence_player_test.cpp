@@ -1,6 +1,7 @@
 #include "compositor/playback/sequence_player.hpp"
 
 #include "tests/compositor/gl_test.hpp"
+#include "tests/compositor/moving_boxes.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,51 +13,6 @@ namespace {
 using PlayerTest = test::GlTest;
 
 constexpr FrameOptions kSmall{.width = 160, .height = 96, .samples = 1};
-
-// Ground with a wall, and boxes that move in every frame; the last is hidden in the second.
-std::shared_ptr<const Sequence> boxes(int count, int frames) {
-    auto sequence = std::make_shared<Sequence>();
-    Scene& scene = sequence->scene;
-    scene.shading = Shading::kPhong;
-    const auto box = std::make_shared<const Mesh>(box_mesh({1, 1, 1}));
-    const auto still = [&](const glm::dvec3& size, const glm::dvec3& middle) {
-        GeometryNode node;
-        node.mesh = std::make_shared<const Mesh>(box_mesh(size));
-        node.world_from_node[3] = glm::dvec4(middle, 1);
-        scene.geometry.push_back(node);
-    };
-    still({40, 0.1, 40}, {0, -0.05, 0});
-    still({40, 8, 0.1}, {0, 4, -8});
-    Light lamp;
-    lamp.kind = LightKind::kSpot;
-    lamp.location = {2, 4, 0};
-    lamp.towards = {0, -1, 0};
-    lamp.cut_off_rad = lamp.beam_width_rad = radians(50);
-    lamp.radius = 6;
-    scene.lights.push_back(lamp);
-    for (int i = 0; i < count; ++i) {
-        GeometryNode node;
-        node.mesh = box;
-        node.material.diffuse = {0.8F, 0.1F * static_cast<float>(i % 10), 0.2F};
-        node.moving = static_cast<std::uint32_t>(i);
-        sequence->slots.push_back({{scene.geometry.size()}, glm::dvec3(0), {}});
-        scene.geometry.push_back(node);
-    }
-    for (int f = 0; f < frames; ++f) {
-        SequenceFrame frame;
-        for (int i = 0; i < count; ++i) {
-            if (f == 1 && i == count - 1) continue;
-            const double angle = 0.7 * i + 0.2 * f;
-            InstancePose pose;
-            pose.move = {5 * std::cos(angle), 0.5, 4 * std::sin(angle)};
-            pose.turn_deg = {0, 20.0 * f, 0};
-            frame.poses.push_back({static_cast<std::uint32_t>(i), false, pose});
-        }
-        frame.camera = SequenceCamera{{{0, 3, 12}, {0.1 * f, 1, 0}}, radians(60)};
-        sequence->frames.push_back(frame);
-    }
-    return sequence;
-}
 
 Image<Rgba8> frame_of(SequencePlayer& player, std::size_t number) {
     auto frame = player.frame(number);
@@ -78,7 +34,7 @@ int differing(const Image<Rgba8>& a, const Image<Rgba8>& b) {
 }
 
 TEST_F(PlayerTest, AFrameIsTheSameHoweverItIsComeByAndNothingIsUploadedAgain) {
-    const auto sequence = boxes(40, 3);
+    const auto sequence = test::moving_boxes(40, 3);
     auto player = SequencePlayer::create(sequence, {.frame = kSmall});
     ASSERT_TRUE(player) << player.error().message;
     const int uploads = player->compositor().uploads();
@@ -108,7 +64,7 @@ TEST_F(PlayerTest, AFrameIsTheSameHoweverItIsComeByAndNothingIsUploadedAgain) {
 }
 
 TEST_F(PlayerTest, WeatherIsRepeatableByItsSeed) {
-    const auto sequence = boxes(3, 2);
+    const auto sequence = test::moving_boxes(3, 2);
     for (const char* word : {"rain", "snow"}) {
         SCOPED_TRACE(word);
         Weather weather = *parse_weather(word);
@@ -146,7 +102,7 @@ TEST_F(PlayerTest, WhatFallsIsHiddenByWhatIsBefore) {
 }
 
 TEST_F(PlayerTest, TracedFramesMoveThingsWithoutNewTreesAndStandInFog) {
-    const auto sequence = boxes(12, 3);
+    const auto sequence = test::moving_boxes(12, 3);
     PlayerOptions options{.frame = kSmall, .tracing = TracedOptions{.method = TracedMethod::kWhitted}, .passes = 1};
     auto player = SequencePlayer::create(sequence, options);
     ASSERT_TRUE(player) << player.error().message;
@@ -168,7 +124,11 @@ TEST_F(PlayerTest, TracedFramesMoveThingsWithoutNewTreesAndStandInFog) {
 }
 
 TEST(WeatherWords, AreStrict) {
-    EXPECT_TRUE(parse_weather("rain,fog"));
+    for (const char* words : {"rain", "snow", "fog", "rain,fog", "snow,fog"}) {
+        ASSERT_TRUE(parse_weather(words)) << words;
+        EXPECT_EQ(weather_words(*parse_weather(words)), words);
+    }
+    EXPECT_EQ(weather_words(Weather{}), "none");
     for (const char* wrong : {"", "hail", "rain,", "rain,rain", "rain,snow", "Rain"}) {
         EXPECT_FALSE(parse_weather(wrong)) << wrong;
     }

@@ -63,7 +63,6 @@ protected:
         ASSERT_TRUE(visit.ok()) << visit.error().message;
         visit_ = std::move(*visit);
         camera_ = camera_at(front, 320, 240);
-        press(Key::kPanel);
         press(Key::kLights);
         ASSERT_TRUE(step());
         ASSERT_TRUE(step());

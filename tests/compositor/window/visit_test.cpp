@@ -3,7 +3,9 @@
 
 #include "compositor/window/visit.hpp"
 
+#include "compositor/viewer/views/framing.hpp"
 #include "rayspace/image_io/image_io.hpp"
+#include "tests/compositor/moving_boxes.hpp"
 #include "tests/compositor/objects.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/virtual_display.hpp"
@@ -44,6 +46,7 @@ protected:
         side.description = "from the side";
         options.viewpoints = {front, side};
         options.images = work_.path();
+        options.scene_name = "drum.wrl";
         options.samples = 1;
         auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.waits = true}, nullptr,
                                                    std::make_unique<test::ObjectsInMemory>(kObjectRed));
@@ -85,6 +88,17 @@ protected:
     std::optional<std::vector<std::string>> left_;  // of OpenGL, when the window was gone
     std::unique_ptr<Visit> visit_;
 };
+
+TEST_F(VisitInWindow, OpensWithAToolbarThatNamesSceneAndViewpoints) {
+    EXPECT_FALSE(visit_->panel().show_panel);
+    EXPECT_FALSE(visit_->panel().show_help);
+    EXPECT_EQ(visit_->panel().news, "");
+    EXPECT_EQ(visit_->panel().scene, "drum.wrl");
+    EXPECT_THAT(visit_->panel().viewpoints, ::testing::ElementsAre("viewpoint 1", "from the side"));
+    press(Key::kNextViewpoint);
+    ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->panel().viewpoint, 1U);
+}
 
 TEST_F(VisitInWindow, WalkingMovesWhatIsSeen) {
     const int before = red_pixels();
@@ -153,13 +167,15 @@ TEST_F(VisitInWindow, ImagesAreTakenHome) {
 TEST_F(VisitInWindow, TTracesTheLightAndHoldsTheViewStill) {
     const int red_before = red_pixels();
     const Image<Rgba8> raster = visit_->image();
+    EXPECT_EQ(frozen_notice(visit_->panel()), "");
     press(Key::kTrace);
     const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     while (visit_->panel().passes < 2 && std::chrono::steady_clock::now() < patience) ASSERT_TRUE(step(0.001));
     ASSERT_GE(visit_->panel().passes, 2);
-    EXPECT_NE(visit_->image(), raster);            // the wall is lit by other means,
-    EXPECT_NEAR(red_pixels(), red_before, 20);     // the drum stands before it as it did,
-    const glm::dvec3 eye = visit_->visitor().eye;  // and nobody moves.
+    EXPECT_NE(visit_->image(), raster);         // the wall is lit by other means,
+    EXPECT_NEAR(red_pixels(), red_before, 20);  // the drum stands before it as it did,
+    EXPECT_THAT(frozen_notice(visit_->panel()), ::testing::HasSubstr("T releases it"));
+    const glm::dvec3 eye = visit_->visitor().eye;  // and the visitor stands still.
     visit_->window().inject(KeyEvent{Key::kForward, true});
     ASSERT_TRUE(step(1));
     EXPECT_EQ(visit_->visitor().eye, eye);
@@ -167,6 +183,7 @@ TEST_F(VisitInWindow, TTracesTheLightAndHoldsTheViewStill) {
     press(Key::kTrace);
     ASSERT_TRUE(step(0.001));
     EXPECT_EQ(visit_->image(), raster);
+    EXPECT_EQ(frozen_notice(visit_->panel()), "");
 }
 
 TEST_F(VisitInWindow, WhoStandsStillFindsTheTracerMade) {
@@ -186,6 +203,7 @@ TEST_F(VisitInWindow, WhoStandsStillFindsTheTracerMade) {
 TEST_F(VisitInWindow, WhoWalksOnByTracedLightSeesWhereHeGoes) {
     press(Key::kTrace);
     visit_->walk_on(true);
+    EXPECT_EQ(frozen_notice(visit_->panel()), "");
     const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
     const auto wait_for = [&](int passes) {
         while (visit_->panel().passes < passes && std::chrono::steady_clock::now() < patience) {
@@ -225,6 +243,115 @@ TEST_F(VisitInWindow, SwitchesSwitchAndEscapeLeaves) {
     EXPECT_FALSE(step());
 }
 
+class SequenceInWindow : public ::testing::Test {
+protected:
+    static void SetUpTestSuite() { display_ = std::make_unique<test::VirtualDisplay>(); }
+    static void TearDownTestSuite() { display_.reset(); }
+
+    void SetUp() override {
+        if (!display_->ready()) GTEST_SKIP() << "Xvfb cannot be started (Debian: xvfb)";
+        const std::shared_ptr<const Sequence> sequence = test::moving_boxes(4, 3);
+        VisitOptions options;
+        options.sequence = sequence;
+        options.viewpoints = {viewpoint_of(camera_of(*sequence, 0, 160, 120))};
+        options.images = work_.path();
+        options.samples = 1;
+        auto showroom = std::make_unique<Showroom>(sequence->scene, ShowroomOptions{.waits = true});
+        WindowOptions small{.title = "test", .width = 160, .height = 120, .vertical_sync = false};
+        small.context = {.debug = true, .at_end = [this](const std::vector<std::string>& left) { left_ = left; }};
+        auto window = Window::create(small);
+        ASSERT_TRUE(window.ok()) << window.error().message;
+        auto visit = Visit::create(std::move(*window), sequence->scene, std::move(showroom), options);
+        ASSERT_TRUE(visit.ok()) << visit.error().message;
+        visit_ = std::move(*visit);
+        press(Key::kPlay);  // stops
+        ASSERT_TRUE(step());
+    }
+    void TearDown() override {
+        if (!visit_) return;
+        visit_.reset();
+        ASSERT_TRUE(left_.has_value());
+        EXPECT_THAT(*left_, ::testing::IsEmpty());
+    }
+
+    bool step() {
+        const auto goes_on = visit_->step(0.001);
+        EXPECT_TRUE(goes_on.ok()) << goes_on.error().message;
+        return goes_on.ok() && *goes_on;
+    }
+    void press(Key key) {
+        visit_->window().inject(KeyEvent{key, true});
+        visit_->window().inject(KeyEvent{key, false});
+    }
+    Playback& playback() { return *visit_->panel().playback; }
+    // Image with two passes of the current frame and lights.
+    Image<Rgba8> traced() {
+        const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(3);
+        do {
+            EXPECT_TRUE(step());
+        } while (visit_->panel().passes < 2 && std::chrono::steady_clock::now() < patience);
+        EXPECT_TRUE(visit_->panel().traced) << visit_->panel().news;
+        EXPECT_GE(visit_->panel().passes, 2);
+        return visit_->image();
+    }
+    void dim_a_light() {
+        LightEntry light = visit_->lights().edits().state().entries.at(0);
+        light.colour = {0.2, 0.5, 0.1};
+        visit_->lights().edits().set_light(0, light);
+    }
+
+    static inline std::unique_ptr<test::VirtualDisplay> display_;
+    test::TemporaryFolder work_;
+    std::optional<std::vector<std::string>> left_;  // errors and objects of OpenGL after the window was destroyed
+    std::unique_ptr<Visit> visit_;
+};
+
+TEST_F(SequenceInWindow, FramesAreTracedWithTheEditedLights) {
+    const Image<Rgba8> raster = visit_->image();
+    press(Key::kTrace);
+    const Image<Rgba8> first = traced();
+    EXPECT_NE(first, raster);
+    press(Key::kFrameOn);  // to a frame without the last box
+    const Image<Rgba8> second = traced();
+    EXPECT_EQ(playback().frame(), 1U);
+    EXPECT_NE(second, first);
+    dim_a_light();
+    EXPECT_NE(traced(), second);
+    press(Key::kFrameBack);
+    EXPECT_NE(traced(), first);
+    press(Key::kUndo);
+    press(Key::kTrace);
+    ASSERT_TRUE(step());
+    EXPECT_EQ(playback().frame(), 0U);
+    EXPECT_EQ(visit_->image(), raster);
+}
+
+TEST_F(SequenceInWindow, WeatherChangesAndEditedLightsStay) {
+    const Image<Rgba8> fair = visit_->image();
+    playback().set_weather(Weather{.fog = true, .visibility = 25});
+    ASSERT_TRUE(step());
+    const Image<Rgba8> fog = visit_->image();
+    EXPECT_NE(fog, fair);
+    playback().set_weather(Weather{.rain = true});
+    ASSERT_TRUE(step());
+    EXPECT_NE(visit_->image(), fog);
+    playback().set_weather(std::nullopt);
+    ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->image(), fair);
+    dim_a_light();
+    ASSERT_TRUE(step());
+    const LightingState edited = visit_->lights().edits().state();
+    const Image<Rgba8> dim = visit_->image();
+    EXPECT_NE(dim, fair);
+    playback().set_weather(Weather{.snow = true});
+    ASSERT_TRUE(step());
+    EXPECT_NE(visit_->image(), dim);
+    playback().set_weather(std::nullopt);
+    ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->lights().edits().state(), edited);
+    EXPECT_EQ(visit_->image(), dim);
+}
+
 TEST(WindowWithoutDisplay, SaysWhatToDo) {
     const char* const display = std::getenv("DISPLAY");
     const std::string before = display != nullptr ? display : "";
@@ -232,7 +359,7 @@ TEST(WindowWithoutDisplay, SaysWhatToDo) {
     const auto window = Window::create({});
     if (!before.empty()) setenv("DISPLAY", before.c_str(), 1);
     ASSERT_FALSE(window.ok());
-    EXPECT_NE(window.error().message.find("--headless"), std::string::npos) << window.error().message;
+    EXPECT_NE(window.error().message.find("rs-view render"), std::string::npos) << window.error().message;
 }
 
 }  // namespace

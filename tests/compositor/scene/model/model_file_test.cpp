@@ -118,7 +118,7 @@ TEST_F(ModelFile, CamerasAndLightsAreRead) {
         std::string(kMaterial) +
             R"(, "cameras": [{"type": "perspective", "name": "door", "perspective": {"yfov": 0.7, "znear": 0.1, "aspectRatio": 1.5}}],
                "extensionsUsed": ["KHR_lights_punctual"],
-               "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 10, "color": [1, 0.5, 0]}]}})"));
+               "extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "name": "lamp", "intensity": 10, "color": [1, 0.5, 0]}]}})"));
     ASSERT_TRUE(scene) << scene.error().message;
     ASSERT_EQ(scene->viewpoints.size(), 1U);
     EXPECT_EQ(scene->viewpoints[0].description, "door");
@@ -126,6 +126,7 @@ TEST_F(ModelFile, CamerasAndLightsAreRead) {
     EXPECT_EQ(glm::dvec3(scene->viewpoints[0].world_from_camera[3]), glm::dvec3(0, 2, 5));
     ASSERT_EQ(scene->lights.size(), 1U);
     EXPECT_EQ(scene->lights[0].kind, LightKind::kPoint);
+    EXPECT_EQ(scene->lights[0].name, "lamp");
     EXPECT_EQ(scene->lights[0].location, glm::dvec3(0, 3, 0));
     EXPECT_NEAR(scene->lights[0].colour.g, 5 / kPi, 1e-5);
     EXPECT_FALSE(scene->navigation.headlight);

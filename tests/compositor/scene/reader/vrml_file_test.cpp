@@ -132,7 +132,7 @@ TEST(VrmlFile, DirectionalLightsShineOnTheirGroupOnly) {
     const Scene scene = scene_of(
         "Group { children [ Shape { geometry Box { } } DirectionalLight { direction 0 -2 0 intensity 0.5 "
         "ambientIntensity 0.25 } "
-        "Group { children Shape { geometry Cone { } } } ] } Shape { geometry Sphere { } } PointLight { } "
+        "Group { children Shape { geometry Cone { } } } ] } Shape { geometry Sphere { } } DEF lamp PointLight { } "
         "DirectionalLight { on FALSE }");
     ASSERT_EQ(scene.lights.size(), 2U);
     EXPECT_FALSE(scene.lights[0].everywhere);
@@ -140,6 +140,8 @@ TEST(VrmlFile, DirectionalLightsShineOnTheirGroupOnly) {
     EXPECT_EQ(scene.lights[0].colour, glm::vec3(0.5F));
     EXPECT_EQ(scene.lights[0].ambient, glm::vec3(0.25F));
     EXPECT_TRUE(scene.lights[1].everywhere);
+    EXPECT_EQ(scene.lights[0].name, "");
+    EXPECT_EQ(scene.lights[1].name, "lamp");
     ASSERT_EQ(scene.geometry.size(), 3U);
     EXPECT_THAT(scene.geometry[0].lights, ElementsAre(0U));
     EXPECT_THAT(scene.geometry[1].lights, ElementsAre(0U));
