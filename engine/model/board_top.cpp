@@ -6,7 +6,8 @@ namespace rs::engine::model {
 namespace {
 
 Simulator::Options simulator_options(const BoardConfig& config, std::uint64_t shuffle_seed) {
-    return {config.clock_period, config.pci.period, config.no_progress_cycles, shuffle_seed};
+    const BoardConfig::Periods periods = config.clock_periods();
+    return {periods.board, periods.bus, config.no_progress_cycles, shuffle_seed};
 }
 
 // Read ports in order of service.

@@ -10,14 +10,7 @@ namespace {
 class SimulatedBoard final : public Executor {
 public:
     SimulatedBoard(const BoardConfig& config, bool instant_loads)
-        : traits_{.name = "board:" + config.name,
-                  .depth = false,
-                  .tilted = false,
-                  .filters = false,
-                  .views_per_cycle = config.limits.views_per_cycle},
-          limits_(config.limits),
-          board_(config),
-          instant_loads_(instant_loads) {}
+        : traits_(board_traits(config)), limits_(config.limits), board_(config), instant_loads_(instant_loads) {}
 
     [[nodiscard]] const ExecutorTraits& traits() const override { return traits_; }
 
@@ -68,6 +61,14 @@ private:
 };
 
 }  // namespace
+
+ExecutorTraits board_traits(const BoardConfig& config) {
+    return {.name = "board:" + config.name,
+            .depth = false,
+            .tilted = false,
+            .filters = false,
+            .views_per_cycle = config.limits.views_per_cycle};
+}
 
 std::unique_ptr<Executor> make_simulated_board(const BoardConfig& config, bool instant_loads) {
     return std::make_unique<SimulatedBoard>(config, instant_loads);
