@@ -21,7 +21,9 @@ public:
     [[nodiscard]] Status can_render(const ViewRegisters& registers) const override {
         RS_TRY(board_view(registers, 0));
         if (registers.width > limits_.image_buffer_side_px || registers.height > limits_.image_buffer_side_px) {
-            return Error{"the view is larger than the board's image buffer"};
+            return Error{"the view is larger than the board's image buffer, " +
+                         std::to_string(limits_.image_buffer_side_px) +
+                         " px a side; render a smaller image, or from farther away"};
         }
         return {};
     }

@@ -141,6 +141,12 @@ TEST(BoardConfig, ParallelHasPipesAndBanksForEachImageBuffer) {
     EXPECT_NE(board.registers.image(0, 0) >> 23U, board.registers.image(1, 0) >> 23U);  // banks
 }
 
+TEST(BoardConfig, ASingleObjectSlotIsEnoughForABoard) {
+    const BoardTop board(parse_board_config(R"({"limits": {"objects": 1}})", "f").value());
+    EXPECT_EQ(board.registers.objects.size(), 1U);
+    EXPECT_EQ(board.object_ready.width_bits(), 1);
+}
+
 TEST(BoardConfig, IsReadFromAFile) {
     const rs::test::TemporaryFolder scratch;
     const std::string path = (scratch / "slow.json").string();
