@@ -24,9 +24,11 @@ Showroom::Showroom(const Scene& scene, const ShowroomOptions& options, std::uniq
                    std::unique_ptr<ObjectSource> source)
     : plan_(scene),
       waits_(options.waits),
+      board_name_(board ? board->traits().name : ""),
       engine_(std::make_shared<engine::RenderSession>(viewer_session_limits(), std::move(board))),
       nodes_(std::make_shared<DisplayedNodes>(scene.objects.size())),
       handles_(plan_.files().size()),
+      core_warned_(plan_.files().size()),
       cache_(plan_.files(), source ? std::move(source) : make_file_source(engine_, !options.waits),
              options.memory_bytes) {
     for (const RaySpaceNode& node : scene.objects) scene_nodes_.push_back({node, std::nullopt, false});
@@ -176,7 +178,20 @@ std::vector<PlacedObject> Showroom::placed() const {
     return all;
 }
 
+// A file that was evicted and read again has a new handle, so files are marked, not handles.
+void Showroom::warn_of_core_objects() {
+    for (const engine::CoreFallback& fallback : engine_->take_fallbacks()) {
+        const auto handle = std::ranges::find(handles_, fallback.object);
+        if (handle == handles_.end()) continue;  // evicted meanwhile
+        const auto file = static_cast<std::size_t>(handle - handles_.begin());
+        if (core_warned_[file]) continue;
+        core_warned_[file] = true;
+        warnings_.push_back(fallback.reason + "; drawn by the core, not by " + board_name_);
+    }
+}
+
 std::vector<std::string> Showroom::take_warnings() {
+    warn_of_core_objects();
     return std::exchange(warnings_, {});
 }
 

@@ -58,7 +58,8 @@ public:
     /// Objects in memory.
     [[nodiscard]] std::vector<PlacedObject> placed() const;
 
-    /// New warnings about objects that cannot be shown.
+    /// New warnings about objects that cannot be shown, and, once for each file, about objects that the core draws
+    /// instead of the board.
     std::vector<std::string> take_warnings();
     /// True if nothing will be loaded or evicted while the visitor does not move.
     [[nodiscard]] bool settled() const { return priorities_taken_ && cache_.settled(); }
@@ -72,6 +73,7 @@ private:
     Status add_loaded(const CacheEvent& event);
     void evict(CacheEvent event);
     Status record_failure(const CacheEvent& event);
+    void warn_of_core_objects();
     void load_on_board(const glm::dvec3& eye);
     void fade(double seconds);
     [[nodiscard]] Placeholder placeholder_of(std::size_t node) const;
@@ -84,10 +86,12 @@ private:
     std::vector<Node> scene_nodes_;
     RoomPlan plan_;
     bool waits_;
+    std::string board_name_;  // of the executor; empty: the software core
     std::shared_ptr<engine::RenderSession> engine_;
     std::shared_ptr<DisplayedNodes> nodes_;
     std::vector<engine::ObjectHandle> handles_;  // [file]; 0 if not loaded
     std::vector<std::string> warnings_;
+    std::vector<bool> core_warned_;  // [file]; a warning says that the core draws it instead of the board
     std::optional<glm::dvec3> eye_;  // in the last frame
     glm::dvec3 velocity_{0};         // scene units per second
     bool priorities_taken_ = false;  // the cache has accepted those of the last frame

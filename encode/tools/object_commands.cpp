@@ -1,11 +1,14 @@
 #include "encode/tools/commands.hpp"
 
 #include "encode/build.hpp"
+#include "encode/report/ray_map_image.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/codec/stream/byte_account.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
+#include "rayspace/image_io/image_io.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -13,6 +16,7 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace rs::encode {
@@ -24,13 +28,30 @@ struct ObjectArguments {
     bool force = false;
     bool quiet = false;
     bool json = false;
+    std::string map_image;
+    int map_ring = 0;
+    std::optional<int> map_plane;
 };
 
 std::string stored_as(const RaySpaceObject& object) {
     return object.coded ? codec::name_of(object.coded->profile) : "raw";
 }
 
+// Writes the figure of the RS map, if one is requested.
+Status write_map_image(const ObjectArguments& arguments, const RaySpaceObject& object) {
+    if (arguments.map_image.empty()) return {};
+    if (arguments.map_ring >= static_cast<int>(object.rings.size())) {
+        return Error{"--map-ring " + std::to_string(arguments.map_ring) + ": " + arguments.object + " has rings 0 to " +
+                     std::to_string(object.rings.size() - 1)};
+    }
+    const Ring& ring = object.rings[static_cast<std::size_t>(arguments.map_ring)];
+    const Result<Image<Rgba8>> image = ray_map_image(ring, arguments.map_plane);
+    if (!image) return Error{"--map-plane: " + arguments.object + ": " + image.error().message};
+    return write_png(arguments.map_image, *image);
+}
+
 Status run_info(const ObjectArguments& arguments) {
+    RS_TRY(refuse_overwriting_inputs(arguments.map_image, {arguments.object}));
     RS_ASSIGN_OR_RETURN(const ContainerReader container, ContainerReader::open(arguments.object));
     Result<RaySpaceObject> object = read_object(container, {.max_level = -1});
     if (!object) return object.error();
@@ -40,6 +61,7 @@ Status run_info(const ObjectArguments& arguments) {
         if (!object) return object.error();
         account = codec::account_bytes(*object->coded);
     }
+    RS_TRY(write_map_image(arguments, *object));
     const std::vector<ChunkSummary> chunks = summarise_chunks(container);
     if (arguments.json) {
         nlohmann::json json{{"name", object->name},
@@ -127,7 +149,20 @@ void add_info_command(CLI::App& app, std::function<Status()>& run) {
     CLI::App* command = add_object_command(app, run, "info", "Print an object's contents and the size of its parts",
                                            arguments, run_info);
     command->add_flag("--json", arguments->json, "print as JSON");
-    command->footer("Example:\n  rs-encode info vase.rso --json");
+    CLI::Option* const image =
+        command
+            ->add_option("--map-image", arguments->map_image,
+                         "draw the RS map to this PNG file: x across, u down, the reference planes one below the "
+                         "other; colours are the photos in turning order, transparent is none")
+            ->check(ends_in({".png"}));
+    command->add_option("--map-ring", arguments->map_ring, "ring that --map-image draws, from 0")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str()
+        ->needs(image);
+    command->add_option("--map-plane", arguments->map_plane, "reference plane that --map-image draws alone, from 0")
+        ->check(CLI::NonNegativeNumber)
+        ->needs(image);
+    command->footer("Examples:\n  rs-encode info vase.rso --json\n  rs-encode info vase.rso --map-image map.png");
 }
 
 void add_verify_command(CLI::App& app, std::function<Status()>& run) {

@@ -76,6 +76,13 @@ bool BoardThread::holds(std::uint32_t number) const {
     return found != objects_.end() && found->second.slot;
 }
 
+std::optional<std::string> BoardThread::load_refusal(std::uint32_t number) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = objects_.find(number);
+    if (found == objects_.end() || found->second.refusal.empty()) return std::nullopt;
+    return found->second.refusal;
+}
+
 void BoardThread::draw(std::vector<ObjectView> views) {
     const std::lock_guard lock(mutex_);
     reserved_ = false;
@@ -152,8 +159,11 @@ void BoardThread::load_one(std::unique_lock<std::mutex>& lock) {
         if (!slot) {
             ++counts_.failed_loads;
             note_failure(slot.error());
-            if (found != objects_.end()) found->second.failed = true;
-            if (found != objects_.end()) found->second.waits = false;
+            if (found != objects_.end()) {
+                found->second.failed = true;
+                found->second.waits = false;
+                found->second.refusal = "the board failed to load it: " + slot.error().message;
+            }
             break;
         }
         if (*slot) {
@@ -163,12 +173,17 @@ void BoardThread::load_one(std::unique_lock<std::mutex>& lock) {
             } else {
                 found->second.slot = **slot;
                 found->second.waits = false;
+                found->second.refusal.clear();
             }
             break;
         }
         const std::optional<std::uint32_t> victim = least_requested(requested);
         if (!victim || found == objects_.end()) {
-            if (found != objects_.end()) found->second.waits = false;
+            if (found != objects_.end()) {
+                found->second.waits = false;
+                found->second.refusal =
+                    "the board's memory or slots are full of objects of the same views; use fewer or smaller objects";
+            }
             break;
         }
         const int freed = *std::exchange(objects_.at(*victim).slot, std::nullopt);

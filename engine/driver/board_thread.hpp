@@ -51,6 +51,8 @@ public:
     [[nodiscard]] bool reserve();
     /// True if the object is in the board's memory.
     [[nodiscard]] bool holds(std::uint32_t number) const;
+    /// Reason for which the last request of the object did not load it; nullopt if it is loaded, queued or unknown.
+    [[nodiscard]] std::optional<std::string> load_refusal(std::uint32_t number) const;
 
     struct ObjectView {
         std::uint32_t object = 0;
@@ -70,6 +72,7 @@ private:
         std::uint64_t last_requested = 0;
         bool waits = false;   // queued for loading
         bool failed = false;  // loading failed; not retried
+        std::string refusal;  // why the last attempt did not load it; empty if it did
     };
     void work();
     void load_one(std::unique_lock<std::mutex>& lock);

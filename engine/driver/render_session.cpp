@@ -16,7 +16,9 @@ namespace {
 
 struct LoadedObject {
     std::shared_ptr<const Renderer> renderer;
-    bool on_board = false;  // added to the board
+    bool on_board = false;        // added to the board
+    std::string not_on_board;     // why it was not, if the session has a board
+    bool fallback_noted = false;  // in State::fallbacks, now or earlier
 };
 
 struct Cycle {
@@ -27,6 +29,16 @@ struct Cycle {
 
 Error not_loaded(ObjectHandle object) {
     return Error{"object " + std::to_string(object.number) + " is not loaded; load it first"};
+}
+
+// Fails, with the reason, if the board cannot render the view, now or later. Objects that wait for their load can be.
+Status board_renders(const BoardThread& board, const ViewRequest& view, const LoadedObject& object,
+                     const ViewRegisters& registers) {
+    const std::string name = object.renderer->object().name + ": ";
+    if (!object.on_board) return object.not_on_board.empty() ? Status() : Error{object.not_on_board};
+    if (view.depth && !board.device().traits().depth) return Error{name + "the board gives no depth of pixels"};
+    if (const Status can = board.device().can_render(registers); !can) return Error{name + can.error().message};
+    return {};
 }
 
 }  // namespace
@@ -44,6 +56,7 @@ struct RenderSession::State {
     std::uint32_t last_object = 0;
     std::uint64_t last_cycle = 0;
     RenderSessionStatistics statistics;
+    std::vector<CoreFallback> fallbacks;  // not yet taken
     bool stopping = false;
     std::thread worker;
 
@@ -54,6 +67,26 @@ struct RenderSession::State {
         return nullptr;
     }
 
+    // Requires the mutex.
+    void note_fallback(std::uint32_t number, std::string reason) {
+        const auto found = objects.find(number);
+        if (found == objects.end() || std::exchange(found->second.fallback_noted, true)) return;
+        fallbacks.push_back({{number}, std::move(reason)});
+    }
+
+    [[nodiscard]] std::int64_t failed_cycles() const {
+        return executor.board() == nullptr ? 0 : executor.board()->counts().failed_cycles;
+    }
+
+    // Notes the objects of a cycle in which the board failed. Requires the mutex.
+    void note_board_failure(const std::vector<PreparedView>& views) {
+        const std::string failure = executor.board()->counts().last_failure;
+        for (const PreparedView& view : views) {
+            if (!view.board_can_render) continue;
+            note_fallback(view.object, view.renderer->object().name + ": the board failed: " + failure);
+        }
+    }
+
     void work() {
         std::unique_lock lock(mutex);
         for (;;) {
@@ -61,9 +94,13 @@ struct RenderSession::State {
             if (stopping) return;
             const std::shared_ptr<Cycle> cycle = next_cycle();
             lock.unlock();
+            const std::int64_t failed_before = failed_cycles();
             Result<std::vector<DrawnView>> drawn = executor.draw(cycle->views);
-            cycle->views.clear();  // releases evicted objects
+            const bool board_failed = failed_cycles() > failed_before;
+            std::vector<PreparedView> views = std::exchange(cycle->views, {});
+            if (!board_failed) views.clear();  // releases evicted objects
             lock.lock();
+            if (board_failed) note_board_failure(views);
             ++statistics.cycles;
             if (drawn) {
                 for (const DrawnView& view : *drawn)
@@ -108,14 +145,16 @@ Result<ObjectHandle> RenderSession::load(RaySpaceObject object) {
 }
 
 Result<ObjectHandle> RenderSession::load_checked(RaySpaceObject object) {
-    const std::shared_ptr<const RaySpaceObject> for_board = convert_for_board(object);
+    const Result<std::shared_ptr<const RaySpaceObject>> for_board = convert_for_board(object);
     RS_ASSIGN_OR_RETURN(Renderer renderer, Renderer::create(std::move(object)));
-    return load({std::make_shared<const Renderer>(std::move(renderer)), for_board});
+    return load(PreparedObject{std::make_shared<const Renderer>(std::move(renderer)), for_board ? *for_board : nullptr,
+                               for_board ? "" : for_board.error().message});
 }
 
-std::shared_ptr<const RaySpaceObject> RenderSession::convert_for_board(RaySpaceObject& object) const {
+Result<std::shared_ptr<const RaySpaceObject>> RenderSession::convert_for_board(RaySpaceObject& object) const {
     const BoardThread* const board = state_->executor.board();
-    if (board == nullptr || !board->device().supports(object)) return nullptr;
+    if (board == nullptr) return std::shared_ptr<const RaySpaceObject>();
+    RS_TRY(board->device().supports(object));
     object = board->device().as_rendered(std::move(object));
     return std::make_shared<const RaySpaceObject>(object);
 }
@@ -130,7 +169,8 @@ Result<ObjectHandle> RenderSession::load(PreparedObject object) {
     const ObjectHandle handle{++state_->last_object};
     BoardThread* const board = state_->executor.board();
     const bool on_board = board != nullptr && object.for_board != nullptr;
-    state_->objects.emplace(handle.number, LoadedObject{std::move(object.renderer), on_board});
+    state_->objects.emplace(handle.number,
+                            LoadedObject{std::move(object.renderer), on_board, std::move(object.not_on_board)});
     if (on_board) board->add(handle.number, std::move(object.for_board));
     return handle;
 }
@@ -165,6 +205,7 @@ Result<CycleHandle> RenderSession::submit(const std::vector<ViewRequest>& views)
     }
     const auto cycle = std::make_shared<Cycle>();
     const BoardThread* const board = state_->executor.board();
+    std::vector<CoreFallback> refusals;
     const std::lock_guard lock(state_->mutex);
     for (const ViewRequest& view : views) {
         const auto found = state_->objects.find(view.object.number);
@@ -174,8 +215,14 @@ Result<CycleHandle> RenderSession::submit(const std::vector<ViewRequest>& views)
         Result<ViewRegisters> registers =
             prepare_view(object, view.camera, is_filtered ? std::nullopt : std::optional(TexelFilter::kBilinear));
         if (!registers) return Error{object.name + ": " + registers.error().message};
-        const bool board_can_render = found->second.on_board && (!view.depth || board->device().traits().depth) &&
-                                      board->device().can_render(*registers).ok();
+        const Status by_board = board == nullptr ? Status() : board_renders(*board, view, found->second, *registers);
+        const bool board_can_render = board != nullptr && found->second.on_board && by_board.ok();
+        if (!by_board) {
+            refusals.push_back({view.object, by_board.error().message});
+        } else if (board != nullptr) {
+            const std::optional<std::string> refusal = board->load_refusal(view.object.number);
+            if (refusal) refusals.push_back({view.object, object.name + ": " + *refusal});
+        }
         cycle->views.push_back(
             {view.object.number, found->second.renderer, std::move(*registers), view.depth, board_can_render});
     }
@@ -184,6 +231,7 @@ Result<CycleHandle> RenderSession::submit(const std::vector<ViewRequest>& views)
     }
     const CycleHandle handle{++state_->last_cycle};
     state_->cycles.emplace(handle.number, cycle);
+    for (CoreFallback& refusal : refusals) state_->note_fallback(refusal.object.number, std::move(refusal.reason));
     state_->changed.notify_all();
     return handle;
 }
@@ -212,6 +260,11 @@ Result<std::vector<Image<Rgba8>>> RenderSession::retrieve(CycleHandle handle) {
     std::vector<Image<Rgba8>> images;
     for (DrawnView& view : views) images.push_back(std::move(view.image));
     return images;
+}
+
+std::vector<CoreFallback> RenderSession::take_fallbacks() {
+    const std::lock_guard lock(state_->mutex);
+    return std::exchange(state_->fallbacks, {});
 }
 
 RenderSessionStatistics RenderSession::statistics() const {

@@ -22,6 +22,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace rs::engine {
@@ -51,6 +52,13 @@ struct RenderSessionLimits {
 struct PreparedObject {
     std::shared_ptr<const Renderer> renderer;         // not null
     std::shared_ptr<const RaySpaceObject> for_board;  // from RenderSession::convert_for_board(), or null
+    std::string not_on_board = {};                    // its error, if it failed
+};
+
+// Object that the core renders although the session has a board.
+struct CoreFallback {
+    ObjectHandle object;
+    std::string reason;  // "NAME: what is wrong; what to do"
 };
 
 struct RenderSessionStatistics {
@@ -72,9 +80,10 @@ public:
     Result<ObjectHandle> load(RaySpaceObject object);
     Result<ObjectHandle> load(PreparedObject object);
 
-    /// Converts a valid object (validate_object) to the board's representation, if the session has a board that
-    /// supports it. \return copy for PreparedObject::for_board; null, with `object` unchanged, otherwise
-    [[nodiscard]] std::shared_ptr<const RaySpaceObject> convert_for_board(RaySpaceObject& object) const;
+    /// Converts a valid object (validate_object) to the board's representation.
+    /// \return copy for PreparedObject::for_board; null if the session has no board; an error, with `object` unchanged,
+    ///         if the board does not support the object: the text of PreparedObject::not_on_board
+    [[nodiscard]] Result<std::shared_ptr<const RaySpaceObject>> convert_for_board(RaySpaceObject& object) const;
 
     [[nodiscard]] const RenderSessionLimits& limits() const;
     [[nodiscard]] bool has_board() const;
@@ -104,6 +113,11 @@ public:
     Result<std::vector<Image<Rgba8>>> retrieve(CycleHandle cycle);
 
     [[nodiscard]] RenderSessionStatistics statistics() const;
+
+    /// Objects submitted since the last call that the core renders because the board cannot: it does not support the
+    /// object or a view of it, has no room, or failed. Each object is reported once, with the first reason. Objects
+    /// that only wait for their load are not reported.
+    std::vector<CoreFallback> take_fallbacks();
 
 private:
     struct State;

@@ -135,8 +135,9 @@ RenderedCycle Board::collect(std::uint64_t cycle) {
     for (const BoardView& view : top_->programs[done.program].bank.views) {
         RS_CHECK(!arrived.empty() && arrived.front().words.size() == static_cast<std::size_t>(view.words()));
         result.images.push_back(unpack_host_image(arrived.front(), view));
-        result.arrived = (arrived.front().arrived + 1) * static_cast<std::uint64_t>(top_->config.pci.period) /
-                         static_cast<std::uint64_t>(top_->config.clock_period);
+        const BoardConfig::Periods periods = top_->config.clock_periods();
+        result.arrived = (arrived.front().arrived + 1) * static_cast<std::uint64_t>(periods.bus) /
+                         static_cast<std::uint64_t>(periods.board);
         arrived.pop_front();
     }
     top_->programs.drop_before(done.program + 1);

@@ -93,6 +93,9 @@ private:
     std::uint32_t loads_ = 0;  // loads placed or started; gives the serial numbers of the objects
 };
 
+// Capabilities of a simulated board.
+ExecutorTraits board_traits(const BoardConfig& config);
+
 // Simulated board as an executor with the interface and the results of the hardware (simulated_board.cpp).
 // Objects are loaded from the board's disk in simulated time, or with `instant_loads` placed into memory at once.
 std::unique_ptr<Executor> make_simulated_board(const BoardConfig& config, bool instant_loads = false);

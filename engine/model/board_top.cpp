@@ -1,12 +1,14 @@
 #include "engine/model/board_top.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace rs::engine::model {
 namespace {
 
 Simulator::Options simulator_options(const BoardConfig& config, std::uint64_t shuffle_seed) {
-    return {config.clock_period, config.pci.period, config.no_progress_cycles, shuffle_seed};
+    const BoardConfig::Periods periods = config.clock_periods();
+    return {periods.board, periods.bus, config.no_progress_cycles, shuffle_seed};
 }
 
 // Read ports in order of service.
@@ -147,7 +149,8 @@ void ParallelBoard::add_pipes(Simulator& simulator) {
 BoardTop::BoardTop(const BoardConfig& board_config, std::uint64_t shuffle_seed)
     : config(board_config),
       registers(register_file(config)),
-      object_ready(*this, "object_ready", 2, static_cast<int>(std::bit_width(registers.objects.size() - 1))),
+      object_ready(*this, "object_ready", 2,
+                   std::max(1, static_cast<int>(std::bit_width(registers.objects.size() - 1)))),
       body(body_of(config, registers, load_words, object_loaded)),
       render_control(config, registers, programs,
                      {.commands = commands,

@@ -10,14 +10,7 @@ namespace {
 class SimulatedBoard final : public Executor {
 public:
     SimulatedBoard(const BoardConfig& config, bool instant_loads)
-        : traits_{.name = "board:" + config.name,
-                  .depth = false,
-                  .tilted = false,
-                  .filters = false,
-                  .views_per_cycle = config.limits.views_per_cycle},
-          limits_(config.limits),
-          board_(config),
-          instant_loads_(instant_loads) {}
+        : traits_(board_traits(config)), limits_(config.limits), board_(config), instant_loads_(instant_loads) {}
 
     [[nodiscard]] const ExecutorTraits& traits() const override { return traits_; }
 
@@ -28,7 +21,9 @@ public:
     [[nodiscard]] Status can_render(const ViewRegisters& registers) const override {
         RS_TRY(board_view(registers, 0));
         if (registers.width > limits_.image_buffer_side_px || registers.height > limits_.image_buffer_side_px) {
-            return Error{"the view is larger than the board's image buffer"};
+            return Error{"the view is larger than the board's image buffer, " +
+                         std::to_string(limits_.image_buffer_side_px) +
+                         " px a side; render a smaller image, or from farther away"};
         }
         return {};
     }
@@ -68,6 +63,14 @@ private:
 };
 
 }  // namespace
+
+ExecutorTraits board_traits(const BoardConfig& config) {
+    return {.name = "board:" + config.name,
+            .depth = false,
+            .tilted = false,
+            .filters = false,
+            .views_per_cycle = config.limits.views_per_cycle};
+}
 
 std::unique_ptr<Executor> make_simulated_board(const BoardConfig& config, bool instant_loads) {
     return std::make_unique<SimulatedBoard>(config, instant_loads);

@@ -263,7 +263,8 @@ void add_simulate_command(CLI::App& app, std::function<Status()>& run) {
         "simulate", "Render views with the cycle-accurate model of a board, and print the utilization of its blocks");
     command
         ->add_option("CONFIG", arguments->config,
-                     "prototype-2000, compressed-2000, parallel, or a JSON file that overrides settings of one of them")
+                     "prototype-2000 (also with a remedy of its bus: -pci-x, -dedicated, -compressed-transfer), "
+                     "compressed-2000, parallel, or a JSON file that overrides settings of one of them")
         ->required();
     command->add_option("OBJECT", arguments->objects, "ray-space objects, .rso; shape maps only with parallel");
     add_view_options(*command, arguments->views, false);

@@ -119,6 +119,17 @@ TEST(Pipeline, AMeshBecomesAnObjectThatReproducesItsImages) {
     const auto info = nlohmann::json::parse(run("rs-encode", {"info", in("box.rso"), "--json"}).out);
     EXPECT_EQ(info["views"], 12);
     EXPECT_EQ(info["rings"][0]["planes"], 12);
+    run("rs-encode", {"info", in("box.rso"), "--map-image", in("map.png"), "--map-plane", "3"});
+    const auto map = read_image_info(in("map.png"));
+    ASSERT_TRUE(map.ok()) << map.error().message;
+    const int x_cells = info["rings"][0]["x_cells"];
+    EXPECT_EQ(map->width % x_cells, 0);
+    const auto exit_code_of = [&](const std::vector<std::string>& arguments) {
+        return test::run_tool(folder.path(), "rs-encode", arguments).exit_code;
+    };
+    EXPECT_EQ(exit_code_of({"info", in("box.rso"), "--map-image", in("map.png"), "--map-plane", "12"}), 1);
+    EXPECT_EQ(exit_code_of({"info", in("box.rso"), "--map-image", in("map.png"), "--map-ring", "1"}), 1);
+    EXPECT_EQ(exit_code_of({"info", in("box.rso"), "--map-ring", "0"}), 2);  // without --map-image
 }
 
 }  // namespace

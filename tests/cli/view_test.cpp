@@ -4,7 +4,7 @@
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "tests/support/run_tool.hpp"
-#include "tests/support/small_object.hpp"
+#include "tests/support/small_shape.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
@@ -286,6 +286,23 @@ TEST_F(View, RoomsAreWalkedThroughWithinABudget) {
     stats_of({"--memory", "1"});
     EXPECT_EQ(run_.exit_code, 0);
     EXPECT_THAT(run_.err, HasSubstr("more than the budget of 1 MiB"));
+}
+
+TEST_F(View, AnObjectThatTheBoardCannotDrawIsNamedOnce) {
+    ASSERT_TRUE(write_object(work_ / "shaped.rso", test::small_object_with_shape()));
+    write("one.json",
+          R"({"nodes": [{"object": "shaped.rso"}],
+              "camera": {"path": [{"eye": [0, 1, 6], "at": [0, 1, 0]}, {"eye": [0, 1, 5], "at": [0, 1, 0]}],
+                         "frames": 3}})");
+    const test::ToolRun run =
+        render({in("one.json"), "-o", in("frames"), "--samples", "1", "--executor", "board:prototype-2000"});
+    if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("small: has a shape map"));
+    const std::string sentence = "drawn by the core, not by board:prototype-2000";
+    const std::size_t first = run.err.find(sentence);
+    ASSERT_NE(first, std::string::npos) << run.err;
+    EXPECT_EQ(run.err.find(sentence, first + 1), std::string::npos) << run.err;
 }
 
 TEST_F(View, OtherFilesAreRefusedInOneLine) {

@@ -9,6 +9,7 @@ engine::PreparedObject prepared(const std::shared_ptr<const ViewableObject>& obj
     engine::PreparedObject result;
     result.renderer = {object, &object->renderer};
     if (object->for_board) result.for_board = {object, object->for_board.get()};
+    result.not_on_board = object->not_on_board;
     return result;
 }
 

@@ -58,10 +58,13 @@ private:
         RS_ASSIGN_OR_RETURN(RaySpaceObject object,
                             read_object(container, {.memory_cap_bytes = static_cast<std::uint64_t>(most_bytes)}));
         on_progress(kRead);
-        std::shared_ptr<const RaySpaceObject> for_board = engine_->convert_for_board(object);
+        Result<std::shared_ptr<const RaySpaceObject>> for_board = engine_->convert_for_board(object);
         object.coded.reset();  // already unpacked
         RS_ASSIGN_OR_RETURN(ViewableObject viewable, make_viewable(std::move(object)));
-        viewable.for_board = std::move(for_board);
+        if (for_board)
+            viewable.for_board = *std::move(for_board);
+        else
+            viewable.not_on_board = for_board.error().message;
         on_progress(1);
         return viewable;
     }

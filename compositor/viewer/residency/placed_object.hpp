@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 
 namespace rs::compositor {
 
@@ -42,6 +43,7 @@ struct ViewableObject {
     BoundingCylinder bounds;
     UprightExtent extent;
     std::shared_ptr<const RaySpaceObject> for_board = nullptr;  // see engine::PreparedObject
+    std::string not_on_board = {};                              // likewise
 
     [[nodiscard]] std::int64_t memory_bytes() const;
 };

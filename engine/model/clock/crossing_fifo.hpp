@@ -1,7 +1,7 @@
 #pragma once
 // FIFO between two clocks: a dual-port RAM whose pointers pass through two flip-flops of the other clock. A push is
 // visible to the reader at the second edge of its clock after the push; space freed by a pop is visible to the writer
-// at the second edge of its clock after the pop. If edges of both clocks coincide, the board's is first.
+// at the second edge of its clock after the pop. Edges of both clocks never coincide (simulator.hpp).
 
 #include "rayspace/api/types/check.hpp"
 

@@ -1,5 +1,7 @@
 #pragma once
-// Ticks blocks and commits FIFOs, cycle by cycle, in two clock domains whose periods have an integer ratio.
+// Ticks blocks and commits FIFOs, cycle by cycle, in two clock domains whose periods have an integer ratio. Either
+// clock may be the faster one. Edge n of the board is at n periods of the board; edge k of the bus is just before k + 1
+// periods of the bus. So edges never coincide, and both clocks are ticked in the order of time.
 //
 // If no FIFO moves and no block works for a given number of board cycles before the run is done, the run fails with the
 // contents of every FIFO and the state of every block.
@@ -31,7 +33,7 @@ public:
     void add(Domain domain, const FifoGroup& group);
     void add_crossing(Domain writer, CrossingState& fifo);
 
-    // Executes one cycle of the board's clock and the bus cycles that are due in it.
+    // Executes one edge of the board's clock and the edges of the bus clock before the board's next one.
     void step();
 
     // Steps until done() returns true. Fails after no_progress_cycles without progress, or after `max_cycles`.
@@ -61,7 +63,7 @@ private:
     std::uint64_t board_cycles_ = 0;
     std::uint64_t pci_cycles_ = 0;
     std::uint64_t quiet_cycles_ = 0;
-    int phase_ = 0;  // units until the next edge of the bus clock, counted from the board's edge
+    int phase_ = 0;  // units since the end of the last bus period, at the board's next edge
     std::uint64_t random_;
     std::function<void(std::uint64_t)> observer_;
 };

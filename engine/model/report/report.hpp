@@ -68,6 +68,18 @@ std::string report_json(const BoardReport& report);
 // Stacked bars of activity shares, one bar per block. `title` is the heading.
 std::string report_chart_svg(const BoardReport& report, const std::string& title);
 
+// Rates at which a board's bus delivers a cycle of `images` images of side_px x side_px, if they are always drawn in
+// time and the host writes no registers meanwhile.
+struct BusRates {
+    double image_bytes_per_second = 0;  // within bursts; image bytes, also where the bus carries fewer
+    double cycle_seconds = 0;           // with the driver's pauses
+};
+BusRates bus_rates(const BoardConfig& config, int images, int side_px);
+
+// Table of DIAGRAM.md: the buses of prototype-2000, of the paper's remedies and of parallel, with their rates for nine
+// images of 256x256. Markdown; a test compares it with the page.
+std::string bus_table();
+
 // Tables of DIAGRAM.md, generated from the declarations of a board's blocks and FIFOs; a test compares them with the
 // page. Two tables as Markdown: blocks with clock, timing and ports; FIFOs with depth, width and the blocks at their
 // ends. For a parallel board one pipe represents all ("_pN"), and a third table lists its block RAM.

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <map>
+#include <numeric>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -52,6 +53,47 @@ BoardConfig parallel() {
     return config;
 }
 
+// A burst of 128 bytes (PCI-X may disconnect there) without wait states, which PCI-X forbids. The driver takes the same
+// 10 us between two images.
+BoardConfig prototype_2000_pci_x() {
+    BoardConfig config = prototype_2000();
+    config.name = "prototype-2000-pci-x";
+    config.pci.clock_mhz = 133;
+    config.pci.width_bits = 64;
+    config.pci.burst_words = 16;
+    config.pci.wait_per_transfer = 0;
+    config.pci.interrupt_clocks = 1330;
+    return config;
+}
+
+// Same width, clock and wait states as the PCI bus, but no other master, no processor cache to snoop, and no driver
+// between two images.
+BoardConfig prototype_2000_dedicated() {
+    BoardConfig config = prototype_2000();
+    config.name = "prototype-2000-dedicated";
+    config.pci.dedicated = 1;
+    config.pci.grant_clocks = 1;
+    config.pci.target_clocks = 1;
+    config.pci.interrupt_clocks = 0;
+    return config;
+}
+
+BoardConfig prototype_2000_compressed_transfer() {
+    BoardConfig config = prototype_2000();
+    config.name = "prototype-2000-compressed-transfer";
+    config.pci.compression = 2;
+    return config;
+}
+
+struct BusRemedy {
+    const char* name;
+    BoardConfig (*config)();
+};
+constexpr std::array<BusRemedy, 3> kBusRemedies = {
+    {{"prototype-2000-pci-x", prototype_2000_pci_x},
+     {"prototype-2000-dedicated", prototype_2000_dedicated},
+     {"prototype-2000-compressed-transfer", prototype_2000_compressed_transfer}}};
+
 // Kinds of boards, in the order of BoardKind. 0: boards of that kind do not have this setting.
 struct BoardKindSettings {
     const char* base;
@@ -74,7 +116,6 @@ template <class Config, class Visit>
 void for_each_number(Config& c, Visit&& visit) {
     const BoardKindSettings& kind = kind_of(c);
     visit("clock_mhz", c.clock_mhz, 1, 1000);
-    visit("clock_period", c.clock_period, 1, 100);
     visit("queue_cycles", c.queue_cycles, 1, 2);
     visit("no_progress_cycles", c.no_progress_cycles, 1000, 1'000'000'000);
     if (kind.most_pipes > 0) visit("pipes", c.pipes, 1, kind.most_pipes);
@@ -107,13 +148,16 @@ void for_each_number(Config& c, Visit&& visit) {
     visit("memory/maintenance_interval", c.memory.maintenance_interval, 64, 100'000);
     visit("memory/load_words_per_window", c.memory.load_words_per_window, 1, 1024);
     visit("memory/write_batch", c.memory.write_batch, 1, 15);
-    visit("pci/period", c.pci.period, 1, 100);
+    visit("pci/clock_mhz", c.pci.clock_mhz, 33, 133);
+    visit("pci/width_bits", c.pci.width_bits, 32, 64);
     visit("pci/burst_words", c.pci.burst_words, 1, 16);
     visit("pci/grant_clocks", c.pci.grant_clocks, 1, 1000);
     visit("pci/target_clocks", c.pci.target_clocks, 1, 1000);
     visit("pci/wait_per_transfer", c.pci.wait_per_transfer, 0, 100);
     visit("pci/register_clocks", c.pci.register_clocks, 1, 1000);
     visit("pci/interrupt_clocks", c.pci.interrupt_clocks, 0, 1'000'000);
+    visit("pci/dedicated", c.pci.dedicated, 0, 1);
+    visit("pci/compression", c.pci.compression, 1, 2);
     visit("pci/retry_every", c.pci.retry_every, 0, 1'000'000);
     visit("disk/cycles_per_transfer", c.disk.cycles_per_transfer, 1, 1000);
     visit("disk/start_cycles", c.disk.start_cycles, 0, 1'000'000'000);
@@ -122,6 +166,21 @@ void for_each_number(Config& c, Visit&& visit) {
     visit("disk/stall_after_bytes", c.disk.stall_after_bytes, 0, 2'000'000'000);
     visit("disk/stall_cycles", c.disk.stall_cycles, 0, 2'000'000'000);
     visit("disk/timeout_cycles", c.disk.timeout_cycles, 1, 2'000'000'000);
+}
+
+// Validates the values of the bus; "" if valid.
+std::string bus_error(const PciSettings& pci) {
+    if (pci.clock_mhz != 33 && pci.clock_mhz != 66 && pci.clock_mhz != 133) {
+        return "pci/clock_mhz: must be 33 or 66 (PCI) or 133 (PCI-X)";
+    }
+    if (pci.width_bits != 32 && pci.width_bits != 64) return "pci/width_bits: must be 32 or 64";
+    if (pci.compression > 1 && pci.width_bits == 64) {
+        return "pci/compression: 2 needs pci/width_bits 32, since the board gives the bus one word a clock";
+    }
+    if (pci.image_words_per_burst() > 16) {
+        return "pci/burst_words times pci/compression is above 16, the words that the board holds for a burst";
+    }
+    return {};
 }
 
 // Cross-field validation; "" if valid.
@@ -151,8 +210,7 @@ std::string cross_field_error(const BoardConfig& c) {
     if (c.memory.load_words_per_window > 1 << c.memory.shape.column_bits) {
         return "memory/load_words_per_window is larger than a row of the memory";
     }
-    if (c.pci.period < c.clock_period)
-        return "pci/period is below clock_period: the bus may not be faster than the board";
+    if (const std::string bad = bus_error(c.pci); !bad.empty()) return bad;
     const auto side = static_cast<std::uint64_t>(c.limits.image_buffer_side_px);
     const std::uint64_t image_words =
         2 * static_cast<std::uint64_t>(c.limits.views_per_cycle) * side * ((side + 1) / 2);
@@ -209,12 +267,27 @@ std::optional<BoardConfig> built_in(const std::string& name) {
     for (const BoardKindSettings& kind : kKinds) {
         if (name == kind.base) return kind.built_in();
     }
+    for (const BusRemedy& remedy : kBusRemedies) {
+        if (name == remedy.name) return remedy.config();
+    }
     return std::nullopt;
 }
 
+// Keys of versions up to 0.41, where the bus clock was a ratio to the board's.
+void refuse_former_keys(JsonObject& top, JsonObject* pci) {
+    if (top.has("clock_period")) {
+        throw top.take("clock_period").wrong("is no longer a key; remove it, and give the bus clock as pci.clock_mhz");
+    }
+    if (pci != nullptr && pci->has("period")) {
+        throw pci->take("period").wrong("is no longer a key; give the bus clock as pci.clock_mhz: 33, 66 or 133");
+    }
+}
+
 std::string listed_built_ins() {
+    std::vector<std::string> names = built_in_configs();
+    for (const BusRemedy& remedy : kBusRemedies) names.emplace_back(remedy.name);
     std::string list;
-    for (const std::string& name : built_in_configs()) list += (list.empty() ? "" : ", ") + name;
+    for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
     return list;
 }
 
@@ -224,6 +297,19 @@ std::vector<std::string> built_in_configs() {
     std::vector<std::string> names;
     for (const BoardKindSettings& kind : kKinds) names.emplace_back(kind.base);
     return names;
+}
+
+std::vector<std::string> bus_remedy_configs() {
+    std::vector<std::string> names;
+    for (const BusRemedy& remedy : kBusRemedies) names.emplace_back(remedy.name);
+    return names;
+}
+
+BoardConfig::Periods BoardConfig::clock_periods() const {
+    const int board = pci.thirds_of_mhz();
+    const int bus = 3 * clock_mhz;
+    const int unit = std::gcd(board, bus);
+    return {board / unit, bus / unit};
 }
 
 Result<BoardConfig> parse_board_config(const std::string& text, const std::string& where) {
@@ -239,6 +325,7 @@ Result<BoardConfig> parse_board_config(const std::string& text, const std::strin
         config.name = where;
         top.read("name", config.name);
         JsonObjects objects(top);
+        refuse_former_keys(top, objects.at("pci"));
         for_each_number(config, [&](const std::string& path, auto& value, int least, int most) {
             const std::size_t slash = path.rfind('/');
             JsonObject* const object = objects.at(slash == std::string::npos ? "" : path.substr(0, slash));

@@ -59,15 +59,24 @@ struct MemorySettings {
     int write_batch = 8;             // image words written together
 };
 
+// Bus that carries images to the host, or to the graphics card. Its clock does not depend on the board's.
 struct PciSettings {
-    int period = 6;         // in the units of `clock_period` of the board
-    int burst_words = 4;    // 64-bit words per burst: a cache line of 32 bytes
+    int clock_mhz = 33;     // nominal: 33, 66 (PCI) or 133 (PCI-X), which are 100/3, 200/3 and 400/3 MHz
+    int width_bits = 32;    // of a transfer: 32 or 64
+    int burst_words = 4;    // 64-bit words on the bus per burst: a cache line of 32 bytes
     int grant_clocks = 3;   // from REQ# to the address: two of the arbiter, and one in which the bus is sampled idle
     int target_clocks = 8;  // from the address to the first data: the host bridge snoops the processor's cache
-    int wait_per_transfer = 1;   // wait states of the board per 32-bit transfer
+    int wait_per_transfer = 1;   // wait states of the board per transfer
     int register_clocks = 4;     // a register write of the host
     int interrupt_clocks = 330;  // from the end of an image's transfer to the next: 10 us of the driver
+    int dedicated = 0;           // 1: images have this bus to themselves; the host writes registers over another one
+    int compression = 1;         // words of an image per word on the bus; 2 assumes a coder, which is not modelled
     int retry_every = 0;         // fault injection: the target retries every n-th burst; 0 = never
+
+    [[nodiscard]] double mhz() const { return thirds_of_mhz() / 3.0; }
+    [[nodiscard]] int thirds_of_mhz() const { return clock_mhz == 33 ? 100 : clock_mhz == 66 ? 200 : 400; }
+    // 64-bit words of an image that a full burst carries.
+    [[nodiscard]] int image_words_per_burst() const { return burst_words * compression; }
 };
 
 struct DiskSettings {
@@ -82,8 +91,7 @@ struct DiskSettings {
 
 struct BoardConfig {
     std::string name;
-    int clock_mhz = 40;
-    int clock_period = 5;
+    int clock_mhz = 40;  // of the board: its logic, its memory and the private bus of its disk
     BoardLimits limits;
     MemorySettings memory;
     PciSettings pci;
@@ -92,12 +100,21 @@ struct BoardConfig {
     int queue_cycles = 2;  // rendering cycles whose registers the board holds
     std::uint64_t no_progress_cycles = 20'000;
 
-    [[nodiscard]] double pci_mhz() const { return double(clock_mhz) * clock_period / pci.period; }
+    // Periods of both clocks in their largest common unit: 5 and 6 (of 5 ns) for 40 and 33 MHz.
+    struct Periods {
+        int board = 0;
+        int bus = 0;
+    };
+    [[nodiscard]] Periods clock_periods() const;
 };
 
 // "prototype-2000": the published board. "compressed-2000": the same board with images that stay compressed in its
 // memory. "parallel": sixteen pipes, each with a memory channel; also renders objects with a shape map.
 std::vector<std::string> built_in_configs();
+
+// The published board with each remedy that the paper names for its bus (section 7): "prototype-2000-pci-x",
+// "prototype-2000-dedicated", "prototype-2000-compressed-transfer".
+std::vector<std::string> bus_remedy_configs();
 
 // Reads a configuration by the name of a built-in, or from a JSON file: {"base": "prototype-2000", "memory": {...},
 // ...} overrides values of its base. Fails on an unknown name or key, a wrong type, or a value out of range; the

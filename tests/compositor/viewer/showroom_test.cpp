@@ -2,8 +2,12 @@
 
 #include "compositor/viewer/showroom.hpp"
 
+#include "engine/model/board.hpp"
+#include "rayspace/format/object_file.hpp"
 #include "tests/compositor/six_rooms.hpp"
 #include "tests/compositor/slow_source.hpp"
+#include "tests/support/small_shape.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +18,7 @@ namespace rs::compositor {
 namespace {
 
 using test::SlowSource;
+using ::testing::AllOf;
 using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -177,6 +182,37 @@ TEST_F(Walk, ARequiredObjectThatCannotBeReadIsAnError) {
     const Status status = showroom.update({0, 0, 0}, 0);
     ASSERT_FALSE(status);
     EXPECT_THAT(status.error().message, HasSubstr("gone: is not there"));
+}
+
+// Two nodes show a file with a shape map, which prototype-2000 does not render; one shows a file without.
+TEST(ShowroomOnABoard, AnObjectThatTheCoreDrawsIsReportedOnce) {
+    const test::TemporaryFolder folder;
+    ASSERT_TRUE(write_object(folder / "shaped.rso", test::small_object_with_shape()));
+    ASSERT_TRUE(write_object(folder / "plain.rso", test::small_object()));
+    Scene scene;
+    for (const char* name : {"shaped.rso", "plain.rso", "shaped.rso"}) {
+        RaySpaceNode node;
+        node.file = folder / name;
+        scene.objects.push_back(node);
+    }
+    const auto config = engine::model::read_board_config("prototype-2000");
+    ASSERT_TRUE(config);
+    Showroom showroom(scene, {.waits = true}, engine::model::make_simulated_board(*config, true));
+    ASSERT_TRUE(showroom.update({0, 0, 5}, 0));
+    const Camera camera = look_at_camera({0, 0, 10}, {0, 0, 0}, 0.6, 12, 10);
+    const auto draw_all = [&] {
+        std::vector<engine::ViewRequest> views;
+        for (const DisplayedNode& node : *showroom.nodes()) views.push_back({node.handle, camera});
+        const auto cycle = showroom.engine()->submit(views);
+        ASSERT_TRUE(cycle) << cycle.error().message;
+        ASSERT_TRUE(showroom.engine()->retrieve(*cycle));
+    };
+    draw_all();
+    EXPECT_THAT(showroom.take_warnings(),
+                ElementsAre(AllOf(HasSubstr("has a shape map"), HasSubstr("--raymap plane"),
+                                  HasSubstr("drawn by the core, not by board:prototype-2000"))));
+    draw_all();
+    EXPECT_THAT(showroom.take_warnings(), IsEmpty());
 }
 
 TEST_F(Walk, WaitingFramesAreComplete) {

@@ -100,6 +100,55 @@ TEST(SharedBoard, TheCoreRendersWhatTheBoardCannot) {
     EXPECT_EQ(session.statistics().views_by_core, before.views_by_core + 2);
 }
 
+TEST(SharedBoard, EachObjectThatTheCoreRendersIsReportedOnce) {
+    RenderSession session({}, model::make_simulated_board(config(), true));
+    RaySpaceObject shaped = object_of(2);
+    std::mt19937_64 random(3);
+    shaped.rings[0].shape = test::random_shape(shaped, 0, random, 0.3);
+    const auto shaped_handle = session.load(shaped);
+    const auto plain_handle = session.load(object_of(4));
+    ASSERT_TRUE(shaped_handle.ok() && plain_handle.ok());
+    session.load_on_board({*plain_handle});
+    EXPECT_TRUE(session.take_fallbacks().empty()) << "nothing is rendered yet";
+    const Camera level = camera_at(1, 3, 20, 20);
+    images_of(session, {{*plain_handle, level}, {*shaped_handle, level}});
+    images_of(session, {{*shaped_handle, level}});
+    std::vector<CoreFallback> fallbacks = session.take_fallbacks();
+    ASSERT_EQ(fallbacks.size(), 1U);
+    EXPECT_EQ(fallbacks[0].object, *shaped_handle);
+    EXPECT_NE(fallbacks[0].reason.find("object 2: has a shape map"), std::string::npos) << fallbacks[0].reason;
+    images_of(session, {{*plain_handle, look_at_camera({1, 1.5, 3}, {0, 0, 0}, 0.6, 20, 20)}, {*shaped_handle, level}});
+    fallbacks = session.take_fallbacks();
+    ASSERT_EQ(fallbacks.size(), 1U);
+    EXPECT_EQ(fallbacks[0].object, *plain_handle);
+    EXPECT_NE(fallbacks[0].reason.find("object 4: view: the camera is tilted"), std::string::npos)
+        << fallbacks[0].reason;
+}
+
+TEST(SharedBoard, AnObjectWithoutASlotIsReported) {
+    model::BoardConfig two = config();
+    two.limits.objects = 2;
+    RenderSession session({}, model::make_simulated_board(two, true));
+    const auto first = session.load(object_of(1));
+    const auto second = session.load(object_of(2));
+    const auto third = session.load(object_of(3));
+    ASSERT_TRUE(first.ok() && second.ok() && third.ok());
+    session.load_on_board({*first, *second, *third});
+    const Camera camera = camera_at(1, 3, 20, 20);
+    images_of(session, {{*first, camera}, {*second, camera}, {*third, camera}});
+    const std::vector<CoreFallback> fallbacks = session.take_fallbacks();
+    ASSERT_EQ(fallbacks.size(), 1U);
+    EXPECT_EQ(fallbacks[0].object, *third);
+    EXPECT_NE(fallbacks[0].reason.find("slots are full"), std::string::npos) << fallbacks[0].reason;
+}
+
+TEST(SharedBoard, WithoutABoardNothingIsReported) {
+    RenderSession session;
+    const auto handle = session.load(object_of(1));
+    images_of(session, {{*handle, camera_at(1, 3, 20, 20)}});
+    EXPECT_TRUE(session.take_fallbacks().empty());
+}
+
 TEST(SharedBoard, ABoardWithoutFiltersRendersShapeMapsBilinearly) {
     RenderSession session({}, model::make_simulated_board(*model::read_board_config("parallel"), true));
     RaySpaceObject shaped = object_of(6);
@@ -171,6 +220,9 @@ TEST(SharedBoard, TheCoreRendersAFailedCycle) {
     EXPECT_GE(session.statistics().board.failed_cycles, 2);
     EXPECT_EQ(session.statistics().views_by_board, 0);
     EXPECT_NE(session.statistics().board.last_failure.find("smoke"), std::string::npos);
+    const std::vector<CoreFallback> fallbacks = session.take_fallbacks();
+    ASSERT_EQ(fallbacks.size(), 1U);
+    EXPECT_NE(fallbacks[0].reason.find("the board failed: "), std::string::npos) << fallbacks[0].reason;
 }
 
 // Board whose driver is out of memory.

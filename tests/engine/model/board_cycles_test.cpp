@@ -152,6 +152,54 @@ TEST(PublishedFigures, NineShowroomImagesAreLimitedByTheHostBus) {
     EXPECT_LT(double(report.bus.image_bytes) / report.delivering.seconds, 44e6);
 }
 
+// The remedies that the paper names for its bus, with the rates of `rs-engine board --buses` and of drawing, which
+// takes 53 ms a cycle: the slower of the two limits.
+TEST(PublishedFigures, RemediesOfTheBusLeaveDrawingAsTheLimit) {
+    constexpr double kDrawn_per_s = 18.7;             // nine images, nothing delivered meanwhile
+    constexpr double kDrawn_while_delivering = 16.0;  // both share the memory's port
+    const Scene scene = filled(256, 9, 3);
+    for (const std::string& name : bus_remedy_configs()) {
+        const BoardConfig config = *read_board_config(name);
+        Board board(config);
+        const Result<BoardRun> run = drawn(board, scene);
+        ASSERT_TRUE(run.ok()) << name;
+        const BoardReport report = make_report(board, *run);
+        EXPECT_GT(1 / bus_rates(config, 9, 256).cycle_seconds, kDrawn_per_s) << name;
+        EXPECT_GT(report.arrivals_per_second, kDrawn_while_delivering) << name;
+        EXPECT_LT(report.arrivals_per_second, kDrawn_per_s + 0.3) << name;
+        EXPECT_EQ(report.rendering.limiting_block, "memory_controller") << name;
+        for (std::size_t n = 0; n < 9; ++n) {
+            EXPECT_EQ(run->cycles[0].images[n], test::defined(with_board_alpha(scene.object), scene.cycles[0][n]))
+                << name;
+        }
+    }
+}
+
+TEST(PublishedFigures, RatesOfTheBusFollowFromItsBursts) {
+    const BusRates pci = bus_rates(test::prototype(), 9, 256);
+    EXPECT_NEAR(1 / pci.cycle_seconds, 15.6, 0.05);
+    EXPECT_NEAR(pci.image_bytes_per_second, 36.8e6, 0.05e6);
+    const BusRates pci_x = bus_rates(*read_board_config("prototype-2000-pci-x"), 9, 256);
+    EXPECT_NEAR(pci_x.image_bytes_per_second, 588.5e6, 0.05e6);
+    EXPECT_GT(pci_x.image_bytes_per_second, 400e6);  // 100 Mpixel/s, the aim of the paper's section 7
+}
+
+// A board of twice the clock is limited by the same bus, and delivers at the same rate.
+TEST(BoardCycles, TheBusHasItsOwnClock) {
+    const Scene scene = filled(64, 9, 4);
+    const auto rate_at = [&](int clock_mhz) {
+        BoardConfig config = test::prototype();
+        config.clock_mhz = clock_mhz;
+        Board board(config);
+        const Result<BoardRun> run = drawn(board, scene);
+        EXPECT_TRUE(run.ok());
+        return run ? make_report(board, *run).arrivals_per_second : 0;
+    };
+    const double published = rate_at(40);
+    EXPECT_NEAR(rate_at(80) / published, 1, 0.1);
+    EXPECT_LT(rate_at(20) / published, 0.7);  // limited by drawing, with a bus that is faster than the board
+}
+
 TEST(PublishedFigures, LoadingRunsAtTwentyMegabytesAndDisturbsNothing) {
     const Scene scene = filled(64, 4, 2);
     Board quiet(test::prototype());

@@ -81,6 +81,38 @@ TEST(SimulateTool, RendersShapeMapsOnTheParallelBoard) {
     EXPECT_NE(refused.err.find("or use parallel"), std::string::npos) << refused.err;
 }
 
+// `rs-engine board` names objects that the board cannot draw.
+TEST(EngineBoardTool, ObjectsThatCannotBeDrawnAreNamedWithTheRemedy) {
+    const rs::test::TemporaryFolder scratch;
+    const auto path = [&](const char* name) { return (scratch / name).string(); };
+    ASSERT_TRUE(write_object(path("ring.rso"), rs::test::ring_object({.views = 8, .planes = 4})).ok());
+    RaySpaceObject shaped = test::encoded_object(12, 64).coded;
+    shaped.name = "shaped";
+    shaped.rings.front().shape = rs::test::small_shape(shaped, 0);
+    ASSERT_TRUE(write_object(path("shaped.rso"), shaped).ok());
+    const auto board = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), "board");
+        return run_tool(scratch.path(), "rs-engine", options);
+    };
+    const ToolRun all = board({path("ring.rso")});
+    EXPECT_EQ(all.exit_code, 0) << all.err;
+    EXPECT_NE(all.out.find("all fit on prototype-2000"), std::string::npos) << all.out;
+    const ToolRun some = board({path("ring.rso"), path("shaped.rso")});
+    EXPECT_EQ(some.exit_code, 1);
+    EXPECT_EQ(some.out.find("all fit"), std::string::npos) << some.out;
+    EXPECT_NE(some.err.find("shaped: its images are of profile board"), std::string::npos) << some.err;
+    EXPECT_NE(some.err.find("--profile raw"), std::string::npos) << some.err;
+    EXPECT_NE(some.err.find("--raymap plane"), std::string::npos) << some.err;
+    EXPECT_NE(some.err.find("1 of 2 objects cannot be drawn by prototype-2000"), std::string::npos) << some.err;
+    const ToolRun parallel = board({"--config", "parallel", path("ring.rso"), path("shaped.rso")});
+    EXPECT_EQ(parallel.exit_code, 0) << parallel.err;
+    EXPECT_NE(parallel.err.find("shaped: this board has only the bilinear texel filter"), std::string::npos)
+        << parallel.err;
+    EXPECT_NE(board({"--buses"}).out.find("`prototype-2000-pci-x`"), std::string::npos);
+    EXPECT_EQ(board({}).exit_code, 2);
+    EXPECT_EQ(board({"--buses", path("ring.rso")}).exit_code, 2);
+}
+
 TEST(SimulateTool, ReportsErrors) {
     const rs::test::TemporaryFolder scratch;
     const auto run = [&](std::vector<std::string> options) {

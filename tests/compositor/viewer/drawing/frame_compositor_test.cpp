@@ -257,11 +257,12 @@ TEST_F(Compositing, ABoardDrawsTheSameBits) {
     const auto engine = std::make_shared<engine::RenderSession>(viewer_session_limits(),
                                                                 engine::model::make_simulated_board(*config, true));
     RaySpaceObject object = test::drum_object();
-    const std::shared_ptr<const RaySpaceObject> for_board = engine->convert_for_board(object);
+    const Result<std::shared_ptr<const RaySpaceObject>> for_board = engine->convert_for_board(object);
     ASSERT_TRUE(for_board);
+    ASSERT_NE(*for_board, nullptr);
     Result<ViewableObject> viewable = make_viewable(std::move(object));
     ASSERT_TRUE(viewable);
-    viewable->for_board = for_board;
+    viewable->for_board = *for_board;
     const auto shared = std::make_shared<const ViewableObject>(std::move(*viewable));
     const std::vector<PlacedObject> objects = {test::placed_at(shared), test::placed_at(shared, {{1.5, 0, -1}})};
     const auto nodes = load_all_nodes(objects, *engine);

@@ -32,6 +32,25 @@ TEST(Diagram, ThePageContainsTheTablesOfTheCode) {
     }
 }
 
+TEST(Diagram, ThePageContainsTheRatesOfTheBuses) {
+    const std::string page = text_of(std::filesystem::path(RAYSPACE_SOURCE_DIR) / "engine/model/DIAGRAM.md");
+    EXPECT_NE(page.find(bus_table()), std::string::npos)
+        << "engine/model/DIAGRAM.md differs from rs-engine board --buses:\n"
+        << bus_table();
+}
+
+// Every key of a configuration has a row with its unit, by the last part of its path.
+TEST(Diagram, ThePageContainsTheUnitOfEveryConfigurationKey) {
+    const std::string page = text_of(std::filesystem::path(RAYSPACE_SOURCE_DIR) / "engine/model/DIAGRAM.md");
+    for (const std::string& name : built_in_configs()) {
+        const nlohmann::json config = nlohmann::json::parse(board_config_json(*read_board_config(name))).flatten();
+        for (const auto& [path, value] : config.items()) {
+            const std::string key = path.substr(path.rfind('/') + 1);
+            EXPECT_NE(page.find("`" + key + "`"), std::string::npos) << path << " has no unit in DIAGRAM.md";
+        }
+    }
+}
+
 void expect_one_block_at_each_end(const BoardTop& board) {
     std::map<std::string, int> readers;
     std::map<std::string, int> writers;

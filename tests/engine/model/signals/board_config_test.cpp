@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <utility>
 
 namespace rs::engine::model {
 namespace {
@@ -20,7 +21,7 @@ TEST(BoardConfig, TheBuiltInIsThePublishedBoard) {
     const Result<BoardConfig> config = read_board_config("prototype-2000");
     ASSERT_TRUE(config.ok());
     EXPECT_EQ(config->clock_mhz, 40);
-    EXPECT_NEAR(config->pci_mhz(), 33.333, 0.001);
+    EXPECT_NEAR(config->pci.mhz(), 33.333, 0.001);
     EXPECT_EQ(config->limits.memory_bytes, std::uint64_t{1} << 30);
     EXPECT_EQ(config->limits.objects, 20);
     EXPECT_EQ(config->limits.views_per_cycle, 15);
@@ -60,10 +61,45 @@ TEST(BoardConfig, RefusalsNameFileKeyAndBound) {
     EXPECT_NE(refusal(R"({"memory": {"activate_to_activate": 30, "load_words_per_window": 5}})").find("too small"),
               std::string::npos);
     EXPECT_NE(refusal(R"({"memory": {"row_bits": 8}})").find("image buffers do not fit"), std::string::npos);
-    EXPECT_NE(refusal(R"({"pci": {"period": 4}})").find("pci/period"), std::string::npos);
+    EXPECT_NE(refusal(R"({"pci": {"period": 4}})").find("pci.period: is no longer a key; give the bus clock as"),
+              std::string::npos);
+    EXPECT_NE(refusal(R"({"clock_period": 5})").find("clock_period: is no longer a key"), std::string::npos);
+    EXPECT_NE(refusal(R"({"pci": {"clock_mhz": 40}})").find("pci/clock_mhz: must be 33 or 66 (PCI) or 133 (PCI-X)"),
+              std::string::npos);
+    EXPECT_NE(refusal(R"({"pci": {"width_bits": 48}})").find("must be 32 or 64"), std::string::npos);
+    EXPECT_NE(refusal(R"({"pci": {"width_bits": 64, "compression": 2}})").find("needs pci/width_bits 32"),
+              std::string::npos);
+    EXPECT_NE(refusal(R"({"pci": {"burst_words": 9, "compression": 2}})").find("is above 16"), std::string::npos);
     const Result<BoardConfig> missing = read_board_config("prototype-2001");
     ASSERT_FALSE(missing.ok());
     EXPECT_NE(missing.error().message.find("neither a built-in"), std::string::npos);
+}
+
+TEST(BoardConfig, TheBusClockDoesNotFollowTheBoards) {
+    const auto periods_of = [](const std::string& json) {
+        const BoardConfig::Periods periods = parse_board_config(json, "f").value().clock_periods();
+        return std::pair(periods.board, periods.bus);
+    };
+    EXPECT_EQ(periods_of("{}"), std::pair(5, 6));  // 25 ns and 30 ns
+    EXPECT_EQ(periods_of(R"({"clock_mhz": 20})"), std::pair(5, 3));
+    EXPECT_EQ(periods_of(R"({"clock_mhz": 100})"), std::pair(1, 3));
+    EXPECT_EQ(periods_of(R"({"pci": {"clock_mhz": 66}})"), std::pair(5, 3));
+    EXPECT_EQ(periods_of(R"({"pci": {"clock_mhz": 133}})"), std::pair(10, 3));
+}
+
+TEST(BoardConfig, RemediesOfTheBusAreBuiltIn) {
+    const auto pci_x = read_board_config("prototype-2000-pci-x");
+    ASSERT_TRUE(pci_x.ok());
+    EXPECT_NEAR(pci_x->pci.mhz(), 133.333, 0.001);
+    EXPECT_EQ(pci_x->pci.width_bits, 64);
+    for (const std::string& name : bus_remedy_configs()) {
+        const auto config = read_board_config(name);
+        ASSERT_TRUE(config.ok()) << name;
+        EXPECT_EQ(config->name, name);
+        const auto again = parse_board_config(board_config_json(*config), "f");
+        ASSERT_TRUE(again.ok()) << again.error().message;
+        EXPECT_EQ(board_config_json(*again), board_config_json(*config));
+    }
 }
 
 TEST(BoardConfig, CompressedHasItsOwnSlotsAndRegions) {
@@ -103,6 +139,12 @@ TEST(BoardConfig, ParallelHasPipesAndBanksForEachImageBuffer) {
     const BoardTop board(*config);
     EXPECT_EQ(board.channels(), 5);
     EXPECT_NE(board.registers.image(0, 0) >> 23U, board.registers.image(1, 0) >> 23U);  // banks
+}
+
+TEST(BoardConfig, ASingleObjectSlotIsEnoughForABoard) {
+    const BoardTop board(parse_board_config(R"({"limits": {"objects": 1}})", "f").value());
+    EXPECT_EQ(board.registers.objects.size(), 1U);
+    EXPECT_EQ(board.object_ready.width_bits(), 1);
 }
 
 TEST(BoardConfig, IsReadFromAFile) {

@@ -66,6 +66,57 @@ TEST(HostBus, ABurstTakesItsClocks) {
     }
 }
 
+// 64 bits halve the transfers of a burst, and so does compression; neither loses a word.
+TEST(HostBus, WidthAndCompressionHalveTheTransfers) {
+    PciSettings wide;
+    wide.width_bits = 64;
+    PciSettings compressed;
+    compressed.compression = 2;
+    EXPECT_EQ(HostBus::burst_clocks(wide, 4), 3 + 1 + 8 + 4 * 2 + 1);
+    EXPECT_EQ(HostBus::burst_clocks(compressed, 8), 3 + 1 + 8 + 8 * 2 + 1);
+    EXPECT_EQ(HostBus::burst_clocks(compressed, 3), 3 + 1 + 8 + 3 * 2 + 1);
+    for (const PciSettings& settings : {wide, compressed}) {
+        BusBench bench(settings);
+        bench.send(47);  // the last burst has fewer words
+        std::uint64_t end = 0;
+        for (int n = 0; n < 1000 && end == 0; ++n) {
+            bench.step();
+            if (bench.transferred.count() > 0) end = bench.now;
+        }
+        ASSERT_EQ(bench.bus.images().size(), 1U);
+        ASSERT_EQ(bench.bus.images().back().words.size(), 47U);
+        for (std::size_t n = 0; n < 47; ++n) EXPECT_EQ(bench.bus.images().back().words[n], 101 + n);
+        EXPECT_EQ(bench.bus.counters().image_bytes, settings.width_bits == 64 ? 47U * 8 : 47U * 4);
+    }
+}
+
+TEST(HostBus, TheClocksOfAnImageAreThoseOfItsBurstsAndThePause) {
+    PciSettings settings;
+    BusBench bench(settings);
+    bench.send(46);
+    while (bench.bus.images().empty()) bench.step();
+    while (bench.words.visible() < 4) bench.step();
+    const std::uint64_t begin = bench.now;
+    while (bench.transferred.count() == 0) bench.step();
+    // The pause is taken after the last transfer instead of a turnaround.
+    EXPECT_EQ(bench.now - begin + 1 + static_cast<std::uint64_t>(settings.interrupt_clocks),
+              HostBus::image_clocks(settings, 46));
+}
+
+TEST(HostBus, OnADedicatedBusRegisterWritesTakeNothingFromTheBursts) {
+    PciSettings settings;
+    settings.dedicated = 1;
+    BusBench bench(settings);
+    bench.programs.push_back({{}, 1000});
+    bench.send(400);
+    for (int n = 0; n < 100 * 29 + 10; ++n) bench.step();
+    EXPECT_NEAR(static_cast<double>(bench.bus.counters().bursts), 100, 1);
+    EXPECT_NEAR(static_cast<double>(bench.bus.counters().register_writes), 100 * 29 / 4.0, 4);
+    for (int n = 0; n < 4000; ++n) bench.step();
+    EXPECT_EQ(bench.bus.counters().register_writes, 1000U);
+    EXPECT_EQ(bench.commands.count(), 1);
+}
+
 TEST(HostBus, RegisterWritesTakeTheirClocksAndEndInACommand) {
     BusBench bench(PciSettings{});
     bench.programs.push_back({{}, 10});
