@@ -278,7 +278,7 @@ TEST(Names, OfUsingDeclarationsAreUsed) {
 // The first word of a comment block names its subject: "Weights of ...", not "What the weights are".
 TEST(Comments, StateFacts) {
     static const std::regex kComment(R"(^\s*//+\s*(\w+)?)");
-    const std::set<std::string> kOpenings = {"What", "Of", "Where", "Whether", "Who"};
+    const std::set<std::string> kOpenings = {"What", "Of", "Where", "Whether", "Who", "How", "Which", "That"};
     for (const fs::path& source : sources()) {
         bool within = false;
         const std::vector<std::string> lines = lines_of(source);
