@@ -14,8 +14,8 @@
 namespace rs::compositor {
 namespace {
 
-constexpr int kWide_px = 64;
-constexpr int kHigh_px = 36;
+constexpr int kRoomWidth_px = 64;
+constexpr int kRoomHeight_px = 36;
 
 double mean_luminance(const Image<Rgba8>& image) {
     double sum = 0;
@@ -37,11 +37,12 @@ TEST_F(ShowroomLight, IsAboutAsBrightTracedAsRasterized) {
     ASSERT_TRUE(scene) << scene.error().message;
     scene->objects.clear();
     ASSERT_GE(scene->viewpoints.size(), 8U);
-    auto raster = FrameCompositor::create(*scene, {}, {.width = kWide_px, .height = kHigh_px});
+    auto raster = FrameCompositor::create(*scene, {}, {.width = kRoomWidth_px, .height = kRoomHeight_px});
     ASSERT_TRUE(raster) << raster.error().message;
     for (const Viewpoint& viewpoint : scene->viewpoints) {
         SCOPED_TRACE(viewpoint.description);
-        Camera camera = look_at_camera({0, 0, 0}, {0, 0, -1}, viewpoint.field_of_view_rad, kWide_px, kHigh_px);
+        Camera camera =
+            look_at_camera({0, 0, 0}, {0, 0, -1}, viewpoint.field_of_view_rad, kRoomWidth_px, kRoomHeight_px);
         camera.world_from_camera = viewpoint.world_from_camera;
         const double rasterized = mean_luminance(raster->compose(camera).value());
         for (const auto& [method, passes] : {std::pair(TracedMethod::kWhitted, 1), {TracedMethod::kRadiosity, 4}}) {
