@@ -426,6 +426,7 @@ TEST_F(View, OldFlagsNameTheirSubcommand) {
         {{"hall.wrl", "--probe=0,0,0", "-o", "x.exr"}, "use 'rs-view probe SCENE --position X,Y,Z'"},
         {{"hall.wrl", "--save-lights", "x.json"}, "use 'rs-view lights SCENE -o FILE.json'"},
         {{"hall.wrl", "--tile", "0:0,0,8x8", "-o", "x.png"}, "use 'rs-view tile trace SCENE"},
+        {{"hall.wrl", "--first-grid", "0"}, "--first-grid"},
     };
     for (const auto& [arguments, advice] : cases) {
         const test::ToolRun refused = view(arguments);
