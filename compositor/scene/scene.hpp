@@ -1,5 +1,5 @@
 #pragma once
-// Scene of the viewer: flattened draw lists, independent of the file format (VRML97, glTF, OBJ, JSON). Colours are
+// Scene of the viewer: flattened draw lists, independent of the file format (VRML97, glTF, OBJ, PLY, JSON). Colours are
 // linear light. Y is up; lengths are in scene units.
 
 #include "compositor/scene/camera_path.hpp"

@@ -16,7 +16,7 @@ Status write_folder(const FrameOutput& output, const std::vector<Camera>& camera
         RS_TRY(write_png(staged.temporary_path() / view.file_path, frame));
         progress.advance();
     }
-    RS_TRY(write_rig(staged.temporary_path() / kRigFileName, rig));
+    if (output.writes_cameras) RS_TRY(write_rig(staged.temporary_path() / kRigFileName, rig));
     return staged.commit();
 }
 

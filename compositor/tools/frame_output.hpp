@@ -19,10 +19,12 @@ struct FrameOutput {
     std::string path;
     OutputKind kind = OutputKind::folder;
     bool force = false;             // of StagedFolder
+    bool writes_cameras = true;     // into a folder, as transforms.json; not for frames that no pinhole camera has
     double frames_per_second = 30;  // of a video
 };
 
-/// Renders the cameras in order and writes them to `output`. A folder also gets the cameras (transforms.json).
+/// Renders the cameras in order and writes them to `output`. A folder also gets the cameras
+/// (transforms.json) unless `writes_cameras` is false.
 Status write_frames(const FrameOutput& output, const std::vector<Camera>& cameras, const RenderView& render,
                     Progress& progress);
 

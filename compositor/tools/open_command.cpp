@@ -68,6 +68,7 @@ struct OpenOptions {
     RendererOptions renderer;
     DrawingOptions drawing;
     ExecutorOptions executor;
+    std::optional<int> first_grid_cells;
 };
 
 Result<Camera> first_camera(const OpenOptions& options, const LoadedScene& loaded, PixelSize size) {
@@ -97,6 +98,7 @@ Status show_in_window(Window window, const OpenOptions& options, LoadedScene loa
     visit_options.exposure_ev = options.renderer.exposure_ev;
     RS_ASSIGN_OR_RETURN(const TracedOptions tracing, traced_options(options.renderer));
     visit_options.tracing = tracing;
+    visit_options.first_grid_cells = options.first_grid_cells;
     visit_options.traced = options.renderer.method().has_value();
     if (options.scene.lights) visit_options.lights = *options.scene.lights;
     visit_options.executor = loaded.executor.name;
@@ -152,6 +154,11 @@ void add_open_command(CLI::App& app, std::function<Status()>& run) {
     add_size_option(*command, options->size);
     add_renderer_options(*command, options->renderer);
     add_lens_options(*command, options->renderer);
+    command
+        ->add_option("--first-grid", options->first_grid_cells,
+                     "traced: cells along the longer side of a view's first image, 1..8192 (default: by time)")
+        ->check(CLI::Range(1, 8192).description(""))
+        ->type_name("CELLS");
     add_drawing_options(*command, options->drawing);
     add_executor_options(*command, options->executor);
     command->footer(

@@ -24,7 +24,7 @@ void add_lights_option(CLI::App& command, SceneOptions& options) {
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
-    command.add_option("SCENE", options.scene, ".wrl, .wrl.gz, .x3d, .x3dv, .gltf, .glb, .obj or .json; Y is up")
+    command.add_option("SCENE", options.scene, ".wrl, .wrl.gz, .x3d, .x3dv, .gltf, .glb, .obj, .ply or .json; Y is up")
         ->type_name("");
     command
         .add_option("--object", options.objects,
@@ -36,7 +36,7 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
 }
 
 void add_scene_without_objects_options(CLI::App& command, SceneOptions& options) {
-    command.add_option("SCENE", options.scene, ".wrl, .wrl.gz, .x3d, .x3dv, .gltf, .glb, .obj or .json")
+    command.add_option("SCENE", options.scene, ".wrl, .wrl.gz, .x3d, .x3dv, .gltf, .glb, .obj, .ply or .json")
         ->type_name("")
         ->required();
     add_lights_option(command, options);

@@ -21,13 +21,14 @@ double FirstGridSelector::cells(int width, int height, int side) {
     return static_cast<double>(across) * down;
 }
 
-int FirstGridSelector::coarsest_side(int width, int height) {
+int FirstGridSelector::coarsest_side(int width, int height, int cells) {
     int side = 1;
-    while (side < 1 << (kSides - 1) && 2 * side * kMinCells <= std::max(width, height)) side *= 2;
+    while (side < 1 << (kSides - 1) && 2 * side * cells <= std::max(width, height)) side *= 2;
     return side;
 }
 
 int FirstGridSelector::side(TracedMethod method, int width, int height) const {
+    if (cells_) return coarsest_side(width, height, *cells_);
     const int coarsest = coarsest_side(width, height);
     const auto known = costs_.find(method);
     if (known == costs_.end()) return coarsest;

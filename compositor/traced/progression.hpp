@@ -5,8 +5,8 @@
 //
 //     first grid (32x32 cells and up) -> twice as fine -> ... -> pass 1 -> pass 2 -> ...
 //
-// Measured times only select the first grid. The results do not depend on them: pass k is the mean of samples 1..k
-// (filtered for radiosity).
+// Measured times only select the first grid, unless the user sets its size. The results do not depend on them: pass k
+// is the mean of samples 1..k (filtered for radiosity).
 
 #include "compositor/traced/traced_renderer.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -16,6 +16,7 @@
 #include <atomic>
 #include <functional>
 #include <map>
+#include <optional>
 
 namespace rs::compositor {
 
@@ -29,12 +30,14 @@ public:
     static constexpr double kTimeLimit_s = 0.07;
     static constexpr int kMinCells = 32;  // along the longer side, if the image has as many pixels
 
-    explicit FirstGridSelector(double time_limit_s = kTimeLimit_s) : time_limit_s_(time_limit_s) {}
+    /// \param cells along the longer side of every first grid, at least, >= 1; empty: selected by the time limit
+    explicit FirstGridSelector(double time_limit_s = kTimeLimit_s, std::optional<int> cells = {})
+        : time_limit_s_(time_limit_s), cells_(cells) {}
 
     /// Cell size in pixels, a power of two: the finest grid that is expected within the limit; the coarsest if none is
-    /// or without measurements. 1: starts with pass 1.
+    /// or without measurements. With a number of cells: the largest that gives as many. 1: starts with pass 1.
     [[nodiscard]] int side(TracedMethod method, int width, int height) const;
-    [[nodiscard]] static int coarsest_side(int width, int height);
+    [[nodiscard]] static int coarsest_side(int width, int height, int cells = kMinCells);
     /// Records the render time of an image. Costs of all cell sizes scale with the ratio to the last time at this size.
     void record_time(TracedMethod method, int width, int height, int side, double seconds);
 
@@ -44,6 +47,7 @@ private:
     [[nodiscard]] static double cells(int width, int height, int side);
 
     double time_limit_s_;
+    std::optional<int> cells_;
     std::map<TracedMethod, Costs> costs_;
 };
 

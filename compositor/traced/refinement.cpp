@@ -6,8 +6,10 @@
 
 namespace rs::compositor {
 
-Refinement::Refinement(std::function<Result<TracedRenderer>()> make, Clock clock)
-    : clock_(std::move(clock)), thread_([this, made = std::move(make)] { work(made); }) {}
+Refinement::Refinement(std::function<Result<TracedRenderer>()> make, Clock clock, std::optional<int> first_grid_cells)
+    : clock_(std::move(clock)),
+      grid_(FirstGridSelector::kTimeLimit_s, first_grid_cells),
+      thread_([this, made = std::move(make)] { work(made); }) {}
 
 Refinement::~Refinement() {
     {

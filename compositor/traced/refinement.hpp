@@ -22,8 +22,12 @@ namespace rs::compositor {
 /// All functions may be called from one thread other than the internal one; they return at once.
 class Refinement {
 public:
+    static double steady_clock_s();
+
     /// `make` is called on the internal thread and may take long.
-    explicit Refinement(std::function<Result<TracedRenderer>()> make, Clock clock = steady_clock_s);
+    /// \param first_grid_cells of FirstGridSelector
+    explicit Refinement(std::function<Result<TracedRenderer>()> make, Clock clock = steady_clock_s,
+                        std::optional<int> first_grid_cells = {});
     Refinement(const Refinement&) = delete;
     Refinement& operator=(const Refinement&) = delete;
     ~Refinement();  // waits for `make`, a few tiles, or the virtual lights of a pass
@@ -52,7 +56,6 @@ public:
 private:
     void work(const std::function<Result<TracedRenderer>()>& make);
     void publish(Image<Rgba8> image, const Camera& camera, int passes);
-    static double steady_clock_s();
     void drop_view();
 
     std::mutex mutex_;

@@ -24,9 +24,10 @@ void TracedView::make_tracer(const Showroom& showroom, const std::function<Light
     const Lighting now = lighting();
     TracedOptions options = options_;
     options.exposure_ev = now.exposure_ev;
-    refinement_.emplace([scene = now.scene, options, objects = std::move(objects)] {
+    auto make = [scene = now.scene, options, objects = std::move(objects)] {
         return TracedRenderer::create(*scene, objects, options);
-    });
+    };
+    refinement_.emplace(std::move(make), Refinement::steady_clock_s, first_grid_cells_);
 }
 
 void TracedView::prepare_when_idle(const Camera& camera, double seconds, const Showroom& showroom,

@@ -24,7 +24,9 @@ public:
     /// The scene and the exposure to trace, as they are now.
     using Lighting = Refinement::Lighting;
 
-    explicit TracedView(TracedOptions options) : options_(std::move(options)) {}
+    /// \param first_grid_cells of FirstGridSelector
+    explicit TracedView(TracedOptions options, std::optional<int> first_grid_cells = {})
+        : options_(std::move(options)), first_grid_cells_(first_grid_cells) {}
 
     /// The lights have changed; the view is traced again.
     void set_lights(const Lighting& lighting);
@@ -58,6 +60,7 @@ private:
     void make_tracer(const Showroom& showroom, const std::function<Lighting()>& lighting);
 
     TracedOptions options_;
+    std::optional<int> first_grid_cells_;
     std::optional<Refinement> refinement_;
     std::size_t traced_objects_ = 0;  // that the tracer was made with
     struct View {

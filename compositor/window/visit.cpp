@@ -27,7 +27,7 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
       compositor_(std::move(compositor)),
       overlay_(std::make_unique<Overlay>(window_)),
       options_(options),
-      traced_view_(options.tracing),
+      traced_view_(options.tracing, options.first_grid_cells),
       desk_(scene, options.exposure_ev, options.lights),
       recorder_({.folder = options.images.string()}),
       last_(std::chrono::steady_clock::now()) {

@@ -42,6 +42,7 @@ struct VisitOptions {
     bool shadows = true;
     bool traced = false;                       // at the start
     TracedOptions tracing{};                   // with the exposure above
+    std::optional<int> first_grid_cells{};     // of FirstGridSelector
     std::string executor = "software core";    // of the engine, for the panel
     std::shared_ptr<const Sequence> sequence;  // to play, in this weather
     std::optional<Weather> weather;

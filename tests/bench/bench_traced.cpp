@@ -1,6 +1,7 @@
 // Whitted ray tracing of the halls, compared with bare Embree packets in the same run.
 //
 //     bench_traced [--scene hall|great-hall] [--width PX] [--height PX] [--frames N] [--threads N]
+//     bench_traced --table [--up-to PX] [--period S] [--threads N]
 //
 // Prints wall and CPU milliseconds per frame of:
 //   - Whitted, whole frames; its rays one by one and in packets
@@ -8,6 +9,11 @@
 //   - Whitted on a scene of instances only, and on a grid of 16x16 pixels
 //   - moving 1000 instances
 // Ratios are of CPU time, which depends less on other load.
+//
+// --table prints instead the frames per second of each traced renderer at 32x32 to 4096x4096 pixels, in the form of
+// tables 4.1 and 4.2 of the paper on the architecture visualizer: its scenes of 150 220 and 66 450 triangles, which
+// the halls replace, by six periods after one that is skipped. Columns are renderers instead of graphics cards. A
+// frame has one sample per pixel, without filter and display.
 
 #include "capture/tracer/integrator/tracer.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
@@ -27,10 +33,12 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <functional>
 #include <limits>
 #include <map>
+#include <new>
 #include <span>
 #include <string>
 #include <utility>
@@ -45,6 +53,9 @@ struct Arguments {
     int height = 512;
     int frames = 9;
     int threads = 0;
+    bool table = false;
+    int up_to_px = 4096;
+    double period_s = 1;
 };
 
 // Materials as rs-view reads them from glTF: a specular coat over a diffuse surface.
@@ -286,20 +297,104 @@ Status run(const Arguments& arguments) {
     return {};
 }
 
+struct TableColumn {
+    const char* name;
+    RenderMethod method;
+};
+constexpr std::array kTableColumns{
+    TableColumn{"Toon", RenderMethod::kToon}, TableColumn{"Whitted", RenderMethod::kWhitted},
+    TableColumn{"Radiosity", RenderMethod::kRadiosity}, TableColumn{"Path", RenderMethod::kPath}};
+
+// Mean rate of six periods after one that is skipped; of fewer periods, of one frame each, if frames take longer.
+double frames_per_second(double period_s, const std::function<void()>& frame) {
+    constexpr int kPeriods = 6;
+    const auto rate_of_period = [&] {
+        const bench::Stopwatch watch;
+        int frames = 0;
+        do {
+            frame();
+            ++frames;
+        } while (watch.wall_s() < period_s);
+        return frames / watch.wall_s();
+    };
+    (void)rate_of_period();
+    const bench::Stopwatch total;
+    double sum = 0;
+    int periods = 0;
+    do {
+        sum += rate_of_period();
+        ++periods;
+    } while (periods < kPeriods && total.wall_s() < kPeriods * period_s);
+    return sum / periods;
+}
+
+Status print_table(const char* number, const synthetic::Model& model, const Arguments& arguments) {
+    const Scene scene = flattened(scene_of(model));
+    RS_ASSIGN_OR_RETURN(const Tracer tracer, Tracer::create(scene));
+    std::printf("Resolution");
+    for (const TableColumn& column : kTableColumns) std::printf("\t%s", column.name);
+    std::printf("\n");
+    for (int side = 32; side <= arguments.up_to_px; side *= 2) {
+        const Camera camera =
+            look_at_camera(glm::dvec3(model.views[0].eye), glm::dvec3(model.views[0].at), radians(60), side, side);
+        std::printf("%dx%d", side, side);
+        for (const TableColumn& column : kTableColumns) {
+            RenderOptions options;
+            options.method = column.method;
+            options.samples_per_pixel = 1;
+            options.ambient = glm::vec3(0.1F);
+            options.threads = arguments.threads;
+            options.toon.edge_radius = static_cast<float>(2 * tracer.median_pixel_size(camera));
+            try {
+                const double rate =
+                    frames_per_second(arguments.period_s, [&] { (void)tracer.render(camera, options); });
+                std::printf("\t%.6f", rate);
+            } catch (const std::bad_alloc&) {
+                std::printf("\terror");
+            }
+            std::fflush(stdout);
+        }
+        std::printf("\n");
+    }
+    std::printf(
+        "TABLE %s: Results showing performance in average FPS for various renderers and grid resolutions. Scene %s, "
+        "%lld triangles, %zu lights.\n\n",
+        number, model.name.c_str(), static_cast<long long>(synthetic::triangle_count(model)), scene.lights.size());
+    return {};
+}
+
+Status print_tables(const Arguments& arguments) {
+    RS_TRY(print_table("4.1", synthetic::make_great_hall(), arguments));
+    return print_table("4.2", synthetic::make_hall(), arguments);
+}
+
 }  // namespace
 }  // namespace rs::capture
 
 int main(int argc, char** argv) {
     CLI::App app("Whitted's ray tracing of the halls beside bare Embree", "bench_traced");
     rs::capture::Arguments arguments;
+    CLI::Option* const table = app.add_flag(
+        "--table", arguments.table, "print frames per second by renderer and resolution, as tables 4.1 and 4.2");
+    app.add_option("--up-to", arguments.up_to_px, "largest resolution of the tables, px")
+        ->check(CLI::Range(32, 4096))
+        ->needs(table)
+        ->capture_default_str();
+    app.add_option("--period", arguments.period_s, "seconds of a period of the tables; of the paper: 10")
+        ->check(CLI::Range(0.01, 3600.0))
+        ->needs(table)
+        ->capture_default_str();
     app.add_option("--scene", arguments.scene, "hall or great-hall")
         ->check(CLI::IsMember({"hall", "great-hall"}))
+        ->excludes(table)
         ->capture_default_str();
-    app.add_option("--width", arguments.width, "px")->capture_default_str();
-    app.add_option("--height", arguments.height, "px")->capture_default_str();
-    app.add_option("--frames", arguments.frames, "frames per measurement")->capture_default_str();
+    app.add_option("--width", arguments.width, "px")->excludes(table)->capture_default_str();
+    app.add_option("--height", arguments.height, "px")->excludes(table)->capture_default_str();
+    app.add_option("--frames", arguments.frames, "frames per measurement")->excludes(table)->capture_default_str();
     app.add_option("--threads", arguments.threads, "threads; 0: all cores")->capture_default_str();
     std::function<rs::Status()> action;
-    app.callback([&] { action = [&] { return rs::capture::run(arguments); }; });
+    app.callback([&] {
+        action = [&] { return arguments.table ? rs::capture::print_tables(arguments) : rs::capture::run(arguments); };
+    });
     return rs::tool_main(app, argc, argv, action);
 }

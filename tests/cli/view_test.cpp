@@ -356,6 +356,67 @@ TEST_F(View, HelpOfEachSubcommandFitsOnAScreen) {
     }
 }
 
+// Four walls lit by a headlight. A direction ahead of 20 degrees from a wall's normal puts the borders of the
+// panorama's faces within walls.
+TEST_F(View, PanoramasShowAllDirections) {
+    std::string walls = "#VRML V2.0 utf8\n";
+    for (const char* const wall : {"3 0 0", "-3 0 0", "0 0 3", "0 0 -3"})
+        walls += std::string("Transform { translation ") + wall +
+                 " children Shape { appearance Appearance { material Material { } } geometry Box { size " +
+                 (wall[0] == '0' ? "6 6 0.2" : "0.2 6 6") + " } } }\n";
+    write("walls.wrl", walls);
+    const std::vector<std::string> common = {"render", in("walls.wrl"), "--eye", "0,0,0", "--at=0.364,0,-1", "-q"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), common.begin(), common.end());
+        return view(more);
+    };
+    const test::ToolRun run = with({"--panorama", "--size", "256x128", "-o", in("all.png")});
+    if (run.exit_code != 0 && run.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run.err;
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const auto image = read_image(in("all.png"));
+    ASSERT_TRUE(image) << image.error().message;
+    ASSERT_EQ(image->width(), 256);
+    ASSERT_EQ(image->height(), 128);
+    // The wall at +X spans 90 degrees about column 178; the border of the faces ahead and at the right is at 160.
+    for (int x = 150; x < 205; ++x) {
+        EXPECT_NEAR((*image)(x, 64).g, (*image)(x + 1, 64).g, 4) << x;
+        EXPECT_GT((*image)(x, 64).g, 100) << x;
+    }
+    EXPECT_EQ(with({"--panorama", "--orbit", "2", "--size", "64x32", "-o", in("turn")}).exit_code, 1)
+        << "the headlight cannot follow";
+    write("lamp.json", R"({"lights": [{"kind": "point", "location": [0, 0, 0], "candela": 400}], "replace": true})");
+    const test::ToolRun turn =
+        with({"--panorama", "--orbit", "2", "--size", "64x32", "--lights", in("lamp.json"), "-o", in("turn")});
+    ASSERT_EQ(turn.exit_code, 0) << turn.err;
+    EXPECT_TRUE(std::filesystem::exists(work_ / "turn" / "0001.png"));
+    EXPECT_FALSE(std::filesystem::exists(work_ / "turn" / "transforms.json")) << "no pinhole camera has these images";
+    const test::ToolRun traced = with({"--panorama", "--size", "64x32", "--renderer", "radiosity", "--passes", "1",
+                                       "--lights", in("lamp.json"), "-o", in("traced.png")});
+    ASSERT_EQ(traced.exit_code, 0) << traced.err;
+    EXPECT_EQ(read_image(in("traced.png")).value().width(), 64);
+}
+
+TEST_F(View, PanoramasRefuseOptionsOfOneView) {
+    write("hall.wrl", kWorld);
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
+        {{"--fov", "60"}, "--fov cannot be used with --panorama"},
+        {{"--renderer", "path", "--lens", "f/2", "--focus", "2"}, "--lens cannot be used with --panorama"},
+        {{"--focus", "2"}, "--focus cannot be used with --panorama"},
+        {{"--streaming"}, "--streaming cannot be used with --panorama"},
+        {{"--stats", "x.json"}, "--stats cannot be used with --panorama"},
+        {{"--renderer", "toon"}, "needs --toon-lines LENGTH"}};
+    for (const auto& [more, expected] : cases) {
+        std::vector<std::string> arguments = {"render", in("hall.wrl"), "--panorama", "-o", in("x.png")};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const test::ToolRun refused = view(arguments);
+        EXPECT_EQ(refused.exit_code, 2) << expected;
+        EXPECT_THAT(refused.err, HasSubstr(expected));
+    }
+    const test::ToolRun refused = render({in("hall.wrl"), "--panorama", "-o", in("x.png")});  // 64x48
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, HasSubstr("--size 64x48: a panorama is twice as wide as high; give 64x32"));
+}
+
 TEST_F(View, OldFlagsNameTheirSubcommand) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
         {{"hall.wrl", "-o", "x.png"}, "use 'rs-view render SCENE -o FILE'"},
@@ -365,6 +426,7 @@ TEST_F(View, OldFlagsNameTheirSubcommand) {
         {{"hall.wrl", "--probe=0,0,0", "-o", "x.exr"}, "use 'rs-view probe SCENE --position X,Y,Z'"},
         {{"hall.wrl", "--save-lights", "x.json"}, "use 'rs-view lights SCENE -o FILE.json'"},
         {{"hall.wrl", "--tile", "0:0,0,8x8", "-o", "x.png"}, "use 'rs-view tile trace SCENE"},
+        {{"hall.wrl", "--first-grid", "0"}, "--first-grid"},
     };
     for (const auto& [arguments, advice] : cases) {
         const test::ToolRun refused = view(arguments);

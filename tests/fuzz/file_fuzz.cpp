@@ -62,7 +62,7 @@ void read_model(const fs::path& path) {
 }  // namespace
 
 int fuzz_ply(const std::uint8_t* data, std::size_t size) {
-    read_object(put("object.ply", text(data, size)));
+    read_model(put("object.ply", text(data, size)));
     return 0;
 }
 

@@ -6,9 +6,7 @@
 #include "rayspace/image_io/image_io.hpp"
 #include "rayspace/models/model_files.hpp"
 
-#include <assimp/BaseImporter.h>
 #include <assimp/config.h>
-#include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
@@ -26,29 +24,6 @@ namespace rs::capture {
 namespace {
 
 constexpr std::uint64_t kMaxModelFile_bytes = std::uint64_t{4} << 30;
-
-// Passes a scene from our PLY reader to Assimp's post-processing.
-class PlyLoader : public Assimp::BaseImporter {
-public:
-    explicit PlyLoader(std::unique_ptr<aiScene> scene) : scene_(std::move(scene)) {}
-    bool CanRead(const std::string&, Assimp::IOSystem*, bool) const override { return true; }
-
-protected:
-    [[nodiscard]] const aiImporterDesc* GetInfo() const override {
-        static constexpr aiImporterDesc kPly = {"PLY", "", "", "", 0, 0, 0, 0, 0, "ply"};
-        return &kPly;
-    }
-    void InternReadFile(const std::string&, aiScene* to, Assimp::IOSystem*) override {
-        std::swap(to->mMeshes, scene_->mMeshes);
-        std::swap(to->mNumMeshes, scene_->mNumMeshes);
-        std::swap(to->mMaterials, scene_->mMaterials);
-        std::swap(to->mNumMaterials, scene_->mNumMaterials);
-        std::swap(to->mRootNode, scene_->mRootNode);
-    }
-
-private:
-    std::unique_ptr<aiScene> scene_;
-};
 
 glm::vec3 to_vec(const aiVector3D& v) {
     return {v.x, v.y, v.z};
@@ -129,8 +104,7 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
         importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
         if (lower_case_extension(path) == ".ply") {
             RS_ASSIGN_OR_RETURN(std::unique_ptr<aiScene> ply, read_ply_file(path));
-            importer.RegisterLoader(new PlyLoader(std::move(ply)));  // the importer takes it over
-            importer.ReadFileFromMemory("ply", 3, 0, "ply");
+            pass_to_importer(std::move(ply), importer);
         } else {
             importer.ReadFile(path.string(), 0);
         }

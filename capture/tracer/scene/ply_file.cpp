@@ -3,6 +3,8 @@
 #include "capture/tracer/scene/ply_header.hpp"
 #include "rayspace/file/file_output.hpp"
 
+#include <assimp/BaseImporter.h>
+#include <assimp/importerdesc.h>
 #include <assimp/material.h>
 #include <assimp/mesh.h>
 
@@ -108,13 +110,30 @@ private:
 };
 
 // Properties used by the mesh, each with its index in a row; all others go to the row's last element.
-using PlyRow = std::array<float, 9>;
-constexpr std::size_t kNormalAt = 3, kTextureAt = 6, kRestAt = 8;     // after a vertex' position
-constexpr std::size_t kSpecularAt = 3, kPowerAt = 6, kOpacityAt = 7;  // after a material's diffuse colour
+using PlyRow = std::array<float, 12>;
+constexpr std::size_t kNormalAt = 3, kTextureAt = 6, kColourAt = 8, kRestAt = 11;  // after a vertex' position
+constexpr std::size_t kSpecularAt = 3, kPowerAt = 6, kOpacityAt = 7;               // after a material's diffuse colour
 using PlyColumn = std::pair<std::string_view, std::size_t>;
-constexpr PlyColumn kVertexColumns[] = {{"x", 0},  {"y", 1}, {"z", 2},  {"nx", 3},       {"ny", 4},
-                                        {"nz", 5}, {"u", 6}, {"s", 6},  {"tx", 6},       {"texture_u", 6},
-                                        {"v", 7},  {"t", 7}, {"ty", 7}, {"texture_v", 7}};
+constexpr PlyColumn kVertexColumns[] = {{"x", 0},
+                                        {"y", 1},
+                                        {"z", 2},
+                                        {"nx", 3},
+                                        {"ny", 4},
+                                        {"nz", 5},
+                                        {"u", 6},
+                                        {"s", 6},
+                                        {"tx", 6},
+                                        {"texture_u", 6},
+                                        {"v", 7},
+                                        {"t", 7},
+                                        {"ty", 7},
+                                        {"texture_v", 7},
+                                        {"red", kColourAt},
+                                        {"green", kColourAt + 1},
+                                        {"blue", kColourAt + 2},
+                                        {"diffuse_red", kColourAt},
+                                        {"diffuse_green", kColourAt + 1},
+                                        {"diffuse_blue", kColourAt + 2}};
 constexpr PlyColumn kMaterialColumns[] = {{"diffuse_red", 0},           {"diffuse_green", 1},   {"diffuse_blue", 2},
                                           {"specular_red", 3},          {"specular_green", 4},  {"specular_blue", 5},
                                           {"specular_power", kPowerAt}, {"opacity", kOpacityAt}};
@@ -141,10 +160,34 @@ aiMaterial* new_material(const PlyRow& row, const std::vector<std::string>& text
     return material;
 }
 
+// Passes a scene from our PLY reader to Assimp's post-processing.
+class PlyLoader : public Assimp::BaseImporter {
+public:
+    explicit PlyLoader(std::unique_ptr<aiScene> scene) : scene_(std::move(scene)) {}
+    bool CanRead(const std::string&, Assimp::IOSystem*, bool) const override { return true; }
+
+protected:
+    [[nodiscard]] const aiImporterDesc* GetInfo() const override {
+        static constexpr aiImporterDesc kPly = {"PLY", "", "", "", 0, 0, 0, 0, 0, "ply"};
+        return &kPly;
+    }
+    void InternReadFile(const std::string&, aiScene* to, Assimp::IOSystem*) override {
+        std::swap(to->mMeshes, scene_->mMeshes);
+        std::swap(to->mNumMeshes, scene_->mNumMeshes);
+        std::swap(to->mMaterials, scene_->mMaterials);
+        std::swap(to->mNumMaterials, scene_->mNumMaterials);
+        std::swap(to->mRootNode, scene_->mRootNode);
+    }
+
+private:
+    std::unique_ptr<aiScene> scene_;
+};
+
 // Reads the body element by element.
 class PlyReader {
 public:
-    PlyReader(const PlyHeader& header, std::string_view body) : body_(body, *header.encoding) {
+    PlyReader(const PlyHeader& header, std::string_view body, PlyUse use)
+        : body_(body, *header.encoding), displayed_(use == PlyUse::kDisplay) {
         for (const PlyElement& element : header.elements) {
             if (element.name == "vertex") vertex_count_ = static_cast<double>(element.count);
         }
@@ -169,6 +212,9 @@ public:
 
     // Moves the data to the scene; call once.
     [[nodiscard]] std::unique_ptr<aiScene> scene(const std::vector<std::string>& texture_files) && {
+        if (faces_.empty()) {
+            for (std::size_t i = 0; i < positions_.size(); ++i) append_polygon({static_cast<double>(i)});
+        }
         auto scene = std::make_unique<aiScene>();
         auto* const mesh = new aiMesh;
         scene->mMeshes = new_array<aiMesh*>({mesh});
@@ -179,13 +225,14 @@ public:
         mesh->mVertices = new_array(std::exchange(positions_, {}));
         if (!normals_.empty()) mesh->mNormals = new_array(std::exchange(normals_, {}));
         if (!uvs_.empty()) mesh->mTextureCoords[0] = new_array(std::exchange(uvs_, {}));
+        if (!colours_.empty()) mesh->mColors[0] = new_array(colours_);
         mesh->mFaces = new aiFace[faces_.size()];
         for (std::size_t i = 0; i < faces_.size(); ++i) {  // copying a face allocates
             std::swap(mesh->mFaces[i].mNumIndices, faces_[i].mNumIndices);
             std::swap(mesh->mFaces[i].mIndices, faces_[i].mIndices);
         }
-        scene->mMaterials = new_array<aiMaterial*>(
-            {new_material(material_.value_or(PlyRow{1, 1, 1, 1, 1, 1, 0, 1, 0}), texture_files)});
+        scene->mMaterials =
+            new_array<aiMaterial*>({new_material(material_.value_or(default_material()), texture_files)});
         scene->mNumMaterials = 1;
         scene->mRootNode = new aiNode;
         scene->mRootNode->mMeshes = new_array<unsigned>({0});
@@ -198,6 +245,12 @@ private:
         std::size_t at = kRestAt;
         float one = 1;  // integer colours are divided by their type's maximum
     };
+
+    [[nodiscard]] PlyRow default_material() const {
+        if (!displayed_) return {1, 1, 1, 1, 1, 1, 0, 1};
+        const float diffuse = colours_.empty() ? 0.8F : 1.0F;
+        return {diffuse, diffuse, diffuse, 0, 0, 0, 0, 1};
+    }
 
     void choose_targets(const PlyElement& element) {
         const bool vertices = element.name == "vertex";
@@ -214,8 +267,11 @@ private:
             if (found == columns.end() || property.is_list()) continue;
             target.at = found->second;
             has_normals_ = has_normals_ || (vertices && target.at >= kNormalAt && target.at < kTextureAt);
-            has_uvs_ = has_uvs_ || (vertices && target.at >= kTextureAt);
-            if (!materials || target.at >= kPowerAt || !is_integer(property.type)) continue;
+            has_uvs_ = has_uvs_ || (vertices && target.at >= kTextureAt && target.at < kColourAt);
+            const bool is_vertex_colour = vertices && target.at >= kColourAt;
+            has_colours_ = has_colours_ || (displayed_ && is_vertex_colour);
+            const bool is_colour = is_vertex_colour || (materials && target.at < kPowerAt);
+            if (!is_colour || !is_integer(property.type)) continue;
             target.one = with_type(property.type, [](auto zero) {
                 return static_cast<float>(std::numeric_limits<decltype(zero)>::max());
             });
@@ -263,6 +319,7 @@ private:
         positions_.emplace_back(row_[0], row_[1], row_[2]);
         if (has_normals_) normals_.emplace_back(row_[kNormalAt], row_[kNormalAt + 1], row_[kNormalAt + 2]);
         if (has_uvs_) uvs_.emplace_back(row_[kTextureAt], row_[kTextureAt + 1], 0.0F);
+        if (has_colours_) colours_.emplace_back(row_[kColourAt], row_[kColourAt + 1], row_[kColourAt + 2], 1.0F);
     }
 
     void append_polygon(const std::vector<double>& corners) {
@@ -297,31 +354,38 @@ private:
     }
 
     Body body_;
+    bool displayed_;
     double vertex_count_ = 0;
     std::vector<Target> targets_;  // [property of the element]
     PlyRow row_{};
     std::vector<double> vertices_, texcoords_;
-    bool has_normals_ = false, has_uvs_ = false;
+    bool has_normals_ = false, has_uvs_ = false, has_colours_ = false;
     std::vector<aiVector3D> positions_, normals_, uvs_;
+    std::vector<aiColor4D> colours_;
     std::vector<aiFace> faces_;
     std::optional<PlyRow> material_;  // the first one is the mesh's
 };
 
 }  // namespace
 
-Result<std::unique_ptr<aiScene>> read_ply_file(const std::filesystem::path& path) {
+Result<std::unique_ptr<aiScene>> read_ply_file(const std::filesystem::path& path, PlyUse use) {
     RS_ASSIGN_OR_RETURN(const auto bytes, read_file(path, kMaxPly_bytes));
     const auto wrong = [&](const std::string& problem) {
         return Error{path.string() + ": cannot be read as a mesh: " + problem};
     };
     const std::string_view file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     PlyHeader header;
-    if (const Problem problem = parse_ply_header(file, header)) return wrong(*problem);
-    PlyReader reader(header, file.substr(header.size_bytes));
+    if (const Problem problem = parse_ply_header(file, header, use == PlyUse::kDisplay)) return wrong(*problem);
+    PlyReader reader(header, file.substr(header.size_bytes), use);
     for (const PlyElement& element : header.elements) {
         if (const Problem problem = reader.read(element)) return wrong(*problem);
     }
     return std::move(reader).scene(header.texture_files);
+}
+
+void pass_to_importer(std::unique_ptr<aiScene> ply, Assimp::Importer& importer) {
+    importer.RegisterLoader(new PlyLoader(std::move(ply)));  // the importer takes it over
+    importer.ReadFileFromMemory("ply", 3, 0, "ply");
 }
 
 }  // namespace rs::capture

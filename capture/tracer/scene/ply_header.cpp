@@ -101,13 +101,14 @@ Problem check_face_element(const PlyElement& element) {
     return std::nullopt;
 }
 
-Problem check_elements(const PlyHeader& header) {
+Problem check_elements(const PlyHeader& header, bool points_allowed) {
     const auto holds = [&](std::initializer_list<const char*> names) {
         return std::ranges::any_of(header.elements, [&](const PlyElement& element) {
             return element.count > 0 && std::ranges::find(names, element.name) != names.end();
         });
     };
-    if (!holds({"vertex"}) || !holds({"face", "tristrips"})) {
+    if (points_allowed && !holds({"vertex"})) return "has no vertices; export it again";
+    if (!holds({"vertex"}) || (!points_allowed && !holds({"face", "tristrips"}))) {
         return "has no faces; a mesh with triangles or polygons is needed";
     }
     if (holds({"face"}) && holds({"tristrips"})) return "has both faces and tristrips; keep one of them";
@@ -130,7 +131,7 @@ Problem check_elements(const PlyHeader& header) {
 
 }  // namespace
 
-std::optional<std::string> parse_ply_header(std::string_view file, PlyHeader& header) {
+std::optional<std::string> parse_ply_header(std::string_view file, PlyHeader& header, bool points_allowed) {
     std::size_t at = 0;
     for (bool first = true;; first = false) {
         const std::size_t end = file.find('\n', at);
@@ -142,7 +143,7 @@ std::optional<std::string> parse_ply_header(std::string_view file, PlyHeader& he
             if (line != "ply") return "is not a PLY file";
         } else if (line == "end_header") {
             header.size_bytes = at;
-            return header.encoding ? check_elements(header) : Problem("the header has no format line");
+            return header.encoding ? check_elements(header, points_allowed) : Problem("the header has no format line");
         } else if (Problem problem = parse_line(line, header)) {
             return problem;
         }

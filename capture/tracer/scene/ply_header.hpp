@@ -41,7 +41,8 @@ struct PlyHeader {
 
 /// Parses the header. It must describe a mesh: `vertex` with scalars x, y and z, before exactly one of `face` and
 /// `tristrips` with an integer list vertex_indices or vertex_index; element names must be unique.
+/// \param points_allowed a file without faces is valid, too: a point cloud
 /// \return the problem, or nothing
-std::optional<std::string> parse_ply_header(std::string_view file, PlyHeader& header);
+std::optional<std::string> parse_ply_header(std::string_view file, PlyHeader& header, bool points_allowed = false);
 
 }  // namespace rs::capture

@@ -144,13 +144,14 @@ std::vector<bool> lights_with_shadows(const Scene& scene) {
     std::vector<bool> casts;
     for (const Light& light : scene.lights) {
         const bool shines = std::max({light.colour.r, light.colour.g, light.colour.b}) > 0;
-        casts.push_back(shines && (light.everywhere || light.kind != LightKind::kDirectional));
+        casts.push_back(shines && light.casts_shadows && (light.everywhere || light.kind != LightKind::kDirectional));
     }
     for (const GeometryNode& node : scene.geometry) {
         std::optional<std::uint32_t> key;
         for (const std::uint32_t i : node.lights) {
             const Light& light = scene.lights[i];
-            if (light.kind != LightKind::kDirectional || !(luminance(light.colour) > 0)) continue;
+            if (light.kind != LightKind::kDirectional || !light.casts_shadows || !(luminance(light.colour) > 0))
+                continue;
             if (!key || luminance(light.colour) > luminance(scene.lights[*key].colour)) key = i;
         }
         if (key) casts[*key] = true;

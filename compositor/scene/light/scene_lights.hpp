@@ -29,7 +29,8 @@ Status add_lights(Scene& scene, LightList list, const std::string& from);
 glm::vec3 reflected_light(const Scene& scene);
 
 /// [light] True for lights that cast shadows. Of the directional lights that illuminate a node by scope only the
-/// brightest does: the others model light reflected by walls. Lights without colour cast none.
+/// brightest does: the others model light reflected by walls. Lights without colour, and those whose `casts_shadows` is
+/// false, cast none.
 std::vector<bool> lights_with_shadows(const Scene& scene);
 
 /// Punctual lights (rayspace/light/light.hpp), in number and order of Scene::lights, scaled by 2^exposure_ev; then one

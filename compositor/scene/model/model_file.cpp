@@ -1,17 +1,22 @@
 #include "compositor/scene/model/model_file.hpp"
 
+#include "capture/tracer/scene/ply_file.hpp"
 #include "compositor/scene/model/gltf_nodes.hpp"
 #include "compositor/scene/model/model_materials.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/file/input_file.hpp"
+#include "rayspace/image/linear_light.hpp"
 #include "rayspace/models/model_files.hpp"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <map>
+#include <memory>
 #include <utility>
 
 namespace rs::compositor {
@@ -54,6 +59,31 @@ std::shared_ptr<const Mesh> convert(const aiMesh& source, bool two_sided) {
         }
     }
     return mesh;
+}
+
+constexpr unsigned kPostProcessing =
+    aiProcess_Triangulate | aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices | aiProcess_SortByPType;
+// Points are not joined: that needs 270 bytes each in Assimp.
+constexpr unsigned kPointProcessing = aiProcess_SortByPType;
+
+// Reads a PLY file into the importer, with vertex colours in linear light and normals of unit length.
+// \return the steps of post-processing
+Result<unsigned> read_ply_model(const std::filesystem::path& path, Assimp::Importer& importer) {
+    RS_ASSIGN_OR_RETURN(std::unique_ptr<aiScene> ply, capture::read_ply_file(path, capture::PlyUse::kDisplay));
+    const aiMesh& mesh = *ply->mMeshes[0];
+    for (unsigned i = 0; mesh.HasVertexColors(0) && i < mesh.mNumVertices; ++i) {
+        aiColor4D& colour = mesh.mColors[0][i];
+        for (float* const channel : {&colour.r, &colour.g, &colour.b})
+            *channel = *channel > 0 ? linear_from_srgb(std::min(*channel, 1.0F)) : 0;
+    }
+    for (unsigned i = 0; mesh.HasNormals() && i < mesh.mNumVertices; ++i) {
+        aiVector3D& normal = mesh.mNormals[i];
+        const float length = normal.Length();
+        normal = length > 0 && std::isfinite(length) ? normal / length : aiVector3D(0);
+    }
+    const bool has_faces = mesh.mFaces[0].mNumIndices > 1;
+    capture::pass_to_importer(std::move(ply), importer);
+    return has_faces ? kPostProcessing : kPointProcessing;
 }
 
 class ModelWalk {
@@ -127,13 +157,14 @@ Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
     try {
         Assimp::Importer importer;
         const ModelFiles& files = restrict_to_models(importer, kMaxModel_bytes);
-        importer.ReadFile(path.string(), 0);
+        unsigned steps = kPostProcessing;
+        if (lower_case_extension(path) == ".ply") {
+            RS_ASSIGN_OR_RETURN(steps, read_ply_model(path, importer));
+        } else {
+            importer.ReadFile(path.string(), 0);
+        }
         if (!files.refusal().empty()) return Error{files.refusal()};
-        RS_ASSIGN_OR_RETURN(const aiScene* read,
-                            post_process(importer,
-                                         aiProcess_Triangulate | aiProcess_GenSmoothNormals |
-                                             aiProcess_JoinIdenticalVertices | aiProcess_SortByPType,
-                                         path.string()));
+        RS_ASSIGN_OR_RETURN(const aiScene* read, post_process(importer, steps, path.string()));
         const aiScene* const model = read;
         if (model == nullptr || model->mRootNode == nullptr) {
             const std::string message = path.string() +

@@ -1,5 +1,5 @@
 #pragma once
-// Reader of glTF 2.0 (.gltf, .glb) and OBJ files, through Assimp.
+// Reader of glTF 2.0 (.gltf, .glb) and OBJ files, through Assimp, and of PLY files (capture/tracer/scene/ply_file.hpp).
 //
 // A glTF node represents an image-based object if its `extras` contain
 //
@@ -18,8 +18,8 @@
 namespace rs::compositor {
 
 /// Metallic-roughness materials become diffuse and specular ones; embedded and external images are read. Files without
-/// lights get a headlight. Unsupported parts become warnings of the scene. Files beyond 64 MiB are rejected.
-/// Thread-safe.
+/// lights get a headlight. PLY files have the colours of their vertices, and are points if they have no faces.
+/// Unsupported parts become warnings of the scene. Files beyond 64 MiB are rejected. Thread-safe.
 Result<Scene> read_model(const std::filesystem::path& path);
 
 /// Model with the names of its parts.

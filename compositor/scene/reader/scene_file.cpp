@@ -124,6 +124,24 @@ std::string lower_case(std::string text) {
     return text;
 }
 
+// Formats of models that have no reader.
+struct OtherFormat {
+    std::string_view extension;
+    const char* name;
+};
+constexpr OtherFormat kOtherFormats[] = {
+    {".stl", "an STL model"},     {".dae", "a COLLADA model"}, {".3ds", "a 3D Studio model"}, {".fbx", "an FBX model"},
+    {".blend", "a Blender file"}, {".max", "a 3ds Max file"},  {".lwo", "a LightWave model"}, {".off", "an OFF model"},
+    {".3mf", "a 3MF model"},      {".usd", "a USD scene"},     {".usda", "a USD scene"},      {".usdc", "a USD scene"},
+    {".usdz", "a USD scene"}};
+
+// Null if the file name has another extension.
+const OtherFormat* other_format(std::string_view lower_case_name) {
+    const auto* const found = std::ranges::find_if(
+        kOtherFormats, [&](const OtherFormat& format) { return lower_case_name.ends_with(format.extension); });
+    return found == std::ranges::end(kOtherFormats) ? nullptr : found;
+}
+
 Floor read_floor(JsonObject object) {
     Floor floor;
     object.read("height", floor.height, -kMaxCoordinate, kMaxCoordinate);
@@ -208,10 +226,16 @@ Result<Scene> read_scene(const std::filesystem::path& path) {
     };
     if (is_one_of({".wrl", ".wrl.gz", ".wrz", ".vrml", ".x3d", ".x3d.gz", ".x3dz", ".x3dv", ".x3dv.gz", ".x3dvz"}))
         return read_vrml(path);
-    if (is_one_of({".gltf", ".glb", ".obj"})) return read_model(path);
+    if (is_one_of({".gltf", ".glb", ".obj", ".ply"})) return read_model(path);
+    if (const OtherFormat* const format = other_format(name)) {
+        return Error{path.string() + ": is " + format->name +
+                     ", which is not supported; convert it to glTF, for example with Blender: File > Export > glTF "
+                     "2.0"};
+    }
     if (!is_one_of({".json"})) {
         return Error{path.string() +
-                     ": has no extension of a scene; give a .wrl, .wrl.gz, .x3d, .x3dv, .gltf, .glb, .obj or .json"};
+                     ": has no extension of a scene; give a .wrl, .wrl.gz, .x3d, .x3dv, .gltf, .glb, "
+                     ".obj, .ply or .json"};
     }
     RS_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes, read_file(path, kMaxScene_bytes));
     return scene_from_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path);

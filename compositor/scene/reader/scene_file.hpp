@@ -1,6 +1,6 @@
 #pragma once
-// Scene reader: JSON (compositor/README.md), VRML and X3D (vrml_file.hpp), glTF 2.0 and OBJ (model/model_file.hpp);
-// objects of the command line.
+// Scene reader: JSON (compositor/README.md), VRML and X3D (vrml_file.hpp), glTF 2.0, OBJ and PLY
+// (model/model_file.hpp); objects of the command line.
 
 #include "compositor/scene/scene.hpp"
 #include "rayspace/base/result.hpp"
@@ -12,9 +12,10 @@
 
 namespace rs::compositor {
 
-/// Selects the format by extension: .wrl, .wrl.gz, .wrz, .vrml, .x3d, .x3dz, .x3dv, ...; .gltf, .glb, .obj; .json.
-/// Referenced files are relative to the scene file; .rso files are not opened. Errors name the file and the line or
-/// key. Files beyond 64 MiB are rejected.
+/// Selects the format by extension: .wrl, .wrl.gz, .wrz, .vrml, .x3d, .x3dz, .x3dv, ...; .gltf, .glb, .obj, .ply;
+/// .json. Errors about formats of other programs name the format and advise to convert the file. Referenced files are
+/// relative to the scene file; .rso files are not opened. Errors name the file and the line or key. Files beyond 64 MiB
+/// are rejected.
 Result<Scene> read_scene(const std::filesystem::path& path);
 
 /// Reads a JSON scene from text.

@@ -57,6 +57,18 @@ TEST(FirstGridSelector, WhatIsMeasuredCountsMoreThanWhatIsConcluded) {
     EXPECT_EQ(grid.side(kPath, 1024, 1024), 4);
 }
 
+TEST(FirstGridSelector, ASizeSetByTheUserDoesNotDependOnTimes) {
+    FirstGridSelector grid(0.1, 128);
+    EXPECT_EQ(grid.side(kPath, 1024, 512), 8);
+    grid.record_time(kPath, 1024, 512, 8, 0.0001);
+    EXPECT_EQ(grid.side(kPath, 1024, 512), 8) << "fast enough for a finer one";
+    grid.record_time(kPath, 1024, 512, 8, 60);
+    EXPECT_EQ(grid.side(kPath, 1024, 512), 8) << "too slow";
+    EXPECT_EQ(grid.side(kPath, 512, 1023), 4);  // 256 cells; 8 would give 127
+    EXPECT_EQ(grid.side(kPath, 100, 100), 1);   // fewer pixels than cells
+    EXPECT_EQ(FirstGridSelector(0.1, 1).side(kPath, 1024, 512), 1024);
+}
+
 TEST(FirstGridSelector, AClockThatStandsStillBeginsWithWholeImages) {
     FirstGridSelector grid(0.1);
     grid.record_time(kPath, 1024, 1024, 32, 0);
@@ -108,6 +120,18 @@ TEST(Refine, EachGridIsTwiceAsFineAndPassesDoNotHangOnTheClock) {
     renderer->begin_image(camera);
     ASSERT_TRUE(renderer->add_pass() && renderer->add_pass());
     EXPECT_EQ(renderer->image(), slow.images[4]);
+}
+
+TEST(Refine, BeginsWithTheGridThatTheUserSets) {
+    auto renderer = renderer_of(small_room());
+    ASSERT_TRUE(renderer);
+    const Camera camera = looking_from({3, 2, 4}, {0, 0.4, 0}, 128);
+    FirstGridSelector grid(0.1, 64);
+    const Refined run = refined(*renderer, camera, grid, 1, 1);
+    EXPECT_EQ(run.passes, (std::vector<int>{0, 1}));  // cells of 2x2 pixels; of 4x4 by default
+    const auto coarse = renderer->coarse_image(camera, 2);
+    ASSERT_TRUE(coarse);
+    EXPECT_EQ(run.images[0], *coarse);
 }
 
 TEST(Refine, EndsWhereItIsStopped) {

@@ -2,6 +2,7 @@
 
 #include "compositor/scene/light/lights_file.hpp"
 
+#include "compositor/scene/light/scene_lights.hpp"
 #include "datasets-synthetic/showroom/showroom.hpp"
 #include "datasets-synthetic/showroom/world_file.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -23,6 +24,15 @@ Light only(const std::string& light, const std::filesystem::path& file = "lights
     const auto list = light_list_from_json("{\"lights\": [" + light + "]}", file);
     EXPECT_TRUE(list) << (list ? "" : list.error().message);
     return list && list->lights.size() == 1 ? list->lights[0] : Light{};
+}
+
+TEST(SceneLights, LightsMayCastNoShadows) {
+    Scene scene;
+    Light light;
+    light.kind = LightKind::kPoint;
+    scene.lights = {light, light};
+    scene.lights[1].casts_shadows = false;
+    EXPECT_EQ(lights_with_shadows(scene), (std::vector<bool>{true, false}));
 }
 
 TEST(LightList, PunctualLightsGiveWhatTheirNumbersSay) {

@@ -50,6 +50,45 @@ protected:
     test::TemporaryFolder folder_;
 };
 
+constexpr const char* kPlyVertices =
+    "property float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+    "property uchar blue\n";
+constexpr const char* kPlyBody = "0 0 0 255 0 0\n1 0 0 255 0 0\n0 1 0 188 0 0\n";
+
+TEST_F(ModelFile, PlyMeshesHaveTheColoursOfTheirVertices) {
+    const auto scene =
+        read(std::string("ply\nformat ascii 1.0\nelement vertex 3\n") + kPlyVertices +
+                 "element face 1\nproperty list uchar int vertex_indices\nend_header\n" + kPlyBody + "3 0 1 2\n",
+             "scan.PLY");
+    ASSERT_TRUE(scene) << scene.error().message;
+    EXPECT_TRUE(scene->navigation.headlight);
+    ASSERT_EQ(scene->geometry.size(), 1U);
+    const Mesh& mesh = *scene->geometry[0].mesh;
+    EXPECT_EQ(mesh.topology, Topology::kTriangles);
+    EXPECT_TRUE(mesh.two_sided);
+    ASSERT_EQ(mesh.indices.size(), 3U);
+    ASSERT_TRUE(mesh.has_colours);
+    EXPECT_FLOAT_EQ(mesh.vertices[mesh.indices[0]].colour.r, 1);
+    EXPECT_NEAR(mesh.vertices[mesh.indices[2]].colour.r, 0.503, 0.001) << "linear light";
+    EXPECT_EQ(scene->geometry[0].material.specular, glm::vec3(0));
+}
+
+TEST_F(ModelFile, PlyFilesWithoutFacesArePoints) {
+    const std::string cloud =
+        std::string("ply\nformat ascii 1.0\nelement vertex 3\n") + kPlyVertices + "end_header\n" + kPlyBody;
+    const auto scene = read(cloud, "scan.ply");
+    ASSERT_TRUE(scene) << scene.error().message;
+    ASSERT_EQ(scene->geometry.size(), 1U);
+    const Mesh& mesh = *scene->geometry[0].mesh;
+    EXPECT_EQ(mesh.topology, Topology::kPoints);
+    EXPECT_EQ(mesh.indices.size(), 3U);
+    EXPECT_TRUE(mesh.has_colours);
+    EXPECT_FALSE(scene->geometry[0].material.lit);
+    const auto cut = read(cloud.substr(0, cloud.size() - 8), "cut.ply");
+    ASSERT_FALSE(cut);
+    EXPECT_THAT(cut.error().message, HasSubstr("cut.ply: "));
+}
+
 TEST_F(ModelFile, MeshesMaterialsAndTransformsAreRead) {
     const auto scene =
         read(gltf(R"({"children": [1], "translation": [1, 0, 0]}, {"mesh": 0, "scale": [2, 3, 4]})", kMaterial));

@@ -105,6 +105,19 @@ TEST(SceneFile, TheExampleOfTheReadmeIsRead) {
     EXPECT_EQ(scene->camera->fov_x_rad, CameraPath{}.fov_x_rad);
 }
 
+TEST(SceneFile, OtherFormatsAreNamedWithAdvice) {
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"a.stl", "STL"}, {"a.dae", "COLLADA"},        {"a.3ds", "3D Studio"},
+        {"a.FBX", "FBX"}, {"a.blend", "Blender file"}, {"a.usdz", "USD"}};
+    for (const auto& [name, format] : cases) {
+        const Result<Scene> scene = read_scene(name);
+        ASSERT_FALSE(scene) << name;
+        EXPECT_THAT(scene.error().message,
+                    AllOf(HasSubstr(name + ": is "), HasSubstr(format),
+                          HasSubstr("convert it to glTF, for example with Blender: File > Export")));
+    }
+}
+
 TEST(SceneFile, ErrorsNameTheFileAndTheKey) {
     const std::vector<std::pair<std::string, std::string>> cases = {
         {R"({"floor": {"heigth": 0}})", "floor: has a key 'heigth'"},
