@@ -2,6 +2,7 @@
 
 #include "compositor/viewer/views/framing.hpp"
 
+#include <chrono>
 #include <utility>
 
 namespace rs::compositor {
@@ -18,22 +19,34 @@ glm::dmat4 hidden_transform(const Scene& scene) {
     return matrix;
 }
 
+// Shows the whole first frame.
+SequenceCamera framing_camera(const Sequence& sequence, double fov_x_rad, double aspect) {
+    const BoundingBox bounds = bounds_of(scene_at(sequence, 0));
+    return {bounds.empty() ? CameraPose{{0, 1.6, 6}, {0, 1, 0}} : framing_pose(bounds, fov_x_rad, aspect), fov_x_rad};
+}
+
 }  // namespace
 
 std::optional<Weather> weather_of(const Sequence& sequence, const PlayerOptions& options) {
     return options.weather ? options.weather : sequence.weather;
 }
 
+SequenceCamera own_or_framing_camera(const Sequence& sequence, std::size_t frame, double aspect) {
+    const std::optional<SequenceCamera> camera = camera_of(sequence, frame);
+    return camera ? *camera : framing_camera(sequence, SequenceCamera{}.fov_x_rad, aspect);
+}
+
 Camera camera_of(const Sequence& sequence, std::size_t frame, int width, int height) {
-    std::optional<SequenceCamera> camera = camera_of(sequence, frame);
-    if (!camera) {
-        camera = SequenceCamera{};
-        const BoundingBox bounds = bounds_of(scene_at(sequence, 0));
-        const double aspect = static_cast<double>(width) / height;
-        camera->pose =
-            bounds.empty() ? CameraPose{{0, 1.6, 6}, {0, 1, 0}} : framing_pose(bounds, camera->fov_x_rad, aspect);
+    const SequenceCamera camera = own_or_framing_camera(sequence, frame, static_cast<double>(width) / height);
+    return look_at_camera(camera.pose.eye, camera.pose.at, camera.fov_x_rad, width, height);
+}
+
+void set_field_of_view(Sequence& sequence, double fov_x_rad, double aspect) {
+    if (!sequence.camera) sequence.camera = framing_camera(sequence, fov_x_rad, aspect);
+    sequence.camera->fov_x_rad = fov_x_rad;
+    for (SequenceFrame& frame : sequence.frames) {
+        if (frame.camera) frame.camera->fov_x_rad = fov_x_rad;
     }
-    return look_at_camera(camera->pose.eye, camera->pose.at, camera->fov_x_rad, width, height);
 }
 
 SequencePlayer::SequencePlayer(std::shared_ptr<const Sequence> sequence, std::unique_ptr<Showroom> showroom,
@@ -43,11 +56,12 @@ SequencePlayer::SequencePlayer(std::shared_ptr<const Sequence> sequence, std::un
       showroom_(std::move(showroom)),
       compositor_(std::move(compositor)) {}
 
-Result<SequencePlayer> SequencePlayer::create(std::shared_ptr<const Sequence> sequence, const PlayerOptions& options) {
+Result<SequencePlayer> SequencePlayer::create(std::shared_ptr<const Sequence> sequence, const PlayerOptions& options,
+                                              std::unique_ptr<engine::Executor> executor) {
     const std::optional<Weather> weather = weather_of(*sequence, options);
     const Scene scene = weather ? apply_weather(sequence->scene, *weather) : sequence->scene;
-    auto showroom =
-        std::make_unique<Showroom>(scene, ShowroomOptions{.memory_bytes = options.memory_bytes, .waits = true});
+    auto showroom = std::make_unique<Showroom>(
+        scene, ShowroomOptions{.memory_bytes = options.memory_bytes, .waits = true}, std::move(executor));
     RS_TRY(showroom->wait_for_all({0, 0, 0}));
     RS_ASSIGN_OR_RETURN(auto compositor,
                         FrameCompositor::create(scene, showroom->engine(), showroom->nodes(), options.frame));
@@ -75,12 +89,13 @@ Status show_frame(const Sequence& sequence, std::size_t frame, const std::option
 Status SequencePlayer::draw(std::size_t number, const Camera& camera) {
     const auto weather = weather_of(*sequence_, options_);
     RS_TRY(show_frame(*sequence_, number, weather, compositor_, *showroom_));
+    TracingWork traced;
     if (options_.tracing) {
-        RS_TRY(trace(number, camera));
+        RS_ASSIGN_OR_RETURN(traced, trace(number, camera));
     }
-    RS_TRY(showroom_->update(camera.centre(), 1 / sequence_->frames_per_second));
+    RS_TRY(times_.draw(*showroom_, compositor_, camera, 1 / sequence_->frames_per_second, traced));
     for (std::string& warning : showroom_->take_warnings()) warnings_.push_back(std::move(warning));
-    return compositor_.draw(camera);
+    return {};
 }
 
 Status SequencePlayer::make_tracer() {
@@ -94,7 +109,9 @@ Status SequencePlayer::make_tracer() {
     return {};
 }
 
-Status SequencePlayer::trace(std::size_t number, const Camera& camera) {
+Result<TracingWork> SequencePlayer::trace(std::size_t number, const Camera& camera) {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
     // Ray-space objects cannot move in a tracer, so it is rebuilt.
     const SlotTransforms moved = slot_transforms(*sequence_, number);
     if (!tracer_ || !moved.objects.empty()) {
@@ -108,12 +125,16 @@ Status SequencePlayer::trace(std::size_t number, const Camera& camera) {
     tracer_->begin_image(camera);
     for (int pass = 0; pass < options_.passes; ++pass) tracer_->add_pass();
     compositor_.set_traced(std::make_shared<const Image<Rgba8>>(tracer_->image()));
-    return {};
+    return TracingWork{std::chrono::duration<double>(Clock::now() - begin).count(), tracer_->passes()};
+}
+
+Camera SequencePlayer::camera(std::size_t number) const {
+    if (options_.camera) return *options_.camera;
+    return camera_of(*sequence_, number, compositor_.width(), compositor_.height());
 }
 
 Result<Image<Rgba8>> SequencePlayer::frame(std::size_t number) {
-    const Camera camera = camera_of(*sequence_, number, compositor_.width(), compositor_.height());
-    RS_TRY(draw(number, camera));
+    RS_TRY(draw(number, camera(number)));
     return compositor_.image();
 }
 

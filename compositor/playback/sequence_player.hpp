@@ -5,6 +5,7 @@
 #include "compositor/sequence/sequence.hpp"
 #include "compositor/traced/traced_renderer.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
+#include "compositor/viewer/frame_times.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -22,6 +23,7 @@ struct PlayerOptions {
     std::optional<TracedOptions> tracing = {};  // nullopt: raster
     int passes = 16;                            // per traced frame
     std::optional<Weather> weather = {};        // overrides the sequence's weather
+    std::optional<Camera> camera = {};          // of all frames, in their size; nullopt: the sequence's cameras
     std::int64_t memory_bytes = default_memory_budget();
 };
 
@@ -29,7 +31,14 @@ struct PlayerOptions {
 std::optional<Weather> weather_of(const Sequence& sequence, const PlayerOptions& options);
 
 /// Camera of a frame: its own, else the base scene's, else one that frames the whole scene.
+/// \param aspect width / height
+SequenceCamera own_or_framing_camera(const Sequence& sequence, std::size_t frame, double aspect);
+/// The same, in pixels.
 Camera camera_of(const Sequence& sequence, std::size_t frame, int width, int height);
+
+/// Sets the horizontal field of view of all cameras, and of the one that frames the whole scene if there is none.
+/// \param aspect width / height
+void set_field_of_view(Sequence& sequence, double fov_x_rad, double aspect);
 
 /// Applies the transforms of a frame and the weather's time; takes effect in the next draw().
 Status show_frame(const Sequence& sequence, std::size_t frame, const std::optional<Weather>& weather,
@@ -39,7 +48,9 @@ Status show_frame(const Sequence& sequence, std::size_t frame, const std::option
 class SequencePlayer {
 public:
     /// \param sequence must not be null.
-    static Result<SequencePlayer> create(std::shared_ptr<const Sequence> sequence, const PlayerOptions& options);
+    /// \param executor draws the objects that it supports; null: the software core draws all
+    static Result<SequencePlayer> create(std::shared_ptr<const Sequence> sequence, const PlayerOptions& options,
+                                         std::unique_ptr<engine::Executor> executor = nullptr);
 
     /// Frames may be requested in any order; the result does not depend on it.
     Result<Image<Rgba8>> frame(std::size_t number);
@@ -47,6 +58,10 @@ public:
     Status draw(std::size_t number, const Camera& camera);
 
     [[nodiscard]] std::size_t frames() const { return sequence_->frames.size(); }
+    /// Camera of a frame in the size of the frames.
+    [[nodiscard]] Camera camera(std::size_t number) const;
+    /// Times of all frames since create(), as by FrameTimes::to_json().
+    [[nodiscard]] std::string times_as_json() const { return times_.to_json(*showroom_); }
     [[nodiscard]] const FrameCompositor& compositor() const { return compositor_; }
     /// Number of acceleration structures built for traced frames since create(): one, unless ray-space objects move.
     [[nodiscard]] int tracers_made() const { return tracers_made_; }
@@ -57,7 +72,7 @@ private:
     SequencePlayer(std::shared_ptr<const Sequence> sequence, std::unique_ptr<Showroom> showroom,
                    FrameCompositor compositor, const PlayerOptions& options);
     Status make_tracer();
-    Status trace(std::size_t number, const Camera& camera);
+    Result<TracingWork> trace(std::size_t number, const Camera& camera);
 
     std::shared_ptr<const Sequence> sequence_;
     Scene scene_;  // with weather applied
@@ -66,6 +81,7 @@ private:
     PlayerOptions options_;
     std::unique_ptr<Showroom> showroom_;
     FrameCompositor compositor_;
+    FrameTimes times_;
     std::vector<std::string> warnings_;
     int tracers_made_ = 0;
 };

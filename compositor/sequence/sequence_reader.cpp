@@ -154,6 +154,7 @@ private:
             const std::optional<std::uint32_t> slot = slot_of({own, &object, nullptr, {}}, "-", {});
             if (!slot) return limit_error(path);
             frame.poses.push_back({*slot, true, {}});
+            if (!files_.base) sequence_.scene.floor.reset();  // the default floor would hide such a ground
         }
         sequence_.frames.push_back(std::move(frame));
         return {};

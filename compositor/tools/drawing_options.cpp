@@ -47,11 +47,7 @@ void add_executor_options(CLI::App& command, ExecutorOptions& options) {
                     engine::ExecutorTable().names() + ": draws the objects; the core draws what it cannot")
         ->type_name("NAME")
         ->capture_default_str();
-    add_memory_option(command, options.memory_mib);
-}
-
-void add_memory_option(CLI::App& command, std::int64_t& memory_mib) {
-    command.add_option("--memory", memory_mib, "limit for objects in memory (default: half of the machine's)")
+    command.add_option("--memory", options.memory_mib, "limit for objects in memory (default: half of the machine's)")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 30).description(""))
         ->type_name("MIB");
 }
@@ -73,18 +69,24 @@ Result<std::vector<PlacedObject>> LoadedScene::all_objects() const {
     return showroom->placed();
 }
 
-Result<LoadedScene> load_objects(Scene scene, ObjectDepth depth, const ExecutorOptions& options, bool waits) {
-    std::unique_ptr<engine::Executor> executor;
+Result<ObjectExecutor> create_executor(const ExecutorOptions& options, ObjectDepth depth) {
+    ObjectExecutor created{nullptr, engine::ExecutorTraits{.name = "software core"}};
     if (options.executor != "core") {
-        RS_ASSIGN_OR_RETURN(executor, engine::ExecutorTable().create(options.executor));
+        RS_ASSIGN_OR_RETURN(created.executor, engine::ExecutorTable().create(options.executor));
+        created.traits = created.executor->traits();
     }
+    if (depth == ObjectDepth::kPixel && !created.traits.depth) {
+        return Error{"--object-depth pixel: " + created.traits.name + " gives no depth; leave out --executor"};
+    }
+    return created;
+}
+
+Result<LoadedScene> load_objects(Scene scene, ObjectDepth depth, const ExecutorOptions& options, bool waits) {
+    RS_ASSIGN_OR_RETURN(ObjectExecutor created, create_executor(options, depth));
     LoadedScene loaded;
-    loaded.executor = executor ? executor->traits() : engine::ExecutorTraits{.name = "software core"};
-    if (depth == ObjectDepth::kPixel && !loaded.executor.depth) {
-        return Error{"--object-depth pixel: " + loaded.executor.name + " gives no depth; leave out --executor"};
-    }
+    loaded.executor = std::move(created.traits);
     loaded.showroom = std::make_unique<Showroom>(
-        scene, ShowroomOptions{.memory_bytes = options.memory_mib << 20, .waits = waits}, std::move(executor));
+        scene, ShowroomOptions{.memory_bytes = options.memory_mib << 20, .waits = waits}, std::move(created.executor));
     loaded.scene = std::move(scene);
     return loaded;
 }

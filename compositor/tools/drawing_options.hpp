@@ -35,12 +35,19 @@ void add_drawing_options(CLI::App& command, DrawingOptions& options);
 void add_upright_option(CLI::App& command, bool& upright);
 /// Adds --executor and --memory.
 void add_executor_options(CLI::App& command, ExecutorOptions& options);
-/// Adds --memory.
-void add_memory_option(CLI::App& command, std::int64_t& memory_mib);
 
 /// \param exposure_ev of the scene's lights
 /// \param upright draw objects for level cameras and resample their images
 FrameOptions frame_options(const DrawingOptions& options, PixelSize size, double exposure_ev, bool upright);
+
+/// The executor that draws the objects.
+struct ObjectExecutor {
+    std::unique_ptr<engine::Executor> executor;  // null: the software core
+    engine::ExecutorTraits traits;
+};
+
+/// Creates the executor. Fails if it does not give the requested depth.
+Result<ObjectExecutor> create_executor(const ExecutorOptions& options, ObjectDepth depth);
 
 /// A scene with its objects, which are read in the background.
 struct LoadedScene {

@@ -3,6 +3,7 @@
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig.hpp"
 #include "rayspace/image_io/image_io.hpp"
+#include "rayspace/tool/tool_main.hpp"
 
 namespace rs::compositor {
 namespace {
@@ -21,6 +22,12 @@ Status write_folder(const FrameOutput& output, const std::vector<Camera>& camera
 }
 
 }  // namespace
+
+void add_stats_option(CLI::App& command, std::optional<std::string>& stats) {
+    command.add_option("--stats", stats, "write the frames' times, by part, as JSON")
+        ->check(ends_in({".json"}))
+        ->type_name("FILE.json");
+}
 
 Status check_frame_count(const std::string& output, OutputKind kind, std::size_t frames) {
     if (kind != OutputKind::image || frames == 1) return {};

@@ -6,11 +6,17 @@
 #include "rayspace/geometry/camera.hpp"
 #include "rayspace/output/view_output.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace rs::compositor {
+
+/// Adds --stats.
+void add_stats_option(CLI::App& command, std::optional<std::string>& stats);
 
 /// Fails if several frames would be written into one image.
 Status check_frame_count(const std::string& output, OutputKind kind, std::size_t frames);

@@ -23,10 +23,11 @@ Result<TracedImages> traced_images(const LoadedScene& loaded, const RendererOpti
     if (!options.method()) return TracedImages();
     Result<std::shared_ptr<TracedRenderer>> tracer = make_tracer(loaded, options, name);
     if (!tracer) return tracer.error();
-    return TracedImages([tracer = std::move(*tracer), limit, &progress](
-                            std::size_t, const Camera& camera) -> Result<std::shared_ptr<const Image<Rgba8>>> {
-        return trace_frame(*tracer, limit, camera, progress);
-    });
+    return TracedImages(
+        [tracer = std::move(*tracer), limit, &progress](std::size_t, const Camera& camera) -> Result<TracedImage> {
+            std::shared_ptr<const Image<Rgba8>> image = trace_frame(*tracer, limit, camera, progress);
+            return TracedImage{std::move(image), tracer->passes()};
+        });
 }
 
 Result<HeadlessRenderer> HeadlessRenderer::create(const LoadedScene& loaded, const HeadlessOptions& options,
@@ -57,11 +58,14 @@ Result<Image<Rgba8>> HeadlessRenderer::render(const Camera& camera) {
     if (camera.width != compositor_.width() || camera.height != compositor_.height()) {
         RS_TRY(compositor_.resize(camera.width, camera.height));
     }
+    TracingWork work;
     if (traced_) {
-        RS_ASSIGN_OR_RETURN(std::shared_ptr<const Image<Rgba8>> traced, traced_(frame, camera));
-        compositor_.set_traced(std::move(traced));
+        const auto begin = Clock::now();
+        RS_ASSIGN_OR_RETURN(TracedImage traced, traced_(frame, camera));
+        work = {std::chrono::duration<double>(Clock::now() - begin).count(), traced.passes};
+        compositor_.set_traced(std::move(traced.image));
     }
-    RS_TRY(times_.draw(*loaded_->showroom, compositor_, camera, frame_s));
+    RS_TRY(times_.draw(*loaded_->showroom, compositor_, camera, frame_s, work));
     print_warnings(loaded_->showroom->take_warnings());
     most_missing_ = std::max(most_missing_, compositor_.statistics().nodes_missing);
     return compositor_.image();

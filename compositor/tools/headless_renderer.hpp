@@ -22,9 +22,13 @@
 
 namespace rs::compositor {
 
+struct TracedImage {
+    std::shared_ptr<const Image<Rgba8>> image;
+    int passes = 0;  // 0 if it was traced before
+};
+
 /// Returns the traced image of a frame, which takes the place of rasterized geometry and background.
-using TracedImages =
-    std::function<Result<std::shared_ptr<const Image<Rgba8>>>(std::size_t frame, const Camera& camera)>;
+using TracedImages = std::function<Result<TracedImage>(std::size_t frame, const Camera& camera)>;
 
 /// A tracer of the scene's geometry and of the shadows and reflections of its objects. Waits for all objects, prints
 /// the tracer's warnings.

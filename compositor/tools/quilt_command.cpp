@@ -135,6 +135,7 @@ void add_quilt_command(CLI::App& app, std::function<Status()>& run) {
     auto options = std::make_shared<QuiltOptions>();
     CLI::App* command =
         app.add_subcommand("quilt", "Render the views of a display with horizontal parallax as the tiles of one image");
+    hide_help_option(*command);
     add_scene_options(*command, options->scene);
     command->add_option("-o,--output", options->output, "FILE.png, to which the layout is added, or a folder")
         ->required()
@@ -153,8 +154,9 @@ void add_quilt_command(CLI::App& app, std::function<Status()>& run) {
     add_motion_options(*command, options->motion);
     add_renderer_options(*command, options->renderer);
     add_lens_options(*command, options->renderer);
-    command->get_option("--focus")->description(
+    CLI::Option* focus = command->get_option("--focus")->description(
         "distance without parallax, in focus with --lens (default: largest object, or scene)");
+    focus->remove_needs(command->get_option("--lens"));
     add_pass_options(*command, options->passes);
     add_drawing_options(*command, options->drawing);
     add_upright_option(*command, options->upright);

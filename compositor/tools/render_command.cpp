@@ -138,9 +138,7 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
     add_executor_options(*command, options->executor);
     command->add_flag("--streaming", options->streaming,
                       "run in real time and show objects once they are read, instead of waiting for them");
-    command->add_option("--stats", options->stats, "write the frames' times, by part, as JSON")
-        ->check(ends_in({".json"}))
-        ->type_name("FILE.json");
+    add_stats_option(*command, options->stats);
     command->add_flag("--force", options->force, kForceHelp);
     command->add_flag("-q,--quiet", options->quiet, "no progress bar");
     command->footer("Example: rs-view render hall.wrl --renderer path --lights evening.json --passes 256 -o hall.png");

@@ -16,12 +16,12 @@ namespace {
 
 constexpr double kRowSpacing = 2.2;  // between objects without a position, in object radii
 
-void add_lights_option(CLI::App& command, SceneOptions& options) {
-    command.add_option("--lights", options.lights, "JSON list of lights, added to the scene's or replacing them")
+}  // namespace
+
+void add_lights_option(CLI::App& command, std::optional<std::string>& lights) {
+    command.add_option("--lights", lights, "JSON list of lights, added to the scene's or replacing them")
         ->type_name("FILE.json");
 }
-
-}  // namespace
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
     command.add_option("SCENE", options.scene, ".wrl, .wrl.gz, .x3d, .x3dv, .gltf, .glb, .obj, .ply or .json; Y is up")
@@ -32,14 +32,14 @@ void add_scene_options(CLI::App& command, SceneOptions& options) {
         ->type_name("OBJECT")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    add_lights_option(command, options);
+    add_lights_option(command, options.lights);
 }
 
 void add_scene_without_objects_options(CLI::App& command, SceneOptions& options) {
     command.add_option("SCENE", options.scene, ".wrl, .wrl.gz, .x3d, .x3dv, .gltf, .glb, .obj, .ply or .json")
         ->type_name("")
         ->required();
-    add_lights_option(command, options);
+    add_lights_option(command, options.lights);
 }
 
 void hide_help_option(CLI::App& command) {
@@ -52,6 +52,11 @@ void check_scene_options(const SceneOptions& options) {
     }
 }
 
+Status add_lights_of_file(Scene& scene, const std::string& file) {
+    RS_ASSIGN_OR_RETURN(LightList list, read_light_list(file));
+    return add_lights(scene, std::move(list), file);
+}
+
 Result<Scene> load_scene(const SceneOptions& options) {
     Scene scene;
     if (options.scene) {
@@ -60,8 +65,7 @@ Result<Scene> load_scene(const SceneOptions& options) {
         scene.floor = Floor{};
     }
     if (options.lights) {
-        RS_ASSIGN_OR_RETURN(LightList list, read_light_list(*options.lights));
-        RS_TRY(add_lights(scene, std::move(list), *options.lights));
+        RS_TRY(add_lights_of_file(scene, *options.lights));
     }
     const auto count = static_cast<double>(options.objects.size());
     for (std::size_t i = 0; i < options.objects.size(); ++i) {

@@ -23,6 +23,8 @@ struct SceneOptions {
 void add_scene_options(CLI::App& command, SceneOptions& options);
 /// Adds SCENE, required, and --lights, for subcommands that do not draw objects.
 void add_scene_without_objects_options(CLI::App& command, SceneOptions& options);
+/// Adds --lights.
+void add_lights_option(CLI::App& command, std::optional<std::string>& lights);
 /// Omits -h from the options that --help lists, for lists that would not fit on a screen.
 void hide_help_option(CLI::App& command);
 /// Throws CLI::ValidationError if neither a scene nor an object is given.
@@ -31,6 +33,9 @@ void check_scene_options(const SceneOptions& options);
 /// Reads the scene file and adds the lights and the objects. Without a file, the objects get a floor. Prints the
 /// scene's warnings.
 Result<Scene> load_scene(const SceneOptions& options);
+
+/// Reads a list of lights and adds it to the scene, or replaces the scene's by it.
+Status add_lights_of_file(Scene& scene, const std::string& file);
 
 /// Files of a subcommand in addition to those of its scene. Empty names stand for options that are not given.
 struct CommandFiles {

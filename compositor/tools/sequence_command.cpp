@@ -1,9 +1,11 @@
 #include "compositor/gl/context.hpp"
+#include "compositor/lighting/light_warnings.hpp"
 #include "compositor/playback/sequence_player.hpp"
 #include "compositor/sequence/converter.hpp"
 #include "compositor/tools/camera_options.hpp"
 #include "compositor/tools/commands.hpp"
 #include "compositor/tools/drawing_options.hpp"
+#include "compositor/tools/frame_output.hpp"
 #include "compositor/tools/scene_options.hpp"
 #include "compositor/tools/tracing_options.hpp"
 #include "compositor/viewer/views/framing.hpp"
@@ -35,8 +37,10 @@ constexpr int kDefaultPassesOfFrame = 16;
 struct SequenceOptions {
     std::vector<std::string> folders;
     std::optional<std::string> output;  // a window if not given
-    std::size_t frame = 0;              // of a single image
+    std::optional<std::string> lights;
+    std::size_t frame = 0;  // of a single image
     std::optional<double> frames_per_second;
+    ViewOptions view;
     std::string size = "1280x720";
     std::optional<std::string> weather;  // rain, snow, fog; the sequence's own if not given
     std::uint32_t seed = Weather{}.seed;
@@ -46,7 +50,8 @@ struct SequenceOptions {
     int passes = kDefaultPassesOfFrame;
     DrawingOptions drawing;
     bool upright = false;
-    std::int64_t memory_mib = ExecutorOptions{}.memory_mib;
+    ExecutorOptions executor;
+    std::optional<std::string> stats;
     bool force = false;
     bool quiet = false;
 };
@@ -71,27 +76,66 @@ Result<std::optional<Weather>> requested_weather(const SequenceOptions& options)
     return std::optional<Weather>(weather);
 }
 
-Result<PlayerOptions> player_options(const SequenceOptions& options) {
+// Files that the options name and the command reads.
+std::vector<fs::path> input_files(const SequenceOptions& options) {
+    std::vector<fs::path> files(options.folders.begin(), options.folders.end());
+    files.emplace_back(options.renderer.toon_style.value_or(""));
+    files.emplace_back(options.lights.value_or(""));
+    return files;
+}
+
+Result<PlayerOptions> player_options(const SequenceOptions& options, const engine::ExecutorTraits& executor) {
     RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
     RS_ASSIGN_OR_RETURN(const TracedOptions tracing, traced_options(options.renderer));
     RS_ASSIGN_OR_RETURN(const std::optional<Weather> weather, requested_weather(options));
     PlayerOptions player;
-    player.frame = frame_options(options.drawing, size, options.renderer.exposure_ev, options.upright);
+    player.frame =
+        frame_options(options.drawing, size, options.renderer.exposure_ev, options.upright || !executor.tilted);
+    player.frame.time_parts = options.stats.has_value();
     if (options.renderer.method()) player.tracing = tracing;
     player.passes = options.passes;
     player.weather = weather;
-    player.memory_bytes = options.memory_mib << 20;
+    player.memory_bytes = options.executor.memory_mib << 20;
     return player;
+}
+
+// The camera of --viewpoint, --eye and --at for all frames; nullopt if none of them is given. A missing eye or point
+// looked at is that of the sequence's first camera.
+Result<std::optional<Camera>> fixed_camera(const ViewOptions& view, const Sequence& sequence, PixelSize size) {
+    if (!view.viewpoint && !view.eye && !view.at) return std::optional<Camera>();
+    const SequenceCamera first = own_or_framing_camera(sequence, 0, static_cast<double>(size.width) / size.height);
+    Scene scene = sequence.scene;
+    scene.camera = CameraPath{};
+    scene.camera->fov_x_rad = first.fov_x_rad;
+    scene.camera->keys = {first.pose};
+    const auto no_objects = [] { return Result<std::vector<PlacedObject>>(std::vector<PlacedObject>()); };
+    RS_ASSIGN_OR_RETURN(const std::vector<Camera> cameras,
+                        requested_cameras(view, MotionOptions{}, scene, no_objects, size));
+    return std::optional<Camera>(cameras.front());
+}
+
+// Applies --lights and --fov.
+Status change_sequence(const SequenceOptions& options, PixelSize size, Sequence& sequence) {
+    if (options.lights) {
+        RS_TRY(add_lights_of_file(sequence.scene, *options.lights));
+        print_warnings(light_warnings(sequence.scene));
+    }
+    if (options.view.fov_deg) {
+        set_field_of_view(sequence, radians(*options.view.fov_deg), static_cast<double>(size.width) / size.height);
+    }
+    return {};
 }
 
 // A sequence and its player.
 struct OpenSequence {
     std::optional<ConvertedScene> converted;  // owns the files that --convert made
     std::shared_ptr<const Sequence> sequence;
+    std::optional<Camera> camera;  // of all frames; nullopt: the sequence's cameras
     std::optional<SequencePlayer> player;
 };
 
 Result<OpenSequence> open_sequence(const SequenceOptions& options, const std::string& folder) {
+    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
     OpenSequence opened;
     fs::path files = folder;
     if (options.convert) {
@@ -102,13 +146,18 @@ Result<OpenSequence> open_sequence(const SequenceOptions& options, const std::st
     RS_ASSIGN_OR_RETURN(Sequence sequence, read_sequence(files));
     if (opened.converted) sequence.name = fs::path(folder).stem().string();
     print_warnings(sequence.scene.warnings);
+    RS_TRY(change_sequence(options, size, sequence));
+    RS_ASSIGN_OR_RETURN(opened.camera, fixed_camera(options.view, sequence, size));
     opened.sequence = std::make_shared<const Sequence>(std::move(sequence));
     return opened;
 }
 
 Status start_player(const SequenceOptions& options, OpenSequence& opened) {
-    RS_ASSIGN_OR_RETURN(const PlayerOptions player_settings, player_options(options));
-    RS_ASSIGN_OR_RETURN(SequencePlayer player, SequencePlayer::create(opened.sequence, player_settings));
+    RS_ASSIGN_OR_RETURN(ObjectExecutor created, create_executor(options.executor, options.drawing.object_depth));
+    RS_ASSIGN_OR_RETURN(PlayerOptions player_settings, player_options(options, created.traits));
+    player_settings.camera = opened.camera;
+    RS_ASSIGN_OR_RETURN(SequencePlayer player,
+                        SequencePlayer::create(opened.sequence, player_settings, std::move(created.executor)));
     opened.player.emplace(std::move(player));
     return {};
 }
@@ -119,11 +168,8 @@ Status check_video(const OpenSequence& opened, const std::string& folder) {
 }
 
 std::vector<Camera> cameras_of(const OpenSequence& opened) {
-    const FrameCompositor& compositor = opened.player->compositor();
     std::vector<Camera> cameras;
-    for (std::size_t i = 0; i < opened.sequence->frames.size(); ++i) {
-        cameras.push_back(camera_of(*opened.sequence, i, compositor.width(), compositor.height()));
-    }
+    for (std::size_t i = 0; i < opened.player->frames(); ++i) cameras.push_back(opened.player->camera(i));
     return cameras;
 }
 
@@ -173,7 +219,7 @@ Status render_sequence(const SequenceOptions& options) {
         RS_TRY(check_video(opened, folder));
     }
     RS_TRY(check_outputs({}, opened.sequence->scene,
-                         {.outputs = {output}, .inputs = {folder, options.renderer.toon_style.value_or("")}}));
+                         {.outputs = {output, options.stats.value_or("")}, .inputs = input_files(options)}));
     RS_ASSIGN_OR_RETURN(const gl::Context context, gl::Context::create_surfaceless());
     RS_TRY(start_player(options, opened));
     ProgressBar progress(options.quiet);
@@ -181,6 +227,7 @@ Status render_sequence(const SequenceOptions& options) {
                     : kind == SequenceOutput::kFolder ? write_images(opened, output, options.force, progress)
                                                       : write_image(opened, options.frame, output);
     print_warnings(opened.player->take_warnings());
+    if (status && options.stats) status = write_file(*options.stats, opened.player->times_as_json());
     opened.player.reset();
     return status;
 }
@@ -194,8 +241,7 @@ Result<std::string> render_into_folder(const SequenceOptions& options, const std
     for (int i = 2; names.contains(name); ++i) name = opened.sequence->name + "-" + std::to_string(i);
     names.insert(name);
     const fs::path target = fs::path(*options.output) / name;
-    const std::vector<fs::path> sequences(options.folders.begin(), options.folders.end());
-    RS_TRY(refuse_overwriting_inputs(target, sequences));
+    RS_TRY(refuse_overwriting_inputs(target, input_files(options)));
     RS_ASSIGN_OR_RETURN(StagedFolder staged, StagedFolder::create(target, "videos of a sequence", options.force));
     RS_TRY(start_player(options, opened));
     ProgressBar progress(options.quiet);
@@ -240,8 +286,10 @@ Status render_sequences(const SequenceOptions& options) {
 }
 
 // Shows a sequence until the window is closed or another sequence is opened, whose path goes to `next`.
-Status show_sequence(const SequenceOptions& options, PixelSize size, const std::shared_ptr<const Sequence>& sequence,
-                     std::string& next) {
+Status show_sequence(const SequenceOptions& options, const OpenSequence& opened, std::string& next) {
+    const std::shared_ptr<const Sequence>& sequence = opened.sequence;
+    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
+    RS_ASSIGN_OR_RETURN(ObjectExecutor created, create_executor(options.executor, options.drawing.object_depth));
     const std::string name = sequence->name.empty() ? "sequence" : sequence->name;
     auto window = Window::create({.title = name + " - rs-view", .width = size.width, .height = size.height});
     if (!window) return Error{window.error().message + "; give -o to write an image or a video"};
@@ -261,30 +309,46 @@ Status show_sequence(const SequenceOptions& options, PixelSize size, const std::
     visit_options.traced = options.renderer.method().has_value();
     visit_options.warn = print_warnings;
     visit_options.open = [&next](const std::string& folder) { next = folder; };
-    visit_options.viewpoints = {viewpoint_of(camera_of(*sequence, 0, size.width, size.height))};
+    visit_options.viewpoints = {viewpoint_of(opened.camera.value_or(camera_of(*sequence, 0, size.width, size.height)))};
+    visit_options.follows_sequence = !opened.camera;
+    if (options.lights) visit_options.lights = *options.lights;
+    visit_options.executor = created.traits.name;
     const Scene scene =
         visit_options.weather ? apply_weather(sequence->scene, *visit_options.weather) : sequence->scene;
-    auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.memory_bytes = options.memory_mib << 20});
+    auto showroom = std::make_unique<Showroom>(
+        scene, ShowroomOptions{.memory_bytes = options.executor.memory_mib << 20}, std::move(created.executor));
     return visit(std::move(*window), scene, std::move(showroom), visit_options);
 }
 
 Status show_sequences(const SequenceOptions& options) {
-    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
-    std::shared_ptr<const Sequence> shown;
+    std::optional<OpenSequence> shown;
     std::string next = options.folders.front();
     while (!next.empty()) {
-        Result<Sequence> sequence = read_sequence(std::exchange(next, {}));
-        if (sequence) {
-            print_warnings(sequence->scene.warnings);
-            shown = std::make_shared<const Sequence>(std::move(*sequence));
+        Result<OpenSequence> opened = open_sequence(options, std::exchange(next, {}));
+        if (opened) {
+            shown.emplace(std::move(*opened));
         } else if (shown) {
-            print_warnings({sequence.error().message});  // the previous sequence is shown again
+            print_warnings({opened.error().message});  // the previous sequence is shown again
         } else {
-            return sequence.error();
+            return opened.error();
         }
-        RS_TRY(show_sequence(options, size, shown, next));
+        RS_TRY(show_sequence(options, *shown, next));
     }
     return {};
+}
+
+// Refuses options that apply to another kind of output.
+void check_output_options(const CLI::App& command, const SequenceOptions& options) {
+    if (options.folders.size() > 1) {
+        if (!options.stats) return;
+        throw CLI::ValidationError("--stats needs a single sequence; run the command once for each");
+    }
+    const Result<SequenceOutput> kind = output_of_sequence(*options.output);
+    if (!kind) return;  // reported later
+    if (*kind != SequenceOutput::kImage && command.count("--frame") > 0)
+        throw CLI::ValidationError("--frame needs -o FILE.jpg or FILE.png");
+    if (*kind != SequenceOutput::kVideo && command.count("--fps") > 0)
+        throw CLI::ValidationError("--fps needs -o FILE.mp4");
 }
 
 void check_sequence_options(const CLI::App& command, const SequenceOptions& options) {
@@ -295,10 +359,12 @@ void check_sequence_options(const CLI::App& command, const SequenceOptions& opti
     }
     if (options.output) {
         check_renderer_options(command, options.renderer);
+        check_output_options(command, options);
         return;
     }
     if (options.folders.size() > 1) throw CLI::ValidationError("several sequences need -o: the folder to write");
-    for (const char* const name : {"--frame", "--fps", "--convert", "--passes", "--upright", "--quiet"}) {
+    for (const char* const name :
+         {"--frame", "--fps", "--convert", "--passes", "--upright", "--stats", "--force", "--quiet"}) {
         if (command.count(name) == 0) continue;
         throw CLI::ValidationError(std::string(name) + " needs -o: the video, image or folder to write");
     }
@@ -315,6 +381,8 @@ void add_sequence_command(CLI::App& app, std::function<Status()>& run) {
                      "folder with anim/out/frames.json, the frames.json itself, or one extended OBJ")
         ->type_name("")
         ->required();
+    hide_help_option(*command);
+    add_lights_option(*command, options->lights);
     command
         ->add_option("-o,--output", options->output,
                      ".mp4, .jpg, .png, or a folder; of several sequences a folder of NAME/sequence.mp4")
@@ -325,6 +393,12 @@ void add_sequence_command(CLI::App& app, std::function<Status()>& run) {
     command->add_option("--fps", options->frames_per_second, "frames per second of an .mp4 (default: sequence's)")
         ->check(CLI::Range(1.0, 240.0).description(""))
         ->type_name("RATE");
+    add_view_options(*command, options->view);
+    command->get_option("--viewpoint")
+        ->description("camera at this viewpoint of the base scene, in place of the sequence's");
+    command->get_option("--eye")->description("fixed camera, in place of the sequence's");
+    command->get_option("--at")->description("point that the fixed camera looks at");
+    command->get_option("--fov")->description("horizontal field of view, 1..150 degrees (default: sequence's)");
     add_size_option(*command, options->size);
     command->add_option("--weather", options->weather, "rain, snow, fog or rain,fog (default: sequence's own)")
         ->type_name("NAME,...");
@@ -348,7 +422,8 @@ void add_sequence_command(CLI::App& app, std::function<Status()>& run) {
         ->capture_default_str();
     add_drawing_options(*command, options->drawing);
     add_upright_option(*command, options->upright);
-    add_memory_option(*command, options->memory_mib);
+    add_executor_options(*command, options->executor);
+    add_stats_option(*command, options->stats);
     command->add_flag("--force", options->force, kForceHelp);
     command->add_flag("-q,--quiet", options->quiet, "no progress bar");
     command->footer("Example: rs-view sequence maps/street --weather rain -o street.mp4");

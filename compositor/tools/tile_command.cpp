@@ -194,10 +194,9 @@ Status run_assemble(const AssembleOptions& options) {
     RS_ASSIGN_OR_RETURN(const OpenFrames frames, open_frames(tiled, options.output, options.tiles));
     const std::vector<Camera>& cameras = frames.cameras;
     RS_TRY(check_frame_count(options.output, kind, cameras.size()));
-    const TracedImages from_tiles = [&](std::size_t frame,
-                                        const Camera& camera) -> Result<std::shared_ptr<const Image<Rgba8>>> {
+    const TracedImages from_tiles = [&](std::size_t frame, const Camera& camera) -> Result<TracedImage> {
         RS_ASSIGN_OR_RETURN(Image<Rgba8> image, read_tiles(options.tiles, frame, camera));
-        return std::make_shared<const Image<Rgba8>>(std::move(image));
+        return TracedImage{std::make_shared<const Image<Rgba8>>(std::move(image))};
     };
     const HeadlessOptions headless{
         .frame = frame_options(tiled.drawing, {cameras.front().width, cameras.front().height},

@@ -62,13 +62,14 @@ void add_renderer_options(CLI::App& command, RendererOptions& options) {
 }
 
 void add_lens_options(CLI::App& command, RendererOptions& options) {
-    command
-        .add_option("--lens", options.lens,
-                    "traced: diameter of the lens in mm, or f-number on 36 mm film; blurs by depth")
-        ->type_name("MM|f/N");
-    command.add_option("--focus", options.focus, "distance of sharp focus along the line of sight, with --lens")
+    CLI::Option* lens = command
+                            .add_option("--lens", options.lens,
+                                        "traced: diameter of the lens in mm, or f-number on 36 mm film; blurs by depth")
+                            ->type_name("MM|f/N");
+    command.add_option("--focus", options.focus, "distance of sharp focus along the line of sight")
         ->check(CLI::Range(1e-6, 1e9).description(""))
-        ->type_name("DISTANCE");
+        ->type_name("DISTANCE")
+        ->needs(lens);
 }
 
 void require_traced_renderer(CLI::App& command, RendererOptions& options) {

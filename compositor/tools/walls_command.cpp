@@ -155,6 +155,7 @@ void add_walls_command(CLI::App& app, std::function<Status()>& run) {
         ->type_name("FOLDER");
     add_display_options(*command, options->walls);
     add_view_options(*command, options->view);
+    command->get_option("--fov")->group("");  // only to be refused
     add_motion_options(*command, options->motion);
     add_renderer_options(*command, options->renderer);
     add_pass_options(*command, options->passes);
@@ -166,6 +167,9 @@ void add_walls_command(CLI::App& app, std::function<Status()>& run) {
     command->footer("Example: rs-view walls hall.wrl --display cave --stereo side-by-side -o walls");
     command->callback([command, options, &run] {
         check_scene_options(options->scene);
+        if (options->view.fov_deg) {
+            throw CLI::ValidationError("--fov has no effect on walls, which are the field of view; leave it out");
+        }
         if (options->walls.output) {
             check_renderer_options(*command, options->renderer);
         } else {

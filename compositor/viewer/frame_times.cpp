@@ -18,11 +18,14 @@ double quantile(std::vector<double> values, double share) {
 
 }  // namespace
 
-Status FrameTimes::draw(Showroom& showroom, FrameCompositor& compositor, const Camera& camera, double seconds) {
+Status FrameTimes::draw(Showroom& showroom, FrameCompositor& compositor, const Camera& camera, double seconds,
+                        const TracingWork& traced) {
     const auto begin = Clock::now();
     RS_TRY(showroom.update(camera.centre(), seconds));
     RS_TRY(compositor.draw(camera));
-    frames_ms_.push_back(1e3 * std::chrono::duration<double>(Clock::now() - begin).count());
+    frames_ms_.push_back(1e3 * (traced.seconds + std::chrono::duration<double>(Clock::now() - begin).count()));
+    tracing_ms_.push_back(1e3 * traced.seconds);
+    passes_ += traced.passes;
     const FrameStatistics& statistics = compositor.statistics();
     geometry_ms_.push_back(1e3 * statistics.geometry_s);
     engine_ms_.push_back(1e3 * statistics.engine_s);
@@ -76,11 +79,13 @@ std::string FrameTimes::to_json(const Showroom& showroom) const {
                               {"p95_ms", quantile(frames_ms_, 0.95)},
                               {"longest_ms", longest_ms()},
                               {"median_parts_ms",
-                               {{"geometry", quantile(geometry_ms_, 0.5)},
+                               {{"tracing", quantile(tracing_ms_, 0.5)},
+                                {"geometry", quantile(geometry_ms_, 0.5)},
                                 {"engine", quantile(engine_ms_, 0.5)},
                                 {"engine_wait", quantile(engine_wait_ms_, 0.5)},
                                 {"upload", quantile(upload_ms_, 0.5)},
                                 {"composite", quantile(composite_ms_, 0.5)}}},
+                              {"passes", passes_},
                               {"objects_per_frame", static_cast<double>(nodes_) / frames},
                               {"engine_pixels_per_frame", static_cast<double>(pixels_) / frames},
                               {"views_by_core", nodes_ - nodes_by_board_},

@@ -13,12 +13,20 @@
 
 namespace rs::compositor {
 
+/// Tracing of one frame before it is drawn.
+struct TracingWork {
+    double seconds = 0;
+    int passes = 0;
+};
+
 class FrameTimes {
 public:
     /// Updates the showroom for the camera's position, draws, and measures both. The times of parts do not overlap only
     /// with FrameOptions::time_parts.
     /// \param seconds since the previous frame
-    Status draw(Showroom& showroom, FrameCompositor& compositor, const Camera& camera, double seconds);
+    /// \param traced is counted in the frame's time, too
+    Status draw(Showroom& showroom, FrameCompositor& compositor, const Camera& camera, double seconds,
+                const TracingWork& traced = {});
 
     [[nodiscard]] std::size_t frames() const { return frames_ms_.size(); }
     [[nodiscard]] double median_ms() const;
@@ -31,21 +39,23 @@ public:
     };
     [[nodiscard]] std::vector<Missing> missing() const;
 
-    /// {"frames", "median_ms", "p95_ms", "longest_ms", "median_parts_ms": {"geometry", "engine", "engine_wait",
-    /// "upload", "composite"}, "objects_per_frame", "engine_pixels_per_frame", "views_by_core", "views_by_board",
-    /// "missing": {"times", "longest_ms"}, "memory": {"loads", "evictions", "failures", "budget_bytes", "peak_bytes",
-    /// "longest_load_ms"}}
+    /// {"frames", "median_ms", "p95_ms", "longest_ms", "median_parts_ms": {"tracing", "geometry", "engine",
+    /// "engine_wait", "upload", "composite"}, "passes" of all frames, "objects_per_frame", "engine_pixels_per_frame",
+    /// "views_by_core", "views_by_board", "missing": {"times", "longest_ms"}, "memory": {"loads", "evictions",
+    /// "failures", "budget_bytes", "peak_bytes", "longest_load_ms"}}
     [[nodiscard]] std::string to_json(const Showroom& showroom) const;
 
 private:
     void update_missing(const FrameStatistics& statistics);
 
     std::vector<double> frames_ms_;
+    std::vector<double> tracing_ms_;
     std::vector<double> geometry_ms_;
     std::vector<double> engine_ms_;
     std::vector<double> engine_wait_ms_;
     std::vector<double> upload_ms_;
     std::vector<double> composite_ms_;
+    std::int64_t passes_ = 0;
     std::int64_t pixels_ = 0;
     std::int64_t nodes_ = 0;
     std::int64_t nodes_by_board_ = 0;

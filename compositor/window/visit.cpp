@@ -47,6 +47,7 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
     panel_.executor = options.executor;
     panel_.device = window_.context().device_name();
     if (options.sequence) playback_.emplace(options.sequence, options.weather);
+    if (playback_ && !options.follows_sequence) playback_->release_camera();
     panel_.playback = playback_ ? &*playback_ : nullptr;
     panel_.scene = printable(options.scene_name);
     panel_.saved.folder = options.images.string();

@@ -46,6 +46,7 @@ struct VisitOptions {
     std::string executor = "software core";    // of the engine, for the panel
     std::shared_ptr<const Sequence> sequence;  // to play, in this weather
     std::optional<Weather> weather;
+    bool follows_sequence = true;                  // starts with the sequence's camera instead of the first viewpoint
     std::function<void(const std::string&)> open;  // called when another sequence is requested; the visit then ends
     std::function<void(const std::vector<std::string>&)> warn;  // for objects that cannot be shown; may be empty
 };

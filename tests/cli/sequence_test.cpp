@@ -105,6 +105,33 @@ TEST_F(SequenceTool, DamagedLinesAreRefusedAndNothingIsWritten) {
     }
 }
 
+TEST_F(SequenceTool, OptionsOfAnotherOutputAreRefused) {
+    const auto fault = [&](const std::vector<std::string>& arguments) {
+        std::vector<std::string> all = {"sequence"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        const test::ToolRun run = this->run("rs-view", all);
+        EXPECT_EQ(run.exit_code, 2) << run.err;
+        return run.err;
+    };
+    const std::string stats = in("s.json");
+    EXPECT_THAT(fault({"a", "--stats", stats}), HasSubstr("--stats needs -o"));
+    EXPECT_THAT(fault({"a", "--force"}), HasSubstr("--force needs -o"));
+    EXPECT_THAT(fault({"a", "b", "--stats", stats, "-o", in("x")}), HasSubstr("--stats needs a single sequence"));
+    EXPECT_THAT(fault({"a", "--frame", "1", "-o", in("x.mp4")}), HasSubstr("--frame needs -o FILE.jpg or FILE.png"));
+    EXPECT_THAT(fault({"a", "--fps", "9", "-o", in("x.png")}), HasSubstr("--fps needs -o FILE.mp4"));
+}
+
+TEST_F(SequenceTool, AnUnknownViewpointOrExecutorIsRefused) {
+    if (!street()) GTEST_SKIP() << "no OpenGL";
+    const test::ToolRun viewpoint = view({in("town"), "--viewpoint", "roof", "-o", in("x.png")});
+    EXPECT_EQ(viewpoint.exit_code, 1);
+    EXPECT_THAT(viewpoint.err, HasSubstr("--viewpoint roof: the scene has no viewpoint of this description"));
+    const test::ToolRun executor = view({in("town"), "--executor", "fpga", "-o", in("x.png")});
+    EXPECT_EQ(executor.exit_code, 1);
+    EXPECT_THAT(executor.err, HasSubstr("use one of scalar, core, board:CONFIG"));
+    EXPECT_FALSE(fs::exists(in("x.png")));
+}
+
 TEST_F(SequenceTool, AVideoNeedsTwoFrames) {
     std::ofstream(work_ / "one.obj") << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     const test::ToolRun refused = view({in("one.obj"), "-o", in("one.mp4")});

@@ -116,6 +116,28 @@ TEST_F(View, LightIsTracedOnRequest) {
     EXPECT_EQ(info->width, 512);
 }
 
+TEST_F(View, StatsCountTheTracing) {
+    write("hall.wrl", kShadedFloor);
+    const auto stats = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {in("hall.wrl"), "--orbit", "2", "--stats", in("s.json")};
+        arguments.insert(arguments.end(), {"-o", in("frames"), "--force"});
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        run_ = render(arguments);
+        std::ifstream file(in("s.json"));
+        return run_.exit_code == 0 ? nlohmann::json::parse(file) : nlohmann::json();
+    };
+    const nlohmann::json traced = stats({"--renderer", "whitted", "--passes", "3"});
+    if (run_.exit_code != 0 && run_.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << run_.err;
+    ASSERT_EQ(run_.exit_code, 0) << run_.err;
+    EXPECT_EQ(traced["passes"], 6);
+    EXPECT_GT(traced["median_parts_ms"]["tracing"], 0.0);
+    EXPECT_GE(traced["longest_ms"], traced["median_parts_ms"]["tracing"]);
+    const nlohmann::json raster = stats({});
+    ASSERT_EQ(run_.exit_code, 0) << run_.err;
+    EXPECT_EQ(raster["passes"], 0);
+    EXPECT_EQ(raster["median_parts_ms"]["tracing"], 0.0);
+}
+
 TEST_F(View, ToonShadingIgnoresTheExposure) {
     write("hall.wrl", kShadedFloor);
     write("evening.json", R"({"replace": true, "lights": [{"kind": "directional", "aim": [0, -1, 0], "lux": 2000}]})");

@@ -3,7 +3,10 @@
 #include "tests/compositor/gl_test.hpp"
 #include "tests/compositor/moving_boxes.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <set>
 
@@ -121,6 +124,57 @@ TEST_F(PlayerTest, TracedFramesMoveThingsWithoutNewTreesAndStandInFog) {
     ASSERT_TRUE(foggy);
     const Image<Rgba8> nothing = frame_of(*foggy, 0);
     for (const Rgba8& pixel : nothing.pixels()) ASSERT_EQ(pixel, nothing(0, 0));
+}
+
+TEST_F(PlayerTest, AFixedCameraReplacesThoseOfTheSequence) {
+    const auto sequence = test::moving_boxes(3, 2);
+    const Camera above = look_at_camera({0, 12, 4}, {0, 0, 0}, radians(50), kSmall.width, kSmall.height);
+    auto player = SequencePlayer::create(sequence, {.frame = kSmall, .camera = above});
+    ASSERT_TRUE(player) << player.error().message;
+    for (const std::size_t number : {0U, 1U}) {
+        EXPECT_EQ(player->camera(number).world_from_camera, above.world_from_camera);
+        const Image<Rgba8> frame = frame_of(*player, number);
+        ASSERT_TRUE(player->draw(number, above));
+        EXPECT_TRUE(same(player->compositor().image(), frame));
+    }
+}
+
+TEST_F(PlayerTest, TimesCountTracingAndPasses) {
+    const auto sequence = test::moving_boxes(3, 2);
+    PlayerOptions options{.frame = kSmall, .tracing = TracedOptions{.method = TracedMethod::kWhitted}, .passes = 3};
+    const auto times = [&] {
+        auto player = SequencePlayer::create(sequence, options);
+        EXPECT_TRUE(player) << player.error().message;
+        frame_of(*player, 0);
+        frame_of(*player, 1);
+        return nlohmann::json::parse(player->times_as_json());
+    };
+    const nlohmann::json traced = times();
+    EXPECT_EQ(traced["frames"], 2);
+    EXPECT_EQ(traced["passes"], 6);
+    EXPECT_GT(traced["median_parts_ms"]["tracing"], 0.0);
+    EXPECT_GE(traced["median_ms"], traced["median_parts_ms"]["tracing"]);
+    options.tracing.reset();
+    const nlohmann::json raster = times();
+    EXPECT_EQ(raster["passes"], 0);
+    EXPECT_EQ(raster["median_parts_ms"]["tracing"], 0.0);
+}
+
+TEST(CamerasOfASequence, GetAnotherFieldOfView) {
+    auto sequence = *test::moving_boxes(3, 2);
+    const Camera before = camera_of(sequence, 1, 160, 96);
+    set_field_of_view(sequence, radians(30), 160.0 / 96);
+    const Camera after = camera_of(sequence, 1, 160, 96);
+    EXPECT_NEAR(after.fl_x, 80 / std::tan(radians(15)), 1e-9);
+    EXPECT_EQ(after.world_from_camera, before.world_from_camera);
+    // Without a camera, the scene is framed for the new field of view.
+    for (SequenceFrame& frame : sequence.frames) frame.camera.reset();
+    sequence.camera.reset();
+    const Camera framing = camera_of(sequence, 1, 160, 96);
+    set_field_of_view(sequence, radians(30), 160.0 / 96);
+    const Camera narrow = camera_of(sequence, 1, 160, 96);
+    EXPECT_NEAR(narrow.fl_x, 80 / std::tan(radians(15)), 1e-9);
+    EXPECT_GT(narrow.centre().z, framing.centre().z);
 }
 
 TEST(WeatherWords, AreStrict) {

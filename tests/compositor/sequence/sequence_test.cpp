@@ -57,6 +57,28 @@ protected:
     test::TemporaryFolder folder_;
 };
 
+TEST_F(SequenceFiles, TheDefaultFloorDoesNotHideAGroundOfTheFrames) {
+    const fs::path list = folder_ / "frames.json";
+    write(list, R"({"frames": ["frame.obj"]})");
+    const std::string ground = "o Ground\nv -9 0 9\nv 9 0 9\nv 9 0 -9\nf 1 2 3\n";
+    write(folder_ / "frame.obj", ground);
+    const auto still = read_sequence(list);
+    ASSERT_TRUE(still) << still.error().message;
+    EXPECT_FALSE(still->scene.floor);
+    write(folder_ / "frame.obj", ground + "instance Ground 0 2 0 0 0 0 1 1 1 -\n");
+    const auto moving = read_sequence(list);
+    ASSERT_TRUE(moving) << moving.error().message;
+    EXPECT_TRUE(moving->scene.floor);
+    // The floor of a base scene stays.
+    write(folder_ / "base.json", R"({"floor": {"height": -1}})");
+    write(folder_ / "frame.obj", ground);
+    write(list, R"({"base": "base.json", "frames": ["frame.obj"]})");
+    const auto based = read_sequence(list);
+    ASSERT_TRUE(based) << based.error().message;
+    ASSERT_TRUE(based->scene.floor);
+    EXPECT_EQ(based->scene.floor->height, -1);
+}
+
 TEST_F(SequenceFiles, StaticPartsStandAndInstancesTakeSlots) {
     frames({"instance Car 1 0 0 0 0 0 1 1 1 -\ninstance Car 2 0 0 0 0 0 1 1 1 -\n",
             "instance Car 5 0 0 0 90 0 1 1 1 -\ncamera 1 1 1 0 0 0 45\n", ""});

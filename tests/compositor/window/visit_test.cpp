@@ -250,9 +250,13 @@ protected:
 
     void SetUp() override {
         if (!display_->ready()) GTEST_SKIP() << "Xvfb cannot be started (Debian: xvfb)";
+        open(true);
+    }
+    void open(bool follows_sequence) {
         const std::shared_ptr<const Sequence> sequence = test::moving_boxes(4, 3);
         VisitOptions options;
         options.sequence = sequence;
+        options.follows_sequence = follows_sequence;
         options.viewpoints = {viewpoint_of(camera_of(*sequence, 0, 160, 120))};
         options.images = work_.path();
         options.samples = 1;
@@ -305,6 +309,18 @@ protected:
     std::optional<std::vector<std::string>> left_;  // errors and objects of OpenGL after the window was destroyed
     std::unique_ptr<Visit> visit_;
 };
+
+TEST_F(SequenceInWindow, TheCameraIsTheFirstViewpointOnRequest) {
+    EXPECT_TRUE(playback().camera(160, 120));
+    visit_.reset();
+    open(false);
+    ASSERT_TRUE(visit_);
+    EXPECT_FALSE(playback().camera(160, 120));
+    const Image<Rgba8> first = visit_->image();
+    press(Key::kFrameOn);
+    ASSERT_TRUE(step());
+    EXPECT_NE(visit_->image(), first);  // the boxes move
+}
 
 TEST_F(SequenceInWindow, FramesAreTracedWithTheEditedLights) {
     const Image<Rgba8> raster = visit_->image();
