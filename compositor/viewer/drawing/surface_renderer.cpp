@@ -45,6 +45,16 @@ public:
         return uploaded;
     }
 
+    // The mesh with normals on the sides of its winding, as in traced images (RayScene).
+    std::shared_ptr<const Mesh> oriented(const std::shared_ptr<const Mesh>& mesh) {
+        auto& known = oriented_[mesh];
+        if (!known) {
+            known =
+                has_contradicting_normals(*mesh) ? std::make_shared<const Mesh>(with_normals_in_front(*mesh)) : mesh;
+        }
+        return known;
+    }
+
     std::shared_ptr<const gl::Texture> image(const SceneTexture& texture) {
         auto& uploaded = images_[&texture];
         if (!uploaded) {
@@ -72,6 +82,7 @@ public:
     [[nodiscard]] int count() const { return static_cast<int>(meshes_.size() + images_.size() + reliefs_.size()); }
 
 private:
+    std::map<std::shared_ptr<const Mesh>, std::shared_ptr<const Mesh>> oriented_;
     std::map<const Mesh*, std::shared_ptr<const gl::VertexArray>> meshes_;
     std::map<const SceneTexture*, std::shared_ptr<const gl::Texture>> images_;
     std::map<const NormalMap*, std::shared_ptr<const gl::Texture>> reliefs_;
@@ -175,8 +186,9 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const Shadow
     UploadCache uploads;
     renderer.item_of_node_.resize(scene.geometry.size());
     for (std::size_t i = 0; i < scene.geometry.size(); ++i) {
-        const GeometryNode& node = scene.geometry[i];
+        GeometryNode& node = renderer.scene_.geometry[i];
         if (node.mesh->indices.empty()) continue;
+        node.mesh = uploads.oriented(node.mesh);
         Item item;
         item.node = i;
         item.mesh = uploads.mesh(node.mesh);
