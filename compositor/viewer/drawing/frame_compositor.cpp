@@ -3,6 +3,7 @@
 #include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/viewer/views/engine_views.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace rs::compositor {
@@ -14,6 +15,14 @@ Status run_in_order(FrameContext& frame, Pass&... passes) {
     Status status;
     static_cast<void>((static_cast<bool>(status = passes.run(frame)) && ...));
     return status;
+}
+
+// The scene with raster lights and its environment, both scaled by the exposure.
+Scene raster_scene(const Scene& scene, double exposure_ev) {
+    Scene raster = scene;
+    raster.lights = raster_lights(scene, exposure_ev);
+    if (raster.environment) raster.environment->scale *= static_cast<float>(std::exp2(exposure_ev));
+    return raster;
 }
 
 }  // namespace
@@ -38,9 +47,9 @@ Result<FrameCompositor::Passes> FrameCompositor::make_passes(const Scene& scene,
 Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::shared_ptr<engine::RenderSession> engine,
                                                 std::shared_ptr<const DisplayedNodes> nodes,
                                                 const FrameOptions& options) {
-    Scene scene = lit_scene;
-    scene.lights = raster_lights(lit_scene, options.exposure_ev);
+    const Scene scene = raster_scene(lit_scene, options.exposure_ev);
     RS_ASSIGN_OR_RETURN(auto background, BackgroundRenderer::create(scene.background));
+    RS_TRY(background.set_environment(scene.environment));
     RS_ASSIGN_OR_RETURN(auto geometry, LitGeometry::create(scene, *nodes, options.shadows));
     RS_ASSIGN_OR_RETURN(auto passes, make_passes(scene, nodes->size(), options.object_depth));
     RS_ASSIGN_OR_RETURN(auto target, FrameTarget::create(options.width, options.height, options.samples));
@@ -73,8 +82,8 @@ FrameCompositor::FrameCompositor(Parts parts, const std::optional<Fog>& fog, con
       samples_(options.samples) {}
 
 Status FrameCompositor::set_lights(const Scene& scene, double exposure_ev) {
-    Scene lit_scene = scene;
-    lit_scene.lights = raster_lights(scene, exposure_ev);
+    const Scene lit_scene = raster_scene(scene, exposure_ev);
+    RS_TRY(background_.set_environment(lit_scene.environment));
     return geometry_.set_lights(lit_scene, nodes_.shown());
 }
 

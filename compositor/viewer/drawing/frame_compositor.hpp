@@ -40,7 +40,8 @@ struct FrameOptions {
     int samples = 4;          // per pixel, for the edges of geometry
     bool wire_frame = false;  // geometry except for the floor
     bool shadows = false;     // cast by geometry and objects onto geometry and floor (shadow_plan.hpp)
-    double exposure_ev = 0;   // scales lights by 2^exposure_ev, but not objects, background and unlit surfaces
+    // Scales lights and the environment by 2^exposure_ev, but not objects, other backgrounds and unlit surfaces.
+    double exposure_ev = 0;
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples = kDefaultSamplesAcross;  // ObjectViewOptions::max_samples_across
     // Renders objects for an upright camera in the same position and warps the image (upright_image.hpp): faster and

@@ -94,9 +94,9 @@ private:
 Result<std::shared_ptr<const gl::Program>> SurfaceRenderer::program(const SurfaceKind& kind) {
     const auto known = programs_.find(kind);
     if (known != programs_.end()) return known->second;
-    RS_ASSIGN_OR_RETURN(auto made,
-                        gl::Program::create("surface", shaders::kSurfaceVertex,
-                                            constants_of(kind) + shaders::kShadowLookUp + shaders::kSurfaceFragment));
+    RS_ASSIGN_OR_RETURN(auto made, gl::Program::create("surface", shaders::kSurfaceVertex,
+                                                       constants_of(kind) + shaders::kShadowLookUp +
+                                                           shaders::kLighting + shaders::kSurfaceFragment));
     return programs_.emplace(kind, std::make_shared<const gl::Program>(std::move(made))).first->second;
 }
 
@@ -179,8 +179,10 @@ Status SurfaceRenderer::create_caster_programs() {
     return {};
 }
 
-Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const ShadowPlan& shadows) {
+Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const ShadowPlan& shadows,
+                                                const std::optional<IrradianceHarmonics>& environment) {
     SurfaceRenderer renderer(scene, shadows);
+    renderer.environment_ = environment;
     RS_TRY(renderer.create_caster_programs());
     renderer.summarize_lights();
     UploadCache uploads;
@@ -223,8 +225,10 @@ Status SurfaceRenderer::move(std::size_t node, const std::optional<glm::dmat4>& 
     return update_item(item);
 }
 
-Status SurfaceRenderer::set_lights(const Scene& scene, const ShadowPlan& shadows) {
+Status SurfaceRenderer::set_lights(const Scene& scene, const ShadowPlan& shadows,
+                                   const std::optional<IrradianceHarmonics>& environment) {
     copy_lights(scene, scene_);
+    environment_ = environment;
     shadows_ = shadows;
     RS_TRY(create_caster_programs());
     summarize_lights();
@@ -256,6 +260,9 @@ void SurfaceRenderer::set_frame(const FrameView& view) const {
         if (program->has_uniform("eye")) program->set("eye", glm::vec3(view.camera.centre()));
         if (program->has_uniform("headlight")) program->set("headlight", glm::vec3(view.camera.forward()));
         if (program->has_uniform("cover_light")) program->set("cover_light", ambient_light_);
+        if (environment_ && program->has_uniform("environment")) {
+            program->set("environment", std::span(environment_->factors));
+        }
         if (!fog) continue;
         if (program->has_uniform("fog")) program->set("fog", fog->colour);
         if (program->has_uniform("fog_visibility")) program->set("fog_visibility", static_cast<float>(fog->visibility));
@@ -272,7 +279,7 @@ void SurfaceRenderer::draw(const Item& item, const gl::Program& program, const F
     set("world_normal_from_node", glm::mat3(glm::transpose(glm::inverse(glm::dmat3(item.world_from_node)))));
     set("texture_transform", item.texture_transform);
     // Rows of vec4 without padding; surface_tables.cpp asserts their sizes.
-    set("material", std::span(&item.material.diffuse_opacity, 4));
+    set("material", std::span(&item.material.diffuse_opacity, 5));
     if (!item.lights.empty()) set("lights", std::span(&item.lights.front().colour, 5 * item.lights.size()));
     if (!item.shadows.empty()) set("shadows", std::span(&item.shadows.front().u, 4 * item.shadows.size()));
     set("light_counts", item.light_counts);
