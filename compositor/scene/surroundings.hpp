@@ -55,6 +55,8 @@ struct Fog {
     glm::vec3 colour{1};
     double visibility = 1;  // distance at which everything is fogged, > 0, scene units
 };
+/// Share of a surface's light that is left at a distance.
+float fog_transmittance(const Fog& fog, double distance);
 
 struct Viewpoint {
     std::string description;

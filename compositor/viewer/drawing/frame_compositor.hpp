@@ -12,6 +12,7 @@
 
 #include "compositor/lighting/surface_point.hpp"
 #include "compositor/scene/scene.hpp"
+#include "compositor/viewer/drawing/area_light_renderer.hpp"
 #include "compositor/viewer/drawing/background_renderer.hpp"
 #include "compositor/viewer/drawing/displayed_nodes.hpp"
 #include "compositor/viewer/drawing/frame_statistics.hpp"
@@ -148,6 +149,7 @@ private:
         std::shared_ptr<engine::RenderSession> engine;
         ObjectNodes nodes;
         BackgroundRenderer background;
+        AreaLightRenderer area_lights;
         LitGeometry geometry;
         FrameTarget target;
         Passes passes;
@@ -163,6 +165,7 @@ private:
     std::shared_ptr<engine::RenderSession> engine_;
     ObjectNodes nodes_;
     BackgroundRenderer background_;
+    AreaLightRenderer area_lights_;
     LitGeometry geometry_;
     FrameTarget target_;
     Passes passes_;

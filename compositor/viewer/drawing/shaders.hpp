@@ -1,5 +1,5 @@
 #pragma once
-// GLSL of floors and image-based objects. Colours are linear light; the framebuffer encodes sRGB.
+// GLSL of floors, area lights and image-based objects. Colours are linear light; the framebuffer encodes sRGB.
 
 #include <string>
 
@@ -49,6 +49,29 @@ void main() {
     if (kEnvironment) ambient += environment_light(n);
     vec3 shown = lit(checker, ambient * checker, n, n, normalize(eye - place_in_world));
     result = vec4(mix(shown, background, smoothstep(0.15, 1.0, away)), 1.0);
+})";
+
+// Area light: the parallelogram centre +- half_u +- half_v, counter-clockwise seen from the side that it shines to.
+inline constexpr const char* kAreaLightVertex = R"(#version 450 core
+uniform mat4 clip_from_world;
+uniform vec3 centre;
+uniform vec3 half_u;
+uniform vec3 half_v;
+out vec2 on_light;
+void main() {
+    on_light = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID >> 1) * 2 - 1);
+    gl_Position = clip_from_world * vec4(centre + half_u * on_light.x + half_v * on_light.y, 1.0);
+    gl_Position.z *= 1.0005;  // in front of a ceiling in the same plane
+})";
+inline constexpr const char* kAreaLightFragment = R"(#version 450 core
+in vec2 on_light;
+uniform vec3 radiance;
+uniform int is_disc;
+out vec4 result;
+void main() {
+    float r = length(on_light);
+    float covered = is_disc != 0 ? clamp(0.5 + (1.0 - r) / max(fwidth(r), 1e-6), 0.0, 1.0) : 1.0;
+    result = vec4(radiance * covered, covered);
 })";
 
 // Ray-space node: the covered parts of its image (image_coverage.hpp). Each pixel is the mean of samples_across *
