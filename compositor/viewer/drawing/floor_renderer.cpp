@@ -38,7 +38,7 @@ SurfaceKind floor_kind(const Scene& scene, const ShadowPlan& shadows, const std:
     return kind;
 }
 
-// Of the gradient towards -Z, or the mean of a visible environment along the horizon.
+// Background colour towards -Z, or the mean of a visible environment along the horizon.
 glm::vec3 rim_colour(const Scene& scene) {
     if (!scene.environment || !scene.environment->seen) return background_colour(scene.background, {0, 0, -1});
     const Image<RgbaF>& pixels = *scene.environment->pixels;

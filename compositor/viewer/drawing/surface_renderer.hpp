@@ -1,7 +1,7 @@
 #pragma once
 // Draws scene geometry: lit (geometry_shaders.hpp), textured, with fog, frustum-culled. Meshes and images are uploaded
 // at creation; each surface kind has a shader. Surfaces are drawn front to back, so that few hidden pixels are shaded.
-// Where the winding of a mesh contradicts its normals, the normals are reversed (with_normals_in_front).
+// Normals that contradict the winding of their mesh are reversed (with_normals_in_front).
 
 #include "compositor/gl/draw.hpp"
 #include "compositor/gl/program.hpp"
