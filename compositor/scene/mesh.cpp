@@ -7,6 +7,18 @@
 #include <utility>
 
 namespace rs::compositor {
+namespace {
+
+bool points_to_back(const Mesh& mesh, std::size_t first) {
+    const auto corner = [&](std::size_t i) -> const MeshVertex& { return mesh.vertices[mesh.indices[first + i]]; };
+    const glm::dvec3 origin(corner(0).position);
+    const glm::dvec3 front =
+        glm::cross(glm::dvec3(corner(1).position) - origin, glm::dvec3(corner(2).position) - origin);
+    const glm::dvec3 sum = glm::dvec3(corner(0).normal) + glm::dvec3(corner(1).normal) + glm::dvec3(corner(2).normal);
+    return glm::dot(sum, front) < 0;
+}
+
+}  // namespace
 
 void BoundingBox::include(const glm::dvec3& point) {
     if (empty()) {
@@ -54,6 +66,34 @@ bool is_closed(const Mesh& mesh) {
         }
     }
     return !edges.empty() && std::ranges::all_of(edges, [](const auto& edge) { return edge.second == 0; });
+}
+
+bool has_contradicting_normals(const Mesh& mesh) {
+    if (mesh.topology != Topology::kTriangles) return false;
+    for (std::size_t first = 0; first + 2 < mesh.indices.size(); first += 3) {
+        if (points_to_back(mesh, first)) return true;
+    }
+    return false;
+}
+
+Mesh with_normals_in_front(const Mesh& mesh) {
+    Mesh turned = mesh;
+    if (mesh.topology != Topology::kTriangles) return turned;
+    std::map<std::uint32_t, std::uint32_t> reversed;  // index of the reversed copy of a vertex
+    for (std::size_t first = 0; first + 2 < mesh.indices.size(); first += 3) {
+        if (!points_to_back(mesh, first)) continue;
+        for (std::size_t i = first; i < first + 3; ++i) {
+            const auto next = static_cast<std::uint32_t>(turned.vertices.size());
+            const auto [copy, is_new] = reversed.try_emplace(mesh.indices[i], next);
+            if (is_new) {
+                MeshVertex vertex = mesh.vertices[mesh.indices[i]];
+                vertex.normal = -vertex.normal;
+                turned.vertices.push_back(vertex);
+            }
+            turned.indices[i] = copy->second;
+        }
+    }
+    return turned;
 }
 
 Mesh box_mesh(const glm::dvec3& size) {

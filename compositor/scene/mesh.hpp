@@ -42,6 +42,12 @@ BoundingBox bounds_of(const Mesh& mesh);
 /// True for triangle meshes that enclose a volume: each edge, by the positions of its corners, has two triangles.
 bool is_closed(const Mesh& mesh);
 
+/// True if the normals of a triangle point to its back: the sum of its corners' normals against its winding.
+bool has_contradicting_normals(const Mesh& mesh);
+/// Copy in which such triangles have reversed normals, with vertices of their own. Renderers then agree on lit sides:
+/// the sides follow the winding, the curvature the normals.
+Mesh with_normals_in_front(const Mesh& mesh);
+
 /// Centred at the origin, like VRML97's Box. Sides > 0.
 Mesh box_mesh(const glm::dvec3& size);
 

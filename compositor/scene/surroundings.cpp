@@ -34,4 +34,10 @@ glm::vec3 background_colour(const Background& background, const glm::dvec3& dire
     return gradient(background.sky, background.sky_angles_rad, from_zenith);
 }
 
+float fog_transmittance(const Fog& fog, double distance) {
+    if (distance >= fog.visibility) return 0;
+    const double left = fog.visibility - distance;
+    return static_cast<float>(fog.kind == FogKind::kLinear ? left / fog.visibility : std::exp(-distance / left));
+}
+
 }  // namespace rs::compositor

@@ -30,12 +30,12 @@ struct Background {
 glm::vec3 background_colour(const Background& background, const glm::dvec3& direction);
 
 /// Distant light from all directions: latitude-longitude map, centre column at -Z, row 0 at +Y, u increasing towards
-/// +X. Traced renderers use the map; raster uses its mean.
+/// +X. Traced renderers use the map; raster its irradiance by normal (light/irradiance_harmonics.hpp).
 struct EnvironmentLight {
     std::shared_ptr<const Image<RgbaF>> pixels;  // not null; linear light, finite, not negative
     float scale = 1;
     float turn_rad = 0;  // about Y
-    bool seen = false;   // background of traced images
+    bool seen = false;   // background of images
 };
 
 /// Environment entry of a light list.
@@ -55,6 +55,8 @@ struct Fog {
     glm::vec3 colour{1};
     double visibility = 1;  // distance at which everything is fogged, > 0, scene units
 };
+/// Share of a surface's light that is left at a distance.
+float fog_transmittance(const Fog& fog, double distance);
 
 struct Viewpoint {
     std::string description;

@@ -35,7 +35,12 @@ Result<std::filesystem::path> ViewRecorder::next_file(const std::string& name, c
     if (!std::filesystem::is_directory(folder, failed)) {
         return Error{printable(folder.string()) + ": is no folder and cannot be created; type another"};
     }
-    return free_name(folder, name, ending, number);
+    const std::filesystem::path path = free_name(folder, name, ending, number);
+    static_cast<void>(std::filesystem::symlink_status(path, failed));
+    if (failed && failed != std::errc::no_such_file_or_directory) {
+        return Error{"'" + printable(name) + "' cannot name saved files: " + failed.message() + "; type another name"};
+    }
+    return path;
 }
 
 std::string ViewRecorder::write_png_screenshot(const Image<Rgba8>& image) {

@@ -15,7 +15,7 @@
 // divided by kLumensPerWatt. "beam_deg" and "cut_off_deg" are full angles. "turn_deg" rotates an area or a luminaire
 // about its aim, counter-clockwise when looking along -aim; at 0 its plane C0 is oriented towards +X, or towards +Z if
 // it is aimed along X. "dimmer" (1) is a factor on a luminaire. The environment is an image as in EnvironmentLight;
-// "seen" (false) makes it the background of traced images. File names are relative to the list's folder. Lengths are in
+// "seen" (false) makes it the background of images. File names are relative to the list's folder. Lengths are in
 // scene units, which luminaires and candela assume to be metres.
 //
 // Extensions for the lights of scene files: for points and spots, instead of candela, an "intensity" [r, g, b], the

@@ -33,22 +33,6 @@ glm::dvec3 flux_of(const Light& light) {
     return model.flux(light, 1);
 }
 
-// Mean radiance over all directions.
-glm::vec3 mean_of(const EnvironmentLight& light) {
-    const Image<RgbaF>& pixels = *light.pixels;
-    glm::dvec3 sum(0);
-    double weights = 0;
-    for (int y = 0; y < pixels.height(); ++y) {
-        const double weight = std::sin(kPi * (y + 0.5) / pixels.height());
-        for (int x = 0; x < pixels.width(); ++x) {
-            const RgbaF& p = pixels(x, y);
-            sum += weight * glm::dvec3(p.r, p.g, p.b);
-        }
-        weights += weight * pixels.width();
-    }
-    return glm::vec3(sum / weights) * light.scale;
-}
-
 Light ambient_light(const char* name, const glm::vec3& radiance) {
     Light light;
     light.name = name;
@@ -165,7 +149,6 @@ std::vector<Light> raster_lights(const Scene& scene, double exposure_ev) {
     for (const Light& light : scene.lights) lights.push_back(punctual.of(light));
     const glm::vec3 reflected = reflected_light(scene);
     if (reflected != glm::vec3(0)) lights.push_back(ambient_light("reflected", reflected));
-    if (scene.environment) lights.push_back(ambient_light("environment", mean_of(*scene.environment)));
     const auto brighter = static_cast<float>(std::exp2(exposure_ev));
     for (Light& light : lights) {
         light.colour *= brighter;

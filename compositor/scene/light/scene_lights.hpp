@@ -34,7 +34,7 @@ glm::vec3 reflected_light(const Scene& scene);
 std::vector<bool> lights_with_shadows(const Scene& scene);
 
 /// Punctual lights (rayspace/light/light.hpp), in number and order of Scene::lights, scaled by 2^exposure_ev; then one
-/// for reflected_light() and one for the mean of the environment.
+/// for reflected_light(). Without the environment, which irradiance_harmonics.hpp projects.
 std::vector<Light> raster_lights(const Scene& scene, double exposure_ev);
 
 }  // namespace rs::compositor

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rs::compositor {
@@ -20,6 +21,19 @@ int append_stops(const std::vector<glm::vec3>& colours, const std::vector<double
         stops.emplace_back(colours[i], i == 0 ? 0.0F : static_cast<float>(angles_rad[i - 1]));
     }
     return static_cast<int>(count);
+}
+
+// Limited to half floats.
+gl::Texture upload_map(const Image<RgbaF>& pixels) {
+    constexpr float kMaxHalf = 65504;
+    Image<RgbaF> texels(pixels.width(), pixels.height());
+    for (int y = 0; y < pixels.height(); ++y) {
+        for (int x = 0; x < pixels.width(); ++x) {
+            const RgbaF& p = pixels(x, y);
+            texels(x, y) = {std::min(p.r, kMaxHalf), std::min(p.g, kMaxHalf), std::min(p.b, kMaxHalf), 1};
+        }
+    }
+    return {texels.view(), gl::TextureWrap{true, false}};
 }
 
 }  // namespace
@@ -50,17 +64,41 @@ Result<BackgroundRenderer> BackgroundRenderer::create(const Background& backgrou
     return renderer;
 }
 
+Status BackgroundRenderer::set_environment(const std::optional<EnvironmentLight>& environment) {
+    if (!environment || !environment->seen) {
+        environment_.reset();
+        return {};
+    }
+    if (!environment_ || environment_->pixels != environment->pixels) {
+        RS_ASSIGN_OR_RETURN(auto program, gl::Program::create("environment", shaders::kWholeFrameVertex,
+                                                              shaders::kEnvironmentFragment));
+        environment_.emplace(
+            Environment{std::move(program), upload_map(*environment->pixels), environment->pixels, 1, 0});
+    }
+    environment_->scale = environment->scale;
+    environment_->turn_rad = environment->turn_rad;
+    return {};
+}
+
 void BackgroundRenderer::draw(const Camera& camera, BackgroundArea area) const {
     const glm::dvec3 along_x = camera.right() / camera.fl_x;
     const glm::dvec3 along_y = -camera.up() / camera.fl_y;
     const glm::dmat3 world_from_pixel(along_x, along_y, camera.ray(0, 0));
+    const gl::DrawState state{.depth_test = area == BackgroundArea::kBehindGeometry, .depth_write = false};
+    if (environment_) {
+        environment_->program.set("direction_from_pixel", glm::mat3(world_from_pixel));
+        environment_->program.set("scale_turn", glm::vec2(environment_->scale, environment_->turn_rad));
+        environment_->map.bind(1);
+        gl::draw(environment_->program, rectangle_, state);
+        return;
+    }
     // The shader of a uniform background has no direction.
     if (!plain_) program_.set("direction_from_pixel", glm::mat3(background_from_world_ * world_from_pixel));
     stops_->bind_storage(3);
     for (std::size_t i = 0; i < images_.size(); ++i) {
         if (images_[i]) images_[i]->bind(static_cast<unsigned>(i) + 1);
     }
-    gl::draw(program_, rectangle_, {.depth_test = area == BackgroundArea::kBehindGeometry, .depth_write = false});
+    gl::draw(program_, rectangle_, state);
 }
 
 }  // namespace rs::compositor

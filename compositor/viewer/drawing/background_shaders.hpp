@@ -1,6 +1,6 @@
 #pragma once
 // GLSL of the background: colour gradients by the angles from the zenith and the nadir, covered by the images of a
-// cube.
+// cube; or the map of an environment.
 
 namespace rs::compositor::shaders {
 
@@ -73,6 +73,19 @@ void main() {
     }
     vec4 over = kShownPictures != 0 ? texel(d) : vec4(0.0);
     result = vec4(mix(colour, over.rgb, over.a), 1.0);
+})";
+
+// EnvironmentLight, bilinear without mipmaps, as traced renderers show it.
+inline constexpr const char* kEnvironmentFragment = R"(#version 450 core
+layout(binding = 1) uniform sampler2D environment;
+uniform mat3 direction_from_pixel;  // (x, y, 1) -> direction in the scene's coordinates
+uniform vec2 scale_turn;
+out vec4 result;
+void main() {
+    vec3 d = normalize(direction_from_pixel * vec3(gl_FragCoord.xy, 1.0));
+    float azimuth = d.x == 0.0 && d.z == 0.0 ? 0.0 : atan(d.x, -d.z);  // from -Z towards +X
+    vec2 uv = vec2(0.5 + (azimuth + scale_turn.y) / 6.28318531, acos(clamp(d.y, -1.0, 1.0)) / 3.14159265);
+    result = vec4(textureLod(environment, uv, 0.0).rgb * scale_turn.x, 1.0);
 })";
 
 }  // namespace rs::compositor::shaders

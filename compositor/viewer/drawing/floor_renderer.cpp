@@ -1,63 +1,109 @@
 #include "compositor/viewer/drawing/floor_renderer.hpp"
 
 #include "compositor/gl/draw.hpp"
+#include "compositor/viewer/drawing/geometry_shaders.hpp"
 #include "compositor/viewer/drawing/shaders.hpp"
 #include "compositor/viewer/shadows/shadow_shaders.hpp"
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <string>
+#include <utility>
 
 namespace rs::compositor {
+namespace {
 
-Result<FloorRenderer> FloorRenderer::create(const Scene& scene, const ShadowPlan& shadows) {
-    glm::vec3 always(0);
-    std::vector<glm::vec4> shadowed;
-    std::vector<std::uint32_t> with_maps;
-    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-        const Light& light = scene.lights[i];
-        if (light.kind != LightKind::kDirectional || !light.everywhere) continue;
-        const float facing = static_cast<float>(std::max(-light.towards.y, 0.0));
-        if (shadows.shape_of(i) == ShadowShape::kNone || !(facing > 0)) {
-            always += light.ambient + light.colour * facing;
-            continue;
-        }
-        always += light.ambient;
-        with_maps.push_back(i);
-        shadowed.emplace_back(light.colour * facing, 0);
-        shadowed.emplace_back(light.towards, 0);
+// Square around the disc that faces upwards.
+GeometryNode floor_node(const Floor& floor) {
+    auto mesh = std::make_shared<Mesh>();
+    const auto radius = static_cast<float>(floor.radius);
+    for (const glm::vec2 at : {glm::vec2(-1, -1), {-1, 1}, {1, 1}, {1, -1}}) {
+        mesh->vertices.push_back({glm::vec3(at.x * radius, floor.height, at.y * radius), {0, 1, 0}});
     }
-    RS_ASSIGN_OR_RETURN(
-        auto program, gl::Program::create("floor", shaders::kFloorVertex,
-                                          "#version 450 core\n" +
-                                              shaders::shader_constant("kShadows", static_cast<int>(with_maps.size())) +
-                                              "const float kNear = " + std::to_string(kNear) + ";\n" +
-                                              shaders::kShadowLookUp + shaders::kFloorFragment));
-    FloorRenderer renderer(std::move(program), *scene.floor);
-    renderer.light_ = always;
-    renderer.background_ = background_colour(scene.background, {0, 0, -1});
-    renderer.shadowed_ = std::move(shadowed);
-    renderer.shadows_ = rows_of(shadows, with_maps);
+    mesh->indices = {0, 1, 2, 0, 2, 3};
+    mesh->two_sided = false;
+    GeometryNode node;
+    node.mesh = std::move(mesh);
+    return node;
+}
+
+SurfaceKind floor_kind(const Scene& scene, const ShadowPlan& shadows, const std::vector<std::uint32_t>& lights) {
+    SurfaceKind kind;
+    kind.lit = true;
+    add_lights(scene, shadows, lights, kind);
+    kind.headlight = scene.navigation.headlight;
+    kind.environment = scene.environment.has_value();
+    kind.phong = scene.shading == Shading::kPhong;
+    return kind;
+}
+
+// Background colour towards -Z, or the mean of a visible environment along the horizon.
+glm::vec3 rim_colour(const Scene& scene) {
+    if (!scene.environment || !scene.environment->seen) return background_colour(scene.background, {0, 0, -1});
+    const Image<RgbaF>& pixels = *scene.environment->pixels;
+    glm::vec3 sum(0);
+    for (int x = 0; x < pixels.width(); ++x) {
+        const RgbaF& p = pixels(x, pixels.height() / 2);
+        sum += glm::min(scene.environment->scale * glm::vec3(p.r, p.g, p.b), glm::vec3(1));
+    }
+    return sum / static_cast<float>(pixels.width());
+}
+
+}  // namespace
+
+Result<FloorRenderer> FloorRenderer::create(const Scene& scene, const ShadowPlan& shadows,
+                                            const std::optional<IrradianceHarmonics>& environment) {
+    FloorRenderer renderer(*scene.floor);
+    RS_TRY(renderer.set_lights(scene, shadows, environment));
     return renderer;
 }
 
-void FloorRenderer::draw(const FrameView& view) const {
-    program_.set("clip_from_world", glm::mat4(view.clip_from_world));
-    program_.set("height", static_cast<float>(floor_.height));
-    program_.set("radius", static_cast<float>(floor_.radius));
-    program_.set("square", static_cast<float>(floor_.square));
-    // Without shadows the light is multiplied into the colours.
-    const glm::vec3 light = shadows_.empty() ? light_ : glm::vec3(1);
-    program_.set("colour_a", floor_.colour_a * light);
-    program_.set("colour_b", floor_.colour_b * light);
-    program_.set("background", background_);
-    if (!shadows_.empty()) {
-        program_.set("unshadowed", light_);
-        program_.set("shadowed", std::span(shadowed_));
-        program_.set("shadows", std::span(&shadows_.front().u, 4 * shadows_.size()));
+Status FloorRenderer::set_lights(const Scene& scene, const ShadowPlan& shadows,
+                                 const std::optional<IrradianceHarmonics>& environment) {
+    const GeometryNode node = floor_node(floor_);
+    const SurfaceLights reaching = lights_of(scene, node, bounds_of(*node.mesh));
+    std::vector<std::uint32_t> ordered = sort_for_shader(scene, shadows, reaching.lights);
+    ordered.resize(std::min(ordered.size(), static_cast<std::size_t>(kMaxCountedLights)));
+    const SurfaceKind kind = floor_kind(scene, shadows, ordered);
+    if (!program_ || kind != kind_) {
+        RS_ASSIGN_OR_RETURN(auto program, gl::Program::create("floor", shaders::kFloorVertex,
+                                                              constants_of(kind) + shaders::kShadowLookUp +
+                                                                  shaders::kLighting + shaders::kFloorFragment));
+        program_.emplace(std::move(program));
+        kind_ = kind;
     }
-    gl::draw(program_, square_, {});
+    Material matte;  // without colour, which the shader computes
+    matte.ambient = 1;
+    material_ = row_of(matte, Shading::kVrml);
+    material_.ambient_light = glm::vec4(reaching.ambient, 0);
+    lights_ = rows_of(scene, ordered);
+    shadows_ = rows_of(shadows, ordered);
+    environment_ = environment;
+    background_ = rim_colour(scene);
+    return {};
+}
+
+void FloorRenderer::draw(const FrameView& view) const {
+    const gl::Program& program = *program_;
+    const auto set = [&](const char* name, const auto& value) {
+        if (program.has_uniform(name)) program.set(name, value);
+    };
+    program.set("clip_from_world", glm::mat4(view.clip_from_world));
+    program.set("height", static_cast<float>(floor_.height));
+    program.set("radius", static_cast<float>(floor_.radius));
+    program.set("square", static_cast<float>(floor_.square));
+    program.set("colour_a", floor_.colour_a);
+    program.set("colour_b", floor_.colour_b);
+    program.set("background", background_);
+    set("eye", glm::vec3(view.camera.centre()));
+    set("headlight", glm::vec3(view.camera.forward()));
+    // Rows of vec4 without padding; surface_tables.cpp asserts their sizes.
+    set("material", std::span(&material_.diffuse_opacity, 5));
+    if (!lights_.empty()) set("lights", std::span(&lights_.front().colour, 5 * lights_.size()));
+    if (!shadows_.empty()) set("shadows", std::span(&shadows_.front().u, 4 * shadows_.size()));
+    if (environment_) set("environment", std::span(environment_->factors));
+    gl::draw(program, square_, {});
 }
 
 }  // namespace rs::compositor

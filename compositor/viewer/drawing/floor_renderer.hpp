@@ -1,9 +1,12 @@
 #pragma once
-// Floor renderer: a checkered disc lit by the scene's directional lights, with shadows.
+// Floor renderer: a checkered disc that fades into the background, lit like other surfaces (kLighting), with shadows.
+// It has no fog and no weather cover. Scoped lights do not reach it.
 
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/vertex_array.hpp"
+#include "compositor/scene/light/irradiance_harmonics.hpp"
 #include "compositor/scene/scene.hpp"
+#include "compositor/viewer/drawing/surface_kind.hpp"
 #include "compositor/viewer/drawing/surface_tables.hpp"
 #include "compositor/viewer/shadows/shadow_plan.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
@@ -11,6 +14,7 @@
 
 #include <glm/glm.hpp>
 
+#include <optional>
 #include <vector>
 
 namespace rs::compositor {
@@ -20,18 +24,26 @@ class FloorRenderer {
 public:
     /// \param scene must have a floor.
     /// \param shadows if it contains maps, they must be bound (ShadowMaps::bind) for draw().
-    static Result<FloorRenderer> create(const Scene& scene, const ShadowPlan& shadows);
+    /// \param environment of Scene::environment, null without.
+    static Result<FloorRenderer> create(const Scene& scene, const ShadowPlan& shadows,
+                                        const std::optional<IrradianceHarmonics>& environment);
+    /// Compiles a shader only if the numbers of lights change. Of more than kMaxCountedLights lights the last ones are
+    /// ignored.
+    Status set_lights(const Scene& scene, const ShadowPlan& shadows,
+                      const std::optional<IrradianceHarmonics>& environment);
     void draw(const FrameView& view) const;
 
 private:
-    FloorRenderer(gl::Program program, const Floor& floor) : program_(std::move(program)), floor_(floor), square_(4) {}
+    explicit FloorRenderer(const Floor& floor) : floor_(floor), square_(4) {}
 
-    gl::Program program_;
+    std::optional<gl::Program> program_;
+    SurfaceKind kind_;  // of program_
     Floor floor_;
-    glm::vec3 light_{0};       // unshadowed irradiance from above
-    glm::vec3 background_{0};  // colour at the rim
-    std::vector<glm::vec4> shadowed_;
+    MaterialRow material_;
+    std::vector<LightRow> lights_;
     std::vector<ShadowRow> shadows_;
+    std::optional<IrradianceHarmonics> environment_;
+    glm::vec3 background_{0};  // colour at the rim
     gl::VertexArray square_;
 };
 

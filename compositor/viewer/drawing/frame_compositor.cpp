@@ -3,6 +3,7 @@
 #include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/viewer/views/engine_views.hpp"
 
+#include <cmath>
 #include <utility>
 
 namespace rs::compositor {
@@ -14,6 +15,14 @@ Status run_in_order(FrameContext& frame, Pass&... passes) {
     Status status;
     static_cast<void>((static_cast<bool>(status = passes.run(frame)) && ...));
     return status;
+}
+
+// The scene with raster lights and its environment, both scaled by the exposure.
+Scene raster_scene(const Scene& scene, double exposure_ev) {
+    Scene raster = scene;
+    raster.lights = raster_lights(scene, exposure_ev);
+    if (raster.environment) raster.environment->scale *= static_cast<float>(std::exp2(exposure_ev));
+    return raster;
 }
 
 }  // namespace
@@ -38,15 +47,18 @@ Result<FrameCompositor::Passes> FrameCompositor::make_passes(const Scene& scene,
 Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::shared_ptr<engine::RenderSession> engine,
                                                 std::shared_ptr<const DisplayedNodes> nodes,
                                                 const FrameOptions& options) {
-    Scene scene = lit_scene;
-    scene.lights = raster_lights(lit_scene, options.exposure_ev);
+    const Scene scene = raster_scene(lit_scene, options.exposure_ev);
     RS_ASSIGN_OR_RETURN(auto background, BackgroundRenderer::create(scene.background));
+    RS_TRY(background.set_environment(scene.environment));
+    RS_ASSIGN_OR_RETURN(auto area_lights, AreaLightRenderer::create());
+    area_lights.set_lights(lit_scene.lights, options.exposure_ev);
     RS_ASSIGN_OR_RETURN(auto geometry, LitGeometry::create(scene, *nodes, options.shadows));
     RS_ASSIGN_OR_RETURN(auto passes, make_passes(scene, nodes->size(), options.object_depth));
     RS_ASSIGN_OR_RETURN(auto target, FrameTarget::create(options.width, options.height, options.samples));
     Parts parts{.engine = std::move(engine),
                 .nodes = ObjectNodes(std::move(nodes), options.object_samples, options.upright_images),
                 .background = std::move(background),
+                .area_lights = std::move(area_lights),
                 .geometry = std::move(geometry),
                 .target = std::move(target),
                 .passes = std::move(passes)};
@@ -64,6 +76,7 @@ FrameCompositor::FrameCompositor(Parts parts, const std::optional<Fog>& fog, con
     : engine_(std::move(parts.engine)),
       nodes_(std::move(parts.nodes)),
       background_(std::move(parts.background)),
+      area_lights_(std::move(parts.area_lights)),
       geometry_(std::move(parts.geometry)),
       target_(std::move(parts.target)),
       passes_(std::move(parts.passes)),
@@ -73,8 +86,9 @@ FrameCompositor::FrameCompositor(Parts parts, const std::optional<Fog>& fog, con
       samples_(options.samples) {}
 
 Status FrameCompositor::set_lights(const Scene& scene, double exposure_ev) {
-    Scene lit_scene = scene;
-    lit_scene.lights = raster_lights(scene, exposure_ev);
+    const Scene lit_scene = raster_scene(scene, exposure_ev);
+    RS_TRY(background_.set_environment(lit_scene.environment));
+    area_lights_.set_lights(scene.lights, exposure_ev);
     return geometry_.set_lights(lit_scene, nodes_.shown());
 }
 
@@ -92,6 +106,7 @@ FrameContext FrameCompositor::context_of(const Camera& camera) {
             .target = target_,
             .geometry = geometry_,
             .background = background_,
+            .area_lights = area_lights_,
             .nodes = nodes_,
             .statistics = statistics_,
             .engine_views = EngineViews(*engine_),

@@ -12,6 +12,7 @@
 
 #include "compositor/lighting/surface_point.hpp"
 #include "compositor/scene/scene.hpp"
+#include "compositor/viewer/drawing/area_light_renderer.hpp"
 #include "compositor/viewer/drawing/background_renderer.hpp"
 #include "compositor/viewer/drawing/displayed_nodes.hpp"
 #include "compositor/viewer/drawing/frame_statistics.hpp"
@@ -40,7 +41,8 @@ struct FrameOptions {
     int samples = 4;          // per pixel, for the edges of geometry
     bool wire_frame = false;  // geometry except for the floor
     bool shadows = false;     // cast by geometry and objects onto geometry and floor (shadow_plan.hpp)
-    double exposure_ev = 0;   // scales lights by 2^exposure_ev, but not objects, background and unlit surfaces
+    // Scales lights and the environment by 2^exposure_ev, but not objects, other backgrounds and unlit surfaces.
+    double exposure_ev = 0;
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples = kDefaultSamplesAcross;  // ObjectViewOptions::max_samples_across
     // Renders objects for an upright camera in the same position and warps the image (upright_image.hpp): faster and
@@ -147,6 +149,7 @@ private:
         std::shared_ptr<engine::RenderSession> engine;
         ObjectNodes nodes;
         BackgroundRenderer background;
+        AreaLightRenderer area_lights;
         LitGeometry geometry;
         FrameTarget target;
         Passes passes;
@@ -162,6 +165,7 @@ private:
     std::shared_ptr<engine::RenderSession> engine_;
     ObjectNodes nodes_;
     BackgroundRenderer background_;
+    AreaLightRenderer area_lights_;
     LitGeometry geometry_;
     FrameTarget target_;
     Passes passes_;

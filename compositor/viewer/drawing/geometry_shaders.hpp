@@ -4,7 +4,8 @@
 //   colour = fog * (1 - f) + f * (emissive + sum over lights: attenuation * spot * (ambient + s * (diffuse +
 //   specular)))
 //
-// where s is the visibility from the light by its shadow map (shadow_shaders.hpp), 1 without a map.
+// where s is the visibility from the light by its shadow map (shadow_shaders.hpp), 1 without a map. The environment is
+// one more ambient light, whose value depends on the normal (irradiance_harmonics.hpp).
 //
 // Shading::kPhong replaces this by Phong's formula, whose ambient term belongs to the material.
 //
@@ -36,28 +37,21 @@ void main() {
     vertex_colour = colour;
 })";
 
-// Preceded by the constants of constants_of(SurfaceKind) and kShadowLookUp.
-inline constexpr const char* kSurfaceFragment = R"(
+// Lighting of surfaces and of the floor. Preceded by the constants of constants_of(SurfaceKind) and kShadowLookUp.
+inline constexpr const char* kLighting = R"(
 const int kLights = kDirectional + kPoints + kSpots;
 // Five rows per light, in the order directional, point, spot: colour; ambient, radius; location, cut-off angle;
 // towards, beam width; attenuation, its minimum.
 uniform vec4 lights[5 * (kCounted ? kMostCounted : max(kLights, 1))];
 uniform ivec4 light_counts;  // kCounted: directional, point and spot lights
 uniform ivec4 shadow_counts;  // lights with maps: directional, point, narrow spot, wide spot
-// diffuse, opacity; specular, exponent; emissive, ambient; ambient light of directional lights
-uniform vec4 material[4];
-layout(binding = 0) uniform sampler2D surface_picture;
-layout(binding = 4) uniform sampler2D relief_map;  // NormalMap
+// diffuse, opacity; specular, exponent; emissive, ambient; ambient light of directional lights; reflectance of the
+// environment's light
+uniform vec4 material[5];
+uniform vec4 environment[9];  // IrradianceHarmonics
 uniform vec3 eye;
 uniform vec3 headlight;  // direction of travel
-uniform vec3 cover_light;    // ambient light on snow
-uniform vec3 fog;
-uniform float fog_visibility;
 in vec3 place_in_world;
-in vec3 normal_in_world;
-in vec2 place_on_texture;
-in vec4 vertex_colour;
-out vec4 result;
 
 // Specular term: the material's, or that of the water film on it.
 vec3 specular = material[1].rgb;
@@ -80,20 +74,13 @@ vec3 reflected(vec3 diffuse, vec3 n, vec3 to_eye, float eye_facing, vec3 to_ligh
     return sum * colour;
 }
 
-// Normal perturbed by the normal map, in the tangent frame of the triangle's texture coordinates.
-vec3 in_relief(vec3 n) {
-    vec3 direction = texture(relief_map, place_on_texture).xyz;
-    vec3 px = dFdx(place_in_world), py = dFdy(place_in_world);
-    vec2 tx = dFdx(place_on_texture), ty = dFdy(place_on_texture);
-    float area = tx.x * ty.y - ty.x * tx.y;
-    vec3 s = (px * ty.y - py * tx.y) * sign(area);
-    vec3 t = (px * ty.x - py * tx.x) * sign(area);  // up: rows go down
-    s -= n * dot(n, s);
-    t -= n * dot(n, t);
-    bool flat_there = direction.xy == vec2(0.0) || area == 0.0;
-    vec3 sum = s * (direction.x * inversesqrt(max(dot(s, s), 1e-30))) +
-               t * (direction.y * inversesqrt(max(dot(t, t), 1e-30))) + n * direction.z;
-    return flat_there || dot(sum, sum) < 1e-12 ? n : normalize(sum);
+// Irradiance / pi of the environment.
+vec3 environment_light(vec3 n) {
+    vec3 even = environment[0].rgb + environment[4].rgb * (3.0 * n.y * n.y - 1.0) +
+                environment[8].rgb * (n.z * n.z - n.x * n.x);
+    vec3 along = environment[1].rgb * n.y + environment[2].rgb * n.x + environment[3].rgb * n.z;
+    vec3 across = environment[5].rgb * (n.x * n.y) + environment[6].rgb * (n.y * n.z) + environment[7].rgb * (n.x * n.z);
+    return max(even + along + across, vec3(0.0));
 }
 
 // Light count: a constant, or with kCounted a uniform, for which the constant only states if such lights are possible.
@@ -158,6 +145,35 @@ vec3 lit(vec3 diffuse, vec3 ambient, vec3 n, vec3 even, vec3 to_eye) {
     }
     return sum;
 }
+)";
+
+// Preceded by kLighting.
+inline constexpr const char* kSurfaceFragment = R"(
+layout(binding = 0) uniform sampler2D surface_picture;
+layout(binding = 4) uniform sampler2D relief_map;  // NormalMap
+uniform vec3 cover_light;  // ambient light on snow
+uniform vec3 fog;
+uniform float fog_visibility;
+in vec3 normal_in_world;
+in vec2 place_on_texture;
+in vec4 vertex_colour;
+out vec4 result;
+
+// Normal perturbed by the normal map, in the tangent frame of the triangle's texture coordinates.
+vec3 in_relief(vec3 n) {
+    vec3 direction = texture(relief_map, place_on_texture).xyz;
+    vec3 px = dFdx(place_in_world), py = dFdy(place_in_world);
+    vec2 tx = dFdx(place_on_texture), ty = dFdy(place_on_texture);
+    float area = tx.x * ty.y - ty.x * tx.y;
+    vec3 s = (px * ty.y - py * tx.y) * sign(area);
+    vec3 t = (px * ty.x - py * tx.x) * sign(area);  // up: rows go down
+    s -= n * dot(n, s);
+    t -= n * dot(n, t);
+    bool flat_there = direction.xy == vec2(0.0) || area == 0.0;
+    vec3 sum = s * (direction.x * inversesqrt(max(dot(s, s), 1e-30))) +
+               t * (direction.y * inversesqrt(max(dot(t, t), 1e-30))) + n * direction.z;
+    return flat_there || dot(sum, sum) < 1e-12 ? n : normalize(sum);
+}
 
 void main() {
     vec3 diffuse = kColours ? vertex_colour.rgb : material[0].rgb;
@@ -177,6 +193,8 @@ void main() {
         vec3 even = normalize(normal_in_world) * side;
         vec3 n = kRelief ? in_relief(even * side) * side : even;
         vec3 ambient = kPhong ? material[3].rgb * shade : material[3].rgb * diffuse * material[2].w;
+        vec3 from_sky = kEnvironment ? environment_light(n) : vec3(0.0);
+        if (kEnvironment) ambient += from_sky * material[4].rgb * (kPhong ? shade : diffuse);
         if (kCover == 1) {  // wet: darker, with a sharp highlight
             float up = smoothstep(0.6, 0.95, even.y);
             diffuse *= 1.0 - 0.45 * up;
@@ -186,7 +204,7 @@ void main() {
         } else if (kCover == 2) {
             float up = 0.9 * smoothstep(0.55, 0.85, even.y);
             diffuse = mix(diffuse, vec3(0.86), up);
-            ambient = mix(ambient, vec3(0.86) * cover_light, up);
+            ambient = mix(ambient, vec3(0.86) * (cover_light + from_sky), up);
             specular *= 1.0 - up;
         }
         colour = lit(diffuse, ambient, n, even, normalize(to_eye));

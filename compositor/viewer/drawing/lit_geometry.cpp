@@ -33,16 +33,19 @@ ShadowPlan plan_of(const std::optional<ShadowMaps>& maps) {
 
 Result<LitGeometry> LitGeometry::create(const Scene& scene, const DisplayedNodes& nodes, bool shadows) {
     RS_ASSIGN_OR_RETURN(auto maps, create_maps(scene, nodes, shadows));
-    RS_ASSIGN_OR_RETURN(auto surfaces, SurfaceRenderer::create(scene, plan_of(maps)));
-    LitGeometry lit(scene, std::move(surfaces));
-    RS_TRY(lit.create_floor(plan_of(maps)));
+    EnvironmentIrradiance irradiance;
+    const std::optional<IrradianceHarmonics> environment = irradiance.of(scene.environment);
+    RS_ASSIGN_OR_RETURN(auto surfaces, SurfaceRenderer::create(scene, plan_of(maps), environment));
+    LitGeometry lit(scene, std::move(irradiance), std::move(surfaces));
+    RS_TRY(lit.light_floor(plan_of(maps), environment));
     lit.shadows_ = std::move(maps);
     return lit;
 }
 
-Status LitGeometry::create_floor(const ShadowPlan& plan) {
+Status LitGeometry::light_floor(const ShadowPlan& plan, const std::optional<IrradianceHarmonics>& environment) {
     if (!scene_.floor) return {};
-    RS_ASSIGN_OR_RETURN(auto floor, FloorRenderer::create(scene_, plan));
+    if (floor_) return floor_->set_lights(scene_, plan, environment);
+    RS_ASSIGN_OR_RETURN(auto floor, FloorRenderer::create(scene_, plan, environment));
     floor_.emplace(std::move(floor));
     return {};
 }
@@ -51,8 +54,9 @@ Status LitGeometry::create_floor(const ShadowPlan& plan) {
 Status LitGeometry::rebuild_lighting(bool shadows, const DisplayedNodes& nodes) {
     RS_ASSIGN_OR_RETURN(auto maps, create_maps(scene_, nodes, shadows));
     const ShadowPlan plan = plan_of(maps);
-    RS_TRY(surfaces_.set_lights(scene_, plan));
-    RS_TRY(create_floor(plan));
+    const std::optional<IrradianceHarmonics> environment = irradiance_.of(scene_.environment);
+    RS_TRY(surfaces_.set_lights(scene_, plan, environment));
+    RS_TRY(light_floor(plan, environment));
     if (maps && shadows_) maps->reuse_shells(*shadows_);
     shadows_ = std::move(maps);
     return {};

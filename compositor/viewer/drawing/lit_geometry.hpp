@@ -2,6 +2,7 @@
 // Scene geometry and floor with their lighting and shadow maps. Keeps the maps and the surface tables consistent when
 // lights change or nodes move.
 
+#include "compositor/scene/light/irradiance_harmonics.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/displayed_nodes.hpp"
 #include "compositor/viewer/drawing/floor_renderer.hpp"
@@ -18,7 +19,7 @@
 namespace rs::compositor {
 
 /// Requires a current gl::Context that outlives it; single-threaded, move-only. Scenes contain raster lights
-/// (scene_lights.hpp).
+/// (scene_lights.hpp) and an environment scaled by the exposure.
 class LitGeometry {
 public:
     static Result<LitGeometry> create(const Scene& scene, const DisplayedNodes& nodes, bool shadows);
@@ -41,11 +42,13 @@ public:
     [[nodiscard]] const FloorRenderer* floor() const { return floor_ ? &*floor_ : nullptr; }
 
 private:
-    LitGeometry(const Scene& scene, SurfaceRenderer surfaces) : scene_(scene), surfaces_(std::move(surfaces)) {}
+    LitGeometry(const Scene& scene, EnvironmentIrradiance irradiance, SurfaceRenderer surfaces)
+        : scene_(scene), irradiance_(std::move(irradiance)), surfaces_(std::move(surfaces)) {}
     Status rebuild_lighting(bool shadows, const DisplayedNodes& nodes);
-    Status create_floor(const ShadowPlan& plan);
+    Status light_floor(const ShadowPlan& plan, const std::optional<IrradianceHarmonics>& environment);
 
     Scene scene_;
+    EnvironmentIrradiance irradiance_;
     SurfaceRenderer surfaces_;
     std::optional<FloorRenderer> floor_;
     std::optional<ShadowMaps> shadows_;

@@ -1,5 +1,5 @@
 #pragma once
-// GLSL of floors and image-based objects. Colours are linear light; the framebuffer encodes sRGB.
+// GLSL of floors, area lights and image-based objects. Colours are linear light; the framebuffer encodes sRGB.
 
 #include <string>
 
@@ -21,41 +21,57 @@ inline constexpr const char* kFloorVertex = R"(#version 450 core
 uniform mat4 clip_from_world;
 uniform float height;
 uniform float radius;
-out vec2 on_floor;
+out vec3 place_in_world;
 void main() {
-    on_floor = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID >> 1) * 2 - 1) * radius;
-    gl_Position = clip_from_world * vec4(on_floor.x, height, on_floor.y, 1.0);
+    vec2 on_floor = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID >> 1) * 2 - 1) * radius;
+    place_in_world = vec3(on_floor.x, height, on_floor.y);
+    gl_Position = clip_from_world * vec4(place_in_world, 1.0);
 })";
-// Preceded by the constant kShadows (number of directional lights with maps) and kShadowLookUp.
+// Preceded by kLighting (geometry_shaders.hpp).
 inline constexpr const char* kFloorFragment = R"(
-in vec2 on_floor;
-uniform float height;
 uniform float radius;
 uniform float square;
 uniform vec3 colour_a;
 uniform vec3 colour_b;
 uniform vec3 background;
-uniform vec3 unshadowed;  // irradiance that shadows do not affect
-uniform vec4 shadowed[2 * max(kShadows, 1)];  // per light: unshadowed irradiance; direction
 out vec4 result;
 void main() {
-    float away = length(on_floor) / radius;
+    float away = length(place_in_world.xz) / radius;
     if (away > 1.0) discard;
-    vec2 p = on_floor / square;
+    vec2 p = place_in_world.xz / square;
     vec2 footprint = max(fwidth(p), vec2(1e-4));
     vec2 before = abs(fract((p - 0.5 * footprint) * 0.5) - 0.5);
     vec2 behind = abs(fract((p + 0.5 * footprint) * 0.5) - 0.5);
     vec2 mean = 2.0 * (before - behind) / footprint;
     vec3 checker = mix(colour_a, colour_b, 0.5 - 0.5 * mean.x * mean.y);
-    if (kShadows > 0) {
-        vec3 arriving = unshadowed;
-        for (int i = 0; i < kShadows; ++i) {
-            vec3 place = vec3(on_floor.x, height, on_floor.y);
-            arriving += shadowed[2 * i].rgb * parallel_shadow(4 * i, place, vec3(0.0, 1.0, 0.0), shadowed[2 * i + 1].xyz);
-        }
-        checker *= arriving;
-    }
-    result = vec4(mix(checker, background, smoothstep(0.15, 1.0, away)), 1.0);
+    const vec3 n = vec3(0.0, 1.0, 0.0);
+    vec3 ambient = material[3].rgb;
+    if (kEnvironment) ambient += environment_light(n);
+    vec3 shown = lit(checker, ambient * checker, n, n, normalize(eye - place_in_world));
+    result = vec4(mix(shown, background, smoothstep(0.15, 1.0, away)), 1.0);
+})";
+
+// Area light: the parallelogram centre +- half_u +- half_v, counter-clockwise seen from the side that it shines to.
+inline constexpr const char* kAreaLightVertex = R"(#version 450 core
+uniform mat4 clip_from_world;
+uniform vec3 centre;
+uniform vec3 half_u;
+uniform vec3 half_v;
+out vec2 on_light;
+void main() {
+    on_light = vec2((gl_VertexID & 1) * 2 - 1, (gl_VertexID >> 1) * 2 - 1);
+    gl_Position = clip_from_world * vec4(centre + half_u * on_light.x + half_v * on_light.y, 1.0);
+    gl_Position.z *= 1.0005;  // in front of a ceiling in the same plane
+})";
+inline constexpr const char* kAreaLightFragment = R"(#version 450 core
+in vec2 on_light;
+uniform vec3 radiance;
+uniform int is_disc;
+out vec4 result;
+void main() {
+    float r = length(on_light);
+    float covered = is_disc != 0 ? clamp(0.5 + (1.0 - r) / max(fwidth(r), 1e-6), 0.0, 1.0) : 1.0;
+    result = vec4(radiance * covered, covered);
 })";
 
 // Ray-space node: the covered parts of its image (image_coverage.hpp). Each pixel is the mean of samples_across *

@@ -34,6 +34,7 @@ SurfaceKind kind_of(const Scene& scene, const ShadowPlan& shadows, const Geometr
     if (kind.lit) {
         add_lights(scene, shadows, lights, kind);
         kind.headlight = scene.navigation.headlight;
+        kind.environment = scene.environment.has_value();
         kind.shiny = node.material.specular != glm::vec3(0);
     }
     kind.image = !node.material.texture ? 0 : node.material.texture->modulates ? 2 : 1;
@@ -57,7 +58,8 @@ std::string constants_of(const SurfaceKind& kind) {
            shaders::shader_constant("kWideSpots", kind.wide_spots) +
            shaders::shader_constant("kShadows", kind.counted && shadows > 0 ? kMaxCountedLights : shadows) +
            "const float kNear = " + std::to_string(kNear) + ";\n" + shaders::shader_constant("kFading", kind.fading) +
-           shaders::shader_constant("kHeadlight", kind.headlight) + shaders::shader_constant("kLit", kind.lit) +
+           shaders::shader_constant("kHeadlight", kind.headlight) +
+           shaders::shader_constant("kEnvironment", kind.environment) + shaders::shader_constant("kLit", kind.lit) +
            shaders::shader_constant("kShiny", kind.shiny) + shaders::shader_constant("kPicture", kind.image) +
            shaders::shader_constant("kPictureAlpha", static_cast<int>(kind.image_alpha)) +
            shaders::shader_constant("kColours", kind.colours) + shaders::shader_constant("kRelief", kind.relief) +

@@ -22,6 +22,7 @@ struct SurfaceKind {
     int wide_spots = 0;
     bool fading = false;  // some lights attenuate with distance
     bool headlight = false;
+    bool environment = false;  // irradiance of Scene::environment
     bool lit = false;
     bool shiny = false;
     int image = 0;  // texture: 0 none, 1 replaces the diffuse colour, 2 multiplies it

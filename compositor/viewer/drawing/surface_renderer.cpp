@@ -45,6 +45,16 @@ public:
         return uploaded;
     }
 
+    // The mesh with normals on the sides of its winding, as in traced images (RayScene).
+    std::shared_ptr<const Mesh> oriented(const std::shared_ptr<const Mesh>& mesh) {
+        auto& known = oriented_[mesh];
+        if (!known) {
+            known =
+                has_contradicting_normals(*mesh) ? std::make_shared<const Mesh>(with_normals_in_front(*mesh)) : mesh;
+        }
+        return known;
+    }
+
     std::shared_ptr<const gl::Texture> image(const SceneTexture& texture) {
         auto& uploaded = images_[&texture];
         if (!uploaded) {
@@ -72,6 +82,7 @@ public:
     [[nodiscard]] int count() const { return static_cast<int>(meshes_.size() + images_.size() + reliefs_.size()); }
 
 private:
+    std::map<std::shared_ptr<const Mesh>, std::shared_ptr<const Mesh>> oriented_;
     std::map<const Mesh*, std::shared_ptr<const gl::VertexArray>> meshes_;
     std::map<const SceneTexture*, std::shared_ptr<const gl::Texture>> images_;
     std::map<const NormalMap*, std::shared_ptr<const gl::Texture>> reliefs_;
@@ -83,9 +94,9 @@ private:
 Result<std::shared_ptr<const gl::Program>> SurfaceRenderer::program(const SurfaceKind& kind) {
     const auto known = programs_.find(kind);
     if (known != programs_.end()) return known->second;
-    RS_ASSIGN_OR_RETURN(auto made,
-                        gl::Program::create("surface", shaders::kSurfaceVertex,
-                                            constants_of(kind) + shaders::kShadowLookUp + shaders::kSurfaceFragment));
+    RS_ASSIGN_OR_RETURN(auto made, gl::Program::create("surface", shaders::kSurfaceVertex,
+                                                       constants_of(kind) + shaders::kShadowLookUp +
+                                                           shaders::kLighting + shaders::kSurfaceFragment));
     return programs_.emplace(kind, std::make_shared<const gl::Program>(std::move(made))).first->second;
 }
 
@@ -168,15 +179,18 @@ Status SurfaceRenderer::create_caster_programs() {
     return {};
 }
 
-Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const ShadowPlan& shadows) {
+Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const ShadowPlan& shadows,
+                                                const std::optional<IrradianceHarmonics>& environment) {
     SurfaceRenderer renderer(scene, shadows);
+    renderer.environment_ = environment;
     RS_TRY(renderer.create_caster_programs());
     renderer.summarize_lights();
     UploadCache uploads;
     renderer.item_of_node_.resize(scene.geometry.size());
     for (std::size_t i = 0; i < scene.geometry.size(); ++i) {
-        const GeometryNode& node = scene.geometry[i];
+        GeometryNode& node = renderer.scene_.geometry[i];
         if (node.mesh->indices.empty()) continue;
+        node.mesh = uploads.oriented(node.mesh);
         Item item;
         item.node = i;
         item.mesh = uploads.mesh(node.mesh);
@@ -211,8 +225,10 @@ Status SurfaceRenderer::move(std::size_t node, const std::optional<glm::dmat4>& 
     return update_item(item);
 }
 
-Status SurfaceRenderer::set_lights(const Scene& scene, const ShadowPlan& shadows) {
+Status SurfaceRenderer::set_lights(const Scene& scene, const ShadowPlan& shadows,
+                                   const std::optional<IrradianceHarmonics>& environment) {
     copy_lights(scene, scene_);
+    environment_ = environment;
     shadows_ = shadows;
     RS_TRY(create_caster_programs());
     summarize_lights();
@@ -244,6 +260,9 @@ void SurfaceRenderer::set_frame(const FrameView& view) const {
         if (program->has_uniform("eye")) program->set("eye", glm::vec3(view.camera.centre()));
         if (program->has_uniform("headlight")) program->set("headlight", glm::vec3(view.camera.forward()));
         if (program->has_uniform("cover_light")) program->set("cover_light", ambient_light_);
+        if (environment_ && program->has_uniform("environment")) {
+            program->set("environment", std::span(environment_->factors));
+        }
         if (!fog) continue;
         if (program->has_uniform("fog")) program->set("fog", fog->colour);
         if (program->has_uniform("fog_visibility")) program->set("fog_visibility", static_cast<float>(fog->visibility));
@@ -260,7 +279,7 @@ void SurfaceRenderer::draw(const Item& item, const gl::Program& program, const F
     set("world_normal_from_node", glm::mat3(glm::transpose(glm::inverse(glm::dmat3(item.world_from_node)))));
     set("texture_transform", item.texture_transform);
     // Rows of vec4 without padding; surface_tables.cpp asserts their sizes.
-    set("material", std::span(&item.material.diffuse_opacity, 4));
+    set("material", std::span(&item.material.diffuse_opacity, 5));
     if (!item.lights.empty()) set("lights", std::span(&item.lights.front().colour, 5 * item.lights.size()));
     if (!item.shadows.empty()) set("shadows", std::span(&item.shadows.front().u, 4 * item.shadows.size()));
     set("light_counts", item.light_counts);

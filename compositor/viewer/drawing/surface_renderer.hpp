@@ -1,11 +1,13 @@
 #pragma once
 // Draws scene geometry: lit (geometry_shaders.hpp), textured, with fog, frustum-culled. Meshes and images are uploaded
 // at creation; each surface kind has a shader. Surfaces are drawn front to back, so that few hidden pixels are shaded.
+// Normals that contradict the winding of their mesh are reversed (with_normals_in_front).
 
 #include "compositor/gl/draw.hpp"
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/texture.hpp"
 #include "compositor/gl/vertex_array.hpp"
+#include "compositor/scene/light/irradiance_harmonics.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/surface_kind.hpp"
 #include "compositor/viewer/drawing/surface_tables.hpp"
@@ -32,11 +34,14 @@ enum class OpaqueMode {
 class SurfaceRenderer {
 public:
     /// \param shadows lights with maps; these must be bound (ShadowMaps::bind) when surfaces are drawn.
-    static Result<SurfaceRenderer> create(const Scene& scene, const ShadowPlan& shadows = {});
+    /// \param environment of Scene::environment, null without.
+    static Result<SurfaceRenderer> create(const Scene& scene, const ShadowPlan& shadows,
+                                          const std::optional<IrradianceHarmonics>& environment);
 
     /// Copies lights, environment and headlight from `scene`, which must have the same geometry as the scene passed to
     /// create(), and sets its shadow-casting lights. Fails if the driver rejects a shader.
-    Status set_lights(const Scene& scene, const ShadowPlan& shadows);
+    Status set_lights(const Scene& scene, const ShadowPlan& shadows,
+                      const std::optional<IrradianceHarmonics>& environment);
 
     struct Transparent {
         std::size_t index;
@@ -112,6 +117,7 @@ private:
 
     Scene scene_;
     ShadowPlan shadows_;
+    std::optional<IrradianceHarmonics> environment_;
     std::optional<gl::Program> caster_;
     std::optional<gl::Program> masked_caster_;
     std::map<SurfaceKind, std::shared_ptr<const gl::Program>> programs_;  // one per existing surface kind

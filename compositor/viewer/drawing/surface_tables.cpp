@@ -6,7 +6,7 @@
 
 namespace rs::compositor {
 
-static_assert(sizeof(LightRow) == 80 && sizeof(MaterialRow) == 64 && sizeof(ShadowRow) == 64);
+static_assert(sizeof(LightRow) == 80 && sizeof(MaterialRow) == 80 && sizeof(ShadowRow) == 64);
 
 namespace {
 
@@ -90,12 +90,14 @@ MaterialRow row_of(const Material& material, Shading shading) {
         return {{material.diffuse, material.opacity},
                 {material.specular, phong_terms(material).exponent},
                 {material.emissive, 0},
-                {}};
+                {},
+                {phong_terms(material).ambient, 0}};
     }
     return {{material.diffuse, material.opacity},
             {material.specular, material.shininess * 128},
             {material.emissive, material.ambient},
-            {}};
+            {},
+            {glm::vec3(material.ambient), 0}};
 }
 
 namespace {

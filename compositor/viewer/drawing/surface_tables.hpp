@@ -26,6 +26,7 @@ struct MaterialRow {
     glm::vec4 emissive_ambient;
     // Sum over the directional lights that reach the surface; with Phong's formula, its reflected part. w unused.
     glm::vec4 ambient_light{0};
+    glm::vec4 ambient_reflectance{0};  // of the environment's irradiance / pi, times the diffuse colour in VRML97
 };
 MaterialRow row_of(const Material& material, Shading shading);
 

@@ -4,6 +4,7 @@
 #include "compositor/gl/framebuffer.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/scene/weather.hpp"
+#include "compositor/viewer/drawing/area_light_renderer.hpp"
 #include "compositor/viewer/drawing/background_renderer.hpp"
 #include "compositor/viewer/drawing/frame_statistics.hpp"
 #include "compositor/viewer/drawing/lit_geometry.hpp"
@@ -67,6 +68,7 @@ struct FrameContext {
     FrameTarget& target;
     LitGeometry& geometry;
     const BackgroundRenderer& background;
+    const AreaLightRenderer& area_lights;
     const ObjectNodes& nodes;
     FrameStatistics& statistics;
     EngineViews engine_views;

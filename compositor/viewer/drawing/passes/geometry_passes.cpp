@@ -50,6 +50,7 @@ Status OpaquePass::run(FrameContext& frame) const {
     frame.transparent_surfaces = frame.geometry.surfaces().draw_opaque(frame.view, frame.wire_frame, OpaqueMode::kLit);
     if (frame.geometry.floor() != nullptr) frame.geometry.floor()->draw(frame.view);
     if (!frame.background.plain()) frame.background.draw(frame.view.camera, BackgroundArea::kBehindGeometry);
+    frame.area_lights.draw(frame.view, frame.fog);
     return {};
 }
 

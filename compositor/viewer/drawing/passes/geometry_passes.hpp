@@ -34,7 +34,7 @@ private:
     std::optional<glm::dmat4> depth_view_;  // clip_from_world of the depths that the frame holds, of geometry alone
 };
 
-/// Draws opaque geometry, the floor and the background; nothing under a traced image, which contains them.
+/// Draws opaque geometry, the floor, the background and area lights; nothing under a traced image, which contains them.
 class OpaquePass {
 public:
     Status run(FrameContext& frame) const;

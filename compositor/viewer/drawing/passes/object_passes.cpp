@@ -3,21 +3,9 @@
 #include "compositor/gl/draw.hpp"
 #include "engine/core/definition/view_registers.hpp"
 
-#include <cmath>
 #include <utility>
 
 namespace rs::compositor {
-namespace {
-
-// Transmittance of the fog over a distance.
-float fog_transmittance(const std::optional<Fog>& fog, double distance) {
-    if (!fog) return 1;
-    if (distance >= fog->visibility) return 0;
-    const double left = fog->visibility - distance;
-    return static_cast<float>(fog->kind == FogKind::kLinear ? left / fog->visibility : std::exp(-distance / left));
-}
-
-}  // namespace
 
 Status ObjectRequestPass::run(FrameContext& frame) const {
     std::vector<engine::ViewRequest> requests;
@@ -80,7 +68,7 @@ void ObjectPass::draw(const VisibleNode& node, const FrameContext& frame) const 
     objects_.draw(node.index, node.view,
                   {.screen_px = {frame.target.drawn.width(), frame.target.drawn.height()},
                    .fog = frame.fog ? frame.fog->colour : glm::vec3(0),
-                   .own_light = fog_transmittance(frame.fog, node.view.plane_distance),
+                   .own_light = frame.fog ? fog_transmittance(*frame.fog, node.view.plane_distance) : 1.0F,
                    .opacity = frame.nodes[node.index].opacity});
 }
 

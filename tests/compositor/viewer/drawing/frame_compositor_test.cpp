@@ -175,6 +175,32 @@ TEST_F(Compositing, AFloorHidesWhatIsBeyondIt) {
     EXPECT_EQ(count_red(compose(scene, {place(object, node)}, from_above)), 0);
 }
 
+// A box seen from its lit side, with one or two sides.
+TEST_F(Compositing, NormalsAgainstTheWindingAreTurned) {
+    const Camera camera = look_at_camera({2, 2, 3}, {0, 0, 0}, radians(50), kFrameWidth, kFrameHeight);
+    for (const bool two_sided : {false, true}) {
+        Scene scene = with_box({1, 1, 1}, {0, 0, 0});
+        scene.lights = {directional_light({-1, -2, -3}, glm::vec3(2)), point_light({1, 2, 1}, glm::vec3(1))};
+        Mesh mesh = *scene.geometry[0].mesh;
+        mesh.two_sided = two_sided;
+        const auto image_with = [&](const Mesh& used) {
+            scene.geometry[0].mesh = std::make_shared<const Mesh>(used);
+            return compose(scene, {}, camera);
+        };
+        const Image<Rgba8> correct = image_with(mesh);
+        EXPECT_GT(middle(correct).g, 100);
+        Mesh reversed = mesh;
+        for (MeshVertex& vertex : reversed.vertices) vertex.normal = -vertex.normal;
+        EXPECT_EQ(image_with(reversed), correct) << two_sided;
+        if (!two_sided) continue;
+        Mesh rewound = mesh;  // outward normals on back faces
+        for (std::size_t i = 0; i + 2 < rewound.indices.size(); i += 3) {
+            std::swap(rewound.indices[i + 1], rewound.indices[i + 2]);
+        }
+        EXPECT_EQ(count_different(image_with(rewound), correct, 2), 0);
+    }
+}
+
 TEST_F(Compositing, FramesOfGrowingObjectsFollowEachOther) {
     const std::vector<PlacedObject> objects = {test::placed_at(test::drum())};
     Result<FrameCompositor> compositor =

@@ -218,13 +218,22 @@ TEST_F(Shadows, OfWhatHasMovedAreThoseOfMapsDrawnWhole) {
 }
 
 TEST_F(Shadows, FallOntoTheFloor) {
-    Scene scene;
-    scene.lights = {directional_light({0.9, -1, -0.1}, glm::vec3(3))};
-    scene.floor = Floor{};
-    scene.geometry = {test::matte_box({1, 1, 1}, {0, 0.5, 0})};
-    const test::ShadowAgreement found = test::shadow_agreement(scene, {}, over_the_boxes());
-    EXPECT_GT(found.shaded, 1500);
-    EXPECT_GE(found.share(), 0.99);
+    Light point = point_light({-1.2, 2.4, -0.8}, glm::vec3(12));
+    point.least_attenuation = 1e-3F;  // not in candela, so without reflected light
+    const std::vector<NamedLight> lights{{"directional", directional_light({0.9, -1, -0.1}, glm::vec3(3))},
+                                         {"point", point},
+                                         {"narrow spot", test::spot_light({-1.6, 3, -1}, {0.4, 0, 0.2}, 0.6)},
+                                         {"wide spot", test::spot_light({-1.2, 2.4, -0.8}, {0.2, 0, 0.3}, 1.3)}};
+    for (const auto& [name, light] : lights) {
+        Scene scene;
+        scene.lights = {light};
+        scene.background.sky = {glm::vec3(0)};  // the traced floor does not fade into it
+        scene.floor = Floor{};
+        scene.geometry = {test::matte_box({1, 1, 1}, {0, 0.5, 0})};
+        const test::ShadowAgreement found = test::shadow_agreement(scene, {}, over_the_boxes());
+        EXPECT_GT(found.shaded, 1000) << name;
+        EXPECT_GE(found.share(), 0.99) << name;
+    }
 }
 
 }  // namespace
