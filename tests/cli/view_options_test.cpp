@@ -217,6 +217,7 @@ TEST_F(ViewOptions, OfRenderTakeEffect) {
                                  {{"--output", "", "-o OUT/x"},
                                   {"--fov", "", "--fov 30"},
                                   {"--size", "", "--size 32x48"},
+                                  {"--panorama", "--size 64x32", "--panorama"},
                                   {"--fps", "-o OUT/x.mp4 --orbit 2", "--fps 10"},
                                   {"--seconds", "--renderer path", "--seconds 0.02"},
                                   {"--streaming", "", "--streaming"},

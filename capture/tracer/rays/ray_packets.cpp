@@ -40,6 +40,16 @@ RTCIntersectContext incoherent() {
     return context;
 }
 
+// Embree aborts if lanes that are not active contain NaN.
+void reset_inactive_lanes(const MaskLanes& active, RayLanes& rays) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
+        if (active[i] != 0) continue;
+        rays.origin.set(i, glm::vec3(0.0F));
+        rays.direction.set(i, glm::vec3(0.0F, 0.0F, 1.0F));
+        rays.nearest[i] = rays.reach[i] = rays.time[i] = 0.0F;
+    }
+}
+
 RTCIntersectContext coherent() {
     RTCIntersectContext context = incoherent();
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
@@ -118,6 +128,7 @@ void RayScene::intersect(const MaskLanes& active, RayHitLanes& met) const {
                   offsetof(RayHitLanes, hit) == offsetof(RTCRayHit16, hit));
     static_assert(offsetof(RayLanes, reach) == offsetof(RTCRay16, tfar));
     static_assert(offsetof(HitLanes, instance) == offsetof(RTCHit16, instID));
+    reset_inactive_lanes(active, met.ray);
     auto* packet = reinterpret_cast<RTCRayHit16*>(&met);
     RTCIntersectContext context = coherent();
     rtcIntersect16(active.of.data(), static_meshes_->embree(), &context, packet);
@@ -128,6 +139,7 @@ void RayScene::intersect(const MaskLanes& active, RayHitLanes& met) const {
 
 void RayScene::occluded(const MaskLanes& active, RayLanes& rays, const ShadowCasters& casters) const {
     if (!casters.any) return;
+    reset_inactive_lanes(active, rays);
     auto* packet = reinterpret_cast<RTCRay16*>(&rays);
     ScopeQuery in_scope(*scene_, casters.scoped_light, true, RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
     RTCIntersectContext all = coherent();

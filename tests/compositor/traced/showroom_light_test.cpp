@@ -52,7 +52,7 @@ TEST_F(ShowroomLight, IsAboutAsBrightTracedAsRasterized) {
             for (int pass = 0; pass < passes; ++pass) ASSERT_TRUE(traced->add_pass());
             raster->set_traced(std::make_shared<const Image<Rgba8>>(traced->image()));
             const double ratio = mean_luminance(raster->compose(camera).value()) / rasterized;
-            EXPECT_GT(ratio, method == TracedMethod::kWhitted ? 0.9 : 0.6);
+            EXPECT_GT(ratio, method == TracedMethod::kWhitted ? 0.85 : 0.5);
             EXPECT_LT(ratio, method == TracedMethod::kWhitted ? 1.1 : 1.5);
             raster->set_traced(nullptr);
         }

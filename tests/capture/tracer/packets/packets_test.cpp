@@ -95,6 +95,27 @@ TEST(Packets, GiveTheBitsOfSingleRays) {
     expect_equal_to_single_rays(scene);
 }
 
+TEST(Packets, InactiveLanesMayContainNan) {
+    const Scene scene = scene_of_all_kinds();
+    const auto rays = RayScene::create(scene);
+    ASSERT_TRUE(rays);
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    constexpr std::size_t kLane = 3;
+    MaskLanes active;
+    active[kLane] = -1;
+    RayHitLanes hits;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        hits.begin(lane, glm::vec3(kNan), glm::vec3(kNan), kNan);
+        hits.ray.reach[lane] = kNan;
+    }
+    hits.begin(kLane, {0.3F, 1.2F, 6}, {0, -0.2F, -0.9798F}, 0);
+    RayLanes shadow = hits.ray;
+    rays->intersect(active, hits);
+    EXPECT_TRUE(hits.has_hit(kLane));
+    rays->occluded(active, shadow);
+    EXPECT_LT(shadow.reach[kLane], 0);
+}
+
 // Coherent shadow rays to one lamp, for which Embree did not return with instances as the only occluders.
 TEST(Packets, OfNeighboursComeBackFromInstances) {
     Scene scene = scene_of_all_kinds();
