@@ -423,7 +423,7 @@ TEST_F(View, PanoramasRefuseOptionsOfOneView) {
     const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
         {{"--fov", "60"}, "--fov cannot be used with --panorama"},
         {{"--renderer", "path", "--lens", "f/2", "--focus", "2"}, "--lens cannot be used with --panorama"},
-        {{"--focus", "2"}, "--focus cannot be used with --panorama"},
+        {{"--focus", "2"}, "--focus needs --lens"},
         {{"--streaming"}, "--streaming cannot be used with --panorama"},
         {{"--stats", "x.json"}, "--stats cannot be used with --panorama"},
         {{"--renderer", "toon"}, "needs --toon-lines LENGTH"}};

@@ -40,13 +40,13 @@ RTCIntersectContext incoherent() {
     return context;
 }
 
-// Embree aborts if lanes that are not active contain NaN.
+// Embree aborts if lanes that are not active contain NaN. Their times are kept for later calls.
 void reset_inactive_lanes(const MaskLanes& active, RayLanes& rays) {
     for (std::size_t i = 0; i < kLanes; ++i) {
         if (active[i] != 0) continue;
         rays.origin.set(i, glm::vec3(0.0F));
         rays.direction.set(i, glm::vec3(0.0F, 0.0F, 1.0F));
-        rays.nearest[i] = rays.reach[i] = rays.time[i] = 0.0F;
+        rays.nearest[i] = rays.reach[i] = 0.0F;
     }
 }
 

@@ -105,7 +105,7 @@ TEST(Packets, InactiveLanesMayContainNan) {
     active[kLane] = -1;
     RayHitLanes hits;
     for (std::size_t lane = 0; lane < kLanes; ++lane) {
-        hits.begin(lane, glm::vec3(kNan), glm::vec3(kNan), kNan);
+        hits.begin(lane, glm::vec3(kNan), glm::vec3(kNan), 0);
         hits.ray.reach[lane] = kNan;
     }
     hits.begin(kLane, {0.3F, 1.2F, 6}, {0, -0.2F, -0.9798F}, 0);
