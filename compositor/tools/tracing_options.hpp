@@ -19,7 +19,7 @@ struct RendererOptions {
     std::string renderer = "raster";
     double exposure_ev = 0;
     bool soft_shadows = false;
-    std::optional<double> toon_line_length;  // scene units; by default 2 px at the median distance
+    std::optional<double> toon_line_length;  // scene units; by default 1 px at the median distance
     std::optional<std::string> toon_style;   // file, toon_file.hpp
     std::optional<std::string> lens;         // diameter in mm, or f/N
     std::optional<double> focus;             // scene units

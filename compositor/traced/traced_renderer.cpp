@@ -16,7 +16,7 @@ namespace rs::compositor {
 namespace {
 
 constexpr int kToonShadowRays = 16;
-constexpr double kToonLine_px = 2;  // default width of a line from its edge, at the median distance
+constexpr double kToonLine_px = 1;  // default width of a line from its edge, at the median distance
 
 glm::vec3 ambient_of(const Scene& scene) {
     glm::vec3 ambient = reflected_light(scene);

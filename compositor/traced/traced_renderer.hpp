@@ -49,7 +49,7 @@ struct TracedOptions {
     double exposure_ev = 0;  // images are scaled by 2^exposure_ev
     int max_bounces = 16;
     bool soft_shadows = false;  // whitted and toon; other methods always have them
-    // toon: width of a line from its edge, scene units; empty: per image, 2 px at the median distance of the surfaces
+    // toon: width of a line from its edge, scene units; empty: per image, 1 px at the median distance of the surfaces
     // that the whole camera sees (capture::Tracer::median_pixel_size())
     std::optional<double> line_radius{};
     capture::ToonStyle toon{};  // edge_radius, shadow_rays and brightness are ignored: they follow from the above

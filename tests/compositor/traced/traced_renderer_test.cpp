@@ -339,7 +339,7 @@ double line_width_px(const std::optional<double>& line_radius, int side) {
 }
 
 TEST(TracedRenderer, LinesAreTwoPixelsWideAtTheMedianDistance) {
-    for (const int side : {96, 288}) EXPECT_NEAR(line_width_px({}, side), 2 * 2, 0.5) << side;
+    for (const int side : {96, 288}) EXPECT_NEAR(line_width_px({}, side), 2, 0.5) << side;
     EXPECT_NEAR(line_width_px(4.8 * 5 / 96, 96), 2 * 5, 0.5);
     EXPECT_NEAR(line_width_px(0, 96), 0, 1e-3);
 }
