@@ -49,8 +49,8 @@ struct Photon {
     // Flux over sampling density. Unused for point lights: their attenuation is arbitrary, so the flux depends on the
     // distance.
     glm::vec3 flux{0.0F};
-    const Light* point = nullptr;  // the point light, if it is one
-    float inverse_pdf = 0.0F;      // the flux at distance d is irradiance * d^2 * inverse_pdf
+    const Light* point = nullptr;            // the point light, if it is one
+    float inverse_pdf = 0.0F;                // the flux at distance d is irradiance * d^2 * inverse_pdf
     std::uint32_t scoped_light = kUnscoped;  // its first hit is in the scope of this light
 
     [[nodiscard]] glm::vec3 flux_at(const glm::vec3& position) const {
