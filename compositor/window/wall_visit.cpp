@@ -198,7 +198,7 @@ Result<bool> WallVisit::step(std::optional<double> seconds) {
         for (std::size_t i = 0; i < images_.size(); ++i) {
             int number = shots_;
             const std::string prefix = "wall-" + options_.display.walls[i].name;
-            const auto path = free_name(options_.images, prefix.c_str(), ".png", number);
+            const auto path = free_name(options_.images, prefix, ".png", number);
             RS_TRY(write_png(path, images_[i]));
         }
     }

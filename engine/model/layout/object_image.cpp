@@ -163,7 +163,7 @@ class SingleRingLayout : public ObjectLayout {
 public:
     [[nodiscard]] Status drawable(const RaySpaceObject& object, const BoardLimits& limits) const override {
         if (object.rings.empty() || object.views.empty()) return Error{object.name + ": holds no ring of views"};
-        if (const Status images = has_images(object); !images) {
+        if (Status images = has_images(object); !images) {
             if (object.rings.front().shape.empty()) return images;
             return Error{images.error().message +
                          "; it also has a shape map: add --raymap plane, or use parallel, which takes --profile board "

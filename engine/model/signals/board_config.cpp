@@ -210,7 +210,7 @@ std::string cross_field_error(const BoardConfig& c) {
     if (c.memory.load_words_per_window > 1 << c.memory.shape.column_bits) {
         return "memory/load_words_per_window is larger than a row of the memory";
     }
-    if (const std::string bad = bus_error(c.pci); !bad.empty()) return bad;
+    if (std::string bad = bus_error(c.pci); !bad.empty()) return bad;
     const auto side = static_cast<std::uint64_t>(c.limits.image_buffer_side_px);
     const std::uint64_t image_words =
         2 * static_cast<std::uint64_t>(c.limits.views_per_cycle) * side * ((side + 1) / 2);

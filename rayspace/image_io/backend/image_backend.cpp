@@ -247,7 +247,7 @@ struct PixelRows {
 };
 
 template <class Pixel>
-PixelRows rows_of(ConstImageView<Pixel> image, OIIO::TypeDesc channel) {
+PixelRows rows_of(ConstImageView<Pixel> image, const OIIO::TypeDesc& channel) {
     return {.pixels = image.data(),
             .channel = channel,
             .pixel_bytes = sizeof(Pixel),
