@@ -92,7 +92,7 @@ show_toon() {
     -o "$OUT/blocks-toon-set" --views 48 --size 224x224 --spp 4 -q
   step "toon: encode" "$OUT/blocks-toon.rso" "$BIN/rs-encode" build "$OUT/blocks-toon-set" -o "$OUT/blocks-toon.rso" -q
   step "toon: in the shop" "$OUT/showroom-toon.png" "$BIN/rs-view" render "$world/showroom.wrl" --viewpoint table \
-    --object "$OUT/blocks-toon.rso@-1.3,0.8,4.05,-10,0.15" --size 800x450 -o "$OUT/showroom-toon.png"
+    --object "$OUT/blocks-toon.rso@-0.82,0.8,4.1,-10,0.11" --size 800x450 -o "$OUT/showroom-toon.png"
 }
 
 # show_room: images of the shop and the museum, and the walk through both.
