@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <map>
-#include <tuple>
 #include <utility>
 
 namespace rs::compositor {
@@ -48,16 +49,20 @@ BoundingBox bounds_of(const Mesh& mesh) {
 
 bool is_closed(const Mesh& mesh) {
     if (mesh.topology != Topology::kTriangles) return false;
-    const auto before = [](const glm::vec3& a, const glm::vec3& b) {
-        return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-    };
-    std::map<glm::vec3, int, decltype(before)> corners(before);
+    // Corners closer than this share a cell of the grid, but for the few that its borders separate.
+    constexpr double kCellOfSize = 1e-5;
+    const BoundingBox box = bounds_of(mesh);
+    const glm::dvec3 size = box.highest - box.lowest;
+    const double cell = std::max({size.x, size.y, size.z}) * kCellOfSize;
+    if (box.empty() || !(cell > 0)) return false;
+    std::map<std::array<std::int64_t, 3>, int> corners;
     std::map<std::pair<int, int>, int> edges;  // uses in the order of the pair, less those in the other order
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         std::array<int, 3> triangle{};
         for (std::size_t k = 0; k < 3; ++k) {
-            const glm::vec3& position = mesh.vertices[mesh.indices[i + k]].position;
-            triangle[k] = corners.try_emplace(position, static_cast<int>(corners.size())).first->second;
+            const glm::dvec3 at = (glm::dvec3(mesh.vertices[mesh.indices[i + k]].position) - box.lowest) / cell;
+            const std::array<std::int64_t, 3> key{std::llround(at.x), std::llround(at.y), std::llround(at.z)};
+            triangle[k] = corners.try_emplace(key, static_cast<int>(corners.size())).first->second;
         }
         if (triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0]) continue;
         for (std::size_t k = 0; k < 3; ++k) {

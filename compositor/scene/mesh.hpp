@@ -39,7 +39,8 @@ struct BoundingBox {
 };
 BoundingBox bounds_of(const Mesh& mesh);
 
-/// True for triangle meshes that enclose a volume: each edge, by the positions of its corners, has two triangles.
+/// True for triangle meshes that enclose a volume: each edge has two triangles. Corners at the same
+/// position, within 1e-5 of the mesh's size, are one.
 bool is_closed(const Mesh& mesh);
 
 /// True if the normals of a triangle point to its back: the sum of its corners' normals against its winding.
