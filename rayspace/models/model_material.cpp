@@ -127,15 +127,26 @@ void read_mtl(const aiMaterial& source, ModelMaterial& material) {
 
 }  // namespace
 
-Result<ModelMaterial> read_model_material(const aiMaterial& source, bool is_gltf, const TextureMean& mean_of) {
+Result<ModelMaterial> read_model_material(const aiMaterial& source, bool gltf, const TextureMean& mean_of) {
     ModelMaterial material;
     material.name = property<aiString>(source, AI_MATKEY_NAME).value_or(aiString("material")).C_Str();
-    if (is_gltf) {
+    if (gltf) {
         RS_TRY(read_gltf(source, mean_of, material));
     } else {
         read_mtl(source, material);
     }
     return material;
+}
+
+bool is_gltf(const std::filesystem::path& file) {
+    const std::string extension = file.extension().string();
+    return extension.size() > 1 && (extension[1] == 'g' || extension[1] == 'G');
+}
+
+glm::vec3 mean_of_codes(std::span<const Rgba8> pixels) {
+    glm::dvec3 sum(0.0);
+    for (const Rgba8& p : pixels) sum += glm::dvec3(p.r, p.g, p.b);
+    return glm::vec3(sum / (255.0 * static_cast<double>(pixels.size())));
 }
 
 std::string decode_uri(const std::string& uri) {

@@ -1,11 +1,16 @@
 #pragma once
 // Converts materials of glTF and MTL, as Assimp reads them, to surfaces for ray tracing. Thread-safe.
 
+#include "rayspace/api/types/image.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/light/surface_properties.hpp"
 
+#include <glm/glm.hpp>
+
+#include <filesystem>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 
 struct aiMaterial;
@@ -34,10 +39,16 @@ struct ModelMaterial {
 /// Mean red, green and blue (0..1) of an image of linear values.
 using TextureMean = std::function<Result<glm::vec3>(const std::string& name)>;
 
-/// \param is_gltf the material is from a glTF file; else from MTL
+/// \param gltf the material is from a glTF file; else from MTL
 /// \param mean_of used for metallic-roughness textures, of which only the mean counts
 /// \return errors of `mean_of` only
-Result<ModelMaterial> read_model_material(const aiMaterial& source, bool is_gltf, const TextureMean& mean_of);
+Result<ModelMaterial> read_model_material(const aiMaterial& source, bool gltf, const TextureMean& mean_of);
+
+/// True for names of glTF and GLB files.
+bool is_gltf(const std::filesystem::path& file);
+
+/// Mean red, green and blue of an image of linear codes, 0..1.
+glm::vec3 mean_of_codes(std::span<const Rgba8> pixels);
 
 /// Decodes the percent-encoding ("%20") of URIs.
 std::string decode_uri(const std::string& uri);

@@ -6,6 +6,7 @@
 #include "capture/tracer/integrator/toon.hpp"
 #include "capture/tracer/integrator/whitted.hpp"
 #include "rayspace/api/types/check.hpp"
+#include "rayspace/base/median.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/image/linear_light.hpp"
 
@@ -15,6 +16,7 @@
 #include <cstddef>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -301,11 +303,7 @@ double Tracer::median_pixel_size(const Camera& camera) const {
         }
     }
     float distance = glm::distance(centre, 0.5F * (scene.lower() + scene.upper()));
-    if (!distances.empty()) {
-        const auto median = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
-        std::ranges::nth_element(distances, median);
-        distance = *median;
-    }
+    if (!distances.empty()) distance = median_of(std::span(distances));
     return static_cast<double>(distance) * static_cast<double>(pixel_rad_of(rays));
 }
 

@@ -100,18 +100,14 @@ Result<glm::vec3> MeshTextures::mean_numbers(const std::string& name) {
             if (!std::filesystem::is_regular_file(path, ignored)) return missing_texture(path, file_);
             return read_image(path);
         }));
-    glm::dvec3 sum(0.0);
-    for (const Rgba8& p : codes.pixels()) sum += glm::dvec3(p.r, p.g, p.b);
-    return glm::vec3(sum / (255.0 * static_cast<double>(codes.pixels().size())));
+    return mean_of_codes(codes.pixels());
 }
 
 Status convert_materials(const aiScene& source, const std::filesystem::path& file, Scene& scene) {
     MeshTextures textures(source, file, scene.textures);
-    const std::string extension = file.extension().string();
-    const bool is_gltf = extension.size() >= 2 && (extension[1] == 'g' || extension[1] == 'G');
     for (unsigned i = 0; i < source.mNumMaterials; ++i) {
         RS_ASSIGN_OR_RETURN(const ModelMaterial read,
-                            read_model_material(*source.mMaterials[i], is_gltf,
+                            read_model_material(*source.mMaterials[i], is_gltf(file),
                                                 [&](const std::string& name) { return textures.mean_numbers(name); }));
         Material material;
         material.name = read.name;

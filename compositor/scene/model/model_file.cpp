@@ -7,6 +7,7 @@
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "rayspace/models/model_files.hpp"
+#include "rayspace/models/model_material.hpp"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -146,10 +147,8 @@ Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
     ModelParts parts;
     Scene& scene = parts.scene;
     scene.lights.clear();
-    const std::string extension = path.extension().string();
-    const bool is_gltf = extension.size() > 1 && (extension[1] == 'g' || extension[1] == 'G');
     bool has_meshes = true;
-    if (is_gltf) {
+    if (is_gltf(path)) {
         RS_ASSIGN_OR_RETURN(const model::GltfContents contents, model::read_gltf_nodes(bytes, path, scene));
         has_meshes = contents.has_meshes;
     }
@@ -171,7 +170,7 @@ Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
                                         ": cannot be read: " + single_line_error(importer.GetErrorString()) +
                                         "; export it again";
             // Scenes of objects alone are valid, but Assimp rejects files without meshes.
-            if (is_gltf && !scene.objects.empty() && !has_meshes) return parts;
+            if (is_gltf(path) && !scene.objects.empty() && !has_meshes) return parts;
             return Error{message};
         }
         model::ModelMaterials materials(*model, path);

@@ -127,14 +127,9 @@ MaterialWithSides ModelMaterials::convert(const aiMaterial& source) {
 void ModelMaterials::add_surface(const aiMaterial& source, Material& material) {
     const auto mean_of = [&](const std::string& name) -> Result<glm::vec3> {
         const auto read = image(name, true, true);
-        if (!read) return glm::vec3(1);
-        glm::dvec3 sum(0);
-        for (const Rgba8& p : read->image.pixels()) sum += glm::dvec3(p.r, p.g, p.b);
-        return glm::vec3(sum / (255.0 * static_cast<double>(read->image.pixels().size())));
+        return read ? mean_of_codes(read->image.pixels()) : glm::vec3(1);
     };
-    const std::string extension = file_.extension().string();
-    const bool is_gltf = extension.size() > 1 && (extension[1] == 'g' || extension[1] == 'G');
-    const Result<ModelMaterial> read = read_model_material(source, is_gltf, mean_of);
+    const Result<ModelMaterial> read = read_model_material(source, is_gltf(file_), mean_of);
     if (!read || !material.lit) return;
     material.surface = read->surface;
     if (read->emission && read->surface.emission != glm::vec3(0)) {
