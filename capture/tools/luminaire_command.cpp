@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace rs::capture {
 namespace {
@@ -28,10 +29,20 @@ const char* name_of(Goniometer type) {
 }
 
 struct Spreads {
+    const char* side;  // "", or the side of a direct-indirect luminaire
     BeamSpread across, along;
 };
 
-nlohmann::ordered_json json_of(const Luminaire& lamp, const Spreads& spreads) {
+// Spreads of the whole luminaire, or of each side of a direct-indirect one.
+std::vector<Spreads> spreads_of(const PhotometricWeb& web) {
+    const auto spreads = [&](const char* side, BeamPart part) {
+        return Spreads{side, beam_spread(web, 0, part), beam_spread(web, 90, part)};
+    };
+    if (!is_direct_indirect(web)) return {spreads("", BeamPart::kWhole)};
+    return {spreads("down", BeamPart::kTowardsAim), spreads("up", BeamPart::kOpposite)};
+}
+
+nlohmann::ordered_json json_of(const Luminaire& lamp, const std::vector<Spreads>& spreads) {
     nlohmann::ordered_json json;
     json["format"] = lamp.format;
     json["photometry"] = name_of(lamp.type);
@@ -42,8 +53,11 @@ nlohmann::ordered_json json_of(const Luminaire& lamp, const Spreads& spreads) {
     const auto spread = [](const BeamSpread& s) {
         return nlohmann::ordered_json{{"beam_deg", degrees(s.beam_rad)}, {"field_deg", degrees(s.field_rad)}};
     };
-    json["plane_0_180"] = spread(spreads.across);
-    json["plane_90_270"] = spread(spreads.along);
+    json["plane_0_180"] = spread(spreads.front().across);
+    json["plane_90_270"] = spread(spreads.front().along);
+    if (spreads.size() > 1) {
+        json["up"] = {{"plane_0_180", spread(spreads.back().across)}, {"plane_90_270", spread(spreads.back().along)}};
+    }
     json["lamps"] = lamp.lamps;
     json["lumens_per_lamp"] =
         lamp.lumens_per_lamp < 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(lamp.lumens_per_lamp);
@@ -75,10 +89,16 @@ std::string lumens_line(const Luminaire& lamp) {
     return line;
 }
 
-PolarPlot plot_of(const Luminaire& lamp, const Spreads& spreads, const std::string& title) {
+std::string label(const Spreads& part) {
+    return *part.side == '\0' ? "" : std::string(" ") + part.side;
+}
+
+PolarPlot plot_of(const Luminaire& lamp, const std::vector<Spreads>& spreads, const std::string& title) {
     PolarPlot plot{title, "cd", {lumens_line(lamp)}, {}, 560};
-    plot.notes.push_back("beam " + one_decimal(degrees(spreads.across.beam_rad)) + "\xC2\xB0 x " +
-                         one_decimal(degrees(spreads.along.beam_rad)) + "\xC2\xB0");
+    for (const Spreads& part : spreads) {
+        plot.notes.push_back("beam " + one_decimal(degrees(part.across.beam_rad)) + "\xC2\xB0 x " +
+                             one_decimal(degrees(part.along.beam_rad)) + "\xC2\xB0" + label(part));
+    }
     for (const int plane : {0, 90}) {
         PolarCurve curve{"plane " + std::to_string(plane) + "-" + std::to_string(plane + 180), {}, {}};
         for (int step = -720; step <= 720; ++step) {
@@ -93,7 +113,7 @@ PolarPlot plot_of(const Luminaire& lamp, const Spreads& spreads, const std::stri
 Status run_luminaire(const LuminaireCommandLine& given) {
     if (Status kept = refuse_overwriting_inputs(given.plot, {given.file}); !kept) return kept;
     RS_ASSIGN_OR_RETURN(const Luminaire lamp, read_luminaire(given.file));
-    const Spreads spreads{beam_spread(lamp.web, 0), beam_spread(lamp.web, 90)};
+    const std::vector<Spreads> spreads = spreads_of(lamp.web);
     const std::string title = title_of(lamp, given.file);
     if (!given.plot.empty()) {
         if (Status written = write_file(given.plot, draw_standalone_svg(plot_of(lamp, spreads, title))); !written) {
@@ -107,9 +127,11 @@ Status run_luminaire(const LuminaireCommandLine& given) {
     std::printf("%s: %s, type %s: %s\n", given.file.string().c_str(), lamp.format.c_str(), name_of(lamp.type),
                 title.c_str());
     std::printf("  %s; by zones %.2f lm\n", lumens_line(lamp).c_str(), lamp.web.zonal_lumens());
-    std::printf("  beam %.1f x %.1f degrees, field %.1f x %.1f (planes 0-180, 90-270)\n",
-                degrees(spreads.across.beam_rad), degrees(spreads.along.beam_rad), degrees(spreads.across.field_rad),
-                degrees(spreads.along.field_rad));
+    for (const Spreads& part : spreads) {
+        std::printf("  beam%s %.1f x %.1f degrees, field %.1f x %.1f (planes 0-180, 90-270)\n", label(part).c_str(),
+                    degrees(part.across.beam_rad), degrees(part.along.beam_rad), degrees(part.across.field_rad),
+                    degrees(part.along.field_rad));
+    }
     std::printf("  opening: %s, %.3f x %.3f x %.3f m\n", name_of(lamp.opening.shape), lamp.opening.across_m,
                 lamp.opening.along_m, lamp.opening.height_m);
     return {};

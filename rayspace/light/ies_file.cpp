@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <optional>
 #include <tuple>
@@ -33,11 +34,24 @@ constexpr std::array kEditions = {
 };
 constexpr EditionName kFirstEdition{"", Edition::k1986, "LM-63-1986"};  // no identification line
 
+// Upper-case text without spaces: editors and tools write "IESNA: LM-63-2002" and "tilt = none".
+std::string compact(std::string_view line) {
+    std::string text = utf8_text(line);
+    std::erase(text, ' ');
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return text;
+}
+
 const EditionName& edition_of(std::string_view first_line) {
-    const std::string line = utf8_text(first_line);
+    const std::string line = compact(first_line);
     const auto* const found =
         std::ranges::find_if(kEditions, [&](const EditionName& name) { return line.starts_with(name.first_line); });
     return found == kEditions.end() ? kFirstEdition : *found;
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    return text.substr(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
 }
 
 // Parses "[KEYWORD] text"; [MORE] continues the previous line.
@@ -146,13 +160,17 @@ Result<Header> read_header(NumberStream& numbers) {
 
 // Line that begins with TILT=; labels may contain the word elsewhere.
 std::optional<std::size_t> tilt_line(const std::vector<std::string_view>& lines) {
-    const auto found = std::ranges::find_if(lines, [](std::string_view line) { return line.starts_with("TILT="); });
+    const auto found =
+        std::ranges::find_if(lines, [](std::string_view line) { return compact(line).starts_with("TILT="); });
     if (found == lines.end()) return std::nullopt;
     return static_cast<std::size_t>(found - lines.begin());
 }
 
+// Value of TILT: the words NONE and INCLUDE in upper case, names as written.
 std::string tilt_word(std::string_view line) {
-    return utf8_text(line.substr(std::string_view("TILT=").size()));
+    const std::string word = utf8_text(line.substr(line.find('=') + 1));
+    const std::string upper = compact(word);
+    return upper == "NONE" || upper == "INCLUDE" ? upper : word;
 }
 
 Error line_error(const std::string& name, std::size_t line, const std::string& problem) {
@@ -162,13 +180,16 @@ Error line_error(const std::string& name, std::size_t line, const std::string& p
 }  // namespace
 
 Result<Luminaire> parse_ies(std::string_view text, const std::string& name) {
-    const std::vector<std::string_view> lines = split_lines(text);
+    const std::vector<std::string_view> lines = split_lines(without_byte_order_mark(text));
     const auto tilt_at = tilt_line(lines);
     if (!tilt_at) return Error{name + ": no line begins with TILT=; use an IES file (LM-63)"};
     Luminaire luminaire;
-    const EditionName& edition = edition_of(lines.front());
+    // Editors leave blank lines at the beginning.
+    const auto first = std::ranges::find_if(lines, [](std::string_view line) { return !utf8_text(line).empty(); });
+    const auto first_at = static_cast<std::size_t>(first - lines.begin());
+    const EditionName& edition = edition_of(*first);
     luminaire.format = edition.format;
-    for (std::size_t i = edition.edition == Edition::k1986 ? 0 : 1; i < *tilt_at; ++i) {
+    for (std::size_t i = edition.edition == Edition::k1986 ? first_at : first_at + 1; i < *tilt_at; ++i) {
         add_keyword(lines[i], luminaire.keywords);
     }
     NumberStream numbers(name, lines, *tilt_at + 1);

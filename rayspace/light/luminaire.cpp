@@ -36,21 +36,37 @@ double candela_in_plane(const PhotometricWeb& web, double horizontal_deg, double
     return web.candela({across * std::cos(h), -std::cos(angle_rad), -across * std::sin(h)});
 }
 
-BeamSpread beam_spread(const PhotometricWeb& web, double horizontal_deg) {
-    constexpr int kSteps = 18000;  // 0.01 degrees
-    const auto angle = [](int step) { return kPi * step / kSteps; };
+BeamSpread beam_spread(const PhotometricWeb& web, double horizontal_deg, BeamPart part) {
+    constexpr double kStep_rad = kPi / 18000;  // 0.01 degrees
+    const int steps = part == BeamPart::kWhole ? 18000 : 9000;
+    const auto candela = [&](int step) {
+        const double angle = kStep_rad * step;
+        return candela_in_plane(web, horizontal_deg, part == BeamPart::kOpposite ? kPi - angle : angle);
+    };
     double peak = 0;
-    for (int step = -kSteps; step <= kSteps; ++step) {
-        peak = std::max(peak, candela_in_plane(web, horizontal_deg, angle(step)));
-    }
+    for (int step = -steps; step <= steps; ++step) peak = std::max(peak, candela(step));
     const auto spread = [&](double share) {
         if (!(peak > 0)) return 0.0;
-        int low = -kSteps, high = kSteps;
-        while (low < 0 && candela_in_plane(web, horizontal_deg, angle(low)) < share * peak) ++low;
-        while (high > 0 && candela_in_plane(web, horizontal_deg, angle(high)) < share * peak) --high;
-        return angle(high) - angle(low);
+        int low = -steps, high = steps;
+        while (low < 0 && candela(low) < share * peak) ++low;
+        while (high > 0 && candela(high) < share * peak) --high;
+        return kStep_rad * (high - low);
     };
     return {spread(0.5), spread(0.1)};
+}
+
+bool is_direct_indirect(const PhotometricWeb& web) {
+    constexpr int kPolarSteps = 180, kAzimuthSteps = 72;
+    double down = 0, up = 0;
+    for (int polar = 0; polar < kPolarSteps; ++polar) {
+        const double angle = kPi * (polar + 0.5) / kPolarSteps;
+        double ring = 0;
+        for (int step = 0; step < kAzimuthSteps; ++step) {
+            ring += candela_in_plane(web, 360.0 * step / kAzimuthSteps, angle);
+        }
+        (2 * polar < kPolarSteps ? down : up) += ring * std::sin(angle);
+    }
+    return std::min(down, up) >= 0.1 * (down + up);
 }
 
 }  // namespace rs

@@ -77,8 +77,15 @@ struct BeamSpread {
     double beam_rad = 0;
     double field_rad = 0;
 };
-/// Beam spread in the plane through the aim at `horizontal_deg` (0: planes C0 and C180).
-BeamSpread beam_spread(const PhotometricWeb& web, double horizontal_deg);
+/// Part of the sphere whose maximum and directions count: up to 180 or 90 degrees from the aim, or beyond 90 degrees.
+enum class BeamPart { kWhole, kTowardsAim, kOpposite };
+/// Beam spread in the plane through the aim at `horizontal_deg` (0: planes C0 and C180), measured from the aim; for
+/// kOpposite from the opposite direction.
+BeamSpread beam_spread(const PhotometricWeb& web, double horizontal_deg, BeamPart part = BeamPart::kWhole);
+
+/// True for direct-indirect luminaires: each side of the horizontal plane gets at least a tenth of the flux (CIE's
+/// limit between direct and semi-direct luminaires). Their beams are stated for each side.
+bool is_direct_indirect(const PhotometricWeb& web);
 
 /// Intensity in candela in the same plane at `angle_rad` from the aim; negative angles are on the opposite side.
 double candela_in_plane(const PhotometricWeb& web, double horizontal_deg, double angle_rad);

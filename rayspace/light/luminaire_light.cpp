@@ -68,8 +68,11 @@ public:
         Light spot = point_light(light.location, light.colour * static_cast<float>(strength(light)));
         spot.kind = LightKind::kSpot;
         spot.towards = axis(light);
-        const BeamSpread across = beam_spread(light.luminaire->web, 0);
-        const BeamSpread along = beam_spread(light.luminaire->web, 90);
+        // A spot has one side: light to the opposite one is lost.
+        const PhotometricWeb& web = light.luminaire->web;
+        const BeamPart part = is_direct_indirect(web) ? BeamPart::kTowardsAim : BeamPart::kWhole;
+        const BeamSpread across = beam_spread(web, 0, part);
+        const BeamSpread along = beam_spread(web, 90, part);
         // Linear falloff: half the intensity half-way from the axis to the cut-off.
         const double half_beam = std::clamp(0.25 * (across.beam_rad + along.beam_rad), 0.01, kPi / 4);
         spot.beam_width_rad = 0;

@@ -34,6 +34,21 @@ TEST(IesFile, NumbersMayBeWrappedAnywhereAndFactorsAreAllTaken) {
     EXPECT_EQ(read->input_w, 60);
 }
 
+TEST(IesFile, SpacesCaseBlankLinesAndByteOrderMarksOfEditorsAreAccepted) {
+    for (const std::string head : {"\xEF\xBB\xBFIESNA:LM-63-2002\n", "\n  \nIESNA:LM-63-2002\n", "IESNA: LM-63-2002\n",
+                                   "iesna : lm-63-2002 \n"}) {
+        for (const std::string tilt : {"TILT=NONE", " tilt = none ", "TILT = NONE"}) {
+            const auto read = parse_ies(head + "[TEST] 1\n" + tilt + kNumbers, "a.ies");
+            ASSERT_TRUE(read) << head << tilt << read.error().message;
+            EXPECT_EQ(read->format, "LM-63-2002") << head;
+            EXPECT_EQ(read->keywords.size(), 1U) << head;
+        }
+    }
+    const auto broken = parse_ies("\n\nIESNA:LM-63-2002\nTILT=NONE\n1 x", "a.ies");
+    ASSERT_FALSE(broken);
+    EXPECT_NE(broken.error().message.find("line 5"), std::string::npos) << broken.error().message;
+}
+
 TEST(IesFile, TiltStandsInTheFileOrBesideIt) {
     const std::string table = "\n1\n3 0 45\n90\n1 .9 .7\n";
     const auto included = parse_ies(kHead + "TILT=INCLUDE" + table + kNumbers.substr(2), "a.ies");
@@ -177,6 +192,18 @@ TEST(Luminaire, SpreadIsBetweenTheOutermostDirectionsOfHalfTheIntensity) {
     const BeamSpread spread = beam_spread(read->web, 0);
     EXPECT_NEAR(degrees(spread.beam_rad), 60, 0.03);
     EXPECT_NEAR(degrees(spread.field_rad), 76, 0.03);
+}
+
+TEST(Luminaire, SpreadOfDirectIndirectOnesIsOfEachSide) {
+    const std::string lambertian = "1000 500 0 300 600";  // at 0, 60, 90, 120, 180 degrees
+    const auto read = parse_ies("TILT=NONE\n1 -1 1 5 1 1 2 0 0 0 1 1 9\n0 60 90 120 180\n0\n" + lambertian, "a.ies");
+    ASSERT_TRUE(read);
+    EXPECT_TRUE(is_direct_indirect(read->web));
+    EXPECT_NEAR(degrees(beam_spread(read->web, 0, BeamPart::kTowardsAim).beam_rad), 120, 0.03);
+    EXPECT_NEAR(degrees(beam_spread(read->web, 0, BeamPart::kOpposite).beam_rad), 120, 0.03);
+    const auto down = parse_ies("TILT=NONE\n1 -1 1 4 1 1 2 0 0 0 1 1 9\n0 60 90 180\n0\n1000 500 50 0", "a.ies");
+    ASSERT_TRUE(down);
+    EXPECT_FALSE(is_direct_indirect(down->web));
 }
 
 TEST(LuminaireRealData, LumensAreThoseOfAnIndependentProgram) {
