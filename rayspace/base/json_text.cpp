@@ -1,5 +1,6 @@
 #include "rayspace/base/json_text.hpp"
 
+#include "rayspace/base/nearest_name.hpp"
 #include "rayspace/base/printable.hpp"
 
 #include <algorithm>
@@ -231,7 +232,9 @@ void JsonObject::expect_no_unknown_keys() const {
         if (taken_.contains(name)) continue;
         std::string known;
         for (const std::string& key : known_) known += (known.empty() ? "" : ", ") + key;
-        throw wrong("has a key '" + name + "' that means nothing here; it may have: " + known);
+        const std::vector<std::string> names(known_.begin(), known_.end());
+        throw wrong("has a key '" + name + "' that means nothing here; it may have: " + known +
+                    suggestion(name, names));
     }
 }
 

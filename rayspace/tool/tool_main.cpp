@@ -1,6 +1,7 @@
 #include "rayspace/tool/tool_main.hpp"
 
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/nearest_name.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/input_file.hpp"
 #include "rayspace/file/temporary.hpp"
@@ -17,6 +18,7 @@
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 namespace rs {
 namespace {
@@ -95,14 +97,30 @@ int fail(const CLI::App& app, const std::string& message) {
     return kExitFailed;
 }
 
+// The tool and the subcommands that were parsed, outermost first.
+std::vector<const CLI::App*> parsed_commands(const CLI::App& app) {
+    std::vector<const CLI::App*> commands = {&app};
+    while (!commands.back()->get_subcommands().empty()) commands.push_back(commands.back()->get_subcommands().front());
+    return commands;
+}
+
 // Help option of the subcommand that was parsed, such as "rs-xxx render --help".
 std::string help_command(const CLI::App& app) {
-    std::string command = app.get_name();
-    for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
-        at = at->get_subcommands().front();
-        command += " " + at->get_name();
+    std::string command;
+    for (const CLI::App* at : parsed_commands(app)) command += at->get_name() + " ";
+    return command + "--help";
+}
+
+// Suggestion for the first unknown option of the subcommand that was parsed.
+std::string option_suggestion(const CLI::App& app) {
+    std::vector<std::string> known;
+    for (const CLI::Option* option : parsed_commands(app).back()->get_options()) {
+        for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
     }
-    return command + " --help";
+    for (const std::string& word : app.remaining(true)) {
+        if (word.starts_with("--")) return suggestion(word.substr(0, word.find('=')), known);
+    }
+    return "";
 }
 
 // Removes a number from the front of `text`; false if it is not a finite number.
@@ -129,7 +147,8 @@ int tool_main(CLI::App& app, int argc, char** argv, std::function<Status()>& run
     } catch (const CLI::Success& wanted) {  // --help, --version
         return app.exit(wanted);
     } catch (const CLI::ParseError& wrong) {
-        std::fprintf(stderr, "%s: %s; see '%s'\n", app.get_name().c_str(), printable(folded(wrong.what())).c_str(),
+        const std::string problem = folded(wrong.what()) + option_suggestion(app);
+        std::fprintf(stderr, "%s: %s; see '%s'\n", app.get_name().c_str(), printable(problem).c_str(),
                      help_command(app).c_str());
         return kExitUsage;
     }

@@ -205,7 +205,8 @@ TEST_F(SceneFileTest, WrongRoomsAreErrorsThatNameThePlace) {
 
 TEST_F(SceneFileTest, UnknownKeysAreErrorsThatNameThem) {
     EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "camra": {}})"),
-                HasSubstr("has a key 'camra' that means nothing here; it may have: "));
+                AllOf(HasSubstr("has a key 'camra' that means nothing here; it may have: "),
+                      HasSubstr("; did you mean 'camera'?")));
     EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj", "colour": 1}})"),
                 HasSubstr("object: has a key 'colour' that means nothing here; it may have: "));
     EXPECT_THAT(error(R"({"object": {"mesh": "bare.obj"}, "camera": {"fov": 1}})"),
