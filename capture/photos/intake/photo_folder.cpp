@@ -133,6 +133,12 @@ void set_reduction(PhotoFolder& found, int max_side_px) {
     found.height = whole(found.height);
 }
 
+// The name up to its first number: "angle_-" of "angle_-30.jpg".
+std::string before_number(const std::filesystem::path& photo) {
+    const std::string name = photo.filename().string();
+    return {name.begin(), std::ranges::find_if(name, [](char c) { return is_digit(c); })};
+}
+
 }  // namespace
 
 bool natural_less(std::string_view a, std::string_view b) {
@@ -152,6 +158,24 @@ bool natural_less(std::string_view a, std::string_view b) {
     }
     if (i < a.size() || j < b.size()) return i == a.size();
     return a < b;
+}
+
+void sort_photos(std::vector<std::filesystem::path>& photos) {
+    const auto less = [](const std::filesystem::path& a, const std::filesystem::path& b) {
+        return natural_less(a.filename().string(), b.filename().string());
+    };
+    std::sort(photos.begin(), photos.end(), less);
+    // A minus is a sign, not a separator, if the names differ only by it.
+    const auto has_minus = [](const std::filesystem::path& photo) { return before_number(photo).ends_with('-'); };
+    const auto unsigned_photo = std::ranges::find_if_not(photos, has_minus);
+    if (unsigned_photo == photos.end()) return;
+    const std::string start = before_number(*unsigned_photo);
+    const bool one_series = std::ranges::all_of(photos, [&](const std::filesystem::path& photo) {
+        return before_number(photo) == start || before_number(photo) == start + '-';
+    });
+    if (!one_series) return;
+    const auto positive = std::stable_partition(photos.begin(), photos.end(), has_minus);
+    std::reverse(photos.begin(), positive);
 }
 
 bool is_image_name(const std::filesystem::path& name) {
@@ -203,8 +227,7 @@ Result<PhotoFolder> open_photo_folder(const std::filesystem::path& folder, int m
                      ": holds no images; give a folder of PNG, JPEG, TIFF, WebP or HEIC "
                      "files (a camera's raw files must be developed first)"};
     }
-    std::sort(found.photos.begin(), found.photos.end(),
-              [](const auto& a, const auto& b) { return natural_less(a.filename().string(), b.filename().string()); });
+    sort_photos(found.photos);
     keep_one_format(found);
     if (found.photos.size() > static_cast<std::size_t>(kMaxViews)) {
         return Error{folder.string() + ": holds " + std::to_string(found.photos.size()) + " images; at most " +

@@ -27,6 +27,10 @@ namespace rs::capture {
 /// compared by their bytes.
 bool natural_less(std::string_view a, std::string_view b);
 
+/// Sorts by natural_less(), and signed angles by value: if some names have a minus before their first number and others
+/// do not ("-10" ... "0" ... "10"), those with a minus come first, in descending order of the number.
+void sort_photos(std::vector<std::filesystem::path>& photos);
+
 /// True if the name has the extension of an image file: .png .jpg .jpeg .tif .tiff .webp .heic .heif .avif .bmp .exr
 /// .hdr .tga .ppm, in any case.
 bool is_image_name(const std::filesystem::path& name);

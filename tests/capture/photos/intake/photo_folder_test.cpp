@@ -30,6 +30,19 @@ std::vector<std::string> sorted(std::vector<std::string> names) {
     return names;
 }
 
+TEST(PhotoOrder, AnglesWithASignAreSortedByValue) {
+    const auto in_order = [](std::vector<std::filesystem::path> names) {
+        sort_photos(names);
+        return names;
+    };
+    using Names = std::vector<std::filesystem::path>;
+    EXPECT_EQ(in_order({"a_10.jpg", "a_-5.jpg", "a_0.jpg", "a_-20.jpg", "a_5.jpg"}),
+              (Names{"a_-20.jpg", "a_-5.jpg", "a_0.jpg", "a_5.jpg", "a_10.jpg"}));
+    EXPECT_EQ(in_order({"0.png", "-1.png", "1.png"}), (Names{"-1.png", "0.png", "1.png"}));
+    EXPECT_EQ(in_order({"img_2.jpg", "img_1.jpg", "zoom-3.jpg"}), (Names{"img_1.jpg", "img_2.jpg", "zoom-3.jpg"}));
+    EXPECT_EQ(in_order({"img-10.jpg", "img-9.jpg", "img-1.jpg"}), (Names{"img-1.jpg", "img-9.jpg", "img-10.jpg"}));
+}
+
 TEST(NaturalOrder, CountsAsPeopleDo) {
     EXPECT_THAT(sorted({"10.png", "2.png", "1.png"}), ElementsAre("1.png", "2.png", "10.png"));
     EXPECT_THAT(sorted({"v010.png", "v002.png", "v001.png"}), ElementsAre("v001.png", "v002.png", "v010.png"));
