@@ -89,7 +89,7 @@ Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& opti
     for (std::size_t i = 0; i < rig.views.size(); ++i) {
         Result<CapturedView> view = captured_view(rig.views[i].camera, options.map.planes);
         if (!view) {
-            return Error{(set.folder / kRigFileName).string() + ": the camera of frame " + std::to_string(i) +
+            return Error{set.file.string() + ": the camera of frame " + std::to_string(i) +
                          " cannot be stored: " + view.error().message};
         }
         object.views.push_back(std::move(*view));

@@ -1,8 +1,11 @@
 #include "encode/set/capture_set.hpp"
 
+#include "encode/set/set_checks.hpp"
 #include "encode/set/upright_resampling.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/parallel.hpp"
+#include "rayspace/base/printable.hpp"
+#include "rayspace/file/file_reference.hpp"
 #include "rayspace/geometry/ray_space.hpp"
 #include "rayspace/image_io/image_io.hpp"
 
@@ -18,7 +21,26 @@
 namespace rs::encode {
 namespace {
 
-constexpr double kSteepestPitch_rad = radians(60);
+// Multiplies alpha by the mask's luma: white is the object, as in nerfstudio's data.
+Status apply_mask(const CaptureSet& set, const RigView& view, Image<Rgba8>& image) {
+    const std::string reference = mask_path(view);
+    if (reference.empty()) return {};
+    const auto path = resolve_reference(reference, set.folder);
+    if (!path) return Error{set.file.string() + ": mask_path '" + printable(reference) + "' is not a local file"};
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> mask, read_image(*path));
+    if (mask.width() != image.width() || mask.height() != image.height()) {
+        return Error{path->string() + ": is " + std::to_string(mask.width()) + "x" + std::to_string(mask.height()) +
+                     " pixels, its image " + std::to_string(image.width()) + "x" + std::to_string(image.height()) +
+                     "; make them agree"};
+    }
+    for (std::size_t i = 0; i < image.pixels().size(); ++i) {
+        const Rgba8& m = mask.pixels()[i];
+        const int luma = (m.r + 2 * m.g + m.b + 2) / 4;
+        std::uint8_t& alpha = image.pixels()[i].a;
+        alpha = static_cast<std::uint8_t>((alpha * luma + 127) / 255);
+    }
+    return {};
+}
 
 Result<Image<Rgba8>> read_captured_image(const CaptureSet& set, int view) {
     const RigView& captured = set.captured.views[static_cast<std::size_t>(view)];
@@ -27,48 +49,12 @@ Result<Image<Rgba8>> read_captured_image(const CaptureSet& set, int view) {
     if (!image) return image;
     if (image->width() != captured.camera.width || image->height() != captured.camera.height) {
         return Error{path.string() + ": is " + std::to_string(image->width()) + "x" + std::to_string(image->height()) +
-                     " pixels, but its frame in " + kRigFileName + " states " + std::to_string(captured.camera.width) +
-                     "x" + std::to_string(captured.camera.height) + "; make them agree"};
+                     " pixels, but its frame in " + set.file.filename().string() + " states " +
+                     std::to_string(captured.camera.width) + "x" + std::to_string(captured.camera.height) +
+                     "; make them agree"};
     }
+    RS_TRY(apply_mask(set, captured, *image));
     return image;
-}
-
-// The first distortion parameter that is not 0, by the key names of NeRF tools; empty if there is none. Images of an
-// object must be undistorted.
-std::string distortion_in(const nlohmann::json& extras) {
-    for (const char* key : {"k1", "k2", "k3", "k4", "p1", "p2"}) {
-        const auto found = extras.find(key);
-        if (found != extras.end() && found->is_number() && found->get<double>() != 0) return key;
-    }
-    return "";
-}
-
-Status check_views(const CaptureSet& set) {
-    const std::string where = (set.folder / kRigFileName).string();
-    if (set.captured.views.empty()) return Error{where + ": has no frames; a capture set needs at least one image"};
-    const Camera& first = set.captured.views.front().camera;
-    for (std::size_t i = 0; i < set.captured.views.size(); ++i) {
-        const RigView& view = set.captured.views[i];
-        const std::filesystem::path path = image_path(set.folder, view);
-        if (view.camera.width != first.width || view.camera.height != first.height) {
-            return Error{path.string() + ": is " + std::to_string(view.camera.width) + "x" +
-                         std::to_string(view.camera.height) + " pixels, but the first image is " +
-                         std::to_string(first.width) + "x" + std::to_string(first.height) +
-                         "; all images of an object must have one size"};
-        }
-        std::string distortion = distortion_in(set.captured.extras);
-        if (distortion.empty()) distortion = distortion_in(view.extras);
-        if (!distortion.empty()) {
-            return Error{where + ": frame " + std::to_string(i) + " has lens distortion (" + distortion +
-                         " is not 0); undistort the images first"};
-        }
-        if (std::abs(std::asin(std::clamp(view.camera.forward().y, -1.0, 1.0))) > kSteepestPitch_rad) {
-            return Error{
-                where + ": the camera of frame " + std::to_string(i) +
-                " looks up or down by more than 60 degrees; such an image cannot be made upright, leave it out"};
-        }
-    }
-    return {};
 }
 
 // Upright cameras with one focal length; their principal points are set by frame_upright_cameras.
@@ -118,9 +104,8 @@ Status frame_upright_cameras(CaptureSet& set, std::vector<PixelBox>& occupied) {
     const double width = all.x1 + kMargin_px - left;
     const double height = all.y1 + kMargin_px - top;
     if (width > kMaxImageSide_px - 1 || height > kMaxImageSide_px - 1) {
-        return Error{(set.folder / kRigFileName).string() +
-                     ": made upright, the images would be wider or higher than " + std::to_string(kMaxImageSide_px) +
-                     " pixels; crop the images or capture from a lower elevation"};
+        return Error{set.file.string() + ": made upright, the images would be wider or higher than " +
+                     std::to_string(kMaxImageSide_px) + " pixels; crop the images or capture from a lower elevation"};
     }
     // Even sizes, since chroma is stored at half of them.
     const auto even = [](double size) { return 2 * static_cast<int>(std::ceil(size / 2)); };
@@ -158,7 +143,7 @@ Status check_distances(const CaptureSet& set) {
         const glm::dvec3 centre = set.upright.views[i].camera.centre();
         const double distance = std::hypot(centre.x, centre.z);
         if (distance < 1.2 * set.upright.object_radius || glm::length(centre) > 200 * set.upright.object_radius) {
-            return Error{(set.folder / kRigFileName).string() + ": the camera of frame " + std::to_string(i) + " is " +
+            return Error{set.file.string() + ": the camera of frame " + std::to_string(i) + " is " +
                          std::to_string(distance / set.upright.object_radius) + " object radii from the Y axis and " +
                          std::to_string(glm::length(centre) / set.upright.object_radius) +
                          " from the origin, outside of 1.2..200; check object_radius (" +
@@ -173,11 +158,17 @@ Status check_distances(const CaptureSet& set) {
 
 Result<CaptureSet> open_capture_set(const std::filesystem::path& path, Progress* progress) {
     CaptureSet set;
-    set.folder = std::filesystem::is_directory(path) ? path : path.parent_path();
+    set.file = rig_file(path);
+    set.folder = set.file.parent_path();
     RS_ASSIGN_OR_RETURN(Rig rig, read_rig(path));
+    if (convert_opencv_axes(rig)) {
+        set.warnings.push_back(set.file.string() +
+                               ": all cameras look away from the object; their axes are taken as OpenCV's (Y down)");
+    }
+    remove_repeated_frames(rig, set.file, set.warnings);
+    RS_TRY(check_views(rig, set.file));
     set.captured = std::move(rig);
     set.upright = set.captured;
-    RS_TRY(check_views(set));
     set.width = set.captured.views.front().camera.width;
     set.height = set.captured.views.front().camera.height;
     set.resampled = !std::all_of(set.captured.views.begin(), set.captured.views.end(),
@@ -218,8 +209,8 @@ Status check_memory(const CaptureSet& set, std::int64_t memory_bytes) {
         why = " (enlarged from " + std::to_string(captured.width) + "x" + std::to_string(captured.height) +
               " to be upright)";
     }
-    return Error{(set.folder / kRigFileName).string() + ": " + std::to_string(set.upright.views.size()) +
-                 " images of " + std::to_string(set.width) + "x" + std::to_string(set.height) + why + " take about " +
+    return Error{set.file.string() + ": " + std::to_string(set.upright.views.size()) + " images of " +
+                 std::to_string(set.width) + "x" + std::to_string(set.height) + why + " take about " +
                  gigabytes(needed_bytes) + " GB of memory, and this machine has " + gigabytes(memory_bytes) +
                  "; leave out the steepest views, or make the images smaller"};
 }

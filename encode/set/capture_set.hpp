@@ -17,6 +17,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace rs::encode {
 
@@ -24,13 +25,15 @@ namespace rs::encode {
 using CompletedImages = std::map<int, Image<Rgba8>>;
 
 struct CaptureSet {
-    std::filesystem::path folder;
-    Rig captured;  // as read
-    Rig upright;   // cameras of the images returned by read_upright_image; object_radius is set
+    std::filesystem::path file;    // the transforms.json
+    std::filesystem::path folder;  // of `file`
+    Rig captured;                  // as read
+    Rig upright;                   // cameras of the images returned by read_upright_image; object_radius is set
     bool resampled = false;
     int width = 0;  // px, of the upright images
     int height = 0;
-    CompletedImages completed = {};  // returned by read_upright_image() instead of the file's contents
+    CompletedImages completed = {};     // returned by read_upright_image() instead of the file's contents
+    std::vector<std::string> warnings;  // of the checks (set_checks.hpp)
 };
 
 /// Reads transforms.json, computes the upright cameras, and measures the object radius from the silhouettes if the rig

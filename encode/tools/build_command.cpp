@@ -240,6 +240,7 @@ Status run_build(const BuildArguments& arguments) {
     if (options.name.empty()) options.name = name_of(set);
     RS_ASSIGN_OR_RETURN(const std::optional<ImageGoal> goal, parse_goal(arguments.profile));
     options.raw_images = !goal.has_value();
+    for (const std::string& warning : set.warnings) std::cerr << "rs-encode: warning: " << warning << '\n';
     if (set.resampled) std::cerr << "rs-encode: the cameras are pitched; their images are resampled to upright ones\n";
     RS_ASSIGN_OR_RETURN(BuiltObject built, build_object(set, options, &progress));
     BuildSummary summary;

@@ -40,6 +40,11 @@ Status check_input(const fs::path& path) {
     return Error{path.string() + ": cannot be opened: " + std::strerror(errno)};
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    return text.substr(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+}
+
 std::string lower_case_extension(const fs::path& path) {
     std::string extension = path.extension().string();
     std::ranges::transform(extension, extension.begin(),

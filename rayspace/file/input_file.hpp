@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace rs {
 
@@ -14,6 +15,9 @@ Result<int> open_input(const std::filesystem::path& path);
 
 /// The same check, for libraries that open files by name.
 Status check_input(const std::filesystem::path& path);
+
+/// Text without the UTF-8 byte order mark that editors on Windows write.
+std::string_view without_byte_order_mark(std::string_view text);
 
 /// \return ".png" for "a/B.PNG", empty if there is no extension.
 std::string lower_case_extension(const std::filesystem::path& path);

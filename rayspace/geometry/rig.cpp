@@ -2,6 +2,7 @@
 
 #include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/file/file_reference.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,9 +23,13 @@ fs::path image_path(const fs::path& folder, const RigView& view) {
     if (fs::is_regular_file(as_given, ignored)) return as_given;
     fs::path with_extension = as_given;
     with_extension += ".png";
-    // If neither exists, the name that a reader would try, for its error message.
-    if (fs::is_regular_file(with_extension, ignored) || !as_given.has_extension()) return with_extension;
-    return as_given;
+    if (fs::is_regular_file(with_extension, ignored)) return with_extension;
+    for (const char* extension : {"", ".png"}) {
+        const auto resolved = resolve_reference(view.file_path + extension, folder);
+        if (resolved && fs::is_regular_file(*resolved, ignored)) return *resolved;
+    }
+    // If none exists, the name that a reader would try, for its error message.
+    return as_given.has_extension() ? as_given : with_extension;
 }
 
 Rig make_ring(const RingOptions& options) {

@@ -35,6 +35,9 @@ struct Rig {
 
 inline constexpr const char* kRigFileName = "transforms.json";
 
+/// The transforms.json of a folder; other paths unchanged.
+std::filesystem::path rig_file(const std::filesystem::path& path);
+
 /// Reads a rig. Every matrix must be a rigid transform (within 1e-3; scaled rotations are rejected), every size within
 /// the limits of conventions.hpp. A rig without image sizes (no w, h) takes them from the first image's header. Lens
 /// distortion (k1, k2, p1, ...) and other unsupported camera keys stay in `extras`, which callers must check.
@@ -49,8 +52,8 @@ Status write_rig(const std::filesystem::path& transforms_json, const Rig& rig);
 Result<Rig> rig_from_json(const std::string& text, const std::string& where);
 std::string rig_to_json(const Rig& rig);
 
-/// The path of a view's image: file_path under `folder`, with ".png" added if the given name does not exist (and, if
-/// neither exists, if it has no extension).
+/// The path of a view's image: file_path under `folder`, or with ".png" added, resolved as file_reference.hpp says. If
+/// none exists, ".png" is added if it has no extension.
 std::filesystem::path image_path(const std::filesystem::path& folder, const RigView& view);
 
 /// Options of a ring of cameras about Y, directed at the target (0, look_at_height, 0) from `distance`, `elevation_rad`

@@ -229,10 +229,20 @@ bool is_utf8(const std::string& text) {
 
 }  // namespace
 
+fs::path rig_file(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_directory(path, ignored) ? path / kRigFileName : path;
+}
+
 Result<Rig> read_rig(const fs::path& path) {
     std::error_code ignored;
-    const fs::path file = fs::is_directory(path, ignored) ? path / kRigFileName : path;
+    const fs::path file = rig_file(path);
     if (!fs::exists(file, ignored)) {
+        // NeRF's data has one file for each use of its images.
+        const fs::path training = path / "transforms_train.json";
+        if (fs::exists(training, ignored)) {
+            return Error{file.string() + ": does not exist; give " + training.string() + ", which does"};
+        }
         return Error{file.string() + ": does not exist; give a capture set's folder or its " + kRigFileName};
     }
     RS_ASSIGN_OR_RETURN(const auto bytes, read_file(file, kMaxRigFile_bytes));

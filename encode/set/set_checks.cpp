@@ -1,0 +1,137 @@
+#include "encode/set/set_checks.hpp"
+
+#include "rayspace/base/conventions.hpp"
+#include "rayspace/base/printable.hpp"
+#include "rayspace/image_io/image_io.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+namespace rs::encode {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::string_view, 7> kPinholeModels = {"PINHOLE", "SIMPLE_PINHOLE", "OPENCV",     "SIMPLE_RADIAL",
+                                                            "RADIAL",  "FULL_OPENCV",    "perspective"};
+// Distortion coefficients by the names of NeRF tools and of COLMAP.
+constexpr std::array kDistortionKeys = {"k", "k1", "k2", "k3", "k4", "k5", "k6", "p1", "p2"};
+constexpr std::array kOtherLensFlags = {"is_fisheye", "latlong", "equirectangular", "is_equirectangular"};
+
+bool is_set(const json& value) {
+    return (value.is_boolean() && value.get<bool>()) || (value.is_number() && value.get<double>() != 0);
+}
+
+// Reason why the lens stated by the keys is not a pinhole without distortion; nullopt if it is one.
+std::optional<std::string> lens_fault(const json& keys) {
+    for (const char* const key : {"camera_model", "camera_type"}) {
+        if (!keys.contains(key) || !keys[key].is_string()) continue;
+        const auto model = keys[key].get<std::string>();
+        if (std::ranges::find(kPinholeModels, model) == kPinholeModels.end()) {
+            return std::string(key) + " is " + printable(model.substr(0, 40)) + ", not a pinhole";
+        }
+    }
+    for (const auto& [key, value] : keys.items()) {
+        if (key.starts_with("ftheta_")) return key + " is not of a pinhole";
+    }
+    for (const char* const key : kOtherLensFlags) {
+        if (keys.contains(key) && is_set(keys[key])) return std::string(key) + " is set, not a pinhole";
+    }
+    for (const char* const key : kDistortionKeys) {
+        if (keys.contains(key) && is_set(keys[key])) return std::string("lens distortion: ") + key + " is not 0";
+    }
+    return std::nullopt;
+}
+
+// Horizontal distance by which the optical axis approaches the Y axis per unit; negative if it looks away.
+double approach(const Camera& camera) {
+    const glm::dvec3 centre = camera.centre();
+    const glm::dvec3 forward = camera.forward();
+    return -(forward.x * centre.x + forward.z * centre.z);
+}
+
+Camera with_opengl_axes(Camera camera) {
+    camera.world_from_camera[1] = -camera.world_from_camera[1];
+    camera.world_from_camera[2] = -camera.world_from_camera[2];
+    return camera;
+}
+
+Status check_alpha(const Rig& rig, const std::filesystem::path& file) {
+    for (const RigView& view : rig.views) {
+        if (!mask_path(view).empty()) return {};
+        // Missing images are reported when they are read.
+        const auto info = read_image_info(image_path(file.parent_path(), view));
+        if (!info || info->has_alpha) return {};
+    }
+    return Error{
+        file.string() +
+        ": its images have no alpha channel, so the object cannot be told from the background; add \"mask_path\" "
+        "to the frames or alpha to the images, or import the photos by rs-capture import"};
+}
+
+}  // namespace
+
+bool convert_opencv_axes(Rig& rig) {
+    const auto looks_away = [](const RigView& view) { return approach(view.camera) < 0; };
+    if (rig.views.size() < 3 || !std::ranges::all_of(rig.views, looks_away)) return false;
+    for (RigView& view : rig.views) view.camera = with_opengl_axes(view.camera);
+    return true;
+}
+
+void remove_repeated_frames(Rig& rig, const std::filesystem::path& file, std::vector<std::string>& warnings) {
+    std::map<std::string, std::size_t> first_of;  // index in `kept`
+    std::vector<RigView> kept;
+    for (std::size_t i = 0; i < rig.views.size(); ++i) {
+        RigView& view = rig.views[i];
+        const auto [known, is_new] = first_of.try_emplace(view.file_path, kept.size());
+        const std::string place = file.string() + ": frame " + std::to_string(i);
+        if (!is_new && kept[known->second].camera.world_from_camera == view.camera.world_from_camera) {
+            warnings.push_back(place + " repeats an earlier one (" + printable(view.file_path) + "); left out");
+            continue;
+        }
+        if (!is_new) {
+            warnings.push_back(place + " has the image of an earlier one (" + printable(view.file_path) +
+                               ") and another camera; correct one of them");
+        }
+        kept.push_back(std::move(view));
+    }
+    rig.views = std::move(kept);
+}
+
+Status check_views(const Rig& rig, const std::filesystem::path& file) {
+    const std::string where = file.string();
+    if (rig.views.empty()) return Error{where + ": has no frames; a capture set needs at least one image"};
+    constexpr const char* kUndistort = "; undistort the images first";
+    if (const auto fault = lens_fault(rig.extras)) return Error{where + ": " + *fault + kUndistort};
+    const Camera& first = rig.views.front().camera;
+    for (std::size_t i = 0; i < rig.views.size(); ++i) {
+        const RigView& view = rig.views[i];
+        if (view.camera.width != first.width || view.camera.height != first.height) {
+            return Error{image_path(file.parent_path(), view).string() + ": is " + std::to_string(view.camera.width) +
+                         "x" + std::to_string(view.camera.height) + " pixels, but the first image is " +
+                         std::to_string(first.width) + "x" + std::to_string(first.height) +
+                         "; all images of an object must have one size"};
+        }
+        if (const auto fault = lens_fault(view.extras)) {
+            return Error{where + ": frame " + std::to_string(i) + ": " + *fault + kUndistort};
+        }
+        if (std::abs(std::asin(std::clamp(view.camera.forward().y, -1.0, 1.0))) > radians(kSteepestPitch_deg)) {
+            return Error{
+                where + ": the camera of frame " + std::to_string(i) +
+                " looks up or down by more than 60 degrees; such an image cannot be made upright, leave it out"};
+        }
+    }
+    return check_alpha(rig, file);
+}
+
+std::string mask_path(const RigView& view) {
+    const auto found = view.extras.find("mask_path");
+    return found != view.extras.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+}  // namespace rs::encode

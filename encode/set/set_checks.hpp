@@ -1,0 +1,33 @@
+#pragma once
+// Checks of capture sets that other tools wrote, before their images are read: lens models, camera axes, alpha and
+// repeated frames.
+
+#include "rayspace/base/result.hpp"
+#include "rayspace/geometry/rig.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rs::encode {
+
+/// Steepest camera that can be made upright.
+inline constexpr double kSteepestPitch_deg = 60;
+
+/// Converts cameras with OpenCV's axes (Y down, Z forward; COLMAP) to OpenGL's, which transforms.json has: if all of
+/// them look away from the Y axis and the converted ones towards it.
+/// \return true if the cameras were converted
+bool convert_opencv_axes(Rig& rig);
+
+/// Removes frames with the image and the camera of an earlier frame, and reports images that several frames share.
+void remove_repeated_frames(Rig& rig, const std::filesystem::path& file, std::vector<std::string>& warnings);
+
+/// \param file the transforms.json, for errors
+/// \return an error if there are no views, sizes differ, a lens is not a pinhole or distorts, a camera is too steep, or
+/// images have neither an alpha channel nor a mask
+Status check_views(const Rig& rig, const std::filesystem::path& file);
+
+/// "mask_path" of a frame; empty if there is none.
+std::string mask_path(const RigView& view);
+
+}  // namespace rs::encode
