@@ -3,6 +3,7 @@
 #include "compositor/scene/vrml/node_conversion.hpp"
 #include "compositor/scene/vrml/shapes.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/file/file_reference.hpp"
 
 #include <algorithm>
 #include <map>
@@ -137,7 +138,7 @@ private:
     void add_object(const Node& node, const TraversalState& state) {
         RaySpaceNode object;
         const std::vector<std::string>& urls = node.field("url").texts;
-        const auto file = urls.empty() ? std::nullopt : local_path(urls.front(), folder());
+        const auto file = urls.empty() ? std::nullopt : resolve_reference(urls.front(), folder());
         if (!file) return warn(node, "has no url of a local file; left out");
         if (!(node.number("size") > 0)) return warn(node, "its size must be above 0; left out");
         if (!state.deviation.empty()) warn(node, state.deviation + "; drawn without");

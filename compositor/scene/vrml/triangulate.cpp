@@ -232,11 +232,35 @@ void map_by_box(Mesh& mesh) {
     }
 }
 
+// Coin draws only the first point of coloured sets.
+std::shared_ptr<const Mesh> point_set(const Node& geometry, bool has_colours) {
+    const std::vector<double>& points = geometry.node("coord")->field("point").numbers;
+    auto mesh = std::make_shared<Mesh>();
+    mesh->topology = Topology::kPoints;
+    mesh->has_colours = has_colours;
+    mesh->two_sided = true;
+    for (std::size_t i = 0; i + 3 <= points.size(); i += 3) {
+        MeshVertex vertex;
+        vertex.position = glm::dvec3(points[i], points[i + 1], points[i + 2]);
+        if (has_colours) {
+            const double* const c = geometry.node("color")->field("color").numbers.data() + i;
+            const auto linear = [](double code) {
+                return linear_from_srgb(std::clamp(static_cast<float>(code), 0.0F, 1.0F));
+            };
+            vertex.colour = {linear(c[0]), linear(c[1]), linear(c[2]), 1};
+        }
+        mesh->indices.push_back(static_cast<std::uint32_t>(mesh->vertices.size()));
+        mesh->vertices.push_back(vertex);
+    }
+    return mesh;
+}
+
 }  // namespace
 
 std::shared_ptr<const Mesh> triangulate(const Node& geometry, const ShapeCheck& check) {
     const bool has_colours = geometry.has("color") && geometry.node("color") != nullptr &&
                              std::find(check.unusable.begin(), check.unusable.end(), "color") == check.unusable.end();
+    if (geometry.type == "PointSet") return point_set(geometry, has_colours);
     const auto session = coin_session();
     const CoinRoot root;
     auto* complexity = new SoComplexity;

@@ -31,6 +31,20 @@ std::string world_of_xml(const std::string& nodes) {
            nodes + "\n</Scene></X3D>\n";
 }
 
+TEST(VrmlPoints, EachPointHasItsColour) {
+    const Scene scene = scene_in_form(kVrml97 +
+                                      "Shape { geometry PointSet { coord Coordinate { point [ -1 0 0, 0 0 0, 1 0 0 ] } "
+                                      "color Color { color [ 1 0 0, 0 1 0, 0 0 1 ] } } }");
+    ASSERT_EQ(scene.geometry.size(), 1U);
+    const std::vector<MeshVertex>& points = scene.geometry[0].mesh->vertices;
+    ASSERT_EQ(points.size(), 3U);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(points[static_cast<std::size_t>(i)].position, glm::vec3(i - 1, 0, 0));
+        EXPECT_FLOAT_EQ(points[static_cast<std::size_t>(i)].colour[i], 1);
+        EXPECT_FLOAT_EQ(points[static_cast<std::size_t>(i)].colour[(i + 1) % 3], 0);
+    }
+}
+
 class Forms : public test::GlTest {
 protected:
     static Image<Rgba8> image_of(const Scene& scene, const Camera& camera) {
