@@ -239,6 +239,9 @@ Status synthesise(const Options& options) {
         return Error{options.scene.string() +
                      ": photos are rendered in a built-in studio; leave out the recipe's \"room\", or --as-photos"};
     }
+    for (const std::string& warning : file.scene.warnings) {
+        if (!options.quiet) std::fprintf(stderr, "rs-capture: warning: %s\n", warning.c_str());
+    }
     const std::string scene_name = file.scene.name;
     ProgressBar progress(options.quiet);
     RS_ASSIGN_OR_RETURN(const RunResult made, options.as_photos.is_enabled

@@ -2,19 +2,16 @@
 // Images of scene files: each is read once; unreadable ones become warnings.
 
 #include "compositor/scene/material.hpp"
+#include "rayspace/base/result.hpp"
 
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace rs::compositor {
-
-/// Local file of a URL, relative to `folder`; nullopt if it is not local. Removes "file:" and decodes %XX.
-std::optional<std::filesystem::path> local_path(const std::string& url, const std::filesystem::path& folder);
 
 // Not thread-safe.
 class SceneImages {
@@ -22,6 +19,8 @@ public:
     /// First readable image of the URLs; null, with the reason in `fault`, if there is none.
     std::shared_ptr<const SceneTexture> read(const std::vector<std::string>& urls, const std::filesystem::path& folder,
                                              bool repeat_s, bool repeat_t, std::string& fault);
+    Result<std::shared_ptr<const SceneTexture>> read_file(const std::filesystem::path& path, bool repeat_s,
+                                                          bool repeat_t);
 
 private:
     struct Key {

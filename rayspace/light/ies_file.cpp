@@ -49,11 +49,6 @@ const EditionName& edition_of(std::string_view first_line) {
     return found == kEditions.end() ? kFirstEdition : *found;
 }
 
-std::string_view without_byte_order_mark(std::string_view text) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    return text.substr(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
-}
-
 // Parses "[KEYWORD] text"; [MORE] continues the previous line.
 void add_keyword(std::string_view line, std::vector<std::pair<std::string, std::string>>& keywords) {
     const std::string text = utf8_text(line);

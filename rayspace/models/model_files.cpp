@@ -2,11 +2,15 @@
 
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/file/file_reference.hpp"
 #include "rayspace/file/input_file.hpp"
+#include "rayspace/models/gltf_extensions.hpp"
+#include "rayspace/models/obj_text.hpp"
 
 #include <assimp/BaseImporter.h>
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
+#include <assimp/material.h>
 #include <assimp/postprocess.h>
 #include <assimp/IOStream.hpp>
 
@@ -54,45 +58,6 @@ private:
     std::size_t at_ = 0;
 };
 
-// Checks a .glb (glTF 2.0, 4.4; version 1.0 has its JSON's length at the same place), since Assimp allocates a chunk's
-// stated length before it checks the file's size.
-bool is_whole_glb(std::span<const std::byte> bytes) {
-    constexpr std::size_t kHeader_bytes = 12, kChunkHeader_bytes = 8;
-    std::size_t at = kHeader_bytes;
-    do {
-        std::uint32_t length = 0;
-        if (at > bytes.size() || bytes.size() - at < kChunkHeader_bytes) return false;
-        std::memcpy(&length, bytes.data() + at, sizeof length);
-        at += kChunkHeader_bytes;
-        if (length > bytes.size() - at) return false;
-        at += length;
-    } while (bytes[4] != std::byte{1} && at < bytes.size());
-    return true;
-}
-
-// The material file from its first newmtl on, since earlier statements crash Assimp, without leading spaces, which hide
-// statements from it; a single comment if there is no newmtl, since Assimp rejects files of fewer than 8 bytes.
-std::vector<std::byte> extract_materials(std::vector<std::byte> bytes) {
-    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    std::size_t kept = 0;
-    for (std::size_t line = 0; line < text.size();) {
-        const std::size_t end = std::min(text.find_first_of("\r\n", line), text.size() - 1) + 1;
-        const std::size_t word = std::min(text.find_first_not_of(" \t", line), end);
-        if (kept > 0 || text.substr(word).starts_with("newmtl")) {
-            std::memmove(bytes.data() + kept, bytes.data() + word, end - word);
-            kept += end - word;
-        }
-        line = end;
-    }
-    bytes.resize(kept);
-    constexpr std::string_view kNothing = "# empty\n";
-    if (bytes.size() < kNothing.size()) {
-        bytes.assign(reinterpret_cast<const std::byte*>(kNothing.data()),
-                     reinterpret_cast<const std::byte*>(kNothing.data() + kNothing.size()));
-    }
-    return bytes;
-}
-
 bool finite(const aiVector3D& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -106,6 +71,19 @@ void set_primitive_types(const aiScene& model) {
             const unsigned corners = std::min(mesh.mFaces[f].mNumIndices, 4U);
             mesh.mPrimitiveTypes |= kTypes[corners];
         }
+    }
+}
+
+// Sets the transforms of colour textures for Assimp's TransformUVCoords.
+void place_textures(const aiScene& model, const std::map<std::string, TexturePlacement>& placements) {
+    for (unsigned m = 0; m < model.mNumMaterials; ++m) {
+        aiMaterial& material = *model.mMaterials[m];
+        const auto found = placements.find(material.GetName().C_Str());
+        if (found == placements.end()) continue;
+        aiUVTransform transform;
+        transform.mScaling = {found->second.scale.x, found->second.scale.y};
+        transform.mTranslation = {found->second.offset.x, found->second.offset.y};
+        material.AddProperty(&transform, 1, AI_MATKEY_UVTRANSFORM(aiTextureType_DIFFUSE, 0));
     }
 }
 
@@ -127,24 +105,43 @@ Status check_finite(const aiScene& model, const std::string& file) {
 }  // namespace
 
 bool ModelFiles::Exists(const char* path) const {
+    const auto resolved = resolve_reference(path, "");
     std::error_code ignored;
-    return std::filesystem::exists(path, ignored);
+    return resolved && std::filesystem::exists(*resolved, ignored);
 }
 
 Assimp::IOStream* ModelFiles::Open(const char* path, const char* mode) {
     if (std::strchr(mode, 'w') != nullptr || std::strchr(mode, 'a') != nullptr || !Exists(path)) return nullptr;
-    Result<std::vector<std::byte>> bytes = read_file(path, cap_bytes_);
+    Result<std::vector<std::byte>> bytes = read(*resolve_reference(path, ""));
     if (!bytes) {
         refusal_ = bytes.error().message;
         return nullptr;
     }
-    const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-    if (text.starts_with("glTF") && !is_whole_glb(*bytes)) {
-        refusal_ = std::string(path) + ": is a damaged .glb file; export it again";
-        return nullptr;
+    return new MemoryFile(std::move(*bytes));
+}
+
+Result<std::vector<std::byte>> ModelFiles::read(const std::filesystem::path& path) {
+    RS_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, read_file(path, cap_bytes_));
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const std::string extension = lower_case_extension(path);
+    if (extension == ".mtl") {
+        MtlText rewritten = rewrite_mtl(text);
+        placements_.merge(rewritten.placements);
+        // Assimp rejects files of fewer than 8 bytes.
+        if (rewritten.text.size() < 8) rewritten.text = "# empty\n";
+        const auto rewritten_bytes = std::as_bytes(std::span(rewritten.text));
+        return std::vector<std::byte>(rewritten_bytes.begin(), rewritten_bytes.end());
     }
-    return new MemoryFile(lower_case_extension(path) == ".mtl" ? extract_materials(std::move(*bytes))
-                                                               : std::move(*bytes));
+    if (extension == ".gltf" || text.starts_with("glTF")) {
+        RS_ASSIGN_OR_RETURN(GltfFile file, prepare_gltf(std::move(bytes), path.string()));
+        for (std::string& warning : file.warnings) {
+            if (std::ranges::find(warnings_, warning) == warnings_.end()) warnings_.push_back(std::move(warning));
+        }
+        return std::move(file.bytes);
+    }
+    const std::size_t mark = text.size() - without_byte_order_mark(text).size();
+    bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(mark));
+    return bytes;
 }
 
 void ModelFiles::Close(Assimp::IOStream* stream) {
@@ -170,8 +167,16 @@ ModelFiles& restrict_to_models(Assimp::Importer& importer, std::uint64_t cap_byt
     return *files;
 }
 
-std::string single_line_error(const char* words) {
-    std::string text = words;
+std::string reading_error(const char* message, const std::filesystem::path& file) {
+    constexpr std::uint64_t kMaxDiagnosed_bytes = std::uint64_t{64} << 20;
+    if (lower_case_extension(file) == ".obj") {
+        const auto bytes = read_file(file, kMaxDiagnosed_bytes);
+        if (bytes) {
+            std::string fault = find_bad_obj_index({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+            if (!fault.empty()) return fault;
+        }
+    }
+    std::string text = message;
     std::ranges::replace_if(
         text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
     return printable(text);
@@ -182,7 +187,10 @@ Result<const aiScene*> post_process(Assimp::Importer& importer, unsigned steps, 
     if (model == nullptr) return model;
     RS_TRY(check_finite(*model, file));
     set_primitive_types(*model);
-    return importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | steps);
+    if (const auto* const files = dynamic_cast<const ModelFiles*>(importer.GetIOHandler())) {
+        place_textures(*model, files->placements());
+    }
+    return importer.ApplyPostProcessing(aiProcess_ValidateDataStructure | aiProcess_TransformUVCoords | steps);
 }
 
 }  // namespace rs

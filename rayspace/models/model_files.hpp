@@ -3,19 +3,25 @@
 // does not validate them.
 
 #include "rayspace/base/result.hpp"
+#include "rayspace/models/mtl_text.hpp"
 
 #include <assimp/scene.h>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
+#include <map>
 #include <string>
+#include <vector>
 
 namespace rs {
 
 /// File access for an Assimp::Importer, which takes ownership: regular files of at most cap_bytes, read as a whole and
-/// recorded as inputs (input_file.hpp), never written. Text before the first newmtl of an MTL file is removed, since it
-/// crashes Assimp. A .glb whose chunks exceed the file is rejected.
+/// recorded as inputs (input_file.hpp), never written. References are resolved by file_reference.hpp. Material
+/// libraries are rewritten (mtl_text.hpp), byte order marks removed, glTF's extensions checked (gltf_extensions.hpp). A
+/// .glb whose chunks exceed the file is rejected.
 class ModelFiles : public Assimp::IOSystem {
 public:
     explicit ModelFiles(std::uint64_t cap_bytes) : cap_bytes_(cap_bytes) {}
@@ -27,10 +33,18 @@ public:
 
     /// Reason why the last existing file could not be opened; empty if all could.
     [[nodiscard]] const std::string& refusal() const { return refusal_; }
+    /// Ignored contents of the files read.
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+    /// Of the material libraries read, by material.
+    [[nodiscard]] const std::map<std::string, TexturePlacement>& placements() const { return placements_; }
 
 private:
+    Result<std::vector<std::byte>> read(const std::filesystem::path& path);
+
     std::uint64_t cap_bytes_;
     std::string refusal_;
+    std::vector<std::string> warnings_;
+    std::map<std::string, TexturePlacement> placements_;
 };
 
 /// Restricts `importer` to OBJ, glTF and GLB, and to the returned file access, which it owns. By default Assimp guesses
@@ -38,13 +52,14 @@ private:
 /// than 60 degrees stay sharp.
 ModelFiles& restrict_to_models(Assimp::Importer& importer, std::uint64_t cap_bytes);
 
-/// Assimp's message in one line.
-std::string single_line_error(const char* words);
+/// Reason why Assimp cannot read `file`: its message in one line, or for OBJ the line of a bad index.
+std::string reading_error(const char* message, const std::filesystem::path& file);
 
 /// Applies the aiProcess `steps` to the scene just read by `importer` without post-processing, and validates its
-/// structure. Faces of two corners are marked as lines, which Assimp's OBJ reader omits. Vertices or texture
-/// coordinates that are not finite are an error, since post-processing would merge them with their neighbours. `file`
-/// names the scene in errors. Null if Assimp rejects it.
+/// structure. Texture coordinates are transformed as the materials say (KHR_texture_transform, MTL's -s and -o). Faces
+/// of two corners are marked as lines, which Assimp's OBJ reader omits. Vertices or texture coordinates that are not
+/// finite are an error, since post-processing would merge them with their neighbours. `file` names the scene in errors.
+/// Null if Assimp rejects it.
 Result<const aiScene*> post_process(Assimp::Importer& importer, unsigned steps, const std::string& file);
 
 }  // namespace rs

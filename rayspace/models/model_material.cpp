@@ -2,22 +2,12 @@
 
 #include <assimp/GltfMaterial.h>
 #include <assimp/ObjMaterial.h>
-#include <assimp/material.h>
 
 #include <algorithm>
-#include <cctype>
-#include <initializer_list>
 #include <limits>
 
 namespace rs {
 namespace {
-
-template <class T>
-std::optional<T> property(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
-    T value{};
-    if (material.Get(key, type, index, value) != AI_SUCCESS) return std::nullopt;
-    return value;
-}
 
 glm::vec3 to_vec(const aiColor3D& c) {
     return {c.r, c.g, c.b};
@@ -28,57 +18,42 @@ glm::vec3 as_reflectance(const glm::vec3& c) {
 }
 
 glm::vec3 colour_property(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
-    return to_vec(property<aiColor3D>(material, key, type, index).value_or(aiColor3D(0.0F)));
-}
-
-std::optional<ModelTexture> texture_of(const aiMaterial& material, std::initializer_list<aiTextureType> types,
-                                       float hole_alpha) {
-    for (const aiTextureType type : types) {
-        aiString name;
-        if (material.GetTextureCount(type) == 0 || material.GetTexture(type, 0, &name) != AI_SUCCESS) continue;
-        if (name.length == 0) continue;
-        const auto repeats = [&](const char* key, unsigned of_type, unsigned index) {
-            return property<int>(material, key, of_type, index).value_or(aiTextureMapMode_Wrap) !=
-                   aiTextureMapMode_Clamp;
-        };
-        return ModelTexture{name.C_Str(), repeats(AI_MATKEY_MAPPINGMODE_U(type, 0)),
-                            repeats(AI_MATKEY_MAPPINGMODE_V(type, 0)), hole_alpha};
-    }
-    return std::nullopt;
+    return to_vec(material_property<aiColor3D>(material, key, type, index).value_or(aiColor3D(0.0F)));
 }
 
 // Alpha threshold for holes of the base colour texture (glTF 2.0, 3.9.4).
 float hole_alpha_of(const aiMaterial& source) {
-    const std::string mode = property<aiString>(source, AI_MATKEY_GLTF_ALPHAMODE).value_or(aiString("OPAQUE")).C_Str();
+    const std::string mode =
+        material_property<aiString>(source, AI_MATKEY_GLTF_ALPHAMODE).value_or(aiString("OPAQUE")).C_Str();
     if (mode == "BLEND") return kBlendedHoleAlpha;
     if (mode != "MASK") return 0.0F;
-    const float cutoff = property<float>(source, AI_MATKEY_GLTF_ALPHACUTOFF).value_or(0.5F);
-    const float factor = property<aiColor4D>(source, AI_MATKEY_BASE_COLOR).value_or(aiColor4D(1.0F)).a;
+    const float cutoff = material_property<float>(source, AI_MATKEY_GLTF_ALPHACUTOFF).value_or(0.5F);
+    const float factor = material_property<aiColor4D>(source, AI_MATKEY_BASE_COLOR).value_or(aiColor4D(1.0F)).a;
     if (cutoff <= 0.0F) return 0.0F;
     return factor > 0.0F ? cutoff / factor : std::numeric_limits<float>::infinity();
 }
 
 Status read_gltf(const aiMaterial& source, const TextureMean& mean_of, ModelMaterial& material) {
     SurfaceProperties& surface = material.surface;
-    if (const auto base = property<aiColor4D>(source, AI_MATKEY_BASE_COLOR)) {
+    if (const auto base = material_property<aiColor4D>(source, AI_MATKEY_BASE_COLOR)) {
         surface.colour = as_reflectance({base->r, base->g, base->b});
     }
-    float metallic = property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1.0F);
-    float roughness = property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1.0F);
+    float metallic = material_property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1.0F);
+    float roughness = material_property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1.0F);
     // Assimp's slot for the combined metallic-roughness texture.
-    if (const auto texture = texture_of(source, {aiTextureType_UNKNOWN}, 0)) {
+    if (const auto texture = texture_of(source, {aiTextureType_UNKNOWN})) {
         RS_ASSIGN_OR_RETURN(const glm::vec3 mean, mean_of(texture->name));
         roughness *= mean.g;
         metallic *= mean.b;
     }
     surface.roughness = std::clamp(roughness, 0.0F, 1.0F);
-    const float transmission = property<float>(source, AI_MATKEY_TRANSMISSION_FACTOR).value_or(0.0F);
-    surface.ior = std::clamp(property<float>(source, AI_MATKEY_REFRACTI).value_or(1.5F), 1.0F, 10.0F);
+    const float transmission = material_property<float>(source, AI_MATKEY_TRANSMISSION_FACTOR).value_or(0.0F);
+    surface.ior = std::clamp(material_property<float>(source, AI_MATKEY_REFRACTI).value_or(1.5F), 1.0F, 10.0F);
     surface.kind = transmission >= 0.5F ? SurfaceKind::glass
                    : metallic >= 0.5F   ? SurfaceKind::metal
                                         : SurfaceKind::glossy;
     surface.emission = glm::max(colour_property(source, AI_MATKEY_COLOR_EMISSIVE), glm::vec3(0.0F));
-    material.emission = texture_of(source, {aiTextureType_EMISSIVE}, 0);
+    material.emission = texture_of(source, {aiTextureType_EMISSIVE});
     material.colours = texture_of(source, {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}, hole_alpha_of(source));
     return {};
 }
@@ -87,13 +62,13 @@ Status read_gltf(const aiMaterial& source, const TextureMean& mean_of, ModelMate
 void read_mtl(const aiMaterial& source, ModelMaterial& material) {
     SurfaceProperties& surface = material.surface;
     const glm::vec3 diffuse =
-        as_reflectance(to_vec(property<aiColor3D>(source, AI_MATKEY_COLOR_DIFFUSE).value_or(aiColor3D(0.8F))));
+        as_reflectance(to_vec(material_property<aiColor3D>(source, AI_MATKEY_COLOR_DIFFUSE).value_or(aiColor3D(0.8F))));
     const glm::vec3 specular = as_reflectance(colour_property(source, AI_MATKEY_COLOR_SPECULAR));
     const float specular_peak = std::max({specular.r, specular.g, specular.b});
-    const float exponent = std::max(property<float>(source, AI_MATKEY_SHININESS).value_or(0.0F), 0.0F);
-    const float opacity = property<float>(source, AI_MATKEY_OPACITY).value_or(1.0F);
-    const int illum = property<int>(source, AI_MATKEY_OBJ_ILLUM).value_or(2);
-    const float ior = property<float>(source, AI_MATKEY_REFRACTI).value_or(1.0F);
+    const float exponent = std::max(material_property<float>(source, AI_MATKEY_SHININESS).value_or(0.0F), 0.0F);
+    const float opacity = material_property<float>(source, AI_MATKEY_OPACITY).value_or(1.0F);
+    const int illum = material_property<int>(source, AI_MATKEY_OBJ_ILLUM).value_or(2);
+    const float ior = material_property<float>(source, AI_MATKEY_REFRACTI).value_or(1.0F);
     surface.ior = ior > 1.0F ? std::min(ior, 10.0F) : 1.5F;
     surface.colour = diffuse;
     surface.emission = glm::max(colour_property(source, AI_MATKEY_COLOR_EMISSIVE), glm::vec3(0.0F));
@@ -101,8 +76,8 @@ void read_mtl(const aiMaterial& source, ModelMaterial& material) {
     material.two_sided = surface.emission == glm::vec3(0.0F);
     const bool transparent = illum == 4 || illum == 6 || illum == 7 || illum == 9 || opacity < 0.5F;
     const bool reflecting = (illum == 3 || illum == 5) && specular_peak > 0.0F;
-    const auto metallic = property<float>(source, AI_MATKEY_METALLIC_FACTOR);
-    const auto roughness = property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR);
+    const auto metallic = material_property<float>(source, AI_MATKEY_METALLIC_FACTOR);
+    const auto roughness = material_property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR);
     if (transparent) {
         surface.kind = SurfaceKind::glass;
         const glm::vec3 filter = as_reflectance(colour_property(source, AI_MATKEY_COLOR_TRANSPARENT));  // Tf
@@ -127,9 +102,25 @@ void read_mtl(const aiMaterial& source, ModelMaterial& material) {
 
 }  // namespace
 
+std::optional<ModelTexture> texture_of(const aiMaterial& material, std::initializer_list<aiTextureType> types,
+                                       float hole_alpha) {
+    for (const aiTextureType type : types) {
+        aiString name;
+        if (material.GetTextureCount(type) == 0 || material.GetTexture(type, 0, &name) != AI_SUCCESS) continue;
+        if (name.length == 0) continue;
+        const auto repeats = [&](const char* key, unsigned of_type, unsigned index) {
+            return material_property<int>(material, key, of_type, index).value_or(aiTextureMapMode_Wrap) !=
+                   aiTextureMapMode_Clamp;
+        };
+        return ModelTexture{name.C_Str(), repeats(AI_MATKEY_MAPPINGMODE_U(type, 0)),
+                            repeats(AI_MATKEY_MAPPINGMODE_V(type, 0)), hole_alpha};
+    }
+    return std::nullopt;
+}
+
 Result<ModelMaterial> read_model_material(const aiMaterial& source, bool gltf, const TextureMean& mean_of) {
     ModelMaterial material;
-    material.name = property<aiString>(source, AI_MATKEY_NAME).value_or(aiString("material")).C_Str();
+    material.name = material_property<aiString>(source, AI_MATKEY_NAME).value_or(aiString("material")).C_Str();
     if (gltf) {
         RS_TRY(read_gltf(source, mean_of, material));
     } else {
@@ -147,18 +138,6 @@ glm::vec3 mean_of_codes(std::span<const Rgba8> pixels) {
     glm::dvec3 sum(0.0);
     for (const Rgba8& p : pixels) sum += glm::dvec3(p.r, p.g, p.b);
     return glm::vec3(sum / (255.0 * static_cast<double>(pixels.size())));
-}
-
-std::string decode_uri(const std::string& uri) {
-    std::string decoded;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        const bool escaped = uri[i] == '%' && i + 2 < uri.size() &&
-                             std::isxdigit(static_cast<unsigned char>(uri[i + 1])) &&
-                             std::isxdigit(static_cast<unsigned char>(uri[i + 2]));
-        decoded += escaped ? static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i];
-        if (escaped) i += 2;
-    }
-    return decoded;
 }
 
 }  // namespace rs

@@ -5,15 +5,15 @@
 #include "rayspace/base/result.hpp"
 #include "rayspace/light/surface_properties.hpp"
 
+#include <assimp/material.h>
 #include <glm/glm.hpp>
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
-
-struct aiMaterial;
 
 namespace rs {
 
@@ -36,6 +36,18 @@ struct ModelMaterial {
     std::optional<ModelTexture> emission;
 };
 
+/// Property of a material by Assimp's key macros, such as AI_MATKEY_OPACITY; nullopt if missing or of another type.
+template <class T>
+std::optional<T> material_property(const aiMaterial& material, const char* key, unsigned type, unsigned index) {
+    T value{};
+    if (material.Get(key, type, index, value) != AI_SUCCESS) return std::nullopt;
+    return value;
+}
+
+/// First texture of these types; nullopt if there is none.
+std::optional<ModelTexture> texture_of(const aiMaterial& material, std::initializer_list<aiTextureType> types,
+                                       float hole_alpha = 0);
+
 /// Mean red, green and blue (0..1) of an image of linear values.
 using TextureMean = std::function<Result<glm::vec3>(const std::string& name)>;
 
@@ -49,8 +61,5 @@ bool is_gltf(const std::filesystem::path& file);
 
 /// Mean red, green and blue of an image of linear codes, 0..1.
 glm::vec3 mean_of_codes(std::span<const Rgba8> pixels);
-
-/// Decodes the percent-encoding ("%20") of URIs.
-std::string decode_uri(const std::string& uri);
 
 }  // namespace rs

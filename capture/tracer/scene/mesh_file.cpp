@@ -50,6 +50,13 @@ Mesh convert_mesh(const aiMesh& source) {
             mesh.uvs.emplace_back(source.mTextureCoords[0][i].x, source.mTextureCoords[0][i].y);
         }
     }
+    if (source.HasVertexColors(0)) {
+        mesh.colours.reserve(source.mNumVertices);
+        for (unsigned i = 0; i < source.mNumVertices; ++i) {
+            const aiColor4D& c = source.mColors[0][i];
+            mesh.colours.push_back(glm::max(glm::vec3(c.r, c.g, c.b), glm::vec3(0)));
+        }
+    }
     mesh.triangles.reserve(source.mNumFaces);
     for (unsigned i = 0; i < source.mNumFaces; ++i) {
         const aiFace& face = source.mFaces[i];
@@ -116,11 +123,14 @@ Result<Scene> read_mesh_file(const std::filesystem::path& path) {
         const aiScene* const source = read;
         if (!files.refusal().empty()) return Error{files.refusal()};
         if (source == nullptr) {
-            return Error{path.string() + ": cannot be read as a mesh: " + single_line_error(importer.GetErrorString())};
+            return Error{path.string() +
+                         ": cannot be read as a mesh: " + reading_error(importer.GetErrorString(), path)};
         }
-        return convert_scene(*source, path);
+        RS_ASSIGN_OR_RETURN(Scene scene, convert_scene(*source, path));
+        scene.warnings = files.warnings();
+        return scene;
     } catch (const std::exception& problem) {
-        return Error{path.string() + ": cannot be read as a mesh: " + single_line_error(problem.what())};
+        return Error{path.string() + ": cannot be read as a mesh: " + reading_error(problem.what(), path)};
     }
 }
 

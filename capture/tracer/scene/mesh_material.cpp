@@ -2,83 +2,20 @@
 
 #include "capture/tracer/scene/mesh_file.hpp"
 #include "capture/tracer/scene/texture_lookup.hpp"
-#include "rayspace/file/file_output.hpp"
 #include "rayspace/image_io/image_io.hpp"
+#include "rayspace/models/model_image.hpp"
 
 #include <assimp/scene.h>
-#include <assimp/texture.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <random>
-#include <span>
 #include <string>
 #include <utility>
 
 namespace rs::capture {
-namespace {
-
-class TemporaryFile {
-public:
-    explicit TemporaryFile(std::filesystem::path path) : path_(std::move(path)) {}
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    ~TemporaryFile() {
-        std::error_code ignored;
-        std::filesystem::remove(path_, ignored);
-    }
-    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
-Status write_bytes(const aiTexture& source, const std::filesystem::path& path) {
-    RS_ASSIGN_OR_RETURN(StagedFile staged, StagedFile::create(path));
-    const auto bytes = std::as_bytes(std::span(reinterpret_cast<const unsigned char*>(source.pcData), source.mWidth));
-    RS_TRY(staged.write(bytes));
-    return staged.commit();
-}
-
-// Copies images embedded in a GLB to a temporary file, because the image readers need a path.
-template <class Read>
-auto read_embedded(const aiTexture& source, const std::string& name, const std::filesystem::path& file, Read read)
-    -> decltype(read(file)) {
-    if (source.mHeight != 0) {
-        return Error{file.string() + ": texture \"" + name + "\" is stored as raw pixels; store it as PNG or JPEG"};
-    }
-    const std::string hint = source.achFormatHint;
-    const TemporaryFile temporary(std::filesystem::temp_directory_path() /
-                                  ("rayspace-texture-" + std::to_string(::getpid()) + "-" +
-                                   std::to_string(std::random_device{}()) +
-                                   (hint == "jpg" || hint == "jpeg" ? ".jpg" : ".png")));
-    RS_TRY(write_bytes(source, temporary.path()));
-    auto result = read(temporary.path());
-    if (result) return result;
-    return Error{file.string() + ": its embedded texture \"" + name + "\" cannot be read; store it as PNG or JPEG"};
-}
-
-// Calls `read` with the path of the image.
-template <class Read>
-auto read_named(const aiScene& source, const std::string& name, const std::filesystem::path& file, Read read)
-    -> decltype(read(file)) {
-    if (const aiTexture* embedded = source.GetEmbeddedTexture(name.c_str()))
-        return read_embedded(*embedded, name, file, read);
-    std::string relative = name;
-    std::ranges::replace(relative, '\\', '/');
-    const std::filesystem::path as_written = file.parent_path() / relative;
-    std::error_code ignored;
-    const bool exists = std::filesystem::exists(as_written, ignored);
-    return read(exists ? as_written : file.parent_path() / decode_uri(relative));
-}
-
-}  // namespace
-
 Result<int> MeshTextures::colours(const ModelTexture& from) {
     const std::string& name = from.name;
     const auto key = std::tuple(name, from.hole_alpha, from.repeat_u, from.repeat_v);
     if (const auto found = loaded_.find(key); found != loaded_.end()) return found->second;
-    RS_ASSIGN_OR_RETURN(Texture texture, read_named(source_, name, file_, [&](const std::filesystem::path& path) {
+    RS_ASSIGN_OR_RETURN(Texture texture, read_model_image(source_, file_, name, [&](const std::filesystem::path& path) {
                             return read_texture(path, file_);
                         }));
     if (from.hole_alpha != kHoleAlpha) {
@@ -95,7 +32,7 @@ Result<glm::vec3> MeshTextures::mean_numbers(const std::string& name) {
     // Reads 8-bit codes without sRGB decoding.
     RS_ASSIGN_OR_RETURN(
         const Image<Rgba8> codes,
-        read_named(source_, name, file_, [&](const std::filesystem::path& path) -> Result<Image<Rgba8>> {
+        read_model_image(source_, file_, name, [&](const std::filesystem::path& path) -> Result<Image<Rgba8>> {
             std::error_code ignored;
             if (!std::filesystem::is_regular_file(path, ignored)) return missing_texture(path, file_);
             return read_image(path);

@@ -2,6 +2,7 @@
 
 #include "capture/tracer/scene/ply_header.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/image/linear_light.hpp"
 
 #include <assimp/BaseImporter.h>
 #include <assimp/importerdesc.h>
@@ -184,6 +185,10 @@ private:
 };
 
 // Reads the body element by element.
+float linear(float srgb) {
+    return srgb > 0 ? linear_from_srgb(std::min(srgb, 1.0F)) : 0;
+}
+
 class PlyReader {
 public:
     PlyReader(const PlyHeader& header, std::string_view body, PlyUse use)
@@ -269,7 +274,7 @@ private:
             has_normals_ = has_normals_ || (vertices && target.at >= kNormalAt && target.at < kTextureAt);
             has_uvs_ = has_uvs_ || (vertices && target.at >= kTextureAt && target.at < kColourAt);
             const bool is_vertex_colour = vertices && target.at >= kColourAt;
-            has_colours_ = has_colours_ || (displayed_ && is_vertex_colour);
+            has_colours_ = has_colours_ || is_vertex_colour;
             const bool is_colour = is_vertex_colour || (materials && target.at < kPowerAt);
             if (!is_colour || !is_integer(property.type)) continue;
             target.one = with_type(property.type, [](auto zero) {
@@ -319,7 +324,10 @@ private:
         positions_.emplace_back(row_[0], row_[1], row_[2]);
         if (has_normals_) normals_.emplace_back(row_[kNormalAt], row_[kNormalAt + 1], row_[kNormalAt + 2]);
         if (has_uvs_) uvs_.emplace_back(row_[kTextureAt], row_[kTextureAt + 1], 0.0F);
-        if (has_colours_) colours_.emplace_back(row_[kColourAt], row_[kColourAt + 1], row_[kColourAt + 2], 1.0F);
+        if (has_colours_) {
+            colours_.emplace_back(linear(row_[kColourAt]), linear(row_[kColourAt + 1]), linear(row_[kColourAt + 2]),
+                                  1.0F);
+        }
     }
 
     void append_polygon(const std::vector<double>& corners) {

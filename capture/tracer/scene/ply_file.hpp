@@ -16,16 +16,16 @@
 namespace rs::capture {
 
 enum class PlyUse {
-    kCapture,  // meshes only, without vertex colours
-    // Also vertex colours (sRGB, as in the file), and files without faces: each vertex is a face of one corner. Without
-    // a material it is diffuse.
+    kCapture,  // meshes only
+    // Also files without faces: each vertex is a face of one corner. Without a material it is diffuse.
     kDisplay
 };
 
-/// Reads the vertices with normals and texture coordinates, the faces of three and more corners (with texcoord if it
-/// has two numbers per corner), the materials and the texture. Strips become triangles; -1 restarts a strip. \return an
-/// error with file and element if the header is invalid (ply_header.hpp), the body is truncated, a number is malformed
-/// or does not fit its type, or a face names a missing vertex
+/// Reads the vertices with normals, texture coordinates and colours (sRGB in the file; converted to linear light), the
+/// faces of three and more corners (with texcoord if it has two numbers per corner), the materials and the texture.
+/// Strips become triangles; -1 restarts a strip. \return an error with file and element if the header is invalid
+/// (ply_header.hpp), the body is truncated, a number is malformed or does not fit its type, or a face names a missing
+/// vertex
 Result<std::unique_ptr<aiScene>> read_ply_file(const std::filesystem::path& path, PlyUse use = PlyUse::kCapture);
 
 /// Makes the scene that of the importer, as if it had read it, for post-processing.

@@ -117,6 +117,7 @@ struct Scene {
     LightScopes scopes;
     Environment environment;
     std::vector<std::shared_ptr<const RayPrimitive>> primitives;  // not visible to camera rays
+    std::vector<std::string> warnings;                            // of the reader: contents that are ignored
 
     /// \param mesh index into `meshes`, or into the meshes of the instance's part
     /// \param instance kNoInstance for static meshes

@@ -1,9 +1,10 @@
 #include "compositor/scene/model/gltf_nodes.hpp"
 
-#include "compositor/scene/scene_images.hpp"
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/json_text.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/file/file_reference.hpp"
+#include "rayspace/models/gltf_extensions.hpp"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -12,8 +13,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace rs::compositor::model {
@@ -24,18 +25,6 @@ using nlohmann::json;
 constexpr int kMaxHeight = 500;
 constexpr std::size_t kMaxNodes = 100'000;
 constexpr double kMaxNodePosition = 1e9;
-
-// JSON of a .glb (glTF 2.0, 4.4): a header of 12 bytes, then the chunk's length and type.
-std::string json_text(std::span<const std::byte> bytes, const std::string& file) {
-    std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (!text.starts_with("glTF")) return text;
-    std::uint32_t length = 0;
-    if (bytes.size() >= 20) std::memcpy(&length, bytes.data() + 12, sizeof length);
-    if (bytes.size() < 20 || length > bytes.size() - 20 || text.substr(16, 4) != "JSON") {
-        throw MalformedJson{file + ": is a damaged .glb file; export it again"};
-    }
-    return text.substr(20, length);
-}
 
 class NodeWalk {
 public:
@@ -142,7 +131,7 @@ private:
         const std::string place = "nodes[" + std::to_string(i) + "].extras.RaySpace";
         JsonObject fields(JsonValue(extras["RaySpace"], path_.string(), place));
         RaySpaceNode object;
-        const auto file = local_path(fields.take("url").text(), path_.parent_path());
+        const auto file = resolve_reference(fields.take("url").text(), path_.parent_path());
         if (!file) throw error(place, "url is not a local file");
         object.file = *file;
         object.room = room_;
@@ -253,8 +242,10 @@ private:
 
 Result<GltfContents> read_gltf_nodes(std::span<const std::byte> bytes, const std::filesystem::path& path,
                                      Scene& scene) {
+    const std::string_view view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    RS_ASSIGN_OR_RETURN(const std::string text, gltf_json(view, path.string()));
     try {
-        const json top = parse_json_text(json_text(bytes, path.string()), path.string());
+        const json top = parse_json_text(text, path.string());
         NodeWalk(top, path, scene).walk_scene();
         return GltfContents{top.is_object() && top.contains("meshes") && !top["meshes"].empty()};
     } catch (const MalformedJson& malformed) {

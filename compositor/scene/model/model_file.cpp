@@ -5,7 +5,6 @@
 #include "compositor/scene/model/model_materials.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/file/input_file.hpp"
-#include "rayspace/image/linear_light.hpp"
 #include "rayspace/models/model_files.hpp"
 #include "rayspace/models/model_material.hpp"
 
@@ -67,16 +66,11 @@ constexpr unsigned kPostProcessing =
 // Points are not joined: that needs 270 bytes each in Assimp.
 constexpr unsigned kPointProcessing = aiProcess_SortByPType;
 
-// Reads a PLY file into the importer, with vertex colours in linear light and normals of unit length.
+// Reads a PLY file into the importer, with normals of unit length.
 // \return the steps of post-processing
 Result<unsigned> read_ply_model(const std::filesystem::path& path, Assimp::Importer& importer) {
     RS_ASSIGN_OR_RETURN(std::unique_ptr<aiScene> ply, capture::read_ply_file(path, capture::PlyUse::kDisplay));
     const aiMesh& mesh = *ply->mMeshes[0];
-    for (unsigned i = 0; mesh.HasVertexColors(0) && i < mesh.mNumVertices; ++i) {
-        aiColor4D& colour = mesh.mColors[0][i];
-        for (float* const channel : {&colour.r, &colour.g, &colour.b})
-            *channel = *channel > 0 ? linear_from_srgb(std::min(*channel, 1.0F)) : 0;
-    }
     for (unsigned i = 0; mesh.HasNormals() && i < mesh.mNumVertices; ++i) {
         aiVector3D& normal = mesh.mNormals[i];
         const float length = normal.Length();
@@ -167,7 +161,7 @@ Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
         const aiScene* const model = read;
         if (model == nullptr || model->mRootNode == nullptr) {
             const std::string message = path.string() +
-                                        ": cannot be read: " + single_line_error(importer.GetErrorString()) +
+                                        ": cannot be read: " + reading_error(importer.GetErrorString(), path) +
                                         "; export it again";
             // Scenes of objects alone are valid, but Assimp rejects files without meshes.
             if (is_gltf(path) && !scene.objects.empty() && !has_meshes) return parts;
@@ -180,9 +174,11 @@ Result<ModelParts> read_model_parts(const std::filesystem::path& path) {
         for (unsigned i = 0; i < model->mNumMaterials; ++i) {
             parts.materials.push_back({model->mMaterials[i]->GetName().C_Str(), materials.at(i).material});
         }
+        scene.warnings.insert(scene.warnings.end(), files.warnings().begin(), files.warnings().end());
         scene.warnings.insert(scene.warnings.end(), materials.warnings.begin(), materials.warnings.end());
     } catch (const std::exception& exception) {
-        return Error{path.string() + ": cannot be read: " + single_line_error(exception.what()) + "; export it again"};
+        return Error{path.string() + ": cannot be read: " + reading_error(exception.what(), path) +
+                     "; export it again"};
     }
     return parts;
 }

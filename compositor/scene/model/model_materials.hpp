@@ -3,6 +3,7 @@
 
 #include "compositor/scene/material.hpp"
 #include "compositor/scene/scene_images.hpp"
+#include "rayspace/models/model_material.hpp"
 
 #include <filesystem>
 #include <map>
@@ -29,8 +30,10 @@ public:
 
 private:
     MaterialWithSides convert(const aiMaterial& source);
-    /// Sets the surface for traced renderers.
-    void add_surface(const aiMaterial& source, Material& material);
+    /// Sets the textures, and the surface for traced renderers.
+    /// \param blends false if the alpha of textures is ignored
+    void add_surface(const aiMaterial& source, bool blends, Material& material);
+    std::shared_ptr<const SceneTexture> colour_texture(const ModelTexture& source, bool blends);
     std::shared_ptr<const NormalMap> relief(const aiMaterial& source);
     std::shared_ptr<const SceneTexture> image(const std::string& name, bool repeat_s, bool repeat_t);
 

@@ -5,6 +5,8 @@
 #include "compositor/scene/x3d/xml_text.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/file/file_reference.hpp"
+#include "rayspace/file/input_file.hpp"
 
 #include <zlib.h>
 
@@ -74,6 +76,7 @@ Result<std::string> read_world_text(const std::filesystem::path& path) {
 
 // Selects the parser by the beginning of the text.
 Result<vrml::Graph> graph_of(std::string_view text, const std::string& file) {
+    text = without_byte_order_mark(text);
     if (text.starts_with(vrml1::kHeader)) return vrml1::read_graph(text, file);
     if (!x3d::is_xml(text)) return vrml::read_graph(text, file);
     RS_ASSIGN_OR_RETURN(const std::string classic, x3d::classic_text(text, file));
@@ -93,7 +96,7 @@ public:
                                                          const std::filesystem::path& folder) {
         Error fault{"names no file"};
         for (const std::string& url : urls) {
-            const auto path = local_path(url, folder);
+            const auto path = resolve_reference(url, folder);
             if (!path) {
                 fault = {"'" + url.substr(0, 80) + "' is not a local file"};
                 continue;

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 #include <set>
@@ -232,6 +233,44 @@ TEST_F(ModelFile, ABinaryFileIsRead) {
     const auto cut = read(glb.substr(0, 40), "cut.glb");
     ASSERT_FALSE(cut);
     EXPECT_THAT(cut.error().message, HasSubstr("cut.glb: is a damaged .glb file"));
+}
+
+TEST_F(ModelFile, UnsupportedExtensionsAreRefusedIfRequiredAndReportedIfNot) {
+    const auto optional = read(
+        gltf(R"({"mesh": 0})", std::string(kMaterial) + R"(, "extensionsUsed": ["EXT_none", "KHR_materials_unlit"])"));
+    ASSERT_TRUE(optional) << optional.error().message;
+    EXPECT_THAT(optional->warnings, ElementsAre(HasSubstr("EXT_none is not supported")));
+    const auto required =
+        read(gltf(R"({"mesh": 0})",
+                  std::string(kMaterial) + R"(, "extensionsUsed": ["EXT_none"], "extensionsRequired": ["EXT_none"])"));
+    ASSERT_FALSE(required);
+    EXPECT_THAT(required.error().message, HasSubstr("hall.gltf: requires the glTF extension EXT_none"));
+}
+
+TEST_F(ModelFile, TextureTransformsMoveTextureCoordinates) {
+    ASSERT_TRUE(write_png(folder_ / "a b.png", Image<Rgba8>(2, 2, Rgba8{255, 0, 0, 255}).view()).ok());
+    const auto of_gltf = read(gltf(R"({"mesh": 0})", R"(, "materials": [{"pbrMetallicRoughness": {"baseColorTexture":
+        {"index": 0, "extensions": {"KHR_texture_transform": {"scale": [3, 2]}}}}}], "textures": [{"extensions":
+        {"EXT_texture_webp": {"source": 0}}}], "images": [{"uri": "a%20b.png"}],
+        "extensionsUsed": ["KHR_texture_transform", "EXT_texture_webp"]})"));
+    ASSERT_TRUE(of_gltf) << of_gltf.error().message;
+    EXPECT_THAT(of_gltf->warnings, IsEmpty());
+    ASSERT_TRUE(of_gltf->geometry.at(0).material.texture);
+    const auto width = [](const Scene& scene) {
+        float low = 1e9F, high = -1e9F;
+        for (const MeshVertex& vertex : scene.geometry.at(0).mesh->vertices) {
+            low = std::min(low, vertex.texture.x);
+            high = std::max(high, vertex.texture.x);
+        }
+        return high - low;
+    };
+    EXPECT_FLOAT_EQ(width(*of_gltf), 3);
+    std::ofstream(folder_ / "my hall.mtl") << "newmtl m\nMAP_KD -s 4 1 1 A%20B.png\n";
+    const auto of_obj = read(
+        "mtllib my hall.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n", "hall.obj");
+    ASSERT_TRUE(of_obj) << of_obj.error().message;
+    ASSERT_TRUE(of_obj->geometry.at(0).material.texture);
+    EXPECT_FLOAT_EQ(width(*of_obj), 4);
 }
 
 TEST_F(ModelFile, ObjectsAloneMakeAScene) {
