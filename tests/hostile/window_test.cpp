@@ -208,7 +208,7 @@ TEST_F(HostileWindow, TheWallsGoOn) {
                              {"front", {-1.5, 0, -1.5}, {1.5, 0, -1.5}, {-1.5, 3, -1.5}, 120, 90}};
     options.heads = {Head{.position = {0, 1.5, 0}}};
     options.images = work_.path();
-    options.samples = 1;
+    options.frame.samples = 1;
     options.window.vertical_sync = false;
     const auto walls = WallVisit::create(scene, showroom_of(scene), options);
     ASSERT_TRUE(walls.ok()) << walls.error().message;
