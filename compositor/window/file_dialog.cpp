@@ -42,6 +42,11 @@ const char* title_of(FileUse use) {
     }
 }
 
+fs::path without_slash(const fs::path& path) {
+    const fs::path normal = path.lexically_normal();
+    return normal.has_filename() || !normal.has_relative_path() ? normal : normal.parent_path();
+}
+
 bool has_ending(std::string name, std::span<const std::string_view> endings) {
     for (char& c : name) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
     return std::ranges::any_of(endings, [&](std::string_view ending) { return name.ends_with(ending); });
@@ -71,7 +76,7 @@ void FileDialog::open(FileUse use, const fs::path& at) {
     use_ = use;
     is_open_ = true;
     std::error_code ignored;
-    const fs::path full = fs::absolute(at.empty() ? "." : at, ignored).lexically_normal();
+    const fs::path full = without_slash(fs::absolute(at.empty() ? "." : at, ignored));
     list(fs::is_directory(full, ignored) ? full : full.parent_path());
     if (use == FileUse::kLightList) typed_ = full.filename().string();
 }
@@ -90,8 +95,7 @@ void FileDialog::list(const fs::path& folder) {
 
 void FileDialog::enter(const std::string& path) {
     if (path.empty()) return;
-    fs::path full = (folder_ / path).lexically_normal();
-    if (!full.has_filename() && full.has_relative_path()) full = full.parent_path();
+    const fs::path full = without_slash(folder_ / path);
     std::error_code ignored;
     if (fs::is_directory(full, ignored)) {
         list(full);
