@@ -4,8 +4,8 @@
 #include "compositor/tools/headless_renderer.hpp"
 #include "compositor/tools/scene_options.hpp"
 #include "compositor/tools/tracing_options.hpp"
+#include "compositor/tools/window_content.hpp"
 #include "compositor/viewer/views/framing.hpp"
-#include "compositor/window/visit.hpp"
 #include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
@@ -87,26 +87,27 @@ std::string displayed_name(const SceneOptions& options) {
     return std::filesystem::path(scene_name(options)).filename().string();
 }
 
-Status show_in_window(Window window, const OpenOptions& options, LoadedScene loaded, const Camera& first) {
-    VisitOptions visit_options;
-    visit_options.scene_name = displayed_name(options.scene);
-    visit_options.samples = options.drawing.samples;
-    visit_options.wire_frame = options.drawing.wire_frame;
-    visit_options.shadows = options.drawing.shadows;
-    visit_options.object_depth = options.drawing.object_depth;
-    visit_options.object_samples = options.drawing.object_samples;
-    visit_options.exposure_ev = options.renderer.exposure_ev;
-    RS_ASSIGN_OR_RETURN(const TracedOptions tracing, traced_options(options.renderer));
-    visit_options.tracing = tracing;
-    visit_options.first_grid_cells = options.first_grid_cells;
-    visit_options.traced = options.renderer.method().has_value();
-    if (options.scene.lights) visit_options.lights = *options.scene.lights;
-    visit_options.executor = loaded.executor.name;
-    visit_options.warn = print_warnings;
-    visit_options.viewpoints = {viewpoint_of(first)};
-    visit_options.viewpoints.insert(visit_options.viewpoints.end(), loaded.scene.viewpoints.begin(),
-                                    loaded.scene.viewpoints.end());
-    return visit(std::move(window), loaded.scene, std::move(loaded.showroom), visit_options);
+Result<WindowContent> content_of(const OpenOptions& options, LoadedScene loaded, const Camera& first) {
+    WindowContent content;
+    content.title = displayed_name(options.scene);
+    VisitOptions& visit = content.visit;
+    visit.scene_name = content.title;
+    visit.frame = frame_options(options.drawing, {first.width, first.height}, options.renderer.exposure_ev, true);
+    RS_ASSIGN_OR_RETURN(visit.tracing, traced_options(options.renderer));
+    visit.first_grid_cells = options.first_grid_cells;
+    visit.traced = options.renderer.method().has_value();
+    if (options.scene.lights) visit.lights = *options.scene.lights;
+    visit.executor = loaded.executor.name;
+    visit.load_objects = [depth = options.drawing.object_depth,
+                          executor = options.executor](const Scene& scene) -> Result<std::unique_ptr<Showroom>> {
+        RS_ASSIGN_OR_RETURN(LoadedScene again, load_objects(scene, depth, executor, false));
+        return std::move(again.showroom);
+    };
+    visit.viewpoints = {viewpoint_of(first)};
+    visit.viewpoints.insert(visit.viewpoints.end(), loaded.scene.viewpoints.begin(), loaded.scene.viewpoints.end());
+    content.scene = std::move(loaded.scene);
+    content.showroom = std::move(loaded.showroom);
+    return content;
 }
 
 // Renders the first view to ./screenshot-N.png, where no window can be opened.
@@ -139,10 +140,31 @@ Status run_open(const OpenOptions& options) {
                         load_objects(std::move(scene), options.drawing.object_depth, options.executor, !window.ok()));
     RS_ASSIGN_OR_RETURN(const Camera first, first_camera(options, loaded, size));
     if (!window) return write_first_view(file, options, loaded, first);
-    return show_in_window(std::move(*window), options, std::move(loaded), first);
+    RS_ASSIGN_OR_RETURN(WindowContent content, content_of(options, std::move(loaded), first));
+    const WindowSettings settings{options.size, options.renderer, options.drawing, options.executor,
+                                  options.first_grid_cells};
+    return show_contents(std::move(*window), std::move(content), [&](const std::string& other) {
+        return is_sequence(other) ? sequence_content(settings, other) : scene_content(settings, other);
+    });
 }
 
 }  // namespace
+
+Result<WindowContent> scene_content(const WindowSettings& settings, const std::string& file) {
+    OpenOptions options;
+    options.scene.scene = file;
+    options.size = settings.size;
+    options.renderer = settings.renderer;
+    options.drawing = settings.drawing;
+    options.executor = settings.executor;
+    options.first_grid_cells = settings.first_grid_cells;
+    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
+    RS_ASSIGN_OR_RETURN(Scene scene, open_scene(options.scene, {}));
+    RS_ASSIGN_OR_RETURN(LoadedScene loaded,
+                        load_objects(std::move(scene), options.drawing.object_depth, options.executor, false));
+    RS_ASSIGN_OR_RETURN(const Camera first, first_camera(options, loaded, size));
+    return content_of(options, std::move(loaded), first);
+}
 
 void add_open_command(CLI::App& app, std::function<Status()>& run) {
     auto options = std::make_shared<OpenOptions>();

@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
         "`rs-view SCENE` is short for `rs-view open SCENE`.\n"
         "Examples:\n"
         "  rs-view museum.wrl\n"
-        "  rs-view --object vase.rso\n"
+        "  rs-view vase.rso\n"
         "  rs-view render --object vase.rso@-1.2,0,0 --object lamp.rso@1.2,0,0,45,0.8 --orbit 120 -o turn.mp4\n"
         "  rs-view render hall.wrl --renderer path --lens f/1.4 --focus 2.5 -o portrait.png\n"
         "  rs-view walls hall.wrl --display cave --heads udp:0.0.0.0:4242\n"

@@ -4,6 +4,7 @@
 #include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/scene/material.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
+#include "compositor/viewer/views/object_scene.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/file/file_output.hpp"
 
@@ -24,8 +25,11 @@ void add_lights_option(CLI::App& command, std::optional<std::string>& lights) {
 }
 
 void add_scene_options(CLI::App& command, SceneOptions& options) {
-    command.add_option("SCENE", options.scene, ".wrl, .wrl.gz, .x3d, .x3dv, .gltf, .glb, .obj, .ply or .json; Y is up")
+    command
+        .add_option("SCENE", options.scene,
+                    ".wrl, .wrl.gz, .x3d, .x3dv, .gltf, .glb, .obj, .ply or .json; Y is up; or .rso objects")
         ->type_name("");
+    command.add_option("OBJECTS", options.more_objects)->type_name("")->group("");
     command
         .add_option("--object", options.objects,
                     "object to add, FILE.rso[@X,Y,Z[,TURN_DEG[,SCALE]]]; repeatable; a floor without SCENE")
@@ -48,8 +52,14 @@ void hide_help_option(CLI::App& command) {
 
 void check_scene_options(const SceneOptions& options) {
     if (!options.scene && options.objects.empty()) {
-        throw CLI::ValidationError("nothing to show; give a scene file or --object FILE.rso");
+        throw CLI::ValidationError("nothing to show; give a scene file, or objects as FILE.rso");
     }
+    if (options.more_objects.empty()) return;
+    std::vector<std::string> files = options.more_objects;
+    files.push_back(*options.scene);
+    const auto other = std::ranges::find_if_not(files, is_object_file);
+    if (other == files.end()) return;
+    throw CLI::ValidationError(*other + ": only .rso objects can be shown beside each other; give one scene");
 }
 
 Status add_lights_of_file(Scene& scene, const std::string& file) {
@@ -59,7 +69,11 @@ Status add_lights_of_file(Scene& scene, const std::string& file) {
 
 Result<Scene> load_scene(const SceneOptions& options) {
     Scene scene;
-    if (options.scene) {
+    if (options.scene && is_object_file(*options.scene)) {
+        std::vector<std::string> files{*options.scene};
+        files.insert(files.end(), options.more_objects.begin(), options.more_objects.end());
+        RS_ASSIGN_OR_RETURN(scene, scene_of_objects(files));
+    } else if (options.scene) {
         RS_ASSIGN_OR_RETURN(scene, read_scene(*options.scene));
     } else {
         scene.floor = Floor{};

@@ -14,8 +14,9 @@
 namespace rs::compositor {
 
 struct SceneOptions {
-    std::optional<std::string> scene;
-    std::vector<std::string> objects;  // FILE.rso[@X,Y,Z[,TURN_DEG[,SCALE]]]
+    std::optional<std::string> scene;       // or the first object file
+    std::vector<std::string> more_objects;  // further object files, beside the first one
+    std::vector<std::string> objects;       // FILE.rso[@X,Y,Z[,TURN_DEG[,SCALE]]]
     std::optional<std::string> lights;
 };
 
@@ -27,11 +28,11 @@ void add_scene_without_objects_options(CLI::App& command, SceneOptions& options)
 void add_lights_option(CLI::App& command, std::optional<std::string>& lights);
 /// Omits -h from the options that --help lists, for lists that would not fit on a screen.
 void hide_help_option(CLI::App& command);
-/// Throws CLI::ValidationError if neither a scene nor an object is given.
+/// Throws CLI::ValidationError if neither a scene nor an object is given, and for several scenes.
 void check_scene_options(const SceneOptions& options);
 
-/// Reads the scene file and adds the lights and the objects. Without a file, the objects get a floor. Prints the
-/// scene's warnings.
+/// Reads the scene file, or makes a scene of object files (object_scene.hpp), and adds the lights and the objects.
+/// Without a file, the objects get a floor. Prints the scene's warnings.
 Result<Scene> load_scene(const SceneOptions& options);
 
 /// Reads a list of lights and adds it to the scene, or replaces the scene's by it.

@@ -8,8 +8,8 @@
 #include "compositor/tools/frame_output.hpp"
 #include "compositor/tools/scene_options.hpp"
 #include "compositor/tools/tracing_options.hpp"
+#include "compositor/tools/window_content.hpp"
 #include "compositor/viewer/views/framing.hpp"
-#include "compositor/window/visit.hpp"
 #include "rayspace/base/printable.hpp"
 #include "rayspace/base/progress.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -285,56 +285,40 @@ Status render_sequences(const SequenceOptions& options) {
                  " sequences failed; see above"};
 }
 
-// Shows a sequence until the window is closed or another sequence is opened, whose path goes to `next`.
-Status show_sequence(const SequenceOptions& options, const OpenSequence& opened, std::string& next) {
+Result<WindowContent> content_of_sequence(const SequenceOptions& options, const std::string& folder) {
+    RS_ASSIGN_OR_RETURN(const OpenSequence opened, open_sequence(options, folder));
     const std::shared_ptr<const Sequence>& sequence = opened.sequence;
     RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
     RS_ASSIGN_OR_RETURN(ObjectExecutor created, create_executor(options.executor, options.drawing.object_depth));
-    const std::string name = sequence->name.empty() ? "sequence" : sequence->name;
-    auto window = Window::create({.title = name + " - rs-view", .width = size.width, .height = size.height});
-    if (!window) return Error{window.error().message + "; give -o to write an image or a video"};
     RS_ASSIGN_OR_RETURN(const std::optional<Weather> weather, requested_weather(options));
-    RS_ASSIGN_OR_RETURN(const TracedOptions tracing, traced_options(options.renderer));
-    VisitOptions visit_options;
-    visit_options.scene_name = name;
-    visit_options.sequence = sequence;
-    visit_options.weather = weather ? weather : sequence->weather;
-    visit_options.samples = options.drawing.samples;
-    visit_options.wire_frame = options.drawing.wire_frame;
-    visit_options.shadows = options.drawing.shadows;
-    visit_options.object_depth = options.drawing.object_depth;
-    visit_options.object_samples = options.drawing.object_samples;
-    visit_options.exposure_ev = options.renderer.exposure_ev;
-    visit_options.tracing = tracing;
-    visit_options.traced = options.renderer.method().has_value();
-    visit_options.warn = print_warnings;
-    visit_options.open = [&next](const std::string& folder) { next = folder; };
-    visit_options.viewpoints = {viewpoint_of(opened.camera.value_or(camera_of(*sequence, 0, size.width, size.height)))};
-    visit_options.follows_sequence = !opened.camera;
-    if (options.lights) visit_options.lights = *options.lights;
-    visit_options.executor = created.traits.name;
-    const Scene scene =
-        visit_options.weather ? apply_weather(sequence->scene, *visit_options.weather) : sequence->scene;
-    auto showroom = std::make_unique<Showroom>(
-        scene, ShowroomOptions{.memory_bytes = options.executor.memory_mib << 20}, std::move(created.executor));
-    return visit(std::move(*window), scene, std::move(showroom), visit_options);
+    WindowContent content;
+    content.title = sequence->name.empty() ? "sequence" : sequence->name;
+    VisitOptions& visit = content.visit;
+    RS_ASSIGN_OR_RETURN(visit.tracing, traced_options(options.renderer));
+    visit.scene_name = content.title;
+    visit.sequence = sequence;
+    visit.weather = weather ? weather : sequence->weather;
+    visit.frame = frame_options(options.drawing, size, options.renderer.exposure_ev, true);
+    visit.traced = options.renderer.method().has_value();
+    visit.viewpoints = {viewpoint_of(opened.camera.value_or(camera_of(*sequence, 0, size.width, size.height)))};
+    visit.follows_sequence = !opened.camera;
+    if (options.lights) visit.lights = *options.lights;
+    visit.executor = created.traits.name;
+    content.scene = visit.weather ? apply_weather(sequence->scene, *visit.weather) : sequence->scene;
+    content.showroom = std::make_unique<Showroom>(
+        content.scene, ShowroomOptions{.memory_bytes = options.executor.memory_mib << 20}, std::move(created.executor));
+    return content;
 }
 
-Status show_sequences(const SequenceOptions& options) {
-    std::optional<OpenSequence> shown;
-    std::string next = options.folders.front();
-    while (!next.empty()) {
-        Result<OpenSequence> opened = open_sequence(options, std::exchange(next, {}));
-        if (opened) {
-            shown.emplace(std::move(*opened));
-        } else if (shown) {
-            print_warnings({opened.error().message});  // the previous sequence is shown again
-        } else {
-            return opened.error();
-        }
-        RS_TRY(show_sequence(options, *shown, next));
-    }
-    return {};
+Status show_sequence(const SequenceOptions& options) {
+    RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
+    RS_ASSIGN_OR_RETURN(WindowContent content, content_of_sequence(options, options.folders.front()));
+    auto window = Window::create({.title = content.title, .width = size.width, .height = size.height});
+    if (!window) return Error{window.error().message + "; give -o to write an image or a video"};
+    const WindowSettings settings{options.size, options.renderer, options.drawing, options.executor};
+    return show_contents(std::move(*window), std::move(content), [&](const std::string& file) {
+        return is_sequence(file) ? content_of_sequence(options, file) : scene_content(settings, file);
+    });
 }
 
 // Refuses options that apply to another kind of output.
@@ -371,6 +355,15 @@ void check_sequence_options(const CLI::App& command, const SequenceOptions& opti
 }
 
 }  // namespace
+
+Result<WindowContent> sequence_content(const WindowSettings& settings, const std::string& folder) {
+    SequenceOptions options;
+    options.size = settings.size;
+    options.renderer = settings.renderer;
+    options.drawing = settings.drawing;
+    options.executor = settings.executor;
+    return content_of_sequence(options, folder);
+}
 
 void add_sequence_command(CLI::App& app, std::function<Status()>& run) {
     auto options = std::make_shared<SequenceOptions>();
@@ -430,7 +423,7 @@ void add_sequence_command(CLI::App& app, std::function<Status()>& run) {
     command->callback([command, options, &run] {
         check_sequence_options(*command, *options);
         run = [options] {
-            if (!options->output) return show_sequences(*options);
+            if (!options->output) return show_sequence(*options);
             return options->folders.size() == 1 ? render_sequence(*options) : render_sequences(*options);
         };
     });

@@ -44,13 +44,10 @@ Status show_walls(const WallsOptions& options, const WallViews& views, LoadedSce
                            .heads = views.heads,
                            .place = views.places.front(),
                            .stereo = views.stereo,
-                           .samples = options.drawing.samples,
-                           .wire_frame = options.drawing.wire_frame,
-                           .shadows = options.drawing.shadows,
-                           .exposure_ev = options.renderer.exposure_ev,
-                           .object_depth = options.drawing.object_depth,
-                           .object_samples = options.drawing.object_samples,
+                           .frame = frame_options(options.drawing, {}, options.renderer.exposure_ev, true),
+                           .traced = options.renderer.method().has_value(),
                            .warn = print_warnings};
+    RS_ASSIGN_OR_RETURN(visit.tracing, traced_options(options.renderer));
     if (views.tracker) visit.tracked = tracked;
     Status left = visit_walls(loaded.scene, std::move(loaded.showroom), visit);
     if (views.tracker && views.tracker->dropped() > 1) {
@@ -109,10 +106,9 @@ Status run_walls(const WallsOptions& options) {
     return show_walls(options, views, std::move(loaded));
 }
 
-// Windows move by keys and are rasterized.
+// Windows move by keys and refine without a limit.
 void check_window_options(const CLI::App& command) {
-    for (const char* const name : {"--path", "--orbit", "--passes", "--seconds", "--upright", "--quiet",
-                                   "--soft-shadows", "--toon-lines", "--toon-style", "--force"}) {
+    for (const char* const name : {"--path", "--orbit", "--passes", "--seconds", "--upright", "--quiet", "--force"}) {
         if (command.count(name) == 0) continue;
         throw CLI::ValidationError(std::string(name) + " needs -o: the folder to write images of the walls to");
     }
@@ -170,12 +166,8 @@ void add_walls_command(CLI::App& app, std::function<Status()>& run) {
         if (options->view.fov_deg) {
             throw CLI::ValidationError("--fov has no effect on walls, which are the field of view; leave it out");
         }
-        if (options->walls.output) {
-            check_renderer_options(*command, options->renderer);
-        } else {
-            if (options->renderer.method()) throw CLI::ValidationError("--renderer on walls needs -o FOLDER");
-            check_window_options(*command);
-        }
+        if (!options->walls.output) check_window_options(*command);
+        check_renderer_options(*command, options->renderer);
         run = [options] { return run_walls(*options); };
     });
 }

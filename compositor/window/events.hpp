@@ -3,6 +3,7 @@
 
 #include <glm/glm.hpp>
 
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -59,9 +60,14 @@ struct MoveEvent {
 struct WheelEvent {
     double notches = 0;  // forward
 };
+/// Files or folders were dropped onto the window.
+struct DropEvent {
+    std::vector<std::string> paths;
+    glm::dvec2 at_px{0};
+};
 /// The window lost the focus; releases of held keys will not be reported.
 struct LostFocusEvent {};
 
-using Event = std::variant<KeyEvent, ButtonEvent, MoveEvent, WheelEvent, LostFocusEvent>;
+using Event = std::variant<KeyEvent, ButtonEvent, MoveEvent, WheelEvent, DropEvent, LostFocusEvent>;
 
 }  // namespace rs::compositor

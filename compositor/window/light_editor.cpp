@@ -69,7 +69,7 @@ void LightEditor::set_scene(const Scene& scene) {
         return;
     }
     edits_ = LightEdits(state_of(lights_as_list(scene), edits_.state().exposure_ev));
-    lit_revision_ = edits_.revision();
+    lit_revision_ = saved_revision_ = edits_.revision();
     lit_ = base_;
 }
 
@@ -209,13 +209,16 @@ Status LightEditor::load() {
         if (!state.environment) state.environment = now.environment;
     }
     edits_.set(std::move(state));
+    saved_revision_ = edits_.revision();
     const std::vector<std::string> warnings = light_warnings(tried);
     report(warnings.empty() ? profile + ": " + std::to_string(list.entries.size()) + " lights" : warnings.front());
     return {};
 }
 
-Status LightEditor::save() const {
-    return write_light_list(list_of(edits_.state()), profile);
+Status LightEditor::save() {
+    RS_TRY(write_light_list(list_of(edits_.state()), profile));
+    saved_revision_ = edits_.revision();
+    return {};
 }
 
 void LightEditor::scan_folder(const std::filesystem::path& folder) {

@@ -15,6 +15,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rs::compositor {
@@ -59,8 +60,13 @@ public:
 
     /// Loads `profile` as one undo step, replacing all lights if the list has "replace". Changes nothing on failure.
     Status load();
-    Status save() const;
+    Status save();
+    /// True if lights have been edited since they were loaded or saved.
+    [[nodiscard]] bool has_unsaved_edits() const { return edits_.revision() != saved_revision_; }
     std::string profile;  // file name of the light list
+    /// Requests the selection of `profile` in a file list.
+    void request_profile() { profile_requested_ = true; }
+    bool take_profile_request() { return std::exchange(profile_requested_, false); }
 
     /// Lists the photometric files of a folder by name; at most 500.
     void scan_folder(const std::filesystem::path& folder);
@@ -85,6 +91,7 @@ private:
     double lift_ = 0.001;  // offset of lights from surfaces
     LightEdits edits_;
     std::uint64_t lit_revision_ = 0;
+    std::uint64_t saved_revision_ = 0;
     std::optional<std::pair<std::uint64_t, std::optional<std::size_t>>> warned_;
     bool open_ = false;
     glm::dvec2 pointer_{-1};
@@ -99,6 +106,7 @@ private:
     std::optional<LightDrag> drag_;
     std::filesystem::path folder_;
     std::vector<std::filesystem::path> files_;
+    bool profile_requested_ = false;
     std::string warning_;
     std::string news_;
 };

@@ -238,6 +238,8 @@ void draw_profile(LightEditor& desk) {
     ImGui::SetNextItemWidth(panel_px(2 * kField_px));
     if (ImGui::InputText("##profile", profile, sizeof profile)) desk.profile = profile;
     ImGui::SameLine();
+    if (ImGui::Button("...")) desk.request_profile();
+    ImGui::SameLine();
     if (ImGui::Button("load")) {
         if (const Status loaded = desk.load(); !loaded) desk.report(loaded.error().message);
     }

@@ -1,6 +1,7 @@
 #include "compositor/window/overlay.hpp"
 
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/printable.hpp"
 
 #include <imgui.h>
 
@@ -39,7 +40,7 @@ constexpr std::array kHelp = {
     HelpLine{"1 2 3", "walk, fly, examine"},
     HelpLine{"page up, page down", "viewpoints"},
     HelpLine{"home", "initial viewpoint"},
-    HelpLine{"click", "pick an object"},
+    HelpLine{"click", "examine an object; on another place: end it"},
     HelpLine{"F", "wire frame"},
     HelpLine{"O", "shadows, on and off"},
     HelpLine{"T", "trace the light in a frozen view, and back"},
@@ -48,9 +49,10 @@ constexpr std::array kHelp = {
     HelpLine{"control D, delete", "duplicate, delete the light"},
     HelpLine{"P  R", "screenshot, record"},
     HelpLine{"K  , .", "sequences: play, a frame back, on"},
+    HelpLine{"drop a file", "add an object; open a scene, a sequence or a list of lights"},
     HelpLine{"tab", "statistics and settings"},
     HelpLine{"H", "this help"},
-    HelpLine{"escape", "leave"},
+    HelpLine{"escape", "end examining; leave"},
 };
 
 constexpr ImGuiWindowFlags kPlain = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
@@ -70,6 +72,16 @@ void draw_viewpoint_menu(PanelState& state) {
     ImGui::EndMenu();
 }
 
+constexpr std::array kModes = {NavigationMode::kWalk, NavigationMode::kFly, NavigationMode::kExamine};
+
+void draw_movement_menu(PanelState& state) {
+    if (!ImGui::BeginMenu("movement")) return;
+    for (const NavigationMode mode : kModes) {
+        if (ImGui::MenuItem(name_of(mode), nullptr, state.mode == mode)) state.mode = mode;
+    }
+    ImGui::EndMenu();
+}
+
 void draw_renderer_menu(PanelState& state) {
     if (!ImGui::BeginMenu("renderer")) return;
     if (ImGui::MenuItem("raster", nullptr, !state.traced)) state.traced = false;
@@ -83,7 +95,9 @@ void draw_renderer_menu(PanelState& state) {
 
 void draw_toolbar(PanelState& state) {
     if (!ImGui::BeginMainMenuBar()) return;
+    if (ImGui::MenuItem("open")) state.choose_file = true;
     draw_viewpoint_menu(state);
+    draw_movement_menu(state);
     draw_renderer_menu(state);
     ImGui::MenuItem("record", nullptr, &state.recording);
     ImGui::MenuItem("panel", nullptr, &state.show_panel);
@@ -134,7 +148,7 @@ void draw_objects(PanelState& state) {
 }
 
 void draw_switches(PanelState& state) {
-    for (const NavigationMode mode : {NavigationMode::kWalk, NavigationMode::kFly, NavigationMode::kExamine}) {
+    for (const NavigationMode mode : kModes) {
         if (mode != NavigationMode::kWalk) ImGui::SameLine();
         if (ImGui::RadioButton(name_of(mode), state.mode == mode)) state.mode = mode;
     }
@@ -173,6 +187,8 @@ void draw_saved_names(PanelState& state) {
         state.playback != nullptr ? ImGuiTreeNodeFlags_DefaultOpen : ImGuiTreeNodeFlags_None;
     if (!ImGui::TreeNodeEx("saved images and videos", flags)) return;
     edit_text("folder", state.saved.folder);
+    ImGui::SameLine();
+    if (ImGui::Button("...")) state.choose_folder = true;
     edit_text("image", state.saved.image);
     edit_text("video", state.saved.video);
     ImGui::TreePop();
@@ -195,6 +211,19 @@ void draw_panel(PanelState& state) {
             auto turn = static_cast<float>(degrees(state.turn_rad));
             if (ImGui::SliderFloat("turn", &turn, -180, 180, "%.0f degrees")) state.turn_rad = radians(turn);
         }
+    }
+    ImGui::End();
+}
+
+void draw_confirmation(PanelState& state) {
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({display.x / 2, display.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+    if (ImGui::Begin("confirmation", nullptr, kPlain)) {
+        ImGui::TextUnformatted(printable(state.unconfirmed).c_str());
+        ImGui::TextUnformatted("Edited lights are not saved. Opening the file discards them.");
+        if (ImGui::Button("open")) state.confirmed = true;
+        ImGui::SameLine();
+        if (ImGui::Button("cancel")) state.unconfirmed.clear();
     }
     ImGui::End();
 }
@@ -279,6 +308,7 @@ void Overlay::draw(PanelState& state, const std::function<void()>& more) {
     if (state.show_panel) draw_panel(state);
     if (more) more();
     if (const std::string notice = frozen_notice(state); !notice.empty()) draw_frozen_notice(notice);
+    if (!state.unconfirmed.empty()) draw_confirmation(state);
     if (state.show_help) draw_help();
     if (!state.news.empty()) draw_news(state.news);
     ImGui::Render();

@@ -44,6 +44,10 @@ struct PanelState {
     double speed = 1;  // scene units per second
     bool take_screenshot = false;
     SavedNames saved;
+    bool choose_file = false;    // requests of the file list
+    bool choose_folder = false;  // of saved images and videos
+    std::string unconfirmed;     // file that would discard edited lights if it were opened; may be empty
+    bool confirmed = false;
 
     double frame_ms = 0;  // median of the last frames
     double geometry_ms = 0;

@@ -1,10 +1,14 @@
 #include "compositor/window/visit.hpp"
 
+#include "compositor/scene/light/lights_file.hpp"
 #include "compositor/viewer/views/framing.hpp"
+#include "compositor/viewer/views/object_scene.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/base/printable.hpp"
+#include "rayspace/file/input_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <thread>
 #include <utility>
@@ -14,6 +18,7 @@ namespace {
 
 constexpr double kTravelSeconds = 1;
 constexpr double kNewsSeconds = 3;
+constexpr double kErrorSeconds = 10;
 constexpr std::chrono::milliseconds kPauseWhileTracing(10);
 constexpr std::size_t kFramesCounted = 31;
 constexpr double kRecordedFrames_per_s = 30;
@@ -28,7 +33,7 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
       overlay_(std::make_unique<Overlay>(window_)),
       options_(options),
       traced_view_(options.tracing, options.first_grid_cells),
-      desk_(scene, options.exposure_ev, options.lights),
+      desk_(scene, options.frame.exposure_ev, options.lights),
       recorder_({.folder = options.images.string()}),
       last_(std::chrono::steady_clock::now()) {
     navigation_.speed = scene.navigation.speed;
@@ -38,10 +43,10 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
     }
     turns_rad_.resize(names_.size());
     visitor_ = visitor_at(options_.viewpoints.front(), middle_);
-    panel_.mode = mode_of(scene.navigation);
+    panel_.mode = mode_ = mode_of(scene.navigation);
     panel_.speed = navigation_.speed;
-    panel_.wire_frame = options.wire_frame;
-    panel_.shadows = options.shadows;
+    panel_.wire_frame = options.frame.wire_frame;
+    panel_.shadows = options.frame.shadows;
     panel_.traced = options.traced;
     panel_.method = options.tracing.method;
     panel_.executor = options.executor;
@@ -56,15 +61,10 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
 
 Result<FrameCompositor> Visit::make_compositor(const Scene& scene, Showroom& showroom, const glm::ivec2& size,
                                                const VisitOptions& options) {
-    return FrameCompositor::create(scene, showroom.engine(), showroom.nodes(),
-                                   {.width = size.x,
-                                    .height = size.y,
-                                    .samples = options.samples,
-                                    .shadows = options.shadows,
-                                    .exposure_ev = options.exposure_ev,
-                                    .object_depth = options.object_depth,
-                                    .object_samples = options.object_samples,
-                                    .upright_images = true});
+    FrameOptions frame = options.frame;
+    frame.width = size.x;
+    frame.height = size.y;
+    return FrameCompositor::create(scene, showroom.engine(), showroom.nodes(), frame);
 }
 
 Result<std::unique_ptr<Visit>> Visit::create(Window window, const Scene& scene, std::unique_ptr<Showroom> showroom,
@@ -85,8 +85,13 @@ Camera Visit::camera() const {
 }
 
 void Visit::report(const std::string& news) {
-    panel_.news = news;
+    panel_.news = printable(news);
     news_seconds_ = kNewsSeconds;
+}
+
+void Visit::report(const Error& error) {
+    report(error.message);
+    news_seconds_ = kErrorSeconds;
 }
 
 void Visit::begin_travel(const Visitor& to) {
@@ -110,9 +115,62 @@ void Visit::pick(const glm::dvec2& at_px) {
     const std::optional<std::size_t> object =
         compositor_.object_at(static_cast<int>(at_px.x), static_cast<int>(at_px.y));
     panel_.picked = object ? static_cast<int>(*object) : -1;
-    if (!object) return;
+    if (!object) {
+        end_examining();
+        return;
+    }
     panel_.turn_rad = turns_rad_[*object];
     report(names_[*object]);
+    panel_.mode = NavigationMode::kExamine;
+    if (mode_ == panel_.mode) examine();
+    apply_mode();
+}
+
+std::optional<glm::dvec3> Visit::centre_of_picked() const {
+    if (panel_.picked < 0) return std::nullopt;
+    const DisplayedNode& node = (*showroom_->nodes())[static_cast<std::size_t>(panel_.picked)];
+    if (node.object) {
+        const UprightExtent& extent = node.object->object->extent;
+        return node.object->world_from_object.point({0, (extent.bottom + extent.top) / 2, 0});
+    }
+    if (!node.placeholder) return std::nullopt;
+    return node.placeholder->world_from_object.point({0, (node.placeholder->bottom + node.placeholder->top) / 2, 0});
+}
+
+// Follows a mode that was selected by key, click or panel.
+void Visit::apply_mode() {
+    if (panel_.mode == mode_) return;
+    const NavigationMode before = std::exchange(mode_, panel_.mode);
+    if (mode_ != NavigationMode::kExamine) {
+        before_examining_.reset();
+        return;
+    }
+    before_examining_ = {before, visitor_.eye.y};
+    examine();
+}
+
+// Turns to the picked object, which becomes the pivot; without one the surface ahead is.
+void Visit::examine() {
+    const std::optional<glm::dvec3> centre = centre_of_picked();
+    if (!centre) {
+        visitor_.pivot_distance = compositor_.distance_ahead().value_or(glm::length(middle_ - visitor_.eye));
+    } else if (!is_frozen()) {
+        begin_travel(facing(visitor_, *centre));
+    }
+}
+
+// Returns to the mode before examine; a walk goes on at its height.
+void Visit::end_examining() {
+    panel_.picked = -1;
+    if (!before_examining_) return;
+    const BeforeExamining before = *before_examining_;
+    panel_.mode = before.mode;
+    apply_mode();
+    travel_.reset();
+    if (before.mode != NavigationMode::kWalk || visitor_.eye.y == before.eye_height || is_frozen()) return;
+    Visitor to = visitor_;
+    to.eye.y = before.eye_height;
+    begin_travel(to);
 }
 
 void Visit::on_key(Key command) {
@@ -127,7 +185,7 @@ void Visit::on_key(Key command) {
             break;
         case Key::kExamine:
             panel_.mode = NavigationMode::kExamine;
-            visitor_.pivot_distance = compositor_.distance_ahead().value_or(glm::length(middle_ - visitor_.eye));
+            if (mode_ == panel_.mode) examine();
             break;
         case Key::kNextViewpoint:
             go_to_viewpoint((viewpoint_ + 1) % count);
@@ -169,7 +227,15 @@ void Visit::on_key(Key command) {
             panel_.recording = !panel_.recording;
             break;
         case Key::kQuit:
-            window_.close();
+            if (dialog_.is_open()) {
+                dialog_.close();
+            } else if (!panel_.unconfirmed.empty()) {
+                panel_.unconfirmed.clear();
+            } else if (before_examining_) {
+                end_examining();
+            } else {
+                window_.close();
+            }
             break;
         default:
             break;
@@ -179,15 +245,134 @@ void Visit::on_key(Key command) {
 // Fog, sky and wet or snowy surfaces are parts of the scene, so another weather needs another compositor.
 Status Visit::change_weather() {
     desk_.set_scene(playback_->scene_in_weather());
+    RS_ASSIGN_OR_RETURN(FrameCompositor compositor, compositor_of(*desk_.scene(), *showroom_));
+    take_compositor(std::move(compositor));
+    return {};
+}
+
+// A compositor with the current settings.
+Result<FrameCompositor> Visit::compositor_of(const Scene& scene, Showroom& showroom) const {
     VisitOptions options = options_;
-    options.shadows = panel_.shadows;
-    options.exposure_ev = desk_.edits().state().exposure_ev;
-    const glm::ivec2 size(compositor_.width(), compositor_.height());
+    options.frame.shadows = panel_.shadows;
+    options.frame.exposure_ev = desk_.edits().state().exposure_ev;
+    return make_compositor(scene, showroom, {compositor_.width(), compositor_.height()}, options);
+}
+
+void Visit::take_compositor(FrameCompositor compositor) {
     traced_view_.drop(compositor_);
-    RS_ASSIGN_OR_RETURN(FrameCompositor compositor, make_compositor(*desk_.scene(), *showroom_, size, options));
     compositor_ = std::move(compositor);
     for (std::size_t i = 0; i < turns_rad_.size(); ++i) compositor_.turn_object(i, turns_rad_[i]);
+}
+
+void Visit::drop(const DropEvent& event) {
+    for (const std::string& file : event.paths) take_file(file, event.at_px);
+}
+
+// Adds an object, loads lights, or opens a scene or sequence.
+void Visit::take_file(const std::string& file, const glm::dvec2& at_px) {
+    if (is_object_file(file) && options_.load_objects) {
+        if (const Status added = add_object(file, at_px); !added) report(added.error());
+    } else if (lower_case_extension(file) == ".json" && read_light_list(file)) {
+        load_lights(file);
+    } else {
+        request_open(file);
+    }
+}
+
+void Visit::load_lights(const std::string& file) {
+    const std::string before = std::exchange(desk_.profile, file);
+    const Status loaded = desk_.load();
+    if (loaded) return;
+    desk_.profile = before;
+    report(loaded.error());
+}
+
+// The surface under the pointer, else the point of the ground plane at the height of the floor or the origin.
+std::optional<glm::dvec3> Visit::ground_at(const glm::dvec2& at_px) {
+    if (const auto seen = compositor_.surface_at(static_cast<int>(at_px.x), static_cast<int>(at_px.y))) {
+        return seen->place;
+    }
+    const std::optional<Floor>& floor = desk_.scene()->floor;
+    const double height = floor ? floor->height : 0;
+    const Camera here = camera();
+    const glm::dvec3 ray = here.ray(at_px.x, at_px.y);
+    const double distance = (height - here.centre().y) / ray.y;
+    if (!(distance > 0) || !(distance < 100 * std::max(std::abs(here.centre().y - height), 1.0))) return std::nullopt;
+    return here.centre() + distance * ray;
+}
+
+// Stands an object on the surface at a pixel, in its own size. Changes nothing on failure.
+Status Visit::add_object(const std::string& file, const glm::dvec2& at_px) {
+    RS_ASSIGN_OR_RETURN(const double radius, own_radius(file));
+    const std::optional<glm::dvec3> place = ground_at(at_px);
+    if (!place) return Error{file + ": there is no surface under the pointer; drop it onto a floor or a table"};
+    Scene scene = *desk_.scene();
+    RaySpaceNode node;
+    node.file = file;
+    node.chain = {{.translation = *place, .scale = radius}};
+    scene.objects.push_back(std::move(node));
+    RS_ASSIGN_OR_RETURN(std::unique_ptr<Showroom> showroom, options_.load_objects(scene));
+    RS_ASSIGN_OR_RETURN(FrameCompositor compositor, compositor_of(scene, *showroom));
+    desk_.set_scene(scene);
+    names_.push_back(std::filesystem::path(file).stem().string());
+    turns_rad_.push_back(0);
+    take_compositor(std::move(compositor));
+    showroom_ = std::move(showroom);
+    report(names_.back() + ": added");
     return {};
+}
+
+// Opens the file after the next frame, or once the loss of edited lights is confirmed.
+void Visit::request_open(std::string file) {
+    if (!options_.open) {
+        report(Error{file + ": cannot be opened in this window; start rs-view with it"});
+    } else if (desk_.has_unsaved_edits() && std::exchange(panel_.unconfirmed, file) != file) {
+        report("edited lights are not saved; opening the file discards them");
+    } else {
+        panel_.unconfirmed.clear();
+        report("opening " + file);
+        opening_ = std::move(file);
+    }
+}
+
+// Opens the requested file, which a frame has announced; false if it takes the place of the scene.
+bool Visit::open_requested() {
+    if (opening_.empty()) return true;
+    const Status opened = options_.open(std::exchange(opening_, {}));
+    if (opened) return false;
+    report(opened.error());
+    return true;
+}
+
+// Requests of toolbar, panels and file list.
+void Visit::poll_panels() {
+    if (std::exchange(panel_.choose_file, false)) dialog_.open(FileUse::kOpen, dialog_.folder());
+    if (std::exchange(panel_.choose_folder, false)) dialog_.open(FileUse::kFolder, panel_.saved.folder);
+    if (desk_.take_profile_request()) dialog_.open(FileUse::kLightList, desk_.profile);
+    if (const auto choice = dialog_.take_choice()) take_choice(*choice);
+    if (std::exchange(panel_.confirmed, false)) request_open(panel_.unconfirmed);
+    if (playback_) {
+        if (const std::string folder = playback_->take_folder(); !folder.empty()) request_open(folder);
+    }
+}
+
+void Visit::take_choice(const FileDialog::Choice& choice) {
+    switch (choice.use) {
+        case FileUse::kLightList:
+            desk_.profile = choice.path;
+            break;
+        case FileUse::kFolder:
+            panel_.saved.folder = choice.path;
+            break;
+        case FileUse::kOpen:
+            // Objects take the place of the scene; dropped ones are added to it.
+            if (lower_case_extension(choice.path) == ".json" && read_light_list(choice.path)) {
+                load_lights(choice.path);
+            } else {
+                request_open(choice.path);
+            }
+            break;
+    }
 }
 
 // Advances the sequence; true if another frame of it is shown.
@@ -277,14 +462,14 @@ Status Visit::poll_streaming(double seconds) {
 bool Visit::move(double seconds) {
     navigation_.speed = panel_.speed;
     const NavigationInput movement = input_.movement(seconds);
-    if (panel_.traced && !panel_.walk_on) {
+    if (is_frozen()) {
         travel_.reset();
     } else if (travel_) {
         travel_->t += seconds / kTravelSeconds;
         visitor_ = between(travel_->from, travel_->to, travel_->t);
         if (travel_->t >= 1) travel_.reset();
     } else {
-        visitor_ = moved(visitor_, panel_.mode, movement, navigation_);
+        visitor_ = moved(visitor_, mode_, movement, navigation_);
     }
     if (panel_.picked < 0) return false;
     const auto picked = static_cast<std::size_t>(panel_.picked);
@@ -305,6 +490,7 @@ void Visit::handle_events() {
         const bool of_mouse = std::holds_alternative<WheelEvent>(event) ||
                               (std::holds_alternative<ButtonEvent>(event) && std::get<ButtonEvent>(event).down);
         if (of_mouse && overlay_->captures_mouse()) continue;
+        if (const auto* const dropped = std::get_if<DropEvent>(&event)) drop(*dropped);
         // Keys that were held before a text field was opened are still released.
         const auto* const key = std::get_if<KeyEvent>(&event);
         if (key != nullptr && key->down && overlay_->captures_keys()) continue;
@@ -312,6 +498,7 @@ void Visit::handle_events() {
     }
     for (const Key command : input_.commands()) on_key(command);
     if (const auto next = std::exchange(panel_.next_viewpoint, std::nullopt)) go_to_viewpoint(*next);
+    apply_mode();
 }
 
 Status Visit::resize_if_needed(const glm::ivec2& size) {
@@ -373,9 +560,11 @@ void Visit::draw_panels() {
     const int picked_before = panel_.picked;
     overlay_->draw(panel_, [this] {
         if (desk_.is_open()) light_panel_.draw(desk_, desk_view());
+        dialog_.draw();
     });
     if (panel_.picked != picked_before && panel_.picked >= 0) {
         panel_.turn_rad = turns_rad_[static_cast<std::size_t>(panel_.picked)];
+        if (mode_ == NavigationMode::kExamine) examine();
     }
 }
 
@@ -391,10 +580,6 @@ Result<bool> Visit::step(std::optional<double> seconds) {
     RS_TRY(apply_light_edits());
     const bool turned = move(passed);
     RS_ASSIGN_OR_RETURN(const bool played, play(passed));
-    if (const std::string folder = playback_ ? playback_->take_folder() : ""; !folder.empty() && options_.open) {
-        options_.open(folder);
-        return false;
-    }
     compositor_.set_wire_frame(panel_.wire_frame);
     apply_shadow_setting();
     RS_TRY(poll_streaming(passed));
@@ -416,15 +601,18 @@ Result<bool> Visit::step(std::optional<double> seconds) {
     RS_TRY(show(size));
     draw_panels();
     window_.swap();
-    return true;
+    const bool goes_on = open_requested();
+    poll_panels();
+    return goes_on;
 }
 
-Status visit(Window window, const Scene& scene, std::unique_ptr<Showroom> showroom, const VisitOptions& options) {
-    RS_ASSIGN_OR_RETURN(const std::unique_ptr<Visit> made,
+Result<Window> visit(Window window, const Scene& scene, std::unique_ptr<Showroom> showroom,
+                     const VisitOptions& options) {
+    RS_ASSIGN_OR_RETURN(std::unique_ptr<Visit> made,
                         Visit::create(std::move(window), scene, std::move(showroom), options));
     for (;;) {
         RS_ASSIGN_OR_RETURN(const bool goes_on, made->step());
-        if (!goes_on) return {};
+        if (!goes_on) return Visit::leave(std::move(made));
     }
 }
 

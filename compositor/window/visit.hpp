@@ -9,6 +9,7 @@
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/viewer/views/navigation.hpp"
+#include "compositor/window/file_dialog.hpp"
 #include "compositor/window/light_editor.hpp"
 #include "compositor/window/light_panel.hpp"
 #include "compositor/window/overlay.hpp"
@@ -25,29 +26,29 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace rs::compositor {
 
 struct VisitOptions {
-    std::vector<Viewpoint> viewpoints;   // at least one; the camera starts at the first
-    std::string scene_name;              // in the toolbar
-    std::filesystem::path images = ".";  // initial folder of screenshots and recordings
-    int samples = 4;
-    bool wire_frame = false;
-    ObjectDepth object_depth = ObjectDepth::kPlane;
-    int object_samples = FrameOptions{}.object_samples;
-    double exposure_ev = 0;
-    std::filesystem::path lights = "lights.json";  // the file that edited lights are saved to
-    bool shadows = true;
-    bool traced = false;                       // at the start
-    TracedOptions tracing{};                   // with the exposure above
-    std::optional<int> first_grid_cells{};     // of FirstGridSelector
-    std::string executor = "software core";    // of the engine, for the panel
-    std::shared_ptr<const Sequence> sequence;  // to play, in this weather
+    std::vector<Viewpoint> viewpoints;                            // at least one; the camera starts at the first
+    std::string scene_name;                                       // in the toolbar
+    std::filesystem::path images = ".";                           // initial folder of screenshots and recordings
+    FrameOptions frame{.shadows = true, .upright_images = true};  // at the start; without its size
+    std::filesystem::path lights = "lights.json";                 // the file that edited lights are saved to
+    bool traced = false;                                          // at the start
+    TracedOptions tracing{};                                      // with the exposure above
+    std::optional<int> first_grid_cells{};                        // of FirstGridSelector
+    std::string executor = "software core";                       // of the engine, for the panel
+    std::shared_ptr<const Sequence> sequence;                     // to play, in this weather
     std::optional<Weather> weather;
-    bool follows_sequence = true;                  // starts with the sequence's camera instead of the first viewpoint
-    std::function<void(const std::string&)> open;  // called when another sequence is requested; the visit then ends
+    bool follows_sequence = true;  // starts with the sequence's camera instead of the first viewpoint
+    /// Loads a file or folder that takes the place of the scene; the visit ends if it succeeds. Empty: none can be
+    /// opened.
+    std::function<Status(const std::string& file)> open = {};
+    /// Loads the objects of the scene with an added one. Empty: objects cannot be added.
+    std::function<Result<std::unique_ptr<Showroom>>(const Scene& scene)> load_objects = {};
     std::function<void(const std::vector<std::string>&)> warn;  // for objects that cannot be shown; may be empty
 };
 
@@ -69,6 +70,9 @@ public:
     /// Traced light follows the camera with coarse images; else the camera does not move while it is on.
     void walk_on(bool on) { panel_.walk_on = on; }
     [[nodiscard]] LightEditor& lights() { return desk_; }
+    [[nodiscard]] std::size_t object_count() const { return names_.size(); }
+    /// Ends the visit and returns its window.
+    static Window leave(std::unique_ptr<Visit> visit) { return std::move(visit->window_); }
     /// The last frame, without the overlay.
     [[nodiscard]] Image<Rgba8> image() const { return compositor_.image(); }
 
@@ -84,7 +88,14 @@ private:
     void go_to_viewpoint(std::size_t number);
     [[nodiscard]] std::string viewpoint_name(std::size_t number) const;
     Status change_weather();
+    Result<FrameCompositor> compositor_of(const Scene& scene, Showroom& showroom) const;
+    void take_compositor(FrameCompositor compositor);
     void begin_travel(const Visitor& to);
+    void apply_mode();
+    void examine();
+    void end_examining();
+    [[nodiscard]] bool is_frozen() const { return panel_.traced && !panel_.walk_on; }
+    [[nodiscard]] std::optional<glm::dvec3> centre_of_picked() const;
     bool move(double seconds);
     void pick(const glm::dvec2& at_px);
     [[nodiscard]] EditorView desk_view();
@@ -94,6 +105,15 @@ private:
     Result<bool> play(double seconds);
     [[nodiscard]] Refinement::Lighting lighting_to_trace() const;
     bool refine(const Camera& here);
+    void drop(const DropEvent& event);
+    void take_file(const std::string& file, const glm::dvec2& at_px);
+    void load_lights(const std::string& file);
+    Status add_object(const std::string& file, const glm::dvec2& at_px);
+    [[nodiscard]] std::optional<glm::dvec3> ground_at(const glm::dvec2& at_px);
+    void request_open(std::string file);
+    void poll_panels();
+    void take_choice(const FileDialog::Choice& choice);
+    bool open_requested();
     void take_screenshots();
     void record();
     Status show(const glm::ivec2& size);
@@ -101,6 +121,7 @@ private:
     void refresh_panel(double seconds);
     Status poll_streaming(double seconds);
     void report(const std::string& news);
+    void report(const Error& error);
     [[nodiscard]] Camera camera() const;
 
     Window window_;
@@ -120,6 +141,12 @@ private:
         double t = 0;
     };
     std::optional<Travel> travel_;
+    NavigationMode mode_ = NavigationMode::kWalk;  // applied mode; the panel's may be newer
+    struct BeforeExamining {
+        NavigationMode mode;
+        double eye_height;
+    };
+    std::optional<BeforeExamining> before_examining_;
     std::size_t viewpoint_ = 0;
     std::vector<double> turns_rad_;  // [object]
     std::vector<double> frame_seconds_;
@@ -128,11 +155,15 @@ private:
     LightPanel light_panel_;
     std::optional<Playback> playback_;
     ViewRecorder recorder_;
+    FileDialog dialog_;
+    std::string opening_;  // file to open after this frame
     double news_seconds_ = 0;
     std::chrono::steady_clock::time_point last_;
 };
 
-/// Creates a visit and runs it until the user closes the window.
-Status visit(Window window, const Scene& scene, std::unique_ptr<Showroom> showroom, const VisitOptions& options);
+/// Creates a visit and runs it until the user closes the window or opens another file in it.
+/// \return the window
+Result<Window> visit(Window window, const Scene& scene, std::unique_ptr<Showroom> showroom,
+                     const VisitOptions& options);
 
 }  // namespace rs::compositor

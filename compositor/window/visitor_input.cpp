@@ -47,7 +47,7 @@ void VisitorInput::take(const Event& event) {
                               }
                               if (!dragging_ || dragged_) last_ = move.to_px;
                           },
-                          [&](const WheelEvent& wheel) { wheel_ += wheel.notches; },
+                          [&](const WheelEvent& wheel) { wheel_ += wheel.notches; }, [](const DropEvent&) {},
                           [&](const LostFocusEvent&) {
                               held_.clear();
                               dragging_.reset();

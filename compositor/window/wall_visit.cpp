@@ -4,12 +4,15 @@
 #include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
+#include <thread>
 #include <utility>
 
 namespace rs::compositor {
 namespace {
 
 constexpr double kHeadSpeed_m_per_s = 0.3;
+constexpr double kStill_m = 0.01;  // noise of trackers, which would begin each traced image again
+constexpr std::chrono::milliseconds kPauseBetweenImages(10);
 
 // Head pose in the scene.
 Visitor as_visitor(const Head& head, const RoomPose& place) {
@@ -35,6 +38,8 @@ WallVisit::WallVisit(std::vector<Window> windows, std::unique_ptr<Showroom> show
       viewpoints_(scene.viewpoints),
       head_(options.heads.front()),
       place_(options.place),
+      traced_(options.traced),
+      traced_walls_(std::make_shared<const Scene>(scene), options.tracing),
       last_(std::chrono::steady_clock::now()) {
     navigation_.speed = scene.navigation.speed;
 }
@@ -65,17 +70,11 @@ Result<std::unique_ptr<WallVisit>> WallVisit::create(const Scene& scene, std::un
     }
     windows.front().make_current();
     const Wall& first = options.display.walls.front();
+    FrameOptions frame = options.frame;
+    frame.width = first.width;
+    frame.height = first.height;
     RS_ASSIGN_OR_RETURN(FrameCompositor compositor,
-                        FrameCompositor::create(scene, showroom->engine(), showroom->nodes(),
-                                                {.width = first.width,
-                                                 .height = first.height,
-                                                 .samples = options.samples,
-                                                 .wire_frame = options.wire_frame,
-                                                 .shadows = options.shadows,
-                                                 .exposure_ev = options.exposure_ev,
-                                                 .object_depth = options.object_depth,
-                                                 .object_samples = options.object_samples,
-                                                 .upright_images = true}));
+                        FrameCompositor::create(scene, showroom->engine(), showroom->nodes(), frame));
     std::unique_ptr<WallVisit> visit(new WallVisit(std::move(windows), std::move(showroom), scene, options));
     visit->compositor_.emplace(std::move(compositor));
     return visit;
@@ -107,6 +106,9 @@ void WallVisit::on_key(Key command) {
             head_ = options_.heads.front();
             place_ = options_.place;
             break;
+        case Key::kTrace:
+            traced_ = !traced_;
+            break;
         case Key::kScreenshot:
             save_requested_ = true;
             break;
@@ -132,7 +134,8 @@ void WallVisit::move(double seconds) {
         next_head_ = (next_head_ + 1) % options_.heads.size();
     }
     if (const std::optional<Head> tracked = options_.tracked ? options_.tracked() : std::nullopt) {
-        if (is_before_all_walls(*tracked)) head_ = *tracked;
+        const bool is_still = traced_ && glm::distance(tracked->position, head_.position) < kStill_m;
+        if (!is_still && is_before_all_walls(*tracked)) head_ = *tracked;
     }
     if (!moves_head_) {
         const double speed = navigation_.speed;
@@ -149,20 +152,67 @@ void WallVisit::move(double seconds) {
     if (is_before_all_walls(head)) head_ = head;  // walls block the head
 }
 
-Result<Image<Rgba8>> WallVisit::draw_eye(const Wall& wall, double offset_m) {
-    RS_ASSIGN_OR_RETURN(const Camera camera, wall_camera(wall, head_.eye(offset_m), place_));
-    return compositor_->compose(camera);
+// Cameras of all walls, with two eyes left and right.
+Result<std::vector<Camera>> WallVisit::cameras() const {
+    const double half = options_.stereo ? options_.display.eye_distance_m / 2 : 0;
+    std::vector<Camera> cameras;
+    for (const Wall& wall : options_.display.walls) {
+        for (std::size_t eye = 0; eye < eyes(); ++eye) {
+            RS_ASSIGN_OR_RETURN(Camera camera, wall_camera(wall, head_.eye(eye == 0 ? -half : half), place_));
+            cameras.push_back(std::move(camera));
+        }
+    }
+    return cameras;
 }
 
-Result<Image<Rgba8>> WallVisit::image_of(const Wall& wall) {
-    if (wall.width != compositor_->width() || wall.height != compositor_->height()) {
-        RS_TRY(compositor_->resize(wall.width, wall.height));
+// Updates the traced images; true if the walls must be drawn for them, or if light is not traced.
+bool WallVisit::refine(const std::vector<Camera>& cameras) {
+    if (!traced_) {
+        traced_walls_.stop();
+        return true;
     }
-    if (!options_.stereo) return draw_eye(wall, 0);
-    const double half = options_.display.eye_distance_m / 2;
-    RS_ASSIGN_OR_RETURN(const Image<Rgba8> left, draw_eye(wall, -half));
-    RS_ASSIGN_OR_RETURN(const Image<Rgba8> right, draw_eye(wall, half));
+    const Result<bool> changed = traced_walls_.refine(cameras, *showroom_);
+    if (changed) return *changed;
+    traced_ = false;
+    traced_walls_.stop();
+    if (options_.warn) options_.warn({changed.error().message});
+    return true;
+}
+
+Result<Image<Rgba8>> WallVisit::draw_eye(const std::vector<Camera>& cameras, std::size_t number) {
+    compositor_->set_traced(traced_walls_.image(number));
+    return compositor_->compose(cameras[number]);
+}
+
+Result<Image<Rgba8>> WallVisit::image_of(const std::vector<Camera>& cameras, std::size_t wall) {
+    const Camera& first = cameras[wall * eyes()];
+    if (first.width != compositor_->width() || first.height != compositor_->height()) {
+        RS_TRY(compositor_->resize(first.width, first.height));
+    }
+    if (!options_.stereo) return draw_eye(cameras, wall);
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> left, draw_eye(cameras, 2 * wall));
+    RS_ASSIGN_OR_RETURN(const Image<Rgba8> right, draw_eye(cameras, 2 * wall + 1));
     return stereo_image(*options_.stereo, left, right);
+}
+
+Status WallVisit::draw(const std::vector<Camera>& cameras) {
+    windows_.front().make_current();
+    images_.clear();
+    for (std::size_t i = 0; i < windows_.size(); ++i) {
+        RS_ASSIGN_OR_RETURN(Image<Rgba8> image, image_of(cameras, i));
+        images_.push_back(std::move(image));
+    }
+    return {};
+}
+
+Status WallVisit::save_images() {
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+        int number = shots_;
+        const std::string prefix = "wall-" + options_.display.walls[i].name;
+        const auto path = free_name(options_.images, prefix, ".png", number);
+        RS_TRY(write_png(path, images_[i]));
+    }
+    return {};
 }
 
 Result<bool> WallVisit::step(std::optional<double> seconds) {
@@ -180,11 +230,11 @@ Result<bool> WallVisit::step(std::optional<double> seconds) {
     if (const std::vector<std::string> warnings = showroom_->take_warnings(); !warnings.empty() && options_.warn) {
         options_.warn(warnings);
     }
-    windows_.front().make_current();
-    images_.clear();
-    for (const Wall& wall : options_.display.walls) {
-        RS_ASSIGN_OR_RETURN(Image<Rgba8> image, image_of(wall));
-        images_.push_back(std::move(image));
+    RS_ASSIGN_OR_RETURN(const std::vector<Camera> here, cameras());
+    if (refine(here) || images_.empty() || !showroom_->settled()) {
+        RS_TRY(draw(here));
+    } else {
+        std::this_thread::sleep_for(kPauseBetweenImages);
     }
     for (std::size_t i = 0; i < windows_.size(); ++i) {
         const glm::ivec2 size = windows_[i].framebuffer_px();
@@ -195,12 +245,7 @@ Result<bool> WallVisit::step(std::optional<double> seconds) {
     }
     windows_.front().make_current();
     if (std::exchange(save_requested_, false)) {
-        for (std::size_t i = 0; i < images_.size(); ++i) {
-            int number = shots_;
-            const std::string prefix = "wall-" + options_.display.walls[i].name;
-            const auto path = free_name(options_.images, prefix, ".png", number);
-            RS_TRY(write_png(path, images_[i]));
-        }
+        RS_TRY(save_images());
     }
     return true;
 }

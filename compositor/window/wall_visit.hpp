@@ -4,8 +4,10 @@
 //
 //     scene -> one compositor, per wall and eye -> images -> windows, each with its own context
 //
+// Traced light is shown while neither room nor head move, and raster while they do.
+//
 // Keys: 1 moves the room along the ground, 2 also vertically, 3 moves the head in the room; page up/down, home:
-// viewpoints of the scene; P saves the windows' images; escape quits. Main thread only.
+// viewpoints of the scene; T traces the light; P saves the windows' images; escape quits. Main thread only.
 
 #include "compositor/displays/stereo_image.hpp"
 #include "compositor/displays/walls_file.hpp"
@@ -13,6 +15,7 @@
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/viewer/views/navigation.hpp"
+#include "compositor/window/traced_walls.hpp"
 #include "compositor/window/visitor_input.hpp"
 #include "compositor/window/window.hpp"
 #include "rayspace/base/result.hpp"
@@ -35,12 +38,9 @@ struct WallVisitOptions {
     /// ignored.
     std::function<std::optional<Head>()> tracked = nullptr;
     std::optional<StereoForm> stereo = std::nullopt;
-    int samples = 4;
-    bool wire_frame = false;
-    bool shadows = false;
-    double exposure_ev = 0;
-    ObjectDepth object_depth = ObjectDepth::kPlane;
-    int object_samples = FrameOptions{}.object_samples;
+    FrameOptions frame{.upright_images = true};  // without its size
+    bool traced = false;                         // at the start
+    TracedOptions tracing{};
     std::filesystem::path images = ".";                                   // folder for P
     std::function<void(const std::vector<std::string>&)> warn = nullptr;  // objects that cannot be displayed
     WindowOptions window = {};                                            // except title and size
@@ -61,6 +61,10 @@ public:
     [[nodiscard]] std::vector<Window>& windows() { return windows_; }
     [[nodiscard]] const Head& head() const { return head_; }
     [[nodiscard]] const RoomPose& place() const { return place_; }
+    /// Traced light is on.
+    [[nodiscard]] bool is_traced() const { return traced_; }
+    /// Passes of the traced image with the fewest.
+    [[nodiscard]] int passes() const { return traced_walls_.passes(); }
     /// Last frame by wall, as displayed.
     [[nodiscard]] const std::vector<Image<Rgba8>>& images() const { return images_; }
 
@@ -71,8 +75,13 @@ private:
     void on_key(Key command);
     void move(double seconds);
     [[nodiscard]] bool is_before_all_walls(const Head& head) const;
-    Result<Image<Rgba8>> draw_eye(const Wall& wall, double offset_m);
-    Result<Image<Rgba8>> image_of(const Wall& wall);
+    [[nodiscard]] Result<std::vector<Camera>> cameras() const;
+    [[nodiscard]] std::size_t eyes() const { return options_.stereo ? 2 : 1; }
+    bool refine(const std::vector<Camera>& cameras);
+    Result<Image<Rgba8>> draw_eye(const std::vector<Camera>& cameras, std::size_t number);
+    Result<Image<Rgba8>> image_of(const std::vector<Camera>& cameras, std::size_t wall);
+    Status draw(const std::vector<Camera>& cameras);
+    Status save_images();
 
     std::vector<Window> windows_;  // the first one's context renders
     std::unique_ptr<Showroom> showroom_;
@@ -87,6 +96,8 @@ private:
     Head head_;
     std::size_t next_head_ = 0;
     RoomPose place_;
+    bool traced_ = false;
+    TracedWalls traced_walls_;
     std::vector<Image<Rgba8>> images_;
     bool save_requested_ = false;
     bool quits_ = false;

@@ -137,6 +137,11 @@ struct Window::State {
         });
         glfwSetScrollCallback(window,
                               [](GLFWwindow* w, double, double up) { of(w).events.emplace_back(WheelEvent{up}); });
+        glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
+            glm::dvec2 at(0);
+            glfwGetCursorPos(w, &at.x, &at.y);
+            of(w).events.emplace_back(DropEvent{{paths, paths + count}, in_pixels(w, at.x, at.y)});
+        });
         glfwSetWindowFocusCallback(window, [](GLFWwindow* w, int focused) {
             if (focused == GLFW_FALSE) of(w).events.emplace_back(LostFocusEvent{});
         });
@@ -182,6 +187,10 @@ bool Window::should_close() const {
 
 void Window::close() {
     glfwSetWindowShouldClose(state_->window, GLFW_TRUE);
+}
+
+void Window::set_title(const std::string& title) {
+    glfwSetWindowTitle(state_->window, title.c_str());
 }
 
 glm::ivec2 Window::framebuffer_px() const {

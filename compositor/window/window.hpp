@@ -42,6 +42,8 @@ public:
     [[nodiscard]] bool should_close() const;
     void close();
 
+    void set_title(const std::string& title);
+
     /// Framebuffer size; may change in poll(), and be 0 while the window is minimised.
     [[nodiscard]] glm::ivec2 framebuffer_px() const;
 

@@ -238,6 +238,23 @@ TEST_F(View, MissingObjectsAreSkipped) {
     EXPECT_FALSE(std::filesystem::exists(in("other.png")));
 }
 
+TEST_F(View, ObjectFilesAreScenes) {
+    test::SmallObjectOptions options;
+    options.width = options.height = 64;
+    for (const char* name : {"a.rso", "b.rso"}) ASSERT_TRUE(write_object(work_ / name, test::small_object(options)));
+    const test::ToolRun one = render({in("a.rso"), "-o", in("one.png")});
+    if (one.exit_code != 0 && one.err.find("OpenGL: ") != std::string::npos) GTEST_SKIP() << one.err;
+    ASSERT_EQ(one.exit_code, 0) << one.err;
+    ASSERT_EQ(render({in("a.rso"), in("b.rso"), "-o", in("two.png")}).exit_code, 0);
+    EXPECT_NE(read_image(in("one.png")).value(), read_image(in("two.png")).value());
+    write("hall.wrl", kWorld);
+    const test::ToolRun mixed = render({in("hall.wrl"), in("b.rso"), "-o", in("x.png")});
+    EXPECT_EQ(mixed.exit_code, 2);
+    EXPECT_THAT(mixed.err, HasSubstr("give one scene"));
+    const test::ToolRun over = render({in("a.rso"), in("b.rso"), "--force", "-o", in("b.rso")});
+    EXPECT_NE(over.exit_code, 0);
+}
+
 TEST_F(View, CameraPathsAreReadFromAFile) {
     write("hall.wrl", kWorld);
     write("walk.json",

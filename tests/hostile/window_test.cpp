@@ -62,7 +62,7 @@ Event random_event(test::Random& random) {
         return glm::dvec2(static_cast<double>(test::below(random, 4000)) - 500,
                           static_cast<double>(test::below(random, 3000)) - 500);
     };
-    switch (test::below(random, 6)) {
+    switch (test::below(random, 7)) {
         case 0:
         case 1:
             return KeyEvent{kKeys[test::below(random, kKeys.size())], test::below(random, 2) == 0};
@@ -73,6 +73,8 @@ Event random_event(test::Random& random) {
             return MoveEvent{place()};
         case 4:
             return WheelEvent{static_cast<double>(test::below(random, 21)) - 10};
+        case 5:
+            return DropEvent{{test::below(random, 2) == 0 ? "gone.rso" : "gone.json"}, place()};
         default:
             return LostFocusEvent{};
     }
@@ -171,7 +173,7 @@ protected:
     void visit(const Scene& scene, VisitOptions options) {
         options.images = work_.path();
         options.lights = work_ / "lights.json";
-        options.samples = 1;
+        options.frame.samples = 1;
         auto window =
             Window::create({.title = "test", .width = 320, .height = 240, .vertical_sync = false, .context = {}});
         ASSERT_TRUE(window.ok()) << window.error().message;
@@ -206,7 +208,7 @@ TEST_F(HostileWindow, TheWallsGoOn) {
                              {"front", {-1.5, 0, -1.5}, {1.5, 0, -1.5}, {-1.5, 3, -1.5}, 120, 90}};
     options.heads = {Head{.position = {0, 1.5, 0}}};
     options.images = work_.path();
-    options.samples = 1;
+    options.frame.samples = 1;
     options.window.vertical_sync = false;
     const auto walls = WallVisit::create(scene, showroom_of(scene), options);
     ASSERT_TRUE(walls.ok()) << walls.error().message;

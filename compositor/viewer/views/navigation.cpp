@@ -102,6 +102,17 @@ Visitor visitor_at(const Viewpoint& viewpoint, const glm::dvec3& pivot) {
     return visitor;
 }
 
+Visitor facing(const Visitor& visitor, const glm::dvec3& point) {
+    const glm::dvec3 way = point - visitor.eye;
+    const double distance = glm::length(way);
+    if (!(distance > kMinPivotDistance)) return visitor;
+    Visitor turned = visitor;
+    if (std::hypot(way.x, way.z) > 1e-6 * distance) turned.heading_rad = std::atan2(-way.x, -way.z);
+    turned.pitch_rad = clamp_pitch(std::asin(std::clamp(way.y / distance, -1.0, 1.0)));
+    turned.pivot_distance = distance;
+    return turned;
+}
+
 Viewpoint viewpoint_of(const Visitor& visitor, const Viewpoint& like) {
     Viewpoint viewpoint = like;
     const glm::dvec3 right = right_of(visitor.heading_rad);

@@ -58,6 +58,8 @@ struct NavigationSettings {
 
 /// Drops roll. `pivot` only sets the pivot distance along the line of sight.
 [[nodiscard]] Visitor visitor_at(const Viewpoint& viewpoint, const glm::dvec3& pivot);
+/// The visitor turned towards a point, which becomes the pivot. Unchanged at the point itself.
+[[nodiscard]] Visitor facing(const Visitor& visitor, const glm::dvec3& point);
 /// Viewpoint of the visitor with the field of view of `like`.
 [[nodiscard]] Viewpoint viewpoint_of(const Visitor& visitor, const Viewpoint& like);
 

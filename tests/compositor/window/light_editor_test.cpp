@@ -53,7 +53,7 @@ protected:
         options.viewpoints = {front};
         options.images = work_.path();
         options.lights = work_ / "profile.json";
-        options.samples = 1;
+        options.frame.samples = 1;
         auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.waits = true});
         WindowOptions small{.title = "test", .width = 320, .height = 240, .vertical_sync = false};
         small.context = {.debug = true, .at_end = [this](const std::vector<std::string>& left) { left_ = left; }};

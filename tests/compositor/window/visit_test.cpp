@@ -4,9 +4,11 @@
 #include "compositor/window/visit.hpp"
 
 #include "compositor/viewer/views/framing.hpp"
+#include "rayspace/format/object_file.hpp"
 #include "rayspace/image_io/image_io.hpp"
 #include "tests/compositor/moving_boxes.hpp"
 #include "tests/compositor/objects.hpp"
+#include "tests/support/small_object.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/virtual_display.hpp"
 
@@ -15,6 +17,7 @@
 
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
 
 namespace rs::compositor {
 namespace {
@@ -47,7 +50,15 @@ protected:
         options.viewpoints = {front, side};
         options.images = work_.path();
         options.scene_name = "drum.wrl";
-        options.samples = 1;
+        options.open = [this](const std::string& file) -> Status {
+            if (file.ends_with(".wrl")) return {};
+            return Error{file + ": is no scene"};
+        };
+        options.load_objects = [](const Scene& more) -> Result<std::unique_ptr<Showroom>> {
+            return std::make_unique<Showroom>(more, ShowroomOptions{.waits = true}, nullptr,
+                                              std::make_unique<test::ObjectsInMemory>(kObjectRed));
+        };
+        options.frame.samples = 1;
         auto showroom = std::make_unique<Showroom>(scene, ShowroomOptions{.waits = true}, nullptr,
                                                    std::make_unique<test::ObjectsInMemory>(kObjectRed));
         WindowOptions small{.title = "test", .width = 320, .height = 240, .vertical_sync = false};
@@ -72,6 +83,7 @@ protected:
         EXPECT_TRUE(goes_on.ok()) << goes_on.error().message;
         return goes_on.ok() && *goes_on;
     }
+    void drop(const std::string& file, const glm::dvec2& at) { visit_->window().inject(DropEvent{{file}, at}); }
     void press(Key key) {
         visit_->window().inject(KeyEvent{key, true});
         visit_->window().inject(KeyEvent{key, false});
@@ -134,6 +146,109 @@ TEST_F(VisitInWindow, AClickPicksAndTheWheelZooms) {
     visit_->window().inject(WheelEvent{2});
     ASSERT_TRUE(step());
     EXPECT_LT(visit_->visitor().pivot_distance, before);
+}
+
+TEST_F(VisitInWindow, ExaminesAClickedObjectUntilEscape) {
+    press(Key::kNextViewpoint);  // 3 aside, 1 above, from which the drum is to the left
+    for (int n = 0; n < 12; ++n) ASSERT_TRUE(step());
+    visit_->window().inject(KeyEvent{Key::kTurnLeft, true});
+    for (int n = 0; n < 3; ++n) ASSERT_TRUE(step());
+    visit_->window().inject(KeyEvent{Key::kTurnLeft, false});
+    ASSERT_TRUE(step());
+    const Visitor before = visit_->visitor();
+    const Image<Rgba8> image = visit_->image();
+    glm::dvec2 drum(-1);
+    for (int y = 0; y < image.height() && drum.x < 0; ++y) {
+        for (int x = 0; x < image.width() - 6 && drum.x < 0; ++x) {
+            if (image(x, y).r > 150 && image(x, y).g < 90 && image(x + 6, y).r > 150) drum = {x + 6, y};
+        }
+    }
+    ASSERT_GE(drum.x, 0);
+    const auto click = [&](const glm::dvec2& at) {
+        visit_->window().inject(ButtonEvent{Button::kLeft, true, at});
+        visit_->window().inject(ButtonEvent{Button::kLeft, false, at});
+        for (int n = 0; n < 13; ++n) ASSERT_TRUE(step());
+    };
+    click(drum);
+    EXPECT_EQ(visit_->panel().picked, 0);
+    EXPECT_EQ(visit_->panel().mode, NavigationMode::kExamine);
+    EXPECT_LT(glm::distance(visit_->visitor().pivot(), glm::dvec3(0)), 0.3);  // the centre of the drum
+    const glm::dvec3 pivot = visit_->visitor().pivot();
+    visit_->window().inject(KeyEvent{Key::kRight, true});
+    for (int n = 0; n < 5; ++n) ASSERT_TRUE(step());
+    visit_->window().inject(KeyEvent{Key::kRight, false});
+    ASSERT_TRUE(step());
+    EXPECT_NEAR(glm::distance(visit_->visitor().pivot(), pivot), 0, 1e-9);
+    EXPECT_GT(glm::distance(visit_->visitor().eye, before.eye), 1);
+    press(Key::kQuit);  // ends examining instead of the visit
+    for (int n = 0; n < 13; ++n) ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->panel().mode, NavigationMode::kWalk);
+    EXPECT_EQ(visit_->panel().picked, -1);
+    EXPECT_NEAR(visit_->visitor().eye.y, before.eye.y, 1e-9);
+    press(Key::kQuit);
+    EXPECT_FALSE(step());
+}
+
+TEST_F(VisitInWindow, DroppedObjectsStandUnderThePointer) {
+    RaySpaceObject small = test::small_object();
+    small.units_per_radius = 0.5;
+    const std::string cup = (work_ / "cup.rso").string();
+    ASSERT_TRUE(write_object(cup, small));
+    const int before = red_pixels();
+    drop(cup, {212, 75});  // the wall beside the drum
+    ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->object_count(), 2U) << visit_->panel().news;
+    EXPECT_EQ(visit_->panel().news, "cup: added");
+    ASSERT_TRUE(step());
+    EXPECT_GT(red_pixels(), before + 50);
+    EXPECT_TRUE(visit_->panel().objects[1].in_view);
+    drop(cup, {300, 5});  // the sky
+    ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->object_count(), 2U);
+    EXPECT_THAT(visit_->panel().news, ::testing::HasSubstr("no surface under the pointer"));
+}
+
+TEST_F(VisitInWindow, DroppedGarbageIsReportedAndChangesNothing) {
+    for (const char* name : {"garbage.rso", "garbage.json", "garbage.txt", "gone.glb"}) {
+        const std::string file = (work_ / name).string();
+        if (std::string(name) != "gone.glb") std::ofstream(file) << "{garbage";
+        const Image<Rgba8> image = visit_->image();
+        drop(file, {160, 120});
+        ASSERT_TRUE(step());
+        EXPECT_THAT(visit_->panel().news, ::testing::HasSubstr(name));
+        ASSERT_TRUE(step());
+        EXPECT_EQ(visit_->image(), image);
+        EXPECT_EQ(visit_->object_count(), 1U);
+    }
+}
+
+TEST_F(VisitInWindow, DroppedLightsAreLoaded) {
+    const std::string lights = (work_ / "evening.json").string();
+    std::ofstream(lights) << R"({"replace": true, "lights": [
+        {"kind": "point", "candela": 5, "location": [0, 1, 3]}, {"kind": "point", "candela": 5, "location": [1, 1, 3]}]})";
+    const Image<Rgba8> image = visit_->image();
+    drop(lights, {160, 120});
+    for (int n = 0; n < 2; ++n) ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->lights().edits().state().entries.size(), 2U) << visit_->panel().news;
+    EXPECT_EQ(visit_->lights().profile, lights);
+    EXPECT_FALSE(visit_->lights().has_unsaved_edits());
+    EXPECT_NE(visit_->image(), image);
+}
+
+TEST_F(VisitInWindow, DroppedScenesEndTheVisitUnlessLightsWouldBeLost) {
+    LightEntry light = visit_->lights().edits().state().entries.at(0);
+    light.colour = {0.2, 0.5, 0.1};
+    visit_->lights().edits().set_light(0, light);
+    drop("hall.wrl", {160, 120});
+    ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->panel().unconfirmed, "hall.wrl");
+    press(Key::kQuit);  // cancels
+    ASSERT_TRUE(step());
+    EXPECT_EQ(visit_->panel().unconfirmed, "");
+    visit_->lights().profile = (work_ / "saved.json").string();
+    ASSERT_TRUE(visit_->lights().save());
+    drop("hall.wrl", {160, 120});
+    EXPECT_FALSE(step());
 }
 
 TEST_F(VisitInWindow, ViewpointsAreTravelledTo) {
@@ -259,7 +374,7 @@ protected:
         options.follows_sequence = follows_sequence;
         options.viewpoints = {viewpoint_of(camera_of(*sequence, 0, 160, 120))};
         options.images = work_.path();
-        options.samples = 1;
+        options.frame.samples = 1;
         auto showroom = std::make_unique<Showroom>(sequence->scene, ShowroomOptions{.waits = true});
         WindowOptions small{.title = "test", .width = 160, .height = 120, .vertical_sync = false};
         small.context = {.debug = true, .at_end = [this](const std::vector<std::string>& left) { left_ = left; }};

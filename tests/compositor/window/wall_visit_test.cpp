@@ -10,6 +10,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 namespace rs::compositor {
 namespace {
 
@@ -32,7 +34,7 @@ protected:
         }
         options_.heads = {Head{.position = {0, 1.5, 0}}};
         options_.images = work_.path();
-        options_.samples = 1;
+        options_.frame.samples = 1;
         options_.window.vertical_sync = false;
         options_.window.context = {.debug = true, .at_end = [this](const std::vector<std::string>& left) {
                                        left_.insert(left_.end(), left.begin(), left.end());
@@ -50,6 +52,10 @@ protected:
         box.material.lit = false;
         box.material.diffuse = {1, 0, 0};
         box.world_from_node[3] = glm::dvec4(0, 1.5, -4, 1);
+        scene.geometry.push_back(box);
+        box.mesh = std::make_shared<const Mesh>(box_mesh({30, 0.1, 30}));  // a lit ground with the box's shadow
+        box.material = {};
+        box.world_from_node[3] = glm::dvec4(0, 0, 0, 1);
         scene.geometry.push_back(box);
         Viewpoint there;
         there.world_from_camera[3] = glm::dvec4(0, 1.5, 10, 1);
@@ -156,6 +162,36 @@ TEST_F(WallWindows, GoToViewpointsTakeImagesAndLeave) {
     EXPECT_TRUE(read_image(work_.path() / "wall-left-1.png").ok());
     press(Key::kQuit, 1);
     EXPECT_FALSE(step());
+}
+
+TEST_F(WallWindows, TraceLightWhileNothingMoves) {
+    options_.stereo = StereoForm::kSideBySide;
+    options_.tracing.method = TracedMethod::kWhitted;
+    open();
+    const std::vector<Image<Rgba8>> raster = visit_->images();
+    press(Key::kTrace);
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    const auto trace = [&] {
+        do {
+            ASSERT_TRUE(step(0.001));
+        } while (visit_->passes() < 4 && std::chrono::steady_clock::now() < patience);  // in the second round
+        ASSERT_GE(visit_->passes(), 4);
+    };
+    trace();
+    EXPECT_TRUE(visit_->is_traced());
+    for (const std::size_t wall : {0U, 1U}) {
+        EXPECT_EQ(visit_->images()[wall].width(), raster[wall].width());
+        EXPECT_NE(visit_->images()[wall], raster[wall]);
+    }
+    visit_->windows()[0].inject(KeyEvent{Key::kForward, true});
+    ASSERT_TRUE(step(0.05));
+    EXPECT_EQ(visit_->passes(), 0);
+    visit_->windows()[0].inject(KeyEvent{Key::kForward, false});
+    press(Key::kHome);
+    trace();
+    press(Key::kTrace);
+    ASSERT_TRUE(step(0.001));
+    EXPECT_EQ(visit_->images(), raster);
 }
 
 TEST_F(WallWindows, TwoFoldersAreNoWindow) {

@@ -150,5 +150,15 @@ TEST(Modes, AreThoseOfTheScene) {
     EXPECT_STREQ(name_of(NavigationMode::kExamine), "examine");
 }
 
+TEST(Navigation, FacesAPoint) {
+    Visitor visitor{.eye = {1, 2, 3}};
+    for (const glm::dvec3& point : {glm::dvec3(0, 1, 0), {5, 2.5, 4}, {1, 2.1, 9}}) {
+        const Visitor turned = facing(visitor, point);
+        EXPECT_EQ(turned.eye, visitor.eye);
+        EXPECT_NEAR(glm::distance(turned.pivot(), point), 0, kNear);
+    }
+    EXPECT_EQ(facing(visitor, visitor.eye).heading_rad, visitor.heading_rad);
+}
+
 }  // namespace
 }  // namespace rs::compositor
