@@ -3,6 +3,7 @@
 #include "compositor/tools/drawing_options.hpp"
 #include "compositor/tools/headless_renderer.hpp"
 #include "compositor/tools/scene_options.hpp"
+#include "compositor/tools/sharing_options.hpp"
 #include "compositor/tools/tracing_options.hpp"
 #include "compositor/viewer/views/framing.hpp"
 #include "compositor/window/visit.hpp"
@@ -69,6 +70,7 @@ struct OpenOptions {
     DrawingOptions drawing;
     ExecutorOptions executor;
     std::optional<int> first_grid_cells;
+    SharingOptions sharing;
 };
 
 Result<Camera> first_camera(const OpenOptions& options, const LoadedScene& loaded, PixelSize size) {
@@ -89,6 +91,8 @@ std::string displayed_name(const SceneOptions& options) {
 
 Status show_in_window(Window window, const OpenOptions& options, LoadedScene loaded, const Camera& first) {
     VisitOptions visit_options;
+    RS_ASSIGN_OR_RETURN(visit_options.sharing,
+                        sharing_peers(options.sharing, options.scene.scene.value_or(""), options.scene.objects));
     visit_options.scene_name = displayed_name(options.scene);
     visit_options.samples = options.drawing.samples;
     visit_options.wire_frame = options.drawing.wire_frame;
@@ -131,6 +135,9 @@ Status run_open(const OpenOptions& options) {
         {.title = displayed_name(options.scene) + " - rs-view", .width = size.width, .height = size.height});
     std::string file;
     if (!window) {
+        if (options.sharing.is_given()) {
+            return Error{window.error().message + "; --share and --follow need a window"};
+        }
         int number = 0;
         file = free_name(".", "screenshot", ".png", number).string();
         print_warnings({window.error().message + "; the first view goes to " + file});
@@ -159,6 +166,7 @@ void add_open_command(CLI::App& app, std::function<Status()>& run) {
                      "traced: cells along the longer side of a view's first image, 1..8192 (default: by time)")
         ->check(CLI::Range(1, 8192).description(""))
         ->type_name("CELLS");
+    add_sharing_options(*command, options->sharing);
     add_drawing_options(*command, options->drawing);
     add_executor_options(*command, options->executor);
     command->footer(
@@ -167,6 +175,7 @@ void add_open_command(CLI::App& app, std::function<Status()>& run) {
     command->callback([command, options, &run] {
         refuse_unknown_arguments(command->remaining());
         check_scene_options(options->scene);
+        check_sharing_options(options->sharing, true);
         run = [options] { return run_open(*options); };
     });
 }

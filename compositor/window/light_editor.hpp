@@ -60,6 +60,9 @@ public:
     /// Loads `profile` as one undo step, replacing all lights if the list has "replace". Changes nothing on failure.
     Status load();
     Status save() const;
+    /// Replaces all lights by those of a list, and sets the exposure. Fails if they do not fit the scene.
+    /// \param from name of the list for errors
+    Status set_lights(const LightList& list, double exposure_ev, const std::string& from);
     std::string profile;  // file name of the light list
 
     /// Lists the photometric files of a folder by name; at most 500.
@@ -76,6 +79,7 @@ public:
     void report(const std::string& news) { news_ = news; }
 
 private:
+    [[nodiscard]] Result<Scene> scene_with(LightList list, const std::string& from) const;
     void relight();
     void end_drag();
     void follow(const EditorView& view);

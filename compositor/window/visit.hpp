@@ -15,6 +15,7 @@
 #include "compositor/window/playback.hpp"
 #include "compositor/window/traced_view.hpp"
 #include "compositor/window/view_recorder.hpp"
+#include "compositor/window/visit_sharing.hpp"
 #include "compositor/window/visitor_input.hpp"
 #include "compositor/window/window.hpp"
 #include "rayspace/base/result.hpp"
@@ -48,6 +49,7 @@ struct VisitOptions {
     std::optional<Weather> weather;
     bool follows_sequence = true;                  // starts with the sequence's camera instead of the first viewpoint
     std::function<void(const std::string&)> open;  // called when another sequence is requested; the visit then ends
+    SharingPeers sharing{};                        // a follower's camera, lights and frame are its leader's
     std::function<void(const std::vector<std::string>&)> warn;  // for objects that cannot be shown; may be empty
 };
 
@@ -92,6 +94,8 @@ private:
     Status apply_light_edits();
     void apply_shadow_setting();
     Result<bool> play(double seconds);
+    Result<bool> follow();
+    void share();
     [[nodiscard]] Refinement::Lighting lighting_to_trace() const;
     bool refine(const Camera& here);
     void take_screenshots();
@@ -128,6 +132,8 @@ private:
     LightPanel light_panel_;
     std::optional<Playback> playback_;
     ViewRecorder recorder_;
+    VisitSharing sharing_;
+    std::optional<Viewpoint> followed_;  // the leader's camera
     double news_seconds_ = 0;
     std::chrono::steady_clock::time_point last_;
 };

@@ -33,6 +33,9 @@ WallVisit::WallVisit(std::vector<Window> windows, std::unique_ptr<Showroom> show
       showroom_(std::move(showroom)),
       options_(options),
       viewpoints_(scene.viewpoints),
+      lights_(scene, options.exposure_ev, "lights.json"),
+      sharing_(options.sharing),
+      object_count_(scene.objects.size()),
       head_(options.heads.front()),
       place_(options.place),
       last_(std::chrono::steady_clock::now()) {
@@ -149,6 +152,50 @@ void WallVisit::move(double seconds) {
     if (is_before_all_walls(head)) head_ = head;  // walls block the head
 }
 
+// Takes over the leader's view. Walls are rasterized, even if the leader traces.
+Status WallVisit::follow() {
+    const std::string note = sharing_.take_note();
+    if (note != shared_note_ && !note.empty() && options_.warn) options_.warn({note});
+    shared_note_ = note;
+    if (!sharing_.follows()) return {};
+    RS_ASSIGN_OR_RETURN(const SharedView* const view, sharing_.receive(lights_));
+    if (view == nullptr) return {};
+    const bool has_own_heads = options_.tracked || options_.heads.size() > 1;
+    if (view->room) {
+        place_ = view->room->place;
+        if (!has_own_heads && is_before_all_walls(view->room->head)) head_ = view->room->head;
+    } else {
+        Camera camera;
+        camera.world_from_camera = view->world_from_camera;
+        place_ = place_of(camera, options_.display.head, place_.units_per_metre);
+    }
+    compositor_->set_wire_frame(view->wire_frame);
+    if (std::exchange(options_.shadows, view->shadows) != view->shadows) {
+        const Status set = compositor_->set_shadows(view->shadows);
+        if (!set && options_.warn) options_.warn({set.error().message});
+    }
+    if (view->renderer > 0 && !std::exchange(warned_of_tracing_, true) && options_.warn) {
+        options_.warn({"the leader's view is traced; windows of walls are rasterized"});
+    }
+    for (std::size_t i = 0; i < std::min(object_count_, view->turns_rad.size()); ++i) {
+        compositor_->turn_object(i, view->turns_rad[i]);
+    }
+    return lights_.take_change() ? compositor_->set_lights(*lights_.scene(), lights_.edits().state().exposure_ev)
+                                 : Status();
+}
+
+void WallVisit::share() {
+    if (!sharing_.leads()) return;
+    Viewpoint here;
+    const Visitor visitor = as_visitor(head_, place_);
+    sharing_.publish({.world_from_camera = viewpoint_of(visitor, here).world_from_camera,
+                      .room = SharedView::Room{place_, head_},
+                      .exposure_ev = options_.exposure_ev,
+                      .shadows = options_.shadows,
+                      .wire_frame = options_.wire_frame},
+                     lights_);
+}
+
 Result<Image<Rgba8>> WallVisit::draw_eye(const Wall& wall, double offset_m) {
     RS_ASSIGN_OR_RETURN(const Camera camera, wall_camera(wall, head_.eye(offset_m), place_));
     return compositor_->compose(camera);
@@ -176,6 +223,8 @@ Result<bool> WallVisit::step(std::optional<double> seconds) {
     for (const Key command : input_.commands()) on_key(command);
     if (quits_) return false;
     move(passed);
+    RS_TRY(follow());
+    share();
     RS_TRY(showroom_->update(place_.in_scene(head_.position), passed));
     if (const std::vector<std::string> warnings = showroom_->take_warnings(); !warnings.empty() && options_.warn) {
         options_.warn(warnings);
