@@ -24,11 +24,17 @@ std::optional<NetworkEndpoint> parse_network_endpoint(std::string_view text) {
 }
 
 std::string bind_remedy(const std::error_code& why) {
-    if (why == std::errc::address_in_use) return "another program has the port: end it, or give another port";
-    if (why == std::errc::permission_denied) return "give a port from 1024 on";
-    if (why == std::errc::address_not_available)
-        return "give an address of this machine, or 0.0.0.0 for all that it has";
-    return "give another port or address";
+    // Asio's categories do not map to std::errc.
+    switch (static_cast<std::errc>(why.value())) {
+        case std::errc::address_in_use:
+            return "another program has the port: end it, or give another port";
+        case std::errc::permission_denied:
+            return "give a port from 1024 on";
+        case std::errc::address_not_available:
+            return "give an address of this machine, or 0.0.0.0 for all that it has";
+        default:
+            return "give another port or address";
+    }
 }
 
 }  // namespace rs::compositor

@@ -6,6 +6,7 @@
 #include <array>
 #include <asio/buffer.hpp>
 #include <asio/connect.hpp>
+#include <asio/error.hpp>
 #include <asio/io_context.hpp>
 #include <asio/ip/tcp.hpp>
 #include <chrono>
@@ -107,7 +108,7 @@ Status ViewFollower::poll() {
         RS_TRY(receive());
     }
     if (connection_->failed) {
-        lose(connection_->failed.message());
+        lose(connection_->failed == asio::error::eof ? "it has ended" : connection_->failed.message());
     } else if (steady_seconds() - connection_->last_heard_s > timing_.silence_s) {
         lose("no message in " + std::to_string(static_cast<int>(timing_.silence_s)) + " s");
     }
