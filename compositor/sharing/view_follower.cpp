@@ -29,11 +29,12 @@ double steady_seconds() {
 struct ViewFollower::Connection {
     explicit Connection(std::uint64_t scene) : reader(scene) {}
 
-    // Handlers run in context.poll() only, and end with the context.
+    // Handlers run in context.poll() only, and end with the context, whose destructor waits for a look-up.
     asio::io_context context;
     asio::ip::tcp::resolver resolver{context};
     asio::ip::tcp::socket socket{context};
     SharedViewReader reader;
+    bool is_resolved = false;
     bool is_open = false;
     bool has_view = false;
     asio::error_code failed;
@@ -62,6 +63,8 @@ void ViewFollower::connect() {
     const auto on_resolve = [connection, on_connect](const asio::error_code& failed,
                                                      const asio::ip::tcp::resolver::results_type& places) {
         connection->failed = failed;
+        connection->is_resolved = true;
+        connection->last_heard_s = steady_seconds();
         if (!failed) asio::async_connect(connection->socket, places, on_connect);
     };
     connection->resolver.async_resolve(leader_.host, std::to_string(leader_.port), on_resolve);
@@ -109,7 +112,7 @@ Status ViewFollower::poll() {
     }
     if (connection_->failed) {
         lose(connection_->failed == asio::error::eof ? "it has ended" : connection_->failed.message());
-    } else if (steady_seconds() - connection_->last_heard_s > timing_.silence_s) {
+    } else if (connection_->is_resolved && steady_seconds() - connection_->last_heard_s > timing_.silence_s) {
         lose("no message in " + std::to_string(static_cast<int>(timing_.silence_s)) + " s");
     }
     return {};

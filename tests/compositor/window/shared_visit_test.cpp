@@ -149,10 +149,8 @@ TEST_F(SharedVisits, AFollowerShowsTheSameImage) {
     open({});
     press(Key::kFrameBack);
     press(Key::kWireFrame);
-    LightingState lit = visit_->lights().edits().state();
-    lit.entries.at(0).colour = {0.2, 0.5, 0.1};
-    lit.exposure_ev = 1;
-    visit_->lights().edits().set(lit);
+    const auto lights = light_list_from_json(dimmed_lights(), "lights.json");
+    ASSERT_TRUE(lights.ok() && visit_->lights().set_lights(*lights, 1, "dimmed").ok());
     step();
     EXPECT_EQ(visit_->image(), followed);
 }
