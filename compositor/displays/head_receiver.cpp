@@ -1,12 +1,12 @@
 #include "compositor/displays/head_receiver.hpp"
 
 #include "compositor/displays/head_datagram.hpp"
+#include "compositor/displays/network_endpoint.hpp"
 #include "rayspace/base/printable.hpp"
 
 #include <array>
 #include <asio/io_context.hpp>
 #include <asio/ip/udp.hpp>
-#include <charconv>
 #include <chrono>
 #include <span>
 #include <string_view>
@@ -23,22 +23,13 @@ constexpr std::size_t kMaxDatagram_bytes = 512;
 static_assert(kMaxDatagram_bytes > kHeadDatagram_bytes);
 
 Error cannot_listen(const UdpEndpoint& place, const asio::error_code& why) {
-    std::string remedy = "give another port or address";
-    if (why == asio::error::address_in_use) {
-        remedy = "another program has the port: end it, or give another port here and in the tracker";
-    } else if (why == asio::error::access_denied) {
-        remedy = "give a port from 1024 on";
-    } else if (why.value() == static_cast<int>(std::errc::address_not_available)) {
-        remedy = "give an address of this machine, or 0.0.0.0 for all that it has";
-    }
-    return Error{place.text() + ": " + why.message() + "; " + remedy};
+    return Error{place.text() + ": " + why.message() + "; " + bind_remedy(why)};
 }
 
 }  // namespace
 
 std::string UdpEndpoint::text() const {
-    const bool is_v6 = address.find(':') != std::string::npos;
-    return std::string(kScheme) + (is_v6 ? "[" + address + "]" : address) + ":" + std::to_string(port);
+    return std::string(kScheme) + NetworkEndpoint{address, port}.text();
 }
 
 bool is_udp_endpoint(const std::string& text) {
@@ -48,19 +39,15 @@ bool is_udp_endpoint(const std::string& text) {
 Result<UdpEndpoint> parse_udp_endpoint(const std::string& text) {
     const Error wrong{printable(text) + ": must be udp:PORT or udp:ADDRESS:PORT, such as udp:4242 or udp:0.0.0.0:4242"};
     if (!is_udp_endpoint(text)) return wrong;
-    std::string_view port = std::string_view(text).substr(kScheme.size());
+    const auto endpoint = parse_network_endpoint(std::string_view(text).substr(kScheme.size()));
+    if (!endpoint) return wrong;
     UdpEndpoint place;
-    if (const std::size_t colon = port.rfind(':'); colon != std::string_view::npos) {
-        std::string_view address = port.substr(0, colon);
-        if (address.starts_with('[') && address.ends_with(']')) address = address.substr(1, address.size() - 2);
-        place.address = address;
-        port = port.substr(colon + 1);
-        asio::error_code failed;
-        asio::ip::make_address(place.address, failed);
-        if (failed) return wrong;
-    }
-    const auto [end, failed] = std::from_chars(port.data(), port.data() + port.size(), place.port);
-    if (failed != std::errc() || end != port.data() + port.size() || place.port == 0) return wrong;
+    place.port = endpoint->port;
+    if (endpoint->host.empty()) return place;
+    asio::error_code failed;
+    asio::ip::make_address(endpoint->host, failed);
+    if (failed) return wrong;
+    place.address = endpoint->host;
     return place;
 }
 

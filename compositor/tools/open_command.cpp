@@ -3,6 +3,7 @@
 #include "compositor/tools/drawing_options.hpp"
 #include "compositor/tools/headless_renderer.hpp"
 #include "compositor/tools/scene_options.hpp"
+#include "compositor/tools/sharing_options.hpp"
 #include "compositor/tools/tracing_options.hpp"
 #include "compositor/tools/window_content.hpp"
 #include "compositor/viewer/views/framing.hpp"
@@ -69,6 +70,7 @@ struct OpenOptions {
     DrawingOptions drawing;
     ExecutorOptions executor;
     std::optional<int> first_grid_cells;
+    SharingOptions sharing;
 };
 
 Result<Camera> first_camera(const OpenOptions& options, const LoadedScene& loaded, PixelSize size) {
@@ -93,6 +95,8 @@ Result<WindowContent> content_of(const OpenOptions& options, LoadedScene loaded,
     VisitOptions& visit = content.visit;
     visit.scene_name = content.title;
     visit.frame = frame_options(options.drawing, {first.width, first.height}, options.renderer.exposure_ev, true);
+    RS_ASSIGN_OR_RETURN(visit.sharing,
+                        sharing_peers(options.sharing, options.scene.scene.value_or(""), options.scene.objects));
     RS_ASSIGN_OR_RETURN(visit.tracing, traced_options(options.renderer));
     visit.first_grid_cells = options.first_grid_cells;
     visit.traced = options.renderer.method().has_value();
@@ -132,6 +136,9 @@ Status run_open(const OpenOptions& options) {
         {.title = displayed_name(options.scene) + " - rs-view", .width = size.width, .height = size.height});
     std::string file;
     if (!window) {
+        if (options.sharing.is_given()) {
+            return Error{window.error().message + "; --share and --follow need a window"};
+        }
         int number = 0;
         file = free_name(".", "screenshot", ".png", number).string();
         print_warnings({window.error().message + "; the first view goes to " + file});
@@ -181,6 +188,7 @@ void add_open_command(CLI::App& app, std::function<Status()>& run) {
                      "traced: cells along the longer side of a view's first image, 1..8192 (default: by time)")
         ->check(CLI::Range(1, 8192).description(""))
         ->type_name("CELLS");
+    add_sharing_options(*command, options->sharing);
     add_drawing_options(*command, options->drawing);
     add_executor_options(*command, options->executor);
     command->footer(
@@ -189,6 +197,7 @@ void add_open_command(CLI::App& app, std::function<Status()>& run) {
     command->callback([command, options, &run] {
         refuse_unknown_arguments(command->remaining());
         check_scene_options(options->scene);
+        check_sharing_options(options->sharing, true);
         run = [options] { return run_open(*options); };
     });
 }

@@ -127,12 +127,7 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
         ->type_name("RATE")
         ->capture_default_str();
     add_renderer_options(*command, options->renderer);
-    add_lens_options(*command, options->renderer);
-    // In one line, because the help would not fit on a screen otherwise.
-    command->get_option("--lens")->description(
-        "traced: diameter of the lens in mm, or f-number on 36 mm film, sharp at --focus DISTANCE ahead");
-    CLI::Option* focus = command->get_option("--focus")->group("");
-    focus->remove_needs(command->get_option("--lens"));  // CLI11's message lacks the names of hidden options
+    add_lens_options_in_one_line(*command, options->renderer);
     add_pass_options(*command, options->passes);
     add_drawing_options(*command, options->drawing);
     add_upright_option(*command, options->upright);
@@ -146,9 +141,7 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
     command->callback([command, options, &run] {
         check_scene_options(options->scene);
         check_renderer_options(*command, options->renderer);
-        if (command->count("--focus") > 0 && command->count("--lens") == 0) {
-            throw CLI::ValidationError("--focus needs --lens: the diameter of the lens or its f-number");
-        }
+        check_focus_option(*command);
         if (options->panorama) {
             check_panorama_options(*command, options->renderer);
             if (command->count("--size") == 0) options->size = kPanoramaSize;

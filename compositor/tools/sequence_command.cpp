@@ -2,11 +2,13 @@
 #include "compositor/lighting/light_warnings.hpp"
 #include "compositor/playback/sequence_player.hpp"
 #include "compositor/sequence/converter.hpp"
+#include "compositor/sequence/frames_file.hpp"
 #include "compositor/tools/camera_options.hpp"
 #include "compositor/tools/commands.hpp"
 #include "compositor/tools/drawing_options.hpp"
 #include "compositor/tools/frame_output.hpp"
 #include "compositor/tools/scene_options.hpp"
+#include "compositor/tools/sharing_options.hpp"
 #include "compositor/tools/tracing_options.hpp"
 #include "compositor/tools/window_content.hpp"
 #include "compositor/viewer/views/framing.hpp"
@@ -51,6 +53,7 @@ struct SequenceOptions {
     DrawingOptions drawing;
     bool upright = false;
     ExecutorOptions executor;
+    SharingOptions sharing;
     std::optional<std::string> stats;
     bool force = false;
     bool quiet = false;
@@ -129,6 +132,7 @@ Status change_sequence(const SequenceOptions& options, PixelSize size, Sequence&
 // A sequence and its player.
 struct OpenSequence {
     std::optional<ConvertedScene> converted;  // owns the files that --convert made
+    fs::path files;                           // its folder or file
     std::shared_ptr<const Sequence> sequence;
     std::optional<Camera> camera;  // of all frames; nullopt: the sequence's cameras
     std::optional<SequencePlayer> player;
@@ -144,6 +148,7 @@ Result<OpenSequence> open_sequence(const SequenceOptions& options, const std::st
         opened.converted.emplace(std::move(converted));
     }
     RS_ASSIGN_OR_RETURN(Sequence sequence, read_sequence(files));
+    opened.files = files;
     if (opened.converted) sequence.name = fs::path(folder).stem().string();
     print_warnings(sequence.scene.warnings);
     RS_TRY(change_sequence(options, size, sequence));
@@ -285,6 +290,13 @@ Status render_sequences(const SequenceOptions& options) {
                  " sequences failed; see above"};
 }
 
+// Machines that share a sequence must have the same frames.json, or extended OBJ.
+Result<SharingPeers> peers_of(const SharingOptions& options, const OpenSequence& opened) {
+    if (!options.is_given()) return SharingPeers();
+    RS_ASSIGN_OR_RETURN(const SequenceFiles files, find_sequence(opened.files));
+    return sharing_peers(options, files.file, {});
+}
+
 Result<WindowContent> content_of_sequence(const SequenceOptions& options, const std::string& folder) {
     RS_ASSIGN_OR_RETURN(const OpenSequence opened, open_sequence(options, folder));
     const std::shared_ptr<const Sequence>& sequence = opened.sequence;
@@ -294,6 +306,7 @@ Result<WindowContent> content_of_sequence(const SequenceOptions& options, const 
     WindowContent content;
     content.title = sequence->name.empty() ? "sequence" : sequence->name;
     VisitOptions& visit = content.visit;
+    RS_ASSIGN_OR_RETURN(visit.sharing, peers_of(options.sharing, opened));
     RS_ASSIGN_OR_RETURN(visit.tracing, traced_options(options.renderer));
     visit.scene_name = content.title;
     visit.sequence = sequence;
@@ -336,6 +349,8 @@ void check_output_options(const CLI::App& command, const SequenceOptions& option
 }
 
 void check_sequence_options(const CLI::App& command, const SequenceOptions& options) {
+    check_sharing_options(options.sharing, !options.output);
+    check_focus_option(command);
     if (!options.weather) {
         for (const char* const name : {"--seed", "--visibility"}) {
             if (command.count(name) > 0) throw CLI::ValidationError(std::string(name) + " needs --weather");
@@ -408,7 +423,7 @@ void add_sequence_command(CLI::App& app, std::function<Status()>& run) {
                      "command that converts FOLDER {in} to a sequence or an OBJ {out}; run without a shell")
         ->type_name("'CMD {in} {out}'");
     add_renderer_options(*command, options->renderer);
-    add_lens_options(*command, options->renderer);
+    add_lens_options_in_one_line(*command, options->renderer);
     command->add_option("--passes", options->passes, "traced: rays per pixel of a frame, 1..65536")
         ->check(CLI::Range(1, 65536).description(""))
         ->type_name("N")
@@ -416,6 +431,7 @@ void add_sequence_command(CLI::App& app, std::function<Status()>& run) {
     add_drawing_options(*command, options->drawing);
     add_upright_option(*command, options->upright);
     add_executor_options(*command, options->executor);
+    add_sharing_options(*command, options->sharing);
     add_stats_option(*command, options->stats);
     command->add_flag("--force", options->force, kForceHelp);
     command->add_flag("-q,--quiet", options->quiet, "no progress bar");

@@ -72,6 +72,19 @@ void add_lens_options(CLI::App& command, RendererOptions& options) {
         ->needs(lens);
 }
 
+void add_lens_options_in_one_line(CLI::App& command, RendererOptions& options) {
+    add_lens_options(command, options);
+    command.get_option("--lens")->description(
+        "traced: diameter of the lens in mm, or f-number on 36 mm film, sharp at --focus DISTANCE ahead");
+    CLI::Option* focus = command.get_option("--focus")->group("");
+    focus->remove_needs(command.get_option("--lens"));  // CLI11's message lacks the names of hidden options
+}
+
+void check_focus_option(const CLI::App& command) {
+    if (command.count("--focus") == 0 || command.count("--lens") > 0) return;
+    throw CLI::ValidationError("--focus needs --lens: the diameter of the lens or its f-number");
+}
+
 void require_traced_renderer(CLI::App& command, RendererOptions& options) {
     options.renderer = "path";
     command.get_option("--renderer")

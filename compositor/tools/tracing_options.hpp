@@ -38,6 +38,10 @@ struct PassOptions {
 void add_renderer_options(CLI::App& command, RendererOptions& options);
 /// Adds --lens and --focus.
 void add_lens_options(CLI::App& command, RendererOptions& options);
+/// Same, but describes --focus in the text of --lens, for commands whose options would not fit on a screen.
+void add_lens_options_in_one_line(CLI::App& command, RendererOptions& options);
+/// Throws CLI::ValidationError for --focus without --lens; for add_lens_options_in_one_line().
+void check_focus_option(const CLI::App& command);
 /// Restricts --renderer to the traced methods, with path as the default.
 void require_traced_renderer(CLI::App& command, RendererOptions& options);
 /// Adds --passes and --seconds.

@@ -5,6 +5,7 @@
 #include "compositor/tools/frame_output.hpp"
 #include "compositor/tools/headless_renderer.hpp"
 #include "compositor/tools/scene_options.hpp"
+#include "compositor/tools/sharing_options.hpp"
 #include "compositor/tools/tracing_options.hpp"
 #include "compositor/tools/wall_views.hpp"
 #include "compositor/window/wall_visit.hpp"
@@ -26,6 +27,7 @@ struct WallsOptions {
     PassOptions passes;
     DrawingOptions drawing;
     ExecutorOptions executor;
+    SharingOptions sharing;
     bool upright = false;
     bool force = false;
     bool quiet = false;
@@ -49,6 +51,8 @@ Status show_walls(const WallsOptions& options, const WallViews& views, LoadedSce
                            .warn = print_warnings};
     RS_ASSIGN_OR_RETURN(visit.tracing, traced_options(options.renderer));
     if (views.tracker) visit.tracked = tracked;
+    RS_ASSIGN_OR_RETURN(visit.sharing,
+                        sharing_peers(options.sharing, options.scene.scene.value_or(""), options.scene.objects));
     Status left = visit_walls(loaded.scene, std::move(loaded.showroom), visit);
     if (views.tracker && views.tracker->dropped() > 1) {
         print_warnings({views.tracker->place().text() + ": of " + std::to_string(views.tracker->received()) +
@@ -150,6 +154,7 @@ void add_walls_command(CLI::App& app, std::function<Status()>& run) {
     command->add_option("-o,--output", options->walls.output, "folder for an image per wall; without, windows")
         ->type_name("FOLDER");
     add_display_options(*command, options->walls);
+    add_sharing_options(*command, options->sharing);
     add_view_options(*command, options->view);
     command->get_option("--fov")->group("");  // only to be refused
     add_motion_options(*command, options->motion);
@@ -163,6 +168,7 @@ void add_walls_command(CLI::App& app, std::function<Status()>& run) {
     command->footer("Example: rs-view walls hall.wrl --display cave --stereo side-by-side -o walls");
     command->callback([command, options, &run] {
         check_scene_options(options->scene);
+        check_sharing_options(options->sharing, !options->walls.output);
         if (options->view.fov_deg) {
             throw CLI::ValidationError("--fov has no effect on walls, which are the field of view; leave it out");
         }

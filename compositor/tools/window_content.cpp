@@ -17,7 +17,11 @@ Status show_contents(Window window, WindowContent content, const LoadContent& lo
     for (;;) {
         std::optional<WindowContent> next;
         content.visit.warn = print_warnings;
+        const bool is_shared = content.visit.sharing.leader || content.visit.sharing.follower;
+        // Machines that share a view have the same scene.
+        if (is_shared) content.visit.load_objects = {};
         content.visit.open = [&](const std::string& file) -> Status {
+            if (is_shared) return Error{file + ": a shared view cannot change its scene; start rs-view again with it"};
             RS_ASSIGN_OR_RETURN(next, load(file));
             return {};
         };

@@ -195,12 +195,17 @@ void LightEditor::add(LightKind kind, const EditorView& view) {
     edits_.add(std::move(entry));
 }
 
+// The scene with no other lights than those of the list.
+Result<Scene> LightEditor::scene_with(LightList list, const std::string& from) const {
+    Scene scene = *base_;
+    list.replace = true;
+    RS_TRY(add_lights(scene, std::move(list), from));
+    return scene;
+}
+
 Status LightEditor::load() {
     RS_ASSIGN_OR_RETURN(LightList list, read_light_list(profile));
-    Scene tried = *base_;
-    LightList whole = list;
-    whole.replace = true;
-    RS_TRY(add_lights(tried, std::move(whole), profile));
+    RS_ASSIGN_OR_RETURN(const Scene tried, scene_with(list, profile));
     LightingState state = state_of(list, edits_.state().exposure_ev);
     if (!list.replace) {
         const LightingState& now = edits_.state();
@@ -212,6 +217,12 @@ Status LightEditor::load() {
     saved_revision_ = edits_.revision();
     const std::vector<std::string> warnings = light_warnings(tried);
     report(warnings.empty() ? profile + ": " + std::to_string(list.entries.size()) + " lights" : warnings.front());
+    return {};
+}
+
+Status LightEditor::set_lights(const LightList& list, double exposure_ev, const std::string& from) {
+    if (const Result<Scene> tried = scene_with(list, from); !tried) return tried.error();
+    edits_.set(state_of(list, exposure_ev));
     return {};
 }
 

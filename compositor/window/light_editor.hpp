@@ -60,6 +60,9 @@ public:
 
     /// Loads `profile` as one undo step, replacing all lights if the list has "replace". Changes nothing on failure.
     Status load();
+    /// Replaces all lights by those of a list, and sets the exposure. Fails if they do not fit the scene.
+    /// \param from name of the list for errors
+    Status set_lights(const LightList& list, double exposure_ev, const std::string& from);
     Status save();
     /// True if lights have been edited since they were loaded or saved.
     [[nodiscard]] bool has_unsaved_edits() const { return edits_.revision() != saved_revision_; }
@@ -82,6 +85,7 @@ public:
     void report(const std::string& news) { news_ = news; }
 
 private:
+    [[nodiscard]] Result<Scene> scene_with(LightList list, const std::string& from) const;
     void relight();
     void end_drag();
     void follow(const EditorView& view);

@@ -1,6 +1,7 @@
 #include "compositor/window/traced_walls.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace rs::compositor {
 namespace {
@@ -64,6 +65,17 @@ bool TracedWalls::take(const Refinement::Step& step) {
 
 void TracedWalls::stop() {
     if (refinement_) refinement_->end();
+    views_.clear();
+}
+
+void TracedWalls::set_method(TracedMethod method) {
+    if (std::exchange(options_.method, method) != method) views_.clear();
+}
+
+void TracedWalls::set_scene(std::shared_ptr<const Scene> scene, double exposure_ev) {
+    scene_ = std::move(scene);
+    options_.exposure_ev = exposure_ev;
+    refinement_.reset();
     views_.clear();
 }
 

@@ -30,6 +30,9 @@ public:
     Result<bool> refine(const std::vector<Camera>& cameras, const Showroom& showroom);
     /// Drops all images.
     void stop();
+    /// Drop the images if they change something.
+    void set_method(TracedMethod method);
+    void set_scene(std::shared_ptr<const Scene> scene, double exposure_ev);
 
     /// Newest image of a camera, of its size; null before the first one.
     [[nodiscard]] std::shared_ptr<const Image<Rgba8>> image(std::size_t camera) const {

@@ -35,6 +35,7 @@ Visit::Visit(Window window, std::unique_ptr<Showroom> showroom, FrameCompositor 
       traced_view_(options.tracing, options.first_grid_cells),
       desk_(scene, options.frame.exposure_ev, options.lights),
       recorder_({.folder = options.images.string()}),
+      sharing_(options.sharing),
       last_(std::chrono::steady_clock::now()) {
     navigation_.speed = scene.navigation.speed;
     if (const BoundingBox bounds = bounds_of(scene); !bounds.empty()) middle_ = bounds.middle();
@@ -77,6 +78,7 @@ Result<std::unique_ptr<Visit>> Visit::create(Window window, const Scene& scene, 
 }
 
 Camera Visit::camera() const {
+    if (followed_) return camera_at(*followed_, compositor_.width(), compositor_.height());
     if (playback_) {
         if (const auto camera = playback_->camera(compositor_.width(), compositor_.height())) return *camera;
     }
@@ -398,6 +400,55 @@ Result<bool> Visit::play(double seconds) {
     return true;
 }
 
+// Takes over the leader's view; true if an object was turned. Keys that would change it have no effect.
+Result<bool> Visit::follow() {
+    if (const std::string note = sharing_.take_note(); !note.empty()) report(note);
+    if (!sharing_.follows()) return false;
+    RS_ASSIGN_OR_RETURN(const SharedView* const view, sharing_.receive(desk_));
+    if (view == nullptr) return false;
+    followed_ = options_.viewpoints.front();
+    followed_->world_from_camera = view->world_from_camera;
+    if (view->field_of_view_rad > 0) followed_->field_of_view_rad = view->field_of_view_rad;
+    travel_.reset();
+    visitor_ = visitor_at(*followed_, middle_);  // loads the objects around it
+    panel_.shadows = view->shadows;
+    panel_.wire_frame = view->wire_frame;
+    panel_.traced = view->renderer > 0;
+    if (panel_.traced) panel_.method = kTracedMethods[view->renderer - 1U].method;
+    if (playback_) {
+        playback_->stop();
+        playback_->step(static_cast<int>(view->frame) - static_cast<int>(playback_->frame()));
+        playback_->set_weather(view->weather);
+    }
+    panel_.picked = -1;
+    bool turned = false;
+    for (std::size_t i = 0; i < std::min(turns_rad_.size(), view->turns_rad.size()); ++i) {
+        if (turns_rad_[i] == view->turns_rad[i]) continue;
+        turns_rad_[i] = view->turns_rad[i];
+        compositor_.turn_object(i, turns_rad_[i]);
+        turned = true;
+    }
+    return turned;
+}
+
+void Visit::share() {
+    if (!sharing_.leads()) return;
+    const Viewpoint here = viewpoint_of(camera());
+    SharedView view{.world_from_camera = here.world_from_camera,
+                    .field_of_view_rad = here.field_of_view_rad,
+                    .exposure_ev = desk_.edits().state().exposure_ev,
+                    .shadows = panel_.shadows,
+                    .wire_frame = panel_.wire_frame};
+    if (panel_.traced) view.renderer = shared_number(panel_.method);
+    if (playback_) {
+        view.frame = static_cast<std::uint32_t>(playback_->frame());
+        view.weather = playback_->weather();
+    }
+    view.turns_rad = turns_rad_;
+    view.turns_rad.resize(std::min(turns_rad_.size(), kMaxSharedTurns));
+    sharing_.publish(view, desk_);
+}
+
 void Visit::take_screenshots() {
     recorder_.set_names(panel_.saved);
     if (playback_ && playback_->take_jpeg()) report(recorder_.write_jpeg_screenshot(compositor_.image()));
@@ -577,11 +628,14 @@ Result<bool> Visit::step(std::optional<double> seconds) {
     const glm::ivec2 size = window_.framebuffer_px();
     if (size.x < 1 || size.y < 1) return true;  // the window is minimized
     RS_TRY(resize_if_needed(size));
+    const bool turned_here = move(passed);
+    RS_ASSIGN_OR_RETURN(const bool turned_there, follow());
+    const bool turned = turned_here || turned_there;
     RS_TRY(apply_light_edits());
-    const bool turned = move(passed);
     RS_ASSIGN_OR_RETURN(const bool played, play(passed));
     compositor_.set_wire_frame(panel_.wire_frame);
     apply_shadow_setting();
+    share();
     RS_TRY(poll_streaming(passed));
 
     const Camera here = camera();

@@ -16,6 +16,7 @@
 #include "compositor/window/playback.hpp"
 #include "compositor/window/traced_view.hpp"
 #include "compositor/window/view_recorder.hpp"
+#include "compositor/window/visit_sharing.hpp"
 #include "compositor/window/visitor_input.hpp"
 #include "compositor/window/window.hpp"
 #include "rayspace/base/result.hpp"
@@ -49,6 +50,7 @@ struct VisitOptions {
     std::function<Status(const std::string& file)> open = {};
     /// Loads the objects of the scene with an added one. Empty: objects cannot be added.
     std::function<Result<std::unique_ptr<Showroom>>(const Scene& scene)> load_objects = {};
+    SharingPeers sharing{};  // a follower's camera, lights and frame are its leader's
     std::function<void(const std::vector<std::string>&)> warn;  // for objects that cannot be shown; may be empty
 };
 
@@ -103,6 +105,8 @@ private:
     Status apply_light_edits();
     void apply_shadow_setting();
     Result<bool> play(double seconds);
+    Result<bool> follow();
+    void share();
     [[nodiscard]] Refinement::Lighting lighting_to_trace() const;
     bool refine(const Camera& here);
     void drop(const DropEvent& event);
@@ -157,6 +161,8 @@ private:
     ViewRecorder recorder_;
     FileDialog dialog_;
     std::string opening_;  // file to open after this frame
+    VisitSharing sharing_;
+    std::optional<Viewpoint> followed_;  // the leader's camera
     double news_seconds_ = 0;
     std::chrono::steady_clock::time_point last_;
 };

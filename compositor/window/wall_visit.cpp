@@ -36,6 +36,9 @@ WallVisit::WallVisit(std::vector<Window> windows, std::unique_ptr<Showroom> show
       showroom_(std::move(showroom)),
       options_(options),
       viewpoints_(scene.viewpoints),
+      lights_(scene, options.frame.exposure_ev, "lights.json"),
+      sharing_(options.sharing),
+      object_count_(scene.objects.size()),
       head_(options.heads.front()),
       place_(options.place),
       traced_(options.traced),
@@ -152,6 +155,52 @@ void WallVisit::move(double seconds) {
     if (is_before_all_walls(head)) head_ = head;  // walls block the head
 }
 
+// Takes over the leader's view.
+Status WallVisit::follow() {
+    const std::string note = sharing_.take_note();
+    if (note != shared_note_ && !note.empty() && options_.warn) options_.warn({note});
+    shared_note_ = note;
+    if (!sharing_.follows()) return {};
+    RS_ASSIGN_OR_RETURN(const SharedView* const view, sharing_.receive(lights_));
+    if (view == nullptr) return {};
+    const bool has_own_heads = options_.tracked || options_.heads.size() > 1;
+    if (view->room) {
+        place_ = view->room->place;
+        if (!has_own_heads && is_before_all_walls(view->room->head)) head_ = view->room->head;
+    } else {
+        Camera camera;
+        camera.world_from_camera = view->world_from_camera;
+        place_ = place_of(camera, options_.display.head, place_.units_per_metre);
+    }
+    compositor_->set_wire_frame(view->wire_frame);
+    if (std::exchange(options_.frame.shadows, view->shadows) != view->shadows) {
+        const Status set = compositor_->set_shadows(view->shadows);
+        if (!set && options_.warn) options_.warn({set.error().message});
+    }
+    traced_ = view->renderer > 0;
+    if (traced_) traced_walls_.set_method(kTracedMethods[view->renderer - 1U].method);
+    for (std::size_t i = 0; i < std::min(object_count_, view->turns_rad.size()); ++i) {
+        compositor_->turn_object(i, view->turns_rad[i]);
+    }
+    if (!lights_.take_change()) return {};
+    const double exposure_ev = lights_.edits().state().exposure_ev;
+    traced_walls_.set_scene(lights_.scene(), exposure_ev);
+    return compositor_->set_lights(*lights_.scene(), exposure_ev);
+}
+
+void WallVisit::share() {
+    if (!sharing_.leads()) return;
+    Viewpoint here;
+    const Visitor visitor = as_visitor(head_, place_);
+    sharing_.publish({.world_from_camera = viewpoint_of(visitor, here).world_from_camera,
+                      .room = SharedView::Room{place_, head_},
+                      .renderer = traced_ ? shared_number(options_.tracing.method) : std::uint8_t{0},
+                      .exposure_ev = options_.frame.exposure_ev,
+                      .shadows = options_.frame.shadows,
+                      .wire_frame = options_.frame.wire_frame},
+                     lights_);
+}
+
 // Cameras of all walls, with two eyes left and right.
 Result<std::vector<Camera>> WallVisit::cameras() const {
     const double half = options_.stereo ? options_.display.eye_distance_m / 2 : 0;
@@ -226,6 +275,8 @@ Result<bool> WallVisit::step(std::optional<double> seconds) {
     for (const Key command : input_.commands()) on_key(command);
     if (quits_) return false;
     move(passed);
+    RS_TRY(follow());
+    share();
     RS_TRY(showroom_->update(place_.in_scene(head_.position), passed));
     if (const std::vector<std::string> warnings = showroom_->take_warnings(); !warnings.empty() && options_.warn) {
         options_.warn(warnings);

@@ -15,7 +15,9 @@
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/viewer/views/navigation.hpp"
+#include "compositor/window/light_editor.hpp"
 #include "compositor/window/traced_walls.hpp"
+#include "compositor/window/visit_sharing.hpp"
 #include "compositor/window/visitor_input.hpp"
 #include "compositor/window/window.hpp"
 #include "rayspace/base/result.hpp"
@@ -43,7 +45,10 @@ struct WallVisitOptions {
     TracedOptions tracing{};
     std::filesystem::path images = ".";                                   // folder for P
     std::function<void(const std::vector<std::string>&)> warn = nullptr;  // objects that cannot be displayed
-    WindowOptions window = {};                                            // except title and size
+    /// A follower's room is where its leader is; of a leader with walls it takes over room and head, unless it has
+    /// `tracked` or several heads.
+    SharingPeers sharing = {};
+    WindowOptions window = {};  // except title and size
 };
 
 class WallVisit {
@@ -74,6 +79,8 @@ private:
 
     void on_key(Key command);
     void move(double seconds);
+    Status follow();
+    void share();
     [[nodiscard]] bool is_before_all_walls(const Head& head) const;
     [[nodiscard]] Result<std::vector<Camera>> cameras() const;
     [[nodiscard]] std::size_t eyes() const { return options_.stereo ? 2 : 1; }
@@ -91,6 +98,10 @@ private:
     std::size_t viewpoint_ = 0;
     NavigationSettings navigation_;
     VisitorInput input_;
+    LightEditor lights_;
+    VisitSharing sharing_;
+    std::size_t object_count_;
+    std::string shared_note_;
     bool moves_head_ = false;
     NavigationMode mode_ = NavigationMode::kWalk;
     Head head_;

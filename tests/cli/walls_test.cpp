@@ -155,6 +155,24 @@ TEST_F(Displays, SilentTrackersAreReported) {
     EXPECT_THAT(fault("udp:here:1"), HasSubstr("udp:here:1: must be udp:PORT"));
 }
 
+TEST_F(Displays, SharingIsForWindows) {
+    const auto fault = [&](const std::vector<std::string>& words) {
+        const test::ToolRun run = view(words);
+        EXPECT_EQ(run.exit_code, 2);
+        return run.err;
+    };
+    const std::string hall = in("hall.wrl");
+    EXPECT_THAT(fault({"walls", hall, "--display", "cave", "-o", in("none"), "--share", "4250"}),
+                HasSubstr("--share is for windows; leave it out, or -o"));
+    EXPECT_THAT(fault({"walls", hall, "--display", "cave", "-o", in("none"), "--follow", "master:4250"}),
+                HasSubstr("--follow is for windows"));
+    EXPECT_THAT(fault({"render", hall, "-o", in("none.png"), "--share", "4250"}), HasSubstr("--share"));
+    const test::ToolRun both =
+        test::run_tool(scratch_.path(), "rs-view", {"open", hall, "--share", "4250", "--follow", "master:4250"});
+    EXPECT_EQ(both.exit_code, 2);
+    EXPECT_THAT(both.err, HasSubstr("--share and --follow exclude each other"));
+}
+
 TEST_F(Displays, TracedLightFallsOnWallsToo) {
     for (const char* renderer : {"whitted", "radiosity", "path"}) {
         const test::ToolRun run = view({"walls", in("hall.wrl"), "--display", "cave", "--wall", "front", "--size",

@@ -52,6 +52,9 @@ int fuzz_walls(const std::uint8_t* data, std::size_t size);
 /// Reads a datagram of a head tracker.
 int fuzz_head(const std::uint8_t* data, std::size_t size);
 
+/// Reads a stream of messages of a leading rs-view.
+int fuzz_sharing(const std::uint8_t* data, std::size_t size);
+
 /// Reads a list of lights, writes it and reads it again.
 int fuzz_lights(const std::uint8_t* data, std::size_t size);
 

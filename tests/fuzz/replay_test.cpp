@@ -3,6 +3,7 @@
 #include "compositor/displays/head_datagram.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
 #include "compositor/scene/reader/vrml_file.hpp"
+#include "compositor/sharing/shared_view.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/image_io/image_io.hpp"
@@ -100,6 +101,10 @@ TEST(FuzzReplay, Walls) {
 
 TEST(FuzzReplay, Head) {
     replay("head", fuzz::fuzz_head);
+}
+
+TEST(FuzzReplay, Sharing) {
+    replay("sharing", fuzz::fuzz_sharing, 2000);
 }
 
 TEST(FuzzReplay, Lights) {
@@ -209,6 +214,14 @@ TEST(FuzzReplay, SeedsAreValid) {
         if (file.filename().string().rfind("seed-", 0) != 0) continue;
         const auto input = contents(file);
         EXPECT_TRUE(compositor::head_from_datagram(std::as_bytes(std::span(input))).ok()) << file;
+        ++seeds;
+    }
+    for (const fs::path& file : corpus("sharing")) {
+        if (file.filename().string().rfind("seed-", 0) != 0) continue;
+        const auto input = contents(file);
+        compositor::SharedViewReader reader(0x0123456789abcdef);
+        EXPECT_TRUE(reader.take(std::as_bytes(std::span(input))).ok()) << file;
+        EXPECT_TRUE(reader.take_view().has_value()) << file;
         ++seeds;
     }
     EXPECT_GE(seeds, 18);
