@@ -35,6 +35,7 @@ Result<FrameCompositor::Passes> FrameCompositor::make_passes(const Scene& scene,
     return Passes{.object_requests = ObjectRequestPass(has_object_depth),
                   .shadow_maps = {},
                   .depth = DepthPass(has_object_depth),
+                  .reflections = {},
                   .opaque = {},
                   .underlay = std::move(underlay),
                   .objects = std::move(objects),
@@ -90,6 +91,7 @@ Status FrameCompositor::set_lights(const Scene& scene, double exposure_ev) {
     RS_TRY(background_.set_environment(lit_scene.environment));
     area_lights_.set_lights(scene.lights, exposure_ev);
     return geometry_.set_lights(lit_scene, nodes_.shown());
+    passes_.reflections.invalidate();
 }
 
 Result<Image<Rgba8>> FrameCompositor::compose(const Camera& camera) {
@@ -128,9 +130,9 @@ Status FrameCompositor::draw(const Camera& camera, bool needs_depths) {
     camera_ = camera;
     FrameContext frame = context_of(camera);
     frame.needs_depths = needs_depths;
-    Status status =
-        run_in_order(frame, passes_.object_requests, passes_.shadow_maps, passes_.depth, passes_.opaque,
-                     passes_.underlay, passes_.objects, passes_.transparent, passes_.weather, passes_.blend);
+    Status status = run_in_order(frame, passes_.object_requests, passes_.shadow_maps, passes_.reflections,
+                                 passes_.depth, passes_.opaque, passes_.underlay, passes_.objects, passes_.transparent,
+                                 passes_.weather, passes_.blend);
     statistics_.geometry_in_view = geometry_.surfaces().nodes_in_view();
     return status;
 }

@@ -4,8 +4,8 @@
 //
 // A frame is a list of passes over one FrameContext (passes/frame_context.hpp):
 //
-//     object requests -> shadow maps -> depth -> opaque -> traced underlay -> objects -> transparent -> weather ->
-//     blend
+//     object requests -> shadow maps -> reflections -> depth -> opaque -> traced underlay -> objects -> transparent ->
+//     weather -> blend
 //
 // The overlay of light handles is drawn over a copy. The engine renders the objects while geometry is drawn. Objects
 // are sorted and blended, not depth-tested against each other: half-transparent rims would cut holes.
@@ -136,6 +136,7 @@ private:
         ObjectRequestPass object_requests;
         ShadowMapPass shadow_maps;
         DepthPass depth;
+        ReflectionPass reflections;
         OpaquePass opaque;
         TracedUnderlayPass underlay;
         ObjectPass objects;
