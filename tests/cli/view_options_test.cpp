@@ -283,6 +283,8 @@ TEST_F(ViewOptions, OfSequenceTakeEffect) {
                                   {"--seed", "--weather rain", "--seed 2"},
                                   {"--visibility", "--weather fog", "--visibility 8"},
                                   {"--convert", "", "--convert true", OptionEffect::kIsRefused},
+                                  {"--shutter", "--weather rain", "--shutter 0.5"},
+                                  {"--shutter-samples", "--weather rain --shutter 1", "--shutter-samples 2"},
                                   {"--stats", "", "--stats OUT/s.json"},
                                   {"--force", "-o OUT/full", "--force", OptionEffect::kPermits}}}));
 }
