@@ -39,8 +39,9 @@ Status write_panoramas(const RenderOptions& options, const FrameOutput& output, 
     RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, options.renderer, passes_of_face(options.passes),
                                                            scene_name(options.scene), progress.of_passes()));
     const int side = panorama_cameras(cameras.front(), layout).front().width;
-    const HeadlessOptions headless{.frame = frame_options(options.drawing, {side, side}, options.renderer.exposure_ev,
-                                                          options.upright || !loaded.executor.tilted)};
+    RS_ASSIGN_OR_RETURN(FrameOptions frame, frame_options(options.drawing, options.renderer, {side, side},
+                                                          options.upright || !loaded.executor.tilted));
+    const HeadlessOptions headless{.frame = std::move(frame)};
     RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     progress.start();
     const RenderView render = [&](const Camera& camera) {
@@ -93,9 +94,9 @@ Status run_render(const RenderOptions& options) {
     RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, options.renderer, options.passes,
                                                            scene_name(options.scene), progress.of_passes()));
     const bool upright = options.upright || options.streaming || !loaded.executor.tilted;
-    HeadlessOptions headless{.frame = frame_options(options.drawing, size, options.renderer.exposure_ev, upright),
-                             .frames_per_second = options.frames_per_second,
-                             .real_time = options.streaming};
+    RS_ASSIGN_OR_RETURN(FrameOptions frame, frame_options(options.drawing, options.renderer, size, upright));
+    HeadlessOptions headless{
+        .frame = std::move(frame), .frames_per_second = options.frames_per_second, .real_time = options.streaming};
     headless.frame.time_parts = options.stats.has_value();
     RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     progress.start();

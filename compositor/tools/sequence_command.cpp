@@ -91,8 +91,8 @@ Result<PlayerOptions> player_options(const SequenceOptions& options, const engin
     RS_ASSIGN_OR_RETURN(const TracedOptions tracing, traced_options(options.renderer));
     RS_ASSIGN_OR_RETURN(const std::optional<Weather> weather, requested_weather(options));
     PlayerOptions player;
-    player.frame =
-        frame_options(options.drawing, size, options.renderer.exposure_ev, options.upright || !executor.tilted);
+    RS_ASSIGN_OR_RETURN(player.frame,
+                        frame_options(options.drawing, options.renderer, size, options.upright || !executor.tilted));
     player.frame.time_parts = options.stats.has_value();
     if (options.renderer.method()) player.tracing = tracing;
     player.passes = options.passes;
@@ -369,8 +369,8 @@ void check_sequence_options(const CLI::App& command, const SequenceOptions& opti
         return;
     }
     if (options.folders.size() > 1) throw CLI::ValidationError("several sequences need -o: the folder to write");
-    for (const char* const name : {"--frame", "--fps", "--convert", "--passes", "--shutter", "--upright", "--stats",
-                                   "--force", "--quiet"}) {
+    for (const char* const name : {"--frame", "--fps", "--convert", "--passes", "--shutter", "--toon-objects",
+                                   "--upright", "--stats", "--force", "--quiet"}) {
         if (command.count(name) == 0) continue;
         throw CLI::ValidationError(std::string(name) + " needs -o: the video, image or folder to write");
     }

@@ -53,11 +53,13 @@ void add_renderer_options(CLI::App& command, RendererOptions& options) {
     command.add_flag("--soft-shadows", options.soft_shadows, "whitted and toon: area lights cast soft shadows");
     command
         .add_option("--toon-style", options.toon_style,
-                    "toon: tones, edges (compositor/traced/README.md); width: --toon-lines LENGTH (0: none)")
+                    "toon: tones, edges (traced/README.md); also --toon-lines LENGTH (0: none), --toon-objects")
         ->type_name("FILE.json");
     command.add_option("--toon-lines", options.toon_line_length, "toon: width of a line from its edge; 0: none")
         ->check(CLI::Range(0.0, 1e6).description(""))
         ->type_name("LENGTH")
+        ->group("");
+    command.add_flag("--toon-objects", options.toon_objects, "toon: objects are drawn in tones and with outlines, too")
         ->group("");
 }
 
@@ -97,7 +99,7 @@ void check_renderer_options(const CLI::App& command, const RendererOptions& opti
         return option != nullptr && option->count() > 0;
     };
     const std::optional<TracedMethod> method = options.method();
-    for (const char* const name : {"--toon-lines", "--toon-style"}) {
+    for (const char* const name : {"--toon-lines", "--toon-style", "--toon-objects"}) {
         if (method != TracedMethod::kToon && is_given(name))
             throw CLI::ValidationError(std::string(name) + " needs --renderer toon");
     }

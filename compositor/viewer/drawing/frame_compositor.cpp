@@ -27,15 +27,16 @@ Scene raster_scene(const Scene& scene, double exposure_ev) {
 
 }  // namespace
 
-Result<FrameCompositor::Passes> FrameCompositor::make_passes(const Scene& scene, std::size_t nodes, ObjectDepth depth) {
-    const bool has_object_depth = depth == ObjectDepth::kPixel;
+Result<FrameCompositor::Passes> FrameCompositor::make_passes(const Scene& scene, std::size_t nodes,
+                                                             const FrameOptions& options) {
+    const bool has_object_depth = options.object_depth == ObjectDepth::kPixel;
     RS_ASSIGN_OR_RETURN(auto underlay, TracedUnderlayPass::create());
-    RS_ASSIGN_OR_RETURN(auto objects, ObjectPass::create(nodes, depth));
+    RS_ASSIGN_OR_RETURN(auto objects, ObjectPass::create(nodes, options.object_depth, options.object_cartoon));
     RS_ASSIGN_OR_RETURN(auto weather, WeatherPass::create(scene));
     return Passes{.object_requests = ObjectRequestPass(has_object_depth),
                   .shadow_maps = {},
-                  .depth = DepthPass(has_object_depth),
                   .reflections = {},
+                  .depth = DepthPass(has_object_depth),
                   .opaque = {},
                   .underlay = std::move(underlay),
                   .objects = std::move(objects),
@@ -54,7 +55,7 @@ Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::sha
     RS_ASSIGN_OR_RETURN(auto area_lights, AreaLightRenderer::create());
     area_lights.set_lights(lit_scene.lights, options.exposure_ev);
     RS_ASSIGN_OR_RETURN(auto geometry, LitGeometry::create(scene, *nodes, options.shadows));
-    RS_ASSIGN_OR_RETURN(auto passes, make_passes(scene, nodes->size(), options.object_depth));
+    RS_ASSIGN_OR_RETURN(auto passes, make_passes(scene, nodes->size(), options));
     RS_ASSIGN_OR_RETURN(auto target, FrameTarget::create(options.width, options.height, options.samples));
     Parts parts{.engine = std::move(engine),
                 .nodes = ObjectNodes(std::move(nodes), options.object_samples, options.upright_images),
@@ -90,8 +91,8 @@ Status FrameCompositor::set_lights(const Scene& scene, double exposure_ev) {
     const Scene lit_scene = raster_scene(scene, exposure_ev);
     RS_TRY(background_.set_environment(lit_scene.environment));
     area_lights_.set_lights(scene.lights, exposure_ev);
-    return geometry_.set_lights(lit_scene, nodes_.shown());
     passes_.reflections.invalidate();
+    return geometry_.set_lights(lit_scene, nodes_.shown());
 }
 
 Result<Image<Rgba8>> FrameCompositor::compose(const Camera& camera) {

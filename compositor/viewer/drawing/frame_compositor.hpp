@@ -44,7 +44,8 @@ struct FrameOptions {
     // Scales lights and the environment by 2^exposure_ev, but not objects, other backgrounds and unlit surfaces.
     double exposure_ev = 0;
     ObjectDepth object_depth = ObjectDepth::kPlane;
-    int object_samples = kDefaultSamplesAcross;  // ObjectViewOptions::max_samples_across
+    int object_samples = kDefaultSamplesAcross;        // ObjectViewOptions::max_samples_across
+    std::shared_ptr<const ObjectCartoon> object_cartoon = {};  // look of objects; null: that of their photos
     // Renders objects for an upright camera in the same position and warps the image (upright_image.hpp): faster and
     // supported by boards, but slightly softer.
     bool upright_images = false;
@@ -135,8 +136,8 @@ private:
     struct Passes {
         ObjectRequestPass object_requests;
         ShadowMapPass shadow_maps;
-        DepthPass depth;
         ReflectionPass reflections;
+        DepthPass depth;
         OpaquePass opaque;
         TracedUnderlayPass underlay;
         ObjectPass objects;
@@ -145,7 +146,7 @@ private:
         BlendPass blend;
         OverlayPass overlay;
     };
-    static Result<Passes> make_passes(const Scene& scene, std::size_t nodes, ObjectDepth depth);
+    static Result<Passes> make_passes(const Scene& scene, std::size_t nodes, const FrameOptions& options);
     struct Parts {
         std::shared_ptr<engine::RenderSession> engine;
         ObjectNodes nodes;

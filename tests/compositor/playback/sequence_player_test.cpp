@@ -15,7 +15,7 @@ namespace {
 
 using PlayerTest = test::GlTest;
 
-constexpr FrameOptions kSmall{.width = 160, .height = 96, .samples = 1};
+const FrameOptions kSmall{.width = 160, .height = 96, .samples = 1};
 
 Image<Rgba8> frame_of(SequencePlayer& player, std::size_t number) {
     auto frame = player.frame(number);
