@@ -36,7 +36,9 @@ struct RenderOptions {
 Status write_panoramas(const RenderOptions& options, const FrameOutput& output, const LoadedScene& loaded,
                        const std::vector<Camera>& cameras, const PanoramaLayout& layout) {
     FrameProgress progress(options.quiet, kPanoramaFaces * cameras.size(), options.renderer.method().has_value());
-    RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, options.renderer, passes_of_face(options.passes),
+    RendererOptions of_faces = options.renderer;
+    of_faces.panorama = true;
+    RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, of_faces, passes_of_face(options.passes),
                                                            scene_name(options.scene), progress.of_passes()));
     const int side = panorama_cameras(cameras.front(), layout).front().width;
     RS_ASSIGN_OR_RETURN(FrameOptions frame, frame_options(options.drawing, options.renderer, {side, side},
@@ -151,7 +153,7 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
             throw CLI::ValidationError("--focus needs --lens: the diameter of the lens or its f-number");
         }
         if (options->panorama) {
-            check_panorama_options(*command, options->renderer);
+            check_panorama_options(*command);
             if (command->count("--size") == 0) options->size = kPanoramaSize;
         }
         run = [options] { return options->panorama ? run_panorama(*options) : run_render(*options); };

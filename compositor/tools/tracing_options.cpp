@@ -117,6 +117,7 @@ Result<TracedOptions> traced_options(const RendererOptions& options) {
     traced.exposure_ev = options.exposure_ev;
     traced.soft_shadows = options.soft_shadows;
     traced.line_radius = options.toon_line_length;
+    traced.panorama = options.panorama;
     if (options.toon_style) {
         RS_ASSIGN_OR_RETURN(traced.toon, read_toon_style(*options.toon_style));
     }

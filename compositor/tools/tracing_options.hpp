@@ -22,6 +22,7 @@ struct RendererOptions {
     std::optional<double> toon_line_length;  // scene units; by default 1 px at the median distance
     std::optional<std::string> toon_style;   // file, toon_file.hpp
     bool toon_objects = false;               // objects are drawn as cartoons, too
+    bool panorama = false;                   // images are faces of a panorama
     std::optional<std::string> lens;         // diameter in mm, or f/N
     std::optional<double> focus;             // scene units
     /// The method of a traced renderer; nullopt for raster.
