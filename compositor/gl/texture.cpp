@@ -63,6 +63,7 @@ Texture::Texture(ConstImageView<Rgba8> image, const TextureWrap& wrap)
               std::bit_width(static_cast<unsigned>(std::max(image.width(), image.height())))) {
     const Image<glm::u16vec4> linear = linear_texels(image);
     upload(linear.data(), linear.width(), linear.height(), linear.width(), GL_RGBA, GL_UNSIGNED_SHORT);
+    glGenerateTextureMipmap(handle_.name());
     set_trilinear(wrap);
 }
 
@@ -70,12 +71,25 @@ Texture::Texture(ConstImageView<RgbaF> directions, const TextureWrap& wrap)
     : Texture(directions.width(), directions.height(), TexelKind::kDirection,
               std::bit_width(static_cast<unsigned>(std::max(directions.width(), directions.height())))) {
     upload(directions.data(), directions.width(), directions.height(), directions.stride(), GL_RGBA, GL_FLOAT);
+    glGenerateTextureMipmap(handle_.name());
+    set_trilinear(wrap);
+}
+
+Texture::Texture(std::span<const Image<RgbaF>> levels, const TextureWrap& wrap)
+    : Texture(levels.front().width(), levels.front().height(), TexelKind::kDirection, static_cast<int>(levels.size())) {
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const Image<RgbaF>& level = levels[i];
+        RS_CHECK(level.width() == width_ >> i && level.height() == height_ >> i);
+        glPixelStorei(GL_UNPACK_ROW_LENGTH, static_cast<GLint>(level.view().stride()));
+        glTextureSubImage2D(handle_.name(), static_cast<GLint>(i), 0, 0, level.width(), level.height(), GL_RGBA,
+                            GL_FLOAT, level.data());
+    }
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
     set_trilinear(wrap);
 }
 
 void Texture::set_trilinear(const TextureWrap& wrap) const {
     const unsigned name = handle_.name();
-    glGenerateTextureMipmap(name);
     glTextureParameteri(name, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     glTextureParameteri(name, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTextureParameteri(name, GL_TEXTURE_WRAP_S, wrap.repeat_s ? GL_REPEAT : GL_CLAMP_TO_EDGE);

@@ -4,6 +4,8 @@
 #include "compositor/gl/handle.hpp"
 #include "rayspace/image/image.hpp"
 
+#include <span>
+
 namespace rs::gl {
 
 /// Addressing mode per axis.
@@ -27,6 +29,9 @@ public:
     Texture(ConstImageView<Rgba8> image, const TextureWrap& wrap);
     /// Immutable direction texture (r, g, b) of half floats, same filtering.
     Texture(ConstImageView<RgbaF> directions, const TextureWrap& wrap);
+    /// Immutable half-float texture whose mipmap levels are given: each has half the size of the previous one.
+    /// Trilinear.
+    Texture(std::span<const Image<RgbaF>> levels, const TextureWrap& wrap);
     [[nodiscard]] int width() const { return width_; }
     [[nodiscard]] int height() const { return height_; }
 

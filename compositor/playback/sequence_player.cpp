@@ -1,7 +1,9 @@
 #include "compositor/playback/sequence_player.hpp"
 
 #include "compositor/viewer/views/framing.hpp"
+#include "rayspace/image/linear_light.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -36,9 +38,41 @@ SequenceCamera own_or_framing_camera(const Sequence& sequence, std::size_t frame
     return camera ? *camera : framing_camera(sequence, SequenceCamera{}.fov_x_rad, aspect);
 }
 
-Camera camera_of(const Sequence& sequence, std::size_t frame, int width, int height) {
-    const SequenceCamera camera = own_or_framing_camera(sequence, frame, static_cast<double>(width) / height);
+namespace {
+
+Camera pixel_camera(const SequenceCamera& camera, int width, int height) {
     return look_at_camera(camera.pose.eye, camera.pose.at, camera.fov_x_rad, width, height);
+}
+
+// Sum of images in linear light.
+class LinearMean {
+public:
+    LinearMean(int width, int height) : sum_(width, height) {}
+
+    void add(const Image<Rgba8>& image) {
+        std::ranges::transform(image.pixels(), sum_.pixels(), sum_.pixels().begin(), [](Rgba8 p, const RgbaF& sum) {
+            return RgbaF{sum.r + linear_from_srgb8(p.r), sum.g + linear_from_srgb8(p.g), sum.b + linear_from_srgb8(p.b),
+                         sum.a + 1};
+        });
+    }
+
+    [[nodiscard]] Image<Rgba8> image() const {
+        Image<Rgba8> mean(sum_.width(), sum_.height());
+        std::ranges::transform(sum_.pixels(), mean.pixels().begin(), [](const RgbaF& sum) {
+            return Rgba8{srgb8_by_table(sum.r / sum.a), srgb8_by_table(sum.g / sum.a), srgb8_by_table(sum.b / sum.a),
+                         255};
+        });
+        return mean;
+    }
+
+private:
+    Image<RgbaF> sum_;  // a: number of images
+};
+
+}  // namespace
+
+Camera camera_of(const Sequence& sequence, std::size_t frame, int width, int height) {
+    return pixel_camera(own_or_framing_camera(sequence, frame, static_cast<double>(width) / height), width, height);
 }
 
 void set_field_of_view(Sequence& sequence, double fov_x_rad, double aspect) {
@@ -73,7 +107,12 @@ Result<SequencePlayer> SequencePlayer::create(std::shared_ptr<const Sequence> se
 
 Status show_frame(const Sequence& sequence, std::size_t frame, const std::optional<Weather>& weather,
                   FrameCompositor& compositor, Showroom& showroom) {
-    const SlotTransforms moved = slot_transforms(sequence, frame);
+    return show_time(sequence, static_cast<double>(frame), weather, compositor, showroom);
+}
+
+Status show_time(const Sequence& sequence, double time, const std::optional<Weather>& weather,
+                 FrameCompositor& compositor, Showroom& showroom) {
+    const SlotTransforms moved = slot_transforms(sequence, frame_at(sequence, time));
     for (std::size_t slot = 0; slot < sequence.slots.size(); ++slot) {
         for (const std::size_t node : sequence.slots[slot].geometry) {
             std::optional<glm::dmat4> matrix = moved.geometry[slot];
@@ -82,16 +121,20 @@ Status show_frame(const Sequence& sequence, std::size_t frame, const std::option
         }
     }
     for (const auto& [node, chain] : moved.objects) showroom.move_object(node, chain);
-    compositor.set_weather(weather, static_cast<double>(frame) / sequence.frames_per_second);
+    compositor.set_weather(weather, time / sequence.frames_per_second);
     return {};
 }
 
 Status SequencePlayer::draw(std::size_t number, const Camera& camera) {
+    return draw_at(static_cast<double>(number), camera);
+}
+
+Status SequencePlayer::draw_at(double time, const Camera& camera) {
     const auto weather = weather_of(*sequence_, options_);
-    RS_TRY(show_frame(*sequence_, number, weather, compositor_, *showroom_));
+    RS_TRY(show_time(*sequence_, time, weather, compositor_, *showroom_));
     TracingWork traced;
     if (options_.tracing) {
-        RS_ASSIGN_OR_RETURN(traced, trace(number, camera));
+        RS_ASSIGN_OR_RETURN(traced, trace(slot_transforms(*sequence_, frame_at(*sequence_, time)), camera));
     }
     RS_TRY(times_.draw(*showroom_, compositor_, camera, 1 / sequence_->frames_per_second, traced));
     for (std::string& warning : showroom_->take_warnings()) warnings_.push_back(std::move(warning));
@@ -109,11 +152,10 @@ Status SequencePlayer::make_tracer() {
     return {};
 }
 
-Result<TracingWork> SequencePlayer::trace(std::size_t number, const Camera& camera) {
+Result<TracingWork> SequencePlayer::trace(const SlotTransforms& moved, const Camera& camera) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
     // Ray-space objects cannot move in a tracer, so it is rebuilt.
-    const SlotTransforms moved = slot_transforms(*sequence_, number);
     if (!tracer_ || !moved.objects.empty()) {
         RS_TRY(make_tracer());
     }
@@ -133,9 +175,25 @@ Camera SequencePlayer::camera(std::size_t number) const {
     return camera_of(*sequence_, number, compositor_.width(), compositor_.height());
 }
 
+Camera SequencePlayer::camera_at(double time) const {
+    const auto camera = frame_at(*sequence_, time).camera;
+    const auto number = std::min(static_cast<std::size_t>(time), frames() - 1);
+    return options_.camera || !camera ? this->camera(number)
+                                      : pixel_camera(*camera, compositor_.width(), compositor_.height());
+}
+
 Result<Image<Rgba8>> SequencePlayer::frame(std::size_t number) {
-    RS_TRY(draw(number, camera(number)));
-    return compositor_.image();
+    if (options_.shutter == 0) {
+        RS_TRY(draw(number, camera(number)));
+        return compositor_.image();
+    }
+    LinearMean mean(compositor_.width(), compositor_.height());
+    for (int i = 0; i < options_.shutter_samples; ++i) {
+        const double time = static_cast<double>(number) + options_.shutter * (i + 0.5) / options_.shutter_samples;
+        RS_TRY(draw_at(time, camera_at(time)));
+        mean.add(compositor_.image());
+    }
+    return mean.image();
 }
 
 std::vector<std::string> SequencePlayer::take_warnings() {

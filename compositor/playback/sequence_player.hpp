@@ -21,7 +21,9 @@ namespace rs::compositor {
 struct PlayerOptions {
     FrameOptions frame;
     std::optional<TracedOptions> tracing = {};  // nullopt: raster
-    int passes = 16;                            // per traced frame
+    int passes = 16;                            // per traced frame, or per part of it with a shutter
+    double shutter = 0;                         // part of the time between frames that a frame averages, 0..1
+    int shutter_samples = 8;                    // times that are averaged, >= 1
     std::optional<Weather> weather = {};        // overrides the sequence's weather
     std::optional<Camera> camera = {};          // of all frames, in their size; nullopt: the sequence's cameras
     std::int64_t memory_bytes = default_memory_budget();
@@ -43,6 +45,10 @@ void set_field_of_view(Sequence& sequence, double fov_x_rad, double aspect);
 /// Applies the transforms of a frame and the weather's time; takes effect in the next draw().
 Status show_frame(const Sequence& sequence, std::size_t frame, const std::optional<Weather>& weather,
                   FrameCompositor& compositor, Showroom& showroom);
+/// The same between frames (frame_at()).
+/// \param time in frames
+Status show_time(const Sequence& sequence, double time, const std::optional<Weather>& weather,
+                 FrameCompositor& compositor, Showroom& showroom);
 
 /// Requires a current gl::Context that outlives it; single-threaded, move-only.
 class SequencePlayer {
@@ -52,7 +58,8 @@ public:
     static Result<SequencePlayer> create(std::shared_ptr<const Sequence> sequence, const PlayerOptions& options,
                                          std::unique_ptr<engine::Executor> executor = nullptr);
 
-    /// Frames may be requested in any order; the result does not depend on it.
+    /// Frames may be requested in any order; the result does not depend on it. With a shutter, the mean, in linear
+    /// light, of images at evenly spaced times from the frame's on.
     Result<Image<Rgba8>> frame(std::size_t number);
     /// Same, without reading the image back (FrameCompositor::draw).
     Status draw(std::size_t number, const Camera& camera);
@@ -72,7 +79,9 @@ private:
     SequencePlayer(std::shared_ptr<const Sequence> sequence, std::unique_ptr<Showroom> showroom,
                    FrameCompositor compositor, const PlayerOptions& options);
     Status make_tracer();
-    Result<TracingWork> trace(std::size_t number, const Camera& camera);
+    Status draw_at(double time, const Camera& camera);
+    Result<TracingWork> trace(const SlotTransforms& moved, const Camera& camera);
+    [[nodiscard]] Camera camera_at(double time) const;
 
     std::shared_ptr<const Sequence> sequence_;
     Scene scene_;  // with weather applied

@@ -15,10 +15,14 @@ TransformChain chain_of(const InstancePose& pose) {
 }  // namespace
 
 SlotTransforms slot_transforms(const Sequence& sequence, std::size_t frame) {
+    return slot_transforms(sequence, sequence.frames[frame]);
+}
+
+SlotTransforms slot_transforms(const Sequence& sequence, const SequenceFrame& frame) {
     SlotTransforms moved;
     moved.geometry.resize(sequence.slots.size());
     std::vector<bool> shown(sequence.slots.size());
-    for (const SlotPose& pose : sequence.frames[frame].poses) {
+    for (const SlotPose& pose : frame.poses) {
         const SequenceSlot& slot = sequence.slots[pose.slot];
         shown[pose.slot] = true;
         if (slot.object) moved.objects.emplace_back(*slot.object, chain_of(pose.pose));

@@ -57,11 +57,19 @@ struct Sequence {
 /// Errors name file, line and remedy. Reads every file: about a second for some hundred frames.
 Result<Sequence> read_sequence(const std::filesystem::path& folder);
 
+/// Frame at a time between two frames, for motion blur (frame_interpolation.cpp). Positions, scales and fields of view
+/// are interpolated linearly, rotations by slerp (K. Shoemake, Animating Rotation with Quaternion Curves, 1985). Equal
+/// poses stay bit for bit. Instances correspond by the order of their lines; if the two frames show different numbers
+/// of an object, all instances of it keep the earlier frame's poses. \param time in frames, >= 0; after the last frame
+/// the last one is held
+SequenceFrame frame_at(const Sequence& sequence, double time);
+
 /// Transforms of all moving parts in a frame; nullopt: hidden. Geometry matrices apply before the nodes' own.
 struct SlotTransforms {
     std::vector<std::optional<glm::dmat4>> geometry;                             // [slot]
     std::vector<std::pair<std::size_t, std::optional<TransformChain>>> objects;  // indices into Scene::objects
 };
+SlotTransforms slot_transforms(const Sequence& sequence, const SequenceFrame& frame);
 SlotTransforms slot_transforms(const Sequence& sequence, std::size_t frame);
 
 /// Camera of the frame, else of the base scene, else nullopt.

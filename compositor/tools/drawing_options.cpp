@@ -52,16 +52,33 @@ void add_executor_options(CLI::App& command, ExecutorOptions& options) {
         ->type_name("MIB");
 }
 
-FrameOptions frame_options(const DrawingOptions& options, PixelSize size, double exposure_ev, bool upright) {
-    return {.width = size.width,
-            .height = size.height,
-            .samples = options.samples,
-            .wire_frame = options.wire_frame,
-            .shadows = options.shadows,
-            .exposure_ev = exposure_ev,
-            .object_depth = options.object_depth,
-            .object_samples = options.object_samples,
-            .upright_images = upright};
+namespace {
+
+// Null without --toon-objects.
+Result<std::shared_ptr<const ObjectCartoon>> object_cartoon(const RendererOptions& renderer) {
+    if (!renderer.toon_objects) return std::shared_ptr<const ObjectCartoon>();
+    RS_ASSIGN_OR_RETURN(const TracedOptions traced, traced_options(renderer));
+    return std::make_shared<const ObjectCartoon>(ObjectCartoon{.thresholds = traced.toon.thresholds,
+                                                               .values = traced.toon.values,
+                                                               .line_colour = traced.toon.edge_colour,
+                                                               .line_width = traced.line_radius});
+}
+
+}  // namespace
+
+Result<FrameOptions> frame_options(const DrawingOptions& options, const RendererOptions& renderer, PixelSize size,
+                                   bool upright) {
+    RS_ASSIGN_OR_RETURN(const auto cartoon, object_cartoon(renderer));
+    return FrameOptions{.width = size.width,
+                        .height = size.height,
+                        .samples = options.samples,
+                        .wire_frame = options.wire_frame,
+                        .shadows = options.shadows,
+                        .exposure_ev = renderer.exposure_ev,
+                        .object_depth = options.object_depth,
+                        .object_samples = options.object_samples,
+                        .object_cartoon = cartoon,
+                        .upright_images = upright};
 }
 
 Result<std::vector<PlacedObject>> LoadedScene::all_objects() const {

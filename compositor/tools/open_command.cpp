@@ -120,8 +120,9 @@ Status write_first_view(const std::string& file, const OpenOptions& options, con
     ProgressBar progress;
     RS_ASSIGN_OR_RETURN(TracedImages traced,
                         traced_images(loaded, options.renderer, PassOptions{}, scene_name(options.scene), progress));
-    const HeadlessOptions headless{.frame = frame_options(options.drawing, {first.width, first.height},
-                                                          options.renderer.exposure_ev, !loaded.executor.tilted)};
+    RS_ASSIGN_OR_RETURN(FrameOptions frame, frame_options(options.drawing, options.renderer,
+                                                          {first.width, first.height}, !loaded.executor.tilted));
+    const HeadlessOptions headless{.frame = std::move(frame)};
     RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, renderer.render(first));
     RS_TRY(write_png(file, image));
@@ -198,6 +199,8 @@ void add_open_command(CLI::App& app, std::function<Status()>& run) {
         refuse_unknown_arguments(command->remaining());
         check_scene_options(options->scene);
         check_sharing_options(options->sharing, true);
+        if (options->renderer.toon_objects)
+            throw CLI::ValidationError("--toon-objects is not an option of windows; use 'rs-view render'");
         run = [options] { return run_open(*options); };
     });
 }

@@ -22,7 +22,7 @@ bool emits_light(const Scene& scene) {
 
 }  // namespace
 
-void check_panorama_options(const CLI::App& command, const RendererOptions& options) {
+void check_panorama_options(const CLI::App& command) {
     struct Refused {
         const char* option;
         const char* reason;
@@ -36,10 +36,6 @@ void check_panorama_options(const CLI::App& command, const RendererOptions& opti
         if (command.count(refused.option) == 0) continue;
         throw CLI::ValidationError(std::string(refused.option) + " cannot be used with --panorama: " + refused.reason +
                                    "; leave it out");
-    }
-    if (options.method() == TracedMethod::kToon && !options.toon_line_length) {
-        throw CLI::ValidationError(
-            "--panorama with --renderer toon needs --toon-lines LENGTH: the default width depends on the view");
     }
 }
 

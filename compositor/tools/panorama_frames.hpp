@@ -21,7 +21,7 @@ namespace rs::compositor {
 inline constexpr const char* kPanoramaSize = "2048x1024";  // default of --size
 
 /// Throws CLI::ValidationError if an option of `command` cannot be used with --panorama.
-void check_panorama_options(const CLI::App& command, const RendererOptions& options);
+void check_panorama_options(const CLI::App& command);
 
 /// Fails unless the size is twice as wide as high.
 Result<PanoramaLayout> panorama_layout(PixelSize size, const RendererOptions& options);

@@ -36,11 +36,14 @@ struct RenderOptions {
 Status write_panoramas(const RenderOptions& options, const FrameOutput& output, const LoadedScene& loaded,
                        const std::vector<Camera>& cameras, const PanoramaLayout& layout) {
     FrameProgress progress(options.quiet, kPanoramaFaces * cameras.size(), options.renderer.method().has_value());
-    RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, options.renderer, passes_of_face(options.passes),
+    RendererOptions of_faces = options.renderer;
+    of_faces.panorama = true;
+    RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, of_faces, passes_of_face(options.passes),
                                                            scene_name(options.scene), progress.of_passes()));
     const int side = panorama_cameras(cameras.front(), layout).front().width;
-    const HeadlessOptions headless{.frame = frame_options(options.drawing, {side, side}, options.renderer.exposure_ev,
-                                                          options.upright || !loaded.executor.tilted)};
+    RS_ASSIGN_OR_RETURN(FrameOptions frame, frame_options(options.drawing, options.renderer, {side, side},
+                                                          options.upright || !loaded.executor.tilted));
+    const HeadlessOptions headless{.frame = std::move(frame)};
     RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     progress.start();
     const RenderView render = [&](const Camera& camera) {
@@ -93,9 +96,9 @@ Status run_render(const RenderOptions& options) {
     RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, options.renderer, options.passes,
                                                            scene_name(options.scene), progress.of_passes()));
     const bool upright = options.upright || options.streaming || !loaded.executor.tilted;
-    HeadlessOptions headless{.frame = frame_options(options.drawing, size, options.renderer.exposure_ev, upright),
-                             .frames_per_second = options.frames_per_second,
-                             .real_time = options.streaming};
+    RS_ASSIGN_OR_RETURN(FrameOptions frame, frame_options(options.drawing, options.renderer, size, upright));
+    HeadlessOptions headless{
+        .frame = std::move(frame), .frames_per_second = options.frames_per_second, .real_time = options.streaming};
     headless.frame.time_parts = options.stats.has_value();
     RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     progress.start();
@@ -143,7 +146,7 @@ void add_render_command(CLI::App& app, std::function<Status()>& run) {
         check_renderer_options(*command, options->renderer);
         check_focus_option(*command);
         if (options->panorama) {
-            check_panorama_options(*command, options->renderer);
+            check_panorama_options(*command);
             if (command->count("--size") == 0) options->size = kPanoramaSize;
         }
         run = [options] { return options->panorama ? run_panorama(*options) : run_render(*options); };

@@ -50,6 +50,8 @@ struct SequenceOptions {
     std::optional<std::string> convert;  // CMD {in} {out}
     RendererOptions renderer;
     int passes = kDefaultPassesOfFrame;
+    double shutter = 0;
+    int shutter_samples = 8;
     DrawingOptions drawing;
     bool upright = false;
     ExecutorOptions executor;
@@ -92,11 +94,13 @@ Result<PlayerOptions> player_options(const SequenceOptions& options, const engin
     RS_ASSIGN_OR_RETURN(const TracedOptions tracing, traced_options(options.renderer));
     RS_ASSIGN_OR_RETURN(const std::optional<Weather> weather, requested_weather(options));
     PlayerOptions player;
-    player.frame =
-        frame_options(options.drawing, size, options.renderer.exposure_ev, options.upright || !executor.tilted);
+    RS_ASSIGN_OR_RETURN(player.frame,
+                        frame_options(options.drawing, options.renderer, size, options.upright || !executor.tilted));
     player.frame.time_parts = options.stats.has_value();
     if (options.renderer.method()) player.tracing = tracing;
     player.passes = options.passes;
+    player.shutter = options.shutter;
+    player.shutter_samples = options.shutter_samples;
     player.weather = weather;
     player.memory_bytes = options.executor.memory_mib << 20;
     return player;
@@ -356,14 +360,16 @@ void check_sequence_options(const CLI::App& command, const SequenceOptions& opti
             if (command.count(name) > 0) throw CLI::ValidationError(std::string(name) + " needs --weather");
         }
     }
+    if (command.count("--shutter-samples") > 0 && options.shutter == 0)
+        throw CLI::ValidationError("--shutter-samples needs --shutter");
     if (options.output) {
         check_renderer_options(command, options.renderer);
         check_output_options(command, options);
         return;
     }
     if (options.folders.size() > 1) throw CLI::ValidationError("several sequences need -o: the folder to write");
-    for (const char* const name :
-         {"--frame", "--fps", "--convert", "--passes", "--upright", "--stats", "--force", "--quiet"}) {
+    for (const char* const name : {"--frame", "--fps", "--convert", "--passes", "--shutter", "--toon-objects",
+                                   "--upright", "--stats", "--force", "--quiet"}) {
         if (command.count(name) == 0) continue;
         throw CLI::ValidationError(std::string(name) + " needs -o: the video, image or folder to write");
     }
@@ -408,12 +414,15 @@ void add_sequence_command(CLI::App& app, std::function<Status()>& run) {
     command->get_option("--at")->description("point that the fixed camera looks at");
     command->get_option("--fov")->description("horizontal field of view, 1..150 degrees (default: sequence's)");
     add_size_option(*command, options->size);
-    command->add_option("--weather", options->weather, "rain, snow, fog or rain,fog (default: sequence's own)")
+    command
+        ->add_option("--weather", options->weather,
+                     "rain, snow, fog or rain,fog (default: sequence's own); drops and flakes vary with --seed N")
         ->type_name("NAME,...");
+    // --seed and --shutter-samples are shown with other options, because the help would not fit on a screen otherwise.
     command->add_option("--seed", options->seed, "seed of the drops and flakes of --weather")
         ->check(CLI::Range(0, 1000000000).description(""))
         ->type_name("N")
-        ->capture_default_str();
+        ->group("");
     command->add_option("--visibility", options->visibility_m, "distance in metres at which fog hides everything")
         ->check(CLI::Range(1.0, 100000.0).description(""))
         ->type_name("M")
@@ -428,6 +437,17 @@ void add_sequence_command(CLI::App& app, std::function<Status()>& run) {
         ->check(CLI::Range(1, 65536).description(""))
         ->type_name("N")
         ->capture_default_str();
+    command
+        ->add_option(
+            "--shutter", options->shutter,
+            "blur motion over this part, 0..1, of the time between frames: mean of --shutter-samples (8) images")
+        ->check(CLI::Range(0.0, 1.0).description(""))
+        ->type_name("PART")
+        ->capture_default_str();
+    command->add_option("--shutter-samples", options->shutter_samples, "images that --shutter averages, 2..256")
+        ->check(CLI::Range(2, 256).description(""))
+        ->type_name("N")
+        ->group("");
     add_drawing_options(*command, options->drawing);
     add_upright_option(*command, options->upright);
     add_executor_options(*command, options->executor);

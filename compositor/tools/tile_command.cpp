@@ -198,10 +198,10 @@ Status run_assemble(const AssembleOptions& options) {
         RS_ASSIGN_OR_RETURN(Image<Rgba8> image, read_tiles(options.tiles, frame, camera));
         return TracedImage{std::make_shared<const Image<Rgba8>>(std::move(image))};
     };
-    const HeadlessOptions headless{
-        .frame = frame_options(tiled.drawing, {cameras.front().width, cameras.front().height},
-                               tiled.renderer.exposure_ev, tiled.upright || !frames.loaded.executor.tilted),
-        .frames_per_second = options.frames_per_second};
+    RS_ASSIGN_OR_RETURN(FrameOptions frame,
+                        frame_options(tiled.drawing, tiled.renderer, {cameras.front().width, cameras.front().height},
+                                      tiled.upright || !frames.loaded.executor.tilted));
+    const HeadlessOptions headless{.frame = std::move(frame), .frames_per_second = options.frames_per_second};
     RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(frames.loaded, headless, from_tiles));
     FrameProgress progress(tiled.quiet, cameras.size(), false);
     progress.start();

@@ -53,11 +53,13 @@ void add_renderer_options(CLI::App& command, RendererOptions& options) {
     command.add_flag("--soft-shadows", options.soft_shadows, "whitted and toon: area lights cast soft shadows");
     command
         .add_option("--toon-style", options.toon_style,
-                    "toon: tones, edges (compositor/traced/README.md); width: --toon-lines LENGTH (0: none)")
+                    "toon: tones, edges (traced/README.md); also --toon-lines LENGTH (0: none), --toon-objects")
         ->type_name("FILE.json");
     command.add_option("--toon-lines", options.toon_line_length, "toon: width of a line from its edge; 0: none")
         ->check(CLI::Range(0.0, 1e6).description(""))
         ->type_name("LENGTH")
+        ->group("");
+    command.add_flag("--toon-objects", options.toon_objects, "toon: objects are drawn in tones and with outlines, too")
         ->group("");
 }
 
@@ -110,7 +112,7 @@ void check_renderer_options(const CLI::App& command, const RendererOptions& opti
         return option != nullptr && option->count() > 0;
     };
     const std::optional<TracedMethod> method = options.method();
-    for (const char* const name : {"--toon-lines", "--toon-style"}) {
+    for (const char* const name : {"--toon-lines", "--toon-style", "--toon-objects"}) {
         if (method != TracedMethod::kToon && is_given(name))
             throw CLI::ValidationError(std::string(name) + " needs --renderer toon");
     }
@@ -128,6 +130,7 @@ Result<TracedOptions> traced_options(const RendererOptions& options) {
     traced.exposure_ev = options.exposure_ev;
     traced.soft_shadows = options.soft_shadows;
     traced.line_radius = options.toon_line_length;
+    traced.panorama = options.panorama;
     if (options.toon_style) {
         RS_ASSIGN_OR_RETURN(traced.toon, read_toon_style(*options.toon_style));
     }

@@ -21,6 +21,8 @@ struct RendererOptions {
     bool soft_shadows = false;
     std::optional<double> toon_line_length;  // scene units; by default 1 px at the median distance
     std::optional<std::string> toon_style;   // file, toon_file.hpp
+    bool toon_objects = false;               // objects are drawn as cartoons, too
+    bool panorama = false;                   // images are faces of a panorama
     std::optional<std::string> lens;         // diameter in mm, or f/N
     std::optional<double> focus;             // scene units
     /// The method of a traced renderer; nullopt for raster.
@@ -33,8 +35,8 @@ struct PassOptions {
     std::optional<double> seconds;
 };
 
-/// Adds --renderer, --exposure, --soft-shadows, --toon-style and --toon-lines. The help shows --toon-lines in the line
-/// of --toon-style, because the help of `render` and `walls` would not fit on a screen otherwise.
+/// Adds --renderer, --exposure, --soft-shadows, --toon-style, --toon-lines and --toon-objects. The help shows the last
+/// two in the line of --toon-style, because the help of `render` and `walls` would not fit on a screen otherwise.
 void add_renderer_options(CLI::App& command, RendererOptions& options);
 /// Adds --lens and --focus.
 void add_lens_options(CLI::App& command, RendererOptions& options);

@@ -67,9 +67,10 @@ Status render_walls(const WallsOptions& options, const WallViews& views, const L
     RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, options.renderer, options.passes,
                                                            scene_name(options.scene), progress.of_passes()));
     const Camera& first = cameras.front();
-    const HeadlessOptions headless{.frame = frame_options(options.drawing, {first.width, first.height},
-                                                          options.renderer.exposure_ev,
-                                                          options.upright || !loaded.executor.tilted)};
+    RS_ASSIGN_OR_RETURN(FrameOptions frame,
+                        frame_options(options.drawing, options.renderer, {first.width, first.height},
+                                      options.upright || !loaded.executor.tilted));
+    const HeadlessOptions headless{.frame = std::move(frame)};
     RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     progress.start();
     const RenderView render = [&](const Camera& camera) { return renderer.render(camera); };
@@ -112,7 +113,8 @@ Status run_walls(const WallsOptions& options) {
 
 // Windows move by keys and refine without a limit.
 void check_window_options(const CLI::App& command) {
-    for (const char* const name : {"--path", "--orbit", "--passes", "--seconds", "--upright", "--quiet", "--force"}) {
+    for (const char* const name :
+         {"--path", "--orbit", "--passes", "--seconds", "--upright", "--quiet", "--toon-objects", "--force"}) {
         if (command.count(name) == 0) continue;
         throw CLI::ValidationError(std::string(name) + " needs -o: the folder to write images of the walls to");
     }

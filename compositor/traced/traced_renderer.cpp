@@ -8,6 +8,7 @@
 #include "compositor/traced/tracer_scene.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -104,8 +105,21 @@ void TracedRenderer::set_lights(const Scene& scene, double exposure_ev) {
 void TracedRenderer::begin(const Camera& camera) {
     tracer_.commit();
     if (headlight_) tracer_.set_lights({headlight_of(camera.forward())});
-    if (!options_.line_radius)
-        render_.toon.edge_radius = static_cast<float>(kToonLine_px * tracer_.median_pixel_size(camera));
+    if (!options_.line_radius) render_.toon.edge_radius = static_cast<float>(default_line_radius(camera));
+}
+
+double TracedRenderer::default_line_radius(const Camera& camera) const {
+    if (!options_.panorama) return kToonLine_px * tracer_.median_pixel_size(camera);
+    const double fov_x_rad = 2 * std::atan(0.5 * camera.width / camera.fl_x);
+    std::array<double, 6> sizes{};
+    for (int face = 0; face < 6; ++face) {
+        glm::dvec3 axis(0);
+        axis[face / 2] = face % 2 == 0 ? 1 : -1;
+        sizes[static_cast<std::size_t>(face)] = tracer_.median_pixel_size(
+            look_at_camera(camera.centre(), camera.centre() + axis, fov_x_rad, camera.width, camera.height));
+    }
+    std::ranges::sort(sizes);
+    return kToonLine_px * 0.5 * (sizes[2] + sizes[3]);
 }
 
 capture::RenderOptions TracedRenderer::render_options(const Camera& camera) const {

@@ -52,6 +52,7 @@ struct TracedOptions {
     // toon: width of a line from its edge, scene units; empty: per image, 1 px at the median distance of the surfaces
     // that the whole camera sees (capture::Tracer::median_pixel_size())
     std::optional<double> line_radius{};
+    bool panorama = false;  // images are faces of a panorama: the median is that of all directions
     capture::ToonStyle toon{};  // edge_radius, shadow_rays and brightness are ignored: they follow from the above
     std::optional<CameraLens> lens{};
 };
@@ -101,6 +102,7 @@ private:
         : tracer_(std::move(tracer)), options_(options) {}
 
     void begin(const Camera& camera);
+    [[nodiscard]] double default_line_radius(const Camera& camera) const;
     void describe_lights(const Scene& scene);
     [[nodiscard]] capture::RenderOptions render_options(const Camera& camera) const;
     [[nodiscard]] Image<Rgba8> tone_map(Image<RgbaF> radiance) const;

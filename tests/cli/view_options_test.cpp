@@ -68,6 +68,7 @@ OptionCases renderer_cases() {
             {"--soft-shadows", std::string(kWhittedPass) + " --lights IN/lights.json", "--soft-shadows"},
             {"--toon-style", kToonPass, "--toon-style IN/style.json"},
             {"--toon-lines", kToonPass, "--toon-lines 0.2"},
+            {"--toon-objects", kToonPass, "--toon-objects"},
             {"--passes", "--renderer path --passes 1", "--passes 2"}};
 }
 
@@ -286,6 +287,8 @@ TEST_F(ViewOptions, OfSequenceTakeEffect) {
                                   {"--weather", "", "--weather rain"},
                                   {"--seed", "--weather rain", "--seed 2"},
                                   {"--visibility", "--weather fog", "--visibility 8"},
+                                  {"--shutter", "--weather rain", "--shutter 0.5"},
+                                  {"--shutter-samples", "--weather rain --shutter 1", "--shutter-samples 2"},
                                   {"--convert", "", "--convert true", OptionEffect::kIsRefused},
                                   {"--stats", "", "--stats OUT/s.json"},
                                   {"--force", "-o OUT/full", "--force", OptionEffect::kPermits}}}));

@@ -433,6 +433,18 @@ TEST_F(View, PanoramasShowAllDirections) {
                                        "--lights", in("lamp.json"), "-o", in("traced.png")});
     ASSERT_EQ(traced.exit_code, 0) << traced.err;
     EXPECT_EQ(read_image(in("traced.png")).value().width(), 64);
+    // Lines of cartoons have a default width.
+    const auto toon = [&](const std::string& length) {
+        std::vector<std::string> arguments = {"--panorama", "--size",       "256x128",
+                                              "--renderer", "toon",         "--passes",
+                                              "1",          "-o",           in("toon" + length + ".png"),
+                                              "--lights",   in("lamp.json")};
+        if (!length.empty()) arguments.insert(arguments.end(), {"--toon-lines", length});
+        const test::ToolRun drawn = with(arguments);
+        EXPECT_EQ(drawn.exit_code, 0) << drawn.err;
+        return read_image(in("toon" + length + ".png")).value();
+    };
+    EXPECT_NE(toon(""), toon("0"));
 }
 
 TEST_F(View, PanoramasRefuseOptionsOfOneView) {
@@ -442,8 +454,7 @@ TEST_F(View, PanoramasRefuseOptionsOfOneView) {
         {{"--renderer", "path", "--lens", "f/2", "--focus", "2"}, "--lens cannot be used with --panorama"},
         {{"--focus", "2"}, "--focus needs --lens"},
         {{"--streaming"}, "--streaming cannot be used with --panorama"},
-        {{"--stats", "x.json"}, "--stats cannot be used with --panorama"},
-        {{"--renderer", "toon"}, "needs --toon-lines LENGTH"}};
+        {{"--stats", "x.json"}, "--stats cannot be used with --panorama"}};
     for (const auto& [more, expected] : cases) {
         std::vector<std::string> arguments = {"render", in("hall.wrl"), "--panorama", "-o", in("x.png")};
         arguments.insert(arguments.end(), more.begin(), more.end());

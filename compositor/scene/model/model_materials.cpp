@@ -62,7 +62,8 @@ MaterialWithSides ModelMaterials::convert(const aiMaterial& source) {
         const float metallic =
             std::clamp(material_property<float>(source, AI_MATKEY_METALLIC_FACTOR).value_or(1), 0.0F, 1.0F);
         const glm::vec3 colour = vec({base->r, base->g, base->b});
-        // Metals without reflections would be black except for highlights, so half of the colour stays diffuse.
+        // For Phong's formula: metals without reflections would be black except for highlights, so half of the colour
+        // stays diffuse.
         material.diffuse = colour * (1 - 0.5F * metallic);
         material.specular = glm::mix(glm::vec3(0.04F), colour, metallic);
         material.shininess = shininess_of(material_property<float>(source, AI_MATKEY_ROUGHNESS_FACTOR).value_or(1));

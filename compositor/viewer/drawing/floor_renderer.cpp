@@ -99,7 +99,7 @@ void FloorRenderer::draw(const FrameView& view) const {
     set("eye", glm::vec3(view.camera.centre()));
     set("headlight", glm::vec3(view.camera.forward()));
     // Rows of vec4 without padding; surface_tables.cpp asserts their sizes.
-    set("material", std::span(&material_.diffuse_opacity, 5));
+    set("material", std::span(&material_.diffuse_opacity, kMaterialRows));
     if (!lights_.empty()) set("lights", std::span(&lights_.front().colour, 5 * lights_.size()));
     if (!shadows_.empty()) set("shadows", std::span(&shadows_.front().u, 4 * shadows_.size()));
     if (environment_) set("environment", std::span(environment_->factors));

@@ -27,13 +27,15 @@ Scene raster_scene(const Scene& scene, double exposure_ev) {
 
 }  // namespace
 
-Result<FrameCompositor::Passes> FrameCompositor::make_passes(const Scene& scene, std::size_t nodes, ObjectDepth depth) {
-    const bool has_object_depth = depth == ObjectDepth::kPixel;
+Result<FrameCompositor::Passes> FrameCompositor::make_passes(const Scene& scene, std::size_t nodes,
+                                                             const FrameOptions& options) {
+    const bool has_object_depth = options.object_depth == ObjectDepth::kPixel;
     RS_ASSIGN_OR_RETURN(auto underlay, TracedUnderlayPass::create());
-    RS_ASSIGN_OR_RETURN(auto objects, ObjectPass::create(nodes, depth));
+    RS_ASSIGN_OR_RETURN(auto objects, ObjectPass::create(nodes, options.object_depth, options.object_cartoon));
     RS_ASSIGN_OR_RETURN(auto weather, WeatherPass::create(scene));
     return Passes{.object_requests = ObjectRequestPass(has_object_depth),
                   .shadow_maps = {},
+                  .reflections = {},
                   .depth = DepthPass(has_object_depth),
                   .opaque = {},
                   .underlay = std::move(underlay),
@@ -53,7 +55,7 @@ Result<FrameCompositor> FrameCompositor::create(const Scene& lit_scene, std::sha
     RS_ASSIGN_OR_RETURN(auto area_lights, AreaLightRenderer::create());
     area_lights.set_lights(lit_scene.lights, options.exposure_ev);
     RS_ASSIGN_OR_RETURN(auto geometry, LitGeometry::create(scene, *nodes, options.shadows));
-    RS_ASSIGN_OR_RETURN(auto passes, make_passes(scene, nodes->size(), options.object_depth));
+    RS_ASSIGN_OR_RETURN(auto passes, make_passes(scene, nodes->size(), options));
     RS_ASSIGN_OR_RETURN(auto target, FrameTarget::create(options.width, options.height, options.samples));
     Parts parts{.engine = std::move(engine),
                 .nodes = ObjectNodes(std::move(nodes), options.object_samples, options.upright_images),
@@ -89,6 +91,7 @@ Status FrameCompositor::set_lights(const Scene& scene, double exposure_ev) {
     const Scene lit_scene = raster_scene(scene, exposure_ev);
     RS_TRY(background_.set_environment(lit_scene.environment));
     area_lights_.set_lights(scene.lights, exposure_ev);
+    passes_.reflections.invalidate();
     return geometry_.set_lights(lit_scene, nodes_.shown());
 }
 
@@ -128,9 +131,9 @@ Status FrameCompositor::draw(const Camera& camera, bool needs_depths) {
     camera_ = camera;
     FrameContext frame = context_of(camera);
     frame.needs_depths = needs_depths;
-    Status status =
-        run_in_order(frame, passes_.object_requests, passes_.shadow_maps, passes_.depth, passes_.opaque,
-                     passes_.underlay, passes_.objects, passes_.transparent, passes_.weather, passes_.blend);
+    Status status = run_in_order(frame, passes_.object_requests, passes_.shadow_maps, passes_.reflections,
+                                 passes_.depth, passes_.opaque, passes_.underlay, passes_.objects, passes_.transparent,
+                                 passes_.weather, passes_.blend);
     statistics_.geometry_in_view = geometry_.surfaces().nodes_in_view();
     return status;
 }

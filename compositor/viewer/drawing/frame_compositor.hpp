@@ -4,8 +4,8 @@
 //
 // A frame is a list of passes over one FrameContext (passes/frame_context.hpp):
 //
-//     object requests -> shadow maps -> depth -> opaque -> traced underlay -> objects -> transparent -> weather ->
-//     blend
+//     object requests -> shadow maps -> reflections -> depth -> opaque -> traced underlay -> objects -> transparent ->
+//     weather -> blend
 //
 // The overlay of light handles is drawn over a copy. The engine renders the objects while geometry is drawn. Objects
 // are sorted and blended, not depth-tested against each other: half-transparent rims would cut holes.
@@ -44,7 +44,8 @@ struct FrameOptions {
     // Scales lights and the environment by 2^exposure_ev, but not objects, other backgrounds and unlit surfaces.
     double exposure_ev = 0;
     ObjectDepth object_depth = ObjectDepth::kPlane;
-    int object_samples = kDefaultSamplesAcross;  // ObjectViewOptions::max_samples_across
+    int object_samples = kDefaultSamplesAcross;        // ObjectViewOptions::max_samples_across
+    std::shared_ptr<const ObjectCartoon> object_cartoon = {};  // look of objects; null: that of their photos
     // Renders objects for an upright camera in the same position and warps the image (upright_image.hpp): faster and
     // supported by boards, but slightly softer.
     bool upright_images = false;
@@ -135,6 +136,7 @@ private:
     struct Passes {
         ObjectRequestPass object_requests;
         ShadowMapPass shadow_maps;
+        ReflectionPass reflections;
         DepthPass depth;
         OpaquePass opaque;
         TracedUnderlayPass underlay;
@@ -144,7 +146,7 @@ private:
         BlendPass blend;
         OverlayPass overlay;
     };
-    static Result<Passes> make_passes(const Scene& scene, std::size_t nodes, ObjectDepth depth);
+    static Result<Passes> make_passes(const Scene& scene, std::size_t nodes, const FrameOptions& options);
     struct Parts {
         std::shared_ptr<engine::RenderSession> engine;
         ObjectNodes nodes;

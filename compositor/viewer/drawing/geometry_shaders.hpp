@@ -7,6 +7,9 @@
 // where s is the visibility from the light by its shadow map (shadow_shaders.hpp), 1 without a map. The environment is
 // one more ambient light, whose value depends on the normal (irradiance_harmonics.hpp).
 //
+// Metals, coats and glass (kReflection) reflect their surroundings: split-sum approximation (B. Karis, Real Shading in
+// Unreal Engine 4, SIGGRAPH 2013), with an analytic second factor (B. Karis, Physically Based Shading on Mobile, 2014).
+//
 // Shading::kPhong replaces this by Phong's formula, whose ambient term belongs to the material.
 //
 // One shader per surface kind (surface_renderer.hpp): kinds differ in constants at the head of the source, so that
@@ -46,8 +49,8 @@ uniform vec4 lights[5 * (kCounted ? kMostCounted : max(kLights, 1))];
 uniform ivec4 light_counts;  // kCounted: directional, point and spot lights
 uniform ivec4 shadow_counts;  // lights with maps: directional, point, narrow spot, wide spot
 // diffuse, opacity; specular, exponent; emissive, ambient; ambient light of directional lights; reflectance of the
-// environment's light
-uniform vec4 material[5];
+// environment's light; reflection: metallic, roughness, dielectric reflectance
+uniform vec4 material[6];
 uniform vec4 environment[9];  // IrradianceHarmonics
 uniform vec3 eye;
 uniform vec3 headlight;  // direction of travel
@@ -151,6 +154,7 @@ vec3 lit(vec3 diffuse, vec3 ambient, vec3 n, vec3 even, vec3 to_eye) {
 inline constexpr const char* kSurfaceFragment = R"(
 layout(binding = 0) uniform sampler2D surface_picture;
 layout(binding = 4) uniform sampler2D relief_map;  // NormalMap
+layout(binding = 5) uniform sampler2D reflection_map;  // prefiltered_reflections.hpp
 uniform vec3 cover_light;  // ambient light on snow
 uniform vec3 fog;
 uniform float fog_visibility;
@@ -175,6 +179,31 @@ vec3 in_relief(vec3 n) {
     return flat_there || dot(sum, sum) < 1e-12 ? n : normalize(sum);
 }
 
+// Scale and bias of the reflectance at normal incidence: the mean of the BRDF over a uniform hemisphere.
+vec2 reflectance_terms(float roughness, float facing) {
+    vec4 r = roughness * vec4(-1.0, -0.0275, -0.572, 0.022) + vec4(1.0, 0.0425, 1.04, -0.04);
+    float a = min(r.x * r.x, exp2(-9.28 * facing)) * r.x + r.y;
+    return vec2(-1.04, 1.04) * a + r.zw;
+}
+
+// Mean radiance of the lobe about a unit direction. Smooth surfaces are filtered over the pixel's footprint, by a lobe
+// of about its width.
+vec3 surroundings(vec3 d, float roughness) {
+    float footprint = max(length(dFdx(d)), length(dFdy(d)));
+    float level = max(roughness, sqrt(0.25 * footprint)) * float(kReflectionLevels - 1);
+    float azimuth = d.x == 0.0 && d.z == 0.0 ? 0.0 : atan(d.x, -d.z);
+    return textureLod(reflection_map, vec2(0.5 + azimuth / 6.28318531, acos(clamp(d.y, -1.0, 1.0)) / 3.14159265), level).rgb;
+}
+
+// Share of light that the surface reflects towards the eye. Rough metals reflect again what hits other facets.
+vec3 reflectance(vec3 base, float facing) {
+    vec3 at_normal = mix(vec3(material[5].z), base, material[5].x);
+    if (kReflection == 2) return at_normal + (1.0 - at_normal) * pow(1.0 - facing, 5.0);
+    vec2 terms = reflectance_terms(material[5].y, facing);
+    float whole = terms.x + terms.y;
+    return (at_normal * terms.x + terms.y) * (1.0 + material[5].x * at_normal * (1.0 - whole) / whole);
+}
+
 void main() {
     vec3 diffuse = kColours ? vertex_colour.rgb : material[0].rgb;
     float opacity = material[0].w;
@@ -192,6 +221,17 @@ void main() {
         float side = gl_FrontFacing ? 1.0 : -1.0;
         vec3 even = normalize(normal_in_world) * side;
         vec3 n = kRelief ? in_relief(even * side) * side : even;
+        vec3 view = normalize(to_eye);
+        vec3 mirrored = vec3(0.0);
+        if (kReflection != 0) {
+            vec3 share = reflectance(diffuse, clamp(dot(n, view), 0.0, 1.0));
+            mirrored = share * surroundings(reflect(-view, n), material[5].y);
+            diffuse *= (1.0 - share) * (1.0 - material[5].x);
+            if (kReflection == 2) {
+                diffuse *= opacity;
+                opacity = mix(opacity, 1.0, share.g);
+            }
+        }
         vec3 ambient = kPhong ? material[3].rgb * shade : material[3].rgb * diffuse * material[2].w;
         vec3 from_sky = kEnvironment ? environment_light(n) : vec3(0.0);
         if (kEnvironment) ambient += from_sky * material[4].rgb * (kPhong ? shade : diffuse);
@@ -207,16 +247,18 @@ void main() {
             ambient = mix(ambient, vec3(0.86) * (cover_light + from_sky), up);
             specular *= 1.0 - up;
         }
-        colour = lit(diffuse, ambient, n, even, normalize(to_eye));
+        colour = lit(diffuse, ambient, n, even, view) + mirrored;
     }
+    // Glass is premultiplied: its reflections are opaque.
+    if (kReflection != 2) colour *= opacity;
     float kept = 1.0;
     if (kFog != 0) {
         float d = length(to_eye);
         kept = d >= fog_visibility ? 0.0
                    : kFog == 2 ? exp(-d / (fog_visibility - d)) : (fog_visibility - d) / fog_visibility;
-        colour = mix(fog, colour, kept);
+        colour = mix(fog * opacity, colour, kept);
     }
-    result = kVeil ? vec4(fog * (1.0 - kept), 1.0 - kept) : vec4(colour * opacity, opacity);
+    result = kVeil ? vec4(fog * (1.0 - kept), 1.0 - kept) : vec4(colour, opacity);
 })";
 
 }  // namespace rs::compositor::shaders

@@ -37,6 +37,7 @@ public:
     /// \return number of redrawn maps.
     int draw_shadows(const std::vector<std::optional<PlacedObject>>& objects);
 
+    [[nodiscard]] const std::optional<EnvironmentLight>& environment() const { return scene_.environment; }
     [[nodiscard]] SurfaceRenderer& surfaces() { return surfaces_; }
     [[nodiscard]] const SurfaceRenderer& surfaces() const { return surfaces_; }
     [[nodiscard]] const FloorRenderer* floor() const { return floor_ ? &*floor_ : nullptr; }

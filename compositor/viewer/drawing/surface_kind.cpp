@@ -1,9 +1,27 @@
 #include "compositor/viewer/drawing/surface_kind.hpp"
 
+#include "compositor/scene/light/prefiltered_reflections.hpp"
 #include "compositor/viewer/drawing/shaders.hpp"
 #include "compositor/viewer/views/screen_rectangle.hpp"
 
 namespace rs::compositor {
+
+Reflection reflection_of(const Material& material, Shading shading) {
+    constexpr float kRough = 0.6F;  // coats beyond it reflect hardly any image
+    if (!material.surface || !material.lit || shading == Shading::kPhong) return Reflection::kNone;
+    switch (material.surface->kind) {
+        case rs::SurfaceKind::metal:
+        case rs::SurfaceKind::mirror:
+            return Reflection::kOpaque;
+        case rs::SurfaceKind::glossy:
+            return material.surface->roughness < kRough ? Reflection::kOpaque : Reflection::kNone;
+        case rs::SurfaceKind::glass:
+            return Reflection::kGlass;
+        case rs::SurfaceKind::diffuse:
+            break;
+    }
+    return Reflection::kNone;
+}
 
 void add_lights(const Scene& scene, const ShadowPlan& shadows, const std::vector<std::uint32_t>& lights,
                 SurfaceKind& kind) {
@@ -35,7 +53,8 @@ SurfaceKind kind_of(const Scene& scene, const ShadowPlan& shadows, const Geometr
         add_lights(scene, shadows, lights, kind);
         kind.headlight = scene.navigation.headlight;
         kind.environment = scene.environment.has_value();
-        kind.shiny = node.material.specular != glm::vec3(0);
+        kind.reflection = reflection_of(node.material, scene.shading);
+        kind.shiny = node.material.specular != glm::vec3(0) || kind.reflection != Reflection::kNone;
     }
     kind.image = !node.material.texture ? 0 : node.material.texture->modulates ? 2 : 1;
     kind.image_alpha = alpha;
@@ -65,6 +84,8 @@ std::string constants_of(const SurfaceKind& kind) {
            shaders::shader_constant("kColours", kind.colours) + shaders::shader_constant("kRelief", kind.relief) +
            shaders::shader_constant("kFog", kind.fog) + shaders::shader_constant("kPhong", kind.phong) +
            shaders::shader_constant("kCover", static_cast<int>(kind.cover)) +
+           shaders::shader_constant("kReflection", static_cast<int>(kind.reflection)) +
+           shaders::shader_constant("kReflectionLevels", kReflectionLevels) +
            shaders::shader_constant("kVeil", kind.fog_only) + shaders::shader_constant("kCounted", kind.counted) +
            shaders::shader_constant("kMostCounted", kMaxCountedLights);
 }

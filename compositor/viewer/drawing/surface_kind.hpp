@@ -11,6 +11,15 @@
 
 namespace rs::compositor {
 
+/// Reflection of the surroundings (ReflectionPass).
+enum class Reflection {
+    kNone = 0,
+    kOpaque = 1,  // metals, mirrors, and coats that are not rough
+    kGlass = 2,
+};
+/// kNone for materials of VRML and X3D, and with Phong's formula: their shading is specified.
+Reflection reflection_of(const Material& material, Shading shading);
+
 /// Features of a surface that select its shader (geometry_shaders.hpp).
 struct SurfaceKind {
     int directional = 0;  // number of lights that reach the surface
@@ -32,6 +41,7 @@ struct SurfaceKind {
     int fog = 0;           // 0 none, 1 linear, 2 exponential
     bool phong = false;    // Phong's formula
     Cover cover = Cover::kNone;
+    Reflection reflection = Reflection::kNone;
     /// Light counts are uniforms instead of constants. Slower to draw, but night scenes would otherwise need dozens of
     /// kinds, and compiling one takes as long as many frames. The counts above are then 1 (possible) or 0 (never), so
     /// that impossible lights are not tested.

@@ -208,6 +208,7 @@ Result<SurfaceRenderer> SurfaceRenderer::create(const Scene& scene, const Shadow
         item.transparent = node.material.opacity < 1 || item.alpha == AlphaUse::kBlend;
         item.traced_glass = item.transparent && is_traced(node);
         item.two_sided = node.mesh->two_sided;
+        item.reflective = reflection_of(node.material, scene.shading) != Reflection::kNone;
         renderer.item_of_node_[i] = renderer.items_.size();
         renderer.items_.push_back(std::move(item));
     }
@@ -242,6 +243,16 @@ bool SurfaceRenderer::is_at(std::size_t node, const std::optional<glm::dmat4>& w
     if (!item_of_node_[node]) return true;
     const Item& item = items_[*item_of_node_[node]];
     return world_from_node ? !item.hidden && *world_from_node == item.world_from_node : item.hidden;
+}
+
+BoundingBox SurfaceRenderer::reflective_bounds() const {
+    BoundingBox all;
+    for (const Item& item : items_) {
+        if (!item.reflective || item.bounds.empty()) continue;
+        all.include(item.bounds.lowest);
+        all.include(item.bounds.highest);
+    }
+    return all;
 }
 
 bool SurfaceRenderer::has_transparent() const {
@@ -279,13 +290,14 @@ void SurfaceRenderer::draw(const Item& item, const gl::Program& program, const F
     set("world_normal_from_node", glm::mat3(glm::transpose(glm::inverse(glm::dmat3(item.world_from_node)))));
     set("texture_transform", item.texture_transform);
     // Rows of vec4 without padding; surface_tables.cpp asserts their sizes.
-    set("material", std::span(&item.material.diffuse_opacity, 5));
+    set("material", std::span(&item.material.diffuse_opacity, kMaterialRows));
     if (!item.lights.empty()) set("lights", std::span(&item.lights.front().colour, 5 * item.lights.size()));
     if (!item.shadows.empty()) set("shadows", std::span(&item.shadows.front().u, 4 * item.shadows.size()));
     set("light_counts", item.light_counts);
     set("shadow_counts", item.shadow_counts);
     if (item.image) item.image->bind(0);
     if (item.relief) item.relief->bind(4);
+    if (item.reflective && reflections_) reflections_->bind(5);
     state.clockwise = item.mirrored;
     gl::draw(program, *item.mesh, state);
 }
@@ -317,13 +329,15 @@ SurfaceRenderer::VisibleItems SurfaceRenderer::collect_visible(const FrameView& 
 std::vector<SurfaceRenderer::Transparent> SurfaceRenderer::draw_opaque(const FrameView& view, bool wire_frame,
                                                                        OpaqueMode mode) {
     set_frame(view);
-    VisibleItems seen = collect_visible(view, mode != OpaqueMode::kLit);
+    const bool surroundings = mode == OpaqueMode::kSurroundings;
+    VisibleItems seen = collect_visible(view, mode != OpaqueMode::kLit && !surroundings);
     if (mode == OpaqueMode::kNone) seen.opaque.clear();
     for (const std::size_t i : seen.opaque) {
         const Item& item = items_[i];
+        if (surroundings && item.reflective) continue;
+        const bool all_sides = (item.two_sided && !surroundings) || wire_frame;
         draw(item, mode == OpaqueMode::kDepthOnly ? *item.fog_program : *item.program, view,
-             {.culling = item.two_sided || wire_frame ? gl::Culling::kNone : gl::Culling::kBack,
-              .wire_frame = wire_frame});
+             {.culling = all_sides ? gl::Culling::kNone : gl::Culling::kBack, .wire_frame = wire_frame});
     }
     return std::move(seen.transparent);
 }

@@ -26,8 +26,9 @@ namespace rs::compositor {
 
 enum class OpaqueMode {
     kLit,
-    kDepthOnly,  // same depths with undefined colours; fast
-    kNone,       // the framebuffer already contains the depths
+    kDepthOnly,     // same depths with undefined colours; fast
+    kSurroundings,  // lit, without reflective surfaces and back faces
+    kNone,          // the framebuffer already contains the depths
 };
 
 /// Requires a current gl::Context that outlives it; single-threaded, move-only.
@@ -59,6 +60,14 @@ public:
     Status move(std::size_t node, const std::optional<glm::dmat4>& world_from_node);
     /// True if the node already has this transform, or is hidden.
     [[nodiscard]] bool is_at(std::size_t node, const std::optional<glm::dmat4>& world_from_node) const;
+
+    /// Bounds of the reflective surfaces in scene coordinates; empty if there are none.
+    [[nodiscard]] BoundingBox reflective_bounds() const;
+    /// Sets what they reflect, which must be done before they are drawn.
+    /// \param levels of prefilter_reflections()
+    void set_reflections(const std::vector<Image<RgbaF>>& levels) {
+        reflections_.emplace(levels, gl::TextureWrap{true, false});
+    }
 
     /// True if the scene has blended surfaces, visible or not.
     [[nodiscard]] bool has_transparent() const;
@@ -97,6 +106,7 @@ private:
         bool transparent = false;
         bool traced_glass = false;  // transparent, but part of a traced image
         bool two_sided = true;
+        bool reflective = false;
         bool mirrored = false;  // by its transform
         bool hidden = false;
     };
@@ -120,6 +130,7 @@ private:
     std::optional<IrradianceHarmonics> environment_;
     std::optional<gl::Program> caster_;
     std::optional<gl::Program> masked_caster_;
+    std::optional<gl::Texture> reflections_;
     std::map<SurfaceKind, std::shared_ptr<const gl::Program>> programs_;  // one per existing surface kind
     std::vector<Item> items_;
     std::vector<std::optional<std::size_t>> item_of_node_;

@@ -1,12 +1,14 @@
 #include "compositor/viewer/drawing/surface_tables.hpp"
 
+#include "compositor/viewer/drawing/surface_kind.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace rs::compositor {
 
-static_assert(sizeof(LightRow) == 80 && sizeof(MaterialRow) == 80 && sizeof(ShadowRow) == 64);
+static_assert(sizeof(LightRow) == 80 && sizeof(MaterialRow) == 96 && sizeof(ShadowRow) == 64);
 
 namespace {
 
@@ -85,6 +87,25 @@ LightRow row_of(const Light& light) {
             {light.attenuation, light.least_attenuation}};
 }
 
+namespace {
+
+// Metals and mirrors have neither a diffuse colour nor an ambient one: their colour is their reflectance.
+MaterialRow reflective_row(const Material& material, MaterialRow row) {
+    const SurfaceProperties& surface = *material.surface;
+    const bool metallic = surface.kind == rs::SurfaceKind::metal || surface.kind == rs::SurfaceKind::mirror;
+    const float root = (surface.ior - 1) / (surface.ior + 1);
+    const bool smooth = surface.kind == rs::SurfaceKind::mirror || surface.kind == rs::SurfaceKind::glass;
+    row.reflection = {metallic ? 1 : 0, smooth ? 0 : surface.roughness, root * root, 0};
+    if (metallic) {
+        row.diffuse_opacity = {surface.colour, material.opacity};
+        const float alpha2 = std::pow(std::max(smooth ? 0 : surface.roughness, 0.2F), 4.0F);
+        row.specular_exponent = {surface.colour, 2 / alpha2 - 2};
+    }
+    return row;
+}
+
+}  // namespace
+
 MaterialRow row_of(const Material& material, Shading shading) {
     if (shading == Shading::kPhong) {
         return {{material.diffuse, material.opacity},
@@ -93,11 +114,12 @@ MaterialRow row_of(const Material& material, Shading shading) {
                 {},
                 {phong_terms(material).ambient, 0}};
     }
-    return {{material.diffuse, material.opacity},
-            {material.specular, material.shininess * 128},
-            {material.emissive, material.ambient},
-            {},
-            {glm::vec3(material.ambient), 0}};
+    const MaterialRow row{{material.diffuse, material.opacity},
+                          {material.specular, material.shininess * 128},
+                          {material.emissive, material.ambient},
+                          {},
+                          {glm::vec3(material.ambient), 0}};
+    return reflection_of(material, shading) == Reflection::kNone ? row : reflective_row(material, row);
 }
 
 namespace {

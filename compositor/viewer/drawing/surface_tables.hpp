@@ -27,7 +27,10 @@ struct MaterialRow {
     // Sum over the directional lights that reach the surface; with Phong's formula, its reflected part. w unused.
     glm::vec4 ambient_light{0};
     glm::vec4 ambient_reflectance{0};  // of the environment's irradiance / pi, times the diffuse colour in VRML97
+    glm::vec4 reflection{0};  // metallic, 0 or 1; roughness; dielectric reflectance at normal incidence; unused
 };
+inline constexpr std::size_t kMaterialRows = sizeof(MaterialRow) / sizeof(glm::vec4);
+
 MaterialRow row_of(const Material& material, Shading shading);
 
 struct SurfaceLights {

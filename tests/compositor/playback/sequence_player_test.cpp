@@ -15,7 +15,7 @@ namespace {
 
 using PlayerTest = test::GlTest;
 
-constexpr FrameOptions kSmall{.width = 160, .height = 96, .samples = 1};
+const FrameOptions kSmall{.width = 160, .height = 96, .samples = 1};
 
 Image<Rgba8> frame_of(SequencePlayer& player, std::size_t number) {
     auto frame = player.frame(number);
@@ -158,6 +158,49 @@ TEST_F(PlayerTest, TimesCountTracingAndPasses) {
     const nlohmann::json raster = times();
     EXPECT_EQ(raster["passes"], 0);
     EXPECT_EQ(raster["median_parts_ms"]["tracing"], 0.0);
+}
+
+// Columns and rows of the pixels that differ.
+glm::ivec2 extent_of_change(const Image<Rgba8>& a, const Image<Rgba8>& b) {
+    glm::ivec2 lowest(a.width(), a.height()), highest(0);
+    for (int y = 0; y < a.height(); ++y) {
+        for (int x = 0; x < a.width(); ++x) {
+            if (a(x, y) == b(x, y)) continue;
+            lowest = glm::min(lowest, glm::ivec2(x, y));
+            highest = glm::max(highest, glm::ivec2(x, y));
+        }
+    }
+    return highest - lowest + 1;
+}
+
+TEST_F(PlayerTest, AShutterBlursAlongTheMotionAndKeepsStillPartsBitForBit) {
+    auto still = std::make_shared<Sequence>(*test::moving_boxes(1, 3));
+    still->frames[1] = still->frames[0];
+    auto moving = std::make_shared<Sequence>(*still);
+    moving->frames[1].poses[0].pose.move.x -= 3;
+    moving->frames[2].poses.clear();
+    moving->frames[2].camera = moving->frames[0].camera;
+    const std::optional<TracedOptions> kRaster;
+    for (const auto& tracing : {kRaster, std::optional(TracedOptions{.method = TracedMethod::kWhitted}),
+                                std::optional(TracedOptions{.method = TracedMethod::kToon})}) {
+        const PlayerOptions sharp{.frame = kSmall, .tracing = tracing, .passes = 1};
+        PlayerOptions blurred = sharp;
+        blurred.shutter = 1;
+        const auto frame = [&](const std::shared_ptr<const Sequence>& sequence, const PlayerOptions& options,
+                               std::size_t number) {
+            auto player = SequencePlayer::create(sequence, options);
+            RS_CHECK(player.ok());
+            return frame_of(*player, number);
+        };
+        EXPECT_TRUE(same(frame(still, blurred, 0), frame(still, sharp, 0)));
+        const Image<Rgba8> empty = frame(moving, sharp, 2);
+        EXPECT_TRUE(same(frame(moving, blurred, 2), empty));
+        const glm::ivec2 box = extent_of_change(frame(moving, sharp, 0), empty);
+        const glm::ivec2 streak = extent_of_change(frame(moving, blurred, 0), empty);
+        EXPECT_GT(streak.x, box.x + 15);
+        if (tracing) continue;  // traced boxes cast shadows
+        EXPECT_LE(std::abs(streak.y - box.y), 3);
+    }
 }
 
 TEST(CamerasOfASequence, GetAnotherFieldOfView) {

@@ -19,6 +19,19 @@ public:
     Status run(FrameContext& frame) const;
 };
 
+/// Captures the surroundings of reflective surfaces once (reflection_pass.cpp): a cube of images of the other opaque
+/// surfaces, the floor and the background, from the centre of the reflective surfaces. Reflections then come from
+/// infinitely far away. Does nothing in scenes without reflective surfaces. Runs after ShadowMapPass.
+class ReflectionPass {
+public:
+    Status run(FrameContext& frame);
+    /// The lighting has changed.
+    void invalidate() { captured_ = false; }
+
+private:
+    bool captured_ = false;
+};
+
 /// Clears the frame. Under a traced image, draws the depths of geometry if something that is blended needs them and the
 /// frame does not contain them already from the previous view.
 class DepthPass {

@@ -6,6 +6,26 @@
 #include <utility>
 
 namespace rs::compositor {
+namespace {
+
+// Width of a screen pixel at the middle of the object, in pixels of its image.
+double pixel_in_image(const ObjectView& view) {
+    const auto place = [&](double x, double y) {
+        const glm::dvec3 p = view.image_from_screen * glm::dvec3(x, y, 1);
+        return glm::dvec2(p) / p.z;
+    };
+    const double x = view.rectangle.x + 0.5 * view.rectangle.width, y = view.rectangle.y + 0.5 * view.rectangle.height;
+    return glm::distance(place(x - 0.5, y), place(x + 0.5, y));
+}
+
+Image<Rgba8> as_cartoon(const Image<Rgba8>& image, const ObjectCartoon& style, const ObjectView& view,
+                        const Camera& camera) {
+    const double line_px = style.line_width ? *style.line_width * camera.fl_x / view.plane_distance : 1;
+    const double pixel = pixel_in_image(view);
+    return cartoon_of(image, style, pixel, line_px * pixel);
+}
+
+}  // namespace
 
 Status ObjectRequestPass::run(FrameContext& frame) const {
     std::vector<engine::ViewRequest> requests;
@@ -19,10 +39,11 @@ Status ObjectRequestPass::run(FrameContext& frame) const {
     return frame.engine_views.submit(std::move(requests));
 }
 
-Result<ObjectPass> ObjectPass::create(std::size_t nodes, ObjectDepth depth) {
+Result<ObjectPass> ObjectPass::create(std::size_t nodes, ObjectDepth depth,
+                                      std::shared_ptr<const ObjectCartoon> cartoon) {
     RS_ASSIGN_OR_RETURN(auto objects, ObjectRenderer::create(nodes, depth));
     RS_ASSIGN_OR_RETURN(auto placeholders, PlaceholderRenderer::create());
-    return ObjectPass(std::move(objects), std::move(placeholders), depth);
+    return ObjectPass(std::move(objects), std::move(placeholders), depth, std::move(cartoon));
 }
 
 Status ObjectPass::run(FrameContext& frame) {
@@ -53,7 +74,9 @@ void ObjectPass::upload(const VisibleNode& node, const engine::DrawnView& render
         const RaySpaceObject& object = frame.nodes[node.index].object->object->renderer.object();
         depths = engine::depth_image(object, node.view.camera, rendered.depth_q20);
     }
-    objects_.upload(node.index, node.view, rendered.image, depths);
+    const Image<Rgba8> cartoon =
+        cartoon_ ? as_cartoon(rendered.image, *cartoon_, node.view, frame.view.camera) : Image<Rgba8>();
+    objects_.upload(node.index, node.view, cartoon_ ? cartoon : rendered.image, depths);
     const int width = rendered.image.width();
     const int height = rendered.image.height();
     FrameStatistics& statistics = frame.statistics;

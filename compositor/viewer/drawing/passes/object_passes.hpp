@@ -1,6 +1,7 @@
 #pragma once
 // Passes of ray-space objects: the first requests their images from the engine, the second adds them to the frame.
 
+#include "compositor/viewer/drawing/object_cartoon.hpp"
 #include "compositor/viewer/drawing/object_renderer.hpp"
 #include "compositor/viewer/drawing/passes/frame_context.hpp"
 #include "compositor/viewer/drawing/placeholder_renderer.hpp"
@@ -8,6 +9,7 @@
 #include "rayspace/base/result.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <utility>
 
 namespace rs::compositor {
@@ -33,13 +35,18 @@ private:
 /// Requires a current gl::Context that outlives it; move-only.
 class ObjectPass {
 public:
-    static Result<ObjectPass> create(std::size_t nodes, ObjectDepth depth);
+    static Result<ObjectPass> create(std::size_t nodes, ObjectDepth depth,
+                                     std::shared_ptr<const ObjectCartoon> cartoon);
     /// The pass must not move until the blended draws are done.
     Status run(FrameContext& frame);
 
 private:
-    ObjectPass(ObjectRenderer objects, PlaceholderRenderer placeholders, ObjectDepth depth)
-        : objects_(std::move(objects)), placeholders_(std::move(placeholders)), depth_(depth) {}
+    ObjectPass(ObjectRenderer objects, PlaceholderRenderer placeholders, ObjectDepth depth,
+               std::shared_ptr<const ObjectCartoon> cartoon)
+        : objects_(std::move(objects)),
+          placeholders_(std::move(placeholders)),
+          depth_(depth),
+          cartoon_(std::move(cartoon)) {}
     void release_unloaded(const ObjectNodes& nodes);
     void upload(const VisibleNode& node, const engine::DrawnView& rendered, FrameContext& frame);
     void draw(const VisibleNode& node, const FrameContext& frame) const;
@@ -48,6 +55,7 @@ private:
     ObjectRenderer objects_;
     PlaceholderRenderer placeholders_;
     ObjectDepth depth_;
+    std::shared_ptr<const ObjectCartoon> cartoon_;  // null: the look of the photos
 };
 
 }  // namespace rs::compositor
