@@ -115,6 +115,47 @@ show_room() {
     --path "$world/showroom-walk.json" --size "$WALK_SIZE" --upright -o "$OUT/showroom-walk.mp4"
 }
 
+# encoded_for_board FOLDER: the showroom's objects as the prototype board stores them, uncompressed with plane maps.
+encoded_for_board() {
+  local name
+  for name in vase flower doll lamp lattice blocks; do
+    "$BIN/rs-encode" build "$OUT/$name-set" -o "$1/$name.rso" --raymap plane --profile raw --cells 256x256 --name "$name" -q
+  done
+}
+
+# field KEY FILE.json: the first number of this key.
+field() {
+  awk -F'[:,]' -v key="\"$1\"" 'index($1, key) { print $2 + 0; exit }' "$2"
+}
+
+# board_rates FOLDER: the board's rate, counted in its cycles, beside the rate of the core on this machine.
+board_rates() {
+  "$BIN/rs-engine" simulate prototype-2000 "$1"/*.rso --orbit 4 --upright --stats "$1/simulated.json" >"$1/simulated.txt"
+  tail -n 1 "$1/simulated.txt"
+  awk -v board="$(field mpixels_per_second "$1/simulated.json")" -v clock="$(field clock_mhz "$1/simulated.json")" \
+    -v views="$(field views_by_board "$1/board.json")" -v core_views="$(field views_by_core "$1/board.json")" \
+    -v pixels="$(field engine_pixels_per_frame "$1/core.json")" -v ms="$(field engine "$1/core.json")" \
+    'BEGIN { printf "board: %.1f Mpixel/s at %.0f MHz; core: %.0f Mpixel/s on this machine\n", board, clock, pixels / ms / 1000
+             printf "board: drew %d of %d views of the shop\n", views, views + core_views }'
+}
+
+# show_board: a few frames of the shop with objects drawn by the model of the prototype board, beside those of the core.
+show_board() {
+  local board=$OUT/board executor name
+  mkdir -p "$board"
+  step "board: encode" "$board" encoded_for_board "$board"
+  step "board: memory" "" "$BIN/rs-engine" board "$board"/*.rso
+  "$BIN/rs-showroom" -o "$board/showroom"
+  for executor in core board:prototype-2000; do
+    name=${executor%%:*}
+    step "board: shop by $executor" "$board/$name" "$BIN/rs-view" render "$board/showroom/showroom.wrl" --viewpoint table \
+      --orbit 6 --executor "$executor" --upright --object-depth plane --size 640x360 --stats "$board/$name.json" -o "$board/$name"
+  done
+  step "board: rates" "" board_rates "$board"
+  step "board: beside the core" "$OUT/showroom-board.png" oiiotool "$board/core/0000.png" "$board/board/0000.png" \
+    --mosaic:pad=8 2x1 -o "$OUT/showroom-board.png"
+}
+
 # show_street: ten seconds of traffic, and one frame by day, by night and in every weather.
 show_street() {
   local look images=() image folder
@@ -150,8 +191,9 @@ else
   done
   show_room
   show_toon
+  show_board
   show_street
-  LOOK="showroom-walk.mp4, street.mp4, showroom-shop.png, showroom-museum.png, showroom-evening.png, showroom-toon.png and street-sheet.jpg, the contact sheets and the orbit videos"
+  LOOK="showroom-walk.mp4, street.mp4, showroom-shop.png, showroom-museum.png, showroom-evening.png, showroom-toon.png, showroom-board.png (core, board) and street-sheet.jpg, the contact sheets and the orbit videos"
 fi
 
 printf '\n%-34s %9s  %7s  %s\n' "step" "time" "size" "file"

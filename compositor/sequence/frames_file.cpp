@@ -73,6 +73,7 @@ Result<SequenceFiles> frames_from_json(const std::string& text, const fs::path& 
         top.read("frames_per_second", files.frames_per_second, 1, 240);
         if (top.has("lights")) files.lights = folder / top.take("lights").text();
         if (top.has("background")) files.background = take_background(JsonObject(top.take("background")));
+        if (top.has("haze_m")) files.haze_m = top.take("haze_m").number(1, 1e6);
         if (top.has("weather")) {
             const JsonValue value = top.take("weather");
             Result<Weather> weather = parse_weather(value.text());

@@ -8,6 +8,7 @@
 //       "frames_per_second": 25,
 //       "lights": "night.json",                          a list of lights (scene/light/lights_file.hpp)
 //       "background": {"zenith": [0.3, 0.5, 0.8], "horizon": [0.8, 0.85, 0.9]},     sRGB
+//       "haze_m": 2500,                                  exponential fog of the horizon's colour: its visibility, m
 //       "weather": "rain,fog", "seed": 1 }
 //
 // Only "frames" is required. Paths are relative to the file's folder.
@@ -33,6 +34,7 @@ struct SequenceFiles {
     double frames_per_second = 25;
     std::optional<std::filesystem::path> lights;
     std::optional<Background> background;
+    std::optional<double> haze_m;
     std::optional<Weather> weather;
 };
 

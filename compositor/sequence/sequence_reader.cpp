@@ -114,6 +114,10 @@ private:
 
     Status read_surroundings() {
         if (files_.background) sequence_.scene.background = *files_.background;
+        if (files_.haze_m) {
+            const glm::vec3 horizon = background_colour(sequence_.scene.background, {1, 0.02, 0});
+            sequence_.scene.fog = Fog{FogKind::kExponential, horizon, *files_.haze_m};
+        }
         if (!files_.lights) return {};
         RS_ASSIGN_OR_RETURN(LightList list, read_light_list(*files_.lights));
         Scene& scene = sequence_.scene;

@@ -64,6 +64,15 @@ double atan2(double y, double x) {
     return y > 0 ? kPi / 2 - angle : -kPi / 2 - angle;
 }
 
+double exp(double x) {
+    // exp(x) = exp(x / 1024)^1024: a short series, then ten squarings.
+    const double small = x / 1024.0;
+    double sum = 1.0;
+    for (int n = 14; n >= 1; --n) sum = 1.0 + sum * small / static_cast<double>(n);
+    for (int step = 0; step < 10; ++step) sum *= sum;
+    return sum;
+}
+
 double srgb_to_linear(double v) {
     if (v <= 0.04045) return v / 12.92;
     const double base = (v + 0.055) / 1.055;

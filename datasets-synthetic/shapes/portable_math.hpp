@@ -14,6 +14,7 @@ namespace rs::synthetic::portable {
 double sin(double x_rad);
 double cos(double x_rad);
 double atan2(double y, double x);  // (-pi, pi]; 0 at the origin
+double exp(double x);              // relative error below 1e-12 for |x| < 300
 double srgb_to_linear(double v);   // IEC 61966-2-1, v in [0, 1]
 
 inline float sin(float x_rad) {

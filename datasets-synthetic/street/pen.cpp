@@ -1,8 +1,6 @@
 #include "datasets-synthetic/street/pen.hpp"
 
-#include "datasets-synthetic/shapes/noise.hpp"
 #include "datasets-synthetic/shapes/portable_math.hpp"
-#include "datasets-synthetic/shapes/surfaces.hpp"
 #include "rayspace/api/types/check.hpp"
 #include "rayspace/base/conventions.hpp"
 
@@ -73,28 +71,6 @@ void Pen::box(const std::string& look, vec3 low, vec3 high, float tile_m) {
     finish(mesh);
 }
 
-void Pen::prism(const std::string& look, std::span<const vec2> profile, float z_low, float z_high, float inset,
-                float inset_from) {
-    capture::Mesh& mesh = add(look);
-    const auto at = [&](std::size_t i, bool high) {
-        const vec2 p = profile[i % profile.size()];
-        const float in = p.y > inset_from ? inset : 0.0F;
-        return vec3{p, high ? z_high - in : z_low + in};
-    };
-    std::vector<vec3> front;
-    std::vector<vec3> back;
-    const std::vector<vec2> uvs(profile.size(), vec2{0, 0});
-    for (std::size_t i = 0; i < profile.size(); ++i) {
-        front.push_back(at(i, true));
-        back.push_back(at(profile.size() - 1 - i, false));
-        append_face(mesh, std::array{at(i, true), at(i, false), at(i + 1, false), at(i + 1, true)},
-                    std::array<vec2, 4>{});
-    }
-    append_face(mesh, front, uvs);
-    append_face(mesh, back, uvs);
-    finish(mesh);
-}
-
 void Pen::cylinder(const std::string& look, const Cylinder& shape) {
     const auto [foot, axis, radius, length, segments, end_radius_share] = shape;
     capture::Mesh& mesh = add(look);
@@ -125,17 +101,9 @@ void Pen::cylinder(const std::string& look, const Cylinder& shape) {
     finish(mesh);
 }
 
-void Pen::crown(const std::string& look, vec3 middle, vec3 radii, int columns, int rows, std::uint32_t seed) {
+void Pen::surface(const std::string& look, const std::function<void(capture::Mesh&)>& append) {
     capture::Mesh& mesh = add(look);
-    append_ellipsoid(mesh, {{middle, glm::mat3{1.0F}}, radii}, columns, rows);
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        const vec3 out = mesh.positions[i] - middle;
-        const float dent = layered_noise(mesh.positions[i] * 1.3F, 3, seed);
-        mesh.positions[i] = middle + out * (1 + 0.28F * dent);
-        // Perturbed normals for foliage.
-        mesh.normals[i] = glm::normalize(mesh.normals[i] + 0.5F * vector_noise(mesh.positions[i] * 2.1F, seed + 1));
-    }
-    for (vec2& uv : mesh.uvs) uv *= vec2{4, 2};
+    append(mesh);
     finish(mesh);
 }
 

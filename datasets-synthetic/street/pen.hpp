@@ -1,6 +1,6 @@
 #pragma once
-// Builds the parts of a street in a World: sheets, boxes, prisms, cylinders and tree crowns, in the current local
-// frame. A world's "rooms" become the objects of the OBJ file. Not thread-safe.
+// Builds the parts of a street in a World: sheets, boxes, cylinders and other surfaces, in the current local frame. A
+// world's "rooms" become the objects of the OBJ file. Not thread-safe.
 
 #include "datasets-synthetic/shapes/frame.hpp"
 #include "datasets-synthetic/showroom/world.hpp"
@@ -8,7 +8,7 @@
 #include <glm/glm.hpp>
 
 #include <array>
-#include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 
@@ -38,14 +38,10 @@ public:
     void wall(const std::string& look, glm::vec2 low, glm::vec2 high, float z, float tile_m);
     // A box without its lower side; texture coordinates in metres divided by `tile_m`.
     void box(const std::string& look, glm::vec3 low, glm::vec3 high, float tile_m = 1);
-    // Extrudes a convex profile in the xy plane, counter-clockwise as seen from +Z, from z_low to z_high. `inset` moves
-    // the points above `inset_from` inwards from both ends, like the narrower roof of a car.
-    void prism(const std::string& look, std::span<const glm::vec2> profile, float z_low, float z_high, float inset = 0,
-               float inset_from = 0);
     // A closed cylinder or frustum of a cone.
     void cylinder(const std::string& look, const Cylinder& shape);
-    // A tree crown: an irregular ellipsoid.
-    void crown(const std::string& look, glm::vec3 middle, glm::vec3 radii, int columns, int rows, std::uint32_t seed);
+    // Any other surface: `append` appends triangles with normals and texture coordinates in the local frame.
+    void surface(const std::string& look, const std::function<void(capture::Mesh&)>& append);
 
 private:
     capture::Mesh& add(const std::string& look);

@@ -1,12 +1,13 @@
 #include "datasets-synthetic/street/street_models.hpp"
 
+#include "datasets-synthetic/shapes/curve.hpp"
 #include "datasets-synthetic/shapes/noise.hpp"
-#include "datasets-synthetic/shapes/paint.hpp"
-#include "datasets-synthetic/shapes/random.hpp"
+#include "datasets-synthetic/street/surface_patterns.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace rs::synthetic {
 namespace {
@@ -18,42 +19,86 @@ constexpr float kPiece_m = 12;
 constexpr float kFarther_m = 168;  // extent of the main street
 constexpr float kCrossFarther_m = 108;
 
-vec3 asphalt(vec2 p, std::uint32_t seed) {
-    const float grain = gradient_noise({p * 40.0F, 0.3F}, seed);
-    const float patches = layered_noise({p * 0.9F, 0.7F}, 3, seed + 1);
-    return vec3(0.085F, 0.086F, 0.09F) * (1 + 0.3F * grain + 0.18F * patches);
+// Asphalt that repeats after kPiece_m along x: stones, wheel tracks at `tracks_y`, cracks, repaired places.
+vec3 asphalt(vec2 p, std::uint32_t seed, std::span<const float> tracks_y) {
+    const auto noise = [&](float per_m, int octaves, std::uint32_t more) {
+        return layered_noise({p * per_m, 0.3F}, octaves, seed + more, static_cast<int>(kPiece_m * per_m));
+    };
+    const float stone = hash_share(static_cast<int>(p.x * 70), static_cast<int>(p.y * 70), seed);
+    float tone = 1 + 0.5F * noise(30, 2, 0) + 0.35F * noise(1, 4, 9);
+    if (stone > 0.93F) tone *= 1.5F;
+    for (const float y : tracks_y) {
+        const float off = std::abs(p.y - y);
+        tone *= 1 - 0.16F * smooth_step(0.35F, 0.1F, std::abs(off - 0.75F));
+        if (off < 0.28F) tone *= 1 - 0.22F * smooth_step(0.28F, 0, off) * (0.6F + noise(2, 2, 21));  // oil
+    }
+    // Repaired places: rectangles with sealed joints.
+    const vec2 cell = p / vec2{3, 2.7F};
+    const float chance = hash_share(static_cast<int>(cell.x) % 4, static_cast<int>(cell.y), seed + 5);
+    const vec2 in = (cell - glm::floor(cell)) * vec2{3, 2.7F} - vec2{0.4F, 0.5F};
+    const float inside = std::min({in.x, in.y, 2.1F - in.x, 1.3F - in.y});
+    if (chance < 0.22F && inside > 0) tone *= inside < 0.03F ? 0.45F : 0.74F;
+    const float crack = std::abs(noise(1, 4, 33));
+    if (crack < 0.006F && noise(1, 1, 41) > 0.05F) tone *= 0.5F;
+    return vec3(0.098F, 0.097F, 0.096F) * tone;
 }
 
+// Road paint, worn where the stones stand out.
 vec3 with_paint(vec3 ground, vec2 p) {
-    return glm::mix(ground, vec3(0.62F), 0.8F + 0.15F * gradient_noise({p * 9.0F, 0.1F}, 5));
+    const float wear = layered_noise({p * 7.0F, 0.1F}, 4, 5) + 0.5F * layered_noise({p * 1.1F, 0.6F}, 2, 6);
+    return glm::mix(ground, vec3(0.58F), 0.9F * smooth_step(0.3F, -0.05F, wear));
 }
 
-// Road texture: dashed centre line, continuous edge lines.
+// Two courses of setts beside the kerbs.
+bool is_gutter(float from_middle) {
+    return from_middle > kHalfRoad_m - 0.3F;
+}
+
+vec3 gutter(vec2 p) {
+    const float from_edge = std::min(p.y, 2 * kHalfRoad_m - p.y);
+    return block_colour({p.x, from_edge}, {0.2F, 0.15F}, 0.014F, vec3(0.17F, 0.165F, 0.155F), 0.25F, 51);
+}
+
+bool is_manhole(vec2 p, vec2 middle, vec3& colour) {
+    const float r = glm::distance(p, middle);
+    if (r > 0.36F) return false;
+    const vec2 in = glm::fract((p - middle) / 0.09F);
+    const bool stud = in.x > 0.25F && in.y > 0.25F;
+    colour = vec3(0.06F, 0.055F, 0.05F) * (r > 0.3F ? (r > 0.325F && r < 0.345F ? 0.4F : 1.3F) : stud ? 1.5F : 0.8F);
+    return true;
+}
+
+constexpr std::array<float, 2> kTracks_y{kHalfRoad_m - 2, kHalfRoad_m + 2};
+
+// Road texture: dashed centre line, gutters.
 vec3 road_image(vec2 p) {
-    const vec3 ground = asphalt(p, 21);
     const float from_middle = std::abs(p.y - kHalfRoad_m);
-    const bool dash = from_middle < 0.07F && std::fmod(p.x, 6.0F) < 3.0F;
-    const bool edge = std::abs(from_middle - 3.72F) < 0.06F;
-    return dash || edge ? with_paint(ground, p) : ground;
+    if (is_gutter(from_middle)) return gutter(p);
+    vec3 iron;
+    if (is_manhole(p, {4.3F, 1.6F}, iron)) return iron;
+    const vec3 ground = asphalt(p, 21, kTracks_y);
+    const bool dash = from_middle < 0.06F && std::fmod(p.x, 6.0F) < 3.0F;
+    return dash ? with_paint(ground, p) : ground;
 }
 
 // From the edge of the crossing outwards: zebra crossing, and the stop line of the incoming lane.
 vec3 approach_image(vec2 p, bool right_lane) {
-    const vec3 ground = asphalt(p, 21);
+    const vec3 road = p.x > 5.2F ? road_image(p) : asphalt(p, 21, kTracks_y);
+    if (is_gutter(std::abs(p.y - kHalfRoad_m))) return gutter(p);
     const bool zebra = p.x > 0.8F && p.x < 3.8F && std::fmod(p.y + 0.25F, 1.0F) < 0.5F;
     const bool in_lane = right_lane ? p.y < kHalfRoad_m : p.y > kHalfRoad_m;
     const bool stop = p.x > 4.6F && p.x < 5.0F && in_lane && std::abs(p.y - kHalfRoad_m) < 3.6F;
-    return zebra || stop ? with_paint(ground, p) : p.x > 5.2F ? road_image(p) : ground;
+    return zebra || stop ? with_paint(road, p) : road;
 }
 
 vec3 paving(vec2 p) {
-    const vec2 stone = p / 0.5F;
-    const vec2 in = stone - glm::floor(stone);
-    const auto tone =
-        static_cast<float>(lattice_hash(static_cast<int>(stone.x) % 8, static_cast<int>(stone.y) % 8, 0, 4) >> 8U) /
-        16777216.0F;
-    const bool joint = std::min(in.x, in.y) < 0.035F;
-    return joint ? vec3(0.2F) : vec3(0.36F, 0.35F, 0.33F) * (0.85F + 0.3F * tone);
+    const vec3 slab = block_colour(p, {0.5F, 0.5F}, 0.012F, vec3(0.37F, 0.36F, 0.335F), 0.14F, 4);
+    const float dirt = tiling_noise(p, 4, 1, 5, 44);
+    const vec2 cell = p / 0.4F;
+    const float spot = hash_share(static_cast<int>(cell.x), static_cast<int>(cell.y), 45);
+    const vec2 in = glm::fract(cell) - vec2{0.3F + 0.4F * spot, 0.5F};
+    const bool gum = spot > 0.8F && glm::length(in) < 0.06F;
+    return slab * (1 + 0.38F * dirt) * (gum ? 0.55F : 1.0F);
 }
 
 // A piece of road from `begin` to `begin + length` along the pen's X, over its whole width.
@@ -67,7 +112,7 @@ void road_piece(World& world, const std::string& object, const std::string& look
     for (const float side : {-1.0F, 1.0F}) {
         const float kerb = side * half;
         const float low = std::min(kerb, kerb + side * 0.2F);
-        pen.box("kerb", {0, -0.05F, low}, {length, kKerb_m, low + 0.2F});
+        pen.box("kerb", {0, -0.05F, low}, {length, kKerb_m, low + 0.2F}, 4);
         const float inner = kerb + side * 0.2F;
         const float outer = side * kHalfStreet_m;
         const float near = std::max(inner, outer);
@@ -92,27 +137,24 @@ void arm(World& world, const std::string& name, float turn_deg, float reach) {
 
 }  // namespace
 
-void add_road_looks(RoomBuilder& builder, bool night, std::set<std::string>& unlit) {
+void add_road_looks(RoomBuilder& builder) {
     const vec2 piece{kPiece_m, 2 * kHalfRoad_m};
-    builder.painted_look("road", piece, 40, road_image, {.specular = 0x181818, .shininess = 0.08F});
+    const Look tar{.specular = 0x202020, .shininess = 0.06F};
+    builder.painted_look("road", piece, 90, road_image, tar);
     // As seen along the pen's X, vehicles approach the crossing in the left lane.
-    builder.painted_look("road_approach", piece, 40, [](vec2 p) { return approach_image(p, false); },
-                         {.specular = 0x181818, .shininess = 0.08F});
-    builder.painted_look("crossing", {14, 14}, 24, [](vec2 p) { return asphalt(p, 22); },
-                         {.specular = 0x181818, .shininess = 0.08F});
-    builder.painted_look("paving", {4, 4}, 64, paving);
-    builder.painted_look("grass", {8, 8}, 24, [](vec2 p) {
-        return vec3(0.07F, 0.115F, 0.035F) * (1 + 0.35F * layered_noise({p * 2.2F, 0.2F}, 4, 9));
+    builder.painted_look(
+        "road_approach", piece, 90, [](vec2 p) { return approach_image(p, false); }, tar);
+    builder.painted_look(
+        "crossing", {14, 14}, 64, [](vec2 p) { return asphalt(p, 22, {}); }, tar);
+    builder.painted_look("paving", {4, 4}, 128, paving);
+    builder.painted_look("kerb", {4, 4}, 32, [](vec2 p) {
+        return block_colour(p, {1, 4}, 0.02F, vec3(0.36F, 0.35F, 0.33F), 0.15F, 47);
     });
-    builder.painted_look("leaves", {1, 1}, 96, [](vec2 p) {
-        const float n = layered_noise({p * 14.0F, 0.4F}, 3, 31);
-        return glm::mix(vec3(0.025F, 0.06F, 0.012F), vec3(0.12F, 0.2F, 0.04F), 0.5F + 0.8F * n);
+    builder.painted_look("grass", {8, 8}, 48, [](vec2 p) {
+        const float patches = tiling_noise(p, 8, 1, 4, 9);
+        const float blades = tiling_noise(p, 8, 12, 2, 10);
+        return glm::mix(vec3(0.05F, 0.1F, 0.025F), vec3(0.12F, 0.15F, 0.045F), 0.5F + patches) * (1 + 0.7F * blades);
     });
-    builder.look("bark", {.diffuse = 0x4E3D2E});
-    builder.look("kerb", {.diffuse = 0xA6A39B});
-    builder.look("pole", {.diffuse = 0x3A403F, .specular = 0x404040, .shininess = 0.3F});
-    builder.look("lamp_glass", {.diffuse = night ? 0xFFE9B8U : 0xE4E6E2U});
-    if (night) unlit.insert("lamp_glass");
 }
 
 void build_roads(World& world) {
@@ -134,32 +176,6 @@ void build_roads(World& world) {
     const float far = 420;
     ground.quad("grass", {vec3{-far, -0.06F, far}, {far, -0.06F, far}, {far, -0.06F, -far}, {-far, -0.06F, -far}},
                 {vec2{0, 0}, {105, 0}, {105, 105}, {0, 105}});
-}
-
-void build_street_furniture(World& world) {
-    for (int kind = 0; kind < 2; ++kind) {
-        Pen tree(world, "tree_" + std::to_string(kind));
-        const float height = kind == 0 ? 3.0F : 2.5F;
-        tree.cylinder("bark", {.radius = 0.17F, .length = height, .segments = 7, .end_radius_share = 0.65F});
-        Random random(7, static_cast<std::uint64_t>(kind));
-        const int crowns = kind == 0 ? 3 : 2;
-        for (int i = 0; i < crowns; ++i) {
-            const float x = random.uniform(-0.55F, 0.55F);
-            const float z = random.uniform(-0.55F, 0.55F);
-            const float y = height + 0.9F + 0.75F * static_cast<float>(i);
-            const float r = (kind == 0 ? 1.75F : 1.6F) - 0.35F * static_cast<float>(i);
-            tree.crown("leaves", {x, y, z}, {r, 0.85F * r, r}, 9, 6, static_cast<std::uint32_t>(50 + 10 * kind + i));
-        }
-    }
-    Pen bush(world, "bush");
-    bush.crown("leaves", {0, 1.4F, 0}, {2.6F, 2.0F, 2.2F}, 7, 4, 77);
-    Pen lamp(world, "lamp");
-    lamp.cylinder("pole", {.radius = 0.1F, .length = 0.7F, .end_radius_share = 0.75F});
-    lamp.cylinder("pole",
-                  {.foot = {0, 0.7F, 0}, .radius = 0.065F, .length = kLampHeight_m - 0.6F, .end_radius_share = 0.8F});
-    lamp.box("pole", {-0.04F, kLampHeight_m, -0.05F}, {0.04F, kLampHeight_m + 0.09F, 1.3F});
-    lamp.box("pole", {-0.17F, kLampHeight_m + 0.02F, 0.85F}, {0.17F, kLampHeight_m + 0.15F, 1.55F});
-    lamp.box("lamp_glass", {-0.13F, kLampHeight_m - 0.05F, 0.92F}, {0.13F, kLampHeight_m + 0.03F, 1.48F});
 }
 
 }  // namespace rs::synthetic

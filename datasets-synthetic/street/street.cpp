@@ -2,6 +2,7 @@
 
 #include "datasets-synthetic/shapes/random.hpp"
 #include "datasets-synthetic/street/obj_file.hpp"
+#include "datasets-synthetic/street/sky.hpp"
 #include "datasets-synthetic/street/street_models.hpp"
 #include "datasets-synthetic/street/traffic.hpp"
 #include "rayspace/api/types/check.hpp"
@@ -22,8 +23,11 @@ namespace rs::synthetic {
 namespace {
 
 namespace fs = std::filesystem;
+using glm::vec2;
 using glm::vec3;
 using nlohmann::ordered_json;
+
+constexpr double kHazeVisibility_m = 2500;
 
 // An instance of an object in the static world.
 struct StaticInstance {
@@ -65,6 +69,7 @@ void build_row(const HouseRow& row, bool night, Street& street, RoomBuilder& bui
         style.floors = 2 + random.below(3);
         style.wall = random.below(kWallLooks);
         style.gable = random.uniform() < 0.6F;
+        style.slate = random.uniform() < 0.4F;
         style.night = night;
         style.seed = random.next();
         Pen pen(street.world, row.name + "_" + std::to_string(number));
@@ -73,6 +78,10 @@ void build_row(const HouseRow& row, bool night, Street& street, RoomBuilder& bui
         const float from_crossing = std::max(std::abs(corner.x), std::abs(pen.point({at + style.width_m, 0, 0}).x));
         const bool on_main = std::abs(corner.z) < kHalfStreet_m + 1;
         const std::size_t shops = street.shop_lights.size();
+        const bool at_crossing = on_main && from_crossing < 18;
+        const bool begins_there = std::abs(corner.x) < kHalfStreet_m + 1;
+        style.open_left = at_crossing && begins_there;
+        style.open_right = at_crossing && !begins_there && at + style.width_m > row.length_m - 0.1F;
         // Shops are near the crossing: at the row's beginning or end.
         if (on_main && from_crossing < 36 && shops < kShops.size() && style.width_m < 14) {
             style.shop = kShops.at(shops);
@@ -84,57 +93,67 @@ void build_row(const HouseRow& row, bool night, Street& street, RoomBuilder& bui
     }
 }
 
-void plant_trees(Street& street, Random& random) {
-    const auto tree = [&](float x, float z) {
-        const int kind = random.below(2);
-        const float turn = random.uniform(0, 360);
-        const float size = random.uniform(0.85F, 1.2F);
-        street.instances.push_back({"tree_" + std::to_string(kind), {x, kKerb_m, z}, turn, size});
+// Trees, lamps and other furniture between carriageway and pavement, symmetric about both streets.
+void furnish_pavements(Street& street, Random& random) {
+    const auto put = [&](const std::string& object, float x, float z, float turn_deg, float size = 1) {
+        street.instances.push_back({object, {x, kKerb_m, z}, turn_deg, size});
     };
     for (int i = 0; i < 5; ++i) {
         for (const float sx : {-1.0F, 1.0F}) {
             for (const float sz : {-1.0F, 1.0F}) {
-                const float x = sx * (16 + 12 * static_cast<float>(i));
-                tree(x + 3 * sz, sz * 4.9F);
-                const float lamp_x = x + 3 * sz + 6 * sx;
-                street.instances.push_back({"lamp", {lamp_x, kKerb_m, sz * 4.6F}, sz > 0 ? 180.0F : 0.0F, 1});
-                street.street_lights.emplace_back(lamp_x, kLampHeight_m + 0.1F, sz * 3.4F);
-            }
-        }
-    }
-    // Beyond the houses.
-    for (int i = 0; i < 12; ++i) {
-        for (const float sx : {-1.0F, 1.0F}) {
-            for (const float sz : {-1.0F, 1.0F}) {
-                const float x = sx * random.uniform(76, 166);
-                const float z = sz * random.uniform(11, 55);
+                const float x = sx * (17 + 12 * static_cast<float>(i)) + 3 * sz;
+                const float inwards = sz > 0 ? 180.0F : 0.0F;
+                const std::string tree = "tree_" + std::to_string(random.below(kTrees));
                 const float turn = random.uniform(0, 360);
-                const float size = random.uniform(0.9F, 2.3F);
-                street.instances.push_back({"bush", {x, 0, z}, turn, size});
+                const float size = random.uniform(0.9F, 1.2F);
+                put(tree, x, sz * 4.9F, turn, size);
+                put("lamp", x + 6 * sx, sz * 4.6F, inwards);
+                street.street_lights.emplace_back(x + 6 * sx, kLampHeight_m + 0.1F, sz * 3.4F);
+                const int kind = random.below(3);
+                if (kind == 0) put("bench", x + 2.4F * sx, sz * 4.75F, inwards + 180);
+                if (kind == 1) put("bin", x + 5.2F * sx, sz * 4.65F, 0);
+                if (kind == 2) put("sign", x + 3.2F * sx, sz * 4.5F, sx * sz > 0 ? 90.0F : -90.0F);
             }
         }
     }
-    for (int i = 0; i < 6; ++i) {
-        for (const float sx : {-1.0F, 1.0F}) {
-            for (const float sz : {-1.0F, 1.0F}) {
-                const float x = sx * random.uniform(11, 50);
-                const float z = sz * random.uniform(52, 105);
-                const float turn = random.uniform(0, 360);
-                const float size = random.uniform(0.9F, 2.0F);
-                street.instances.push_back({"bush", {x, 0, z}, turn, size});
-            }
+    for (const float sx : {-1.0F, 1.0F}) {
+        for (const float sz : {-1.0F, 1.0F}) {
+            put("bollard", sx * 6.2F, sz * 4.35F, 0);
+            put("bollard", sx * 4.35F, sz * 6.2F, 0);
         }
     }
+}
+
+void plant_surroundings(Street& street, Random& random) {
+    const auto plant = [&](vec2 low, vec2 high, int count) {
+        for (int i = 0; i < count; ++i) {
+            for (const float sx : {-1.0F, 1.0F}) {
+                for (const float sz : {-1.0F, 1.0F}) {
+                    const float x = sx * random.uniform(low.x, high.x);
+                    const float z = sz * random.uniform(low.y, high.y);
+                    const float turn = random.uniform(0, 360);
+                    const float size = random.uniform(0.9F, 2.0F);
+                    const std::string kind = i % 2 == 0 ? "bush" : "tree_" + std::to_string(random.below(kTrees));
+                    street.instances.push_back({kind, {x, -0.06F, z}, turn, size});
+                }
+            }
+        }
+    };
+    plant({76, 11}, {166, 55}, 10);
+    plant({11, 52}, {50, 105}, 6);
 }
 
 Street make_street(const StreetOptions& options) {
     Street street;
     const bool night = options.scenario.night;
     RoomBuilder builder(street.world, "street", options.texture_scale);
-    add_house_looks(builder, night, street.unlit);
-    add_road_looks(builder, night, street.unlit);
+    add_house_looks(street.world, builder, options.texture_scale, night, street.unlit);
+    add_road_looks(builder);
+    add_tree_looks(street.world, builder, options.texture_scale);
+    add_furniture_looks(builder, night, street.unlit);
     build_roads(street.world);
-    build_street_furniture(street.world);
+    build_trees(street.world);
+    build_furniture(street.world);
     Random random(2024, 1);
     const auto build = [&](const HouseRow& row) { build_row(row, night, street, builder, random); };
     const float h = kHalfStreet_m;
@@ -151,7 +170,8 @@ Street make_street(const StreetOptions& options) {
     build({.name = "house_es", .begin = {h, 0, behind}, .turn_deg = -90, .length_m = side});
     build({.name = "house_wn", .begin = {-h, 0, -behind}, .turn_deg = 90, .length_m = side});
     build({.name = "house_ws", .begin = {-h, 0, behind + side}, .turn_deg = 90, .length_m = side});
-    plant_trees(street, random);
+    furnish_pavements(street, random);
+    plant_surroundings(street, random);
     return street;
 }
 
@@ -192,6 +212,27 @@ std::string instance_line(const StaticInstance& instance, const Box& box) {
                    "-");
 }
 
+// Traffic lights at the four stop lines, facing the vehicles that come.
+std::string signal_lines(const TrafficFrame& frame, const std::map<std::string, Box>& boxes) {
+    struct Place {
+        vec3 foot;
+        float turn_deg;
+    };
+    constexpr float kAlong_m = 11.8F;
+    constexpr float kBeside_m = 4.4F;
+    const std::array<Place, 4> places{Place{{-kAlong_m, kKerb_m, kBeside_m}, -90},
+                                      {{kAlong_m, kKerb_m, -kBeside_m}, 90},
+                                      {{kBeside_m, kKerb_m, kAlong_m}, 0},
+                                      {{-kBeside_m, kKerb_m, -kAlong_m}, 180}};
+    std::string text;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const SignalColour colour = i < 2 ? frame.main_signal : frame.cross_signal;
+        const std::string object = kSignals.at(static_cast<std::size_t>(colour));
+        text += instance_line({object, places.at(i).foot, places.at(i).turn_deg, 1}, boxes.at(object));
+    }
+    return text;
+}
+
 std::string frame_text(const TrafficFrame& frame, const std::map<std::string, Box>& boxes, double fov_degrees) {
     std::string text;
     for (const VehiclePose& vehicle : frame.vehicles) {
@@ -215,9 +256,9 @@ ordered_json lights_of_street(const Street& street, bool night) {
     ordered_json lights = ordered_json::array();
     lights.push_back({{"kind", "directional"},
                       {"name", night ? "moon" : "sun"},
-                      {"aim", {0.55, -1, -0.75}},
-                      {"lux", night ? 9 : 560},
-                      {"colour", night ? triple({0.55F, 0.65F, 1.0F}) : triple({1.0F, 0.95F, 0.86F})}});
+                      {"aim", triple(kSunAim)},
+                      {"lux", night ? 9 : 700},
+                      {"colour", night ? triple({0.55F, 0.65F, 1.0F}) : triple({1.0F, 0.92F, 0.79F})}});
     if (night) {
         for (const vec3& place : street.street_lights) {
             lights.push_back({{"kind", "spot"},
@@ -239,9 +280,8 @@ ordered_json lights_of_street(const Street& street, bool night) {
                               {"reach", 6}});
         }
     }
-    return {{"replace", true},
-            {"lights", lights},
-            {"environment", {{"file", "sky.png"}, {"scale", night ? 0.05 : 0.62}, {"seen", true}}}};
+    return {
+        {"replace", true}, {"lights", lights}, {"environment", {{"file", "sky.exr"}, {"scale", 1}, {"seen", true}}}};
 }
 
 struct Sky {
@@ -251,21 +291,7 @@ struct Sky {
 
 Sky sky_of(bool night) {
     if (night) return {{0.03F, 0.04F, 0.09F}, {0.1F, 0.12F, 0.2F}};
-    return {{0.32F, 0.53F, 0.82F}, {0.83F, 0.89F, 0.94F}};
-}
-
-// Latitude-longitude map, sRGB. At night the light list's scale sets its brightness.
-Image<Rgba8> sky_image(bool night) {
-    const Sky sky = night ? Sky{{0.45F, 0.55F, 1.0F}, {0.8F, 0.85F, 1.0F}} : sky_of(false);
-    Image<Rgba8> image(64, 32);
-    for (int y = 0; y < 32; ++y) {
-        const float up = std::max(1 - (static_cast<float>(y) + 0.5F) / 16, 0.0F);
-        vec3 colour = glm::mix(sky.horizon, sky.zenith, std::sqrt(up));
-        if (y >= 16) colour = vec3(0.36F, 0.36F, 0.34F);
-        const auto byte = [](float v) { return static_cast<std::uint8_t>(std::lround(255 * v)); };
-        for (int x = 0; x < 64; ++x) image(x, y) = {byte(colour.x), byte(colour.y), byte(colour.z), 255};
-    }
-    return image;
+    return {{0.32F, 0.53F, 0.82F}, {0.797F, 0.848F, 0.896F}};  // kHaze in sRGB
 }
 
 std::string frame_name(std::size_t number) {
@@ -281,6 +307,7 @@ ordered_json frames_json(std::size_t count, const Scenario& scenario) {
     return {{"base", "../../../../models/street.obj"},
             {"models", {"../../../../models/source/cars/cars.obj"}},
             {"frames_per_second", scenario.frames_per_second},
+            {"haze_m", kHazeVisibility_m},
             {"lights", "lights.json"},
             {"background", {{"zenith", triple(sky.zenith)}, {"horizon", triple(sky.horizon)}}},
             {"frames", frames}};
@@ -317,7 +344,7 @@ Result<StreetStatistics> write_street(const StreetOptions& options, const fs::pa
     const std::map<std::string, Box> boxes = boxes_of(street.world);
     std::string still;
     StreetStatistics figures;
-    std::set<std::string> instanced;
+    std::set<std::string> instanced(kSignals.begin(), kSignals.end());
     for (const StaticInstance& instance : street.instances) {
         still += instance_line(instance, boxes.at(instance.object));
         figures.static_triangles += triangles_of(street.world, instance.object);
@@ -347,15 +374,17 @@ Result<StreetStatistics> write_street(const StreetOptions& options, const fs::pa
         return write_file(map / "out" / name, text);
     };
     for (std::size_t i = 0; i < frames.size(); ++i) {
-        const std::string text = frame_text(frames[i], vehicle_boxes, options.scenario.fov_degrees);
+        const std::string text =
+            signal_lines(frames[i], boxes) + frame_text(frames[i], vehicle_boxes, options.scenario.fov_degrees);
         RS_TRY(write_out(frame_name(i), text));
         figures.vehicles = std::max(figures.vehicles, frames[i].vehicles.size());
     }
     figures.frames = frames.size();
     const bool night = options.scenario.night;
+    const int sky_height = std::max(static_cast<int>(512 * options.texture_scale), 16);
     const fs::path scenario = map / "configs" / "scenario.json";
     RS_TRY(write_file(scenario, scenario_json(options.scenario)));
-    RS_TRY(write_png(map / "out" / "sky.png", sky_image(night)));
+    RS_TRY(write_exr(map / "out" / "sky.exr", sky_image(night, sky_height)));
     const std::string lights = lights_of_street(street, night).dump(1) + "\n";
     RS_TRY(write_out("lights.json", lights));
     const std::string json = frames_json(frames.size(), options.scenario).dump(1) + "\n";

@@ -2,7 +2,7 @@
 // Writes a street with traffic as the files of a sequence:
 //
 //     OUT/maps/NAME/anim/configs/scenario.json      the scenario
-//     OUT/maps/NAME/anim/out/frames.json            names all other files; frame-0000.obj, ... lights.json, sky.png
+//     OUT/maps/NAME/anim/out/frames.json            names all other files; frame-0000.obj, ... lights.json, sky.exr
 //     OUT/models/street.obj                         houses, road, lamps, trees, ray-space objects in shop windows
 //     OUT/models/source/cars/cars.obj               vehicles
 //

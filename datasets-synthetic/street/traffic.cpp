@@ -18,7 +18,8 @@ constexpr double kBraking = 3.0;       // comfortable
 constexpr double kHardBraking = 7.0;
 constexpr double kGap_m = 2.2;        // between stopped vehicles
 constexpr double kStopLine_m = 12.3;  // before the centre of the crossing
-constexpr double kAllRed_s = 3;
+constexpr double kAllRed_s = 3;       // from green of one street to green of the other
+constexpr double kAmber_s = 1.5;      // part of it
 
 struct Driver {
     const VehicleModel* model = nullptr;
@@ -43,6 +44,11 @@ bool is_green(const Scenario& scenario, bool main, double seconds) {
     if (main) return phase < scenario.main_green_s;
     const double begin = scenario.main_green_s + kAllRed_s;
     return phase >= begin && phase < begin + scenario.cross_green_s;
+}
+
+SignalColour signal_at(const Scenario& scenario, bool main, double seconds) {
+    if (is_green(scenario, main, seconds)) return SignalColour::kGreen;
+    return is_green(scenario, main, seconds - kAmber_s) ? SignalColour::kAmber : SignalColour::kRed;
 }
 
 VehiclePose place_of(const Driver& driver, Lane lane) {
@@ -83,14 +89,20 @@ public:
 
     void advance_to(double seconds) {
         while (now_ + kStep_s / 2 < seconds) step();
+        since_step_s_ = seconds - now_;
     }
 
     [[nodiscard]] TrafficFrame frame(const StreetView& view) const {
         TrafficFrame frame;
         frame.view = view;
+        frame.main_signal = signal_at(scenario_, true, now_);
+        frame.cross_signal = signal_at(scenario_, false, now_);
         for (std::size_t lane = 0; lane < 4; ++lane) {
             for (const Driver& driver : lanes_.at(lane)) {
-                const VehiclePose place = place_of(driver, static_cast<Lane>(lane));
+                // Frames between steps: without this, 30 frames per second would advance by one or two steps in turn.
+                Driver moved = driver;
+                moved.along_m += std::max(driver.speed_mps, 0.0) * since_step_s_;
+                const VehiclePose place = place_of(moved, static_cast<Lane>(lane));
                 if (scenario_.ride && driver.source == *scenario_.ride && driver.number == 0) {
                     const glm::dvec3 ahead = direction_of(static_cast<Lane>(lane));
                     frame.view.eye = place.place + 0.35 * ahead + glm::dvec3(0, 1.45, 0);
@@ -163,6 +175,7 @@ private:
     std::vector<int> entered_;
     std::vector<Random> chances_;
     double now_ = kBegin_s;
+    double since_step_s_ = 0;  // of the frame, from now_
     int steps_ = 0;
 };
 

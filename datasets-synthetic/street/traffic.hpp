@@ -22,7 +22,11 @@ struct VehiclePose {
     double turn_deg = 0;  // about Y; 0: towards +X
 };
 
+enum class SignalColour { kRed, kAmber, kGreen };
+
 struct TrafficFrame {
+    SignalColour main_signal = SignalColour::kRed;
+    SignalColour cross_signal = SignalColour::kRed;
     std::vector<VehiclePose> vehicles;  // without the vehicle that carries the camera
     StreetView view;
 };

@@ -36,6 +36,7 @@ TEST(PortableMath, AgreesWithTheCLibrary) {
         const auto x = static_cast<double>(random.uniform(-300.0F, 300.0F));
         const auto y = static_cast<double>(random.uniform(-3.0F, 3.0F));
         ASSERT_NEAR(portable::sin(x), std::sin(x), 1e-13) << x;
+        ASSERT_NEAR(portable::exp(x) / std::exp(x), 1, 1e-12) << x;
         ASSERT_NEAR(portable::cos(x), std::cos(x), 1e-13) << x;
         ASSERT_NEAR(portable::atan2(y, x), std::atan2(y, x), 1e-14) << y << " " << x;
     }

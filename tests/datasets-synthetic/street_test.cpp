@@ -1,6 +1,7 @@
 // Street files: deterministic bytes, separate objects, traffic that keeps its distance.
 
 #include "datasets-synthetic/street/street.hpp"
+#include "datasets-synthetic/street/sky.hpp"
 #include "datasets-synthetic/street/street_models.hpp"
 #include "datasets-synthetic/street/traffic.hpp"
 #include "rayspace/file/file_output.hpp"
@@ -45,6 +46,7 @@ TEST(Street, IsTheSameEveryTime) {
     EXPECT_EQ(first.count("maps/street/anim/out/frame-0002.obj"), 1U);
     EXPECT_EQ(first.count("maps/street/anim/out/frame-0003.obj"), 0U);
     EXPECT_EQ(first.count("models/source/cars/cars.obj"), 1U);
+    EXPECT_THAT(first.at("maps/street/anim/out/frame-0002.obj"), HasSubstr("instance signal_"));
     options.scenario.night = true;
     ASSERT_TRUE(write_street(options, folder / "night"));
     EXPECT_THAT(files_of(folder / "night").at("maps/street/anim/out/lights.json"), HasSubstr("street lamp"));
@@ -85,6 +87,97 @@ TEST(Street, VehiclesStandOnTheirWheels) {
         }
         EXPECT_NEAR(low, 0, 0.02) << model.name;
         EXPECT_NEAR(static_cast<double>(front - back), model.length_m, 0.25) << model.name;
+    }
+}
+
+TEST(Street, CarBodiesAreSmoothAndSymmetric) {
+    std::set<std::string> unlit;
+    const World world = make_vehicles(false, unlit);
+    for (const VehicleModel& model : vehicle_models()) {
+        float widest = 0;
+        float leftmost = 0;
+        std::size_t triangles = 0;
+        for (const WorldPart& part : world.parts) {
+            if (part.room != model.name) continue;
+            triangles += part.mesh.triangles.size();
+            for (std::size_t i = 0; i < part.mesh.positions.size(); ++i) {
+                ASSERT_NEAR(glm::length(part.mesh.normals[i]), 1, 1e-3F) << model.name << " " << part.look;
+                widest = std::max(widest, part.mesh.positions[i].z);
+                leftmost = std::min(leftmost, part.mesh.positions[i].z);
+            }
+        }
+        EXPECT_NEAR(widest, -leftmost, 0.02) << model.name;
+        EXPECT_LT(triangles, 6000U) << model.name;
+    }
+}
+
+TEST(Street, TreesKeepTheirLeavesAboveTheGround) {
+    World world;
+    RoomBuilder builder(world, "street", 0.25F);
+    add_tree_looks(world, builder, 0.25F);
+    world.looks["soil"] = {};
+    build_trees(world);
+    std::map<std::string, float> lowest;
+    for (const WorldPart& part : world.parts) {
+        if (part.look.rfind("foliage", 0) != 0) continue;
+        float& low = lowest.emplace(part.room, 9.0F).first->second;
+        for (const glm::vec3& p : part.mesh.positions) low = std::min(low, p.y);
+    }
+    for (int i = 0; i < kTrees; ++i) EXPECT_GT(lowest.at("tree_" + std::to_string(i)), 1.9F) << "people walk below";
+    for (int kind = 0; kind < 2; ++kind) {
+        std::size_t opaque = 0;
+        const auto& image = world.textures.at("foliage_" + std::to_string(kind) + ".png");
+        for (const Rgba8& p : image.pixels()) {
+            EXPECT_TRUE(p.a == 0 || p.a == 255) << "leaves are masks, which need no sorting";
+            opaque += p.a == 255 ? 1U : 0U;
+        }
+        const auto share = static_cast<double>(opaque) / static_cast<double>(image.pixels().size());
+        EXPECT_GT(share, 0.35);
+        EXPECT_LT(share, 0.9);
+    }
+}
+
+TEST(Street, TheSkyIsBlueAboveBrightAtTheSunAndFinite) {
+    const glm::vec3 sun = -glm::normalize(kSunAim);
+    const glm::vec3 at_sun = day_sky(sun);
+    const glm::vec3 opposite = day_sky(glm::normalize(glm::vec3{-sun.x, sun.y, -sun.z}));
+    EXPECT_GT(at_sun.r + at_sun.g, opposite.r + opposite.g);
+    const Image<RgbaF> image = sky_image(false, 32);
+    int blue = 0;
+    for (const RgbaF& p : image.pixels()) {
+        ASSERT_TRUE(std::isfinite(p.r) && std::isfinite(p.g) && std::isfinite(p.b));
+        ASSERT_GE(std::min({p.r, p.g, p.b}), 0);
+        blue += p.b > 1.5F * p.r ? 1 : 0;
+    }
+    EXPECT_GT(blue, 32 * 64 / 8);
+}
+
+TEST(Street, TrafficLightsAgreeWithTheTraffic) {
+    Scenario scenario = default_scenario();
+    scenario.seconds = 40;
+    std::set<SignalColour> seen;
+    for (const TrafficFrame& frame : simulate_traffic(scenario)) {
+        EXPECT_TRUE(frame.main_signal == SignalColour::kRed || frame.cross_signal == SignalColour::kRed);
+        seen.insert(frame.main_signal);
+    }
+    EXPECT_EQ(seen.size(), 3U);
+}
+
+// At a rate that is no multiple of the simulation's step: no jump, and no change of speed beyond hard braking.
+TEST(Street, VehiclesMoveSmoothly) {
+    Scenario scenario = default_scenario();
+    scenario.sources = {{Lane::kEast, Vehicle::kVan, -24, 60, 1, 10}};
+    scenario.seconds = 20;
+    scenario.frames_per_second = 30;
+    const double step_s = 1 / scenario.frames_per_second;
+    std::vector<double> x;
+    for (const TrafficFrame& frame : simulate_traffic(scenario)) {
+        if (!frame.vehicles.empty()) x.push_back(frame.vehicles.front().place.x);
+    }
+    ASSERT_GT(x.size(), 100U);
+    for (std::size_t i = 2; i < x.size(); ++i) {
+        const double change = std::abs((x[i] - x[i - 1]) - (x[i - 1] - x[i - 2])) / step_s;
+        EXPECT_LT(change, 9 * 2 * step_s) << "frame " << i << ": m/s within a frame";
     }
 }
 

@@ -163,6 +163,8 @@ TEST_F(SequenceFiles, FramesFilesAreStrict) {
     EXPECT_THAT(fault(R"({"frames": ["a.obj"], "fps": 3})"), HasSubstr("fps"));
     EXPECT_THAT(fault(R"({"frames": ["a.obj"], "weather": "hail"})"), HasSubstr("weather"));
     EXPECT_THAT(fault(R"({"frames": ["a.obj"], "frames_per_second": 0})"), HasSubstr("frames_per_second"));
+    EXPECT_THAT(fault(R"({"frames": ["a.obj"], "haze_m": 0})"), HasSubstr("haze_m"));
+    EXPECT_EQ(fault(R"({"frames": ["a.obj"], "haze_m": 900})"), "");
 }
 
 TEST_F(SequenceFiles, MapsAreFound) {
