@@ -2,7 +2,7 @@
 // Scene geometry and floor with their lighting and shadow maps. Keeps the maps and the surface tables consistent when
 // lights change or nodes move.
 
-#include "compositor/scene/light/irradiance_harmonics.hpp"
+#include "compositor/scene/light/environment_irradiance.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/displayed_nodes.hpp"
 #include "compositor/viewer/drawing/floor_renderer.hpp"
