@@ -52,13 +52,15 @@ void add_executor_options(CLI::App& command, ExecutorOptions& options) {
         ->type_name("MIB");
 }
 
-FrameOptions frame_options(const DrawingOptions& options, PixelSize size, double exposure_ev, bool upright) {
+FrameOptions frame_options(const DrawingOptions& options, const RendererOptions& renderer, PixelSize size,
+                           bool upright) {
     return {.width = size.width,
             .height = size.height,
             .samples = options.samples,
             .wire_frame = options.wire_frame,
             .shadows = options.shadows,
-            .exposure_ev = exposure_ev,
+            .exposure_ev = renderer.exposure_ev,
+            .relighting = renderer.relighting,
             .object_depth = options.object_depth,
             .object_samples = options.object_samples,
             .upright_images = upright};

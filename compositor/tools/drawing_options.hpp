@@ -2,6 +2,7 @@
 // Options of rs-view that choose how frames are drawn, by which executor, and how much memory objects may take.
 
 #include "compositor/scene/scene.hpp"
+#include "compositor/tools/tracing_options.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "rayspace/api/types/executor.hpp"
@@ -36,9 +37,9 @@ void add_upright_option(CLI::App& command, bool& upright);
 /// Adds --executor and --memory.
 void add_executor_options(CLI::App& command, ExecutorOptions& options);
 
-/// \param exposure_ev of the scene's lights
 /// \param upright draw objects for level cameras and resample their images
-FrameOptions frame_options(const DrawingOptions& options, PixelSize size, double exposure_ev, bool upright);
+FrameOptions frame_options(const DrawingOptions& options, const RendererOptions& renderer, PixelSize size,
+                           bool upright);
 
 /// The executor that draws the objects.
 struct ObjectExecutor {

@@ -115,8 +115,8 @@ Status write_first_view(const std::string& file, const OpenOptions& options, con
     ProgressBar progress;
     RS_ASSIGN_OR_RETURN(TracedImages traced,
                         traced_images(loaded, options.renderer, PassOptions{}, scene_name(options.scene), progress));
-    const HeadlessOptions headless{.frame = frame_options(options.drawing, {first.width, first.height},
-                                                          options.renderer.exposure_ev, !loaded.executor.tilted)};
+    const HeadlessOptions headless{.frame = frame_options(options.drawing, options.renderer,
+                                                          {first.width, first.height}, !loaded.executor.tilted)};
     RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     RS_ASSIGN_OR_RETURN(const Image<Rgba8> image, renderer.render(first));
     RS_TRY(write_png(file, image));

@@ -119,8 +119,8 @@ Status run_quilt(const QuiltOptions& options) {
     FrameProgress progress(options.quiet, views, options.renderer.method().has_value());
     RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, options.renderer, options.passes,
                                                            scene_name(options.scene), progress.of_passes()));
-    const HeadlessOptions headless{.frame = frame_options(options.drawing, tile, options.renderer.exposure_ev,
-                                                          options.upright || !loaded.executor.tilted)};
+    const HeadlessOptions headless{
+        .frame = frame_options(options.drawing, options.renderer, tile, options.upright || !loaded.executor.tilted)};
     RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     progress.start();
     RS_TRY(write_quilts(options.output, options.force, layout, frames, renderer, progress.of_frames()));

@@ -39,7 +39,7 @@ Status write_panoramas(const RenderOptions& options, const FrameOutput& output, 
     RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, options.renderer, passes_of_face(options.passes),
                                                            scene_name(options.scene), progress.of_passes()));
     const int side = panorama_cameras(cameras.front(), layout).front().width;
-    const HeadlessOptions headless{.frame = frame_options(options.drawing, {side, side}, options.renderer.exposure_ev,
+    const HeadlessOptions headless{.frame = frame_options(options.drawing, options.renderer, {side, side},
                                                           options.upright || !loaded.executor.tilted)};
     RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     progress.start();
@@ -93,7 +93,7 @@ Status run_render(const RenderOptions& options) {
     RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, options.renderer, options.passes,
                                                            scene_name(options.scene), progress.of_passes()));
     const bool upright = options.upright || options.streaming || !loaded.executor.tilted;
-    HeadlessOptions headless{.frame = frame_options(options.drawing, size, options.renderer.exposure_ev, upright),
+    HeadlessOptions headless{.frame = frame_options(options.drawing, options.renderer, size, upright),
                              .frames_per_second = options.frames_per_second,
                              .real_time = options.streaming};
     headless.frame.time_parts = options.stats.has_value();

@@ -89,8 +89,7 @@ Result<PlayerOptions> player_options(const SequenceOptions& options, const engin
     RS_ASSIGN_OR_RETURN(const TracedOptions tracing, traced_options(options.renderer));
     RS_ASSIGN_OR_RETURN(const std::optional<Weather> weather, requested_weather(options));
     PlayerOptions player;
-    player.frame =
-        frame_options(options.drawing, size, options.renderer.exposure_ev, options.upright || !executor.tilted);
+    player.frame = frame_options(options.drawing, options.renderer, size, options.upright || !executor.tilted);
     player.frame.time_parts = options.stats.has_value();
     if (options.renderer.method()) player.tracing = tracing;
     player.passes = options.passes;

@@ -23,6 +23,7 @@ struct RendererOptions {
     std::optional<std::string> toon_style;   // file, toon_file.hpp
     std::optional<std::string> lens;         // diameter in mm, or f/N
     std::optional<double> focus;             // scene units
+    Relighting relighting = Relighting::kTraced;
     /// The method of a traced renderer; nullopt for raster.
     [[nodiscard]] std::optional<TracedMethod> method() const;
 };
@@ -33,8 +34,9 @@ struct PassOptions {
     std::optional<double> seconds;
 };
 
-/// Adds --renderer, --exposure, --soft-shadows, --toon-style and --toon-lines. The help shows --toon-lines in the line
-/// of --toon-style, because the help of `render` and `walls` would not fit on a screen otherwise.
+/// Adds --renderer, --exposure, --relight, --soft-shadows, --toon-style and --toon-lines. The help shows --toon-lines
+/// in the line of --toon-style, and --relight in that of --exposure, because the help of `render` and `walls` would not
+/// fit on a screen otherwise.
 void add_renderer_options(CLI::App& command, RendererOptions& options);
 /// Adds --lens and --focus.
 void add_lens_options(CLI::App& command, RendererOptions& options);

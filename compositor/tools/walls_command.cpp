@@ -48,6 +48,7 @@ Status show_walls(const WallsOptions& options, const WallViews& views, LoadedSce
                            .wire_frame = options.drawing.wire_frame,
                            .shadows = options.drawing.shadows,
                            .exposure_ev = options.renderer.exposure_ev,
+                           .relighting = options.renderer.relighting,
                            .object_depth = options.drawing.object_depth,
                            .object_samples = options.drawing.object_samples,
                            .warn = print_warnings};
@@ -66,9 +67,9 @@ Status render_walls(const WallsOptions& options, const WallViews& views, const L
     RS_ASSIGN_OR_RETURN(TracedImages traced, traced_images(loaded, options.renderer, options.passes,
                                                            scene_name(options.scene), progress.of_passes()));
     const Camera& first = cameras.front();
-    const HeadlessOptions headless{.frame = frame_options(options.drawing, {first.width, first.height},
-                                                          options.renderer.exposure_ev,
-                                                          options.upright || !loaded.executor.tilted)};
+    const HeadlessOptions headless{.frame =
+                                       frame_options(options.drawing, options.renderer, {first.width, first.height},
+                                                     options.upright || !loaded.executor.tilted)};
     RS_ASSIGN_OR_RETURN(HeadlessRenderer renderer, HeadlessRenderer::create(loaded, headless, std::move(traced)));
     progress.start();
     const RenderView render = [&](const Camera& camera) { return renderer.render(camera); };

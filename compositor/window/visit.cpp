@@ -62,6 +62,7 @@ Result<FrameCompositor> Visit::make_compositor(const Scene& scene, Showroom& sho
                                     .samples = options.samples,
                                     .shadows = options.shadows,
                                     .exposure_ev = options.exposure_ev,
+                                    .relighting = options.tracing.relighting,
                                     .object_depth = options.object_depth,
                                     .object_samples = options.object_samples,
                                     .upright_images = true});

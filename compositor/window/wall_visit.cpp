@@ -73,6 +73,7 @@ Result<std::unique_ptr<WallVisit>> WallVisit::create(const Scene& scene, std::un
                                                  .wire_frame = options.wire_frame,
                                                  .shadows = options.shadows,
                                                  .exposure_ev = options.exposure_ev,
+                                                 .relighting = options.relighting,
                                                  .object_depth = options.object_depth,
                                                  .object_samples = options.object_samples,
                                                  .upright_images = true}));

@@ -39,6 +39,7 @@ struct WallVisitOptions {
     bool wire_frame = false;
     bool shadows = false;
     double exposure_ev = 0;
+    Relighting relighting = Relighting::kOff;
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples = FrameOptions{}.object_samples;
     std::filesystem::path images = ".";                                   // folder for P

@@ -37,6 +37,9 @@ public:
     /// \return number of redrawn maps.
     int draw_shadows(const std::vector<std::optional<PlacedObject>>& objects);
 
+    /// Irradiance at a position, without shadows and lights with a scope; nullopt if only the headlight shines.
+    std::optional<IrradianceHarmonics> irradiance_at(const glm::dvec3& position);
+
     [[nodiscard]] SurfaceRenderer& surfaces() { return surfaces_; }
     [[nodiscard]] const SurfaceRenderer& surfaces() const { return surfaces_; }
     [[nodiscard]] const FloorRenderer* floor() const { return floor_ ? &*floor_ : nullptr; }
