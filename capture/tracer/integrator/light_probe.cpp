@@ -34,8 +34,8 @@ bool reaches(const Tracer& tracer, std::uint32_t index, const glm::dvec3& positi
     return tracer.lights()[index].everywhere || tracer.scope_bounds(index).contains(glm::vec3(position));
 }
 
-bool is_lit(const Tracer& tracer, std::uint32_t index, const glm::dvec3& position, const glm::dvec3& direction,
-            double distance) {
+bool is_light_visible(const Tracer& tracer, std::uint32_t index, const glm::dvec3& position,
+                      const glm::dvec3& direction, double distance) {
     const Light& light = tracer.lights()[index];
     return tracer.is_unoccluded(position, direction, distance,
                                 {light.casts_shadows, light.everywhere ? kUnscoped : index});
@@ -50,7 +50,7 @@ std::optional<Incident> incident_light(const Tracer& tracer, std::uint32_t index
     const glm::dvec3 way = distant ? -light.towards : light.location - position;
     const double distance = glm::length(way);
     const double reach = distant ? std::numeric_limits<double>::infinity() : distance;
-    if (!is_lit(tracer, index, position, way / distance, reach)) return std::nullopt;
+    if (!is_light_visible(tracer, index, position, way / distance, reach)) return std::nullopt;
     return Incident{way / distance, irradiance};
 }
 
@@ -84,7 +84,7 @@ void add_area_light(std::uint32_t index, const Tracer& tracer, const glm::dvec3&
         const double facing = -glm::dot(way, normal) / distance;
         if (!(facing > 0)) continue;
         const glm::dvec3 direction = way / distance;
-        if (!is_lit(tracer, index, position, direction, distance)) continue;
+        if (!is_light_visible(tracer, index, position, direction, distance)) continue;
         irradiance.add_direction(direction, light.colour * static_cast<float>(area * facing / distance2));
     }
 }
