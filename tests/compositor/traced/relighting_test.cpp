@@ -27,6 +27,7 @@ EnvironmentLight studio(const glm::vec3& tint) {
 
 Scene lit_by(std::optional<EnvironmentLight> environment) {
     Scene scene;
+    scene.lights.clear();  // the default light
     scene.environment = std::move(environment);
     scene.background.sky = {glm::vec3(0)};
     return scene;
