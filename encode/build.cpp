@@ -5,6 +5,7 @@
 #include "rayspace/base/json_text.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/geometry/rig.hpp"
+#include "rayspace/light/irradiance_harmonics.hpp"
 #include "rayspace/object/yuv.hpp"
 
 #include <cmath>
@@ -44,6 +45,14 @@ std::optional<std::int32_t> foot_of(const Rig& rig) {
     return static_cast<std::int32_t>(std::lround(std::ldexp(foot, 20)));
 }
 
+Status check_irradiance(const CaptureSet& set) {
+    const auto found = set.upright.extras.find(kCaptureIrradianceKey);
+    if (found == set.upright.extras.end()) return {};
+    const std::string where = (set.folder / kRigFileName).string() + ": " + kCaptureIrradianceKey;
+    const Result<IrradianceHarmonics> irradiance = irradiance_from_json(*found, where);
+    return irradiance ? Status() : irradiance.error();
+}
+
 Status read_all_images(const CaptureSet& set, RaySpaceObject& object, Progress* progress) {
     const int count = static_cast<int>(set.upright.views.size());
     return for_each_in_parallel(count, "images", progress, [&](int i) -> Status {
@@ -75,6 +84,7 @@ PlaneMapOptions default_plane_map(MapKind kind) {
 Result<BuiltObject> build_object(const CaptureSet& set, const BuildOptions& options, Progress* progress) {
     const std::vector<ViewRing> rings = find_rings(set.upright);
     RS_TRY(check_options(options.map, rings.size()));
+    RS_TRY(check_irradiance(set));
 
     BuiltObject built;
     RaySpaceObject& object = built.object;

@@ -194,6 +194,10 @@ Result<RunResult> make_set(const Options& options, SceneFile file, Progress& pro
         file.camera.focus_radii > 0 ? file.camera.focus_radii : glm::dot(-first.centre(), first.forward());
     set.format = options.format == "exr" ? ImageFormat::exr : ImageFormat::png;
 
+    if (!file.toon) {
+        RS_ASSIGN_OR_RETURN(const IrradianceHarmonics irradiance, capture_irradiance(file.scene));
+        rig.extras[kCaptureIrradianceKey] = irradiance_to_json(irradiance);
+    }
     RS_ASSIGN_OR_RETURN(const Tracer tracer, Tracer::create(std::move(file.scene)));
     RS_ASSIGN_OR_RETURN(const CaptureSetSummary summary,
                         write_capture_set(tracer, rig, set, options.output, &progress));

@@ -166,7 +166,7 @@ Result<TracingWork> SequencePlayer::trace(const SlotTransforms& moved, const Cam
     }
     tracer_->begin_image(camera);
     for (int pass = 0; pass < options_.passes; ++pass) tracer_->add_pass();
-    compositor_.set_traced(std::make_shared<const Image<Rgba8>>(tracer_->image()));
+    compositor_.set_traced(std::make_shared<const Image<Rgba8>>(tracer_->image()), tracer_->object_irradiance());
     return TracingWork{std::chrono::duration<double>(Clock::now() - begin).count(), tracer_->passes()};
 }
 

@@ -75,6 +75,7 @@ Result<FrameOptions> frame_options(const DrawingOptions& options, const Renderer
                         .wire_frame = options.wire_frame,
                         .shadows = options.shadows,
                         .exposure_ev = renderer.exposure_ev,
+                        .relighting = renderer.relighting,
                         .object_depth = options.object_depth,
                         .object_samples = options.object_samples,
                         .object_cartoon = cartoon,

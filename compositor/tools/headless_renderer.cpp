@@ -26,7 +26,7 @@ Result<TracedImages> traced_images(const LoadedScene& loaded, const RendererOpti
     return TracedImages(
         [tracer = std::move(*tracer), limit, &progress](std::size_t, const Camera& camera) -> Result<TracedImage> {
             std::shared_ptr<const Image<Rgba8>> image = trace_frame(*tracer, limit, camera, progress);
-            return TracedImage{std::move(image), tracer->passes()};
+            return TracedImage{std::move(image), tracer->passes(), tracer->object_irradiance()};
         });
 }
 
@@ -63,7 +63,7 @@ Result<Image<Rgba8>> HeadlessRenderer::render(const Camera& camera) {
         const auto begin = Clock::now();
         RS_ASSIGN_OR_RETURN(TracedImage traced, traced_(frame, camera));
         work = {std::chrono::duration<double>(Clock::now() - begin).count(), traced.passes};
-        compositor_.set_traced(std::move(traced.image));
+        compositor_.set_traced(std::move(traced.image), std::move(traced.irradiance));
     }
     RS_TRY(times_.draw(*loaded_->showroom, compositor_, camera, frame_s, work));
     print_warnings(loaded_->showroom->take_warnings());

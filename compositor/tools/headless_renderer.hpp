@@ -24,7 +24,8 @@ namespace rs::compositor {
 
 struct TracedImage {
     std::shared_ptr<const Image<Rgba8>> image;
-    int passes = 0;  // 0 if it was traced before
+    int passes = 0;                                        // 0 if it was traced before
+    std::shared_ptr<const LocalIrradiances> irradiance{};  // FrameCompositor::set_traced()
 };
 
 /// Returns the traced image of a frame, which takes the place of rasterized geometry and background.

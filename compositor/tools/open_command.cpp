@@ -94,7 +94,8 @@ Result<WindowContent> content_of(const OpenOptions& options, LoadedScene loaded,
     content.title = displayed_name(options.scene);
     VisitOptions& visit = content.visit;
     visit.scene_name = content.title;
-    visit.frame = frame_options(options.drawing, {first.width, first.height}, options.renderer.exposure_ev, true);
+    RS_ASSIGN_OR_RETURN(visit.frame,
+                        frame_options(options.drawing, options.renderer, {first.width, first.height}, true));
     RS_ASSIGN_OR_RETURN(visit.sharing,
                         sharing_peers(options.sharing, options.scene.scene.value_or(""), options.scene.objects));
     RS_ASSIGN_OR_RETURN(visit.tracing, traced_options(options.renderer));

@@ -315,7 +315,7 @@ Result<WindowContent> content_of_sequence(const SequenceOptions& options, const 
     visit.scene_name = content.title;
     visit.sequence = sequence;
     visit.weather = weather ? weather : sequence->weather;
-    visit.frame = frame_options(options.drawing, size, options.renderer.exposure_ev, true);
+    RS_ASSIGN_OR_RETURN(visit.frame, frame_options(options.drawing, options.renderer, size, true));
     visit.traced = options.renderer.method().has_value();
     visit.viewpoints = {viewpoint_of(opened.camera.value_or(camera_of(*sequence, 0, size.width, size.height)))};
     visit.follows_sequence = !opened.camera;

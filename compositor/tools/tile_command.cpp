@@ -194,9 +194,12 @@ Status run_assemble(const AssembleOptions& options) {
     RS_ASSIGN_OR_RETURN(const OpenFrames frames, open_frames(tiled, options.output, options.tiles));
     const std::vector<Camera>& cameras = frames.cameras;
     RS_TRY(check_frame_count(options.output, kind, cameras.size()));
+    // Has the light of the objects.
+    RS_ASSIGN_OR_RETURN(const std::shared_ptr<TracedRenderer> tracer,
+                        make_tracer(frames.loaded, tiled.renderer, scene_name(tiled.scene)));
     const TracedImages from_tiles = [&](std::size_t frame, const Camera& camera) -> Result<TracedImage> {
         RS_ASSIGN_OR_RETURN(Image<Rgba8> image, read_tiles(options.tiles, frame, camera));
-        return TracedImage{std::make_shared<const Image<Rgba8>>(std::move(image))};
+        return TracedImage{std::make_shared<const Image<Rgba8>>(std::move(image)), 0, tracer->object_irradiance()};
     };
     RS_ASSIGN_OR_RETURN(FrameOptions frame,
                         frame_options(tiled.drawing, tiled.renderer, {cameras.front().width, cameras.front().height},

@@ -46,10 +46,22 @@ void add_renderer_options(CLI::App& command, RendererOptions& options) {
         ->type_name("NAME")
         ->check(CLI::IsMember({"raster", "toon", "whitted", "radiosity", "path"}).description(""))
         ->capture_default_str();
-    command.add_option("--exposure", options.exposure_ev, "make lights brighter by EV stops, -40..40")
+    command
+        .add_option("--exposure", options.exposure_ev,
+                    "make lights brighter by EV stops, -40..40; for objects: --relight on|off (on if traced)")
         ->check(CLI::Range(-40.0, 40.0).description(""))
         ->type_name("EV")
         ->capture_default_str();
+    command
+        .add_option_function<std::string>(
+            "--relight",
+            [&options](const std::string& value) {
+                options.relighting = value == "on" ? Relighting::kOn : Relighting::kOff;
+            },
+            "scale objects by the scene's light over that of their capture (default: on if traced, but toon)")
+        ->check(CLI::IsMember({"on", "off"}).description(""))
+        ->type_name("on|off")
+        ->group("");
     command.add_flag("--soft-shadows", options.soft_shadows, "whitted and toon: area lights cast soft shadows");
     command
         .add_option("--toon-style", options.toon_style,
@@ -129,6 +141,7 @@ Result<TracedOptions> traced_options(const RendererOptions& options) {
     traced.method = options.method().value_or(TracedMethod::kRadiosity);
     traced.exposure_ev = options.exposure_ev;
     traced.soft_shadows = options.soft_shadows;
+    traced.relighting = options.relighting;
     traced.line_radius = options.toon_line_length;
     traced.panorama = options.panorama;
     if (options.toon_style) {

@@ -25,6 +25,7 @@ struct RendererOptions {
     bool panorama = false;                   // images are faces of a panorama
     std::optional<std::string> lens;         // diameter in mm, or f/N
     std::optional<double> focus;             // scene units
+    Relighting relighting = Relighting::kTraced;
     /// The method of a traced renderer; nullopt for raster.
     [[nodiscard]] std::optional<TracedMethod> method() const;
 };
@@ -35,8 +36,9 @@ struct PassOptions {
     std::optional<double> seconds;
 };
 
-/// Adds --renderer, --exposure, --soft-shadows, --toon-style, --toon-lines and --toon-objects. The help shows the last
-/// two in the line of --toon-style, because the help of `render` and `walls` would not fit on a screen otherwise.
+/// Adds --renderer, --exposure, --relight, --soft-shadows, --toon-style, --toon-lines and --toon-objects. The help
+/// shows the last two in the line of --toon-style, and --relight in that of --exposure, because the help of `render`
+/// and `walls` would not fit on a screen otherwise.
 void add_renderer_options(CLI::App& command, RendererOptions& options);
 /// Adds --lens and --focus.
 void add_lens_options(CLI::App& command, RendererOptions& options);

@@ -46,9 +46,9 @@ Status show_walls(const WallsOptions& options, const WallViews& views, LoadedSce
                            .heads = views.heads,
                            .place = views.places.front(),
                            .stereo = views.stereo,
-                           .frame = frame_options(options.drawing, {}, options.renderer.exposure_ev, true),
                            .traced = options.renderer.method().has_value(),
                            .warn = print_warnings};
+    RS_ASSIGN_OR_RETURN(visit.frame, frame_options(options.drawing, options.renderer, {}, true));
     RS_ASSIGN_OR_RETURN(visit.tracing, traced_options(options.renderer));
     if (views.tracker) visit.tracked = tracked;
     RS_ASSIGN_OR_RETURN(visit.sharing,

@@ -30,7 +30,10 @@ Camera one_pixel(const glm::dvec3& eye, const glm::dvec3& direction) {
 }  // namespace
 
 ObjectPrimitive::ObjectPrimitive(PlacedObject placed, float brightness)
-    : placed_(std::move(placed)), object_from_world_(placed_.world_from_object.inverse()), brightness_(brightness) {
+    : placed_(std::move(placed)),
+      object_from_world_(placed_.world_from_object.inverse()),
+      brightness_(brightness),
+      proxy_(normal_proxy(*placed_.object)) {
     const BoundingCylinder& cylinder = placed_.object->bounds;
     const double half_height = std::max(0.5 * (cylinder.top - cylinder.bottom), 0.0);
     middle_ = {0, 0.5 * (cylinder.top + cylinder.bottom), 0};
@@ -59,9 +62,10 @@ std::optional<ObjectPrimitive::Answer> ObjectPrimitive::answer(const glm::vec3& 
     const double distance =
         (to_viewpoint + std::ldexp(static_cast<double>(lambda_q20), -20)) * placed_.world_from_object.scale;
     if (!(distance > 0)) return std::nullopt;
-    return Answer{
-        static_cast<float>(distance),
-        brightness_ * glm::vec3(linear_from_srgb8(colour.r), linear_from_srgb8(colour.g), linear_from_srgb8(colour.b))};
+    glm::vec3 radiance =
+        brightness_ * glm::vec3(linear_from_srgb8(colour.r), linear_from_srgb8(colour.g), linear_from_srgb8(colour.b));
+    if (gain_) radiance *= gain_->at(glm::vec3(proxy_.normal(from, along)));
+    return Answer{static_cast<float>(distance), radiance};
 }
 
 }  // namespace rs::compositor

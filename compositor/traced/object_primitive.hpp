@@ -6,6 +6,7 @@
 // between its parts, ignore surfaces in front of them.
 
 #include "capture/tracer/scene/scene.hpp"
+#include "compositor/viewer/residency/object_relighting.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
 
 namespace rs::compositor {
@@ -14,8 +15,11 @@ class ObjectPrimitive : public capture::RayPrimitive {
 public:
     /// Emits the colours of its images times `brightness`; pixels less than half opaque are empty.
     ObjectPrimitive(PlacedObject placed, float brightness);
-    /// Must not be called while rays are traced.
+    // The setters must not be called while rays are traced.
     void set_brightness(float brightness) { brightness_ = brightness; }
+    /// Relights the object: `gain` as by relighting_gain(); nullopt: its images as they are.
+    void set_gain(const std::optional<IrradianceHarmonics>& gain) { gain_ = gain; }
+    [[nodiscard]] const PlacedObject& placed() const { return placed_; }
     [[nodiscard]] Box bounds() const override { return box_; }
     [[nodiscard]] std::optional<Answer> answer(const glm::vec3& origin, const glm::vec3& direction) const override;
 
@@ -25,6 +29,8 @@ private:
     glm::dvec3 middle_{0};  // centre of the object's bounds, object radii
     double reach_ = 1;      // radius of the bounds about middle_
     float brightness_;
+    std::optional<IrradianceHarmonics> gain_;
+    NormalProxy proxy_;
     Box box_{};
 };
 

@@ -79,11 +79,11 @@ std::optional<Error> Refinement::failure() {
     return failure_;
 }
 
-void Refinement::publish(Image<Rgba8> image, const Camera& camera, int passes) {
-    auto shared = std::make_shared<const Image<Rgba8>>(std::move(image));
+void Refinement::publish(Step step) {
     std::unique_lock lock(mutex_);
     const bool outdated = requested_ || lighting_;
-    if (!stop_) newest_ = Step{std::move(shared), camera, outdated ? 0 : passes};
+    if (outdated) step.passes = 0;
+    if (!stop_) newest_ = std::move(step);
     if (outdated) stop_ = true;
     if (first_ != FirstImage::kPending) return;
     first_ = FirstImage::kReady;
@@ -113,8 +113,10 @@ void Refinement::work(const std::function<Result<TracedRenderer>()>& make) {
             }
             if (lighting) made->set_lights(*lighting->scene, lighting->exposure_ev);
             made->set_method(view.method);
-            refine(*made, view.camera, grid_, clock_, stop_,
-                   [&](Image<Rgba8> image, int passes) { publish(std::move(image), view.camera, passes); });
+            refine(*made, view.camera, grid_, clock_, stop_, [&](Image<Rgba8> image, int passes) {
+                publish({std::make_shared<const Image<Rgba8>>(std::move(image)), view.camera, passes,
+                         made->object_irradiance()});
+            });
         }
     } catch (const std::exception& thrown) {
         const std::lock_guard lock(mutex_);

@@ -45,7 +45,8 @@ public:
     struct Step {
         std::shared_ptr<const Image<Rgba8>> image;  // of the camera's size
         Camera camera;
-        int passes = 0;  // 0: coarse grid, or first image of a cancelled view
+        int passes = 0;                                        // 0: coarse grid, or first image of a cancelled view
+        std::shared_ptr<const LocalIrradiances> irradiance{};  // TracedRenderer::object_irradiance()
     };
     /// Newest image, or nullopt if there is none since the last call. After the first image of a view tracing pauses
     /// until the call after the one that returned it, so that the CPU is free to draw it.
@@ -55,7 +56,7 @@ public:
 
 private:
     void work(const std::function<Result<TracedRenderer>()>& make);
-    void publish(Image<Rgba8> image, const Camera& camera, int passes);
+    void publish(Step step);
     void drop_view();
 
     std::mutex mutex_;

@@ -6,6 +6,7 @@
 #include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/traced/object_primitive.hpp"
 #include "compositor/traced/tracer_scene.hpp"
+#include "rayspace/base/parallel.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,7 @@ namespace rs::compositor {
 namespace {
 
 constexpr int kToonShadowRays = 16;
+constexpr capture::LightProbeOptions kObjectProbe{.width = 16, .samples_per_pixel = 32, .max_bounces = 4};
 constexpr double kToonLine_px = 1;  // default width of a line from its edge, at the median distance
 
 glm::vec3 ambient_of(const Scene& scene) {
@@ -61,6 +63,7 @@ Result<TracedRenderer> TracedRenderer::create(const Scene& scene, const std::vec
     renderer.has_emission_ = has_emission;
     renderer.objects_ = std::move(rays);
     renderer.describe_lights(scene);
+    renderer.relight_objects();
     return renderer;
 }
 
@@ -84,12 +87,52 @@ void TracedRenderer::describe_lights(const Scene& scene) {
     render_.ambient = ambient_of(scene);
     render_.show_environment = scene.environment && scene.environment->seen;
     headlight_ = scene.navigation.headlight && scene.lights.empty() && !scene.environment && !has_emission_;
-    environment_ = scene.environment ? scene.environment->pixels : nullptr;
+    environment_ = scene.environment;
+}
+
+// Objects are dark to each other's irradiance, so that the result does not depend on their order.
+void TracedRenderer::relight_objects() {
+    irradiance_ = nullptr;
+    const bool physical = options_.relighting == Relighting::kTraced && render_.method != TracedMethod::kToon;
+    const bool relit = (physical || options_.relighting == Relighting::kOn) && !headlight_;
+    for (const auto& object : objects_) {
+        object->set_gain(relit ? std::optional(IrradianceHarmonics{}) : std::nullopt);
+    }
+    if (!relit) return;
+    tracer_.commit();
+    environment_harmonics_ = environment_irradiance_.of(environment_);
+    auto irradiance = std::make_shared<LocalIrradiances>(objects_.size());
+    for_each_index(static_cast<std::int64_t>(objects_.size()), 0, [&](std::int64_t index) {
+        const auto i = static_cast<std::size_t>(index);
+        const glm::dvec3 position = middle_of(objects_[i]->placed());
+        (*irradiance)[i] = {position, irradiance_at(position)};
+    });
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+        objects_[i]->set_gain(relighting_gain(objects_[i]->placed(), (*irradiance)[i].irradiance));
+    }
+    irradiance_ = std::move(irradiance);
+}
+
+IrradianceHarmonics TracedRenderer::irradiance_at(const glm::dvec3& position) const {
+    const bool by_paths = render_.method == TracedMethod::kPath || render_.method == TracedMethod::kRadiosity;
+    IrradianceHarmonics irradiance = by_paths ? capture::trace_irradiance(tracer_, position, kObjectProbe)
+                                              : capture::direct_irradiance(tracer_, position);
+    if (!by_paths) {
+        irradiance.add_ambient(render_.ambient);
+        if (environment_harmonics_) irradiance += *environment_harmonics_;
+    }
+    return irradiance *= static_cast<float>(std::exp2(options_.exposure_ev));
+}
+
+void TracedRenderer::set_method(TracedMethod method) {
+    if (method == render_.method) return;
+    render_.method = method;
+    relight_objects();
 }
 
 void TracedRenderer::set_lights(const Scene& scene, double exposure_ev) {
     const auto& pixels = scene.environment ? scene.environment->pixels : nullptr;
-    if (pixels != environment_) {
+    if (pixels != (environment_ ? environment_->pixels : nullptr)) {
         tracer_.set_environment(traced_environment(scene));
     } else if (pixels) {
         tracer_.set_environment(scene.environment->scale, scene.environment->turn_rad);
@@ -100,6 +143,7 @@ void TracedRenderer::set_lights(const Scene& scene, double exposure_ev) {
     render_.toon.brightness = darker;
     for (const auto& object : objects_) object->set_brightness(darker);
     describe_lights(scene);
+    relight_objects();
 }
 
 void TracedRenderer::begin(const Camera& camera) {

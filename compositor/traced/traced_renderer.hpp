@@ -8,8 +8,10 @@
 // passes are grouped.
 
 #include "capture/tracer/integrator/tracer.hpp"
+#include "compositor/scene/light/environment_irradiance.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/traced/tracer_scene.hpp"
+#include "compositor/viewer/residency/object_relighting.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -55,6 +57,7 @@ struct TracedOptions {
     bool panorama = false;  // images are faces of a panorama: the median is that of all directions
     capture::ToonStyle toon{};  // edge_radius, shadow_rays and brightness are ignored: they follow from the above
     std::optional<CameraLens> lens{};
+    Relighting relighting = Relighting::kOff;
 };
 
 /// Move-only; single-threaded, except `stop`.
@@ -71,13 +74,17 @@ public:
     bool move(std::uint32_t id, const glm::dmat4& moved, const std::optional<glm::dmat4>& at_close = {});
 
     /// Applies to images that begin afterwards.
-    void set_method(TracedMethod method) { render_.method = method; }
+    void set_method(TracedMethod method);
     [[nodiscard]] TracedMethod method() const { return render_.method; }
     /// Restricts images that begin afterwards to these pixels, which get the same bytes as in whole images.
     void set_part(const capture::PixelRectangle& part) { render_.part = part; }
     /// Copies lights, environment and headlight from `scene`, which must have the same geometry as the scene passed to
     /// create(), and sets the exposure. Results equal those of a renderer created from `scene`, bit for bit.
     void set_lights(const Scene& scene, double exposure_ev);
+    /// Irradiance at the objects for FrameCompositor::set_traced(); null if they are not relit, also in scenes that
+    /// only the headlight illuminates. Computed when lights or method change, not when nodes move: by paths for path
+    /// and radiosity, otherwise as whitted shades a surface. Light that objects reflect to each other is left out.
+    [[nodiscard]] std::shared_ptr<const LocalIrradiances> object_irradiance() const { return irradiance_; }
     /// Starts a new image.
     void begin_image(const Camera& camera);
     /// Adds one sample per pixel.
@@ -104,6 +111,8 @@ private:
     void begin(const Camera& camera);
     [[nodiscard]] double default_line_radius(const Camera& camera) const;
     void describe_lights(const Scene& scene);
+    void relight_objects();
+    [[nodiscard]] IrradianceHarmonics irradiance_at(const glm::dvec3& position) const;
     [[nodiscard]] capture::RenderOptions render_options(const Camera& camera) const;
     [[nodiscard]] Image<Rgba8> tone_map(Image<RgbaF> radiance) const;
 
@@ -114,7 +123,10 @@ private:
     std::vector<TracerScene::MovableNode> moving_;  // [tracer instance]
     bool has_emission_ = false;                     // some surface is emissive
     bool headlight_ = false;
-    std::shared_ptr<const Image<RgbaF>> environment_;        // source of the tracer's environment light
+    std::optional<EnvironmentLight> environment_;  // source of the tracer's environment light
+    EnvironmentIrradiance environment_irradiance_;
+    std::optional<IrradianceHarmonics> environment_harmonics_;
+    std::shared_ptr<const LocalIrradiances> irradiance_;     // at objects_, in their order
     std::vector<std::shared_ptr<ObjectPrimitive>> objects_;  // of the tracer's scene
     Camera camera_;
     capture::Accumulation sum_;

@@ -70,7 +70,7 @@ Result<bool> TracedView::refine(const Camera& camera, TracedMethod method, const
     if (!step || step->camera.width != camera.width || step->camera.height != camera.height) return draws_anew;
     passes_ = step->passes;
     image_camera_ = step->camera;
-    compositor.set_traced(step->image);
+    compositor.set_traced(step->image, step->irradiance);
     return true;
 }
 

@@ -65,6 +65,7 @@ OptionCases motion_cases() {
 OptionCases renderer_cases() {
     return {{"--renderer", "", kWhittedPass},
             {"--exposure", "", "--exposure 1"},
+            {"--relight", std::string(kWhittedPass) + " --lights IN/lights.json", "--relight off"},
             {"--soft-shadows", std::string(kWhittedPass) + " --lights IN/lights.json", "--soft-shadows"},
             {"--toon-style", kToonPass, "--toon-style IN/style.json"},
             {"--toon-lines", kToonPass, "--toon-lines 0.2"},

@@ -6,6 +6,7 @@
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/ray_space.hpp"
 #include "rayspace/image/image_metrics.hpp"
+#include "rayspace/light/irradiance_harmonics.hpp"
 #include "rayspace/object/yuv.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -66,6 +67,24 @@ TEST(Build, TheFootIsStoredWhereTheRigTellsIt) {
     };
     EXPECT_EQ(foot_of(folder / "set"), -(1 << 19));
     EXPECT_EQ(foot_of(folder / "silent"), std::nullopt);
+}
+
+TEST(Build, TheLightOfTheCaptureIsKeptWithTheRig) {
+    const test::TemporaryFolder folder;
+    Rig rig = test::drawn_ring(8, 20);
+    IrradianceHarmonics light;
+    light.add_direction({0, 1, 0}, {1, 2, 3});
+    rig.extras[kCaptureIrradianceKey] = irradiance_to_json(light);
+    test::write_drawn_set(folder / "set", rig);
+    const auto built = build_object(open_capture_set(folder / "set").value(), {});
+    ASSERT_TRUE(built.ok());
+    const Rig kept = rig_from_json(built->object.rig_json, "rig").value();
+    const auto found = irradiance_from_json(kept.extras.at(kCaptureIrradianceKey), "light");
+    ASSERT_TRUE(found.ok());
+    EXPECT_NEAR(found->at({0, 1, 0}).b, light.at({0, 1, 0}).b, 1e-6);
+    rig.extras[kCaptureIrradianceKey] = "bright";
+    test::write_drawn_set(folder / "wrong", rig);
+    EXPECT_NE(error_of_set(folder / "wrong").find("capture_irradiance: must be"), std::string::npos);
 }
 
 TEST(Build, TheRadiusComesFromTheSilhouettesWhereTheRigDoesNotSay) {

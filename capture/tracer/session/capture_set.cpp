@@ -1,12 +1,15 @@
 #include "capture/tracer/session/capture_set.hpp"
 
+#include "capture/tracer/integrator/light_probe.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace rs::capture {
 
@@ -30,7 +33,23 @@ bool touches_edge(ConstImageView<RgbaF> image) {
     return false;
 }
 
+// The scene's surroundings, visible to all rays.
+Scene without_object(const Scene& scene) {
+    Scene empty = scene;
+    const auto is_object = [&](const Mesh& mesh) { return !scene.surrounds(mesh.material); };
+    std::erase_if(empty.meshes, is_object);
+    for (Part& part : empty.parts) std::erase_if(part.meshes, is_object);
+    empty.scopes = {};  // refer to the erased meshes
+    empty.first_surrounding_material = std::numeric_limits<int>::max();
+    return empty;
+}
+
 }  // namespace
+
+Result<IrradianceHarmonics> capture_irradiance(const Scene& scene) {
+    RS_ASSIGN_OR_RETURN(const Tracer empty, Tracer::create(without_object(scene)));
+    return trace_irradiance(empty, {0, 0, 0}, {.width = 64, .samples_per_pixel = 16});
+}
 
 Result<CaptureSetSummary> write_capture_set(const Tracer& tracer, Rig rig, const CaptureSetOptions& options,
                                             const std::filesystem::path& folder, Progress* progress) {

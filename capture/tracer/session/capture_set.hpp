@@ -5,6 +5,7 @@
 #include "rayspace/base/progress.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/rig.hpp"
+#include "rayspace/light/irradiance_harmonics.hpp"
 
 #include <cstddef>
 #include <cstdio>
@@ -34,6 +35,9 @@ struct CaptureSetSummary {
     double mean_coverage = 0;  // share of the pixels covered by the object, over all views
     int clipped_views = 0;     // views in which the object touches the image's edge
 };
+
+/// Irradiance at the origin without the object: a light probe of the scene's lights, environment and surroundings.
+Result<IrradianceHarmonics> capture_irradiance(const Scene& scene);
 
 /// Renders and writes all views of `rig`; file names are 000.png, 001.png, ... (or .exr). The folder is created
 /// atomically; an existing one is replaced as StagedFolder states (file_output.hpp).

@@ -4,7 +4,7 @@
 
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/vertex_array.hpp"
-#include "compositor/scene/light/irradiance_harmonics.hpp"
+#include "compositor/scene/light/environment_irradiance.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/surface_kind.hpp"
 #include "compositor/viewer/drawing/surface_tables.hpp"

@@ -85,7 +85,8 @@ FrameCompositor::FrameCompositor(Parts parts, const std::optional<Fog>& fog, con
       fog_(fog),
       wire_frame_(options.wire_frame),
       time_parts_(options.time_parts),
-      samples_(options.samples) {}
+      samples_(options.samples),
+      relighting_(options.relighting) {}
 
 Status FrameCompositor::set_lights(const Scene& scene, double exposure_ev) {
     const Scene lit_scene = raster_scene(scene, exposure_ev);
@@ -119,9 +120,17 @@ FrameContext FrameCompositor::context_of(const Camera& camera) {
             .weather = weather_,
             .weather_s = weather_seconds_,
             .fog = fog_,
+            .irradiance = [this](const PlacedObject& placed) { return irradiance_at(placed); },
             .visible_nodes = {},
             .transparent_surfaces = {},
             .blended = {}};
+}
+
+std::optional<IrradianceHarmonics> FrameCompositor::irradiance_at(const PlacedObject& placed) {
+    if (!traced_ && relighting_ == Relighting::kOn) return geometry_.irradiance_at(middle_of(placed));
+    if (!traced_ || !traced_irradiance_) return std::nullopt;
+    const IrradianceHarmonics* const nearest = nearest_irradiance(*traced_irradiance_, placed);
+    return nearest == nullptr ? std::nullopt : std::optional(*nearest);
 }
 
 Status FrameCompositor::draw(const Camera& camera, bool needs_depths) {

@@ -22,6 +22,7 @@
 #include "compositor/viewer/drawing/passes/frame_context.hpp"
 #include "compositor/viewer/drawing/passes/geometry_passes.hpp"
 #include "compositor/viewer/drawing/passes/object_passes.hpp"
+#include "compositor/viewer/residency/object_relighting.hpp"
 #include "compositor/viewer/residency/placed_object.hpp"
 #include "compositor/viewer/views/object_view.hpp"
 #include "engine/driver/render_session.hpp"
@@ -41,8 +42,10 @@ struct FrameOptions {
     int samples = 4;          // per pixel, for the edges of geometry
     bool wire_frame = false;  // geometry except for the floor
     bool shadows = false;     // cast by geometry and objects onto geometry and floor (shadow_plan.hpp)
-    // Scales lights and the environment by 2^exposure_ev, but not objects, other backgrounds and unlit surfaces.
+    // Scales lights and the environment by 2^exposure_ev, but not objects that are not relit, other backgrounds and
+    // unlit surfaces.
     double exposure_ev = 0;
+    Relighting relighting = Relighting::kOff;  // kOn: also of rasterized frames (LitGeometry::irradiance_at)
     ObjectDepth object_depth = ObjectDepth::kPlane;
     int object_samples = kDefaultSamplesAcross;        // ObjectViewOptions::max_samples_across
     std::shared_ptr<const ObjectCartoon> object_cartoon = {};  // look of objects; null: that of their photos
@@ -102,7 +105,12 @@ public:
     /// Replaces the colours of background and opaque geometry by `image`, of the frame's size; nullptr: they are drawn
     /// again. The background is visible where alpha is below 1. Depths of the geometry are drawn only if something that
     /// is blended, or a query, needs them, and are reused while the view stays the same unless objects write depth.
-    void set_traced(std::shared_ptr<const Image<Rgba8>> image) { traced_ = std::move(image); }
+    /// \param irradiance at the objects, which relights them (TracedRenderer::object_irradiance); null: not relit
+    void set_traced(std::shared_ptr<const Image<Rgba8>> image,
+                    std::shared_ptr<const LocalIrradiances> irradiance = nullptr) {
+        traced_ = std::move(image);
+        traced_irradiance_ = std::move(irradiance);
+    }
 
     /// Statistics of the last draw() or compose().
     [[nodiscard]] const FrameStatistics& statistics() const { return statistics_; }
@@ -159,6 +167,8 @@ private:
     FrameCompositor(Parts parts, const std::optional<Fog>& fog, const FrameOptions& options);
 
     [[nodiscard]] FrameContext context_of(const Camera& camera);
+    // At an object that is relit.
+    [[nodiscard]] std::optional<IrradianceHarmonics> irradiance_at(const PlacedObject& placed);
     Status draw(const Camera& camera, bool needs_depths);
     // Draws the last frame again if it has no depths.
     Status ensure_depths();
@@ -175,7 +185,9 @@ private:
     bool wire_frame_;
     bool time_parts_;
     int samples_;
+    Relighting relighting_;
     std::shared_ptr<const Image<Rgba8>> traced_;
+    std::shared_ptr<const LocalIrradiances> traced_irradiance_;
     std::optional<Weather> weather_;
     double weather_seconds_ = 0;
     std::optional<Camera> camera_;  // of the last frame

@@ -1,5 +1,7 @@
 #include "compositor/viewer/drawing/lit_geometry.hpp"
 
+#include "compositor/viewer/residency/object_relighting.hpp"
+
 #include <utility>
 
 namespace rs::compositor {
@@ -77,6 +79,13 @@ Status LitGeometry::move(std::size_t node, const std::optional<glm::dmat4>& worl
     RS_TRY(surfaces_.move(node, world_from_node));
     if (shadows_) shadows_->invalidate(surfaces_.caster_bounds(node));
     return {};
+}
+
+std::optional<IrradianceHarmonics> LitGeometry::irradiance_at(const glm::dvec3& position) {
+    if (scene_.lights.empty() && !scene_.environment && scene_.navigation.headlight) return std::nullopt;
+    IrradianceHarmonics irradiance = irradiance_of(scene_.lights, position);
+    if (const auto environment = irradiance_.of(scene_.environment)) irradiance += *environment;
+    return irradiance;
 }
 
 int LitGeometry::draw_shadows(const std::vector<std::optional<PlacedObject>>& objects) {

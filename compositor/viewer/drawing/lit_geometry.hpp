@@ -2,7 +2,7 @@
 // Scene geometry and floor with their lighting and shadow maps. Keeps the maps and the surface tables consistent when
 // lights change or nodes move.
 
-#include "compositor/scene/light/irradiance_harmonics.hpp"
+#include "compositor/scene/light/environment_irradiance.hpp"
 #include "compositor/scene/scene.hpp"
 #include "compositor/viewer/drawing/displayed_nodes.hpp"
 #include "compositor/viewer/drawing/floor_renderer.hpp"
@@ -38,6 +38,9 @@ public:
     int draw_shadows(const std::vector<std::optional<PlacedObject>>& objects);
 
     [[nodiscard]] const std::optional<EnvironmentLight>& environment() const { return scene_.environment; }
+    /// Irradiance at a position, without shadows and lights with a scope; nullopt if only the headlight shines.
+    std::optional<IrradianceHarmonics> irradiance_at(const glm::dvec3& position);
+
     [[nodiscard]] SurfaceRenderer& surfaces() { return surfaces_; }
     [[nodiscard]] const SurfaceRenderer& surfaces() const { return surfaces_; }
     [[nodiscard]] const FloorRenderer* floor() const { return floor_ ? &*floor_ : nullptr; }

@@ -92,6 +92,20 @@ void ObjectRenderer::upload(std::size_t node, const ObjectView& view, ConstImage
     ensure_size(textures.depths[textures.filled_last], width, height, gl::TexelKind::kFloat).upload(depths);
 }
 
+ObjectRenderer::Relight ObjectRenderer::relight_of(const PlacedObject& placed, const Camera& camera,
+                                                   const IrradianceHarmonics& scene) {
+    const NormalProxy proxy = normal_proxy(*placed.object);
+    const Similarity object_from_world = placed.world_from_object.inverse();
+    const auto ray = [&](double x, double y) {
+        return glm::vec3(object_from_world.direction(camera.ray(x, y)) / proxy.half_axes);
+    };
+    const glm::vec3 origin = ray(0, 0);
+    return {.gain = relighting_gain(placed, scene),
+            .eye = glm::vec3((object_from_world.point(camera.centre()) - proxy.centre) / proxy.half_axes),
+            .ray_from_screen = glm::mat3(ray(1, 0) - origin, ray(0, 1) - origin, origin),
+            .normal_from_point = glm::vec3(1.0 / proxy.half_axes)};
+}
+
 const gl::Program& ObjectRenderer::set_up(const std::vector<gl::Program>& programs, const ObjectView& view,
                                           const Appearance& appearance) const {
     const gl::Program& program = programs[view.smooth ? 0 : static_cast<std::size_t>(view.samples_across)];
@@ -102,6 +116,13 @@ const gl::Program& ObjectRenderer::set_up(const std::vector<gl::Program>& progra
     program.set("from_above", view.from_above ? 1 : 0);
     program.set("fog", glm::vec4(appearance.fog, appearance.own_light));
     program.set("opacity", appearance.opacity);
+    program.set("relit", appearance.relight ? 1 : 0);
+    if (appearance.relight) {
+        program.set("gain", appearance.relight->gain.factors);
+        program.set("eye", appearance.relight->eye);
+        program.set("ray_from_screen", appearance.relight->ray_from_screen);
+        program.set("normal_from_point", appearance.relight->normal_from_point);
+    }
     if (depth_ == ObjectDepth::kPixel) {
         program.set("near_of_depths", static_cast<float>(kNear / view.units_per_rig_unit));
     }

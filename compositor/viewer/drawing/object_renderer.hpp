@@ -8,6 +8,7 @@
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/texture.hpp"
 #include "compositor/gl/vertex_array.hpp"
+#include "compositor/viewer/residency/object_relighting.hpp"
 #include "compositor/viewer/views/object_view.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
@@ -40,11 +41,21 @@ public:
     void upload(std::size_t node, const ObjectView& view, ConstImageView<Rgba8> image,
                 ConstImageView<float> depths = {});
 
+    /// Gain by the normals of an ellipsoid (object_relighting.hpp), in the space in which it is the unit sphere.
+    struct Relight {
+        IrradianceHarmonics gain;        // by the normal in the object's axes
+        glm::vec3 eye{0};                // viewpoint
+        glm::mat3 ray_from_screen{1};    // direction through position (x, y, 1) of the whole screen
+        glm::vec3 normal_from_point{1};  // factors that make a point of the sphere a normal of the ellipsoid
+    };
+    static Relight relight_of(const PlacedObject& placed, const Camera& camera, const IrradianceHarmonics& scene);
+
     struct Appearance {
         glm::ivec2 screen_px{0};  // frame size
         glm::vec3 fog{0};         // fog colour, linear light
         float own_light = 1;      // fraction of the object's light that passes the fog, 0 .. 1
         float opacity = 1;        // 0 .. 1, multiplies the image's alpha
+        std::optional<Relight> relight{};
     };
     /// Draws the last uploaded image of the node.
     void draw(std::size_t node, const ObjectView& view, const Appearance& appearance) const;

@@ -96,7 +96,22 @@ uniform float near_of_depths;  // value in the depth buffer = near_of_depths / d
 uniform vec2 alphas;  // draws pixels with alpha in [x, y)
 uniform vec4 fog;  // colour; w: transmittance
 uniform float opacity;  // multiplies the image's alpha
+uniform int relit;
+uniform vec4 gain[9];  // by the normal of an ellipsoid, which is the unit sphere in the space of the ray
+uniform vec3 eye;
+uniform mat3 ray_from_screen;
+uniform vec3 normal_from_point;
 out vec4 result;
+vec3 relighting() {
+    vec3 along = normalize(ray_from_screen * vec3(gl_FragCoord.xy, 1.0));
+    vec3 point = eye - dot(eye, along) * along;
+    point -= sqrt(max(1.0 - dot(point, point), 0.0)) * along;
+    vec3 n = normalize(point * normal_from_point);
+    vec4 sum = gain[0] + gain[1] * n.y + gain[2] * n.x + gain[3] * n.z + gain[4] * (3.0 * n.y * n.y - 1.0) +
+               gain[5] * (n.x * n.y) + gain[6] * (n.y * n.z) + gain[7] * (n.x * n.z) +
+               gain[8] * (n.z * n.z - n.x * n.x);
+    return max(sum.rgb, 0.0);
+}
 vec4 sum = vec4(0.0);      // premultiplied
 float nearness = 0.0;  // 1 / depth, weighted like sum.a
 void add(ivec2 at, float weight, float depth_of_picture) {
@@ -138,7 +153,9 @@ void main() {
     float foot = dot(foot_depth, place);
     gl_FragDepth = clamp(from_above != 0 ? max(depth, foot) : min(depth, foot), 0.0, 1.0);
     alpha *= opacity;
-    result = vec4(mix(fog.rgb, sum.rgb / covered, fog.w) * alpha, alpha);
+    vec3 colour = sum.rgb / covered;
+    if (relit != 0) colour *= relighting();
+    result = vec4(mix(fog.rgb, colour, fog.w) * alpha, alpha);
 })";
 
 }  // namespace rs::compositor::shaders

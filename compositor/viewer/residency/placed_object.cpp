@@ -1,6 +1,7 @@
 #include "compositor/viewer/residency/placed_object.hpp"
 
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/json_text.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/format/object_file.hpp"
 
@@ -163,6 +164,16 @@ double foot_of(const RaySpaceObject& object, double foot) {
     return foot;
 }
 
+Result<std::optional<IrradianceHarmonics>> capture_irradiance_of(const RaySpaceObject& object) {
+    std::optional<IrradianceHarmonics> irradiance;
+    if (object.rig_json.find(kCaptureIrradianceKey) == std::string::npos) return irradiance;
+    RS_ASSIGN_OR_RETURN(const nlohmann::json rig, parse_json(object.rig_json, object.name + " (its rig)"));
+    const auto key = rig.find(kCaptureIrradianceKey);
+    if (key == rig.end()) return irradiance;
+    RS_ASSIGN_OR_RETURN(irradiance, irradiance_from_json(*key, object.name + " (its rig): " + kCaptureIrradianceKey));
+    return irradiance;
+}
+
 }  // namespace
 
 BoundingCylinder bounding_cylinder(const RaySpaceObject& object) {
@@ -219,8 +230,11 @@ std::int64_t ViewableObject::memory_bytes() const {
 Result<ViewableObject> make_viewable(RaySpaceObject object) {
     const BoundingCylinder bounds = bounding_cylinder(object);
     const UprightExtent extent = estimated_extent(object);
+    RS_ASSIGN_OR_RETURN(const std::optional<IrradianceHarmonics> irradiance, capture_irradiance_of(object));
     RS_ASSIGN_OR_RETURN(engine::Renderer renderer, engine::Renderer::create(std::move(object)));
-    return ViewableObject{std::move(renderer), bounds, extent};
+    ViewableObject viewable{std::move(renderer), bounds, extent};
+    viewable.capture_irradiance = irradiance;
+    return viewable;
 }
 
 PlacedObject place(std::shared_ptr<const ViewableObject> object, const RaySpaceNode& node) {

@@ -4,10 +4,12 @@
 #include "compositor/scene/scene.hpp"
 #include "engine/core/fast/renderer.hpp"
 #include "rayspace/base/result.hpp"
+#include "rayspace/light/irradiance_harmonics.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace rs::compositor {
@@ -44,6 +46,7 @@ struct ViewableObject {
     UprightExtent extent;
     std::shared_ptr<const RaySpaceObject> for_board = nullptr;  // see engine::PreparedObject
     std::string not_on_board = {};                              // likewise
+    std::optional<IrradianceHarmonics> capture_irradiance{};    // kCaptureIrradianceKey, if known
 
     [[nodiscard]] std::int64_t memory_bytes() const;
 };

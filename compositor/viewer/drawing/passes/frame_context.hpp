@@ -79,6 +79,8 @@ struct FrameContext {
     std::optional<Weather> weather;
     double weather_s = 0;  // since the beginning of the sequence
     std::optional<Fog> fog;
+    // Irradiance at an object, nullopt if it is not relit; empty: none is.
+    std::function<std::optional<IrradianceHarmonics>(const PlacedObject&)> irradiance;
 
     // Set by the passes.
     std::vector<VisibleNode> visible_nodes;                          // ObjectRequestPass

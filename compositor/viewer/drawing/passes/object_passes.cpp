@@ -3,6 +3,7 @@
 #include "compositor/gl/draw.hpp"
 #include "engine/core/definition/view_registers.hpp"
 
+#include <optional>
 #include <utility>
 
 namespace rs::compositor {
@@ -88,11 +89,19 @@ void ObjectPass::upload(const VisibleNode& node, const engine::DrawnView& render
 }
 
 void ObjectPass::draw(const VisibleNode& node, const FrameContext& frame) const {
+    std::optional<ObjectRenderer::Relight> relight;
+    if (frame.irradiance) {
+        const PlacedObject placed = frame.nodes.turned(node.index);
+        if (const auto scene = frame.irradiance(placed)) {
+            relight = ObjectRenderer::relight_of(placed, frame.view.camera, *scene);
+        }
+    }
     objects_.draw(node.index, node.view,
                   {.screen_px = {frame.target.drawn.width(), frame.target.drawn.height()},
                    .fog = frame.fog ? frame.fog->colour : glm::vec3(0),
                    .own_light = frame.fog ? fog_transmittance(*frame.fog, node.view.plane_distance) : 1.0F,
-                   .opacity = frame.nodes[node.index].opacity});
+                   .opacity = frame.nodes[node.index].opacity,
+                   .relight = relight});
 }
 
 void ObjectPass::add_placeholders(FrameContext& frame) const {

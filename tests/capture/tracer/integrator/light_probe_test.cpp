@@ -48,6 +48,28 @@ TEST(LightProbe, HoldsEveryLightWithItsIrradiance) {
     EXPECT_EQ(measured(point_light({0, -60, 0}, glm::vec3(8)), {0, -1, 0}), 0);
 }
 
+// Against the projection of a fine map with the same lights.
+TEST(LightProbe, IrradianceIsThatOfTheMap) {
+    Scene scene =
+        scene_of(make_quad({-4, -1, 4}, {8, 0, 0}, {0, 0, -8}), material_of(SurfaceKind::diffuse, {0.8F, 0.2F, 0.1F}));
+    scene.lights = {rectangle_light({-1, 2, -1}, {2, 0, 0}, {0, 0, 2}, glm::vec3(2)),
+                    point_light({3, 1, 0}, glm::vec3(4)), directional_light({0, -0.6, -0.8}, glm::vec3(1)),
+                    point_light({0, -3, 0}, glm::vec3(90))};  // the last one below the floor
+    scene.environment.pixels = Image<RgbaF>(4, 2, RgbaF{0.2F, 0.3F, 0.4F, 1});
+    auto tracer = Tracer::create(std::move(scene));
+    ASSERT_TRUE(tracer);
+    Image<RgbaF> map = light_probe(*tracer, {0, 0, 0}, {.width = 128, .samples_per_pixel = 16});
+    for (RgbaF& p : map.pixels()) p = {p.r * p.a, p.g * p.a, p.b * p.a, 1};
+    const IrradianceHarmonics expected = project_irradiance(map);
+    const IrradianceHarmonics found = trace_irradiance(*tracer, {0, 0, 0}, {.width = 16, .samples_per_pixel = 32});
+    for (const glm::vec3& n : {glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::vec3(1, 0, 0), glm::vec3(0, 0, 1)}) {
+        for (int channel = 0; channel < 3; ++channel) {
+            EXPECT_NEAR(found.at(n)[channel], expected.at(n)[channel], 0.04F * expected.at(n)[channel] + 0.01F);
+        }
+    }
+    EXPECT_LT(direct_irradiance(*tracer, {0, 0, 0}).at({0, -1, 0}).r, 0.15F);  // no floor, no sky
+}
+
 // A room of 4 x 3 x 4 m with coloured walls and two lamps; a ball of 0.2 m in its centre, traced in the
 // room and lit by the light probe at its position.
 TEST(LightProbe, LightsAnObjectAsTheRoomDoes) {

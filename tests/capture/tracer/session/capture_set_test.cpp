@@ -49,6 +49,24 @@ CaptureSetOptions options_of(ImageFormat format, bool depth) {
     return options;
 }
 
+// The ball encloses the origin; the floor belongs to the surroundings.
+TEST(CaptureSet, IrradianceIsThatWithoutTheObject) {
+    Scene scene = scene_of(make_sphere(4), material_of(SurfaceKind::diffuse, glm::vec3(0.5F)));
+    scene.environment = constant_environment(1.0F);
+    const auto open = capture_irradiance(scene);
+    ASSERT_TRUE(open);
+    EXPECT_NEAR(open->at({0, -1, 0}).g, 1, 1e-3F);
+    scene.first_surrounding_material = static_cast<int>(scene.materials.size());
+    Mesh floor = make_quad({-9, -1, 9}, {18, 0, 0}, {0, 0, -18});
+    floor.material = scene.first_surrounding_material;
+    scene.meshes.push_back(std::move(floor));
+    scene.materials.push_back(material_of(SurfaceKind::diffuse, glm::vec3(0)));
+    const auto on_floor = capture_irradiance(scene);
+    ASSERT_TRUE(on_floor);
+    EXPECT_LT(on_floor->at({0, -1, 0}).g, 0.2F);
+    EXPECT_GT(on_floor->at({0, 1, 0}).g, 0.9F);
+}
+
 TEST(CaptureSet, WritesImagesDepthAndRig) {
     const rs::test::TemporaryFolder folder;
     const Result<Tracer> tracer = ball();

@@ -1,7 +1,7 @@
 // Environments in raster images against the traced look-up and the projection. Skipped without OpenGL.
 
 #include "capture/tracer/light/environment_map.hpp"
-#include "compositor/scene/light/irradiance_harmonics.hpp"
+#include "compositor/scene/light/environment_irradiance.hpp"
 #include "rayspace/image/linear_light.hpp"
 #include "tests/compositor/viewer/drawing/compositing.hpp"
 

@@ -1,4 +1,4 @@
-#include "compositor/scene/light/irradiance_harmonics.hpp"
+#include "compositor/scene/light/environment_irradiance.hpp"
 
 #include "capture/tracer/light/environment_map.hpp"
 #include "rayspace/base/conventions.hpp"
