@@ -79,9 +79,11 @@ Status LitGeometry::move(std::size_t node, const std::optional<glm::dmat4>& worl
     return {};
 }
 
-int LitGeometry::draw_shadows(const std::vector<std::optional<PlacedObject>>& objects) {
-    const int drawn = shadows_->update(objects, [&](const ShadowPass& pass) { surfaces_.draw_casters(pass); });
+int LitGeometry::draw_shadows(const glm::dvec3& eye, const std::vector<std::optional<PlacedObject>>& objects) {
+    const int drawn = shadows_->update(eye, objects, [&](const ShadowPass& pass) { surfaces_.draw_casters(pass); });
     shadows_->bind();
+    surfaces_.set_cascades(shadows_->plan().cascade_rows());
+    if (floor_) floor_->set_cascades(shadows_->plan().cascade_rows());
     return drawn;
 }
 
