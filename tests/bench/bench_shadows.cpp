@@ -5,17 +5,26 @@
 //
 // "cpu" is the CPU time per frame, summed over all threads: divided by the number of cores, a lower bound of the frame
 // time on an idle machine. "first" is the frame that draws the maps.
+//
+//     bench_shadows street.obj --agreement --lights lights.json --eye=-19,1.9,6 --at=5,2,-2
+//
+// Share of pixels in which raster and traced (Whitted) shadows of the brightest directional light agree. Geometry
+// alone, matte, without other light; pixels within 1.5 pixels of an edge of the traced shadow or of a lit surface are
+// skipped.
 
 #include "compositor/gl/context.hpp"
 #include "compositor/scene/light/lights_file.hpp"
+#include "compositor/scene/light/scene_lights.hpp"
 #include "compositor/scene/reader/scene_file.hpp"
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "compositor/viewer/showroom.hpp"
 #include "compositor/viewer/views/framing.hpp"
+#include "rayspace/base/conventions.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/output/view_output.hpp"
 #include "rayspace/tool/tool_main.hpp"
 #include "tests/bench/stopwatch.hpp"
+#include "tests/compositor/viewer/shadows/shadow_scene.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -24,6 +33,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -38,6 +48,10 @@ struct Options {
     int frames = 40;
     int samples = 1;
     std::string size = "1280x720";
+    bool agreement = false;
+    std::vector<double> eye;
+    std::vector<double> at;
+    double fov_deg = 65;
 };
 
 struct Times {
@@ -87,6 +101,86 @@ Status run_at(const compositor::Scene& scene, compositor::Showroom& showroom, co
     return {};
 }
 
+// The directional lights with shadows; of those without scope only the brightest. No node has two.
+std::vector<std::uint32_t> key_lights(const compositor::Scene& scene) {
+    const std::vector<bool> casts = compositor::lights_with_shadows(scene);
+    std::vector<std::uint32_t> keys;
+    std::optional<std::uint32_t> brightest;
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
+        if (light.kind != LightKind::kDirectional || !casts[i]) continue;
+        if (!light.everywhere) {
+            keys.push_back(i);
+        } else if (!brightest || luminance(light.colour) > luminance(scene.lights[*brightest].colour)) {
+            brightest = i;
+        }
+    }
+    if (brightest) keys.push_back(*brightest);
+    return keys;
+}
+
+compositor::Material matte(const compositor::Material& material) {
+    compositor::Material matte;
+    matte.diffuse = glm::vec3(0.9F);
+    matte.ambient = 0;
+    if (material.texture && compositor::alpha_use(*material.texture) == compositor::AlphaUse::kMask) {
+        matte.texture = material.texture;
+        matte.texture_transform = material.texture_transform;
+    }
+    return matte;
+}
+
+// The scene's opaque geometry, matte, under this light alone.
+compositor::Scene scene_of_light(const compositor::Scene& scene, std::uint32_t light) {
+    compositor::Scene reduced;
+    reduced.navigation = scene.navigation;
+    reduced.navigation.headlight = false;
+    reduced.lights = {directional_light(scene.lights[light].towards, glm::vec3(2))};
+    reduced.lights[0].everywhere = scene.lights[light].everywhere;
+    for (compositor::GeometryNode node : scene.geometry) {
+        if (!compositor::casts_shadows(node)) continue;
+        const bool lit = std::ranges::find(node.lights, light) != node.lights.end();
+        node.lights = lit ? std::vector<std::uint32_t>{0} : std::vector<std::uint32_t>{};
+        node.material = matte(node.material);
+        reduced.geometry.push_back(std::move(node));
+    }
+    return reduced;
+}
+
+Status compare_at(const compositor::Scene& scene, const compositor::Viewpoint& viewpoint, PixelSize size) {
+    test::ShadowAgreement all;
+    for (const std::uint32_t light : key_lights(scene)) {
+        const test::ShadowAgreement found =
+            test::shadow_agreement(scene_of_light(scene, light), {}, camera_at(viewpoint, size.width, size.height));
+        all.compared += found.compared;
+        all.alike += found.alike;
+        all.shaded += found.shaded;
+    }
+    if (all.compared == 0) return Error{viewpoint.description + ": no directional light reaches a surface in view"};
+    std::printf("%-12s %8.2f %% of %d pixels agree, %.1f %% of them in shadow\n", viewpoint.description.c_str(),
+                100 * all.share(), all.compared, 100.0 * all.shaded / all.compared);
+    return {};
+}
+
+// Those selected by options.
+std::vector<compositor::Viewpoint> selected_viewpoints(const compositor::Scene& scene, PixelSize size,
+                                                       const Options& options) {
+    std::vector<compositor::Viewpoint> selected;
+    for (const compositor::Viewpoint& viewpoint : scene.viewpoints) {
+        if (std::ranges::find(options.viewpoints, viewpoint.description) != options.viewpoints.end() ||
+            (options.viewpoints.empty() && options.eye.empty())) {
+            selected.push_back(viewpoint);
+        }
+    }
+    if (options.eye.empty()) return selected;
+    const glm::dvec3 eye(options.eye[0], options.eye[1], options.eye[2]);
+    const glm::dvec3 at(options.at[0], options.at[1], options.at[2]);
+    selected.push_back(
+        compositor::viewpoint_of(look_at_camera(eye, at, radians(options.fov_deg), size.width, size.height)));
+    selected.back().description = "eye";
+    return selected;
+}
+
 Status run(const Options& options) {
     RS_ASSIGN_OR_RETURN(const PixelSize size, parse_size(options.size));
     RS_ASSIGN_OR_RETURN(auto scene, compositor::read_scene(options.scene));
@@ -99,15 +193,17 @@ Status run(const Options& options) {
         scene.lights.insert(scene.lights.end(), list.lights.begin(), list.lights.end());
     }
     RS_ASSIGN_OR_RETURN(auto context, gl::Context::create_surfaceless());
+    const std::vector<compositor::Viewpoint> viewpoints = selected_viewpoints(scene, size, options);
+    if (options.agreement) {
+        for (const compositor::Viewpoint& viewpoint : viewpoints) RS_TRY(compare_at(scene, viewpoint, size));
+        return {};
+    }
     compositor::Showroom showroom(scene, {.waits = true});
     RS_TRY(showroom.wait_for_all({0, 0, 0}));
     std::printf("%s, %s, %d samples a pixel, medians of %d frames in ms\n", context.device_name().c_str(),
                 options.size.c_str(), options.samples, options.frames);
     std::printf("viewpoint         off       on  off cpu   on cpu  ratio  on at best     first\n");
-    for (const compositor::Viewpoint& viewpoint : scene.viewpoints) {
-        const bool selected = options.viewpoints.empty() ||
-                              std::ranges::find(options.viewpoints, viewpoint.description) != options.viewpoints.end();
-        if (!selected) continue;
+    for (const compositor::Viewpoint& viewpoint : viewpoints) {
         RS_TRY(run_at(scene, showroom, viewpoint, size, options));
     }
     return {};
@@ -127,6 +223,15 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(1, 10000));
     app.add_option("--samples", options.samples, "samples per pixel")->capture_default_str()->check(CLI::Range(1, 16));
     app.add_option("--size", options.size, "frame size, WxH")->capture_default_str();
+    app.add_flag("--agreement", options.agreement, "share of pixels that agree with traced shadows, in place of times");
+    auto* eye =
+        app.add_option("--eye", options.eye, "X,Y,Z: a viewpoint besides the scene's")->delimiter(',')->expected(3);
+    auto* at = app.add_option("--at", options.at, "X,Y,Z: point that it looks at")->delimiter(',')->expected(3);
+    eye->needs(at);
+    at->needs(eye);
+    app.add_option("--fov", options.fov_deg, "its horizontal field of view, degrees")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 150));
     app.footer("Example:\n  bench_shadows showroom.wrl --viewpoint shop --viewpoint museum");
     std::function<rs::Status()> run = [&] { return rs::bench::run(options); };
     return rs::tool_main(app, argc, argv, run);

@@ -102,6 +102,7 @@ void FloorRenderer::draw(const FrameView& view) const {
     set("material", std::span(&material_.diffuse_opacity, kMaterialRows));
     if (!lights_.empty()) set("lights", std::span(&lights_.front().colour, 5 * lights_.size()));
     if (!shadows_.empty()) set("shadows", std::span(&shadows_.front().u, 4 * shadows_.size()));
+    if (!cascades_.empty()) set("cascades", std::span(cascades_));
     if (environment_) set("environment", std::span(environment_->factors));
     gl::draw(program, square_, {});
 }

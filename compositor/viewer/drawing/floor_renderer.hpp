@@ -15,6 +15,7 @@
 #include <glm/glm.hpp>
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace rs::compositor {
@@ -31,6 +32,8 @@ public:
     /// ignored.
     Status set_lights(const Scene& scene, const ShadowPlan& shadows,
                       const std::optional<IrradianceHarmonics>& environment);
+    /// Sets ShadowPlan::cascade_rows() for the next draws.
+    void set_cascades(std::vector<glm::vec4> rows) { cascades_ = std::move(rows); }
     void draw(const FrameView& view) const;
 
 private:
@@ -42,6 +45,7 @@ private:
     MaterialRow material_;
     std::vector<LightRow> lights_;
     std::vector<ShadowRow> shadows_;
+    std::vector<glm::vec4> cascades_;
     std::optional<IrradianceHarmonics> environment_;
     glm::vec3 background_{0};  // colour at the rim
     gl::VertexArray square_;

@@ -88,9 +88,11 @@ std::optional<IrradianceHarmonics> LitGeometry::irradiance_at(const glm::dvec3& 
     return irradiance;
 }
 
-int LitGeometry::draw_shadows(const std::vector<std::optional<PlacedObject>>& objects) {
-    const int drawn = shadows_->update(objects, [&](const ShadowPass& pass) { surfaces_.draw_casters(pass); });
+int LitGeometry::draw_shadows(const glm::dvec3& eye, const std::vector<std::optional<PlacedObject>>& objects) {
+    const int drawn = shadows_->update(eye, objects, [&](const ShadowPass& pass) { surfaces_.draw_casters(pass); });
     shadows_->bind();
+    surfaces_.set_cascades(shadows_->plan().cascade_rows());
+    if (floor_) floor_->set_cascades(shadows_->plan().cascade_rows());
     return drawn;
 }
 

@@ -33,9 +33,9 @@ public:
     Status move(std::size_t node, const std::optional<glm::dmat4>& world_from_node);
 
     /// Updates the shadow maps and binds them; call it before drawing lit surfaces. Requires shadows().
-    /// \param objects see ShadowMaps::update().
+    /// \param eye, objects see ShadowMaps::update().
     /// \return number of redrawn maps.
-    int draw_shadows(const std::vector<std::optional<PlacedObject>>& objects);
+    int draw_shadows(const glm::dvec3& eye, const std::vector<std::optional<PlacedObject>>& objects);
 
     [[nodiscard]] const std::optional<EnvironmentLight>& environment() const { return scene_.environment; }
     /// Irradiance at a position, without shadows and lights with a scope; nullopt if only the headlight shines.

@@ -33,6 +33,7 @@ void add_lights(const Scene& scene, const ShadowPlan& shadows, const std::vector
                 break;
             case ShadowShape::kParallel:
                 ++kind.shadowed_directional;
+                kind.cascades |= shadows.has_cascades(i);
                 break;
             case ShadowShape::kCone:
                 ++kind.narrow_spots;
@@ -76,6 +77,8 @@ std::string constants_of(const SurfaceKind& kind) {
            shaders::shader_constant("kNarrowSpots", kind.narrow_spots) +
            shaders::shader_constant("kWideSpots", kind.wide_spots) +
            shaders::shader_constant("kShadows", kind.counted && shadows > 0 ? kMaxCountedLights : shadows) +
+           shaders::shader_constant("kCascades", kind.cascades ? kCascades : 0) +
+           shaders::shader_constant("kMaxCascadedLights", kMaxCascadedLights) +
            "const float kNear = " + std::to_string(kNear) + ";\n" + shaders::shader_constant("kFading", kind.fading) +
            shaders::shader_constant("kHeadlight", kind.headlight) +
            shaders::shader_constant("kEnvironment", kind.environment) + shaders::shader_constant("kLit", kind.lit) +

@@ -29,7 +29,8 @@ struct SurfaceKind {
     int shadowed_points = 0;
     int narrow_spots = 0;  // spots with one map; spots with a cube map follow
     int wide_spots = 0;
-    bool fading = false;  // some lights attenuate with distance
+    bool cascades = false;  // of a directional light
+    bool fading = false;    // some lights attenuate with distance
     bool headlight = false;
     bool environment = false;  // irradiance of Scene::environment
     bool lit = false;

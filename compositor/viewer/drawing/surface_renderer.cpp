@@ -124,6 +124,7 @@ void SurfaceRenderer::count_lights(SurfaceKind& kind, Item& item) const {
     kind.shadowed_points = shadowed ? available_lights_.shadowed_points : 0;
     kind.narrow_spots = shadowed ? available_lights_.narrow_spots : 0;
     kind.wide_spots = shadowed ? available_lights_.wide_spots : 0;
+    kind.cascades = shadowed && available_lights_.cascades;
     kind.fading = kind.counted = true;
 }
 
@@ -274,6 +275,7 @@ void SurfaceRenderer::set_frame(const FrameView& view) const {
         if (environment_ && program->has_uniform("environment")) {
             program->set("environment", std::span(environment_->factors));
         }
+        if (!cascades_.empty() && program->has_uniform("cascades")) program->set("cascades", std::span(cascades_));
         if (!fog) continue;
         if (program->has_uniform("fog")) program->set("fog", fog->colour);
         if (program->has_uniform("fog_visibility")) program->set("fog_visibility", static_cast<float>(fog->visibility));

@@ -20,6 +20,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace rs::compositor {
@@ -78,6 +79,9 @@ public:
     /// Number of meshes and images uploaded since create().
     [[nodiscard]] int uploads() const { return uploads_; }
 
+    /// Sets ShadowPlan::cascade_rows() for the next draws.
+    void set_cascades(std::vector<glm::vec4> rows) { cascades_ = std::move(rows); }
+
     /// Draws the shadow casters into the current map: opaque surfaces with their alpha masks, culled as in the image.
     void draw_casters(const ShadowPass& pass) const;
 
@@ -135,7 +139,8 @@ private:
     std::vector<Item> items_;
     std::vector<std::optional<std::size_t>> item_of_node_;
     SurfaceKind available_lights_;  // scene-wide: 1 if the scene has such lights, else 0
-    glm::vec3 ambient_light_{0};    // sum over directional lights without scope
+    std::vector<glm::vec4> cascades_;
+    glm::vec3 ambient_light_{0};  // sum over directional lights without scope
     int uploads_ = 0;
     int nodes_in_view_ = 0;
 };

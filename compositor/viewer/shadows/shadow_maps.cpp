@@ -107,6 +107,7 @@ Result<ShadowMaps> ShadowMaps::create(ShadowPlan plan) {
         RS_ASSIGN_OR_RETURN(auto made, gl::DepthArray::create(side, layers));
         array->emplace(std::move(made));
     }
+    maps.valid_.resize(planned.faces.size());
     maps.static_cached_.resize(planned.faces.size());
     return maps;
 }
@@ -120,9 +121,10 @@ ShadowMaps::CasterState ShadowMaps::caster_state(const std::optional<PlacedObjec
     return state;
 }
 
-int ShadowMaps::update(const std::vector<std::optional<PlacedObject>>& objects, const DrawGeometry& draw_geometry) {
+// Previous and current boxes of the casters that have changed since the last call.
+std::vector<BoundingBox> ShadowMaps::take_changed_boxes(const std::vector<std::optional<PlacedObject>>& objects) {
     objects_.resize(objects.size());
-    std::vector<BoundingBox> changed = std::exchange(invalid_boxes_, {});  // previous and current caster boxes
+    std::vector<BoundingBox> changed = std::exchange(invalid_boxes_, {});
     for (std::size_t i = 0; i < objects.size(); ++i) {
         const bool same = objects[i] ? objects_[i].there && objects_[i].object.lock() == objects[i]->object &&
                                            objects_[i].world_from_object == objects[i]->world_from_object.matrix()
@@ -133,37 +135,47 @@ int ShadowMaps::update(const std::vector<std::optional<PlacedObject>>& objects, 
         if (now.there) changed.push_back(now.box);
         objects_[i] = std::move(now);
     }
+    return changed;
+}
+
+int ShadowMaps::update(const glm::dvec3& eye, const std::vector<std::optional<PlacedObject>>& objects,
+                       const DrawGeometry& draw_geometry) {
+    for (const std::size_t face : plan_.centre_cascades(eye)) valid_[face] = static_cached_[face] = false;
+    const std::vector<BoundingBox> changed = take_changed_boxes(objects);
     int count = 0;
-    for (std::size_t i = 0; i < plan_.faces.size(); ++i) {
-        const ShadowFace& face = plan_.faces[i];
-        if (!drawn_) {
-            redraw_map(face, draw_geometry);
-            ++count;
-            continue;
-        }
-        std::vector<gl::TexelArea> areas;
-        for (const BoundingBox& box : changed) {
-            if (affects_map(box, face)) add_area(area_of(box, face, side_of(face)), areas);
-        }
-        if (areas.empty()) continue;
-        if (cache_static_geometry(i, draw_geometry)) {
-            draw_areas(face, areas, draw_geometry);
-        } else {
-            redraw_map(face, draw_geometry);
-        }
-        ++count;
-    }
-    drawn_ = true;
+    for (std::size_t i = 0; i < plan_.faces.size(); ++i) count += update_map(i, changed, draw_geometry) ? 1 : 0;
     return count;
+}
+
+// Returns true if the map was outdated.
+bool ShadowMaps::update_map(std::size_t index, const std::vector<BoundingBox>& changed,
+                            const DrawGeometry& draw_geometry) {
+    const ShadowFace& face = plan_.faces[index];
+    const int side = side_of(face);
+    std::vector<gl::TexelArea> areas;
+    if (!valid_[index]) areas.push_back({0, 0, side, side});
+    for (const BoundingBox& box : changed) {
+        if (affects_map(box, face)) add_area(area_of(box, face, side), areas);
+    }
+    if (areas.empty()) return false;
+    // Scenes in which nothing has ever changed need no cache.
+    const bool caches = valid_[index] || maps_of(face).static_geometry;
+    if (caches && cache_static_geometry(index, draw_geometry)) {
+        draw_areas(face, areas, draw_geometry);
+    } else {
+        redraw_map(face, draw_geometry);
+    }
+    valid_[index] = true;
+    return true;
 }
 
 void ShadowMaps::invalidate(const BoundingBox& box) {
     constexpr std::size_t kMaxInvalidBoxes = 4096;  // maps may stay outdated for long, e.g. under traced images
-    if (!drawn_ || box.empty()) return;
+    if (box.empty()) return;
     invalid_boxes_.push_back(box);
     if (invalid_boxes_.size() < kMaxInvalidBoxes) return;
     invalid_boxes_.clear();
-    drawn_ = false;
+    valid_.assign(valid_.size(), false);
 }
 
 void ShadowMaps::draw_objects(const ShadowPass& pass) const {

@@ -40,11 +40,13 @@ public:
     [[nodiscard]] const ShadowPlan& plan() const { return plan_; }
 
     /// Redraws outdated maps; call it before drawing what reads them, and begin() the framebuffer again afterwards.
+    /// \param eye viewpoint of the frame, in whose surroundings cascades are.
     /// \param objects [node of the scene] current shadow casters; nullopt for none. The shell of a new object is built
     /// here, in about 10 ms.
     /// \param draw_geometry draws the casters of a pass into the current framebuffer, depth only.
     /// \return number of redrawn maps.
-    int update(const std::vector<std::optional<PlacedObject>>& objects, const DrawGeometry& draw_geometry);
+    int update(const glm::dvec3& eye, const std::vector<std::optional<PlacedObject>>& objects,
+               const DrawGeometry& draw_geometry);
     /// Reuses the object shells of another instance.
     void reuse_shells(const ShadowMaps& from) { objects_ = from.objects_; }
     /// Marks a box (scene coordinates) in which movable geometry appeared, moved or vanished; the next update() redraws
@@ -77,6 +79,8 @@ private:
     [[nodiscard]] Maps& maps_of(const ShadowFace& face) { return face.of_cube ? cubes_ : planes_; }
     [[nodiscard]] const Maps& maps_of(const ShadowFace& face) const { return face.of_cube ? cubes_ : planes_; }
     void draw_objects(const ShadowPass& pass) const;
+    std::vector<BoundingBox> take_changed_boxes(const std::vector<std::optional<PlacedObject>>& objects);
+    bool update_map(std::size_t face, const std::vector<BoundingBox>& changed, const DrawGeometry& draw_geometry);
     void redraw_map(const ShadowFace& face, const DrawGeometry& draw_geometry) const;
     bool cache_static_geometry(std::size_t face, const DrawGeometry& draw_geometry);
     void draw_areas(const ShadowFace& face, const std::vector<gl::TexelArea>& areas,
@@ -86,10 +90,10 @@ private:
     gl::Program program_;
     Maps planes_;
     Maps cubes_;
+    std::vector<bool> valid_;          // [face of the plan] false: the next update() draws the whole map
     std::vector<bool> static_cached_;  // [face of the plan]
     std::vector<CasterState> objects_;
     std::vector<BoundingBox> invalid_boxes_;  // since the last update
-    bool drawn_ = false;                      // false: the next update() draws all maps
 };
 
 }  // namespace rs::compositor

@@ -74,8 +74,14 @@ public:
         for (const std::uint32_t i : cubes) plan_.cube_layers += faces_of_cube(scene_.lights[i]);
         plan_.plane_side = side_for(plan_.plane_layers, kMaxPlaneSide);
         plan_.cube_side = side_for(plan_.cube_layers, kMaxCubeSide);
+        const std::vector<std::uint32_t> cascaded = lights_with_cascades(planes);
+        plan_.plane_layers += kCascades * static_cast<int>(cascaded.size());
+        plan_.plane_side = side_for(plan_.plane_layers, kMaxPlaneSide);
         int layer = 0;
-        for (const std::uint32_t i : planes) add_plane(i, layer++);
+        for (const std::uint32_t i : planes) {
+            add_plane(i, layer++);
+            if (std::ranges::find(cascaded, i) != cascaded.end()) layer = add_cascades(i, layer);
+        }
         layer = 0;
         for (const std::uint32_t i : cubes) layer = add_cube(i, layer);
         return std::move(plan_);
@@ -98,6 +104,54 @@ private:
         return found;
     }
 
+    // Of these lights, sorted by brightness, those whose single map is too coarse.
+    [[nodiscard]] std::vector<std::uint32_t> lights_with_cascades(const std::vector<std::uint32_t>& planes) const {
+        std::vector<std::uint32_t> cascaded;
+        for (const std::uint32_t i : planes) {
+            if (cascaded.size() == kMaxCascadedLights) break;
+            if (shape_of_light(scene_.lights[i]) != ShadowShape::kParallel) continue;
+            const double half_width = std::max(half_size(i).x, half_size(i).y);
+            if (2 * half_width / plan_.plane_side > kMaxTexel_rad * eye_height(half_width)) cascaded.push_back(i);
+        }
+        return cascaded;
+    }
+
+    // Positive also for scenes that have none.
+    [[nodiscard]] double eye_height(double half_width) const {
+        return std::max(scene_.navigation.avatar.y, 1e-4 * half_width);
+    }
+
+    // Nodes whose shadows the light casts.
+    [[nodiscard]] BoundingBox casters_of(std::uint32_t light) const {
+        const BoundingBox scope = scope_of(light);
+        return scope.empty() ? casters_ : scope;
+    }
+
+    // Half the extents of the casters along the axes of a directional light.
+    [[nodiscard]] glm::dvec3 half_size(std::uint32_t light) const {
+        const glm::dmat3 axes = axes_along(-scene_.lights[light].towards);
+        const BoundingBox box = casters_of(light).moved(glm::dmat4(glm::transpose(axes)));
+        return glm::max(0.5 * (box.highest - box.lowest), glm::dvec3(1e-6));
+    }
+
+    // The plan's last face is the light's map of all casters. Returns the next free layer.
+    int add_cascades(std::uint32_t index, int layer) {
+        const ShadowFace whole = plan_.faces.back();
+        const glm::dvec3 half = half_size(index);
+        const double widest = std::max(half.x, half.y);
+        const double eye = eye_height(widest);
+        plan_.of_light[index].layer_texel.z = static_cast<float>(plan_.cascades.size());
+        plan_.of_light[index].layer_texel.w = kCascades;
+        for (int i = 0; i < kCascades; ++i) {
+            const double reach = eye * std::pow(widest / eye, (i + 1.0) / (kCascades + 1));
+            const double half_width = reach * kCascadeSteps / (kCascadeSteps - 1);  // from half a step off the centre
+            plan_.cascades.push_back({plan_.faces.size(), whole.clip_from_world, glm::dvec2(half) / half_width});
+            plan_.faces.push_back(whole);
+            plan_.faces.back().layer = layer++;
+        }
+        return layer;
+    }
+
     void add_plane(std::uint32_t index, int layer) {
         const Light& light = scene_.lights[index];
         LightShadow& shadow = plan_.of_light[index];
@@ -112,7 +166,7 @@ private:
             face.clip_from_world = seen_from(light.location, axes[0], axes[1], light.towards, half_width);
             texel = 2 * half_width / plan_.plane_side;
         } else {
-            face.clip_from_world = parallel(axes, face.scope.empty() ? casters_ : face.scope, margin, texel);
+            face.clip_from_world = parallel(axes, casters_of(index), margin, texel);
         }
         set_rows(face.clip_from_world, cone ? 3 : 2, shadow);
         shadow.layer_texel = {layer, texel, 0, 0};
@@ -210,7 +264,38 @@ BoundingBox bounds_of_casters(const Scene& scene) {
 
 ShadowPlan plan_shadows(const Scene& scene, const BoundingBox& casters) {
     if (casters.empty()) return {};
-    return Planner(scene, casters).plan();
+    ShadowPlan plan = Planner(scene, casters).plan();
+    plan.centre_cascades(casters.middle());
+    return plan;
+}
+
+std::vector<std::size_t> ShadowPlan::centre_cascades(const glm::dvec3& eye) {
+    std::vector<std::size_t> moved;
+    for (ShadowCascade& cascade : cascades) {
+        const glm::dvec2 step = 2.0 / (static_cast<double>(kCascadeSteps) * cascade.scale);
+        const glm::dvec2 step_at = glm::round(glm::dvec2(cascade.clip_from_world * glm::dvec4(eye, 1)) / step);
+        glm::dmat4 cascade_from_clip(1.0);
+        cascade_from_clip[0][0] = cascade.scale.x;
+        cascade_from_clip[1][1] = cascade.scale.y;
+        cascade_from_clip[3] = glm::dvec4(-cascade.scale * step * step_at, 0, 1);
+        const glm::dmat4 clip_from_world = cascade_from_clip * cascade.clip_from_world;
+        if (clip_from_world == faces[cascade.face].clip_from_world) continue;
+        faces[cascade.face].clip_from_world = clip_from_world;
+        cascade.step_at = step_at;
+        moved.push_back(cascade.face);
+    }
+    return moved;
+}
+
+std::vector<glm::vec4> ShadowPlan::cascade_rows() const {
+    std::vector<glm::vec4> rows;
+    for (const ShadowCascade& cascade : cascades) {
+        // In the cascade, clip = scale * clip of all casters - 2 / kCascadeSteps * step_at; v = 0.5 - 0.5 * clip y.
+        const glm::dvec2 shift = cascade.step_at / static_cast<double>(kCascadeSteps);
+        const glm::dvec2 offset = 0.5 - 0.5 * cascade.scale + glm::dvec2(-shift.x, shift.y);
+        rows.emplace_back(glm::vec2(offset), glm::vec2(cascade.scale));
+    }
+    return rows;
 }
 
 }  // namespace rs::compositor

@@ -5,7 +5,10 @@
 // texels, a kernel two texels wide. (Four such taps are smoother, but cost a third of a frame per light in software
 // rendering.) The position is offset along the surface normal by the amount that the surface may rise towards the light
 // within the kernel: kernel size in texels times the sine of the angle between the surface and the map. This avoids
-// self-shadowing at any angle and keeps contact shadows.
+// self-shadowing at any angle, as a slope-scaled depth bias does, and keeps contact shadows.
+//
+// Of the cascades of a directional light the nearest one that contains the position is looked up (map-based selection).
+// Cascades are not blended: a second look-up costs more than the step in sharpness disturbs.
 
 namespace rs::compositor::shaders {
 
@@ -31,11 +34,13 @@ void main() {
     if (texture(surface_picture, place_on_texture).a < 0.5) discard;
 })";
 
-// Preceded by the constant kShadows: number of lights with rows, four rows each (LightShadow).
+// Preceded by the constants kShadows: number of lights with rows, four rows each (LightShadow); kCascades: cascades per
+// light that has some, 0 without such lights; kMaxCascadedLights.
 inline constexpr const char* kShadowLookUp = R"(
 layout(binding = 2) uniform sampler2DArrayShadow plane_maps;
 layout(binding = 3) uniform sampler2DArrayShadow cube_maps;
 uniform vec4 shadows[4 * max(kShadows, 1)];
+uniform vec4 cascades[max(kCascades * kMaxCascadedLights, 1)];  // ShadowPlan::cascade_rows()
 const float kReach = 1.42;  // kernel radius in texels: 1 along both axes
 const float kLeast = 0.2;  // texels; covers the rounding of the maps
 
@@ -43,13 +48,28 @@ float off_surface(float along) {
     return kLeast + kReach * sqrt(max(1.0 - along * along, 0.0));
 }
 
-// Visibility by an orthographic map.
+// Visibility by an orthographic map, or by the nearest cascade.
 float parallel_shadow(int first, vec3 place, vec3 n, vec3 towards) {
-    vec4 at = shadows[first + 3];  // layer, texel
-    vec4 p = vec4(place + n * (at.y * off_surface(dot(n, towards))), 1.0);
+    vec4 at = shadows[first + 3];  // layer, texel, first row of cascades, their number
+    vec4 fit = vec4(0.0, 0.0, 1.0, 1.0);
+    float layer = at.x;
+    if (kCascades > 0) {
+        const float kInside = 0.49;  // leaves room for the offset and the kernel
+        vec2 middle = vec2(dot(shadows[first], vec4(place, 1.0)), dot(shadows[first + 1], vec4(place, 1.0)));
+        for (int i = kCascades - 1; i >= 0; --i) {
+            vec4 row = cascades[int(at.z) + i];
+            vec2 off = abs(row.xy + row.zw * middle - 0.5);
+            bool inside = at.w > 0.0 && max(off.x, off.y) < kInside;
+            fit = inside ? row : fit;
+            layer = inside ? at.x + float(i + 1) : layer;
+        }
+    }
+    float texel = kCascades > 0 ? at.y / max(fit.z, fit.w) : at.y;
+    vec4 p = vec4(place + n * (texel * off_surface(dot(n, towards))), 1.0);
     vec2 uv = vec2(dot(shadows[first], p), dot(shadows[first + 1], p));
+    if (kCascades > 0) uv = fit.xy + fit.zw * uv;
     float depth = clamp(dot(shadows[first + 2], p), 0.0, 1.0);
-    return texture(plane_maps, vec4(uv, at.x, depth));
+    return texture(plane_maps, vec4(uv, layer, depth));
 }
 )"
                                              R"(

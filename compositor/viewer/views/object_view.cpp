@@ -4,6 +4,8 @@
 #include "engine/core/definition/view_registers.hpp"
 #include "rayspace/base/conventions.hpp"
 
+#include <glm/gtc/matrix_transform.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -26,6 +28,36 @@ double captured_pixels_per_pixel(const RaySpaceObject& object, const Camera& cam
     const CapturedView& captured = object.views.front();
     const double radius_px = std::ldexp(captured.fl_y_q16, -16) / std::ldexp(captured.lines.front().l0_q20, -20);
     return radius_px / (camera.fl_x / distance);
+}
+
+// Elevation above and below the object up to which it is rendered: that of the highest ring, but at least this.
+constexpr double kLeastSteepest_rad = kPi / 3;
+
+double steepest_elevation(const RaySpaceObject& object) {
+    double steepest = kLeastSteepest_rad;
+    for (const Ring& ring : object.rings) steepest = std::max(steepest, std::abs(radians(ring.elevation_udeg * 1e-6)));
+    return steepest;
+}
+
+// The camera, turned about the object's middle to the nearest elevation at which the object is rendered. In the image,
+// the middle stays in its place.
+Camera at_rendered_elevation(const Camera& camera, const ViewableObject& object) {
+    const glm::dvec3 middle(0, 0.5 * (object.bounds.bottom + object.bounds.top), 0);
+    const glm::dvec3 v = camera.centre() - middle;
+    const double level = std::hypot(v.x, v.z);
+    const double elevation = std::atan2(v.y, level);
+    const double steepest = steepest_elevation(object.renderer.object());
+    if (std::abs(elevation) <= steepest) return camera;
+    // Horizontal direction to the viewer; on the object's axis, that of the lower edge of the image.
+    glm::dvec3 out(v.x, 0, v.z);
+    if (level < 1e-6) out = std::copysign(1.0, -v.y) * glm::dvec3(camera.up().x, 0, camera.up().z);
+    out = glm::length(out) > 0 ? glm::normalize(out) : glm::dvec3(0, 0, 1);
+    const glm::dvec3 axis(out.z, 0, -out.x);  // turns Y to `out`
+    const glm::dmat4 to_middle = glm::translate(glm::dmat4(1.0), middle);
+    const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), elevation - std::copysign(steepest, elevation), axis);
+    Camera turned = camera;
+    turned.world_from_camera = to_middle * turn * glm::inverse(to_middle) * camera.world_from_camera;
+    return turned;
 }
 
 struct ObjectImage {
@@ -68,11 +100,12 @@ std::optional<glm::ivec2> ObjectView::image_pixel(int x, int y) const {
 
 std::optional<ObjectView> view_of_object(const PlacedObject& placed, const Camera& camera_in_world,
                                          const ObjectViewOptions& options) {
-    const Camera camera = camera_in_node(camera_in_world, placed.world_from_object);
+    const Camera camera =
+        at_rendered_elevation(camera_in_node(camera_in_world, placed.world_from_object), *placed.object);
     const glm::dvec3 eye = camera.centre();
     if (camera.fl_x < 0.5 * glm::length(eye)) return std::nullopt;
     const double distance = std::hypot(eye.x, eye.z);
-    if (distance < 1e-6) return std::nullopt;
+    if (distance < 1e-6) return std::nullopt;  // inside of the object
     const BoundingCylinder& bounds = placed.object->bounds;
     const auto rectangle = covering_rectangle(bounds, camera);
     if (!rectangle) return std::nullopt;

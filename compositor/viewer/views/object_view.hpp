@@ -8,6 +8,9 @@
 // if it ascends). Otherwise the near rim of a foot would sink into the floor. The reciprocal depth of a plane is linear
 // in screen coordinates, and is what the depth buffer stores.
 //
+// Captures have no views from straight above or below. Steeper than 60 degrees, and than the highest ring, an object is
+// rendered as from this elevation, turned about its middle: it stays visible, like its shadow, but seems to lean.
+//
 // Engines take one captured pixel per rendered pixel. If captured pixels are smaller than screen pixels, a larger image
 // is rendered and averaged, which avoids aliasing. Two samples across give most of the gain (bench_truth) for up to
 // four times the pixels.
@@ -52,8 +55,8 @@ struct ObjectViewOptions {
     bool upright = false;                            // renders images of upright cameras where possible
 };
 
-/// \return nullopt if the object is off screen, smaller than half a pixel, viewed from its own axis, or so far off axis
-/// in a very wide image that engines cannot render it (engine::prepare_view).
+/// \return nullopt if the object is off screen, smaller than half a pixel, viewed from its own middle, or so far off
+/// axis in a very wide image that engines cannot render it (engine::prepare_view).
 std::optional<ObjectView> view_of_object(const PlacedObject& placed, const Camera& camera_in_world,
                                          const ObjectViewOptions& options = {});
 

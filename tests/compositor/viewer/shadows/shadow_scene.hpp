@@ -6,8 +6,6 @@
 #include "compositor/viewer/drawing/frame_compositor.hpp"
 #include "rayspace/image/linear_light.hpp"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <memory>
 #include <utility>

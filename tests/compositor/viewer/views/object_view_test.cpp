@@ -104,6 +104,34 @@ TEST(ObjectView, BelowItsFootItsDepthIsThatOfTheGroundAndOnTheObjectsSideOfIt) {
     EXPECT_GT(glm::dot(from_below->inverse_depth_foot, upper), 0.98 / depth_from_below);
 }
 
+// There are no views from above: the nearest elevation is shown, in the same place and continuously.
+TEST(ObjectView, FromStraightAboveItIsThatOfTheSteepestElevation) {
+    const PlacedObject placed = test::placed_at(test::drum(), {{1, 0.5, -2}, {0, 1, 0}, 0.4, 2});
+    const glm::dvec3 middle =
+        placed.world_from_object.point({0, 0.5 * (placed.object->bounds.bottom + placed.object->bounds.top), 0});
+    const auto view_at = [&](double elevation_deg) {
+        const double e = radians(elevation_deg);
+        const glm::dvec3 out(0.6 * std::cos(e), std::sin(e), 0.8 * std::cos(e));
+        return view_of_object(placed, look_at_camera(middle + 9.0 * out, middle, radians(50), 320, 240));
+    };
+    for (const double sign : {1.0, -1.0}) {
+        const auto steepest = view_at(sign * 60);
+        ASSERT_TRUE(steepest);
+        for (const double elevation_deg : {60.001, 75.0, 89.0}) {
+            const auto view = view_at(sign * elevation_deg);
+            ASSERT_TRUE(view) << elevation_deg;
+            EXPECT_EQ(view->rectangle, steepest->rectangle) << elevation_deg;
+            EXPECT_LT(glm::distance(view->camera.centre(), steepest->camera.centre()), 1e-6) << elevation_deg;
+            EXPECT_NEAR(view->plane_distance, steepest->plane_distance, 1e-6) << elevation_deg;
+        }
+        EXPECT_NE(view_at(sign * 59)->camera.centre(), steepest->camera.centre());
+        const auto on_axis =
+            view_of_object(placed, look_at_camera(middle + glm::dvec3(0, 9 * sign, 0), middle, radians(50), 320, 240));
+        ASSERT_TRUE(on_axis);
+        EXPECT_NEAR(on_axis->plane_distance, steepest->plane_distance, 1e-6);
+    }
+}
+
 TEST(ObjectView, NothingBehindTheCameraBesideTheScreenOrTooSmall) {
     const PlacedObject placed = test::placed_at(test::drum());
     EXPECT_FALSE(view_of_object(placed, look_at_camera({0, 0, 5}, {0, 0, 9}, radians(50), 320, 240)));
