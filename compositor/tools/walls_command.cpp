@@ -42,13 +42,14 @@ Status show_walls(const WallsOptions& options, const WallViews& views, LoadedSce
         }
         return head;
     };
+    RS_ASSIGN_OR_RETURN(FrameOptions frame, frame_options(options.drawing, options.renderer, {}, true));
     WallVisitOptions visit{.display = views.display,
                            .heads = views.heads,
                            .place = views.places.front(),
                            .stereo = views.stereo,
+                           .frame = std::move(frame),
                            .traced = options.renderer.method().has_value(),
                            .warn = print_warnings};
-    RS_ASSIGN_OR_RETURN(visit.frame, frame_options(options.drawing, options.renderer, {}, true));
     RS_ASSIGN_OR_RETURN(visit.tracing, traced_options(options.renderer));
     if (views.tracker) visit.tracked = tracked;
     RS_ASSIGN_OR_RETURN(visit.sharing,

@@ -9,12 +9,12 @@
 namespace rs {
 namespace {
 
-constexpr std::string_view kBlanks = " \t";
+constexpr std::string_view kObjBlanks = " \t";
 constexpr std::array kKinds = {"vertex", "texture coordinate", "normal"};
 
 std::string_view take_word(std::string_view& line) {
-    line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
-    const std::string_view word = line.substr(0, line.find_first_of(kBlanks));
+    line.remove_prefix(std::min(line.find_first_not_of(kObjBlanks), line.size()));
+    const std::string_view word = line.substr(0, line.find_first_of(kObjBlanks));
     line.remove_prefix(word.size());
     return word;
 }

@@ -45,7 +45,7 @@ protected:
         options.sequence = sequence_;
         options.viewpoints = {viewpoint_of(camera_of(*sequence_, 0, 160, 120))};
         options.images = work_.path();
-        options.samples = 1;
+        options.frame.samples = 1;
         options.sharing = peers;
         auto window = Window::create({.title = "test", .width = 160, .height = 120, .vertical_sync = false});
         ASSERT_TRUE(window.ok()) << window.error().message;
@@ -172,7 +172,7 @@ protected:
         options.display.walls = {{"front", {-1.5, 0, -1.5}, {1.5, 0, -1.5}, {-1.5, 3, -1.5}, 120, 90}};
         options.display.head.position = {0, 1.5, 0};
         options.heads = {options.display.head};
-        options.samples = 1;
+        options.frame.samples = 1;
         options.window.vertical_sync = false;
         options.sharing = peers;
         options.warn = [this](const std::vector<std::string>& news) {
