@@ -1,0 +1,35 @@
+#pragma once
+// Set-ups of the pixels of a view, as the shader reads them (reconstruction_shader.hpp): sections 2, 3 and 5 of
+// engine/RECONSTRUCTION.md, computed on the CPU by the code of the definition. One set-up serves a column of an upright
+// view; other views have one per pixel.
+//
+// A set-up is kSetupTexels texels of four numbers, one below the other:
+//
+//     texel  kPlane                                   kNoShape, kShape
+//     0      kind | ..., row_0 q16, step q16, lambda  kind | ..., lambda_foot, inv_r, inv_rho
+//     1      layer, column, first row, end of rows    lambda0, lambda1, layer of the first, of the second photo
+//     2                                               columns of cells (0, 0), (0, 1), (1, 0), (1, 1)
+//     3, 4                                            of the first photo: L0, L1, Q0, Q1; cx, cy, fl_y, height
+//     5, 6                                            of the second photo
+//
+// The first number is kind | weight << 2 | p_part << 11 | line_part << 14 | foot_d << 17.
+
+#include "engine/core/definition/view_registers.hpp"
+#include "rayspace/object/ray_space_object.hpp"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace rs::compositor {
+
+using SetupTexel = std::array<std::int32_t, 4>;
+
+/// Computes the set-ups of view rows first_row .. first_row + rows - 1, on the threads of the calling tbb arena. For an
+/// upright view, one row serves all.
+/// \param registers  valid for `object`
+/// \return           [(row * kSetupTexels + texel) * registers.width + column]
+std::vector<SetupTexel> set_up_rows(const RaySpaceObject& object, const engine::ViewRegisters& registers, int first_row,
+                                    int rows);
+
+}  // namespace rs::compositor
