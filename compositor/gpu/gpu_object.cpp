@@ -101,7 +101,9 @@ Status check_texture_limits(const RaySpaceObject& object, const gl::TextureLimit
 
 GpuObject::GpuObject(RaySpaceObject object, IntegerTexture photos, IntegerTexture details,
                      std::vector<IntegerTexture> cells)
-    : object_(std::move(object)), photos_(std::move(photos)), details_(std::move(details)), cells_(std::move(cells)) {}
+    : object_(std::move(object)), photos_(std::move(photos)), details_(std::move(details)), cells_(std::move(cells)) {
+    for (const Ring& ring : object_.rings) bounds_.push_back(column_bounds(ring.shape));
+}
 
 Result<GpuObject> GpuObject::create(RaySpaceObject object) {
     RS_TRY(engine::substitute_missing_images(object));

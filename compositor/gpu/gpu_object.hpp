@@ -6,10 +6,12 @@
 // pair n holds bands n - 1 and n, of which those outside of the map are empty, and the last pair is empty.
 
 #include "compositor/gl/integer_texture.hpp"
+#include "compositor/gpu/view_setup.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace rs::compositor {
@@ -30,6 +32,10 @@ public:
 
     /// The object without its photos.
     [[nodiscard]] const RaySpaceObject& object() const { return object_; }
+    /// column_bounds() of a ring's shape map.
+    [[nodiscard]] std::span<const ColumnBounds> bounds(int ring) const {
+        return bounds_[static_cast<std::size_t>(ring)];
+    }
     /// Binds the textures of a ring to the units of reconstruction_shader.hpp.
     void bind(int ring) const;
 
@@ -40,7 +46,8 @@ private:
     RaySpaceObject object_;
     gl::IntegerTexture photos_;
     gl::IntegerTexture details_;
-    std::vector<gl::IntegerTexture> cells_;  // [ring]; empty pairs for rings without cells
+    std::vector<std::vector<ColumnBounds>> bounds_;  // [ring]
+    std::vector<gl::IntegerTexture> cells_;          // [ring]; empty pairs for rings without cells
 };
 
 }  // namespace rs::compositor

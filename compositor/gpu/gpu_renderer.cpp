@@ -96,7 +96,8 @@ Result<engine::ExecutedView> GpuRenderer::render(const GpuObject& object, const 
     for (int first = 0; first < registers.height; first += draw_rows) {
         const int rows = std::min(draw_rows, registers.height - first);
         const int setup_rows = upright ? 1 : rows;
-        const std::vector<SetupTexel> setups = set_up_rows(object.object(), registers, first, setup_rows);
+        const std::vector<SetupTexel> setups =
+            set_up_rows(object.object(), registers, object.bounds(registers.ring), first, setup_rows);
         setups_->upload(registers.width, setup_rows * kSetupTexels, setups.data());
         program_.set("setup_rows", glm::ivec2(first, upright ? 0 : kSetupTexels));
         target_->begin_rows(registers.width, first, rows);

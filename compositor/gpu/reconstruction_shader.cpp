@@ -106,7 +106,7 @@ struct Surfaces {
 
 // Cells around the ray, of two lines each, and its position between them.
 struct Columns {
-    ivec4 start;  // of column(0, 0), column(0, 1), column(1, 0), column(1, 1): their pair above the first band
+    ivec3 start;  // pair of bands -1 and 0 of column(0, 0) and column(0, 1); pairs from column(0, n) to column(1, n)
     int p_part;
     int line_part;
 };
@@ -160,8 +160,8 @@ Surfaces surfaces_at(Columns columns, int band_q12) {
     int entry = band < -1 || band >= bands ? bands + 1 : band + 1;
     ivec4 a = cell_pair(columns.start.x, entry);
     ivec4 b = cell_pair(columns.start.y, entry);
-    ivec4 c = cell_pair(columns.start.z, entry);
-    ivec4 d = cell_pair(columns.start.w, entry);
+    ivec4 c = cell_pair(columns.start.x + columns.start.z, entry);
+    ivec4 d = cell_pair(columns.start.y + columns.start.z, entry);
     ivec2 c00 = between_lines(a.xy, b.xy, columns.line_part);
     ivec2 c01 = between_lines(a.zw, b.zw, columns.line_part);
     ivec2 c10 = between_lines(c.xy, d.xy, columns.line_part);
@@ -224,6 +224,34 @@ Ray follow_ray(int rise, int lambda_foot, int inverse_r, int inverse_rho) {
     ray.size = divide(256, steps);
     ray.marches = steps > 1;
     return ray;
+}
+)glsl";
+
+// Section 6, "The march": its steps. Only steps from `begin` to `end` can meet a surface of the cells around the ray;
+// all others are skipped.
+constexpr const char* kMarch = R"glsl(
+// The steps that begin at multiples of ray.size, begin <= . < end.
+struct March {
+    int begin;
+    int end;
+};
+
+// depths: nearest, deepest of the cells; their bands: first, last.
+March march_steps(Ray ray, ivec2 depths, ivec2 cell_bands) {
+    if (!ray.marches || cell_bands.x > cell_bands.y) return March(256, 256);
+    // A surface is met where depth <= 8 * (begin + size), and deepest(v) + thickness >= begin.
+    int begin = depths.x - ray.size;
+    int end = min(depths.y + thickness + 1, 256);
+    // The band in the middle of a step is one of first - 1 .. last. These estimates are off by less than 1, and are
+    // widened by 2.
+    if (ray.per_d != 0) {
+        vec2 bounds = vec2(ivec2(cell_bands.x - 1, cell_bands.y + 1) * 4096 + 2048 - ray.zero);
+        vec2 at = clamp(bounds * 256.0 / float(ray.per_d), -1024.0, 1024.0);
+        int middle = ray.size >> 1;
+        begin = max(begin, int(min(at.x, at.y)) - middle - 2);
+        end = min(end, int(max(at.x, at.y)) - middle + 3);
+    }
+    return March(ray.size * divide(max(begin, 0), ray.size), end);
 }
 )glsl";
 
@@ -356,10 +384,11 @@ Shown plane_pixel(ivec2 at, ivec4 head, int j) {
 Shown shape_pixel(ivec2 at, ivec4 head, ivec2 pixel) {
     int weight = (head.x >> 2) & 511;
     int foot_d = (head.x >> 17) & 2047;
-    ivec4 view = setup_texel(at, 1);  // lambda0 q20, lambda1 q21, layers of the first and the second photo
-    Columns columns = Columns(setup_texel(at, 2), (head.x >> 11) & 7, (head.x >> 14) & 7);
-    Photo first = Photo(view.z, setup_texel(at, 3), setup_texel(at, 4));
-    Photo second = Photo(view.w, setup_texel(at, 5), setup_texel(at, 6));
+    ivec4 view = setup_texel(at, 1);  // lambda0 q20, lambda1 q21, layers of the photos, depths of the cells
+    ivec4 around = setup_texel(at, 2);
+    Columns columns = Columns(around.xyz, (head.x >> 11) & 7, (head.x >> 14) & 7);
+    Photo first = Photo(view.z & 0xffff, setup_texel(at, 3), setup_texel(at, 4));
+    Photo second = Photo((view.z >> 16) & 0xffff, setup_texel(at, 5), setup_texel(at, 6));
     bool has_shape = (head.x & 3) == 3;
     bool is_alone = weight == 0 || weight == 256;  // so is a ray without a shape
 
@@ -370,16 +399,17 @@ Shown shape_pixel(ivec2 at, ivec4 head, ivec2 pixel) {
     Shown nearer = Shown(ivec4(0), 0);
     Surfaces last = Surfaces(-1, kBothShow, -1, kBothShow, 0, false);
     bool is_at_end = false;
-    int begin = ray.marches && has_shape ? 0 : 256;
+    March march = march_steps(ray, ivec2(view.w & 255, view.w >> 8), ivec2(around.w & 0xffff, (around.w >> 16) & 0xffff));
+    if (!has_shape) march.begin = march.end;
     for (;;) {
         int d = -1;
         int lean = kBothShow;
-        while (begin < 256 && d < 0) {
-            int step_begin = begin;
-            begin += ray.size;
-            Surfaces here = surfaces_at(columns, band_at(ray, step_begin + (ray.size >> 1)));
-            if (here.depth < 0 || here.depth > 8 * begin || here.deepest + thickness < step_begin) continue;
-            d = max(here.depth, 8 * step_begin);
+        while (march.begin < march.end && d < 0) {
+            int begin = march.begin;
+            march.begin += ray.size;
+            Surfaces here = surfaces_at(columns, band_at(ray, begin + (ray.size >> 1)));
+            if (here.depth < 0 || here.depth > 8 * march.begin || here.deepest + thickness < begin) continue;
+            d = max(here.depth, 8 * begin);
             lean = here.lean;
         }
         if (d < 0 && !is_at_end) {
@@ -439,7 +469,7 @@ std::string reconstruction_vertex_shader(ShaderDialect dialect) {
 std::string reconstruction_fragment_shader(ShaderDialect dialect) {
     const std::string constants = "#define CELL_WIDTH_LOG2 " + std::to_string(kCellTextureWidthLog2) +
                                   "\n#define CELL_WIDTH (1 << CELL_WIDTH_LOG2)\n";
-    return version_line(dialect) + constants + kArithmetic + kSurfaces + kBlend + kMain;
+    return version_line(dialect) + constants + kArithmetic + kSurfaces + kMarch + kBlend + kMain;
 }
 
 }  // namespace rs::compositor
