@@ -107,7 +107,7 @@ public:
         if (bytes <= options_.memory_bytes) return {};
         return Error{object.name + ": needs " + std::to_string(bytes / kMebibyte) +
                      " MiB of GPU memory, more than the limit of " + std::to_string(options_.memory_bytes / kMebibyte) +
-                     "; use --executor core"};
+                     "; encode it with fewer or smaller photos"};
     }
 
     Result<std::optional<int>> load(const RaySpaceObject& object) override {

@@ -86,7 +86,7 @@ std::int64_t gpu_bytes(const RaySpaceObject& object) {
 Status check_texture_limits(const RaySpaceObject& object, const gl::TextureLimits& limits) {
     const auto refused = [&](const std::string& what, std::int64_t count, int limit) {
         return Error{object.name + ": " + what + " " + std::to_string(count) + " exceeds the driver's limit of " +
-                     std::to_string(limit) + "; use --executor core"};
+                     std::to_string(limit) + "; encode it with fewer or smaller photos"};
     };
     const auto views = static_cast<std::int64_t>(object.views.size());
     if (views > limits.layers) return refused("the number of photos", views, limits.layers);
