@@ -1,6 +1,6 @@
 #include "compositor/tools/drawing_options.hpp"
 
-#include "rayspace/api/types/executor_table.hpp"
+#include "compositor/gpu/gpu_executor.hpp"
 
 #include <utility>
 
@@ -44,7 +44,7 @@ void add_upright_option(CLI::App& command, bool& upright) {
 void add_executor_options(CLI::App& command, ExecutorOptions& options) {
     command
         .add_option("--executor", options.executor,
-                    engine::ExecutorTable().names() + ": draws the objects; the core draws what it cannot")
+                    executors_with_gpu().names() + ": draws the objects; the core draws what it cannot")
         ->type_name("NAME")
         ->capture_default_str();
     command.add_option("--memory", options.memory_mib, "limit for objects in memory (default: half of the machine's)")
@@ -90,7 +90,7 @@ Result<std::vector<PlacedObject>> LoadedScene::all_objects() const {
 Result<ObjectExecutor> create_executor(const ExecutorOptions& options, ObjectDepth depth) {
     ObjectExecutor created{nullptr, engine::ExecutorTraits{.name = "software core"}};
     if (options.executor != "core") {
-        RS_ASSIGN_OR_RETURN(created.executor, engine::ExecutorTable().create(options.executor));
+        RS_ASSIGN_OR_RETURN(created.executor, executors_with_gpu().create(options.executor));
         created.traits = created.executor->traits();
     }
     if (depth == ObjectDepth::kPixel && !created.traits.depth) {

@@ -318,10 +318,14 @@ TEST_F(View, RoomsAreWalkedThroughWithinABudget) {
     const nlohmann::json board = stats_of({"--executor", "board:prototype-2000"});
     ASSERT_EQ(run_.exit_code, 0) << run_.err;
     EXPECT_GT(board["views_by_board"], 0) << board;
+    const nlohmann::json gpu = stats_of({"--executor", "gpu"});
+    ASSERT_EQ(run_.exit_code, 0) << run_.err;
+    EXPECT_GT(gpu["views_by_board"], 0) << gpu;
+    EXPECT_EQ(*read_image(in("frames/0005.png")), *last);
     stats_of({"--executor", "board:none"});
     EXPECT_EQ(run_.exit_code, 1);
     stats_of({"--executor", "fpga"});
-    EXPECT_THAT(run_.err, HasSubstr("use one of scalar, core, board:CONFIG"));
+    EXPECT_THAT(run_.err, HasSubstr("use one of scalar, core, board:CONFIG, gpu"));
     stats_of({"--memory", "1"});
     EXPECT_EQ(run_.exit_code, 0);
     EXPECT_THAT(run_.err, HasSubstr("more than the budget of 1 MiB"));

@@ -2,6 +2,8 @@
 
 #include "engine/core/definition/fixed_point.hpp"
 
+#include <algorithm>
+
 namespace rs::engine {
 namespace {
 
@@ -85,6 +87,30 @@ RaySetup set_up_ray(const RaySpaceObject& object, const ViewRegisters& registers
     setup.row_0_q16 = view.cy_q16 - ((m_q16 * (height_q20 - view.height_q20)) >> 20);
     setup.row_step_q16 = -((m_q16 * rise_per_row_q24) >> 24);
     return setup;
+}
+
+ViewRows rows_within(const RaySetup& ray, std::int32_t first, std::int32_t end, int height) {
+    const auto ceil_divide = [](std::int64_t dividend, std::int64_t divisor) {
+        return -floor_divide(-dividend, divisor);
+    };
+    const std::int64_t low = std::int64_t{first} << 16;  // first row inside the span
+    const std::int64_t high = std::int64_t{end} << 16;   // first row after the span
+    std::int64_t row_begin = 0;
+    std::int64_t row_end = 0;
+    if (ray.row_step_q16 > 0) {
+        row_begin = ceil_divide(low - ray.row_0_q16, ray.row_step_q16);
+        row_end = ceil_divide(high - ray.row_0_q16, ray.row_step_q16);
+    } else if (ray.row_step_q16 < 0) {
+        // Upside down: row(j) >= low while j <= (row_0 - low) / |step|, and row(j) < high once j > (row_0 - high) /
+        // |step|.
+        row_begin = ceil_divide(ray.row_0_q16 - high + 1, -ray.row_step_q16);
+        row_end = ceil_divide(ray.row_0_q16 - low + 1, -ray.row_step_q16);
+    } else if (ray.row_0_q16 >= low && ray.row_0_q16 < high) {
+        row_end = height;
+    }
+    row_begin = std::clamp<std::int64_t>(row_begin, 0, height);
+    row_end = std::clamp<std::int64_t>(row_end, row_begin, height);
+    return {static_cast<std::int32_t>(row_begin), static_cast<std::int32_t>(row_end)};
 }
 
 }  // namespace rs::engine

@@ -40,4 +40,13 @@ struct RaySetup {
 /// upright view the result is the same for every j.
 RaySetup set_up_ray(const RaySpaceObject& object, const ViewRegisters& registers, int i, int j);
 
+/// Rows begin .. end - 1 of a view.
+struct ViewRows {
+    std::int32_t begin = 0;
+    std::int32_t end = 0;
+};
+
+/// Rows j of a view of `height` rows for which ray.row(j) is in [first, end): one interval, since ray.row is linear.
+ViewRows rows_within(const RaySetup& ray, std::int32_t first, std::int32_t end, int height);
+
 }  // namespace rs::engine

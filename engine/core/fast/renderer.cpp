@@ -19,39 +19,6 @@ namespace {
 
 constexpr int kRowsPerTile = 128;
 
-struct ViewRows {
-    std::int32_t begin = 0;
-    std::int32_t end = 0;
-};
-
-// ceil(dividend / divisor), divisor > 0.
-constexpr std::int64_t ceil_divide(std::int64_t dividend, std::int64_t divisor) {
-    const std::int64_t quotient = dividend / divisor;
-    return quotient * divisor < dividend ? quotient + 1 : quotient;
-}
-
-// View rows j of [0, height) for which ray.row(j) is in [span.begin, span.end): one interval, since ray.row is linear.
-ViewRows rows_within(const RaySetup& ray, RowSpan span, int height) {
-    const std::int64_t low = std::int64_t{span.begin} << 16;  // first row inside the span
-    const std::int64_t high = std::int64_t{span.end} << 16;   // first row after the span
-    std::int64_t begin = 0;
-    std::int64_t end = 0;
-    if (ray.row_step_q16 > 0) {
-        begin = ceil_divide(low - ray.row_0_q16, ray.row_step_q16);
-        end = ceil_divide(high - ray.row_0_q16, ray.row_step_q16);
-    } else if (ray.row_step_q16 < 0) {
-        // Upside down: row(j) >= low while j <= (row_0 - low) / |step|, and row(j) < high once j > (row_0 - high) /
-        // |step|.
-        begin = ceil_divide(ray.row_0_q16 - high + 1, -ray.row_step_q16);
-        end = ceil_divide(ray.row_0_q16 - low + 1, -ray.row_step_q16);
-    } else if (ray.row_0_q16 >= low && ray.row_0_q16 < high) {
-        end = height;
-    }
-    begin = std::clamp<std::int64_t>(begin, 0, height);
-    end = std::clamp<std::int64_t>(end, begin, height);
-    return {static_cast<std::int32_t>(begin), static_cast<std::int32_t>(end)};
-}
-
 ColumnStrip set_up_strip(const RaySpaceObject& object, const TexelStore& texels, const ViewRegisters& registers,
                          int first_column) {
     ColumnStrip strip{};
@@ -63,7 +30,8 @@ ColumnStrip set_up_strip(const RaySpaceObject& object, const TexelStore& texels,
         ViewRows rows;
         if (ray.image >= 0) {
             texels.ensure(ray.image, ray.column, ray.column);
-            rows = rows_within(ray, texels.occupied(ray.image, ray.column), registers.height);
+            const RowSpan occupied = texels.occupied(ray.image, ray.column);
+            rows = rows_within(ray, occupied.begin, occupied.end, registers.height);
             strip.start[lane] = texels.column_start(ray.image, ray.column);
             // Modulo 2^32, see ColumnStrip.
             strip.row_0_q16[lane] = static_cast<std::int32_t>(ray.row_0_q16);
