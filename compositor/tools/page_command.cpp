@@ -44,7 +44,7 @@ void add_page_command(CLI::App& app, std::function<Status()>& run) {
     command->add_flag("--force", options->force, kForceHelp)->needs(site);
     command->footer(
         "The page renders the object in the browser, with the same bits as rs-engine. It needs WebAssembly with SIMD\n"
-        "(Chromium 91, Firefox 89, Safari 16.4). To embed the element <ray-space> in your own page: docs/web.md.\n"
+        "(Chromium 91, Firefox 113, Safari 16.4). To embed the element <ray-space> in your own page: docs/web.md.\n"
         "Examples:\n"
         "  rs-view page shoe.rso -o shoe.html\n"
         "  rs-view page shoe.rso --site public/shoe --title \"Running shoe\" --alt \"White running shoe, size 42\"");

@@ -195,6 +195,7 @@ const tests = {
       "/foreign.rso": Buffer.from("PNG or whatever, in any case no object"),
       "/empty.rso": Buffer.alloc(0),
     };
+    let policy = "";
     const types = { html: "text/html", js: "text/javascript", wasm: "application/wasm" };
     const server = createServer((request, response) => {
       let body = files[request.url];
@@ -204,6 +205,7 @@ const tests = {
         response.writeHead(404).end();
         return;
       }
+      if (policy) response.setHeader("content-security-policy", policy);
       response.setHeader("content-type", types[request.url.split(".").pop()] ?? (request.url === "/" ? "text/html" : "application/octet-stream"));
       response.setHeader("content-length", body.length).end(body);
     });
@@ -236,6 +238,13 @@ const tests = {
     }
     assert.deepEqual(await tried("object%20name.rso"), { type: "load", text: "" });
     assert.deepEqual(page.problems, []);
+    // Without workers, the page's thread renders.
+    policy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; worker-src 'none'";
+    await openLoaded(address);
+    policy = "script-src 'self'; worker-src 'none'";
+    const locked = await open(address);
+    await locked.waitForFunction(() => document.querySelector("ray-space").shadowRoot.querySelector("[part=message]").textContent !== "");
+    assert.match(await locked.evaluate(() => document.querySelector("ray-space").shadowRoot.querySelector("[part=message]").textContent), /WebAssembly/);
     server.close();
   },
 

@@ -62,7 +62,12 @@ export class Core {
         fd_write: nothing,
       },
     };
-    const { instance } = await WebAssembly.instantiate(module, imports);
+    let instance: WebAssembly.Instance;
+    try {
+      ({ instance } = await WebAssembly.instantiate(module, imports));
+    } catch (error) {
+      throw new CoreError(`this browser cannot run WebAssembly with SIMD; update it (${error instanceof Error ? error.message : error})`);
+    }
     const core = new Core(instance.exports as unknown as Exports);
     core.wasm._initialize();
     return core;

@@ -56,12 +56,14 @@ export class CoreRenderer implements ViewRenderer {
 
   /** @param module the WebAssembly module's bytes */
   static async create(module: ArrayBuffer): Promise<CoreRenderer> {
-    let channel: Channel;
     try {
-      channel = workerChannel();
+      return await CoreRenderer.over(workerChannel(), module);
     } catch {
-      channel = pageChannel(); // a content security policy without worker-src blob:
+      return CoreRenderer.over(pageChannel(), module); // a content security policy without worker-src blob:
     }
+  }
+
+  private static async over(channel: Channel, module: ArrayBuffer): Promise<CoreRenderer> {
     const renderer = new CoreRenderer(channel);
     await renderer.send({ kind: "create", module });
     return renderer;
