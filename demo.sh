@@ -68,6 +68,8 @@ from_set() {
   step "$name: verify" "" "$BIN/rs-encode" verify "$OUT/$name.rso"
   step "$name: bit-accuracy" "" "$BIN/rs-engine" conformance "$OUT/$name.rso" --views 40
   step "$name: contact sheet" "$OUT/$name-sheet.png" "$BIN/rs-engine" render "$OUT/$name.rso" --orbit 12 --sheet 4 -o "$OUT/$name-sheet.png"
+  [ ! -f build/release/compositor/web/ray-space.js ] ||
+    step "$name: web page" "$OUT/$name-page.html" "$BIN/rs-view" page "$OUT/$name.rso" -o "$OUT/$name-page.html"
   step "$name: evaluate" "$OUT/$name.html" "$BIN/rs-encode" evaluate "$OUT/$name-set" --report "$OUT/$name.html" -q
 }
 

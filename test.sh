@@ -33,7 +33,7 @@ fuzz_for() {
   install_packages "${CLANG_PACKAGES[@]}"
   say "Building the fuzz targets"
   configure build/fuzz -DCMAKE_BUILD_TYPE=RelWithDebInfo "${CLANG[@]}" \
-    -DRAYSPACE_SANITIZE=address,undefined -DRAYSPACE_FUZZ=ON -DRAYSPACE_BENCH=OFF -DRAYSPACE_TESTS=ON
+    -DRAYSPACE_SANITIZE=address,undefined -DRAYSPACE_FUZZ=ON -DRAYSPACE_BENCH=OFF -DRAYSPACE_WEB=OFF -DRAYSPACE_TESTS=ON
   cmake --build build/fuzz -j "$JOBS" --target fuzzers
   local targets=(build/fuzz/bin/fuzz_*) each
   each=$(($1 * JOBS / ${#targets[@]}))
@@ -51,6 +51,7 @@ fuzz_for() {
 packages=("${BUILD_PACKAGES[@]}" "${TEST_PACKAGES[@]}")
 [ "$SANITIZE" = none ] || packages+=("${CLANG_PACKAGES[@]}")
 install_packages "${packages[@]}"
+(install_packages "${WEB_PACKAGES[@]}") || say "SKIPPED: the web part, whose packages cannot be installed"
 
 say "Building (release), $JOBS jobs"
 configure build/release -DCMAKE_BUILD_TYPE=Release -DRAYSPACE_TESTS=ON -DRAYSPACE_BENCH=ON -DRAYSPACE_WARNINGS_AS_ERRORS=ON
@@ -93,7 +94,7 @@ if [ "$SANITIZE" != none ]; then
   # CMake drops all options when the compiler of an existing build folder changes.
   grep -qs 'CMAKE_CXX_COMPILER:.*clang' build/asan/CMakeCache.txt || rm -f build/asan/CMakeCache.txt
   configure build/asan -DCMAKE_BUILD_TYPE=RelWithDebInfo "${CLANG[@]}" -DRAYSPACE_SANITIZE=address,undefined \
-    -DRAYSPACE_BENCH=OFF -DRAYSPACE_WARNINGS_AS_ERRORS=ON
+    -DRAYSPACE_BENCH=OFF -DRAYSPACE_WEB=OFF -DRAYSPACE_WARNINGS_AS_ERRORS=ON
   cmake --build build/asan -j "$JOBS" --target "${TARGETS[@]}"
   say "Testing under the sanitizers"
   # Drivers and libraries leak.

@@ -7,6 +7,9 @@ BUILD_PACKAGES=(
   nlohmann-json3-dev libtbb-dev libhwy-dev libepoxy-dev libegl-dev libgl-dev libegl1 libegl-mesa0 libgl1-mesa-dri
   libavcodec-dev libavformat-dev libswscale-dev libxxhash-dev libzstd-dev liblcms2-dev libcoin-dev zlib1g-dev libexpat1-dev libglfw3-dev libimgui-dev libasio-dev
 )
+# shellcheck disable=SC2034
+WEB_PACKAGES=(emscripten nodejs chromium)  # optional
+command -v npm >/dev/null || WEB_PACKAGES+=(npm)  # nodejs of some sources contains it
 # shellcheck disable=SC2034  # used by the scripts that source this file
 TEST_PACKAGES=(libgtest-dev libgmock-dev libbenchmark-dev clang-format-14 clang-tidy-14 shellcheck xvfb
   dpkg-dev pybind11-dev python3-dev python3-numpy python3-opencv snakemake doxygen help2man)

@@ -1,6 +1,5 @@
 #include "rayspace/base/zstd_frame.hpp"
 
-#include "rayspace/api/types/check.hpp"
 #include "rayspace/base/byte_stream.hpp"
 
 #include <zstd.h>
@@ -8,20 +7,6 @@
 #include <string>
 
 namespace rs {
-namespace {
-
-constexpr int kCompressionLevel = 19;  // higher levels require larger decoder windows
-
-}  // namespace
-
-std::vector<std::byte> compress_zstd(std::span<const std::uint8_t> bytes) {
-    if (bytes.empty()) return {};
-    std::vector<std::byte> frame(ZSTD_compressBound(bytes.size()));
-    const std::size_t size = ZSTD_compress(frame.data(), frame.size(), bytes.data(), bytes.size(), kCompressionLevel);
-    RS_CHECK(!ZSTD_isError(size));  // the buffer is large enough
-    frame.resize(size);
-    return frame;
-}
 
 std::optional<std::uint64_t> read_zstd_content_size(std::span<const std::byte> bytes) {
     ByteReader start(bytes);

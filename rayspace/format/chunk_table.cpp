@@ -1,7 +1,5 @@
 #include "rayspace/format/chunk_table.hpp"
 
-#include <algorithm>
-
 namespace rs::object_chunks {
 
 std::span<const ChunkKind> chunk_table() {
@@ -11,6 +9,13 @@ std::span<const ChunkKind> chunk_table() {
         image_chunk(),                                                          // per view
     };
     return table;
+}
+
+const ChunkKind* find_chunk_kind(ChunkName name) {
+    for (const ChunkKind& kind : chunk_table()) {
+        if (kind.name == name) return &kind;
+    }
+    return nullptr;
 }
 
 std::size_t max_chunk_count(ChunkScope each, const RaySpaceObject& object) {
@@ -49,8 +54,8 @@ std::vector<ChunkKey> chunk_order(const RaySpaceObject& object) {
 }
 
 Payload chunk_payload(const RaySpaceObject& object, ChunkKey key) {
-    const auto kind = std::ranges::find(chunk_table(), key.name, &ChunkKind::name);
-    RS_CHECK(kind != std::end(chunk_table()));
+    const ChunkKind* const kind = find_chunk_kind(key.name);
+    RS_CHECK(kind != nullptr);
     return kind->payload(object, key.index);
 }
 

@@ -14,6 +14,9 @@ namespace rs::object_chunks {
 /// Returns the table, a constant.
 std::span<const ChunkKind> chunk_table();
 
+/// The row of a chunk name; nullptr if it is unknown.
+const ChunkKind* find_chunk_kind(ChunkName name);
+
 /// The largest number of chunks of a kind in an object: 1, or one per ring or view.
 std::size_t max_chunk_count(ChunkScope each, const RaySpaceObject& object);
 

@@ -44,8 +44,8 @@ public:
         for (const ChunkEntry& entry : container_.table()) {
             largest_chunk = std::max(largest_chunk, entry.size_bytes);
             if (partial_.coded && entry.name == kImage) kept += entry.size_bytes;
-            const auto kind = std::ranges::find(chunk_table(), entry.name, &ChunkKind::name);
-            if (kind == chunk_table().end() || kind->memory == nullptr) continue;
+            const ChunkKind* const kind = find_chunk_kind(entry.name);
+            if (kind == nullptr || kind->memory == nullptr) continue;
             RS_ASSIGN_OR_RETURN(const auto payload, read_payload(entry));
             const Result<ChunkMemory> takes = kind->memory(payload, partial_, entry.index);
             if (!takes) return in_chunk({entry.name, entry.index}, takes.error());
@@ -151,8 +151,7 @@ private:
         for (const ChunkEntry& entry : container_.table()) {
             const ChunkKey key{entry.name, entry.index};
             const bool may_be_skipped =
-                entry.name[0] >= 'a' && entry.name[0] <= 'z' &&
-                std::ranges::find(chunk_table(), key.name, &ChunkKind::name) == chunk_table().end();
+                entry.name[0] >= 'a' && entry.name[0] <= 'z' && find_chunk_kind(key.name) == nullptr;
             if (next < expected.size() && key == expected[next]) {
                 ++next;
             } else if (!may_be_skipped) {

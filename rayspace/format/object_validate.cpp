@@ -17,7 +17,7 @@ std::string place_of(ChunkScope each, std::uint32_t index) {
 
 Status check_views_are_in_rings(const RaySpaceObject& object) {
     const std::vector<bool> is_in = object_ranges::ring_membership(object, object.rings.size());
-    const auto free_view = std::ranges::find(is_in, false);
+    const auto free_view = std::find(is_in.begin(), is_in.end(), false);
     if (free_view == is_in.end()) return {};
     return Error{"view " + std::to_string(free_view - is_in.begin()) + " belongs to no ring"};
 }

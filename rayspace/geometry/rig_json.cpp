@@ -5,6 +5,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/json_text.hpp"
 #include "rayspace/file/file_output.hpp"
+#include "rayspace/geometry/rig_text.hpp"
 #include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
@@ -255,6 +256,12 @@ Result<Rig> read_rig(const fs::path& path) {
 
 Result<Rig> rig_from_json(const std::string& text, const std::string& where) {
     return parse_rig(text, where, nullptr);
+}
+
+Status check_rig_text(const std::string& json, std::size_t views) {
+    RS_ASSIGN_OR_RETURN(const Rig rig, rig_from_json(json, "rig"));
+    if (rig.views.size() != views) return Error{"its rig does not have as many frames as views"};
+    return {};
 }
 
 // One line per key and per frame, which is compact and easy to compare.

@@ -18,13 +18,9 @@ public:
         std::uint8_t seen = state_.load(std::memory_order_acquire);
         while (seen != kDone) {
             if (seen == kNotDone && state_.compare_exchange_strong(seen, kBusy, std::memory_order_acquire)) {
-                try {
-                    work();
-                } catch (...) {
-                    set(kNotDone);
-                    throw;
-                }
-                set(kDone);
+                SetOnExit on_exit{*this};
+                work();
+                on_exit.state = kDone;
                 return;
             }
             if (seen == kBusy) state_.wait(kBusy, std::memory_order_acquire);
@@ -36,6 +32,13 @@ public:
     void reset() { state_.store(kNotDone, std::memory_order_relaxed); }
 
 private:
+    // A destructor instead of a handler, for builds without exceptions.
+    struct SetOnExit {
+        DoneFlag& flag;
+        std::uint8_t state = kNotDone;
+        ~SetOnExit() { flag.set(state); }
+    };
+
     void set(std::uint8_t state) {
         state_.store(state, std::memory_order_release);
         state_.notify_all();

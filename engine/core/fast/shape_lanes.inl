@@ -45,8 +45,19 @@ struct Products {
     WideVector odd;
 };
 
+// Signed products of the even lanes.
+HWY_INLINE WideVector multiply_even(Vector a, Vector b) {
+#if HWY_TARGET == HWY_WASM
+    // MulEven of Highway 1.0.3 extends signed lanes with zeros on this target.
+    const auto even = [](Vector v) { return wasm_i32x4_shuffle(v.raw, v.raw, 0, 2, 0, 2); };
+    return WideVector{wasm_i64x2_extmul_low_i32x4(even(a), even(b))};
+#else
+    return hn::MulEven(a, b);
+#endif
+}
+
 HWY_INLINE Products products(Vector a, Vector b) {
-    return {hn::MulEven(a, b), hn::MulEven(odd_lanes(a), odd_lanes(b))};
+    return {multiply_even(a, b), multiply_even(odd_lanes(a), odd_lanes(b))};
 }
 
 // Lower 32 bits of the products shifted right.

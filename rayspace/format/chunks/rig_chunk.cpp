@@ -2,7 +2,7 @@
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/zstd_frame.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
-#include "rayspace/geometry/rig.hpp"
+#include "rayspace/geometry/rig_text.hpp"
 
 #include <optional>
 
@@ -35,9 +35,7 @@ Status parse_rig_text(Bytes payload, PartialObject& partial, std::uint32_t) {
 Status check_rig(const RaySpaceObject& object, std::uint32_t) {
     if (object.rig_json.empty()) return {};
     if (object.rig_json.size() > kMaxRigJson_bytes) return Error{"its rig is larger than 16 MiB"};
-    RS_ASSIGN_OR_RETURN(const Rig rig, rig_from_json(object.rig_json, "rig"));
-    if (rig.views.size() != object.views.size()) return Error{"its rig does not have as many frames as views"};
-    return {};
+    return check_rig_text(object.rig_json, object.views.size());
 }
 
 std::int64_t held_by_rig(const RaySpaceObject& object, std::uint32_t) {

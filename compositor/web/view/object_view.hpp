@@ -1,0 +1,66 @@
+#pragma once
+// Views of one object for a page: an orbiting camera, and its image from the fast core (engine/core/fast). Steep views
+// are rendered by an upright camera and resampled (compositor/viewer/views/upright_image.hpp), as rs-view does in a
+// window. Not thread-safe.
+
+#include "engine/core/fast/renderer.hpp"
+#include "rayspace/base/result.hpp"
+#include "rayspace/geometry/camera.hpp"
+#include "rayspace/image/image.hpp"
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace rs::web {
+
+/// Camera of the captured photos, from the first view of a ring. Lengths in object radii. The target, a point of the
+/// axis, is the same for all rings.
+struct CapturedCamera {
+    double distance = 0;       // from the target
+    double elevation_rad = 0;  // above the target's horizontal plane
+    double azimuth_rad = 0;    // of the first photo, from +Z towards +X
+    double target_height = 0;  // Y of the target, in the middle of the first ring's photo
+    double tan_half_x = 0;     // half width of the photo at depth 1
+    double tan_half_y = 0;
+};
+std::vector<CapturedCamera> captured_cameras(const RaySpaceObject& object);  // [ring]
+
+/// Camera on an orbit about the captured target. The captured frame fits into the image.
+struct OrbitView {
+    int width = 0;  // px
+    int height = 0;
+    double azimuth_rad = 0;    // from +Z towards +X
+    double elevation_rad = 0;  // within +-pi/2
+    double distance = 0;       // object radii
+};
+
+class ObjectView {
+public:
+    /// Opens an .rso file in memory. `name` begins the messages of errors.
+    /// \param max_level highest progressive level whose images are read (encode/FORMAT.md)
+    static Result<ObjectView> open(std::vector<std::byte> file, const std::string& name, int max_level);
+
+    [[nodiscard]] const RaySpaceObject& object() const { return renderer_.object(); }
+    [[nodiscard]] const std::vector<CapturedCamera>& captured() const { return captured_; }
+
+    /// Renders a view with straight alpha. \return error for views outside of the ranges of prepare_view()
+    Status render(const OrbitView& view);
+    /// Renders the view of given registers, with depth; for conformance vectors.
+    Status render_registers(const engine::ViewRegisters& registers);
+
+    [[nodiscard]] const Image<Rgba8>& image() const { return image_; }
+    [[nodiscard]] const Image<std::int32_t>& lambda_q20() const { return lambda_q20_; }
+
+private:
+    explicit ObjectView(engine::Renderer renderer);
+    [[nodiscard]] Camera camera_of(const OrbitView& view) const;
+
+    engine::Renderer renderer_;
+    std::vector<CapturedCamera> captured_;  // [ring]
+    Image<Rgba8> image_;
+    Image<std::int32_t> lambda_q20_;
+};
+
+}  // namespace rs::web
