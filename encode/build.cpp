@@ -5,7 +5,7 @@
 #include "rayspace/base/json_text.hpp"
 #include "rayspace/base/parallel.hpp"
 #include "rayspace/geometry/rig.hpp"
-#include "rayspace/light/irradiance_harmonics.hpp"
+#include "rayspace/light/capture_irradiance.hpp"
 #include "rayspace/object/yuv.hpp"
 
 #include <cmath>

@@ -11,6 +11,7 @@
 #include "rayspace/base/result.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig.hpp"
+#include "rayspace/light/capture_irradiance.hpp"
 #include "rayspace/tool/tool_main.hpp"
 
 #include <nlohmann/json.hpp>

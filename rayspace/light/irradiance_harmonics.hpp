@@ -3,15 +3,12 @@
 // harmonics of order 2, convolved with the cosine (R. Ramamoorthi and P. Hanrahan, An Efficient Representation for
 // Irradiance Environment Maps, 2001, equations 7 to 12). For smooth skies it is within 3 % of the exact integral.
 
-#include "rayspace/base/result.hpp"
 #include "rayspace/image/image.hpp"
 
 #include <glm/glm.hpp>
-#include <nlohmann/json.hpp>
 
 #include <array>
 #include <functional>
-#include <string>
 
 namespace rs {
 
@@ -38,14 +35,5 @@ IrradianceHarmonics project_irradiance(const Image<RgbaF>& map);
 
 /// Least-squares fit of a function of the unit normal, so that at() approximates it; exact for constants.
 IrradianceHarmonics fit_harmonics(const std::function<glm::vec3(const glm::vec3& normal)>& function);
-
-/// Top-level key of transforms.json: irradiance at the object, without the object, while its images were taken, in the
-/// axes of the cameras and the scale of the images' linear light.
-inline constexpr const char* kCaptureIrradianceKey = "capture_irradiance";
-
-/// Nine arrays of red, green and blue: IrradianceHarmonics::factors.
-nlohmann::json irradiance_to_json(const IrradianceHarmonics& irradiance);
-/// \param where names the value in errors
-Result<IrradianceHarmonics> irradiance_from_json(const nlohmann::json& json, const std::string& where);
 
 }  // namespace rs

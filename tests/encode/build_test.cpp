@@ -6,7 +6,7 @@
 #include "rayspace/format/object_file.hpp"
 #include "rayspace/geometry/ray_space.hpp"
 #include "rayspace/image/image_metrics.hpp"
-#include "rayspace/light/irradiance_harmonics.hpp"
+#include "rayspace/light/capture_irradiance.hpp"
 #include "rayspace/object/yuv.hpp"
 #include "tests/support/drawn_set.hpp"
 #include "tests/support/temporary_folder.hpp"

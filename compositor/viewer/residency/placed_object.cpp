@@ -4,6 +4,7 @@
 #include "rayspace/base/json_text.hpp"
 #include "rayspace/base/median.hpp"
 #include "rayspace/format/object_file.hpp"
+#include "rayspace/light/capture_irradiance.hpp"
 
 #include <algorithm>
 #include <cmath>

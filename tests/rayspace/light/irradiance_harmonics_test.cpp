@@ -1,5 +1,7 @@
 #include "rayspace/light/irradiance_harmonics.hpp"
 
+#include "rayspace/light/capture_irradiance.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,5 +1,6 @@
 #include "compositor/viewer/residency/object_relighting.hpp"
 
+#include "rayspace/light/capture_irradiance.hpp"
 #include "tests/compositor/objects.hpp"
 
 #include <gtest/gtest.h>
