@@ -54,7 +54,7 @@ struct TracedOptions {
     // toon: width of a line from its edge, scene units; empty: per image, 1 px at the median distance of the surfaces
     // that the whole camera sees (capture::Tracer::median_pixel_size())
     std::optional<double> line_radius{};
-    bool panorama = false;  // images are faces of a panorama: the median is that of all directions
+    bool panorama = false;      // images are faces of a panorama: the median is that of all directions
     capture::ToonStyle toon{};  // edge_radius, shadow_rays and brightness are ignored: they follow from the above
     std::optional<CameraLens> lens{};
     Relighting relighting = Relighting::kOff;

@@ -35,7 +35,7 @@ public:
     [[nodiscard]] const std::string& refusal() const { return refusal_; }
     /// Ignored contents of the files read.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
-    /// Of the material libraries read, by material.
+    /// Placements in the material libraries read, by material.
     [[nodiscard]] const std::map<std::string, TexturePlacement>& placements() const { return placements_; }
 
 private:

@@ -226,7 +226,7 @@ TEST(BuildErrors, OptionsOutOfRangeAreNamed) {
 
 TEST(CaptureSetMemory, IsBoundedBeforehand) {
     CaptureSet set;
-    set.folder = "hemisphere";
+    set.file = "hemisphere/transforms.json";
     set.resampled = true;
     set.width = 886;
     set.height = 5814;

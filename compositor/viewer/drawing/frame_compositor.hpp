@@ -47,7 +47,7 @@ struct FrameOptions {
     double exposure_ev = 0;
     Relighting relighting = Relighting::kOff;  // kOn: also of rasterized frames (LitGeometry::irradiance_at)
     ObjectDepth object_depth = ObjectDepth::kPlane;
-    int object_samples = kDefaultSamplesAcross;        // ObjectViewOptions::max_samples_across
+    int object_samples = kDefaultSamplesAcross;                // ObjectViewOptions::max_samples_across
     std::shared_ptr<const ObjectCartoon> object_cartoon = {};  // look of objects; null: that of their photos
     // Renders objects for an upright camera in the same position and warps the image (upright_image.hpp): faster and
     // supported by boards, but slightly softer.

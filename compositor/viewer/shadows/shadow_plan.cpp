@@ -104,7 +104,7 @@ private:
         return found;
     }
 
-    // Of these lights, sorted by brightness, those whose single map is too coarse.
+    // The lights whose single map is too coarse, by brightness.
     [[nodiscard]] std::vector<std::uint32_t> lights_with_cascades(const std::vector<std::uint32_t>& planes) const {
         std::vector<std::uint32_t> cascaded;
         for (const std::uint32_t i : planes) {

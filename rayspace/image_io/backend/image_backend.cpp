@@ -291,6 +291,13 @@ Result<std::vector<std::byte>> encode_jpeg(ConstImageView<Rgba8> image, int qual
     return encode("jpeg", spec, rows_of(image, OIIO::TypeUInt8), shown);
 }
 
+// Without a fixed date the time of writing becomes "capDate", and equal images would make different files.
+void describe_exr(OIIO::ImageSpec& spec) {
+    spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("compression", "zip");
+    spec.attribute("DateTime", "1970:01:01 00:00:00");
+}
+
 Result<std::vector<std::byte>> encode_exr(ConstImageView<RgbaF> image, const std::string& shown) {
     std::vector<RgbaF> associated;
     associated.reserve(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
@@ -298,8 +305,7 @@ Result<std::vector<std::byte>> encode_exr(ConstImageView<RgbaF> image, const std
         for (const RgbaF& p : image.row_span(y)) associated.push_back({p.r * p.a, p.g * p.a, p.b * p.a, p.a});
     }
     OIIO::ImageSpec spec(image.width(), image.height(), 4, OIIO::TypeFloat);
-    spec.attribute("oiio:ColorSpace", "Linear");
-    spec.attribute("compression", "zip");
+    describe_exr(spec);
     return encode("openexr", spec,
                   {.pixels = associated.data(),
                    .channel = OIIO::TypeFloat,
@@ -312,8 +318,7 @@ Result<std::vector<std::byte>> encode_exr_channel(ConstImageView<float> channel,
     OIIO::ImageSpec spec(channel.width(), channel.height(), 1, OIIO::TypeFloat);
     spec.channelnames = {"Z"};
     spec.z_channel = 0;
-    spec.attribute("oiio:ColorSpace", "Linear");
-    spec.attribute("compression", "zip");
+    describe_exr(spec);
     return encode("openexr", spec, rows_of(channel, OIIO::TypeFloat), shown);
 }
 

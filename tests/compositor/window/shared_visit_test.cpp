@@ -210,7 +210,7 @@ TEST_F(SharedWalls, WallsStandWhereTheLeaderIs) {
     leader_->set_lights(dimmed_lights());
     EXPECT_TRUE(until([&] { return receive() && walls_->images().front() != moved; }));
     view.renderer = 4;
-    EXPECT_TRUE(until([&] { return receive() && warnings_.back().find("is traced") != std::string::npos; }));
+    EXPECT_TRUE(until([&] { return receive() && walls_->is_traced(); }));
 }
 
 TEST_F(SharedWalls, ALeaderWithWallsSharesRoomAndHead) {

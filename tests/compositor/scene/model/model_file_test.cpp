@@ -252,7 +252,7 @@ TEST_F(ModelFile, TextureTransformsMoveTextureCoordinates) {
     const auto of_gltf = read(gltf(R"({"mesh": 0})", R"(, "materials": [{"pbrMetallicRoughness": {"baseColorTexture":
         {"index": 0, "extensions": {"KHR_texture_transform": {"scale": [3, 2]}}}}}], "textures": [{"extensions":
         {"EXT_texture_webp": {"source": 0}}}], "images": [{"uri": "a%20b.png"}],
-        "extensionsUsed": ["KHR_texture_transform", "EXT_texture_webp"]})"));
+        "extensionsUsed": ["KHR_texture_transform", "EXT_texture_webp"])"));
     ASSERT_TRUE(of_gltf) << of_gltf.error().message;
     EXPECT_THAT(of_gltf->warnings, IsEmpty());
     ASSERT_TRUE(of_gltf->geometry.at(0).material.texture);
