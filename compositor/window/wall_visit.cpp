@@ -207,8 +207,8 @@ Result<std::vector<Camera>> WallVisit::cameras() const {
     std::vector<Camera> cameras;
     for (const Wall& wall : options_.display.walls) {
         for (std::size_t eye = 0; eye < eyes(); ++eye) {
-            RS_ASSIGN_OR_RETURN(Camera camera, wall_camera(wall, head_.eye(eye == 0 ? -half : half), place_));
-            cameras.push_back(std::move(camera));
+            RS_ASSIGN_OR_RETURN(const Camera camera, wall_camera(wall, head_.eye(eye == 0 ? -half : half), place_));
+            cameras.push_back(camera);
         }
     }
     return cameras;

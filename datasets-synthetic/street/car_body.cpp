@@ -132,8 +132,8 @@ void split_by_look(Pen& pen, const Grid& grid, const std::function<std::string(i
         const auto column = static_cast<int>(t.x) % (grid.columns + 1);
         faces[look(column, row)].push_back(t);
     }
-    for (const auto& [name, triangles] : faces) {
-        pen.surface(name, [&](capture::Mesh& mesh) {
+    for (const auto& face : faces) {
+        pen.surface(face.first, [&](capture::Mesh& mesh) {
             std::map<unsigned, unsigned> copied;
             const auto copy = [&](unsigned vertex) {
                 const auto [entry, added] = copied.emplace(vertex, static_cast<unsigned>(mesh.positions.size()));
@@ -144,7 +144,7 @@ void split_by_look(Pen& pen, const Grid& grid, const std::function<std::string(i
                 }
                 return entry->second;
             };
-            for (const glm::uvec3& t : triangles) {
+            for (const glm::uvec3& t : face.second) {
                 const unsigned a = copy(t.x);
                 const unsigned b = copy(t.y);
                 mesh.triangles.emplace_back(a, b, copy(t.z));

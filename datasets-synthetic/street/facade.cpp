@@ -37,7 +37,7 @@ void balcony(Pen& pen, vec2 low, vec2 high) {
     rail({right, y, out}, {right, y, 0}, out);
 }
 
-void dress(Pen& pen, const Opening& opening, vec2 low, vec2 high) {
+void dress(Pen& pen, const FacadeOpening& opening, vec2 low, vec2 high) {
     if (opening.balcony) {
         balcony(pen, low, high);
     } else {
@@ -55,7 +55,7 @@ void dress(Pen& pen, const Opening& opening, vec2 low, vec2 high) {
 
 }  // namespace
 
-void wall_with_openings(Pen& pen, const WallBand& band, std::span<const Opening> openings) {
+void wall_with_openings(Pen& pen, const WallBand& band, std::span<const FacadeOpening> openings) {
     const auto wall = [&](vec2 low, vec2 high) {
         pen.wall(band.wall, low - kOverlap_m, high + kOverlap_m, 0, kWallTile_m);
     };
@@ -66,7 +66,7 @@ void wall_with_openings(Pen& pen, const WallBand& band, std::span<const Opening>
     if (band.sill > band.low) wall({band.left, band.low}, {band.right, band.sill});
     if (band.head < band.high) wall({band.left, band.head}, {band.right, band.high});
     float at = band.left;
-    for (const Opening& opening : openings) {
+    for (const FacadeOpening& opening : openings) {
         wall({at, band.sill}, {opening.left, band.head});
         const vec2 low{opening.left, band.sill};
         const vec2 high{opening.left + opening.width, band.head};

@@ -12,7 +12,7 @@
 namespace rs::synthetic {
 
 // A hole in a wall, closed by a painted sheet behind it.
-struct Opening {
+struct FacadeOpening {
     float left = 0;
     float width = 1;
     std::string look;       // of the sheet
@@ -31,7 +31,7 @@ struct WallBand {
 };
 
 // Wall from `low` to `high` with openings from `sill` to `head`, in order from left to right.
-void wall_with_openings(Pen& pen, const WallBand& band, std::span<const Opening> openings);
+void wall_with_openings(Pen& pen, const WallBand& band, std::span<const FacadeOpening> openings);
 
 // Mouldings of three steps along X, their upper edge at `top`.
 void cornice(Pen& pen, float left, float right, float top, float depth_m);

@@ -44,7 +44,7 @@ void upper_floors(Pen& pen, const HouseStyle& style, float top, Random& random) 
         band.high = floor + 1 < style.floors ? band.low + kFloor_m : top;
         band.sill = band.low + 0.75F;
         band.head = band.sill + (floor == 1 ? 1.85F : floor == 2 ? 1.75F : 1.5F);
-        std::vector<Opening> openings;
+        std::vector<FacadeOpening> openings;
         for (int i = 0; i < across; ++i) {
             const float left = step * (static_cast<float>(i) + 0.5F) - 0.5F * kWindowWidth_m;
             const std::string look = window_look(style, random);
@@ -160,7 +160,7 @@ void side_facade(Pen& pen, vec3 origin, float turn_deg, const HouseStyle& house,
     band.high = kGround_m;
     band.sill = 1.0F;
     band.head = 2.7F;
-    std::vector<Opening> openings;
+    std::vector<FacadeOpening> openings;
     for (const float share : {0.2F, 0.5F, 0.8F}) {
         const float left = share * style.width_m - 0.5F * kWindowWidth_m;
         openings.push_back({left, kWindowWidth_m, window_look(style, random), true, false});
@@ -186,8 +186,8 @@ void ground_floor(Pen& pen, const HouseStyle& style, Random& random) {
         band.head = 2.7F;
         const float middle = 0.5F * (band.left + band.right);
         wall_with_openings(pen, band,
-                           std::array{Opening{middle - 0.5F * kWindowWidth_m, kWindowWidth_m,
-                                              window_look(style, random), true, false}});
+                           std::array{FacadeOpening{middle - 0.5F * kWindowWidth_m, kWindowWidth_m,
+                                                    window_look(style, random), true, false}});
         pen.box("base_stone", {band.left - (right ? 0.0F : 0.02F), kFoundation_m, 0},
                 {band.right + (right ? 0.02F : 0.0F), 0.7F, 0.06F}, 4);
     }

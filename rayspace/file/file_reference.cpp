@@ -69,7 +69,7 @@ std::optional<fs::path> resolve_reference(std::string_view reference, const fs::
         if (is_file(folder / spelling)) return (folder / spelling).lexically_normal();
     }
     for (const std::string& spelling : spellings) {
-        if (const auto match = match_any_case((folder / spelling).lexically_normal())) return match;
+        if (auto match = match_any_case((folder / spelling).lexically_normal())) return match;
     }
     for (const std::string& spelling : {with_slashes(written), with_slashes(decoded)}) {
         const fs::path beside = folder / fs::path(spelling).filename();

@@ -22,7 +22,7 @@ namespace rs::capture {
 namespace {
 
 // A network and what it needs to be run.
-struct Instance {
+struct DetectedInstance {
     cv::dnn::Net net;
     int width = 0;
     int height = 0;
@@ -156,7 +156,7 @@ Error wrong_output(const std::string& file, const std::string& name, const std::
                            "; it must be 1x1xHxW, the probability of one class")};
 }
 
-Result<Instance> make_instance(const std::filesystem::path& path, const NetworkSettings& settings) {
+Result<DetectedInstance> make_instance(const std::filesystem::path& path, const NetworkSettings& settings) {
     const std::string file = path.string();
     RS_ASSIGN_OR_RETURN(std::vector<std::byte> bytes, read_file(path, kMaxModel_bytes));
     RS_ASSIGN_OR_RETURN(const OnnxSummary model, read_onnx_summary(bytes, file));
@@ -166,8 +166,9 @@ Result<Instance> make_instance(const std::filesystem::path& path, const NetworkS
 
     const SilentOpenCv silent;
     return caught(
-        file, "OpenCV cannot load the model", "export it with opset 11 to 13, in fp32", [&]() -> Result<Instance> {
-            Instance instance{{}, size.width, size.height, std::move(output)};
+        file, "OpenCV cannot load the model", "export it with opset 11 to 13, in fp32",
+        [&]() -> Result<DetectedInstance> {
+            DetectedInstance instance{{}, size.width, size.height, std::move(output)};
             instance.net = cv::dnn::readNetFromONNX(reinterpret_cast<const char*>(bytes.data()), bytes.size());
             instance.net.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
             instance.net.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
@@ -231,7 +232,7 @@ Status make_probability(cv::Mat1f& map, NetworkOutput meaning, const std::string
     return {};
 }
 
-Result<Image<float>> run(Instance& instance, const NetworkSettings& settings, ConstImageView<Rgba8> photo,
+Result<Image<float>> run(DetectedInstance& instance, const NetworkSettings& settings, ConstImageView<Rgba8> photo,
                          const std::string& file) {
     instance.net.setInput(network_input(photo, {instance.width, instance.height}, settings));
     const cv::Mat output = instance.net.forward(instance.output_name);
@@ -262,24 +263,24 @@ struct SegmentationNetwork::Pool {
     std::mutex mutex;
     std::condition_variable returned;
     int made = 0;
-    std::vector<Instance> free;
+    std::vector<DetectedInstance> free;
 
     // An instance for the caller alone, until give_back().
-    Result<Instance> take() {
+    Result<DetectedInstance> take() {
         std::unique_lock lock(mutex);
         returned.wait(lock, [&] { return !free.empty() || made < max_instances; });
         if (!free.empty()) {
-            Instance taken = std::move(free.back());
+            DetectedInstance taken = std::move(free.back());
             free.pop_back();
             return taken;
         }
         ++made;
         lock.unlock();
-        Result<Instance> fresh = make_instance(model, settings);
+        Result<DetectedInstance> fresh = make_instance(model, settings);
         if (!fresh) forget();
         return fresh;
     }
-    void give_back(Instance instance) {
+    void give_back(DetectedInstance instance) {
         {
             const std::lock_guard lock(mutex);
             free.push_back(std::move(instance));
@@ -303,7 +304,7 @@ SegmentationNetwork::~SegmentationNetwork() = default;
 Result<SegmentationNetwork> SegmentationNetwork::load(const std::filesystem::path& model, int max_instances) {
     RS_CHECK(max_instances >= 1);
     RS_ASSIGN_OR_RETURN(const NetworkSettings settings, read_network_settings(model));
-    RS_ASSIGN_OR_RETURN(Instance first, make_instance(model, settings));
+    RS_ASSIGN_OR_RETURN(DetectedInstance first, make_instance(model, settings));
     auto pool = std::make_unique<Pool>();
     pool->model = model;
     pool->settings = settings;
@@ -320,7 +321,7 @@ Result<SegmentationNetwork> SegmentationNetwork::load(const std::filesystem::pat
 
 Result<Image<float>> SegmentationNetwork::foreground_probability(ConstImageView<Rgba8> photo) const {
     RS_CHECK(!photo.empty());
-    RS_ASSIGN_OR_RETURN(Instance instance, pool_->take());
+    RS_ASSIGN_OR_RETURN(DetectedInstance instance, pool_->take());
     const std::string file = pool_->model.string();
     Result<Image<float>> probability = [&] {
         try {
