@@ -84,7 +84,7 @@ if [ "$SANITIZE" != none ]; then
     TARGETS=(all)
     SELECTED=(-LE lint)
   else
-    TARGETS=(test_rayspace test_reference test_conformance test_fuzz_replay test_compositor test_sequences)
+    TARGETS=(test_rayspace test_reference test_conformance test_fuzz_replay test_compositor test_gpu test_sequences)
     # Tests of whole images take long and run code that other tests run, too.
     WHOLE='^(Truth|Occlusion)[.]|^WallPicture[.]IsTraced|^PhotometricWebProperty[.]|^TracedRenderer[.]EditedLight|^Shadows[.](OfObjects|OfWhat|ALit)'
     SELECTED=(-L '^(bytes|fuzz-replay|gl)$' -E "$WHOLE")
