@@ -50,7 +50,7 @@ protected:
         options.viewpoints = {front, side};
         options.images = work_.path();
         options.scene_name = "drum.wrl";
-        options.open = [this](const std::string& file) -> Status {
+        options.open = [](const std::string& file) -> Status {
             if (file.ends_with(".wrl")) return {};
             return Error{file + ": is no scene"};
         };
