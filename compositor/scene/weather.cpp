@@ -60,6 +60,8 @@ Scene apply_weather(Scene scene, const Weather& weather) {
     for (glm::vec3& colour : scene.background.sky) colour = glm::mix(colour, air, veil);
     for (glm::vec3& colour : scene.background.ground) colour = glm::mix(colour, air, veil);
     if (weather.fog) scene.background.images = {};
+    // Clouds hide the clear sky of an environment, which still lights the scene.
+    if (scene.environment) scene.environment->seen = false;
     const double visibility = weather.fog    ? weather.visibility
                               : weather.snow ? kVisibilityInSnow_m
                                              : kVisibilityInRain_m;

@@ -232,8 +232,10 @@ TEST(WeatherWords, AreStrict) {
 }
 
 TEST(WeatherOfAScene, IsDarkerByDayAndCoversWhatLooksUp) {
-    const Scene fair;
+    Scene fair;
+    fair.environment = EnvironmentLight{.pixels = std::make_shared<const Image<RgbaF>>(2, 1), .seen = true};
     const Scene rainy = apply_weather(fair, *parse_weather("rain"));
+    EXPECT_FALSE(rainy.environment->seen) << "a clear sky";
     EXPECT_LT(rainy.lights[0].colour.x, fair.lights[0].colour.x);
     EXPECT_EQ(rainy.cover, Cover::kWet);
     ASSERT_TRUE(rainy.fog);
