@@ -7,7 +7,7 @@
 // within the kernel: kernel size in texels times the sine of the angle between the surface and the map. This avoids
 // self-shadowing at any angle, as a slope-scaled depth bias does, and keeps contact shadows.
 //
-// Of the cascades of a directional light the nearest one that contains the position is looked up (map-based selection).
+// Map-based selection: the nearest cascade of a directional light that contains the position is looked up.
 // Cascades are not blended: a second look-up costs more than the step in sharpness disturbs.
 
 namespace rs::compositor::shaders {
