@@ -6,7 +6,8 @@
 #
 # encodes them, verifies the files and the renderer bit for bit, and renders an orbit video and a contact sheet. Traced
 # objects are then shown in a walk through a shop and a museum (further objects are traced at low resolution), imported
-# ones on a floor. Results are in demo-out/. Arguments after the folder are passed to `rs-capture import`.
+# ones on a floor. Results are in demo-out/, index.html shows them. Arguments after the folder are passed to
+# `rs-capture import`.
 set -euo pipefail
 cd "$(dirname "$0")"
 FROM=$OLDPWD
@@ -29,7 +30,7 @@ PHOTOS=
 if [ $# -gt 0 ]; then
   case $1 in
     -h | --help)
-      sed -n '2,9s/^# \{0,1\}//p' demo.sh
+      sed -n '2,10s/^# \{0,1\}//p' demo.sh
       exit 0
       ;;
     /*) PHOTOS=$1 ;;
@@ -47,7 +48,7 @@ configure build/release -DCMAKE_BUILD_TYPE=Release -DRAYSPACE_TESTS=OFF -DRAYSPA
 cmake --build build/release -j "$(nproc)" --target rs-capture rs-encode rs-engine rs-showroom rs-street rs-view
 
 mkdir -p "$OUT"
-TABLE=()
+STEPS=()
 
 # step LABEL FILE COMMAND...: runs the command and records its time and the size of its output.
 step() {
@@ -57,7 +58,7 @@ step() {
   begun=$(date +%s.%N)
   "$@"
   [ -n "$file" ] && size=$(du -sh --apparent-size "$file" | cut -f1)
-  TABLE+=("$(printf '%-34s %7.1f s  %7s  %s' "$label" "$(echo "$begun $(date +%s.%N)" | awk '{print $2 - $1}')" "${size:--}" "${file:-}")")
+  STEPS+=("$(printf '%s\x1f%.1f\x1f%s\x1f%s' "$label" "$(echo "$begun $(date +%s.%N)" | awk '{print $2 - $1}')" "$size" "$file")")
 }
 
 # from_set NAME: all steps after the capture set $OUT/NAME-set.
@@ -184,6 +185,7 @@ if [ -n "$PHOTOS" ]; then
   step "$NAME: import photos" "$OUT/$NAME-set" "$BIN/rs-capture" import "$PHOTOS" -o "$OUT/$NAME-set" "$@"
   from_set "$NAME"
   step "on a floor" "$OUT/$NAME-floor.png" "$BIN/rs-view" render --object "$OUT/$NAME.rso" -o "$OUT/$NAME-floor.png"
+  TITLE=$NAME
   LOOK="the contact sheet, the orbit video and $NAME-floor.png"
 else
   for name in $OBJECTS; do
@@ -195,9 +197,11 @@ else
   show_toon
   show_board
   show_street
+  TITLE="Rayspace: results of the demo"
   LOOK="showroom-walk.mp4, street.mp4, showroom-shop.png, showroom-museum.png, showroom-evening.png, showroom-toon.png, showroom-board.png (core, board) and street-sheet.jpg, the contact sheets and the orbit videos"
 fi
 
+printf '%s\n' "${STEPS[@]}" | .ci/demo_index.sh "$OUT" "$TITLE"
 printf '\n%-34s %9s  %7s  %s\n' "step" "time" "size" "file"
-printf '%s\n' "${TABLE[@]}"
-say "Done. Look at $OUT/: $LOOK"
+printf '%s\n' "${STEPS[@]}" | awk -F '\x1f' '{ printf "%-34s %7.1f s  %7s  %s\n", $1, $2, $3 == "" ? "-" : $3, $4 }'
+say "Done. Open $OUT/index.html, or look at $OUT/: $LOOK"
