@@ -4,6 +4,7 @@
 
 #include "rayspace/base/conventions.hpp"
 #include "rayspace/base/json_text.hpp"
+#include "rayspace/base/utf8.hpp"
 #include "rayspace/file/file_output.hpp"
 #include "rayspace/geometry/rig_text.hpp"
 #include "rayspace/image_io/image_io.hpp"
@@ -217,15 +218,6 @@ bool all_finite(const Camera& camera) {
         for (int row = 0; row < 4; ++row) finite = finite && std::isfinite(camera.world_from_camera[column][row]);
     }
     return finite;
-}
-
-bool is_utf8(const std::string& text) {
-    try {
-        (void)json(text).dump();
-        return true;
-    } catch (const json::exception&) {
-        return false;
-    }
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "rayspace/light/photometric_text.hpp"
 
+#include "rayspace/base/utf8.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -8,26 +10,6 @@ namespace rs {
 namespace {
 
 constexpr std::string_view kSeparators = " \t\v\f,\x1a";  // 0x1a: end-of-file character of DOS
-
-// Length of the UTF-8 character at the beginning; 0 if invalid.
-std::size_t utf8_length(std::string_view bytes) {
-    const auto lead = static_cast<unsigned char>(bytes.front());
-    const std::size_t length = lead < 0x80 ? 1 : lead >= 0xC2 && lead < 0xE0 ? 2 : (lead & 0xF0U) == 0xE0 ? 3 : 0;
-    if (length == 0 || length > bytes.size()) return 0;
-    for (std::size_t i = 1; i < length; ++i) {
-        if ((static_cast<unsigned char>(bytes[i]) & 0xC0U) != 0x80) return 0;
-    }
-    return length;
-}
-
-bool is_utf8(std::string_view bytes) {
-    while (!bytes.empty()) {
-        const std::size_t length = utf8_length(bytes);
-        if (length == 0) return false;
-        bytes.remove_prefix(length);
-    }
-    return true;
-}
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 #include "rayspace/page/html_page.hpp"
 
 #include "rayspace/api/types/check.hpp"
+#include "rayspace/base/utf8.hpp"
 #include "rayspace/image_io/image_io.hpp"
 
 #include <algorithm>
@@ -30,22 +31,11 @@ svg text { font: 12px system-ui, sans-serif; fill: var(--ink); }
 details { margin: .6em 0; } summary { cursor: pointer; }
 )";
 
-// Length of the UTF-8 sequence of an XML character at the start of `text`; 0 if there is none.
-std::size_t character_bytes(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<std::uint32_t>(static_cast<unsigned char>(text[i])); };
-    const std::uint32_t first = byte(0);
-    if (first < 0x80) return first >= 0x20 || first == '\t' || first == '\n' || first == '\r' ? 1 : 0;
-    const std::size_t count = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-    if (first < 0xC2 || first > 0xF4 || text.size() < count) return 0;
-    std::uint32_t code = first & (0x7FU >> count);
-    for (std::size_t i = 1; i < count; ++i) {
-        if ((byte(i) & 0xC0U) != 0x80) return 0;
-        code = (code << 6U) | (byte(i) & 0x3FU);
-    }
-    constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
-    const bool surrogate = code >= 0xD800 && code < 0xE000;
-    const bool noncharacter = code == 0xFFFE || code == 0xFFFF;
-    return code < kLeast[count] || code > 0x10FFFF || surrogate || noncharacter ? 0 : count;
+// Bytes of the XML character at the start of `text`; 0 if there is none.
+std::size_t xml_character_bytes(std::string_view text) {
+    const auto [bytes, code] = first_utf8_character(text);
+    const bool is_control = code < 0x20 && code != '\t' && code != '\n' && code != '\r';
+    return is_control || code == 0xFFFE || code == 0xFFFF ? 0 : bytes;
 }
 
 bool is_number(const std::string& cell) {
@@ -58,7 +48,7 @@ std::string escaped(std::string_view text) {
     std::string safe;
     safe.reserve(text.size());
     while (!text.empty()) {
-        const std::size_t taken = character_bytes(text);
+        const std::size_t taken = xml_character_bytes(text);
         if (taken == 0) {
             safe += "\xEF\xBF\xBD";
         } else if (text[0] == '&') {

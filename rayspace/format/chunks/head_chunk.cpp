@@ -1,6 +1,7 @@
 // Chunk HEAD: object.name, units_per_radius, width, height, and the numbers of views and rings, which it creates empty.
 #include "rayspace/base/byte_stream.hpp"
 #include "rayspace/base/conventions.hpp"
+#include "rayspace/base/utf8.hpp"
 #include "rayspace/format/chunks/chunk_kind.hpp"
 
 #include <algorithm>
@@ -49,25 +50,6 @@ Status parse_head(Bytes payload, PartialObject& partial, std::uint32_t) {
     const Bytes name = in.take(name_bytes);
     object.name.assign(reinterpret_cast<const char*>(name.data()), name.size());
     return {};
-}
-
-// RFC 3629: shortest forms, no surrogates, at most U+10FFFF.
-bool is_utf8(const std::string& text) {
-    for (std::size_t i = 0; i < text.size();) {
-        const auto lead = static_cast<unsigned char>(text[i++]);
-        if (lead < 0x80) continue;
-        const int more = lead >= 0xF0 ? 3 : lead >= 0xE0 ? 2 : 1;
-        if (lead < 0xC2 || lead > 0xF4 || text.size() - i < static_cast<std::size_t>(more)) return false;
-        std::uint32_t code = lead & (0x3FU >> more);
-        for (int n = 0; n < more; ++n) {
-            const auto next = static_cast<unsigned char>(text[i++]);
-            if ((next & 0xC0U) != 0x80) return false;
-            code = code << 6 | (next & 0x3FU);
-        }
-        const std::uint32_t lowest = more == 1 ? 0x80 : more == 2 ? 0x800 : 0x10000;
-        if (code < lowest || code > 0x10FFFF || (code >= 0xD800 && code <= 0xDFFF)) return false;
-    }
-    return true;
 }
 
 bool is_printable_utf8(const std::string& text) {
