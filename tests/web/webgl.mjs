@@ -204,6 +204,22 @@ const tests = {
     assert.deepEqual(drawn, ["webgl", "webgl", false, "core", "webgl", true]);
   },
 
+  async photosBesideAViewAreUploadedAtRest() {
+    const page = await open();
+    const drawn = await page.evaluate(async () => {
+      const element = await showAtRest({ renderer: "webgl" });
+      const { viewRenderer } = element;
+      const drawnAt = async (azimuth) => {
+        await viewRenderer.render(160, 120, { azimuth, elevation: 0, distance: element.getCameraOrbit().radius });
+        return viewRenderer.drawnBy;
+      };
+      await drawnAt(2);
+      await new Promise((resolve) => setTimeout(resolve, 1500));
+      return [await drawnAt(2.5), await drawnAt(1.5), await drawnAt(2 + Math.PI)];
+    });
+    assert.deepEqual(drawn, ["webgl", "webgl", "core"]);
+  },
+
   // The driver of this test is software, so that `auto` takes the core.
   async theAttributeChoosesTheRenderer() {
     const page = await open();
@@ -315,8 +331,9 @@ const tests = {
     const after = { ...(await remove()), resident: await residentBytes() };
     assert.deepEqual(shown, { drawn: 50, images: 50, devices: 1, isAlive: true });
     assert.ok(after.isLost, "the context is freed");
-    const kilobytes = ({ heap, resident }) => `${heap >> 10} KiB of heap, ${resident >> 10} KiB resident`;
-    console.log(`        before: ${kilobytes(before)}; shown: ${most >> 10} KiB resident; after: ${kilobytes(after)}`);
+    const mebibytes = (bytes) => (bytes / 2 ** 20).toFixed(1);
+    const [heap, resident] = ["heap", "resident"].map((kind) => [before, after].map((found) => mebibytes(found[kind])).join(" to "));
+    console.log(`        heap: ${heap} MiB; resident: ${resident} MiB, with the elements ${mebibytes(most)}`);
     assert.ok(after.heap < 1.25 * before.heap, "the heap returns to its baseline");
     if (most !== undefined) assert.ok(after.resident < 1.15 * before.resident, "processes return to their baseline");
     assert.deepEqual([...page.problems, ...page.warnings], []);

@@ -2,11 +2,14 @@
 // whose photos are not uploaded yet, and all views while the context is lost, are rendered by the core: both give the
 // same pixels, so that a change is not visible.
 
-import type { ObjectDescription, Orbit, ViewInputs } from "./core.js";
+import type { ObjectDescription, ObjectTextures, Orbit, ViewInputs } from "./core.js";
 import { GlDevice, GlObject } from "./gl_device.js";
 import { CoreRenderer, type ViewRenderer } from "./view_renderer.js";
 
-const kRetry_ms = 2000;
+const kRetry_ms = 2000; // until memory is asked for again
+const kRest_ms = 200; // pause after which photos of the views beside are uploaded
+const kBeside = Math.PI / 6;
+const kBesideSide = 128; // pixels; enough columns to find the photos
 
 export class GlRenderer implements ViewRenderer {
   readonly canvas: HTMLCanvasElement;
@@ -17,6 +20,7 @@ export class GlRenderer implements ViewRenderer {
   private hasOldCells = false; // shape maps are used only while all photos of their ring are present
   private refused_ms = Number.NEGATIVE_INFINITY; // when there was no memory for the textures
   private device?: GlDevice;
+  private rest?: ReturnType<typeof setTimeout>;
 
   /** @param device acquired; the renderer releases it */
   constructor(
@@ -36,15 +40,10 @@ export class GlRenderer implements ViewRenderer {
   }
 
   async render(width: number, height: number, view: Orbit): Promise<void> {
-    if (this.device && !this.device.isLost) {
-      const { inputs } = await this.core.send({ kind: "prepare", width, height, view });
-      if (this.draw(width, height, inputs!)) {
-        this.drawnBy = "webgl";
-        return;
-      }
-    }
-    await this.core.render(width, height, view);
-    this.drawnBy = "core";
+    clearTimeout(this.rest);
+    this.drawnBy = (await this.drawByGl(width, height, view)) ? "webgl" : "core";
+    if (this.drawnBy === "core") await this.core.render(width, height, view);
+    if (this.device) this.rest = setTimeout(() => this.startUpload(() => this.uploadBeside(view)), kRest_ms);
   }
 
   /** Resolves when no photo is being uploaded. */
@@ -63,14 +62,18 @@ export class GlRenderer implements ViewRenderer {
     this.core.close();
   }
 
+  private async prepare(width: number, height: number, view: Orbit): Promise<ViewInputs> {
+    return (await this.core.send({ kind: "prepare", width, height, view })).inputs!;
+  }
+
   // Returns false if the core has to render the view.
-  private draw(width: number, height: number, inputs: ViewInputs): boolean {
+  private async drawByGl(width: number, height: number, view: Orbit): Promise<boolean> {
+    if (!this.device || this.device.isLost) return false;
+    const inputs = await this.prepare(width, height, view);
     const { device, object } = this;
     if (!device || inputs.setups.length === 0) return false;
     if (!object?.isValid || this.hasOldCells || object.missing(inputs.photos).length > 0) {
-      if (performance.now() - this.refused_ms > kRetry_ms) this.uploading ??= this.upload(inputs).finally(() => {
-        this.uploading = undefined;
-      });
+      this.startUpload(() => this.upload(inputs.photos));
       return false;
     }
     try {
@@ -87,31 +90,51 @@ export class GlRenderer implements ViewRenderer {
     return true;
   }
 
-  // Uploads what a view needs, one photo at a time, so that views are rendered in between.
-  private async upload({ photos }: ViewInputs): Promise<void> {
+  // One upload runs at a time.
+  private startUpload(upload: () => Promise<void>): void {
+    if (performance.now() - this.refused_ms < kRetry_ms) return;
+    this.uploading ??= upload()
+      .catch((error) => {
+        if (this.device && !this.device.isLost) this.fail(error);
+      })
+      .finally(() => {
+        this.uploading = undefined;
+      });
+  }
+
+  // Uploads photos one at a time, so that views are rendered in between.
+  private async upload(photos: Iterable<number>): Promise<void> {
     const { device, changes } = this;
-    try {
-      if (!this.object?.isValid || this.hasOldCells) {
-        const { textures } = await this.core.send({ kind: "textures", maxSide: device!.maxSide, maxLayers: device!.maxLayers });
-        if (!this.isCurrent(changes)) return;
-        this.hasOldCells = false;
-        if (this.object?.isValid) {
-          this.object.setCells(textures!);
-        } else {
-          this.object?.delete();
-          this.object = GlObject.create(device!, textures!);
-          if (!this.object) this.refused_ms = performance.now();
-        }
-      }
-      const { object } = this;
-      for (const photo of object?.missing(photos) ?? []) {
-        const answer = await this.core.send({ kind: "photo", photo });
-        if (!this.isCurrent(changes) || !object!.isValid) return;
-        object!.upload(photo, answer.photo!);
-      }
-    } catch (error) {
-      if (this.device && !this.device.isLost) this.fail(error);
+    if (!device || device.isLost) return;
+    if (!this.object?.isValid || this.hasOldCells) {
+      const { textures } = await this.core.send({ kind: "textures", maxSide: device.maxSide, maxLayers: device.maxLayers });
+      if (!this.isCurrent(changes)) return;
+      this.setTextures(device, textures!);
     }
+    const { object } = this;
+    for (const photo of object?.missing(photos) ?? []) {
+      const answer = await this.core.send({ kind: "photo", photo });
+      if (!this.isCurrent(changes) || !object!.isValid) return;
+      object!.upload(photo, answer.photo!);
+    }
+  }
+
+  // So that the next turn of a visitor finds its photos.
+  private async uploadBeside(view: Orbit): Promise<void> {
+    for (const turn of [-kBeside, kBeside]) {
+      if (!this.object?.isValid) return;
+      const beside = { ...view, azimuth: view.azimuth + turn };
+      const inputs = await this.prepare(kBesideSide, kBesideSide, beside).catch(() => undefined);
+      if (inputs) await this.upload(inputs.photos);
+    }
+  }
+
+  private setTextures(device: GlDevice, textures: ObjectTextures): void {
+    this.hasOldCells = false;
+    if (this.object?.isValid) return this.object.setCells(textures);
+    this.object?.delete();
+    this.object = GlObject.create(device, textures);
+    if (!this.object) this.refused_ms = performance.now();
   }
 
   private isCurrent(changes: number): boolean {
@@ -124,6 +147,7 @@ export class GlRenderer implements ViewRenderer {
   }
 
   private stop(): void {
+    clearTimeout(this.rest);
     this.object?.delete();
     this.object = undefined;
     this.device?.release();
