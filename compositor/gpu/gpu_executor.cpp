@@ -3,6 +3,7 @@
 #include "compositor/gl/context.hpp"
 #include "compositor/gpu/gpu_object.hpp"
 #include "compositor/gpu/gpu_renderer.hpp"
+#include "compositor/gpu/shader/object_textures.hpp"
 
 #include <condition_variable>
 #include <future>
@@ -102,7 +103,7 @@ public:
     [[nodiscard]] const engine::ExecutorTraits& traits() const override { return traits_; }
 
     [[nodiscard]] Status supports(const RaySpaceObject& object) const override {
-        RS_TRY(check_texture_limits(object, limits_));
+        RS_TRY(check_texture_limits(object, limits_.side, limits_.layers));
         const std::int64_t bytes = gpu_bytes(object);
         if (bytes <= options_.memory_bytes) return {};
         return Error{object.name + ": needs " + std::to_string(bytes / kMebibyte) +

@@ -1,26 +1,16 @@
 #pragma once
 // Textures of a ray-space object for the reconstruction shader: its photos as RGBA with their detail, one layer per
-// view, and the cells of its shape maps.
-//
-// A texel of cells holds the cells of two neighbouring bands. A column of `bands` cells is stored as bands + 2 pairs:
-// pair n holds bands n - 1 and n, of which those outside of the map are empty, and the last pair is empty.
+// view, and the cells of its shape maps (shader/object_textures.hpp).
 
 #include "compositor/gl/integer_texture.hpp"
-#include "compositor/gpu/view_setup.hpp"
+#include "compositor/gpu/shader/view_setup.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/object/ray_space_object.hpp"
 
-#include <cstdint>
 #include <span>
 #include <vector>
 
 namespace rs::compositor {
-
-/// GPU memory of an object's textures.
-std::int64_t gpu_bytes(const RaySpaceObject& object);
-
-/// Success if the textures of the object are within the limits, else an error that names the object.
-Status check_texture_limits(const RaySpaceObject& object, const gl::TextureLimits& limits);
 
 /// Requires a current gl::Context that outlives it; single-threaded, move-only.
 class GpuObject {

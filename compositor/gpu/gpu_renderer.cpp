@@ -1,35 +1,16 @@
 #include "compositor/gpu/gpu_renderer.hpp"
 
 #include "compositor/gl/draw.hpp"
-#include "compositor/gpu/view_setup.hpp"
+#include "compositor/gpu/shader/view_setup.hpp"
+#include "compositor/gpu/shader/view_uniforms.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
-#include <string>
 #include <utility>
 
 namespace rs::compositor {
 namespace {
 
 constexpr int kMaxSetups = 1 << 18;  // of a draw call: 28 MiB
-
-// A q32 number as two uniforms: shifted right by eight bits, and the lowest eight bits. The sum of a form is exact
-// modulo 2^32 after the shift, and its value is within 32 bits (section "Ranges").
-struct SplitForm {
-    glm::ivec4 high{0};
-    glm::ivec4 low{0};
-};
-
-SplitForm split(const engine::LinearForm& form) {
-    SplitForm parts;
-    const std::array<std::int64_t, 3> numbers{form.at_origin, form.per_column, form.per_row};
-    for (int n = 0; n < 3; ++n) {
-        parts.high[n] = static_cast<std::int32_t>(numbers[static_cast<std::size_t>(n)] >> 8);
-        parts.low[n] = static_cast<std::int32_t>(numbers[static_cast<std::size_t>(n)] & 255);
-    }
-    return parts;
-}
 
 }  // namespace
 
@@ -66,21 +47,12 @@ Status GpuRenderer::reserve(const engine::ViewRegisters& registers, int setup_ro
 }
 
 void GpuRenderer::set_uniforms(const RaySpaceObject& object, const engine::ViewRegisters& registers) const {
-    const SplitForm rise = split(registers.rise);
-    program_.set("rise_high", rise.high);
-    program_.set("rise_low", rise.low);
-    program_.set("b_q16", registers.b_q20 >> 4);
-    program_.set("sampling", static_cast<int>(registers.filter));
-    program_.set("photo_size", glm::ivec2(object.width, object.height));
-    const ShapeMap& shape = object.rings[static_cast<std::size_t>(registers.ring)].shape;
-    program_.set("bands", shape.bands);
-    program_.set("reference_q16", shape.reference_height_q20 >> 4);
-    program_.set("h_low_q16", shape.h_low_q20 >> 4);
-    program_.set("bands_per_unit", shape.bands_per_unit_q12);
-    program_.set("depth_low", shape.depth_low_q20);
-    program_.set("depth_step", shape.depth_step_q24);
-    program_.set("jump", shape.jump);
-    program_.set("thickness", shape.thickness);
+    for (const ShaderUniform& uniform : view_uniforms(object, registers)) {
+        const auto& [x, y, z, w] = uniform.values;
+        if (uniform.count == 1) program_.set(uniform.name, x);
+        if (uniform.count == 2) program_.set(uniform.name, glm::ivec2(x, y));
+        if (uniform.count == 4) program_.set(uniform.name, glm::ivec4(x, y, z, w));
+    }
 }
 
 Result<engine::ExecutedView> GpuRenderer::render(const GpuObject& object, const engine::ViewRegisters& registers,

@@ -6,7 +6,7 @@
 #include "compositor/gl/program.hpp"
 #include "compositor/gl/vertex_array.hpp"
 #include "compositor/gpu/gpu_object.hpp"
-#include "compositor/gpu/reconstruction_shader.hpp"
+#include "compositor/gpu/shader/reconstruction_shader.hpp"
 #include "rayspace/api/types/executor.hpp"
 #include "rayspace/base/result.hpp"
 

@@ -2,7 +2,11 @@
 // web_error() then gives the message. Memory for inputs is allocated by web_allocate() and passed on to the function
 // that takes it.
 
+#include "compositor/gpu/shader/object_textures.hpp"
+#include "compositor/gpu/shader/reconstruction_shader.hpp"
+#include "compositor/gpu/shader/view_uniforms.hpp"
 #include "compositor/web/view/object_view.hpp"
+#include "compositor/web/view/shader_inputs.hpp"
 
 #include <emscripten/emscripten.h>
 #include <xxhash.h>
@@ -11,6 +15,9 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #define WEB_EXPORT extern "C" EMSCRIPTEN_KEEPALIVE
 
@@ -20,6 +27,15 @@ namespace {
 std::optional<ObjectView> opened;
 std::string last_error;
 std::vector<double> description;
+
+// Inputs of WebGL, each valid until the next call of its function.
+ShaderInputs shader_inputs;
+PreparedView prepared;
+ShaderView shader_view;
+std::vector<std::int32_t> shader_view_places;
+std::vector<compositor::CellPair> cells;
+PhotoTexels photo;
+std::string shader_text;
 
 bool succeeded(const Status& status) {
     if (!status) last_error = status.error().message;
@@ -56,6 +72,38 @@ engine::ViewRegisters registers_from(std::span<const double> values) {
     return registers;
 }
 
+// Reads the registers of web_render_registers() into `prepared`.
+Status read_registers(std::span<const double> values) {
+    if (values.size() < kHead || (values.size() - kHead) % kPlane != 0) {
+        return Error{"view: its registers are incomplete"};
+    }
+    prepared = {registers_from(values), {}};
+    return engine::check_registers(opened->object(), prepared.registers);
+}
+
+// Address in the module's memory.
+std::int32_t place_of(const void* data) {
+    return static_cast<std::int32_t>(reinterpret_cast<std::uintptr_t>(data));
+}
+
+// Result of web_prepare().
+const std::int32_t* places_of_prepared() {
+    shader_view = shader_inputs.prepare(opened->object(), prepared.registers);
+    const std::vector<SampledRow> none;
+    const std::vector<SampledRow>& rows = prepared.rows ? *prepared.rows : none;
+    shader_view_places = {prepared.registers.width, prepared.registers.height, prepared.registers.ring,
+                          shader_view.setup_rows};
+    const auto add = [](const auto& values) {
+        shader_view_places.insert(shader_view_places.end(),
+                                  {place_of(values.data()), static_cast<std::int32_t>(values.size())});
+    };
+    add(shader_view.setups);
+    add(shader_view.uniforms);
+    add(shader_view.photos);
+    add(rows);
+    return shader_view_places.data();
+}
+
 }  // namespace
 }  // namespace rs::web
 
@@ -77,6 +125,7 @@ WEB_EXPORT void web_free(void* memory) {
 /// Opens the .rso file `bytes`, and closes the one opened before. \return 1 on success
 WEB_EXPORT int web_open(const std::byte* bytes, std::size_t size_bytes, const char* name, int max_level) {
     opened.reset();
+    shader_inputs = {};
     rs::Result<ObjectView> made = ObjectView::open({bytes, bytes + size_bytes}, name, max_level);
     if (!made) {
         last_error = made.error().message;
@@ -113,17 +162,75 @@ WEB_EXPORT const rs::Rgba8* web_render(int width, int height, double azimuth_rad
 /// Renders the view of given registers: width, height, ring, filter, b, and the three numbers of `rise`; then for each
 /// plane a, c, and the three numbers of `along_normal` and of `along_tangent`. \return as web_render()
 WEB_EXPORT const rs::Rgba8* web_render_registers(const double* values, std::size_t count) {
-    if (count < kHead || (count - kHead) % kPlane != 0) {
-        last_error = "view: its registers are incomplete";
-        return nullptr;
-    }
-    if (!succeeded(opened->render_registers(registers_from({values, count})))) return nullptr;
+    if (!succeeded(read_registers({values, count}))) return nullptr;
+    if (!succeeded(opened->render_registers(prepared.registers))) return nullptr;
     return opened->image().data();
 }
 
 /// Axial depths (q20) of web_render_registers().
 WEB_EXPORT const std::int32_t* web_depth() {
     return opened->lambda_q20().data();
+}
+
+/// Texts for WebGL: 0: vertex shader, 1: fragment shader of the reconstruction, 2: fragment shader that draws a view
+/// onto a canvas, 3: names of the reconstruction's uniforms, separated by spaces.
+WEB_EXPORT const char* web_shader_text(int which) {
+    using namespace rs::compositor;
+    if (which == 0) shader_text = reconstruction_vertex_shader(ShaderDialect::kEmbedded);
+    if (which == 1) shader_text = reconstruction_fragment_shader(ShaderDialect::kEmbedded);
+    if (which == 2) shader_text = present_shader();
+    if (which != 3) return shader_text.c_str();
+    shader_text.clear();
+    for (const ShaderUniform& uniform : view_uniforms(opened->object(), {})) {
+        shader_text += (shader_text.empty() ? "" : " ") + std::string(uniform.name);
+    }
+    return shader_text.c_str();
+}
+
+/// \return 1 if the object's textures are within the limits of WebGL
+WEB_EXPORT int web_check_textures(int max_side, int max_layers) {
+    return succeeded(rs::compositor::check_texture_limits(opened->object(), max_side, max_layers)) ? 1 : 0;
+}
+
+WEB_EXPORT int web_cell_rows(int ring) {
+    return static_cast<int>(rs::compositor::cell_texture_rows(opened->object().rings[std::size_t(ring)].shape));
+}
+
+/// Texture of a ring's cells: web_cell_rows() rows of kCellTextureWidth texels of four bytes.
+WEB_EXPORT const rs::compositor::CellPair* web_cells(int ring) {
+    cells = rs::compositor::cell_pairs(opened->object().rings[std::size_t(ring)].shape);
+    return cells.data();
+}
+
+/// Decodes a loaded photo. \return its RGBA, row by row
+WEB_EXPORT const rs::Rgba8* web_photo(int number) {
+    photo = photo_texels(*opened, number);
+    return photo.colours.data();
+}
+
+/// Details of the last photo of web_photo(), one signed byte per pixel.
+WEB_EXPORT const std::int8_t* web_photo_details() {
+    return photo.details.data();
+}
+
+/// Inputs of the reconstruction shader for a view. \return null, or twelve numbers: width and height of the image to
+/// render, ring, rows of set-ups; address and count of the set-ups (texels of four numbers), of the uniforms (four
+/// numbers each), of the photos that the view needs, and of its SampledRows; no set-ups if there would be too many
+WEB_EXPORT const std::int32_t* web_prepare(int width, int height, double azimuth_rad, double elevation_rad,
+                                           double distance) {
+    rs::Result<PreparedView> made = opened->prepare({width, height, azimuth_rad, elevation_rad, distance});
+    if (!made) {
+        last_error = made.error().message;
+        return nullptr;
+    }
+    prepared = std::move(*made);
+    return places_of_prepared();
+}
+
+/// As web_prepare(), for the view of given registers (web_render_registers()).
+WEB_EXPORT const std::int32_t* web_prepare_registers(const double* values, std::size_t count) {
+    if (!succeeded(read_registers({values, count}))) return nullptr;
+    return places_of_prepared();
 }
 
 /// XXH64 of bytes as 16 hexadecimal digits, as in conformance vectors.

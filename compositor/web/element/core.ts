@@ -1,5 +1,7 @@
 // The WebAssembly module (compositor/web/core/web_core.cpp) with typed calls. Runs in pages, workers and node.
 
+const kCellTextureWidth = 4096; // reconstruction_shader.hpp
+
 interface Exports {
   memory: WebAssembly.Memory;
   _initialize(): void;
@@ -13,6 +15,14 @@ interface Exports {
   web_render_registers(values: number, count: number): number;
   web_depth(): number;
   web_hash(bytes: number, size: number): number;
+  web_shader_text(which: number): number;
+  web_check_textures(maxSide: number, maxLayers: number): number;
+  web_cell_rows(ring: number): number;
+  web_cells(ring: number): number;
+  web_photo(photo: number): number;
+  web_photo_details(): number;
+  web_prepare(width: number, height: number, azimuth: number, elevation: number, distance: number): number;
+  web_prepare_registers(values: number, count: number): number;
 }
 
 /** A ring of photos. Angles in radians, lengths in object radii. */
@@ -37,6 +47,47 @@ export interface Orbit {
   azimuth: number;
   elevation: number;
   distance: number;
+}
+
+/** Texts of the shaders, GLSL ES 3.00. */
+export interface ShaderTexts {
+  vertex: string;
+  reconstruction: string;
+  present: string;
+  /** Names of the uniforms, in the order of ViewInputs.uniforms. */
+  uniforms: string[];
+}
+
+/** Everything that WebGL needs of an object except its photos. */
+export interface ObjectTextures {
+  texts: ShaderTexts;
+  width: number;
+  height: number;
+  photos: number;
+  /** Per ring, rows of texels of four bytes. */
+  cells: { rows: number; texels: Uint8Array<ArrayBuffer> }[];
+}
+
+export interface PhotoTexels {
+  colours: Uint8Array<ArrayBuffer>; // RGBA
+  details: Int8Array<ArrayBuffer>;
+}
+
+/** Inputs of the reconstruction shader for a view. */
+export interface ViewInputs {
+  /** Size of the image to render; with `rows`, the image that they sample. */
+  width: number;
+  height: number;
+  ring: number;
+  setupRows: number;
+  /** Texels of four numbers; empty if there would be too many. */
+  setups: Int32Array<ArrayBuffer>;
+  /** Four numbers per uniform. */
+  uniforms: Int32Array<ArrayBuffer>;
+  /** Photos that the view needs. */
+  photos: Int32Array<ArrayBuffer>;
+  /** Four numbers per row of the view (row_sampling.hpp); empty if the rendered image is the view. */
+  rows: Int32Array<ArrayBuffer>;
 }
 
 /** Failure that a visitor may read: one sentence. */
@@ -111,6 +162,62 @@ export class Core {
     const size = 4 * registers[0] * registers[1];
     const hash = (start: number) => this.text(this.wasm.web_hash(start, size));
     return { rgba: hash(at), depth: hash(this.wasm.web_depth()) };
+  }
+
+  /** Textures of the object, or an error if they exceed the limits of WebGL. */
+  textures(maxSide: number, maxLayers: number): ObjectTextures {
+    if (!this.wasm.web_check_textures(maxSide, maxLayers)) throw this.lastError();
+    const text = (which: number) => this.text(this.wasm.web_shader_text(which));
+    const [width, height, photos, rings] = this.doubles(this.wasm.web_describe(), 4);
+    const cells = Array.from({ length: rings }, (_, ring) => {
+      const at = this.guarded(() => this.wasm.web_cells(ring));
+      const rows = this.wasm.web_cell_rows(ring);
+      return { rows, texels: new Uint8Array(this.wasm.memory.buffer, at, 4 * kCellTextureWidth * rows).slice() };
+    });
+    const texts = { vertex: text(0), reconstruction: text(1), present: text(2), uniforms: text(3).split(" ") };
+    return { texts, width, height, photos, cells };
+  }
+
+  /** Decodes a photo. */
+  photo(photo: number): PhotoTexels {
+    const [width, height] = this.doubles(this.wasm.web_describe(), 2);
+    const at = this.guarded(() => this.wasm.web_photo(photo));
+    const { buffer } = this.wasm.memory;
+    return {
+      colours: new Uint8Array(buffer, at, 4 * width * height).slice(),
+      details: new Int8Array(buffer, this.wasm.web_photo_details(), width * height).slice(),
+    };
+  }
+
+  /** Inputs of WebGL for a view. */
+  prepare(width: number, height: number, view: Orbit): ViewInputs {
+    const { azimuth, elevation, distance } = view;
+    return this.inputs(this.guarded(() => this.wasm.web_prepare(width, height, azimuth, elevation, distance)));
+  }
+
+  /** Inputs of WebGL for the view of given registers. */
+  prepareRegisters(registers: number[]): ViewInputs {
+    const values = this.copied(new Uint8Array(Float64Array.from(registers).buffer));
+    const at = this.guarded(() => this.wasm.web_prepare_registers(values, registers.length));
+    this.wasm.web_free(values);
+    return this.inputs(at);
+  }
+
+  /** XXH64 as hexadecimal digits. */
+  hash(bytes: Uint8Array): string {
+    const at = this.copied(bytes);
+    const digits = this.text(this.wasm.web_hash(at, bytes.length));
+    this.wasm.web_free(at);
+    return digits;
+  }
+
+  private inputs(at: number): ViewInputs {
+    if (!at) throw this.lastError();
+    const { buffer } = this.wasm.memory;
+    const numbers = new Int32Array(buffer, at, 12);
+    const [width, height, ring, setupRows] = numbers;
+    const copy = (n: number, each: number) => new Int32Array(buffer, numbers[n], each * numbers[n + 1]).slice();
+    return { width, height, ring, setupRows, setups: copy(4, 4), uniforms: copy(6, 4), photos: copy(8, 1), rows: copy(10, 4) };
   }
 
   private pixels(at: number, count: number): Uint8ClampedArray<ArrayBuffer> {

@@ -1,14 +1,33 @@
 // Requests to the core as messages, so that it can run in a worker.
 
-import { Core, type ObjectDescription, type Orbit } from "./core.js";
+import { Core, type ObjectDescription, type ObjectTextures, type Orbit, type PhotoTexels, type ViewInputs } from "./core.js";
 
 /** Requests to the worker, in the order of their answers. */
 export type Request =
   | { kind: "create"; module: ArrayBuffer }
   | { kind: "open"; file: ArrayBuffer; name: string }
-  | { kind: "render"; width: number; height: number; view: Orbit };
+  | { kind: "render"; width: number; height: number; view: Orbit }
+  | { kind: "textures"; maxSide: number; maxLayers: number }
+  | { kind: "photo"; photo: number }
+  | { kind: "prepare"; width: number; height: number; view: Orbit };
 
-export type Answer = { error: string } | { description?: ObjectDescription; pixels?: Uint8ClampedArray<ArrayBuffer> };
+export interface Result {
+  description?: ObjectDescription;
+  pixels?: Uint8ClampedArray<ArrayBuffer>;
+  textures?: ObjectTextures;
+  photo?: PhotoTexels;
+  inputs?: ViewInputs;
+}
+export type Answer = { error: string } | Result;
+
+/** Buffers of an answer that a message may hand over. */
+export function buffersOf(answer: Answer): ArrayBuffer[] {
+  if ("error" in answer) return [];
+  const { pixels, textures, photo, inputs } = answer;
+  const arrays = [pixels, photo?.colours, photo?.details, inputs?.setups, inputs?.uniforms, inputs?.photos, inputs?.rows];
+  arrays.push(...(textures?.cells ?? []).map(({ texels }) => texels));
+  return arrays.filter((array) => array !== undefined).map((array) => array.buffer);
+}
 
 /** Answers requests in the worker, or in the page where workers are not allowed. */
 export class CoreServer {
@@ -20,10 +39,24 @@ export class CoreServer {
         this.core = await Core.create(request.module);
         return {};
       }
-      if (request.kind === "open") return { description: this.core!.open(new Uint8Array(request.file), request.name) };
-      return { pixels: this.core!.render(request.width, request.height, request.view).slice() };
+      return this.answerOf(this.core!, request);
     } catch (error) {
       return { error: error instanceof Error ? error.message : String(error) };
+    }
+  }
+
+  private answerOf(core: Core, request: Exclude<Request, { kind: "create" }>): Result {
+    switch (request.kind) {
+      case "open":
+        return { description: core.open(new Uint8Array(request.file), request.name) };
+      case "render":
+        return { pixels: core.render(request.width, request.height, request.view).slice() };
+      case "textures":
+        return { textures: core.textures(request.maxSide, request.maxLayers) };
+      case "photo":
+        return { photo: core.photo(request.photo) };
+      case "prepare":
+        return { inputs: core.prepare(request.width, request.height, request.view) };
     }
   }
 }

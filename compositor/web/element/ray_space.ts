@@ -3,10 +3,11 @@
 
 import { describeView, formatOrbit, parseAngle, parseOrbit } from "./camera_orbit.js";
 import type { ObjectDescription, Orbit } from "./core.js";
+import { createRenderer, type RendererChoice } from "./gl_renderer.js";
 import { fetchFile, fetchModule, fileName } from "./object_source.js";
 import { OrbitControls } from "./orbit_controls.js";
-import { CoreRenderer, type ViewRenderer } from "./view_renderer.js";
 import { template } from "./template.js";
+import type { ViewRenderer } from "./view_renderer.js";
 
 const kScript = (document.currentScript as HTMLScriptElement | null)?.src;
 const kBeyondCaptured = (15 * Math.PI) / 180;
@@ -24,7 +25,7 @@ export type CameraChangeSource = "user-interaction" | "none";
 export class RaySpaceElement extends HTMLElement {
   static observedAttributes = [
     "src", "alt", "poster", "camera-orbit", "min-camera-orbit", "max-camera-orbit", "camera-controls", "auto-rotate", "disable-zoom",
-    "touch-action",
+    "touch-action", "renderer",
   ];
 
   private readonly root = this.attachShadow({ mode: "open" });
@@ -119,6 +120,7 @@ export class RaySpaceElement extends HTMLElement {
   attributeChangedCallback(name: string, before: string | null, after: string | null): void {
     if (before === after) return;
     if (name === "src" && this.isConnected) void this.load();
+    else if (name === "renderer" && this.isConnected && this.loading) void this.load();
     else if (name === "camera-orbit" && this.object) this.moveToAttribute();
     else if (name.endsWith("-camera-orbit") && this.object) this.limit();
     else this.configure();
@@ -172,7 +174,7 @@ export class RaySpaceElement extends HTMLElement {
         fetchModule(core, signal),
         fetchFile(src, signal, (fraction) => this.progress(0.9 * fraction)),
       ]);
-      const renderer = await CoreRenderer.create(module);
+      const renderer = await createRenderer(this.rendererChoice(), module);
       if (signal.aborted) return renderer.close();
       this.renderer = renderer;
       const object = await renderer.open(file, fileName(src));
@@ -188,6 +190,13 @@ export class RaySpaceElement extends HTMLElement {
     } catch (error) {
       if (!signal.aborted) this.fail(error);
     }
+  }
+
+  private rendererChoice(): RendererChoice {
+    const text = this.getAttribute("renderer") ?? "auto";
+    if (text === "auto" || text === "webgl" || text === "core") return text;
+    console.warn(`ray-space: renderer "${text}" is unknown; write auto, webgl or core`);
+    return "auto";
   }
 
   private fail(error: unknown): void {

@@ -2,15 +2,19 @@
 
 import workerSource from "worker-source";
 import { CoreError, type ObjectDescription, type Orbit } from "./core.js";
-import { type Answer, CoreServer, type Request } from "./core_server.js";
+import { type Answer, CoreServer, type Request, type Result } from "./core_server.js";
 
 export interface ViewRenderer {
   /** Canvas with the last view; the element places it. */
   readonly canvas: HTMLCanvasElement;
+  /** Name of the renderer that has drawn the last view. */
+  readonly drawnBy: "core" | "webgl";
   /** Opens an .rso file, whose buffer it takes over. `name` begins the messages of errors. */
   open(file: ArrayBuffer, name: string): Promise<ObjectDescription>;
   /** Renders a view of the given size in pixels into the canvas. One call at a time. */
   render(width: number, height: number, view: Orbit): Promise<void>;
+  /** Tells that photos of the object have been added or replaced. Renderers that keep copies load them again. */
+  photosChanged?(photos: readonly number[]): Promise<void>;
   /** Ends the renderer and frees its memory. */
   close(): void;
 }
@@ -50,6 +54,7 @@ function pageChannel(): Channel {
 /** The WebAssembly core in a worker, into a 2D canvas: the same pixels as the engine's, bit for bit. */
 export class CoreRenderer implements ViewRenderer {
   readonly canvas = document.createElement("canvas");
+  readonly drawnBy = "core";
   private readonly context = this.canvas.getContext("2d")!;
 
   private constructor(private readonly channel: Channel) {}
@@ -75,16 +80,22 @@ export class CoreRenderer implements ViewRenderer {
 
   async render(width: number, height: number, view: Orbit): Promise<void> {
     const { pixels } = await this.send({ kind: "render", width, height, view });
+    this.sized(width, height).putImageData(new ImageData(pixels!, width, height), 0, 0);
+  }
+
+  /** The context of the canvas, which gets the given size. */
+  sized(width: number, height: number): CanvasRenderingContext2D {
     if (this.canvas.width !== width) this.canvas.width = width;
     if (this.canvas.height !== height) this.canvas.height = height;
-    this.context.putImageData(new ImageData(pixels!, width, height), 0, 0);
+    return this.context;
   }
 
   close(): void {
     this.channel.close();
   }
 
-  private async send(request: Request, transfer: Transferable[] = []) {
+  /** Sends a request to the core. */
+  async send(request: Request, transfer: Transferable[] = []): Promise<Result> {
     const answer = await this.channel.send(request, transfer);
     if ("error" in answer) throw new CoreError(answer.error);
     return answer;

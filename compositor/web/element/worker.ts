@@ -1,6 +1,6 @@
 // The worker of CoreRenderer. Its bundle is a string inside the element's script, so that a page needs one script only.
 
-import { CoreServer, type Request } from "./core_server.js";
+import { buffersOf, CoreServer, type Request } from "./core_server.js";
 
 const server = new CoreServer();
 let last: Promise<void> = Promise.resolve();
@@ -9,7 +9,6 @@ let last: Promise<void> = Promise.resolve();
 self.onmessage = (event: MessageEvent<Request>) => {
   last = last.then(async () => {
     const answer = await server.answer(event.data);
-    const transfer = "pixels" in answer && answer.pixels ? [answer.pixels.buffer] : [];
-    (self as unknown as Worker).postMessage(answer, transfer);
+    (self as unknown as Worker).postMessage(answer, buffersOf(answer));
   });
 };

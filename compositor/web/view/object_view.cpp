@@ -17,44 +17,6 @@ constexpr std::uint64_t kMemoryCap_bytes = std::uint64_t{1} << 30;
 constexpr std::int64_t kDecodedBudget_bytes = std::int64_t{320} << 20;
 constexpr double kUprightTolerance_rad = 1e-9;
 
-// Bilinear sample of an image with straight alpha, weighted by alpha; transparent outside.
-Rgba8 sample_bilinear(ConstImageView<Rgba8> image, double x, double y) {
-    const double left = std::floor(x - 0.5);
-    const double top = std::floor(y - 0.5);
-    if (!(left >= -1 && top >= -1 && left < image.width() && top < image.height())) return {};
-    const auto fraction_x = static_cast<std::uint32_t>((x - 0.5 - left) * 256);
-    const auto fraction_y = static_cast<std::uint32_t>((y - 0.5 - top) * 256);
-    std::uint32_t r = 0;
-    std::uint32_t g = 0;
-    std::uint32_t b = 0;
-    std::uint32_t a = 0;
-    for (int n = 0; n < 4; ++n) {
-        const int column = static_cast<int>(left) + (n & 1);
-        const int row = static_cast<int>(top) + (n >> 1);
-        if (column < 0 || row < 0 || column >= image.width() || row >= image.height()) continue;
-        const Rgba8 p = image(column, row);
-        const std::uint32_t weight =
-            ((n & 1) != 0 ? fraction_x : 256 - fraction_x) * ((n & 2) != 0 ? fraction_y : 256 - fraction_y) * p.a >> 8;
-        r += weight * p.r;
-        g += weight * p.g;
-        b += weight * p.b;
-        a += weight;
-    }
-    if (a == 0) return {};
-    const auto channel = [&](std::uint32_t sum) { return static_cast<std::uint8_t>((sum + a / 2) / a); };
-    return {channel(r), channel(g), channel(b), static_cast<std::uint8_t>((a + 128) >> 8)};
-}
-
-void warp(ConstImageView<Rgba8> from, const glm::dmat3& from_screen, ImageView<Rgba8> to) {
-    for (int j = 0; j < to.height(); ++j) {
-        glm::dvec3 at = from_screen * glm::dvec3(0.5, j + 0.5, 1);
-        for (int i = 0; i < to.width(); ++i) {
-            to(i, j) = at.z > 0 ? sample_bilinear(from, at.x / at.z, at.y / at.z) : Rgba8{};
-            at += from_screen[0];
-        }
-    }
-}
-
 // Everything that the photos show: the captured frame at the axis, as a cylinder.
 compositor::BoundingCylinder bounds_of(const CapturedCamera& captured) {
     const double half_height = captured.tan_half_y * (captured.distance + 1) / std::cos(captured.elevation_rad);
@@ -144,7 +106,7 @@ Camera ObjectView::camera_of(const OrbitView& view) const {
     return camera;
 }
 
-Status ObjectView::render(const OrbitView& view) {
+Result<PreparedView> ObjectView::prepare(const OrbitView& view) const {
     if (view.width < 1 || view.height < 1 || view.width > kMaxImageSide_px || view.height > kMaxImageSide_px) {
         return Error{"view: its size must be 1.." + std::to_string(kMaxImageSide_px) + " pixels"};
     }
@@ -156,21 +118,28 @@ Status ObjectView::render(const OrbitView& view) {
         camera.world_from_camera[3] = glm::dvec4(camera.centre() * unit, 1);
         return camera;
     };
+    PreparedView prepared;
     const Camera camera = camera_of(view);
+    const compositor::ScreenRectangle whole{0, 0, view.width, view.height};
+    auto upright =
+        is_upright(camera) ? std::nullopt : compositor::upright_image(camera, whole, bounds_of(captured_.front()), 1);
+    if (upright) prepared.rows = sampled_rows(upright->image_from_screen, view.width, view.height);
+    if (!prepared.rows) upright.reset();
+    RS_ASSIGN_OR_RETURN(prepared.registers, engine::prepare_view(object(), in_rig(upright ? upright->camera : camera)));
+    return prepared;
+}
+
+Status ObjectView::render(const OrbitView& view) {
+    RS_ASSIGN_OR_RETURN(const PreparedView prepared, prepare(view));
     image_ = Image<Rgba8>(view.width, view.height);
     lambda_q20_ = {};
-    const compositor::ScreenRectangle whole{0, 0, view.width, view.height};
-    const auto upright =
-        is_upright(camera) ? std::nullopt : compositor::upright_image(camera, whole, bounds_of(captured_.front()), 1);
-    RS_ASSIGN_OR_RETURN(const engine::ViewRegisters registers,
-                        engine::prepare_view(object(), in_rig(upright ? upright->camera : camera)));
-    if (!upright) {
-        renderer_.render(registers, image_);
+    if (!prepared.rows) {
+        renderer_.render(prepared.registers, image_);
         return {};
     }
-    Image<Rgba8> level(upright->camera.width, upright->camera.height);
-    renderer_.render(registers, level);
-    warp(level, upright->image_from_screen, image_);
+    Image<Rgba8> level(prepared.registers.width, prepared.registers.height);
+    renderer_.render(prepared.registers, level);
+    resample(level, *prepared.rows, image_);
     return {};
 }
 

@@ -3,6 +3,7 @@
 // are rendered by an upright camera and resampled (compositor/viewer/views/upright_image.hpp), as rs-view does in a
 // window. Not thread-safe.
 
+#include "compositor/web/view/row_sampling.hpp"
 #include "engine/core/fast/renderer.hpp"
 #include "rayspace/base/result.hpp"
 #include "rayspace/geometry/camera.hpp"
@@ -36,6 +37,12 @@ struct OrbitView {
     double distance = 0;       // object radii
 };
 
+/// Registers of a view, and its resampling.
+struct PreparedView {
+    engine::ViewRegisters registers;
+    std::optional<std::vector<SampledRow>> rows;  // if the registers are those of an upright image of the view
+};
+
 class ObjectView {
 public:
     /// Opens an .rso file in memory. `name` begins the messages of errors.
@@ -45,7 +52,12 @@ public:
     [[nodiscard]] const RaySpaceObject& object() const { return renderer_.object(); }
     [[nodiscard]] const std::vector<CapturedCamera>& captured() const { return captured_; }
 
-    /// Renders a view with straight alpha. \return error for views outside of the ranges of prepare_view()
+    /// Photos of the object, decoded on demand.
+    [[nodiscard]] const engine::TexelStore& texels() const { return renderer_.texels(); }
+
+    /// Registers of a view. \return error for views outside of the ranges of engine::prepare_view()
+    [[nodiscard]] Result<PreparedView> prepare(const OrbitView& view) const;
+    /// Renders a view with straight alpha. \return as prepare()
     Status render(const OrbitView& view);
     /// Renders the view of given registers, with depth; for conformance vectors.
     Status render_registers(const engine::ViewRegisters& registers);

@@ -37,6 +37,9 @@ public:
     /// The object without its unpacked images.
     [[nodiscard]] const RaySpaceObject& object() const { return object_; }
 
+    /// The texels of its images, decoded on demand.
+    [[nodiscard]] const TexelStore& texels() const { return texels_; }
+
     /// Memory of the renderer and the object; changes as coded images are decoded and freed.
     [[nodiscard]] std::int64_t memory_bytes() const;
 

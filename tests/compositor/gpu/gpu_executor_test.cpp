@@ -2,7 +2,7 @@
 
 #include "compositor/gpu/gpu_executor.hpp"
 
-#include "compositor/gpu/gpu_object.hpp"
+#include "compositor/gpu/shader/object_textures.hpp"
 #include "engine/conformance/run_vectors.hpp"
 #include "engine/core/definition/view_registers.hpp"
 #include "rayspace/base/conventions.hpp"

@@ -3,6 +3,7 @@
 
 #include "compositor/gpu/gpu_renderer.hpp"
 
+#include "compositor/gpu/shader/object_textures.hpp"
 #include "engine/core/definition/reconstruct.hpp"
 #include "engine/core/definition/view_registers.hpp"
 #include "tests/compositor/gl_test.hpp"
@@ -117,11 +118,11 @@ TEST_F(GpuRendererTest, TiltedViewsMayBeLarge) {
 
 TEST_F(GpuRendererTest, ObjectsBeyondTheLimitsAreRefusedByName) {
     const RaySpaceObject object = test::ring_object({.views = 12});
-    EXPECT_TRUE(check_texture_limits(object, {.side = 4096, .layers = 12}).ok());
-    const Status layers = check_texture_limits(object, {.side = 4096, .layers = 11});
+    EXPECT_TRUE(check_texture_limits(object, 4096, 12).ok());
+    const Status layers = check_texture_limits(object, 4096, 11);
     ASSERT_FALSE(layers.ok());
     EXPECT_NE(layers.error().message.find("ring: the number of photos 12"), std::string::npos);
-    EXPECT_FALSE(check_texture_limits(object, {.side = 47, .layers = 12}).ok());
+    EXPECT_FALSE(check_texture_limits(object, 47, 12).ok());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "compositor/gpu/reconstruction_shader.hpp"
+#include "compositor/gpu/shader/reconstruction_shader.hpp"
 
 namespace rs::compositor {
 namespace {

@@ -1,12 +1,13 @@
-#include "compositor/gpu/view_setup.hpp"
+#include "compositor/gpu/shader/view_setup.hpp"
 
-#include "compositor/gpu/reconstruction_shader.hpp"
+#include "compositor/gpu/shader/reconstruction_shader.hpp"
 #include "engine/core/definition/ray_setup.hpp"
 #include "engine/core/definition/shape_setup.hpp"
 #include "rayspace/base/parallel_loop.hpp"
 
 #include <algorithm>
 #include <cstddef>
+#include <set>
 
 namespace rs::compositor {
 namespace {
@@ -127,6 +128,24 @@ std::vector<SetupTexel> set_up_rows(const RaySpaceObject& object, const engine::
         }
     });
     return texels;
+}
+
+std::vector<int> photos_of(std::span<const SetupTexel> setups, int width) {
+    std::set<int> photos;
+    const auto columns = static_cast<std::size_t>(width);
+    for (std::size_t row = 0; row < setups.size(); row += kSetupTexels * columns) {
+        for (std::size_t n = row; n < row + columns; ++n) {
+            const std::int32_t head = setups[n][0];
+            const SetupTexel& layers = setups[n + columns];
+            const auto kind = static_cast<SetupKind>(head & 3);
+            if (kind == SetupKind::kPlane) photos.insert(layers[0]);
+            if (kind != SetupKind::kShape && kind != SetupKind::kNoShape) continue;
+            const int weight = (head >> 2) & 511;  // of the second photo, in 1/256
+            if (weight < 256) photos.insert(layers[2] & 0xFFFF);
+            if (weight > 0) photos.insert(layers[2] >> 16 & 0xFFFF);
+        }
+    }
+    return {photos.begin(), photos.end()};
 }
 
 }  // namespace rs::compositor

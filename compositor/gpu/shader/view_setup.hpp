@@ -47,4 +47,8 @@ std::vector<ColumnBounds> column_bounds(const ShapeMap& shape);
 std::vector<SetupTexel> set_up_rows(const RaySpaceObject& object, const engine::ViewRegisters& registers,
                                     std::span<const ColumnBounds> bounds, int first_row, int rows);
 
+/// Numbers of the photos that set-ups refer to, ascending.
+/// \param setups  of set_up_rows(), `width` texels wide
+std::vector<int> photos_of(std::span<const SetupTexel> setups, int width);
+
 }  // namespace rs::compositor
