@@ -1,7 +1,7 @@
 // Renderers of views into a canvas. The element knows them by this interface only.
 
 import workerSource from "worker-source";
-import { CoreError, type ObjectDescription, type Orbit } from "./core.js";
+import { type ByteRange, CoreError, type NextRange, type ObjectDescription, type Orbit, type StreamState } from "./core.js";
 import { type Answer, CoreServer, type Request } from "./core_server.js";
 
 export interface ViewRenderer {
@@ -13,6 +13,20 @@ export interface ViewRenderer {
   render(width: number, height: number, view: Orbit): Promise<void>;
   /** Ends the renderer and frees its memory. */
   close(): void;
+
+  /** Instead of open(): begins an object that arrives in parts. @param size of the file; negative if it is unknown */
+  beginStream(name: string, size: number): Promise<void>;
+  /** Takes bytes of the file, whose buffer it takes over. Those of one chunk must arrive in order. */
+  addBytes(offset: number, bytes: Uint8Array<ArrayBuffer>): Promise<StreamState>;
+  /** Fails if parts are missing in a file that ended after `size` bytes. */
+  finishStream(size: number): Promise<void>;
+  /** What a view needs next. @param requested ranges that are being loaded */
+  nextRange(width: number, height: number, view: Orbit, requested: ByteRange[]): Promise<NextRange>;
+  /**
+   * Called after the photos of these views have arrived, for renderers that keep photos. Until all photos are there, the
+   * core substitutes missing ones.
+   */
+  photosChanged?(views: number[]): Promise<void>;
 }
 
 interface Channel {
@@ -82,6 +96,22 @@ export class CoreRenderer implements ViewRenderer {
 
   close(): void {
     this.channel.close();
+  }
+
+  async beginStream(name: string, size: number): Promise<void> {
+    await this.send({ kind: "begin", name, size });
+  }
+
+  async addBytes(offset: number, bytes: Uint8Array<ArrayBuffer>): Promise<StreamState> {
+    return (await this.send({ kind: "add", offset, bytes }, [bytes.buffer])).state!;
+  }
+
+  async finishStream(size: number): Promise<void> {
+    await this.send({ kind: "finish", size });
+  }
+
+  async nextRange(width: number, height: number, view: Orbit, requested: ByteRange[]): Promise<NextRange> {
+    return (await this.send({ kind: "next", width, height, view, requested })).next!;
   }
 
   private async send(request: Request, transfer: Transferable[] = []) {

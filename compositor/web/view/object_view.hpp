@@ -9,11 +9,15 @@
 #include "rayspace/image/image.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace rs::web {
+
+/// Memory of a page's object, images and maps; browsers limit a module to 2 or 4 GiB.
+inline constexpr std::uint64_t kPageMemoryCap_bytes = std::uint64_t{1} << 30;
 
 /// Camera of the captured photos, from the first view of a ring. Lengths in object radii. The target, a point of the
 /// axis, is the same for all rings.
@@ -36,17 +40,27 @@ struct OrbitView {
     double distance = 0;       // object radii
 };
 
+/// Azimuth of a photo's camera, from +Z towards +X.
+double photo_azimuth_rad(const RaySpaceObject& object, const Ring& ring, std::uint16_t view);
+
 class ObjectView {
 public:
     /// Opens an .rso file in memory. `name` begins the messages of errors.
     /// \param max_level highest progressive level whose images are read (encode/FORMAT.md)
     static Result<ObjectView> open(std::vector<std::byte> file, const std::string& name, int max_level);
 
+    /// Shows an object whose coded images arrive later (engine::ImageArrival::later).
+    static Result<ObjectView> create(RaySpaceObject object);
+
     [[nodiscard]] const RaySpaceObject& object() const { return renderer_.object(); }
+    [[nodiscard]] const engine::Renderer& renderer() const { return renderer_; }
+    [[nodiscard]] engine::Renderer& renderer() { return renderer_; }
     [[nodiscard]] const std::vector<CapturedCamera>& captured() const { return captured_; }
 
     /// Renders a view with straight alpha. \return error for views outside of the ranges of prepare_view()
     Status render(const OrbitView& view);
+    /// Registers of the upright image that a view is rendered from. \return errors as render()
+    [[nodiscard]] Result<engine::ViewRegisters> upright_registers(const OrbitView& view) const;
     /// Renders the view of given registers, with depth; for conformance vectors.
     Status render_registers(const engine::ViewRegisters& registers);
 
@@ -56,6 +70,7 @@ public:
 private:
     explicit ObjectView(engine::Renderer renderer);
     [[nodiscard]] Camera camera_of(const OrbitView& view) const;
+    [[nodiscard]] Result<engine::ViewRegisters> registers_of(const Camera& camera) const;
 
     engine::Renderer renderer_;
     std::vector<CapturedCamera> captured_;  // [ring]
