@@ -105,7 +105,7 @@ export class ObjectStream {
       }
       while (loading.length < kRequests && !this.complete) {
         const { range } = await this.next(loading.map((each) => each.range));
-        if (!range) break;
+        if (!range || (this.size >= 0 && range.end > this.size)) break; // the file is shorter than its table states
         start(range);
       }
     }
@@ -118,7 +118,7 @@ export class ObjectStream {
       const answer = response ?? (await this.request({ begin, end: range.end }));
       response = undefined;
       await this.receive(answer, begin, (end) => (begin = end));
-      if (begin < range.end && this.size >= 0) throw new LostConnection();
+      if (begin < range.end && (this.size >= 0 || begin === range.begin)) throw new LostConnection();
     });
   }
 
