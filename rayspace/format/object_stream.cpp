@@ -48,6 +48,7 @@ struct ObjectStream::State final : ChunkSource {
     Status start_table();
     Status accept(std::size_t entry, std::vector<std::byte> bytes);
     Status read_stages();
+    Status read_waiting();
     Status read_late_chunk(std::size_t entry);
     void forget_stale_runs();
 
@@ -58,6 +59,8 @@ struct ObjectStream::State final : ChunkSource {
     ContainerIndex index;
     bool has_header = false;
     bool has_maps = false;
+    bool has_images = false;
+    bool reads_shapes = false;
     std::vector<bool> arrived;                              // [entry]
     std::size_t missing = 0;                                // entries that have not arrived
     std::size_t missing_before[2] = {0, 0};                 // of those of the stages geometry and maps
@@ -79,7 +82,12 @@ Status ObjectStream::State::add(std::uint64_t offset, std::span<const std::byte>
         runs.erase(found);
     }
     run.bytes.insert(run.bytes.end(), bytes.begin(), bytes.end());
+    reads_shapes = has_images;
     RS_TRY(consume(run));
+    if (!table().empty() && missing == 0) {
+        reads_shapes = true;
+        RS_TRY(read_waiting());
+    }
     if (!run.bytes.empty()) runs.insert_or_assign(run.end(), std::move(run));
     forget_stale_runs();
     return {};
@@ -157,7 +165,7 @@ Status ObjectStream::State::accept(std::size_t entry, std::vector<std::byte> byt
     arrived[entry] = true;
     --missing;
     const ReadStage stage = find_chunk_kind(table()[entry].name)->stage;
-    if (stage > ReadStage::maps) return has_maps ? read_late_chunk(entry) : Status{};
+    if (stage > ReadStage::maps) return read_waiting();
     --missing_before[stage == ReadStage::maps ? 1 : 0];
     return read_stages();
 }
@@ -169,7 +177,19 @@ Status ObjectStream::State::read_stages() {
     RS_TRY(reader.read_maps());
     RS_TRY(validate_object(reader.partial().object, file));
     has_maps = true;
-    while (!waiting.empty()) RS_TRY(read_late_chunk(waiting.begin()->first));
+    return read_waiting();
+}
+
+// Reads the images that have arrived. Shape maps take longer; in a file that arrives from its start they are read after
+// the call that brought the first image, which can be shown before.
+Status ObjectStream::State::read_waiting() {
+    if (!has_maps) return {};
+    for (auto each = waiting.begin(); each != waiting.end();) {
+        const std::size_t entry = (each++)->first;  // reading removes the entry
+        const bool is_shape = find_chunk_kind(table()[entry].name)->stage == ReadStage::shapes;
+        if (!is_shape || reads_shapes) RS_TRY(read_late_chunk(entry));
+        if (!is_shape) has_images = true;
+    }
     return {};
 }
 
@@ -238,7 +258,7 @@ bool ObjectStream::has_maps() const {
 }
 
 bool ObjectStream::is_complete() const {
-    return has_maps() && state_->missing == 0;
+    return has_maps() && state_->missing == 0 && state_->waiting.empty();
 }
 
 const RaySpaceObject& ObjectStream::object() const {

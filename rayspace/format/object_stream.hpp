@@ -41,7 +41,8 @@ public:
     /// The object as read so far. Coded images that arrive later are added to the object's `coded`, which copies of the
     /// object share. Requires has_maps().
     [[nodiscard]] const RaySpaceObject& object() const;
-    /// Rings whose shape map, and views whose image, arrived since the last call.
+    /// Rings whose shape map, and views whose image, were read since the last call. Shape maps are read from the call
+    /// after the first image's on.
     struct Arrivals {
         std::vector<std::uint32_t> shapes;
         std::vector<std::uint32_t> images;

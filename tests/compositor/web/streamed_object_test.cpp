@@ -144,6 +144,7 @@ TEST(StreamedObject, ViewsAreExactBeforeAllPhotosAreThere) {
         ASSERT_TRUE(page.add(file, bytes_of(object_chunks::kImage, photo)).ok());
     }
     EXPECT_NE(rendered(*page.shown, view), exact) << "without the shape map";
+    EXPECT_TRUE(page.shown->object().rings[0].shape.empty());
     ASSERT_TRUE(page.add(file, bytes_of(object_chunks::kShape, 0)).ok());
     EXPECT_EQ(rendered(*page.shown, view), exact);
     EXPECT_NE(rendered(*page.shown, view_at(*page.shown, 3)), rendered(*whole, view_at(*whole, 3)));
