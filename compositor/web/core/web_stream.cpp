@@ -44,7 +44,7 @@ WEB_EXPORT const double* web_stream_state() {
     return stream_numbers.data();
 }
 
-/// What to request next for a view. \param requested  begin and end of `count` ranges that are being loaded
+/// Selects what to request next for a view. \param requested  begin and end of `count` ranges that are being loaded
 /// \return 1 if the view can be rendered; begin and end of the next range, equal if there is none at present
 WEB_EXPORT const double* web_stream_next(int width, int height, double azimuth_rad, double elevation_rad,
                                          double distance, const double* requested, std::size_t count) {

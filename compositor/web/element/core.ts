@@ -61,7 +61,7 @@ export interface StreamState {
   photos: number[];
 }
 
-/** What a view needs next. */
+/** The next range that a view needs. */
 export interface NextRange {
   /** True if the view can be rendered. */
   ready: boolean;

@@ -59,7 +59,10 @@ export class ObjectStream {
 
   /** Sends the first request; needs no renderer. */
   async open(): Promise<void> {
-    this.first = await this.retried(() => this.request({ begin: 0, end: kFirst_bytes }));
+    // Other origins may refuse requests with a range.
+    const first = { begin: 0, end: kFirst_bytes };
+    let attempts = 0;
+    this.first = await this.retried(() => this.request(this.isSameOrigin || attempts++ === 0 ? first : undefined));
     this.whole = this.first.status !== 206;
     const total = this.whole ? this.first.headers.get("content-length") : contentRange(this.first)?.total;
     if (total && !this.first.headers.get("content-encoding")) this.size = Number(total);
@@ -109,7 +112,7 @@ export class ObjectStream {
         start(range);
       }
     }
-    if (!this.complete) await this.renderer.finishStream(this.size);
+    if (!this.complete) await this.renderer.finishStream(this.size < 0 ? this.arrived_bytes : this.size);
   }
 
   private async loadRange(range: ByteRange, response?: Response): Promise<void> {
@@ -220,7 +223,7 @@ function contentRange(response: Response): { begin: number; total: number } | un
   return parts ? { begin: Number(parts[1]), total: Number(parts[2]) } : undefined;
 }
 
-// Of weak validators, parts may differ.
+// Weak validators do not identify bytes.
 function validatorOf(response: Response): string | null {
   const tag = response.headers.get("etag");
   return tag?.startsWith('"') ? tag : response.headers.get("last-modified");

@@ -20,7 +20,7 @@ export interface ViewRenderer {
   addBytes(offset: number, bytes: Uint8Array<ArrayBuffer>): Promise<StreamState>;
   /** Fails if parts are missing in a file that ended after `size` bytes. */
   finishStream(size: number): Promise<void>;
-  /** What a view needs next. @param requested ranges that are being loaded */
+  /** Selects the next range that a view needs. @param requested ranges that are being loaded */
   nextRange(width: number, height: number, view: Orbit, requested: ByteRange[]): Promise<NextRange>;
   /**
    * Called after the photos of these views have arrived, for renderers that keep photos. Until all photos are there, the

@@ -78,9 +78,9 @@ private:
 
     RaySpaceObject object_;
     TexelStore texels_;
-    // Of objects whose images arrive later:
-    std::optional<RaySpaceObject> substituted_;  // RS maps with substitutes, no shape maps
-    std::vector<bool> decodable_;                // [view]
+    std::vector<bool> decodable_;  // [view]
+    // The object with substitutes in its RS maps and without shape maps; until all images have arrived.
+    std::optional<RaySpaceObject> substituted_;
 };
 
 }  // namespace rs::engine
